@@ -1,0 +1,53 @@
+"""The one family of errors that a user can cause.
+
+Every message says what was given, what is possible, and what to do. The command line prints it and exits 2.
+"""
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+
+class SlipwiseError(Exception):
+    """Base of every error that Slipwise raises on purpose."""
+
+
+class InputError(SlipwiseError):
+    """A file, a motion or a campaign that cannot be used as it is."""
+
+
+class UnitError(SlipwiseError):
+    """A unit that is missing, unknown or of the wrong dimension."""
+
+
+class UnknownNameError(SlipwiseError):
+    """A name that does not exist: the message offers the nearest ones."""
+
+
+class SettingError(SlipwiseError):
+    """A value that is out of bounds, or settings that cannot go together."""
+
+
+class SimulationError(SlipwiseError):
+    """A simulation that left the range in which it means anything."""
+
+
+class SlipwiseWarning(UserWarning):
+    """Something a user should know although work goes on."""
+
+
+def unknown_name(kind: str, given: str, known: Iterable[str], where: str = "") -> UnknownNameError:
+    """Make the error for a name that does not exist.
+
+    Args:
+        kind: what the name should have named, e.g. "effect".
+        given: what was given.
+        known: the names that exist.
+        where: what to do to see them all, e.g. "slipwise effects lists them".
+
+    Returns:
+        The error, to be raised by the caller.
+    """
+    names = sorted(known)
+    near = get_close_matches(given, names, n=3, cutoff=0.5)
+    hint = f"did you mean {' or '.join(near)}?" if near else f"possible: {', '.join(names[:40])}."
+    return UnknownNameError(f"no {kind} is called {given!r}: {hint}{' ' + where if where else ''}")

@@ -1,0 +1,61 @@
+"""A parameter: a value with its unit, its bounds and its source."""
+
+from dataclasses import dataclass
+
+from slipwise.errors import SettingError
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One number of a law or of the rig.
+
+    Attributes:
+        name: as in the equation's words, e.g. "rate".
+        unit: SI unit, e.g. "s/m"; "1" for a pure number.
+        typical: a first guess for this rig [unit].
+        low: smallest meaningful value [unit].
+        high: largest meaningful value [unit].
+        neutral: value at which the law changes nothing [unit]; None for a shape constant that alone switches nothing.
+        source: where the number comes from, or the word "assumed".
+        meaning: what it is, in a few words.
+        shown_in: unit in which people read it, e.g. "s/cm"; the SI unit when empty.
+    """
+
+    name: str
+    unit: str
+    typical: float
+    low: float
+    high: float
+    neutral: float | None
+    source: str
+    meaning: str
+    shown_in: str = ""
+
+    def __post_init__(self) -> None:
+        """Refuse a parameter that cannot be used.
+
+        Raises:
+            SettingError: no unit, no source, or bounds that do not hold the values.
+        """
+        if not self.unit or not self.source or not self.meaning:
+            raise SettingError(f"parameter {self.name!r} needs a unit, a source and a meaning ('1' for a pure number, 'assumed')")
+        if not self.low < self.high:
+            raise SettingError(f"parameter {self.name!r}: bounds {self.low:g} to {self.high:g} {self.unit} are empty")
+        for kind, value in (("typical", self.typical), ("neutral", self.neutral)):
+            if value is not None and not self.low <= value <= self.high:
+                raise SettingError(
+                    f"parameter {self.name!r}: the {kind} value {value:g} is outside {self.low:g} to {self.high:g} {self.unit}"
+                )
+
+    def check(self, value: float, owner: str = "") -> float:
+        """Return the value if it lies within the bounds.
+
+        Raises:
+            SettingError: it does not; the message gives the bounds.
+        """
+        if not self.low <= value <= self.high:
+            prefix = f"{owner}." if owner else ""
+            raise SettingError(
+                f"{prefix}{self.name} = {value:g} {self.unit} is out of bounds: {self.low:g} to {self.high:g} {self.unit}"
+            )
+        return value

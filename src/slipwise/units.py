@@ -1,0 +1,96 @@
+"""Units of the numbers that people write: pint, in one place.
+
+Inside Slipwise everything is SI (m, s, kg, N, Pa, rad, K); this file is the only door.
+"""
+
+from functools import cache
+
+import pint
+
+from slipwise.errors import UnitError
+
+
+@cache
+def _registry() -> pint.UnitRegistry:
+    registry = pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
+    registry.define("gal = cm/s^2 = Gal")
+    # "g" of an engineer at a shaking table is never a gram.
+    registry.define("gee = 9.80665 m/s^2")
+    registry.define("ton_metric = 1000 kg")
+    return registry
+
+
+def _clean(text: str) -> str:
+    """Rewrite what engineers write into what pint reads."""
+    text = text.strip().replace("²", "^2").replace("³", "^3").replace("µ", "u").replace("·", "*")
+    if text in ("g", "G", "g's"):
+        return "gee"
+    if text == "t":
+        return "ton_metric"
+    return {"-": "1", "": "1", "%": "percent"}.get(text, text)
+
+
+def parse_unit(unit: str, dimension_of: str, what: str) -> float:
+    """Give the factor from a unit to SI.
+
+    Args:
+        unit: as written, e.g. "kN", "cm/s^2", "g" (standard gravity).
+        dimension_of: an SI unit of the dimension that is required, e.g. "N".
+        what: what the unit belongs to, for the message, e.g. "column 'force' of run.csv".
+
+    Returns:
+        Factor: value [SI] = factor * value [unit]. Units with an offset (degC) are refused here.
+
+    Raises:
+        UnitError: unknown unit or another dimension.
+    """
+    return quantity(f"1 {unit}", dimension_of, what, plain_unit=unit)
+
+
+def quantity(text: str | float | int, dimension_of: str, what: str, *, plain_unit: str | None = None) -> float:
+    """Turn "10.02 t", "30 min" or "0.3 g" into SI.
+
+    Args:
+        text: number and unit. A bare number is accepted only where the dimension is a pure number.
+        dimension_of: an SI unit of the dimension that is required, e.g. "kg"; "1" for a pure number.
+        what: what the value belongs to, for the message.
+        plain_unit: the unit as it was written, when `text` was put together by the caller.
+
+    Returns:
+        The value in the SI unit given by `dimension_of`.
+
+    Raises:
+        UnitError: no number, no unit, an unknown unit or another dimension.
+    """
+    registry = _registry()
+    given = str(text).strip()
+    number, _, unit = given.partition(" ")
+    if not unit:
+        split = next((i for i, c in enumerate(given) if c.isalpha() and not _exponent(given, i) or c in "%°"), len(given))
+        number, unit = given[:split], given[split:]
+    shown = plain_unit if plain_unit is not None else unit
+    try:
+        value = float(number)
+    except ValueError:
+        raise UnitError(f"{what}: {given!r} is not a number with a unit; write for example '1.5 {dimension_of}'") from None
+    if not unit.strip() and dimension_of != "1":
+        raise UnitError(f"{what}: {given!r} has no unit; write for example '{number} {dimension_of}'")
+    try:
+        parsed = registry.Quantity(value, _clean(unit))
+        return float(parsed.to(_clean(dimension_of)).magnitude)
+    except (pint.UndefinedUnitError, pint.errors.DefinitionSyntaxError, AttributeError, ValueError, TypeError):
+        raise UnitError(f"{what}: the unit {shown!r} is not known; a unit like '{dimension_of}' is needed") from None
+    except pint.DimensionalityError:
+        raise UnitError(f"{what}: the unit {shown!r} has the wrong dimension; a unit like '{dimension_of}' is needed") from None
+    except Exception as error:  # pint's parser raises tokenize and assertion errors on odd text
+        raise UnitError(f"{what}: {shown!r} cannot be read as a unit ({type(error).__name__}); write for example '{dimension_of}'") from None
+
+
+def _exponent(text: str, i: int) -> bool:
+    """Tell whether the letter at i is the e of 1e-3."""
+    return text[i] in "eE" and i > 0 and (text[i - 1].isdigit() or text[i - 1] == ".") and text[i + 1 : i + 2].strip("+-0123456789") == "" and i + 1 < len(text)
+
+
+def convert(value: float, unit: str, to: str) -> float:
+    """Convert a number from one unit to another, e.g. from SI to mm for a table."""
+    return value * parse_unit(unit, to, "conversion")
