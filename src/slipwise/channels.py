@@ -56,7 +56,7 @@ def _table() -> dict[str, Channel]:
             rows.append((f"pad_{pad}_F{axis}", "N", "kN", f"load cell of pad {pad}",
                          f"force of the girder on the pad: positive when sliding to +{axis}"))
         rows.append((f"pad_{pad}_P", "Pa", "MPa", f"pad {pad}", "compression"))
-        rows.append((f"pad_{pad}_T", "degC", "degC", f"sliding face of pad {pad}", "temperature"))
+        rows.append((f"pad_{pad}_T", "K", "degC", f"sliding face of pad {pad}", "temperature"))
     for buffer in BUFFERS:
         for axis in ("x", "y"):
             rows.append((f"buffer_{buffer}_F{axis}", "N", "kN", f"shear key of buffer {buffer}",

@@ -39,12 +39,22 @@ def parse_unit(unit: str, dimension_of: str, what: str) -> float:
         what: what the unit belongs to, for the message, e.g. "column 'force' of run.csv".
 
     Returns:
-        Factor: value [SI] = factor * value [unit]. Units with an offset (degC) are refused here.
+        Factor: value [SI] = factor * value [unit]. For units with an offset (degC) see `affine`.
 
     Raises:
         UnitError: unknown unit or another dimension.
     """
     return quantity(f"1 {unit}", dimension_of, what, plain_unit=unit)
+
+
+def affine(unit: str, dimension_of: str, what: str) -> tuple[float, float]:
+    """Give (factor, offset) from a unit to SI: value [SI] = factor * value [unit] + offset.
+
+    Raises:
+        UnitError: unknown unit or another dimension.
+    """
+    offset = quantity(f"0 {unit}", dimension_of, what, plain_unit=unit)
+    return parse_unit(unit, dimension_of, what) - offset, offset
 
 
 def quantity(text: str | float | int, dimension_of: str, what: str, *, plain_unit: str | None = None) -> float:
@@ -78,10 +88,10 @@ def quantity(text: str | float | int, dimension_of: str, what: str, *, plain_uni
     try:
         parsed = registry.Quantity(value, _clean(unit))
         return float(parsed.to(_clean(dimension_of)).magnitude)
-    except (pint.UndefinedUnitError, pint.errors.DefinitionSyntaxError, AttributeError, ValueError, TypeError):
-        raise UnitError(f"{what}: the unit {shown!r} is not known; a unit like '{dimension_of}' is needed") from None
     except pint.DimensionalityError:
         raise UnitError(f"{what}: the unit {shown!r} has the wrong dimension; a unit like '{dimension_of}' is needed") from None
+    except (pint.UndefinedUnitError, pint.errors.DefinitionSyntaxError, AttributeError, ValueError, TypeError):
+        raise UnitError(f"{what}: the unit {shown!r} is not known; a unit like '{dimension_of}' is needed") from None
     except Exception as error:  # pint's parser raises tokenize and assertion errors on odd text
         raise UnitError(f"{what}: {shown!r} cannot be read as a unit ({type(error).__name__}); write for example '{dimension_of}'") from None
 
