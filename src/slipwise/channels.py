@@ -53,14 +53,28 @@ def _table() -> dict[str, Channel]:
     for pad in PADS:
         rows.append((f"pad_{pad}_N", "N", "kN", f"load cell of pad {pad}", "compression"))
         for axis in ("x", "y"):
-            rows.append((f"pad_{pad}_F{axis}", "N", "kN", f"load cell of pad {pad}",
-                         f"force of the girder on the pad: positive when sliding to +{axis}"))
+            rows.append(
+                (
+                    f"pad_{pad}_F{axis}",
+                    "N",
+                    "kN",
+                    f"load cell of pad {pad}",
+                    f"force of the girder on the pad: positive when sliding to +{axis}",
+                )
+            )
         rows.append((f"pad_{pad}_P", "Pa", "MPa", f"pad {pad}", "compression"))
         rows.append((f"pad_{pad}_T", "K", "degC", f"sliding face of pad {pad}", "temperature"))
     for buffer in BUFFERS:
         for axis in ("x", "y"):
-            rows.append((f"buffer_{buffer}_F{axis}", "N", "kN", f"shear key of buffer {buffer}",
-                         f"force of the girder on the buffer: positive when the girder is at +{axis}"))
+            rows.append(
+                (
+                    f"buffer_{buffer}_F{axis}",
+                    "N",
+                    "kN",
+                    f"shear key of buffer {buffer}",
+                    f"force of the girder on the buffer: positive when the girder is at +{axis}",
+                )
+            )
     return {row[0]: Channel(*row) for row in rows}
 
 

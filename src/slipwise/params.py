@@ -38,13 +38,16 @@ class Parameter:
             SettingError: no unit, no source, or bounds that do not hold the values.
         """
         if not self.unit or not self.source or not self.meaning:
-            raise SettingError(f"parameter {self.name!r} needs a unit, a source and a meaning ('1' for a pure number, 'assumed')")
+            raise SettingError(
+                f"parameter {self.name!r} needs a unit, a source and a meaning ('1' for a pure number, 'assumed')"
+            )
         if not self.low < self.high:
             raise SettingError(f"parameter {self.name!r}: bounds {self.low:g} to {self.high:g} {self.unit} are empty")
         for kind, value in (("typical", self.typical), ("neutral", self.neutral)):
             if value is not None and not self.low <= value <= self.high:
                 raise SettingError(
-                    f"parameter {self.name!r}: the {kind} value {value:g} is outside {self.low:g} to {self.high:g} {self.unit}"
+                    f"parameter {self.name!r}: the {kind} value {value:g} is outside "
+                    f"{self.low:g} to {self.high:g} {self.unit}"
                 )
 
     def check(self, value: float, owner: str = "") -> float:
@@ -56,6 +59,7 @@ class Parameter:
         if not self.low <= value <= self.high:
             prefix = f"{owner}." if owner else ""
             raise SettingError(
-                f"{prefix}{self.name} = {value:g} {self.unit} is out of bounds: {self.low:g} to {self.high:g} {self.unit}"
+                f"{prefix}{self.name} = {value:g} {self.unit} is out of bounds: "
+                f"{self.low:g} to {self.high:g} {self.unit}"
             )
         return value

@@ -76,29 +76,43 @@ def quantity(text: str | float | int, dimension_of: str, what: str, *, plain_uni
     given = str(text).strip()
     number, _, unit = given.partition(" ")
     if not unit:
-        split = next((i for i, c in enumerate(given) if c.isalpha() and not _exponent(given, i) or c in "%°"), len(given))
+        split = next(
+            (i for i, c in enumerate(given) if c.isalpha() and not _exponent(given, i) or c in "%°"), len(given)
+        )
         number, unit = given[:split], given[split:]
     shown = plain_unit if plain_unit is not None else unit
     try:
         value = float(number)
     except ValueError:
-        raise UnitError(f"{what}: {given!r} is not a number with a unit; write for example '1.5 {dimension_of}'") from None
+        raise UnitError(
+            f"{what}: {given!r} is not a number with a unit; write for example '1.5 {dimension_of}'"
+        ) from None
     if not unit.strip() and dimension_of != "1":
         raise UnitError(f"{what}: {given!r} has no unit; write for example '{number} {dimension_of}'")
     try:
         parsed = registry.Quantity(value, _clean(unit))
         return float(parsed.to(_clean(dimension_of)).magnitude)
     except pint.DimensionalityError:
-        raise UnitError(f"{what}: the unit {shown!r} has the wrong dimension; a unit like '{dimension_of}' is needed") from None
+        raise UnitError(
+            f"{what}: the unit {shown!r} has the wrong dimension; a unit like '{dimension_of}' is needed"
+        ) from None
     except (pint.UndefinedUnitError, pint.errors.DefinitionSyntaxError, AttributeError, ValueError, TypeError):
         raise UnitError(f"{what}: the unit {shown!r} is not known; a unit like '{dimension_of}' is needed") from None
     except Exception as error:  # pint's parser raises tokenize and assertion errors on odd text
-        raise UnitError(f"{what}: {shown!r} cannot be read as a unit ({type(error).__name__}); write for example '{dimension_of}'") from None
+        raise UnitError(
+            f"{what}: {shown!r} cannot be read as a unit ({type(error).__name__}); write for example '{dimension_of}'"
+        ) from None
 
 
 def _exponent(text: str, i: int) -> bool:
     """Tell whether the letter at i is the e of 1e-3."""
-    return text[i] in "eE" and i > 0 and (text[i - 1].isdigit() or text[i - 1] == ".") and text[i + 1 : i + 2].strip("+-0123456789") == "" and i + 1 < len(text)
+    return (
+        text[i] in "eE"
+        and i > 0
+        and (text[i - 1].isdigit() or text[i - 1] == ".")
+        and text[i + 1 : i + 2].strip("+-0123456789") == ""
+        and i + 1 < len(text)
+    )
 
 
 def convert(value: float, unit: str, to: str) -> float:

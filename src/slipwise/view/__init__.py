@@ -1,0 +1,1 @@
+"""Pictures, recordings, reports and tables of finished results."""
