@@ -1,1 +1,16 @@
 """The catalogue: one small file per physical or instrument effect."""
+
+from slipwise.effects._catalogue import catalogue, find_effect, load_effect
+from slipwise.effects._effect import COMPONENTS, HOOKS, PORTS, Effect, moved_channels, read_effect
+
+__all__ = [
+    "COMPONENTS",
+    "HOOKS",
+    "PORTS",
+    "Effect",
+    "catalogue",
+    "find_effect",
+    "load_effect",
+    "moved_channels",
+    "read_effect",
+]

@@ -1,0 +1,77 @@
+"""The catalogue: finds every effect there is, in this folder, in packages that offer some, and in users' files."""
+
+import importlib
+import importlib.util
+import pkgutil
+import sys
+from functools import cache
+from importlib.metadata import entry_points
+from pathlib import Path
+
+from slipwise.effects._effect import Effect, read_effect
+from slipwise.errors import InputError, SettingError, unknown_name
+
+#: Packages offer effects by an entry point of this group whose value is a module.
+ENTRY_POINT_GROUP = "slipwise.effects"
+
+
+@cache
+def catalogue() -> dict[str, Effect]:
+    """Read every effect of this folder and of installed packages, by name in alphabetical order.
+
+    Raises:
+        SettingError: a file breaks the contract, or two effects share a name.
+    """
+    found: dict[str, Effect] = {}
+    folder = Path(__file__).parent
+    for entry in pkgutil.iter_modules([str(folder)]):
+        if not entry.name.startswith("_"):
+            module = importlib.import_module(f"slipwise.effects.{entry.name}")
+            found[entry.name] = read_effect(module, folder / f"{entry.name}.py")
+    for point in entry_points(group=ENTRY_POINT_GROUP):
+        module = point.load()
+        effect = read_effect(module, Path(str(module.__file__)))
+        if effect.name in found:
+            raise SettingError(
+                f"package {point.value!r} offers an effect {effect.name!r}, which exists already; rename its file"
+            )
+        found[effect.name] = effect
+    return dict(sorted(found.items()))
+
+
+def load_effect(path: Path) -> Effect:
+    """Read a user's effect file.
+
+    Raises:
+        InputError: no such file, or Python cannot import it.
+        SettingError: it breaks the contract.
+    """
+    if not path.is_file():
+        raise InputError(f"{path}: no such effect file")
+    name = f"slipwise_user_effect_{path.stem}"
+    spec = importlib.util.spec_from_file_location(name, path)
+    if spec is None or spec.loader is None:
+        raise InputError(f"{path}: an effect is a Python file (.py)")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:
+        del sys.modules[name]
+        raise InputError(f"{path} cannot be imported: {type(error).__name__}: {error}") from error
+    effect = read_effect(module, path.resolve())
+    if effect.name in catalogue():
+        raise SettingError(f"{path}: an effect called {effect.name!r} exists already; rename the file")
+    return effect
+
+
+def find_effect(name: str) -> Effect:
+    """Look an effect of the catalogue up.
+
+    Raises:
+        UnknownNameError: no such effect.
+    """
+    known = catalogue()
+    if name not in known:
+        raise unknown_name("effect", name, known, "`slipwise effects` lists them.")
+    return known[name]

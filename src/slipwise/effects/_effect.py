@@ -1,0 +1,258 @@
+"""The contract that every effect keeps.
+
+An effect is one file: a docstring with the equation, `Valid:` and `Source:`; one or more *hooks*, plain functions whose
+names say what they change; and `EFFECT`, what a person and the fit need to know. A hook asks for what it needs by
+the names of its arguments: quantities of `INPUTS`, `memory`, and its own parameters.
+
+Hooks of one instant (plain scalars in, scalars out; compiled into the step and into the loops over records, so only
+arithmetic, `math` and `memory[...]` may be used):
+
+    area(real_area, ...) -> real_area          shear(shear, ...) -> shear          stick(bound, ...) -> (force_x, force_y)
+    pad(...) -> (force_x, force_y)             advance(...) -> None (changes memory[...] after the force is known)
+    deflection(deflection, ...) -> deflection  spring(force, ...) -> force         settle(...) -> None (buffer's memory)
+    lift(force_x, force_y, ...) -> force_z     drag(...) -> (force_x, force_y)
+
+Hooks of whole arrays (numpy):
+
+    rig(specimen, ...) -> Specimen             table(acceleration (n, 4), dt, ...) -> acceleration
+    gauge(record, target, ...) -> Record       undo(record, target, ...) -> Record (its inverse, where `gauge` has one)
+    balance(states, ...) -> {"heave" | "pitch" | "roll" | "warp": (n,), "girder": (n,)} added to what is predicted
+    rest(memory, seconds, ...) -> None         what a pause between runs leaves of the memory
+"""
+
+import fnmatch
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from slipwise.channels import CHANNELS
+from slipwise.errors import SettingError, unknown_name
+from slipwise.params import Parameter
+
+PAD_INPUTS: dict[str, str] = {
+    "load": "normal load N of the pad [N]",
+    "pressure": "load over apparent area P [Pa]",
+    "apparent_area": "of the pad A [m^2]",
+    "real_area": "real area of contact A_r so far [m^2]",
+    "true_pressure": "load over real area P_r [Pa]",
+    "speed": "slip speed |v| [m/s]",
+    "velocity_x": "slip rate [m/s]",
+    "velocity_y": "slip rate [m/s]",
+    "slip_x": "slip of the girder over the pad [m]",
+    "slip_y": "slip of the girder over the pad [m]",
+    "side_x": "+1 for pads A and C, -1 for B and D [1]",
+    "side_y": "+1 for pads A and B, -1 for C and D [1]",
+    "time": "since the start of the run [s]",
+    "dt": "time since the instant before [s]",
+}
+_FORCE_INPUTS: dict[str, str] = {
+    "bound": "friction force that the pad can carry, s A_r [N]",
+    "friction": "friction force that it carries now [N]",
+}
+BUFFER_INPUTS: dict[str, str] = {
+    "deflection": "of the buffer in the direction at hand [m]",
+    "rate": "of the deflection [m/s]",
+    "stiffness": "of the buffer [N/m]",
+    "side": "+1 for buffer 1, -1 for buffer 2 [1]",
+    "time": "since the start of the run [s]",
+    "dt": "time since the instant before [s]",
+}
+GIRDER_INPUTS: dict[str, str] = {
+    "velocity_x": "girder over table [m/s]",
+    "velocity_y": "girder over table [m/s]",
+    "velocity_z": "girder over table, up [m/s]",
+    "time": "since the start of the run [s]",
+    "dt": "time since the instant before [s]",
+}
+
+
+@dataclass(frozen=True)
+class Hook:
+    """What a hook may ask for, and where its memory lives ("pad", "buffer" or nowhere "")."""
+
+    inputs: frozenset[str]
+    leading: tuple[str, ...]
+    memory: str
+    instant: bool
+
+
+def _hook(inputs: Mapping[str, str], *leading: str, memory: str = "", instant: bool = True) -> Hook:
+    return Hook(frozenset(inputs) | frozenset(leading), leading, memory, instant)
+
+
+#: Real area and true pressure are only known while the bound is being made.
+_AFTERWARDS = {n: words for n, words in PAD_INPUTS.items() if n not in ("real_area", "true_pressure")}
+HOOKS: dict[str, Hook] = {
+    "area": _hook(PAD_INPUTS, "real_area", memory="pad"),
+    "shear": _hook(PAD_INPUTS, "shear", memory="pad"),
+    "stick": _hook(_AFTERWARDS, "bound", memory="pad"),
+    "pad": _hook({**_AFTERWARDS, **_FORCE_INPUTS}, memory="pad"),
+    "advance": _hook({**_AFTERWARDS, **_FORCE_INPUTS}, memory="pad"),
+    "deflection": _hook(BUFFER_INPUTS, "deflection", memory="buffer"),
+    "spring": _hook(BUFFER_INPUTS, "force", memory="buffer"),
+    "settle": _hook({**BUFFER_INPUTS, "force": ""}, memory="buffer"),
+    "lift": _hook(GIRDER_INPUTS, "force_x", "force_y"),
+    "drag": _hook(GIRDER_INPUTS),
+    "rig": _hook({}, "specimen", instant=False),
+    "table": _hook({}, "acceleration", "dt", instant=False),
+    "gauge": _hook({}, "record", "target", instant=False),
+    "undo": _hook({}, "record", "target", instant=False),
+    "balance": _hook({}, "states", instant=False),
+    "rest": _hook({}, "memory", "seconds", memory="pad", instant=False),
+}
+#: Ports in the order in which they act, with the hooks that an effect on them may have.
+PORTS: dict[str, tuple[str, ...]] = {
+    "rig": ("rig", "balance"),
+    "table": ("table", "balance"),
+    "area": ("area", "advance", "rest"),
+    "shear": ("shear", "advance", "rest"),
+    "stick": ("stick", "shear", "advance", "rest"),
+    "pad": ("pad", "advance", "rest"),
+    "buffer": ("deflection", "spring", "settle", "lift", "balance", "rest"),
+    "girder": ("rig", "drag", "lift", "balance"),
+    "gauge": ("gauge", "undo"),
+}
+COMPONENTS: tuple[str, ...] = ("pad friction", "pad load", "buffer", "girder", "table", "instrument")
+
+
+@dataclass(frozen=True)
+class Effect:
+    """What a person and the fit need to know of an effect.
+
+    Attributes:
+        port: where it acts, one of `PORTS`.
+        component: what it belongs to in a verdict, one of `COMPONENTS`.
+        equation: in plain text, one line.
+        parameters: with unit, bounds, typical and neutral value, source.
+        moves: channels that it may change, e.g. "pad_*_Fx"; `*` stands for any pad or buffer.
+        signature: how it shows, in words.
+        confused_with: other effects -> the test that tells them apart.
+        memory: names of the numbers it remembers, per pad or per buffer and direction; they start at zero.
+        target: "channel" where the effect must be told which channel it acts on, else "".
+        replaces: for a law that takes the place of a simpler one: which; such an effect has no neutral value.
+        name: the file's name; set when the file is read.
+        summary: first line of the file's docstring; set when the file is read.
+        text: the whole docstring; set when the file is read.
+        hooks: the file's functions; set when the file is read.
+        path: the file; set when the file is read.
+    """
+
+    port: str
+    component: str
+    equation: str
+    parameters: tuple[Parameter, ...]
+    moves: tuple[str, ...]
+    signature: str
+    confused_with: Mapping[str, str]
+    memory: tuple[str, ...] = ()
+    target: str = ""
+    replaces: str = ""
+    name: str = ""
+    summary: str = ""
+    text: str = ""
+    hooks: Mapping[str, Callable[..., Any]] = field(default_factory=dict[str, Callable[..., Any]])
+    path: Path = Path()
+
+    @property
+    def parameter_names(self) -> tuple[str, ...]:
+        """Names of the parameters in order."""
+        return tuple(p.name for p in self.parameters)
+
+    @property
+    def instant_hooks(self) -> dict[str, Callable[..., Any]]:
+        """The hooks that are compiled into the step."""
+        return {n: f for n, f in self.hooks.items() if HOOKS[n].instant}
+
+    def parameter(self, name: str) -> Parameter:
+        """Look a parameter up.
+
+        Raises:
+            UnknownNameError: no such parameter.
+        """
+        for parameter in self.parameters:
+            if parameter.name == name:
+                return parameter
+        raise unknown_name(
+            f"parameter of {self.name}", name, self.parameter_names, f"`slipwise effects {self.name}` lists them."
+        )
+
+    def neutral(self) -> dict[str, float]:
+        """Values at which the effect changes nothing (typical values for shape constants)."""
+        return {p.name: p.typical if p.neutral is None else p.neutral for p in self.parameters}
+
+    def typical(self) -> dict[str, float]:
+        """A first guess for the reference rig."""
+        return {p.name: p.typical for p in self.parameters}
+
+
+def read_effect(module: ModuleType, path: Path) -> Effect:
+    """Read and check the effect that a module defines.
+
+    Args:
+        module: an imported effect file.
+        path: the file.
+
+    Raises:
+        SettingError: the file breaks the contract; the message says where and how to mend it.
+    """
+    name = path.stem
+    found = getattr(module, "EFFECT", None)
+    text = inspect.cleandoc(module.__doc__ or "")
+    if not isinstance(found, Effect):
+        raise SettingError(
+            f"{path.name} defines no EFFECT = Effect(...); `slipwise effects run_in --source` shows a whole file"
+        )
+    for needed in ("Valid:", "Source:"):
+        if needed not in text:
+            raise SettingError(f"{path.name}: the docstring needs a line that starts with {needed!r}")
+    if found.port not in PORTS:
+        raise unknown_name(f"port (of {path.name})", found.port, PORTS)
+    if found.component not in COMPONENTS:
+        raise unknown_name(f"component (of {path.name})", found.component, COMPONENTS)
+    defined = {n: f for n, f in vars(module).items() if inspect.isfunction(f) and f.__module__ == module.__name__}
+    hooks = {n: f for n, f in defined.items() if not n.startswith("_")}
+    allowed = PORTS[found.port]
+    for hook, function in hooks.items():
+        if hook not in allowed:
+            raise SettingError(
+                f"{path.name}: an effect on port {found.port!r} cannot have a hook {hook!r}; possible: {', '.join(allowed)}"
+            )
+        _check_arguments(path, found, hook, function)
+    if not hooks:
+        raise SettingError(f"{path.name} has no hook; an effect on port {found.port!r} may have: {', '.join(allowed)}")
+    if len({p.name for p in found.parameters}) < len(found.parameters):
+        raise SettingError(f"{path.name}: two parameters share a name")
+    if not found.replaces and all(p.neutral is None for p in found.parameters):
+        raise SettingError(f"{path.name}: no parameter has a neutral value, so the effect could never be off")
+    for pattern in found.moves:
+        if not any(_matches(pattern, channel) for channel in CHANNELS) and pattern != "*":
+            raise SettingError(
+                f"{path.name}: 'moves' names {pattern!r}, which is no channel; `slipwise channels` lists them"
+            )
+    return Effect(
+        **{**vars(found), "name": name, "summary": text.splitlines()[0], "text": text, "hooks": hooks, "path": path}
+    )
+
+
+def _check_arguments(path: Path, effect: Effect, hook: str, function: Callable[..., Any]) -> None:
+    known = (
+        HOOKS[hook].inputs | {p.name for p in effect.parameters} | ({"memory"} if HOOKS[hook].memory else set[str]())
+    )
+    for argument in inspect.signature(function).parameters:
+        if argument not in known:
+            raise SettingError(
+                f"{path.name}: {hook}() asks for {argument!r}, which is neither one of its parameters "
+                f"({', '.join(effect.parameter_names)}) nor something this hook can have: {', '.join(sorted(known))}"
+            )
+
+
+def _matches(pattern: str, channel: str) -> bool:
+    return fnmatch.fnmatchcase(channel, pattern)
+
+
+def moved_channels(effect: Effect) -> frozenset[str]:
+    """Give the names of the channels that an effect may change."""
+    return frozenset(c for c in CHANNELS if any(_matches(pattern, c) for pattern in effect.moves))

@@ -1,0 +1,174 @@
+"""Where every number of the law stands in one flat array.
+
+The compiled callback knows no names: parameters, order of effects, memory and the last step's loads stand in
+`data.userdata`, so that many simulations with different parameters share one model and one callback. Loops over records
+use the same array.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.effects import Effect
+from slipwise.errors import SettingError
+from slipwise.model import Model
+
+MAX_PADS = 4
+MAX_BUFFERS = 2
+MAX_DOFS = 11
+#: Hooks whose effects act one after another in the order of the model.
+CHAINS: tuple[str, ...] = ("area", "shear", "stick", "pad", "advance", "deflection", "spring", "settle", "lift", "drag")
+#: Numbers at the head of the array, then blocks: name -> size.
+_HEAD: tuple[tuple[str, int], ...] = (
+    ("dt", 1), ("n_pads", 1), ("n_buffers", 1), ("n_dofs", 1), ("user_sensor", 1), ("girder_dof", 3),
+    ("apparent_area", 1), ("plastic_pressure", 1), ("shear_strength", 1), ("full_stick", 1), ("buffer_stiffness", MAX_BUFFERS),
+    ("side", 2 * MAX_PADS), ("pad_geom", MAX_PADS), ("tendon", 2 * (MAX_PADS + MAX_BUFFERS)), ("friction_row", 2 * MAX_PADS),
+    ("jacobian", 2 * (MAX_PADS + MAX_BUFFERS) * MAX_DOFS),
+    ("load", MAX_PADS), ("new_load", MAX_PADS), ("bound", MAX_PADS), ("explicit", 2 * MAX_PADS), ("force", 2 * MAX_PADS), ("buffer_force", 2 * MAX_BUFFERS),
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Offsets into the flat array.
+
+    Attributes:
+        effects: the effects that the kernel knows, whether a model uses them or not.
+        at: offset of each block of the head and of each chain.
+        parameters: effect name -> offset of its first parameter.
+        pad_memory: effect name -> offset of its memory within one pad's block.
+        buffer_memory: the same within one buffer's direction.
+        pad_block: size of one pad's memory.
+        buffer_block: size of one buffer direction's memory.
+        size: of the whole array.
+    """
+
+    effects: tuple[Effect, ...]
+    at: dict[str, int]
+    parameters: dict[str, int]
+    pad_memory: dict[str, int]
+    buffer_memory: dict[str, int]
+    pad_block: int
+    buffer_block: int
+    size: int
+
+
+def make_layout(effects: Sequence[Effect]) -> Layout:
+    """Lay out the array for these effects."""
+    instant = tuple(e for e in effects if e.instant_hooks)
+    at: dict[str, int] = {}
+    offset = 0
+    for name, size in _HEAD:
+        at[name] = offset
+        offset += size
+    for chain in CHAINS:
+        at[chain] = offset
+        offset += 1 + sum(chain in e.hooks for e in instant)
+    parameters: dict[str, int] = {}
+    for effect in instant:
+        parameters[effect.name] = offset
+        offset += len(effect.parameters)
+    pad_memory, pad_block = _memory([e for e in instant if e.port != "buffer"])
+    buffer_memory, buffer_block = _memory([e for e in instant if e.port == "buffer"])
+    at["pad_memory"] = offset
+    offset += MAX_PADS * pad_block
+    at["buffer_memory"] = offset
+    offset += 2 * MAX_BUFFERS * buffer_block
+    return Layout(instant, at, parameters, pad_memory, buffer_memory, pad_block, buffer_block, offset)
+
+
+def _memory(effects: Sequence[Effect]) -> tuple[dict[str, int], int]:
+    places: dict[str, int] = {}
+    offset = 0
+    for effect in effects:
+        places[effect.name] = offset
+        offset += len(effect.memory)
+    return places, offset
+
+
+def fill(layout: Layout, model: Model, dt: float) -> NDArray[np.float64]:
+    """Write a model's law into a fresh array; memory at zero, what a simulation needs besides is left at zero.
+
+    Args:
+        layout: of a kernel that knows the model's effects.
+        model: its effects and values.
+        dt: step [s].
+
+    Returns:
+        (layout.size,) array.
+
+    Raises:
+        SettingError: the kernel does not know one of the model's effects.
+    """
+    array = np.zeros(layout.size)
+    specimen = model.built_specimen()
+    at = layout.at
+    n_pads, n_buffers = len(specimen.pads), len(specimen.buffer_stiffness)
+    array[at["dt"]] = dt
+    array[at["n_pads"]] = n_pads
+    array[at["n_buffers"]] = n_buffers
+    array[at["apparent_area"]] = specimen.pad_area
+    array[at["plastic_pressure"]] = specimen.plastic_pressure
+    array[at["shear_strength"]] = specimen.shear_strength
+    array[at["full_stick"]] = specimen.stick_capacity == "full"
+    array[at["buffer_stiffness"] : at["buffer_stiffness"] + n_buffers] = specimen.buffer_stiffness
+    sides = [
+        s for place in specimen.pad_places for s in (1.0 if place[0] >= 0 else -1.0, 1.0 if place[1] >= 0 else -1.0)
+    ]
+    array[at["side"] : at["side"] + 2 * n_pads] = sides
+    set_values(layout, array, model)
+    index = {effect.name: i for i, effect in enumerate(layout.effects)}
+    for chain in CHAINS:
+        uses = model.with_hook(chain)
+        unknown = [u.label for u in uses if u.effect.name not in index]
+        if unknown:
+            raise SettingError(f"this kernel was not compiled for {', '.join(unknown)}")
+        array[at[chain]] = len(uses)
+        array[at[chain] + 1 : at[chain] + 1 + len(uses)] = [index[u.effect.name] for u in uses]
+    return array
+
+
+def set_values(layout: Layout, array: NDArray[np.float64], model: Model) -> None:
+    """Write the parameter values of a model's effects into an array in place."""
+    for entry in model.uses:
+        start = layout.parameters.get(entry.effect.name)
+        if start is not None:
+            names = entry.effect.parameter_names
+            array[start : start + len(names)] = [entry.values[n] for n in names]
+
+
+def pad_memories(layout: Layout, array: NDArray[np.float64]) -> NDArray[np.float64]:
+    """View the pads' memory as (MAX_PADS, pad_block)."""
+    start = layout.at["pad_memory"]
+    return array[start : start + MAX_PADS * layout.pad_block].reshape(MAX_PADS, layout.pad_block)
+
+
+def buffer_memories(layout: Layout, array: NDArray[np.float64]) -> NDArray[np.float64]:
+    """View the buffers' memory as (MAX_BUFFERS, 2 directions, buffer_block)."""
+    start = layout.at["buffer_memory"]
+    block = array[start : start + 2 * MAX_BUFFERS * layout.buffer_block]
+    return block.reshape(MAX_BUFFERS, 2, layout.buffer_block)
+
+
+def apply_rest(layout: Layout, array: NDArray[np.float64], model: Model, seconds: float) -> None:
+    """Let a pause between two runs act on what the pads and buffers remember, in place.
+
+    Memory of an effect without a `rest` hook survives unchanged.
+    """
+    for entry in model.with_hook("rest"):
+        name, size = entry.effect.name, len(entry.effect.memory)
+        if name in layout.pad_memory:
+            blocks, start = pad_memories(layout, array), layout.pad_memory[name]
+        else:
+            blocks, start = buffer_memories(layout, array).reshape(-1, layout.buffer_block), layout.buffer_memory[name]
+        wanted = _asked(entry.effect, "rest")
+        for block in blocks:
+            entry.effect.hooks["rest"](block[start : start + size], seconds, **{n: entry.values[n] for n in wanted})
+
+
+def _asked(effect: Effect, hook: str) -> list[str]:
+    code = effect.hooks[hook].__code__
+    names = code.co_varnames[: code.co_argcount]
+    return [n for n in names if n in effect.parameter_names]

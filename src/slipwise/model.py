@@ -1,0 +1,146 @@
+"""A model: a specimen, the effects that act on it in order, and the values of their parameters."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from slipwise.channels import channel
+from slipwise.effects import PORTS, Effect, find_effect
+from slipwise.errors import SettingError
+from slipwise.rig import Specimen, load_specimen
+
+#: The paper's law, eqs. (7) and (8), and pads as springs: what a model starts from.
+BASE_EFFECTS: tuple[str, ...] = ("contact_area", "shear_rate")
+
+
+@dataclass(frozen=True)
+class EffectUse:
+    """One effect in a model.
+
+    Attributes:
+        effect: which.
+        values: parameter -> value [SI].
+        target: the channel it acts on, for effects that need one.
+    """
+
+    effect: Effect
+    values: Mapping[str, float]
+    target: str = ""
+
+    def __post_init__(self) -> None:
+        """Refuse unknown parameters, values out of bounds, and a target where none belongs."""
+        for name, value in self.values.items():
+            self.effect.parameter(name).check(value, self.effect.name)
+        missing = [n for n in self.effect.parameter_names if n not in self.values]
+        if missing:
+            raise SettingError(f"{self.effect.name} lacks a value for {', '.join(missing)}")
+        if self.effect.target and not self.target:
+            raise SettingError(
+                f"{self.effect.name} must be told which {self.effect.target} it acts on, e.g. target = 'pad_A_N'"
+            )
+        if self.target and not self.effect.target:
+            raise SettingError(f"{self.effect.name} acts everywhere; it takes no target ({self.target!r} was given)")
+        if self.target and self.target != "all":
+            channel(self.target)
+
+    @property
+    def label(self) -> str:
+        """Name with target, e.g. "channel_gain[pad_A_N]"."""
+        return f"{self.effect.name}[{self.target}]" if self.target else self.effect.name
+
+
+def use(effect: Effect | str, target: str = "", **values: float) -> EffectUse:
+    """Make an effect ready for a model; parameters that are not given take their typical values.
+
+    Raises:
+        UnknownNameError: no such effect or parameter.
+        SettingError: a value out of bounds.
+    """
+    found = find_effect(effect) if isinstance(effect, str) else effect
+    for name in values:
+        found.parameter(name)
+    return EffectUse(found, {**found.typical(), **values}, target)
+
+
+@dataclass(frozen=True)
+class Model:
+    """A specimen with effects.
+
+    Attributes:
+        specimen: the rated rig; effects on port `rig` and `girder` change a copy of it.
+        uses: the effects in the order in which they were listed; ports act in the order of `PORTS`.
+    """
+
+    specimen: Specimen
+    uses: tuple[EffectUse, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Refuse the same effect twice on the same target, and two effects that both decide how a pad sticks."""
+        labels = [u.label for u in self.uses]
+        for label in labels:
+            if labels.count(label) > 1:
+                raise SettingError(f"the model lists {label} twice")
+        sticking = [u.label for u in self.uses if "stick" in u.effect.hooks]
+        if len(sticking) > 1:
+            raise SettingError(f"only one effect can say how a pad sticks; the model lists {' and '.join(sticking)}")
+
+    def __contains__(self, name: str) -> bool:
+        return any(u.effect.name == name for u in self.uses)
+
+    def __getitem__(self, name: str) -> EffectUse:
+        """Give the first use of an effect.
+
+        Raises:
+            SettingError: the model does not hold it.
+        """
+        for entry in self.uses:
+            if name in (entry.effect.name, entry.label):
+                return entry
+        raise SettingError(
+            f"the model has no effect {name!r}; it has: {', '.join(u.label for u in self.uses) or 'none'}"
+        )
+
+    def on_port(self, *ports: str) -> tuple[EffectUse, ...]:
+        """Give the effects on these ports: by port, then as listed."""
+        return tuple(u for port in PORTS if port in ports for u in self.uses if u.effect.port == port)
+
+    def with_hook(self, hook: str) -> tuple[EffectUse, ...]:
+        """Give the effects that have a hook: by port, then as listed."""
+        return tuple(u for port in PORTS for u in self.uses if u.effect.port == port and hook in u.effect.hooks)
+
+    def adding(self, *uses: EffectUse) -> "Model":
+        """Give a model with more effects."""
+        return replace(self, uses=(*self.uses, *uses))
+
+    def without(self, *names: str) -> "Model":
+        """Give a model without these effects (names or labels).
+
+        Raises:
+            SettingError: the model does not hold one of them.
+        """
+        gone = {self[name].label for name in names}
+        return replace(self, uses=tuple(u for u in self.uses if u.label not in gone))
+
+    def setting(self, name: str, **values: float) -> "Model":
+        """Give a model with other parameter values of one effect."""
+        old = self[name]
+        new = replace(old, values={**old.values, **values})
+        return replace(self, uses=tuple(new if u is old else u for u in self.uses))
+
+    def built_specimen(self) -> Specimen:
+        """Give the specimen as the effects on ports `rig` and `girder` leave it."""
+        specimen = self.specimen
+        for entry in self.with_hook("rig"):
+            specimen = entry.effect.hooks["rig"](specimen, **entry.values)
+        return specimen
+
+
+def base_model(rig: str | Path | Specimen, effects: Sequence[str | EffectUse] = BASE_EFFECTS) -> Model:
+    """Make a model of a rig with the paper's law.
+
+    Args:
+        rig: a name, the path of an MJCF file, or a specimen.
+        effects: names (typical values) or uses; the paper's law when not given.
+    """
+    specimen = rig if isinstance(rig, Specimen) else load_specimen(rig)
+    return Model(specimen, tuple(use(e) if isinstance(e, str) else e for e in effects))

@@ -1,0 +1,85 @@
+"""Component level: the laws driven by measured load, slip and speed, without a simulation."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.effects import Effect, catalogue
+from slipwise.kernel import Kernel, apply_rest, fill, kernel
+from slipwise.model import Model
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class PadForces:
+    """What the pads' laws answer to measured states.
+
+    Attributes:
+        force: (n, n_pads, 2) force of the girder on each pad [N]; where a pad sticks and the model has no effect on
+            port `stick`, only its bound is known and the force is the bound along the motion.
+        bound: (n, n_pads) friction force that each pad could carry [N].
+    """
+
+    force: Array
+    bound: Array
+
+
+@dataclass
+class Predictor:
+    """A model's laws with their memory, run after run of a campaign.
+
+    The memory goes on from one call to the next; `rest` lets a pause act on it, `reset` empties it.
+    """
+
+    model: Model
+    law: Kernel
+    numbers: Array
+
+    def pads(self, time: Array, load: Array, velocity: Array, slip: Array) -> PadForces:
+        """Drive the pads' laws.
+
+        Args:
+            time: (n,) [s].
+            load: (n, n_pads) [N].
+            velocity: (n, n_pads, 2) slip rate at each pad [m/s].
+            slip: (n, n_pads, 2) slip at each pad [m].
+        """
+        force, bound = np.zeros(velocity.shape), np.zeros(load.shape)
+        arrays = [np.ascontiguousarray(a, dtype=float) for a in (time, load, velocity, slip)]
+        self.law.functions["pads_over_record"](self.numbers, *arrays, force, bound)
+        return PadForces(force, bound)
+
+    def buffers(self, time: Array, deflection: Array, rate: Array) -> Array:
+        """Drive the buffers' laws with (n, n_buffers, 2) deflection [m] and rate [m/s]; gives their force [N]."""
+        force = np.zeros(deflection.shape)
+        arrays = [np.ascontiguousarray(a, dtype=float) for a in (time, deflection, rate)]
+        self.law.functions["buffers_over_record"](self.numbers, *arrays, force)
+        return force
+
+    def rest(self, seconds: float) -> None:
+        """Let a pause between two runs act on the memory."""
+        apply_rest(self.law.layout, self.numbers, self.model, seconds)
+
+    def reset(self) -> None:
+        """Start from rest, nothing slid and nothing warm."""
+        self.numbers[:] = fill(self.law.layout, self.model, float(self.numbers[self.law.layout.at["dt"]]))
+
+
+def predictor(model: Model, *, engine: str = "compiled", dt: float = 0.002) -> Predictor:
+    """Make a model's laws ready for records.
+
+    Args:
+        model: specimen and effects.
+        engine: "compiled" or "python".
+        dt: only a default for laws that ask for it before a record says it [s].
+    """
+    law = kernel(engine, user_effects(model))
+    return Predictor(model, law, fill(law.layout, model, dt))
+
+
+def user_effects(model: Model) -> tuple[Effect, ...]:
+    """Give the effects of a model that the catalogue does not hold."""
+    known = catalogue()
+    return tuple(u.effect for u in model.uses if known.get(u.effect.name) is not u.effect)

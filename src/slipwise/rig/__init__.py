@@ -1,0 +1,18 @@
+"""The specimen on the shaking table: rated values, similarity, and the compiled model."""
+
+from slipwise.rig.build import Rig, build, largest_step, pad_frequencies
+from slipwise.rig.similarity import LENGTH_SCALE, Similarity, similarity
+from slipwise.rig.specimen import RIGS, Specimen, load_specimen
+
+__all__ = [
+    "LENGTH_SCALE",
+    "RIGS",
+    "Rig",
+    "Similarity",
+    "Specimen",
+    "build",
+    "largest_step",
+    "load_specimen",
+    "pad_frequencies",
+    "similarity",
+]

@@ -1,0 +1,258 @@
+"""From a specimen to a MuJoCo model that is ready to be shaken."""
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.channels import BUFFERS
+from slipwise.errors import SettingError
+from slipwise.rig.specimen import Specimen
+
+#: Impedance of the pads' contacts: constant and low, so that a contact is a spring (see `_pad_contact`).
+_IMPEDANCE = 0.001
+#: Largest step times angular frequency of the stiffest mode: beyond it explicit springs gain energy.
+_STABLE = 0.6
+#: Armature of the table's joints [kg]: it makes the table follow its command whatever the girder does.
+_ARMATURE = 1e10
+TABLE_AXES: tuple[str, ...] = ("ax", "ay", "az", "apitch")
+
+
+@dataclass(frozen=True)
+class Rig:
+    """A compiled specimen.
+
+    Attributes:
+        specimen: what it was compiled from.
+        model: MuJoCo's model; `model.nuserdata` and the user sensor hold what the callbacks need.
+        tendons: ids of the tendons, pads (x, y) in order, then buffers (x, y).
+        jacobian: (n_tendons, nv) slip rate of each tendon per generalised velocity.
+        first_pad_geom: id of pad A's geom; the others follow.
+        user_sensor: address of the user sensor in sensordata.
+        sag: how far the girder sinks into its pads under its weight [m].
+    """
+
+    specimen: Specimen
+    model: mujoco.MjModel
+    tendons: tuple[int, ...]
+    jacobian: NDArray[np.float64]
+    pad_geoms: tuple[int, ...]
+    user_sensor: int
+    sag: float
+
+
+def pad_frequencies(specimen: Specimen) -> dict[str, float]:
+    """Give the frequencies of heave, pitch and roll on the pads [Hz], the girder taken as rigid."""
+    half_x, half_y = specimen.half_spacing
+    n, k, h = len(specimen.pads), specimen.pad_stiffness, specimen.centre_height
+    out = {"heave": np.sqrt(n * k / specimen.mass)}
+    if specimen.free:
+        out["pitch"] = np.sqrt(n * k * half_x**2 / (specimen.inertia[1] + 0.0 * h))
+        out["roll"] = np.sqrt(n * k * half_y**2 / specimen.inertia[0])
+    return {name: float(value / (2.0 * np.pi)) for name, value in out.items()}
+
+
+def largest_step(specimen: Specimen) -> float:
+    """Give the largest time step [s] that the pads' stiffness allows."""
+    return _STABLE / (2.0 * np.pi * max(pad_frequencies(specimen).values()))
+
+
+def build(specimen: Specimen, dt: float, nuserdata: int) -> Rig:
+    """Compile a specimen. No callback may be installed meanwhile: MuJoCo would call it.
+
+    Args:
+        specimen: the rig and its values.
+        dt: time step [s].
+        nuserdata: numbers that the callbacks keep in `data.userdata`.
+
+    Raises:
+        SettingError: the step is too large for the pads' stiffness.
+    """
+    allowed = largest_step(specimen)
+    if not 0.0 < dt <= allowed:
+        raise SettingError(
+            f"a step of {dt * 1e3:g} ms does not suit pads of {specimen.pad_stiffness / 1e6:g} kN/mm: "
+            f"at most {np.floor(allowed * 1e5) / 1e2:g} ms (or softer pads)"
+        )
+    spec = mujoco.MjSpec.from_file(str(specimen.path))
+    spec.option.timestep = dt
+    spec.nuserdata = nuserdata
+    _place_girder(spec, specimen)
+    if specimen.free:
+        _place_tendons(spec, specimen)
+    _drive_table(spec, specimen)
+    if specimen.bending_mass > 0.0:
+        _add_bending(spec, specimen)
+    _add_sensors(spec, specimen)
+    _pad_contact(spec, specimen)
+    model = spec.compile()
+    names = [f"pad_{pad}_{axis}" for pad in specimen.pads for axis in "xy"]
+    names += [f"buffer_{BUFFERS[i]}_{axis}" for i in range(len(specimen.buffer_stiffness)) for axis in "xy"]
+    tendons = tuple(int(model.tendon(name).id) for name in names)
+    return Rig(
+        specimen=specimen,
+        model=model,
+        tendons=tendons,
+        jacobian=_jacobian(model, tendons),
+        pad_geoms=tuple(int(model.geom(f"pad_{pad}").id) for pad in specimen.pads),
+        user_sensor=int(model.sensor("pads").adr[0]),
+        sag=specimen.weight / len(specimen.pads) / specimen.pad_stiffness,
+    )
+
+
+def _place_girder(spec: mujoco.MjSpec, specimen: Specimen) -> None:
+    """Put mass, centre of gravity and pads where the specimen has them."""
+    girder = spec.body("girder")
+    shift = np.array([specimen.centre_x, specimen.centre_y, specimen.centre_height]) - np.array(girder.pos)
+    if np.any(shift):
+        girder.pos = np.array(girder.pos) + shift
+        for geom in girder.geoms:
+            geom.pos = np.array(geom.pos) - shift
+    girder.mass = specimen.mass - specimen.bending_mass
+    girder.inertia = np.array(specimen.inertia) * (girder.mass / specimen.mass)
+    for pad, place, height in zip(specimen.pads, specimen.pad_places, specimen.seating, strict=True):
+        for geom in (f"pad_{pad}", f"disc_{pad}", f"cell_{pad}"):
+            spec.geom(geom).pos = [*place, spec.geom(geom).pos[2]]
+        spec.geom(f"pad_{pad}").size = [specimen.pad_radius, 0.0, 0.0]
+        spec.geom(f"disc_{pad}").size = [specimen.pad_radius, spec.geom(f"disc_{pad}").size[1], 0.0]
+        spec.geom(f"pad_{pad}").pos = [*place, height - specimen.pad_radius]
+        if specimen.free:
+            plate = spec.geom(f"plate_{pad}")
+            plate.pos = [place[0] - specimen.centre_x, place[1] - specimen.centre_y, plate.pos[2]]
+    if specimen.pads_on == "girder":
+        _swap_pads(spec, specimen)
+
+
+def _swap_pads(spec: mujoco.MjSpec, specimen: Specimen) -> None:
+    """Let the pads travel with the girder and slide on plates of the table."""
+    table, girder = spec.body("table"), spec.body("girder")
+    centre = np.array(girder.pos)
+    for pad in specimen.pads:
+        face, plate = spec.geom(f"pad_{pad}"), spec.geom(f"plate_{pad}")
+        low = np.array(face.pos) + [0.0, 0.0, specimen.pad_radius]
+        thickness = plate.size[2]
+        girder.add_geom(
+            name=f"moving_{pad}", type=mujoco.mjtGeom.mjGEOM_SPHERE, size=face.size, condim=1, contype=1, conaffinity=0,
+            group=3, mass=0.0, rgba=face.rgba, pos=low - centre + [0.0, 0.0, specimen.pad_radius],
+        )  # fmt: skip
+        table.add_geom(
+            name=f"fixed_{pad}", type=mujoco.mjtGeom.mjGEOM_BOX, size=plate.size, condim=1, contype=0, conaffinity=1,
+            group=1, mass=0.0, material="steel", pos=[low[0], low[1], -thickness],
+        )  # fmt: skip
+        spec.delete(face)
+        spec.delete(plate)
+        girder.geoms[-1].name = f"pad_{pad}"
+        table.geoms[-1].name = f"plate_{pad}"
+
+
+def _place_tendons(spec: mujoco.MjSpec, specimen: Specimen) -> None:
+    """Write the slip rate of the soffit over each pad and of each key, v = v_centre + turning x arm."""
+    arms: dict[str, tuple[float, float, float]] = {}
+    for pad, (x, y) in zip(specimen.pads, specimen.pad_places, strict=True):
+        arms[f"pad_{pad}"] = (x - specimen.centre_x, y - specimen.centre_y, -specimen.centre_height)
+    for i, (x, y) in enumerate(specimen.buffer_places):
+        arms[f"buffer_{BUFFERS[i]}"] = (
+            x - specimen.centre_x,
+            y - specimen.centre_y,
+            specimen.buffer_height - specimen.centre_height,
+        )
+    for name, (x, y, z) in arms.items():
+        turning = {
+            "x": {"girder_x": 1.0, "girder_pitch": z, "girder_yaw": -y},
+            "y": {"girder_y": 1.0, "girder_roll": -z, "girder_yaw": x},
+        }
+        for axis, coefficients in turning.items():
+            old = spec.tendon(f"{name}_{axis}")
+            kept = {
+                field: getattr(old, field) for field in ("frictionloss", "solref_friction", "solimp_friction", "rgba")
+            }
+            kept = {field: (np.array(value) if np.ndim(value) else value) for field, value in kept.items()}
+            spec.delete(old)
+            new = spec.add_tendon(name=f"{name}_{axis}", **kept)
+            for joint, coefficient in coefficients.items():
+                new.wrap_joint(joint, coefficient)
+
+
+def _drive_table(spec: mujoco.MjSpec, specimen: Specimen) -> None:
+    """Set the gains so that a control is an acceleration, and carry the weight."""
+    table_mass = 1.0
+    for axis in TABLE_AXES:
+        actuator = spec.actuator(f"table_{axis}")
+        turning = axis == "apitch"
+        moved = 0.0 if turning else table_mass + (specimen.mass if specimen.free or axis == "az" else 0.0)
+        actuator.gainprm[0] = _ARMATURE + moved
+        if axis == "az":
+            actuator.biasprm[0] = (specimen.mass + table_mass) * specimen.gravity
+    for joint in ("table_x", "table_y", "table_z", "table_pitch"):
+        spec.joint(joint).armature = _ARMATURE
+
+
+def _add_bending(spec: mujoco.MjSpec, specimen: Specimen) -> None:
+    """Hang the girder's first vertical mode on the girder as a sprung mass."""
+    omega = 2.0 * np.pi * specimen.bending_frequency
+    mode = spec.body("girder").add_body(name="bending")
+    mode.mass = specimen.bending_mass
+    mode.inertia = [1e-3, 1e-3, 1e-3]
+    mode.explicitinertial = True
+    # springref: the mode hangs by its own weight, so that the run starts in equilibrium at zero.
+    mode.add_joint(
+        name="bending",
+        type=mujoco.mjtJoint.mjJNT_SLIDE,
+        axis=[0.0, 0.0, 1.0],
+        stiffness=specimen.bending_mass * omega**2,
+        damping=2.0 * specimen.bending_damping * omega * specimen.bending_mass,
+        springref=specimen.gravity / omega**2,
+    )
+
+
+def _add_sensors(spec: mujoco.MjSpec, specimen: Specimen) -> None:
+    """Add the sensors from which every channel is made, all taken at the same instant.
+
+    The integrator moves positions after the sensors are read: states taken from the data would be one step late.
+    """
+    kinds, body = mujoco.mjtSensor, mujoco.mjtObj
+    size = 3 * len(specimen.pads) + 2 * len(specimen.buffer_stiffness)
+    spec.add_sensor(name="pads", type=kinds.mjSENS_USER, dim=size, needstage=mujoco.mjtStage.mjSTAGE_ACC,
+                    datatype=mujoco.mjtDataType.mjDATATYPE_REAL)  # fmt: skip
+    sites = ["girder_centre"] + (["girder_edge_1", "girder_edge_2"] if specimen.free else [])
+    for site in sites:
+        spec.add_sensor(name=site, type=kinds.mjSENS_FRAMELINACC, objtype=body.mjOBJ_SITE, objname=site)
+    for joint in [j.name for j in spec.joints]:
+        for kind, prefix in ((kinds.mjSENS_JOINTPOS, "at"), (kinds.mjSENS_JOINTVEL, "rate")):
+            spec.add_sensor(name=f"{prefix}_{joint}", type=kind, objtype=body.mjOBJ_JOINT, objname=joint)
+
+
+def _pad_contact(spec: mujoco.MjSpec, specimen: Specimen) -> None:
+    """Make every pad's contact a spring and a damper of stated stiffness.
+
+    A contact of constant impedance d carries f = (b v + k r d) / R with k = -solref[0] / d^2, b = -solref[1] / d and
+    R = A (1-d)/d, where A is the row's inverse mass. So solref = -(1-d) A (stiffness, damping) gives both exactly.
+    """
+    d = _IMPEDANCE
+    for pad in specimen.pads:
+        for geom in (spec.geom(f"pad_{pad}"), spec.geom(f"plate_{pad}")):
+            geom.solimp = [d, d, d, 0.5, 2.0]
+            geom.solref = [-1.0, -1.0]
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    data.joint("girder_z").qpos[0] = -2e-3 - 2.0 * max(abs(s) for s in specimen.seating)
+    mujoco.mj_forward(model, data)
+    for contact in data.contact:
+        pair = sorted((model.geom(contact.geom1).name, model.geom(contact.geom2).name))
+        inverse_mass = float(data.efc_R[contact.efc_address]) * d / (1.0 - d)
+        for name in pair:
+            spec.geom(name).solref = [
+                -(1 - d) * inverse_mass * specimen.pad_stiffness,
+                -(1 - d) * inverse_mass * specimen.pad_damping,
+            ]
+
+
+def _jacobian(model: mujoco.MjModel, tendons: tuple[int, ...]) -> NDArray[np.float64]:
+    """Collect the constant coefficients of the fixed tendons, (n_tendons, nv)."""
+    out = np.zeros((len(tendons), model.nv))
+    for row, tendon in enumerate(tendons):
+        start = int(model.tendon_adr[tendon])
+        for wrap in range(start, start + int(model.tendon_num[tendon])):
+            out[row, model.jnt_dofadr[model.wrap_objid[wrap]]] = model.wrap_prm[wrap]
+    return out

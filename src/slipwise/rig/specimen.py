@@ -1,0 +1,220 @@
+"""A specimen: the rated values of a rig, read from its MJCF file, where they live once."""
+
+from dataclasses import dataclass, field
+from importlib.resources import files
+from pathlib import Path
+
+import mujoco
+import numpy as np
+
+from slipwise.channels import BUFFERS, PADS
+from slipwise.errors import InputError, SettingError, unknown_name
+from slipwise.rig.similarity import LENGTH_SCALE
+
+#: Specimens that ship with the package.
+RIGS: tuple[str, ...] = ("bridge1", "bridge2", "block", "pad")
+
+
+@dataclass(frozen=True)
+class Specimen:
+    """What is known of a rig before it is shaken. All SI; x is the shaking direction, z is up.
+
+    Attributes:
+        name: as in the MJCF file.
+        path: the MJCF file.
+        mass: of girder and everything above the pads [kg].
+        inertia: about the centre of gravity, roll, pitch, yaw [kg m^2].
+        centre_height: centre of gravity above the sliding plane [m].
+        centre_x: centre of gravity off the middle of the pads [m].
+        centre_y: the same across [m].
+        pads: names of the pads that the rig has.
+        pad_places: (n_pads, 2) of the pads from their middle [m].
+        pad_radius: of the sliding disc [m].
+        pad_stiffness: vertical, of each pad with its cell [N/m].
+        pad_damping: vertical, of each pad [N s/m].
+        pads_on: the side that carries the pads: "table" (weight moves over them, P-delta) or "girder".
+        seating: (n_pads,) height of each pad above the mean plane [m].
+        plastic_pressure: p_m of eq. (2), the real pressure of contact without `contact_area` [Pa].
+        shear_strength: s of eq. (1) without `shear_rate` [Pa].
+        stick_capacity: "slow" sticks up to friction at zero speed, "full" up to friction at high speed.
+        buffer_stiffness: (2,) horizontal, of each buffer [N/m]; empty without buffers.
+        buffer_places: (n_buffers, 2) of the buffers from the middle of the pads [m].
+        buffer_height: of the buffers' force above the sliding plane [m].
+        bending_mass: modal mass of the girder's first vertical mode; 0 for a rigid girder [kg].
+        bending_frequency: its frequency on a fixed base [Hz].
+        bending_damping: its fraction of critical damping [1].
+        gravity: [m/s^2].
+        free: whether the girder can move horizontally; False where slip is prescribed.
+        sources: where each rated value comes from.
+    """
+
+    name: str
+    path: Path
+    mass: float
+    inertia: tuple[float, float, float]
+    centre_height: float
+    pads: tuple[str, ...]
+    pad_places: tuple[tuple[float, float], ...]
+    pad_radius: float
+    pad_stiffness: float
+    pad_damping: float
+    plastic_pressure: float
+    shear_strength: float
+    buffer_stiffness: tuple[float, ...]
+    buffer_places: tuple[tuple[float, float], ...]
+    gravity: float
+    free: bool = True
+    centre_x: float = 0.0
+    centre_y: float = 0.0
+    pads_on: str = "table"
+    seating: tuple[float, ...] = (0.0, 0.0, 0.0, 0.0)
+    stick_capacity: str = "slow"
+    buffer_height: float = 0.0
+    bending_mass: float = 0.0
+    bending_frequency: float = 15.0
+    bending_damping: float = 0.02
+    sources: dict[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Refuse values that no rig can have."""
+        positive = (
+            "mass",
+            "centre_height",
+            "pad_radius",
+            "pad_stiffness",
+            "plastic_pressure",
+            "shear_strength",
+            "gravity",
+        )
+        for name in positive:
+            if not getattr(self, name) > 0.0:
+                raise SettingError(f"{self.name}: {name} = {getattr(self, name):g} must be above zero")
+        if not 0.0 <= self.bending_mass < self.mass:
+            raise SettingError(
+                f"{self.name}: bending_mass = {self.bending_mass:g} kg must be below the mass {self.mass:g} kg"
+            )
+        if self.pads_on not in ("table", "girder"):
+            raise unknown_name("side that carries the pads", self.pads_on, ("table", "girder"))
+        if self.stick_capacity not in ("slow", "full"):
+            raise unknown_name("stick capacity", self.stick_capacity, ("slow", "full"))
+
+    @property
+    def pad_area(self) -> float:
+        """Apparent area of one pad [m^2]."""
+        return float(np.pi * self.pad_radius**2)
+
+    @property
+    def weight(self) -> float:
+        """Weight of the girder [N]."""
+        return self.mass * self.gravity
+
+    @property
+    def rated_pressure(self) -> float:
+        """Pressure on a pad at rest [Pa]."""
+        return self.weight / len(self.pads) / self.pad_area
+
+    @property
+    def half_spacing(self) -> tuple[float, float]:
+        """Half the distance of the pads along x and y [m]."""
+        places = np.abs(np.array(self.pad_places))
+        return float(places[:, 0].max()), float(places[:, 1].max())
+
+    @property
+    def slenderness(self) -> float:
+        """h/b of the paper: height of the centre of gravity over pad spacing in the shaking direction [1]."""
+        return self.centre_height / (2.0 * self.half_spacing[0]) if self.half_spacing[0] else float("nan")
+
+    @property
+    def frequency(self) -> float:
+        """Natural frequency of the girder on its buffers, without friction [Hz]."""
+        return float(np.sqrt(sum(self.buffer_stiffness) / self.mass) / (2.0 * np.pi))
+
+    @property
+    def length_scale(self) -> float:
+        """Prototype length over model length [1].
+
+        Raises:
+            SettingError: the specimen has no prototype in the paper.
+        """
+        if self.name not in LENGTH_SCALE:
+            raise SettingError(f"{self.name} has no prototype in the paper; possible: {', '.join(LENGTH_SCALE)}")
+        return LENGTH_SCALE[self.name]
+
+
+def models_folder() -> Path:
+    """Give the folder of the MJCF files: inside the installed package, or beside `src` in a checkout."""
+    packed = Path(str(files("slipwise"))) / "models"
+    return packed if packed.is_dir() else Path(__file__).parents[3] / "models"
+
+
+def find_rig(rig: str | Path, beside: Path | None = None) -> Path:
+    """Find the MJCF file of a rig given by name or by path.
+
+    Args:
+        rig: one of `RIGS` or the path of an MJCF file.
+        beside: folder from which a relative path is meant.
+
+    Raises:
+        UnknownNameError: neither a name nor a file.
+    """
+    if str(rig) in RIGS:
+        return models_folder() / f"{rig}.xml"
+    path = (beside / str(rig)) if beside is not None else Path(rig)
+    if path.suffix == ".xml" and path.is_file():
+        return path
+    raise unknown_name("rig", str(rig), RIGS, "`slipwise rigs` lists them; the path of an MJCF file works too.")
+
+
+def load_specimen(rig: str | Path, beside: Path | None = None) -> Specimen:
+    """Read a specimen's rated values from its MJCF file.
+
+    Args:
+        rig: a name of `RIGS` or the path of an MJCF file that names its parts as they do.
+        beside: folder from which a relative path is meant.
+
+    Raises:
+        UnknownNameError: no such rig.
+        InputError: the file is no MJCF, or a part is missing in it.
+    """
+    path = find_rig(rig, beside)
+    try:
+        model = mujoco.MjModel.from_xml_path(str(path))
+    except ValueError as error:
+        raise InputError(f"{path.name} cannot be read by MuJoCo: {error}") from None
+    names = {model.geom(i).name for i in range(model.ngeom)}
+    tendons = {model.tendon(i).name for i in range(model.ntendon)}
+    pads = tuple(pad for pad in PADS if f"pad_{pad}" in names)
+    for needed in [f"pad_{pad}_x" for pad in pads] or ["pad_A_x"]:
+        if needed not in tendons:
+            raise InputError(
+                f"{path.name} has no tendon {needed!r}: each pad needs a geom pad_X and tendons pad_X_x, pad_X_y"
+            )
+    try:
+        girder = model.body("girder")
+        buffers = [b for b in BUFFERS if f"buffer_{b}_x" in tendons]
+        number = {model.numeric(i).name: float(model.numeric(i).data[0]) for i in range(model.nnumeric)}
+        texts = mujoco.MjSpec.from_file(str(path)).texts
+        return Specimen(
+            name=path.stem,
+            path=path,
+            mass=float(girder.mass[0]),
+            inertia=tuple(float(v) for v in girder.inertia),  # type: ignore[arg-type]
+            centre_height=float(girder.pos[2]),
+            pads=pads,
+            pad_places=tuple((float(p[0]), float(p[1])) for p in (model.geom(f"pad_{pad}").pos for pad in pads)),
+            pad_radius=float(model.geom("pad_A").size[0]),
+            pad_stiffness=number["pad_stiffness"],
+            pad_damping=number["pad_damping"],
+            plastic_pressure=number["plastic_pressure"],
+            shear_strength=number["shear_strength"],
+            buffer_stiffness=tuple(float(model.tendon_stiffness[model.tendon(f"buffer_{b}_x").id]) for b in buffers),
+            buffer_places=tuple((float(p[0]), float(p[1])) for p in (model.geom(f"buffer_{b}").pos for b in buffers)),
+            gravity=-float(model.opt.gravity[2]),
+            free="girder_x" in {model.joint(i).name for i in range(model.njnt)},
+            seating=(0.0,) * len(pads),
+            sources={t.name.removeprefix("source "): t.data for t in texts if t.name.startswith("source ")},
+        )
+    except KeyError as error:
+        raise InputError(
+            f"{path.name} lacks a part that a rig needs: {error}; compare it with models/bridge1.xml"
+        ) from None
