@@ -2,8 +2,10 @@
 
 from slipwise.effects._catalogue import catalogue, find_effect, load_effect
 from slipwise.effects._effect import COMPONENTS, HOOKS, PORTS, Effect, moved_channels, read_effect
+from slipwise.effects._states import BalanceStates
 
 __all__ = [
+    "BalanceStates",
     "COMPONENTS",
     "HOOKS",
     "PORTS",

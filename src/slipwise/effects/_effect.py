@@ -7,8 +7,9 @@ the names of its arguments: quantities of `INPUTS`, `memory`, and its own parame
 Hooks of one instant (plain scalars in, scalars out; compiled into the step and into the loops over records, so only
 arithmetic, `math` and `memory[...]` may be used):
 
-    area(real_area, ...) -> real_area          shear(shear, ...) -> shear          stick(bound, ...) -> (force_x, force_y)
-    pad(...) -> (force_x, force_y)             advance(...) -> None (changes memory[...] after the force is known)
+    area(real_area, ...) -> real_area          shear(shear, ...) -> shear
+    stick(bound, ...) -> (force_x, force_y)    pad(...) -> (force_x, force_y)
+    advance(...) -> None, changes memory[...] after the force is known
     deflection(deflection, ...) -> deflection  spring(force, ...) -> force         settle(...) -> None (buffer's memory)
     lift(force_x, force_y, ...) -> force_z     drag(...) -> (force_x, force_y)
 
@@ -218,7 +219,8 @@ def read_effect(module: ModuleType, path: Path) -> Effect:
     for hook, function in hooks.items():
         if hook not in allowed:
             raise SettingError(
-                f"{path.name}: an effect on port {found.port!r} cannot have a hook {hook!r}; possible: {', '.join(allowed)}"
+                f"{path.name}: an effect on port {found.port!r} cannot have a hook {hook!r}; "
+                f"possible: {', '.join(allowed)}"
             )
         _check_arguments(path, found, hook, function)
     if not hooks:

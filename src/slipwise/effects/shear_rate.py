@@ -2,13 +2,14 @@
 
     s = s' [1 - exp(-n V)] + alpha P_r
 
-PTFE is viscous: the faster it is sheared the stronger it is, up to s'. The second term is the part of the strength that
-real pressure adds; as A_r P_r = N it is a friction coefficient alpha that no speed or pressure changes, and the whole of
-friction at zero speed: mu(0) = alpha.
+PTFE is viscous: the faster it is sheared the stronger it is, up to s'. The second term is the part of the strength
+that real pressure adds; as A_r P_r = N it is a friction coefficient alpha that no speed or pressure changes, and the
+whole of friction at zero speed: mu(0) = alpha.
 
 Valid: up to about 0.5 m/s; speed so constant that the contact's temperature does not change.
-Source: paper, eqs. (4) and (5); s' = 1.379, n = 0.197, alpha = 0.046 below eq. (8). Units are not printed: MPa by the size
-of mu; s/cm because energies are in kN cm and because n in the literature is 20 to 100 s/m (0.197 s/mm would be 197 s/m).
+Source: paper, eqs. (4) and (5); s' = 1.379, n = 0.197, alpha = 0.046 below eq. (8). Units are not printed: MPa by the
+size of mu; s/cm because energies are in kN cm and because n in the literature is 20 to 100 s/m (0.197 s/mm would be
+197 s/m).
 """
 
 from math import expm1
@@ -42,6 +43,6 @@ EFFECT = Effect(
     ),
     moves=("pad_*_F?", "girder_a*", "slip_*", "yaw", "pitch", "roll", "heave", "pad_*_N", "buffer_*"),
     signature="friction grows with speed up to about 0.1 m/s: odd in velocity, a function of speed only",
-    confused_with={"rate_and_state": "constant-speed runs at many speeds: a straight line over log V is rate_and_state"},
+    confused_with={"rate_and_state": "constant speeds: a straight line over log V is rate_and_state"},
     replaces="constant shear strength (Coulomb)",
 )  # fmt: skip
