@@ -1,0 +1,75 @@
+"""From MuJoCo's sensors to the channels of a record; all of one instant."""
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.channels import BUFFERS
+from slipwise.rig import Rig
+
+Array = NDArray[np.float64]
+
+
+def sensor(rig: Rig, name: str, sensordata: Array) -> Array:
+    """Give the columns of one sensor, (..., dim)."""
+    found = rig.model.sensor(name)
+    start = int(found.adr[0])
+    return sensordata[..., start : start + int(found.dim[0])]
+
+
+def has_sensor(rig: Rig, name: str) -> bool:
+    """Tell whether the model has a sensor of this name."""
+    return mujoco.mj_name2id(rig.model, mujoco.mjtObj.mjOBJ_SENSOR, name) >= 0
+
+
+def to_channels(rig: Rig, sensordata: Array, control: Array) -> dict[str, Array]:
+    """Turn sensordata (n, n_sensors) and the table's command (n, 4) into channels, each (n,) in SI."""
+    specimen = rig.specimen
+    out: dict[str, Array] = {f"table_a{axis}": control[:, i] for i, axis in enumerate("xyz")}
+
+    def one(name: str) -> Array:
+        return sensor(rig, name, sensordata)[:, 0] if has_sensor(rig, name) else np.zeros(len(sensordata))
+
+    for axis in "xyz":
+        out[f"table_d{axis}"] = one(f"at_table_{axis}")
+    if np.any(control[:, 3]):
+        out["table_pitch"] = one("at_table_pitch")
+    # MuJoCo's accelerations are those of a frame in free fall: at rest they read +g.
+    centre = sensor(rig, "girder_centre", sensordata) - [0.0, 0.0, specimen.gravity]
+    for i, axis in enumerate("xyz"):
+        out[f"girder_a{axis}"] = centre[:, i]
+    for edge in ("1", "2"):
+        if has_sensor(rig, f"girder_edge_{edge}"):
+            out[f"girder_az_{edge}"] = sensor(rig, f"girder_edge_{edge}", sensordata)[:, 2] - specimen.gravity
+    out.update(_motion(rig, one))
+    user = sensor(rig, "pads", sensordata)
+    for i, pad in enumerate(specimen.pads):
+        out[f"pad_{pad}_N"] = user[:, 3 * i]
+        out[f"pad_{pad}_Fx"] = user[:, 3 * i + 1]
+        out[f"pad_{pad}_Fy"] = user[:, 3 * i + 2]
+        out[f"pad_{pad}_P"] = user[:, 3 * i] / specimen.pad_area
+    for i in range(len(specimen.buffer_stiffness)):
+        for j, axis in enumerate("xy"):
+            out[f"buffer_{BUFFERS[i]}_F{axis}"] = user[:, 3 * len(specimen.pads) + 2 * i + j]
+    return {name: np.ascontiguousarray(values) for name, values in out.items()}
+
+
+def _motion(rig: Rig, one) -> dict[str, Array]:  # noqa: ANN001 - a local function of to_channels
+    """Slip at the middle of the sliding plane, and the girder's turning, relative to the table."""
+    specimen = rig.specimen
+    if not specimen.free:
+        return {
+            "slip_x": -one("at_table_x"),
+            "slip_y": -one("at_table_y"),
+            "slip_vx": -one("rate_table_x"),
+            "slip_vy": -one("rate_table_y"),
+            "heave": one("at_girder_z") - one("at_table_z"),
+        }
+    h, cx, cy = specimen.centre_height, specimen.centre_x, specimen.centre_y
+    out = {"yaw": one("at_girder_yaw"), "pitch": one("at_girder_pitch"), "roll": one("at_girder_roll")}
+    for prefix, name in (("at", "slip_"), ("rate", "slip_v")):
+        yaw, pitch, roll = (one(f"{prefix}_girder_{axis}") for axis in ("yaw", "pitch", "roll"))
+        out[f"{name}x"] = one(f"{prefix}_girder_x") - h * pitch + cy * yaw
+        out[f"{name}y"] = one(f"{prefix}_girder_y") + h * roll - cx * yaw
+    out["heave"] = one("at_girder_z")
+    return out
