@@ -1,0 +1,22 @@
+"""Signals on a uniform time axis: filter, shift, differentiate, fuse, and measure their noise."""
+
+from slipwise.signals.derivative import derivative, integral
+from slipwise.signals.filters import LowPass, align, lowpass, response
+from slipwise.signals.fused import Fused, fuse
+from slipwise.signals.noise import Noise, noise, white_level
+from slipwise.signals.shift import shift
+
+__all__ = [
+    "Fused",
+    "LowPass",
+    "Noise",
+    "align",
+    "derivative",
+    "fuse",
+    "integral",
+    "lowpass",
+    "noise",
+    "response",
+    "shift",
+    "white_level",
+]

@@ -1,0 +1,242 @@
+"""Position and velocity from a displacement gauge and accelerometers together: a Rauch-Tung-Striebel smoother.
+
+State [x, v, b]: dx/dt = v, dv/dt = a - b, db/dt = white noise. x is measured with white noise, a (relative
+acceleration) with white noise per sample, b is the bias of the accelerometers. Without accelerometers a = 0, and b,
+now minus the acceleration itself, wanders faster. A recorded velocity is a second measurement.
+
+Source: Rauch, Tung, Striebel (1965), AIAA Journal 3:1445-1450. Speed decides everything near a reversal: differentiated
+slip errs by 1-7 mm/s, this by 0.15 mm/s for noise of 0.02 mm and 0.036 m/s^2 at 500 Hz.
+"""
+
+from dataclasses import dataclass
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+from scipy.optimize import minimize
+
+from slipwise.errors import InputError
+from slipwise.signals.ends import Array
+from slipwise.signals.noise import white_level
+
+#: A bias wanders by about this in one second [m/s^2].
+_BIAS_WALK = 3e-4
+#: Spread of the first state: wide against everything a rig does (position [m], velocity [m/s], bias [m/s^2]).
+_FIRST = (1.0, 3.0, 0.5)
+#: Without accelerometers b is the acceleration itself.
+_FIRST_ACCELERATION = 300.0
+#: Samples used to find the noise levels; more tell nothing new.
+_SEARCH = 20000
+
+
+@dataclass(frozen=True)
+class Fused:
+    """What the smoother gives.
+
+    Attributes:
+        position: (n,) [m].
+        velocity: (n,) [m/s].
+        acceleration: (n,) relative, without the bias [m/s^2]; from the slip alone where no accelerometer was given.
+        bias: (n,) of the accelerometers [m/s^2]; 0 without them.
+        velocity_error: standard deviation that the smoother expects of its own velocity, in the middle [m/s].
+        position_noise: of one sample of the gauge [m].
+        acceleration_noise: of one sample of the relative acceleration [m/s^2]; 0 without accelerometers.
+    """
+
+    position: Array
+    velocity: Array
+    acceleration: Array
+    bias: Array
+    velocity_error: float
+    position_noise: float
+    acceleration_noise: float
+
+
+def fuse(
+    time: Array,
+    position: Array,
+    acceleration: Array | None = None,
+    velocity: Array | None = None,
+) -> Fused:
+    """Fuse a displacement gauge with accelerometers, or smooth it alone.
+
+    Noise levels are those under which the smoother's own one-step predictions are most likely (maximum likelihood),
+    starting from the top of each channel's spectrum.
+
+    Args:
+        time: (n,) strictly rising [s]; steps may differ.
+        position: (n,) [m]; NaN where a sample is missing.
+        acceleration: (n,) of the same motion [m/s^2], without NaN; None when there is none.
+        velocity: (n,) recorded velocity [m/s], NaN where missing; None when there is none.
+
+    Raises:
+        InputError: fewer than 8 samples, or an acceleration with gaps.
+    """
+    if np.count_nonzero(np.isfinite(position)) < 8:
+        raise InputError(f"{len(position)} samples of a position are too few for a velocity; give at least 8")
+    if acceleration is not None and not np.isfinite(acceleration).all():
+        raise InputError("an acceleration with missing samples cannot be integrated: fill or cut them first")
+    steps = np.diff(time)
+    ramp, half = _increments(time, acceleration)
+    place = np.stack([position, np.full(len(time), np.nan) if velocity is None else velocity], axis=1)
+    centre = float(np.nanmedian(position))
+    place[:, 0] -= centre
+    dt = float(np.median(steps))
+    first = _start_levels(place, acceleration, dt)
+    levels = _likeliest(steps, ramp, half, place, first, accelerometers=acceleration is not None)
+    variances = _variances(levels, dt, accelerometers=acceleration is not None)
+    state, spread = _smooth(steps, ramp, half, place, *variances)
+    with_bias = state[:, 2] if acceleration is not None else np.zeros(len(time))
+    relative = -state[:, 2] if acceleration is None else acceleration - state[:, 2]
+    return Fused(
+        position=state[:, 0] + centre,
+        velocity=state[:, 1],
+        acceleration=relative,
+        bias=with_bias,
+        velocity_error=float(np.sqrt(spread[len(time) // 2])),
+        position_noise=float(levels[0]),
+        acceleration_noise=float(levels[2]) if acceleration is not None else 0.0,
+    )
+
+
+def _increments(time: Array, acceleration: Array | None) -> tuple[Array, Array]:
+    """Give each step's gain of velocity and of position from a known acceleration, by its spline's integrals."""
+    if acceleration is None:
+        return np.zeros(len(time) - 1), np.zeros(len(time) - 1)
+    spline = CubicSpline(time, acceleration)
+    once, twice = spline.antiderivative(1)(time), spline.antiderivative(2)(time)
+    return np.diff(once), np.diff(twice) - once[:-1] * np.diff(time)
+
+
+def _start_levels(place: Array, acceleration: Array | None, dt: float) -> Array:
+    """Guess (position noise, velocity noise, driving noise) from the tops of the spectra."""
+    span = float(np.nanmax(place[:, 0]) - np.nanmin(place[:, 0]))
+    gauge = max(white_level(place[:, 0]), 1e-6 * span, 1e-12)
+    speed = white_level(place[:, 1])
+    if acceleration is not None:
+        return np.array([gauge, max(speed, 1e-9), max(white_level(acceleration), 1e-9)])
+    # jerk of a motion that crosses its span in a quarter of a second
+    return np.array([gauge, max(speed, 1e-3 * span / dt, 1e-9), max(span, gauge) * 1e3])
+
+
+def _variances(levels: Array, dt: float, accelerometers: bool) -> tuple[float, float, float, float, Array]:
+    """Give the variances of position and velocity, the densities of drive and bias walk, and the first spread."""
+    gauge, speed, drive = levels
+    if accelerometers:
+        return gauge**2, speed**2, drive**2 * dt, _BIAS_WALK**2, np.square(_FIRST)
+    return gauge**2, speed**2, 0.0, drive**2, np.square((*_FIRST[:2], _FIRST_ACCELERATION))
+
+
+def _likeliest(
+    steps: Array, ramp: Array, half: Array, place: Array, first: Array, *, accelerometers: bool
+) -> NDArray[np.float64]:
+    """Search the noise levels of largest likelihood, over their logarithms."""
+    part = slice(0, _SEARCH)
+    dt = float(np.median(steps))
+    free = [0, 2] if np.isnan(place[:, 1]).all() else [0, 1, 2]
+
+    def unlikely(logs: Array) -> float:
+        levels = first.copy()
+        levels[free] *= np.exp(np.clip(logs, -7.0, 7.0))
+        variances = _variances(levels, dt, accelerometers)
+        penalty = 0.5 * float(np.sum(np.square(logs))) / 3.0**2
+        return _unlikelihood(steps[part], ramp[part], half[part], place[: _SEARCH + 1], *variances) + penalty
+
+    start = np.zeros(len(free))
+    spread = np.vstack([start, *(0.7 * np.eye(len(free)))])
+    options = {"xatol": 0.02, "fatol": 0.1, "maxiter": 80, "initial_simplex": spread}
+    found = minimize(unlikely, start, method="Nelder-Mead", options=options)
+    levels = first.copy()
+    levels[free] *= np.exp(np.clip(found.x, -7.0, 7.0))
+    return levels
+
+
+@numba.njit(cache=True)
+def _predict(x, p, dt, ramp, half, drive, walk):  # pragma: no cover
+    """Carry state and covariance over one step, in place."""
+    x[0] += dt * x[1] - 0.5 * dt * dt * x[2] + half
+    x[1] += ramp - dt * x[2]
+    f01, f02, f12 = dt, -0.5 * dt * dt, -dt
+    # F P
+    for j in range(3):
+        p[0, j] += f01 * p[1, j] + f02 * p[2, j]
+        p[1, j] += f12 * p[2, j]
+    # (F P) F'
+    for i in range(3):
+        p[i, 0] += f01 * p[i, 1] + f02 * p[i, 2]
+        p[i, 1] += f12 * p[i, 2]
+    t2, t3 = dt * dt, dt * dt * dt
+    p[0, 0] += drive * t3 / 3.0 + walk * t3 * t2 / 20.0
+    p[0, 1] += drive * t2 / 2.0 + walk * t2 * t2 / 8.0
+    p[1, 0] += drive * t2 / 2.0 + walk * t2 * t2 / 8.0
+    p[1, 1] += drive * dt + walk * t3 / 3.0
+    p[0, 2] -= walk * t3 / 6.0
+    p[2, 0] -= walk * t3 / 6.0
+    p[1, 2] -= walk * t2 / 2.0
+    p[2, 1] -= walk * t2 / 2.0
+    p[2, 2] += walk * dt
+
+
+@numba.njit(cache=True)
+def _correct(x, p, row, measured, variance):  # pragma: no cover
+    """Take one measurement of state `row` in, in place; give its minus twice log likelihood."""
+    if np.isnan(measured):
+        return 0.0
+    expected = p[row, row] + variance
+    surprise = measured - x[row]
+    gain = p[:, row] / expected
+    across = p[row, :].copy()
+    for i in range(3):
+        x[i] += gain[i] * surprise
+        for j in range(3):
+            p[i, j] -= gain[i] * across[j]
+    return np.log(expected) + surprise * surprise / expected
+
+
+@numba.njit(cache=True)
+def _unlikelihood(steps, ramp, half, place, gauge, speed, drive, walk, first):  # pragma: no cover
+    """Give minus log likelihood of the measurements."""
+    x = np.zeros(3)
+    p = np.diag(first)
+    total = 0.0
+    for k in range(place.shape[0]):
+        if k > 0:
+            _predict(x, p, steps[k - 1], ramp[k - 1], half[k - 1], drive, walk)
+        cost = _correct(x, p, 0, place[k, 0], gauge) + _correct(x, p, 1, place[k, 1], speed)
+        # the first samples only find the state
+        if k > 3:
+            total += cost
+    return 0.5 * total
+
+
+@numba.njit(cache=True)
+def _smooth(steps, ramp, half, place, gauge, speed, drive, walk, first):  # pragma: no cover
+    """Filter forward and smooth backward; give the states (n, 3) and the variance of the velocity (n,)."""
+    n = place.shape[0]
+    before, after = np.zeros((n, 3)), np.zeros((n, 3))
+    spread_before, spread_after = np.zeros((n, 3, 3)), np.zeros((n, 3, 3))
+    x = np.zeros(3)
+    p = np.diag(first)
+    for k in range(n):
+        if k > 0:
+            _predict(x, p, steps[k - 1], ramp[k - 1], half[k - 1], drive, walk)
+        before[k], spread_before[k] = x, p
+        _correct(x, p, 0, place[k, 0], gauge)
+        _correct(x, p, 1, place[k, 1], speed)
+        after[k], spread_after[k] = x, p
+    variance = np.empty(n)
+    variance[n - 1] = p[1, 1]
+    later = p.copy()
+    for k in range(n - 2, -1, -1):
+        dt = steps[k]
+        across = spread_after[k].copy()
+        for i in range(3):
+            across[i, 0] += dt * across[i, 1] - 0.5 * dt * dt * across[i, 2]
+            across[i, 1] -= dt * across[i, 2]
+        # C = P F' (P-)^-1
+        c = np.linalg.solve(spread_before[k + 1].T, across.T).T
+        after[k] += c @ (after[k + 1] - before[k + 1])
+        later = spread_after[k] + c @ (later - spread_before[k + 1]) @ c.T
+        variance[k] = later[1, 1]
+    return after, variance
