@@ -1,5 +1,7 @@
 """From MuJoCo's sensors to the channels of a record; all of one instant."""
 
+from collections.abc import Callable
+
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -8,6 +10,7 @@ from slipwise.channels import BUFFERS
 from slipwise.rig import Rig
 
 Array = NDArray[np.float64]
+Reader = Callable[[str], Array]
 
 
 def sensor(rig: Rig, name: str, sensordata: Array) -> Array:
@@ -41,7 +44,12 @@ def to_channels(rig: Rig, sensordata: Array, control: Array) -> dict[str, Array]
     for edge in ("1", "2"):
         if has_sensor(rig, f"girder_edge_{edge}"):
             out[f"girder_az_{edge}"] = sensor(rig, f"girder_edge_{edge}", sensordata)[:, 2] - specimen.gravity
-    out.update(_motion(rig, one))
+    half_step = 0.5 * rig.model.opt.timestep
+    if specimen.free:
+        turning = sensor(rig, "turning", sensordata)
+        out.update(_motion(rig, one, half_step, centre - control[:, :3], turning))
+    else:
+        out.update(_prescribed(one, half_step, control))
     user = sensor(rig, "pads", sensordata)
     for i, pad in enumerate(specimen.pads):
         out[f"pad_{pad}_N"] = user[:, 3 * i]
@@ -54,22 +62,35 @@ def to_channels(rig: Rig, sensordata: Array, control: Array) -> dict[str, Array]
     return {name: np.ascontiguousarray(values) for name, values in out.items()}
 
 
-def _motion(rig: Rig, one) -> dict[str, Array]:  # noqa: ANN001 - a local function of to_channels
-    """Slip at the middle of the sliding plane, and the girder's turning, relative to the table."""
+def _motion(rig: Rig, one: Reader, half_step: float, acceleration: Array, turning: Array) -> dict[str, Array]:
+    """Slip at the middle of the sliding plane, and the girder's turning, relative to the table.
+
+    The integrator's velocities stand half a step behind its positions: acceleration (n, 3) brings them to one instant.
+    """
     specimen = rig.specimen
-    if not specimen.free:
-        return {
-            "slip_x": -one("at_table_x"),
-            "slip_y": -one("at_table_y"),
-            "slip_vx": -one("rate_table_x"),
-            "slip_vy": -one("rate_table_y"),
-            "heave": one("at_girder_z") - one("at_table_z"),
-        }
     h, cx, cy = specimen.centre_height, specimen.centre_x, specimen.centre_y
-    out = {"yaw": one("at_girder_yaw"), "pitch": one("at_girder_pitch"), "roll": one("at_girder_roll")}
-    for prefix, name in (("at", "slip_"), ("rate", "slip_v")):
-        yaw, pitch, roll = (one(f"{prefix}_girder_{axis}") for axis in ("yaw", "pitch", "roll"))
-        out[f"{name}x"] = one(f"{prefix}_girder_x") - h * pitch + cy * yaw
-        out[f"{name}y"] = one(f"{prefix}_girder_y") + h * roll - cx * yaw
-    out["heave"] = one("at_girder_z")
-    return out
+    at = {name: one(f"at_girder_{name}") for name in ("x", "y", "z", "roll", "pitch", "yaw")}
+    columns = (*acceleration.T[:2], *turning.T)
+    names = ("x", "y", "roll", "pitch", "yaw")
+    rate = {n: one(f"rate_girder_{n}") + half_step * a for n, a in zip(names, columns, strict=True)}
+    return {
+        "yaw": at["yaw"],
+        "pitch": at["pitch"],
+        "roll": at["roll"],
+        "heave": at["z"],
+        "slip_x": at["x"] - h * at["pitch"] + cy * at["yaw"],
+        "slip_y": at["y"] + h * at["roll"] - cx * at["yaw"],
+        "slip_vx": rate["x"] - h * rate["pitch"] + cy * rate["yaw"],
+        "slip_vy": rate["y"] + h * rate["roll"] - cx * rate["yaw"],
+    }
+
+
+def _prescribed(one: Reader, half_step: float, control: Array) -> dict[str, Array]:
+    """Slip where the table moves under a weight that cannot follow."""
+    return {
+        "slip_x": -one("at_table_x"),
+        "slip_y": -one("at_table_y"),
+        "slip_vx": -one("rate_table_x") - half_step * control[:, 0],
+        "slip_vy": -one("rate_table_y") - half_step * control[:, 1],
+        "heave": one("at_girder_z") - one("at_table_z"),
+    }

@@ -118,8 +118,9 @@ def _place_girder(spec: mujoco.MjSpec, specimen: Specimen) -> None:
         spec.geom(f"disc_{pad}").size = [specimen.pad_radius, spec.geom(f"disc_{pad}").size[1], 0.0]
         spec.geom(f"pad_{pad}").pos = [*place, height - specimen.pad_radius]
         if specimen.free:
-            plate = spec.geom(f"plate_{pad}")
-            plate.pos = [place[0] - specimen.centre_x, place[1] - specimen.centre_y, plate.pos[2]]
+            for name in (f"plate_{pad}", f"sole_{pad}"):
+                geom = spec.geom(name)
+                geom.pos = [place[0] - specimen.centre_x, place[1] - specimen.centre_y, geom.pos[2]]
     if specimen.pads_on == "girder":
         _swap_pads(spec, specimen)
 
@@ -128,22 +129,16 @@ def _swap_pads(spec: mujoco.MjSpec, specimen: Specimen) -> None:
     """Let the pads travel with the girder and slide on plates of the table."""
     table, girder = spec.body("table"), spec.body("girder")
     centre = np.array(girder.pos)
-    for pad in specimen.pads:
+    for bit, pad in enumerate(specimen.pads):
         face, plate = spec.geom(f"pad_{pad}"), spec.geom(f"plate_{pad}")
         low = np.array(face.pos) + [0.0, 0.0, specimen.pad_radius]
-        thickness = plate.size[2]
-        girder.add_geom(
-            name=f"moving_{pad}", type=mujoco.mjtGeom.mjGEOM_SPHERE, size=face.size, condim=1, contype=1, conaffinity=0,
-            group=3, mass=0.0, rgba=face.rgba, pos=low - centre + [0.0, 0.0, specimen.pad_radius],
-        )  # fmt: skip
-        table.add_geom(
-            name=f"fixed_{pad}", type=mujoco.mjtGeom.mjGEOM_BOX, size=plate.size, condim=1, contype=0, conaffinity=1,
-            group=1, mass=0.0, material="steel", pos=[low[0], low[1], -thickness],
-        )  # fmt: skip
+        shared = {"condim": 1, "group": 3, "mass": 0.0, "contype": 0, "conaffinity": 0}
+        ball = {**shared, "contype": 1 << bit, "type": mujoco.mjtGeom.mjGEOM_SPHERE, "size": np.array(face.size)}
+        floor = {**shared, "conaffinity": 1 << bit, "type": mujoco.mjtGeom.mjGEOM_BOX, "size": np.array(plate.size)}
         spec.delete(face)
         spec.delete(plate)
-        girder.geoms[-1].name = f"pad_{pad}"
-        table.geoms[-1].name = f"plate_{pad}"
+        girder.add_geom(name=f"pad_{pad}", pos=low - centre + [0.0, 0.0, specimen.pad_radius], **ball)
+        table.add_geom(name=f"plate_{pad}", pos=[low[0], low[1], low[2] - floor["size"][2]], **floor)
 
 
 def _place_tendons(spec: mujoco.MjSpec, specimen: Specimen) -> None:
@@ -218,6 +213,8 @@ def _add_sensors(spec: mujoco.MjSpec, specimen: Specimen) -> None:
     sites = ["girder_centre"] + (["girder_edge_1", "girder_edge_2"] if specimen.free else [])
     for site in sites:
         spec.add_sensor(name=site, type=kinds.mjSENS_FRAMELINACC, objtype=body.mjOBJ_SITE, objname=site)
+    if specimen.free:
+        spec.add_sensor(name="turning", type=kinds.mjSENS_FRAMEANGACC, objtype=body.mjOBJ_SITE, objname="girder_centre")
     for joint in [j.name for j in spec.joints]:
         for kind, prefix in ((kinds.mjSENS_JOINTPOS, "at"), (kinds.mjSENS_JOINTVEL, "rate")):
             spec.add_sensor(name=f"{prefix}_{joint}", type=kind, objtype=body.mjOBJ_JOINT, objname=joint)
