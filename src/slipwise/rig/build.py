@@ -77,6 +77,7 @@ def build(specimen: Specimen, dt: float, nuserdata: int) -> Rig:
         )
     spec = mujoco.MjSpec.from_file(str(specimen.path))
     spec.option.timestep = dt
+    spec.option.gravity = [0.0, 0.0, -specimen.gravity]
     spec.nuserdata = nuserdata
     _place_girder(spec, specimen)
     if specimen.free:
