@@ -1,12 +1,14 @@
 """The specimen on the shaking table: rated values, similarity, and the compiled model."""
 
 from slipwise.rig.build import Rig, build, largest_step, pad_frequencies
+from slipwise.rig.readings import Readings, read_paper
 from slipwise.rig.similarity import LENGTH_SCALE, Similarity, similarity
 from slipwise.rig.specimen import RIGS, Specimen, load_specimen
 
 __all__ = [
     "LENGTH_SCALE",
     "RIGS",
+    "Readings",
     "Rig",
     "Similarity",
     "Specimen",
@@ -14,5 +16,6 @@ __all__ = [
     "largest_step",
     "load_specimen",
     "pad_frequencies",
+    "read_paper",
     "similarity",
 ]
