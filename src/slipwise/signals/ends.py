@@ -54,5 +54,5 @@ def in_frequency(values: Array, dt: float, gain: Callable[[Array], NDArray[Any]]
     size = -(-(len(long) + max(2 * beyond, 16)) // 256) * 256
     way = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, size - len(long)))
     circle = np.concatenate([long, long[-1] + (long[0] - long[-1]) * way])
-    spectrum = np.fft.rfft(circle) * gain(np.fft.rfftfreq(size, dt))
+    spectrum = np.fft.rfft(circle) * gain(np.asarray(np.fft.rfftfreq(size, dt), dtype=np.float64))
     return np.fft.irfft(spectrum, size)[start : start + len(values)]

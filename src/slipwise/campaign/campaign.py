@@ -1,0 +1,105 @@
+"""What a campaign is: runs of one specimen, with what is known of the logger."""
+
+import fnmatch
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from slipwise.errors import SettingError
+from slipwise.record import Record
+from slipwise.rig import Specimen
+from slipwise.signals import LowPass
+
+ROLES: tuple[str, ...] = ("fit", "repeat", "holdout")
+
+
+@dataclass(frozen=True)
+class Logger:
+    """What the logger did to the channels before it stored them.
+
+    Attributes:
+        every: the low-pass filter of every channel; None where it is not known or there was none.
+        own: channel name or pattern ("pad_*_N") -> its own filter, None for a channel that is not filtered.
+        known: whether the campaign says anything of the logger; if not, the audit estimates it.
+    """
+
+    every: LowPass | None = None
+    own: Mapping[str, LowPass | None] = field(default_factory=dict)
+    known: bool = False
+
+    def of(self, channel: str) -> LowPass | None:
+        """Give the filter of one channel."""
+        if channel in self.own:
+            return self.own[channel]
+        for pattern, lowpass in self.own.items():
+            if fnmatch.fnmatchcase(channel, pattern):
+                return lowpass
+        return self.every
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run of a campaign.
+
+    Attributes:
+        name: of the file without its suffix; with the window where a file is used more than once.
+        role: "fit", "repeat" (same motion again) or "holdout" (never fitted, never screened).
+        record: the channels within the window, SI.
+        rest_before: pause since the run before [s]; None where the campaign does not say.
+        window: (start, end) in the file's time [s]; None for the whole file.
+        file: as campaign.toml names it.
+        sha256: of the file.
+    """
+
+    name: str
+    role: str
+    record: Record
+    rest_before: float | None
+    window: tuple[float, float] | None
+    file: str
+    sha256: str
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """Runs of one specimen.
+
+    Attributes:
+        name: as campaign.toml says.
+        rig: name of the rig, or path of its MJCF file as written.
+        specimen: rated values of the rig, with what [specimen] knows better.
+        logger: what the logger did.
+        runs: in the order in which they were made.
+        folder: where campaign.toml lies.
+        known: values that [specimen] gives, name -> SI; all other values are only rated.
+        notes: what a user should know of the reading, in words: columns not used, assumptions made.
+    """
+
+    name: str
+    rig: str
+    specimen: Specimen
+    logger: Logger
+    runs: tuple[Run, ...]
+    folder: Path
+    known: Mapping[str, float] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+    def with_role(self, *roles: str) -> tuple[Run, ...]:
+        """Give the runs that have one of these roles."""
+        return tuple(run for run in self.runs if run.role in roles)
+
+    def run(self, name: str) -> Run:
+        """Give a run by name.
+
+        Raises:
+            SettingError: no run has it.
+        """
+        for run in self.runs:
+            if run.name == name:
+                return run
+        raise SettingError(f"campaign {self.name} has no run {name!r}; it has: {', '.join(r.name for r in self.runs)}")
+
+    def with_records(self, records: Mapping[str, Record], note: str) -> "Campaign":
+        """Give a campaign with other records for some runs, and say so in its notes."""
+        runs = tuple(replace(run, record=records.get(run.name, run.record)) for run in self.runs)
+        return replace(self, runs=runs, notes=(*self.notes, note))

@@ -1,0 +1,226 @@
+"""Read a campaign: campaign.toml and its data files, into runs in SI."""
+
+import hashlib
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.campaign.campaign import Campaign, Run
+from slipwise.campaign.derived import evaluate
+from slipwise.campaign.same_specimen import check_same_specimen
+from slipwise.campaign.settings import ColumnMap, RunSettings, Settings, read_settings
+from slipwise.campaign.table import Table, open_table
+from slipwise.campaign.untouched import check_untouched
+from slipwise.channels import CHANNELS, channel
+from slipwise.errors import InputError, UnitError
+from slipwise.record import Record
+from slipwise.rig import Specimen, load_specimen
+from slipwise.units import affine
+
+Array = NDArray[np.float64]
+#: Our own headers: "pad_A_N [kN]".
+HEADER = re.compile(r"^(?P<name>[A-Za-z]\w*)\s*(?:\[(?P<unit>[^\]]*)\])?$")
+
+
+@dataclass(frozen=True)
+class _File:
+    """A data file as channels in SI, before any window."""
+
+    time: Array
+    channels: Mapping[str, Array]
+    sha256: str
+    notes: tuple[str, ...]
+
+
+def load_campaign(folder: Path | str) -> Campaign:
+    """Read a campaign.
+
+    Args:
+        folder: with campaign.toml and the data files.
+
+    Raises:
+        InputError: a file, column or window that is missing, or data that cannot be used.
+        UnitError: a unit that is missing, unknown or of the wrong dimension; names file, column and the cure.
+        UnknownNameError: a key, channel, role or rig that does not exist; names the nearest ones.
+    """
+    folder = Path(folder)
+    if not folder.is_dir():
+        raise InputError(f"{folder}: no such folder; a campaign is a folder with campaign.toml and data files")
+    settings = read_settings(folder / "campaign.toml")
+    specimen = load_specimen(settings.rig, folder)
+    files: dict[str, _File] = {}
+    runs: list[Run] = []
+    for run in settings.runs:
+        if run.file not in files:
+            files[run.file] = _read_file(folder / run.file, settings)
+        runs.append(_run(run, files[run.file], settings))
+    _check_names(runs)
+    check_untouched(runs)
+    notes = list(dict.fromkeys(note for file in files.values() for note in file.notes))
+    campaign = Campaign(
+        name=settings.name,
+        rig=settings.rig,
+        specimen=_better_known(specimen, settings.specimen),
+        logger=settings.logger,
+        runs=tuple(runs),
+        folder=folder,
+        known={name: value for name, value in settings.specimen.items() if isinstance(value, float)},
+    )
+    return replace(campaign, notes=(*notes, *check_same_specimen(campaign)))
+
+
+def _better_known(specimen: Specimen, known: Mapping[str, float | str]) -> Specimen:
+    values: dict[str, object] = dict(known)
+    if "buffer_stiffness" in values:
+        values["buffer_stiffness"] = (values["buffer_stiffness"],) * len(specimen.buffer_stiffness)
+    sources = {**specimen.sources, **dict.fromkeys(known, "campaign.toml")}
+    return replace(specimen, **values, sources=sources)  # type: ignore[arg-type]
+
+
+def _read_file(path: Path, settings: Settings) -> _File:
+    table = open_table(path)
+    chosen, notes = _choose(table, settings.columns)
+    columns = table.columns([i for i, _ in chosen])
+    time: Array | None = None
+    channels: dict[str, Array] = {}
+    for (i, mapped), values in zip(chosen, columns, strict=True):
+        factor, offset = _to_si(path, table.headers[i], mapped)
+        converted = mapped.sign * (factor * values + offset)
+        if mapped.channel == "time":
+            time = converted
+        else:
+            channels[mapped.channel] = converted
+    if time is None:
+        raise InputError(
+            f"{path.name}: no column holds the time; its columns are {', '.join(map(repr, table.headers))}; name a "
+            'column "time [s]" or map one in [columns] with channel = "time"'
+        )
+    _check_time(path.name, time)
+    for name, value in settings.constants.items():
+        if name in channels:
+            raise InputError(f"{path.name}: {name} is both a column and one of [constants]; remove one of them")
+        channels[name] = np.full(len(time), value)
+    for name, expression in settings.derived.items():
+        if name in channels:
+            raise InputError(f"{path.name}: {name} is both recorded and one of [derived]; remove one of them")
+        channels[name] = evaluate(expression, {"time": time, **channels}, name, f"[derived] {name} ({path.name})")
+    return _File(time, channels, _sha256(path), tuple(notes))
+
+
+def _choose(table: Table, mapped: Sequence[ColumnMap]) -> tuple[list[tuple[int, ColumnMap]], list[str]]:
+    """Decide which column is which channel, and say which ones are not used."""
+    name = table.path.name
+    chosen: list[tuple[int, ColumnMap]] = []
+    notes: list[str] = []
+    by_header = {_plain(entry.header): entry for entry in mapped}
+    for i, header in enumerate(table.headers):
+        entry = by_header.get(_plain(header))
+        if entry is None:
+            match = HEADER.match(_plain(header))
+            if match is None or not _is_channel(match["name"]):
+                notes.append(_not_used(header, match["name"] if match else header))
+                continue
+            unit = match["unit"]
+            if unit is None:
+                raise UnitError(
+                    f"{name}: column {header!r} has no unit; write it in brackets, for example "
+                    f"'{match['name']} [{channel(match['name']).shown_in}]'"
+                )
+            entry = ColumnMap(header, match["name"], unit, 1)
+        for k, other in chosen:
+            if other.channel == entry.channel:
+                raise InputError(
+                    f"{name}: the channel {entry.channel} stands in two columns, {table.headers[k]!r} (number {k + 1}) "
+                    f"and {header!r} (number {i + 1}); keep one of them"
+                )
+        chosen.append((i, entry))
+    here = {_plain(header) for header in table.headers}
+    for entry in mapped:
+        if _plain(entry.header) not in here:
+            near = get_close_matches(entry.header, table.headers, n=3, cutoff=0.4) or table.headers
+            raise InputError(
+                f"{name}: the column {entry.header!r} of [columns] is missing; the file has "
+                f"{', '.join(map(repr, near))}; correct the name in [columns]"
+            )
+    return chosen, notes
+
+
+def _plain(header: str) -> str:
+    return " ".join(header.split())
+
+
+def _is_channel(name: str) -> bool:
+    return name in CHANNELS or (name.endswith("_raw") and name.removesuffix("_raw") in CHANNELS)
+
+
+def _not_used(header: str, name: str) -> str:
+    near = get_close_matches(name, CHANNELS, n=1, cutoff=0.8)
+    hint = f"; did you mean {near[0]}?" if near else ""
+    return f"column {header!r} is no channel and is not used{hint}"
+
+
+def _to_si(path: Path, header: str, mapped: ColumnMap) -> tuple[float, float]:
+    known = channel(mapped.channel)
+    return affine(mapped.unit, known.unit, f"{path.name}, column {header!r} ({mapped.channel})")
+
+
+def _check_time(name: str, time: Array) -> None:
+    if len(time) < 2:
+        raise InputError(f"{name}: {len(time)} row of data is no record")
+    bad = np.flatnonzero(~np.isfinite(time))
+    if len(bad):
+        raise InputError(f"{name}: {len(bad)} values of the time are missing, the first in data row {bad[0] + 1}")
+    back = np.flatnonzero(np.diff(time) <= 0.0)
+    if len(back):
+        k = int(back[0])
+        words = "repeats" if time[k + 1] == time[k] else "runs backwards"
+        raise InputError(
+            f"{name}: the time {words} {len(back)} times, first from {time[k]:.6g} s in data row {k + 1} to "
+            f"{time[k + 1]:.6g} s; every sample needs a later time: cut the file or give a window's own file"
+        )
+
+
+def _check_names(runs: Sequence[Run]) -> None:
+    names = [run.name for run in runs]
+    for run in runs:
+        if names.count(run.name) > 1:
+            raise InputError(f"campaign.toml lists the run {run.name!r} ({run.file}) twice; remove one of them")
+
+
+def _run(run: RunSettings, file: _File, settings: Settings) -> Run:
+    files = {other.file for other in settings.runs}
+    stem = Path(run.file).stem
+    name = stem if sum(Path(f).stem == stem for f in files) == 1 else str(Path(run.file).with_suffix(""))
+    shared = sum(other.file == run.file for other in settings.runs) > 1
+    time = file.time
+    inside = slice(0, len(time))
+    if run.window is not None:
+        start, end = run.window
+        slack = 1.5 * float(np.median(np.diff(time)))
+        if start < time[0] - slack or end > time[-1] + slack:
+            raise InputError(
+                f"{run.file}: the window from {start:g} s to {end:g} s lies outside the data, which run from "
+                f"{time[0]:g} s to {time[-1]:g} s"
+            )
+        inside = slice(int(np.searchsorted(time, start)), int(np.searchsorted(time, end, side="right")))
+        name = f"{name} {start:g}-{end:g} s" if shared else name
+    channels = {key: values[inside] for key, values in file.channels.items()}
+    for key, values in channels.items():
+        bad = np.flatnonzero(~np.isfinite(values))
+        if len(bad):
+            raise InputError(
+                f"{run.file}: {key} has {len(bad)} missing values, the first at {time[inside][bad[0]]:g} s; cut "
+                "them off with a window, or fill them where that is honest"
+            )
+    record = Record(time[inside], channels, {"file": run.file, "sha256": file.sha256})
+    return Run(name, run.role, record, run.rest_before, run.window, run.file, file.sha256)
+
+
+def _sha256(path: Path) -> str:
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()

@@ -1,0 +1,80 @@
+"""All runs of a campaign must be of one specimen: weight and lever of inertia show it without a friction law."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from slipwise.campaign.campaign import Campaign, Run
+from slipwise.errors import InputError
+from slipwise.loads import load_modes
+from slipwise.record import Record
+
+#: Largest difference between runs of one specimen: gauges drift, seating changes [1].
+_WEIGHT = 0.10
+_LEVER = 0.35
+#: The weight differs more than this from the rig's: another unit, another specimen [1].
+_RATED = 0.30
+#: Pitch says nothing of the lever while the girder accelerates less than this (standard deviation) [m/s^2].
+_MOVING = 0.3
+
+
+def check_same_specimen(campaign: Campaign) -> tuple[str, ...]:
+    """Refuse runs of different rigs, and give notes on runs that differ in channels or sampling.
+
+    Raises:
+        InputError: weight or lever of the weight differ between runs by more than one specimen can.
+    """
+    notes = _different_channels(campaign.runs)
+    weighing = [run for run in campaign.runs if run.record.has_all(*(f"pad_{p}_N" for p in "ABCD"))]
+    if not weighing or not campaign.specimen.free:
+        return tuple(notes)
+    weights = [(run, float(np.median(load_modes(run.record.stacked("pad_{}_N")).heave))) for run in weighing]
+    _compare(weights, _WEIGHT, "the four load cells carry", "kN", 1e3)
+    levers = [(run, lever) for run in weighing if (lever := _lever(run.record)) is not None]
+    _compare(levers, _LEVER, "inertia of the girder acts at a lever of", "of the pad spacing", 1.0)
+    typical = float(np.median([weight for _, weight in weights]))
+    rated = campaign.specimen.weight
+    if abs(typical / rated - 1.0) > _RATED:
+        notes.append(
+            f"the load cells carry {typical / 1e3:.3g} kN together, but the girder of {campaign.rig} weighs "
+            f"{rated / 1e3:.3g} kN: check the units, the rig, or give its mass in [specimen]"
+        )
+    return tuple(notes)
+
+
+def _different_channels(runs: Sequence[Run]) -> list[str]:
+    notes = []
+    every = set.union(*(set(run.record.channels) for run in runs))
+    for run in runs:
+        if missing := sorted(every - set(run.record.channels)):
+            notes.append(f"{run.name} has no {', '.join(missing)}, which other runs have")
+    steps = {run.name: run.record.dt for run in runs}
+    if max(steps.values()) > 1.01 * min(steps.values()):
+        rates = ", ".join(f"{name} {1.0 / dt:.4g} Hz" for name, dt in steps.items())
+        notes.append(f"runs are sampled at different rates: {rates}")
+    return notes
+
+
+def _lever(record: Record) -> float | None:
+    """Height of the centre of gravity over pad spacing, from the pitch of the loads; None where it cannot be seen."""
+    if not record.has_all("girder_ax", "slip_x") or record["girder_ax"].std() < _MOVING:
+        return None
+    modes = load_modes(record.stacked("pad_{}_N"))
+    weight = float(np.median(modes.heave))
+    columns = np.stack(
+        [record["girder_ax"] * weight / 9.80665, record["slip_x"] * weight, np.ones(len(record))], axis=1
+    )
+    slope = np.linalg.lstsq(columns, modes.pitch, rcond=None)[0][0]
+    return float(-slope / 2.0)
+
+
+def _compare(values: Sequence[tuple[Run, float]], apart: float, words: str, unit: str, scale: float) -> None:
+    if len(values) < 2:
+        return
+    middle = float(np.median([value for _, value in values]))
+    for run, value in values:
+        if abs(value - middle) > apart * abs(middle):
+            raise InputError(
+                f"runs of different rigs in one campaign: in {run.name!r} {words} {value / scale:.3g} {unit}, in the "
+                f"others {middle / scale:.3g}; put them into campaigns of their own, or correct the units of {run.file}"
+            )

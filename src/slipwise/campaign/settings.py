@@ -1,0 +1,223 @@
+"""campaign.toml, read and checked, before any data file is opened."""
+
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+from slipwise.campaign.campaign import ROLES, Logger
+from slipwise.channels import CHANNELS, channel
+from slipwise.errors import InputError, SettingError, unknown_name
+from slipwise.rig import Specimen
+from slipwise.signals import LowPass
+from slipwise.units import quantity
+
+_TOP = ("name", "rig", "description", "specimen", "columns", "constants", "derived", "logger", "run")
+_RUN = ("file", "role", "window", "rest_before", "description")
+_COLUMN = ("channel", "unit", "sign")
+_LOWPASS = ("lowpass", "order", "phase")
+#: SI unit of what [specimen] may give: the scalar fields of a Specimen.
+SPECIMEN_UNITS: Mapping[str, str] = {
+    "mass": "kg",
+    "centre_height": "m",
+    "centre_x": "m",
+    "centre_y": "m",
+    "pad_radius": "m",
+    "pad_stiffness": "N/m",
+    "pad_damping": "N*s/m",
+    "plastic_pressure": "Pa",
+    "shear_strength": "Pa",
+    "buffer_stiffness": "N/m",
+    "buffer_height": "m",
+    "bending_mass": "kg",
+    "bending_frequency": "Hz",
+    "bending_damping": "1",
+    "gravity": "m/s^2",
+}
+#: What [specimen] may choose by a word.
+_SPECIMEN_WORDS = ("pads_on", "stick_capacity")
+
+
+@dataclass(frozen=True)
+class ColumnMap:
+    """One line of [columns]: where a channel is found in the files.
+
+    Attributes:
+        header: of the file's column.
+        channel: name.
+        unit: as written.
+        sign: +1 or -1.
+    """
+
+    header: str
+    channel: str
+    unit: str
+    sign: int
+
+
+@dataclass(frozen=True)
+class RunSettings:
+    """One [[run]]; times in [s]."""
+
+    file: str
+    role: str
+    window: tuple[float, float] | None
+    rest_before: float | None
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What campaign.toml says; quantities in SI."""
+
+    name: str
+    rig: str
+    specimen: Mapping[str, float | str]
+    columns: tuple[ColumnMap, ...]
+    constants: Mapping[str, float]
+    derived: Mapping[str, str]
+    logger: Logger
+    runs: tuple[RunSettings, ...]
+
+
+def read_settings(path: Path) -> Settings:
+    """Read and check campaign.toml.
+
+    Raises:
+        InputError: no file, no TOML, or something that is needed is missing.
+        UnknownNameError: a key, role or channel that does not exist, with the nearest ones.
+        UnitError: a quantity without a unit or of the wrong dimension.
+    """
+    if not path.is_file():
+        raise InputError(f"{path.parent} has no campaign.toml; `slipwise init {path.parent}` drafts one from its files")
+    try:
+        content = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: not valid TOML: {error}") from None
+    _keys(content, _TOP, f"{path.name}")
+    for needed, example in (("rig", '"bridge1"'), ("run", '[[run]] with file = "..." and role = "fit"')):
+        if needed not in content:
+            raise InputError(f"{path}: {needed!r} is missing; write for example {example}")
+    tables = ("specimen", "columns", "constants", "derived", "logger")
+    part = {key: _table(content.get(key, {}), f"[{key}] of {path.name}") for key in tables}
+    runs = content["run"]
+    if not isinstance(runs, list) or not runs:
+        raise InputError(f"{path}: runs are written as [[run]] with double brackets, one for each run")
+    return Settings(
+        name=_text(content.get("name", path.parent.name), "name", path.name),
+        rig=_text(content["rig"], "rig", path.name),
+        specimen=_specimen(part["specimen"], f"[specimen] of {path.name}"),
+        columns=tuple(_column(h, c, f"[columns] of {path.name}") for h, c in part["columns"].items()),
+        constants={
+            name: quantity(value, channel(name).unit, f"[constants] of {path.name}, {name!r}")
+            for name, value in part["constants"].items()
+        },
+        derived={name: _derived(name, text, path.name) for name, text in part["derived"].items()},
+        logger=_logger(part["logger"], f"[logger] of {path.name}") if "logger" in content else Logger(),
+        runs=tuple(_run(run, f"[[run]] number {i + 1} of {path.name}") for i, run in enumerate(runs)),
+    )
+
+
+def _keys(given: Iterable[str], known: Iterable[str], where: str) -> None:
+    for key in given:
+        if key not in known:
+            raise unknown_name(f"key in {where}", key, known)
+
+
+def _table(value: Any, where: str) -> dict[str, Any]:
+    if not isinstance(value, dict):
+        raise InputError(f"{where} must be a table of name = value, not {value!r}")
+    return value
+
+
+def _text(value: Any, key: str, where: str) -> str:
+    if not isinstance(value, str) or not value.strip():
+        raise InputError(f"{where}: {key} must be a text in quotes, not {value!r}")
+    return value
+
+
+def _specimen(part: Mapping[str, Any], where: str) -> dict[str, float | str]:
+    names = {f.name for f in fields(Specimen)}
+    _keys(part, [n for n in (*SPECIMEN_UNITS, *_SPECIMEN_WORDS) if n in names], where)
+    return {
+        key: _text(value, key, where)
+        if key in _SPECIMEN_WORDS
+        else quantity(value, SPECIMEN_UNITS[key], f"{where}, {key!r}")
+        for key, value in part.items()
+    }
+
+
+def _column(header: str, content: Any, where: str) -> ColumnMap:
+    here = f"{where}, column {header!r}"
+    part = _table(content, here)
+    _keys(part, _COLUMN, here)
+    if "channel" not in part:
+        raise InputError(f'{here}: \'channel\' is missing; write for example {{ channel = "slip_x", unit = "mm" }}')
+    name = _text(part["channel"], "channel", here)
+    known = channel(name)
+    if "unit" not in part:
+        raise InputError(f"{here}: 'unit' is missing; {name} is a channel in a unit like '{known.shown_in}'")
+    sign = part.get("sign", 1)
+    if sign not in (1, -1):
+        raise SettingError(f"{here}: sign = {sign!r} cannot be; possible: 1, -1")
+    return ColumnMap(header, name, str(part["unit"]), int(sign))
+
+
+def _derived(name: str, text: Any, where: str) -> str:
+    channel(name)
+    return _text(text, name, f"[derived] of {where}")
+
+
+def _logger(part: Mapping[str, Any], where: str) -> Logger:
+    own = {key: value for key, value in part.items() if isinstance(value, dict)}
+    for pattern in own:
+        plain = pattern.replace("*", "A")
+        if "*" not in pattern and pattern not in CHANNELS:
+            raise unknown_name(f"channel in {where}", pattern, (*CHANNELS, *_LOWPASS))
+        if "*" in pattern and plain not in CHANNELS and pattern.replace("*", "1") not in CHANNELS:
+            raise unknown_name(f"pattern of channels in {where}", pattern, ("pad_*_N", "pad_*_Fx", "buffer_*_Fx"))
+    _keys([key for key in part if key not in own], _LOWPASS, where)
+    every = _lowpass({key: value for key, value in part.items() if key not in own}, where)
+    return Logger(every, {key: _lowpass(value, f"{where}, {key!r}") for key, value in own.items()}, known=True)
+
+
+def _lowpass(part: Mapping[str, Any], where: str) -> LowPass | None:
+    _keys(part, _LOWPASS, where)
+    if "lowpass" not in part:
+        if part:
+            raise InputError(f"{where}: 'lowpass' is missing beside {', '.join(part)}; write for example \"100 Hz\"")
+        return None
+    if part["lowpass"] == "none":
+        return None
+    order = part.get("order", LowPass.order)
+    if not isinstance(order, int):
+        raise SettingError(f"{where}: order = {order!r} must be a whole number")
+    frequency = quantity(part["lowpass"], "Hz", f"{where}, 'lowpass'")
+    phase = part.get("phase", LowPass.phase)
+    if phase not in ("zero", "causal"):
+        raise unknown_name(f"phase in {where}", str(phase), ("zero", "causal"))
+    return LowPass(frequency, order, phase)
+
+
+def _run(content: Any, where: str) -> RunSettings:
+    part = _table(content, where)
+    _keys(part, _RUN, where)
+    for needed, example in (("file", '"quake_hv.csv"'), ("role", '"fit"')):
+        if needed not in part:
+            raise InputError(f"{where}: {needed!r} is missing; write for example {needed} = {example}")
+    role = _text(part["role"], "role", where)
+    if role not in ROLES:
+        raise unknown_name(f"role of a run ({where})", role, ROLES)
+    window = None
+    if "window" in part:
+        ends = part["window"]
+        if not isinstance(ends, list) or len(ends) != 2:
+            raise InputError(f'{where}: a window is two times, for example window = ["2 s", "30 s"], not {ends!r}')
+        start, end = (quantity(time, "s", f"{where}, 'window'") for time in ends)
+        if not start < end:
+            raise SettingError(f"{where}: the window ends at {end:g} s, before its start at {start:g} s")
+        window = (start, end)
+    rest = quantity(part["rest_before"], "s", f"{where}, 'rest_before'") if "rest_before" in part else None
+    if rest is not None and rest < 0.0:
+        raise SettingError(f"{where}: rest_before = {rest:g} s cannot be below zero")
+    return RunSettings(_text(part["file"], "file", where), role, window, rest)

@@ -1,0 +1,309 @@
+"""Measured states: what laws are fed with. Slip, its velocity at the sliding plane, loads, forces, accelerations.
+
+Velocity is fused from slip gauge and accelerometers. The accelerometer sits at the centre of gravity, h above the
+sliding plane, and the girder pitches on its pads by t = (N_A + N_C - N_B - N_D) / (2 k b), so the motion that is fused
+is slip + h t, and h dt/dt is taken off the velocity again. Without it the pads' pitch mode stays in the velocity: some
+mm/s after each reversal.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.campaign.campaign import Campaign, Run
+from slipwise.channels import PAD_SIGNS, PADS
+from slipwise.errors import InputError
+from slipwise.loads import load_modes, vertical_acceleration
+from slipwise.record import Record
+from slipwise.rig import Specimen
+from slipwise.signals import Fused, LowPass, align, derivative, fuse
+from slipwise.signals.resample import resampled, uniform_time
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+#: Slower than this for `_STUCK_SAMPLES` samples is stuck, faster than `_FAST` is sliding [m/s].
+_STUCK = 2e-3
+_STUCK_SAMPLES = 6
+_FAST = 2e-2
+#: For a slow slider the limits are these parts of its usual speed (95 % of samples are slower) [1].
+_STUCK_PART, _FAST_PART = 0.05, 0.2
+#: A pad with less than this part of its share at rest is lifting [1], and rings this long after it [s].
+_LIFTED = 0.05
+_RINGING = 0.2
+#: Samples at the ends where filters and smoother see one side only.
+_ENDS = 8
+
+
+@dataclass(frozen=True)
+class States:
+    """Measured states of one run on a uniform time axis, lag of a causal logger taken out.
+
+    p is the number of pads with a force or a load, in the order A to D; pads that were not measured hold NaN.
+
+    Attributes:
+        specimen: of the campaign.
+        time: (n,) [s].
+        slip: (n, 2) girder minus table at the sliding plane, smoothed [m]; y is 0 where it was not measured.
+        velocity: (n, 2) of the slip [m/s].
+        yaw: (n,) girder minus table [rad]; 0 where it was not measured.
+        yaw_rate: (n,) [rad/s].
+        load: (n, p) compression [N].
+        force: (n, p, 2) of the girder on the pads [N]; NaN where it was not measured.
+        girder_acceleration: (n, 3) at the centre of gravity [m/s^2]; NaN where it was not measured.
+        table_acceleration: (n, 3) [m/s^2]; NaN where it was not measured.
+        stuck: (n,) slower than 2 mm/s for 6 samples.
+        near_reversal: (n,) not stuck, but slower than 2 cm/s, or within half a period of the logger's filter of a
+            change of direction.
+        uplift: (n,) a pad is near zero load, or was within 0.2 s.
+        valid: (n,) not at the ends of the run, and not in a gap of the samples.
+        has_y: whether slip across was measured.
+        has_yaw: whether yaw was measured.
+        lowpass: channel -> filter that a prediction of it must go through to be comparable; None: not known, or none.
+        velocity_error: (2,) expected standard deviation of the velocity [m/s].
+        record: all channels of the run on the same axis, lag taken out, not smoothed.
+        missing: what could not be made for want of a channel, in words.
+    """
+
+    specimen: Specimen
+    time: Array
+    slip: Array
+    velocity: Array
+    yaw: Array
+    yaw_rate: Array
+    load: Array
+    force: Array
+    girder_acceleration: Array
+    table_acceleration: Array
+    stuck: Mask
+    near_reversal: Mask
+    uplift: Mask
+    valid: Mask
+    has_y: bool
+    has_yaw: bool
+    lowpass: Mapping[str, LowPass | None]
+    velocity_error: tuple[float, float]
+    record: Record
+    missing: tuple[str, ...]
+
+    @property
+    def dt(self) -> float:
+        """Sampling step [s]."""
+        return self.record.dt
+
+    @property
+    def sliding(self) -> Mask:
+        """Samples that are neither stuck nor near a reversal (n,)."""
+        return ~self.stuck & ~self.near_reversal
+
+    @property
+    def usable(self) -> Mask:
+        """Samples on which a residual means something: valid and no uplift (n,)."""
+        return self.valid & ~self.uplift
+
+    @property
+    def pad_velocity(self) -> Array:
+        """Velocity of the girder over each pad (n, p, 2) [m/s]: yaw moves pads apart from the middle."""
+        return self.velocity[:, None, :] + self.yaw_rate[:, None, None] * self._across
+
+    @property
+    def pad_slip(self) -> Array:
+        """Slip of the girder over each pad (n, p, 2) [m]."""
+        return self.slip[:, None, :] + self.yaw[:, None, None] * self._across
+
+    @property
+    def _across(self) -> Array:
+        """What a unit of yaw adds to each pad's slip (1, p, 2) [m]: -y, +x."""
+        places = np.array(self.specimen.pad_places[: self.load.shape[1]], dtype=float)
+        return np.stack([-places[:, 1], places[:, 0]], axis=1)[None]
+
+
+def measured_states(run: Run, campaign: Campaign) -> States:
+    """Turn a run into the states that laws are fed with.
+
+    Args:
+        run: of the campaign.
+        campaign: gives specimen and logger; replace its logger by the audit's estimate where it is not known.
+
+    Raises:
+        InputError: slip_x was not measured, or neither load nor pressure of a pad.
+    """
+    if "slip_x" not in run.record:
+        raise InputError(
+            f"{run.file}: slip_x is needed to know how the girder moves; it has {', '.join(run.record.channels)}"
+        )
+    record, measured, lowpass = _uniform(run, campaign)
+    specimen = campaign.specimen
+    missing: list[str] = []
+    pads = [pad for pad in PADS if any(f"pad_{pad}_{kind}" in record for kind in ("N", "P", "Fx"))]
+    load = _loads(record, specimen, pads, run, missing)
+    along = _along(record, specimen, missing)
+    across = _across(record, missing)
+    yaw = fuse(record.time, record["yaw"]) if "yaw" in record else None
+    if yaw is None and specimen.free:
+        missing.append("yaw: velocities of the pads are taken as equal")
+    velocity = np.stack([along.velocity, across.velocity if across else np.zeros(len(record))], axis=1)
+    speed = np.hypot(velocity[:, 0], velocity[:, 1])
+    stuck = _stuck(speed)
+    slowest = next((f for f in lowpass.values() if f is not None), None)
+    nothing = np.zeros(len(record))
+    return States(
+        specimen=specimen,
+        time=record.time,
+        slip=np.stack([along.position, across.position if across else nothing], axis=1),
+        velocity=velocity,
+        yaw=yaw.position if yaw else nothing,
+        yaw_rate=yaw.velocity if yaw else nothing,
+        load=load,
+        force=_forces(record, pads),
+        girder_acceleration=_accelerations(record, "girder"),
+        table_acceleration=_accelerations(record, "table"),
+        stuck=stuck,
+        near_reversal=~stuck & _slow(speed, velocity[:, 0], record.dt, slowest),
+        uplift=_uplift(load, record.dt, pads),
+        valid=measured & _inside(len(record)),
+        has_y=across is not None,
+        has_yaw=yaw is not None,
+        lowpass=lowpass,
+        velocity_error=(along.velocity_error, across.velocity_error if across else 0.0),
+        record=record,
+        missing=tuple(missing),
+    )
+
+
+def _uniform(run: Run, campaign: Campaign) -> tuple[Record, Mask, dict[str, LowPass | None]]:
+    """Put all channels on a uniform axis and take the lag of causal filters out."""
+    axis = uniform_time(run.record.time)
+    dt = float(np.median(np.diff(axis.time)))
+    channels: dict[str, Array] = {}
+    lowpass: dict[str, LowPass | None] = {}
+    for name, values in run.record.channels.items():
+        placed = resampled(run.record.time, values, axis.time) if axis.moved else values
+        channels[name], lowpass[name] = align(placed, dt, campaign.logger.of(name))
+    return Record(axis.time, channels, run.record.provenance), axis.measured, lowpass
+
+
+def _loads(record: Record, specimen: Specimen, pads: list[str], run: Run, missing: list[str]) -> Array:
+    columns = []
+    for pad in pads:
+        if f"pad_{pad}_N" in record:
+            columns.append(record[f"pad_{pad}_N"])
+        elif f"pad_{pad}_P" in record:
+            columns.append(record[f"pad_{pad}_P"] * specimen.pad_area)
+            missing.append(f"pad_{pad}_N: taken as pressure times the rig's pad area")
+        else:
+            missing.append(f"pad_{pad}_N: its load is not known")
+            columns.append(np.full(len(record), np.nan))
+    if not columns:
+        raise InputError(
+            f"{run.file}: no pad has a load, a pressure or a force; it has {', '.join(run.record.channels)}"
+        )
+    return np.stack(columns, axis=1)
+
+
+def _forces(record: Record, pads: list[str]) -> Array:
+    nothing = np.full(len(record), np.nan)
+    return np.stack(
+        [
+            np.stack(
+                [record[f"pad_{pad}_F{axis}"] if f"pad_{pad}_F{axis}" in record else nothing for axis in "xy"], axis=1
+            )
+            for pad in pads
+        ],
+        axis=1,
+    )
+
+
+def _accelerations(record: Record, body: str) -> Array:
+    columns = [record[n] if (n := f"{body}_a{axis}") in record else np.full(len(record), np.nan) for axis in "xyz"]
+    if body == "girder" and record.has_all("girder_az_1", "girder_az_2"):
+        columns[2] = vertical_acceleration(record)
+    return np.stack(columns, axis=1)
+
+
+def girder_pitch(record: Record, specimen: Specimen) -> Array | None:
+    """Give the girder's pitch on its pads (n,) [rad], from their loads; None where a load is missing.
+
+    Positive with the +x pads shortened: then the centre of gravity stands h t further to +x than the sliding plane.
+    """
+    if not record.has_all(*(f"pad_{pad}_N" for pad in PADS)) or len(specimen.pads) != len(PADS):
+        return None
+    pitch = load_modes(record.stacked("pad_{}_N")).pitch
+    return (pitch - np.median(pitch)) / (len(PADS) * specimen.pad_stiffness * specimen.half_spacing[0])
+
+
+def _along(record: Record, specimen: Specimen, missing: list[str]) -> Fused:
+    recorded = record["slip_vx"] if "slip_vx" in record else None
+    if not record.has_all("girder_ax", "table_ax"):
+        if specimen.free:
+            missing.append("girder_ax and table_ax: velocity is made from the slip gauge alone")
+        return fuse(record.time, record["slip_x"], velocity=recorded)
+    relative = record["girder_ax"] - record["table_ax"]
+    pitch = girder_pitch(record, specimen)
+    if pitch is None:
+        return fuse(record.time, record["slip_x"], relative, recorded)
+    lean = specimen.centre_height * pitch
+    fused = fuse(record.time, record["slip_x"] + lean, relative, recorded)
+    return Fused(
+        position=fused.position - lean,
+        velocity=fused.velocity - derivative(lean, record.dt),
+        acceleration=fused.acceleration,
+        bias=fused.bias,
+        velocity_error=fused.velocity_error,
+        position_noise=fused.position_noise,
+        acceleration_noise=fused.acceleration_noise,
+    )
+
+
+def _across(record: Record, missing: list[str]) -> Fused | None:
+    if "slip_y" not in record:
+        missing.append("slip_y: motion across is taken as zero")
+        return None
+    recorded = record["slip_vy"] if "slip_vy" in record else None
+    relative = record["girder_ay"] - record["table_ay"] if record.has_all("girder_ay", "table_ay") else None
+    return fuse(record.time, record["slip_y"], relative, recorded)
+
+
+def _stuck(speed: Array) -> Mask:
+    limit = min(_STUCK, _STUCK_PART * float(np.quantile(speed, 0.95)))
+    return _long_enough(speed < limit, _STUCK_SAMPLES)
+
+
+def _long_enough(mask: Mask, count: int) -> Mask:
+    """Keep only stretches of at least this many samples."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(int)))
+    kept = np.zeros(len(mask), dtype=bool)
+    for start, end in zip(edges[::2], edges[1::2], strict=True):
+        kept[start:end] = end - start >= count
+    return kept
+
+
+def _slow(speed: Array, velocity: Array, dt: float, lowpass: LowPass | None) -> Mask:
+    """Tell where the slider is slow or has just turned, (n,)."""
+    slow = speed < min(_FAST, _FAST_PART * float(np.quantile(speed, 0.95)))
+    turns = np.zeros(len(speed), dtype=bool)
+    turns[1:] = np.signbit(velocity[1:]) != np.signbit(velocity[:-1])
+    reach = int(np.ceil(0.5 / (lowpass.frequency * dt))) if lowpass else 2
+    return slow | _spread(turns, reach, reach)
+
+
+def _spread(mask: Mask, before: int, after: int) -> Mask:
+    """Make every true sample true for its neighbours too."""
+    kernel = np.ones(before + after + 1)
+    return np.convolve(mask.astype(float), kernel)[before : before + len(mask)] > 0.5
+
+
+def _uplift(load: Array, dt: float, pads: list[str]) -> Mask:
+    """Tell where a pad is lifting or still rings from it (naming: pitch is then 700 times its floor)."""
+    if len(pads) < len(PAD_SIGNS) or not np.isfinite(load).all():
+        return np.zeros(len(load), dtype=bool)
+    lifted = np.any(load < _LIFTED * np.median(load, axis=0), axis=1)
+    return _spread(np.asarray(lifted), 1, int(np.ceil(_RINGING / dt)))
+
+
+def _inside(count: int) -> Mask:
+    inside = np.ones(count, dtype=bool)
+    inside[:_ENDS] = False
+    inside[-_ENDS:] = False
+    return inside

@@ -1,0 +1,65 @@
+"""Put a signal on a uniform time axis."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from slipwise.signals.ends import Array
+
+#: Steps that differ by less than this are uniform [1].
+_UNIFORM = 0.01
+#: A clock that is only written coarsely stays this close to a straight line, in steps.
+_ROUNDED = 0.75
+#: A step longer than this many median steps is a gap.
+_GAP = 1.6
+
+
+@dataclass(frozen=True)
+class UniformTime:
+    """A uniform time axis for samples that may not have been quite so.
+
+    Attributes:
+        time: (m,) uniform [s].
+        measured: (m,) False where the samples have a gap.
+        moved: whether values must be interpolated to it; if not, sample i stays sample i.
+    """
+
+    time: Array
+    measured: NDArray[np.bool_]
+    moved: bool
+
+
+def uniform_time(time: Array) -> UniformTime:
+    """Find the uniform axis behind sampling times.
+
+    Times that are only rounded (10, 20, 31, 41 ms) are put on their straight line; times with gaps or with a rate that
+    changes get a new axis at the median step.
+
+    Args:
+        time: (n,) strictly rising [s].
+    """
+    steps = np.diff(time)
+    dt = float(np.median(steps))
+    everywhere = np.ones(len(time), dtype=bool)
+    if len(steps) == 0 or np.max(np.abs(steps - dt)) <= _UNIFORM * dt:
+        return UniformTime(time, everywhere, moved=False)
+    line = np.polynomial.Polynomial.fit(np.arange(len(time)), time, 1)(np.arange(len(time)))
+    if np.max(np.abs(line - time)) < _ROUNDED * dt:
+        return UniformTime(np.asarray(line), everywhere, moved=False)
+    count = int(np.floor((time[-1] - time[0]) / dt)) + 1
+    new = time[0] + dt * np.arange(count)
+    after = np.clip(np.searchsorted(time, new, side="right"), 1, len(time) - 1)
+    return UniformTime(new, steps[after - 1] <= _GAP * dt, moved=True)
+
+
+def resampled(time: Array, values: Array, new_time: Array) -> Array:
+    """Give values at new times by a cubic spline, constant beyond the ends.
+
+    Args:
+        time: (n,) strictly rising [s].
+        values: (n,).
+        new_time: (m,) [s].
+    """
+    return CubicSpline(time, values)(np.clip(new_time, time[0], time[-1]))
