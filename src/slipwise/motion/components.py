@@ -1,0 +1,193 @@
+"""Three components of a table from the components of one or several files."""
+
+import warnings
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from slipwise.errors import InputError, SlipwiseWarning, UnknownNameError, unknown_name
+from slipwise.motion.baseline import without_baseline
+from slipwise.motion.detect import read_file
+from slipwise.motion.orientation import orientation, plain
+from slipwise.motion.stated import Given
+from slipwise.motion.table_motion import AXES, TableMotion
+from slipwise.motion.trace import Baseline, Trace
+
+#: What a user writes to leave an axis at rest.
+AT_REST = "none"
+
+
+def read_motion(
+    paths: Sequence[str | Path],
+    *,
+    x: str | Path | None = None,
+    y: str | Path | None = None,
+    z: str | Path | None = None,
+    dt: float | None = None,
+    unit: str | None = None,
+    baseline: Baseline | None = None,
+) -> TableMotion:
+    """Read a table motion from files of any of the formats.
+
+    Without `x`, `y`, `z` the names of the components decide: x (shaking direction) is the east-west component, as in
+    the paper (Fig. 6), or else the first horizontal one; y the other horizontal one; z the vertical one. DWN is minus
+    UP: it is reversed. Components keep the sign that the agency gave them otherwise. Components start together; the
+    longer ones lose their ends.
+
+    Args:
+        paths: the files; may be empty if `x`, `y` or `z` name files.
+        x: what shakes in x: a component's name ("EW"), a file, or "none". A leading minus reverses the sign ("-N28W");
+            with a leading sign a component is taken as it stands, so "-DWN" is up, as "DWN" alone is.
+        y: the same across.
+        z: the same upwards.
+        dt: step of files that do not state it [s].
+        unit: unit of acceleration of files that do not state it.
+        baseline: "mean", "linear" or "none"; by default what the format asks for (K-NET and KiK-net: mean).
+
+    Raises:
+        InputError: a file is missing or damaged, the steps differ, or the components cannot be told apart.
+        UnitError: a unit is missing, unknown or of the wrong dimension.
+        UnknownNameError: `x`, `y` or `z` names neither a component nor a file.
+    """
+    given = Given(dt, unit)
+    wanted = {axis: None if choice is None else str(choice) for axis, choice in zip(AXES, (x, y, z), strict=True)}
+    files = [Path(path) for path in paths]
+    read = {file: read_file(file, given) for file in dict.fromkeys(files)}
+    for choice in wanted.values():
+        file = _file_of(choice, read)
+        if file is not None and file not in read:
+            read[file] = read_file(file, given)
+    traces = [trace for group in read.values() for trace in group]
+    if not traces:
+        raise InputError("no motion is given; name a file or a synthetic motion such as sine:2Hz,0.3g")
+    chosen: dict[str, tuple[Trace, int] | None] = {}
+    for axis, choice in wanted.items():
+        if choice is not None and choice.lower() != AT_REST:
+            chosen[axis] = _pick(axis, choice, traces, read)
+        elif choice is not None:
+            chosen[axis] = None
+    taken = [pair[0] for pair in chosen.values() if pair]
+    if files:
+        _fill_by_name(chosen, [trace for trace in traces if not any(trace is other for other in taken)])
+    return _assemble({axis: chosen.get(axis) for axis in AXES}, baseline)
+
+
+def _file_of(choice: str | None, read: dict[Path, list[Trace]]) -> Path | None:
+    """Give the file that a choice names, None if it names none."""
+    for text in (choice, choice[1:] if choice and choice[0] in "+-" else None):
+        if not text:
+            continue
+        named = [file for file in read if file.name == text or file.resolve() == Path(text).resolve()]
+        if len(named) == 1:
+            return named[0]
+        if Path(text).is_file():
+            return Path(text)
+    return None
+
+
+def _pick(axis: str, choice: str, traces: list[Trace], read: dict[Path, list[Trace]]) -> tuple[Trace, int]:
+    """Give the component that a user chose for an axis, and its sign."""
+    signed = choice[0] in "+-" if choice else False
+    bare = choice[1:] if signed else choice
+    file = _file_of(choice, read)
+    candidates = [trace for trace in traces if plain(trace.name) == plain(bare)]
+    where = "give its file instead" if not file else "name the component instead"
+    if file is not None:
+        candidates = read[file]
+    if not candidates:
+        error = unknown_name("component or file", bare, {trace.name for trace in traces})
+        raise UnknownNameError(f"{axis}: {error}")
+    if len(candidates) > 1:
+        raise InputError(
+            f"{axis} = {choice!r} may be {' or '.join(f'{t.name} of {t.source.name}' for t in candidates)}; {where}"
+        )
+    if not signed:
+        return candidates[0], -1 if axis == "z" and orientation(candidates[0].name) == "down" else 1
+    return candidates[0], -1 if choice[0] == "-" else 1
+
+
+def _fill_by_name(chosen: dict[str, tuple[Trace, int] | None], left: list[Trace]) -> None:
+    """Give the axes that the user left open what the components' names say."""
+    where = {id(trace): orientation(trace.name) for trace in left}
+    open_axes = [axis for axis in AXES if axis not in chosen]
+    vertical = [trace for trace in left if where[id(trace)] in ("up", "down", "table z")]
+    unknown = [trace for trace in left if where[id(trace)] == "unknown"]
+    level = [trace for trace in left if trace not in vertical and trace not in unknown]
+    level.sort(key=lambda t: {"table x": 0, "east-west": 1, "horizontal": 2, "table y": 3}[where[id(t)]])
+    if unknown and len(left) == 1 and "x" in open_axes:
+        level, unknown = unknown, []
+    # A horizontal axis that is set to rest may leave its component over; one too many is ambiguous.
+    level_places = 2 - sum(chosen.get(axis) is not None for axis in ("x", "y"))
+    if (
+        (unknown and open_axes)
+        or (len(vertical) > 1 and "z" in open_axes)
+        or (len(level) > level_places and ("x" in open_axes or "y" in open_axes))
+    ):
+        names = ", ".join(f"{trace.name} ({trace.source.name})" for trace in left)
+        raise InputError(
+            f"which component is which cannot be told from these names: {names}; say it with --x, --y and --z, "
+            f"each a component's name, a file, or {AT_REST!r}"
+        )
+    if "z" in open_axes and vertical:
+        chosen["z"] = (vertical[0], -1 if where[id(vertical[0])] == "down" else 1)
+    # table_ay alone stays on y.
+    if "y" in open_axes and level and where[id(level[-1])] == "table y":
+        chosen["y"] = (level.pop(), 1)
+    for axis in ("x", "y"):
+        if axis in open_axes and axis not in chosen and level:
+            chosen[axis] = (level.pop(0), 1)
+
+
+def _assemble(chosen: dict[str, tuple[Trace, int] | None], baseline: Baseline | None) -> TableMotion:
+    """Join the chosen components; unequal ends are cut, unequal steps are refused."""
+    pairs = [pair for pair in chosen.values() if pair is not None]
+    if not pairs:
+        raise InputError("no component is left to shake the table; give --x, --y or --z another value than 'none'")
+    first = pairs[0][0]
+    for trace, _ in pairs:
+        # Together over the whole record, to a tenth of a sample.
+        if abs(trace.dt - first.dt) * len(first.acceleration) > 0.1 * first.dt:
+            raise InputError(
+                f"the components have different steps: {first.name} ({first.source.name}) {first.dt:g} s, "
+                f"{trace.name} ({trace.source.name}) {trace.dt:g} s; resample one of the files"
+            )
+    lengths = {axis: len(pair[0].acceleration) for axis, pair in chosen.items() if pair}
+    length = min(lengths.values())
+    acceleration = np.zeros((length, 3))
+    treatment: list[str] = []
+    names, peaks = [], []
+    for column, axis in enumerate(AXES):
+        pair = chosen[axis]
+        if pair is None:
+            names.append("")
+            peaks.append(None)
+            continue
+        trace, sign = pair
+        values, words = without_baseline(trace.acceleration, baseline or trace.baseline)
+        acceleration[:, column] = sign * values[:length]
+        name = f"-{trace.name}" if sign < 0 else trace.name
+        names.append(name)
+        peaks.append(trace.header_peak)
+        treatment += [f"{axis}: {words}" for words in (*trace.treatment, words, f"{name} drives the table in {axis}")]
+    if max(lengths.values()) > length:
+        counts = ", ".join(f"{axis} {count}" for axis, count in lengths.items())
+        words = f"components of unequal length ({counts} samples): the first {length} of each are used"
+        warnings.warn(f"{first.title}: {words}", SlipwiseWarning, stacklevel=4)
+        treatment.append(words)
+    if chosen["x"] is None and chosen["y"] is None:
+        warnings.warn(
+            f"{first.title}: there is no horizontal component; the table moves only up and down",
+            SlipwiseWarning,
+            stacklevel=4,
+        )
+    sources = dict.fromkeys((trace.source.name, trace.source.sha256) for trace, _ in pairs)
+    return TableMotion(
+        dt=first.dt,
+        acceleration=acceleration,
+        title=" ".join(first.title.split()),
+        components=(names[0], names[1], names[2]),
+        treatment=tuple(treatment),
+        sources=tuple(sources),
+        header_peaks=(peaks[0], peaks[1], peaks[2]),
+    )

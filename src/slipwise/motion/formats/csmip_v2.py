@@ -1,0 +1,93 @@
+"""CSMIP/CESMD Volume 2: for each channel 45 header lines, then acceleration, velocity and displacement.
+
+Two dialects: the newer one states its Fortran format, "in cm/sec2. (8f10.5)"; the older one, in upper case, writes
+"(UNITS: CM/SEC/SEC)" and its columns are 8f10.3. Columns touch. Source: the files' own headers.
+"""
+
+import re
+
+import numpy as np
+
+from slipwise.errors import InputError
+from slipwise.motion.fixed_width import fixed_width, lines_of
+from slipwise.motion.source_file import SourceFile, header_field, number
+from slipwise.motion.stated import Given, acceleration_factor, settle_step, settle_unit
+from slipwise.motion.table_motion import HeaderPeak
+from slipwise.motion.trace import Trace, check_header_peak, half_last_digit
+
+_DATA = re.compile(
+    r"^\s*(?P<count>\d{1,9})\s+points\s+of\s+accel\s+data\s+equally\s+spaced\s+at\s+(?P<dt>[\d.]+)\s*sec\b[.,]*\s*"
+    r"(?:in|\(\s*units:)\s+(?P<unit>[^\s()]+?)[.,]?\s*\)?\s*(?:\((?P<per_line>\d{1,2})f(?P<width>\d{1,2})\.\d+\))?\s*$",
+    re.IGNORECASE,
+)
+_START = re.compile(r"^\s*corrected accelerogram\s.*\bchan\s", re.IGNORECASE)
+_END = re.compile(r"^/&.*end of data", re.IGNORECASE)
+
+
+def recognise(head: bytes) -> bool:
+    """Tell whether the first line is that of a CSMIP channel."""
+    first = head.lstrip().splitlines()[0].lower() if head.strip() else b""
+    return first.startswith(b"corrected accelerogram") and b"chan" in first
+
+
+def read(source: SourceFile, given: Given) -> list[Trace]:
+    """Read the acceleration of every channel of a file.
+
+    Raises:
+        InputError: a header line is missing or odd, a block or a channel is incomplete.
+        UnitError: the unit is none of acceleration.
+    """
+    starts = [i for i, line in enumerate(source.lines) if _START.match(line)]
+    if not starts:
+        raise InputError(f"{source.at(0)}: no line 'Corrected accelerogram ... Chan 1: ...' begins a channel")
+    traces = [
+        _channel(source, given, start, end) for start, end in zip(starts, [*starts[1:], len(source.lines)], strict=True)
+    ]
+    promised = re.search(r"\(\s*(\d+)\s+Chns of", "\n".join(source.lines[:25]), re.IGNORECASE)
+    if promised and int(promised[1]) != len(traces):
+        raise InputError(
+            f"{source.name}: the header promises {promised[1]} channels, {len(traces)} are there; fetch the file again"
+        )
+    return traces
+
+
+def _channel(source: SourceFile, given: Given, start: int, end: int) -> Trace:
+    """Read the channel whose header starts at a line."""
+    name = header_field(source, r"^\s*chan\s*\d+:\s*(.*?)\s*$", start + 1, end, "the channel's direction")[0][1]
+    at = next((i for i in range(start, end) if re.search(r"points\s+of\s+accel\s+data", source.lines[i], re.I)), None)
+    match = None if at is None else _DATA.match(source.lines[at])
+    if at is None or match is None:
+        raise InputError(
+            f"{source.at(start if at is None else at)}: channel {name}: the line 'N points of accel data equally "
+            "spaced at ... sec, in cm/sec2' is missing or cannot be read; the file is truncated or damaged"
+        )
+    dt, dt_words = settle_step(number(match["dt"], source.at(at)), given, source)
+    factor, unit_words = settle_unit(match["unit"], given, source)
+    count, per_line, width = int(match["count"]), int(match["per_line"] or 8), int(match["width"] or 10)
+    if not (0 < per_line <= 20 and 0 < width <= 30):
+        raise InputError(f"{source.at(at)}: the format {per_line}f{width} is not possible")
+    values = np.array(fixed_width(source, at + 1, count, per_line, width)) * factor
+    if not any(_END.match(line) for line in source.lines[at + lines_of(count, per_line) : end]):
+        raise InputError(
+            f"{source.name}: channel {name} has no 'End of data' line: the record is truncated; fetch the file again"
+        )
+    pattern = r"peak acceleration\s*=\s*(-?[\d.]+)\s*(\S+)\s+at\s+([\d.]+)\s*sec"
+    peak, i = header_field(source, pattern, start, at, "the peak acceleration")
+    peak_factor = acceleration_factor(peak[2], source.at(i))
+    stated = HeaderPeak(
+        number(peak[1], source.at(i)) * peak_factor,
+        number(peak[3], source.at(i)),
+        half_last_digit(peak[1]) * peak_factor,
+    )
+    check_header_peak(float(np.abs(values).max(initial=0.0)), stated, source, name)
+    station = source.lines[start + 6][:40].strip() if start + 6 < at else source.stem
+    return Trace(
+        source=source,
+        name=name,
+        title=f"{station} {source.lines[start + 2].strip()}"[:80].strip(),
+        dt=dt,
+        acceleration=values,
+        baseline="none",
+        treatment=(f"read as CSMIP/CESMD V2: {source.name}, channel {name}", f"{unit_words}; {dt_words}"),
+        header_peak=stated,
+    )

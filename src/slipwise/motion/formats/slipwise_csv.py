@@ -1,0 +1,57 @@
+"""Our own CSV: "time [s],table_ax [m/s^2],..."; of a measured run, the table's channels are the motion."""
+
+import re
+
+from slipwise.channels import CHANNELS
+from slipwise.errors import InputError
+from slipwise.motion.rows import read_rows
+from slipwise.motion.source_file import SourceFile
+from slipwise.motion.stated import Given, settle_step, settle_unit
+from slipwise.motion.time_column import column_step
+from slipwise.motion.trace import Trace
+
+_TABLE = ("table_ax", "table_ay", "table_az")
+
+
+def recognise(head: bytes) -> bool:
+    """Tell whether the first line begins with our time and names one of our channels."""
+    lines = head.decode("latin-1").lstrip().splitlines()
+    names = re.findall(r"([A-Za-z_0-9]+) *\[", lines[0]) if lines else []
+    return len(names) > 1 and names[0] == "time" and any(name in CHANNELS for name in names[1:])
+
+
+def read(source: SourceFile, given: Given) -> list[Trace]:
+    """Read the table's channels of a record or a motion.
+
+    Raises:
+        InputError: none of the table's channels is there, the rows are damaged, or the times do not rise evenly.
+        UnitError: a unit is missing, unknown or of the wrong dimension.
+    """
+    rows = read_rows(source)
+    if not rows.units:
+        raise InputError(f"{source.at(0)}: each column must be named with its unit, as in 'table_ax [m/s^2]'")
+    present = [name for name in _TABLE if name in rows.names]
+    if not present:
+        raise InputError(
+            f"{source.name}: this record holds none of {', '.join(_TABLE)}; it has {', '.join(rows.names)}"
+        )
+    doubled = [name for name in present if rows.names.count(name) > 1]
+    if doubled:
+        raise InputError(f"{source.name}: {', '.join(doubled)} stands there more than once; leave one of them")
+    dt, dt_words = settle_step(column_step(rows, source), given, source)
+    traces = []
+    for name in present:
+        k = rows.names.index(name)
+        factor, unit_words = settle_unit(rows.units[k], given, source)
+        traces.append(
+            Trace(
+                source=source,
+                name=name,
+                title=source.stem,
+                dt=dt,
+                acceleration=rows.values[:, k] * factor,
+                baseline="none",
+                treatment=(f"read as Slipwise CSV: {source.name}, {name}", f"{unit_words}; {dt_words}"),
+            )
+        )
+    return traces

@@ -1,0 +1,68 @@
+"""The one way in: a table motion from files or from a description."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from slipwise.errors import InputError
+from slipwise.motion.components import read_motion
+from slipwise.motion.synthetic import looks_synthetic, parse_motion, synthetic_motions
+from slipwise.motion.table_motion import TableMotion
+from slipwise.motion.trace import Baseline
+from slipwise.units import quantity
+
+
+def load_motion(
+    specs: str | Path | Sequence[str | Path],
+    *,
+    x: str | Path | None = None,
+    y: str | Path | None = None,
+    z: str | Path | None = None,
+    dt: float | str | None = None,
+    unit: str | None = None,
+    baseline: Baseline | None = None,
+) -> TableMotion:
+    """Give the table motion that a user names.
+
+    Args:
+        specs: one synthetic motion ("sine:2Hz,0.3g"), or the files of a recorded one.
+        x: which component, or which file, shakes in x; "none" for rest. See `read_motion`.
+        y: the same across.
+        z: the same upwards.
+        dt: step of files that do not state it: seconds, or text with a unit ("5 ms").
+        unit: unit of acceleration of files that do not state it.
+        baseline: "mean", "linear" or "none"; by default what the format asks for.
+
+    Raises:
+        InputError: files and descriptions mixed, settings that a synthetic motion cannot use, or a damaged file.
+        UnitError: a unit is missing, unknown or of the wrong dimension.
+        UnknownNameError: no such kind of motion, option, component or file.
+    """
+    given = [specs] if isinstance(specs, str | Path) else list(specs)
+    described = [str(spec) for spec in given if _is_description(spec)]
+    if not described:
+        step = quantity(dt, "s", "dt") if isinstance(dt, str) else dt
+        return read_motion(given, x=x, y=y, z=z, dt=step, unit=unit, baseline=baseline)
+    if len(given) > 1:
+        raise InputError(
+            f"{described[0]} is a motion by itself; it cannot be joined with "
+            f"{', '.join(str(spec) for spec in given if str(spec) != described[0]) or 'itself'}"
+        )
+    settings = {"x": x, "y": y, "z": z, "dt": dt, "unit": unit, "baseline": baseline}
+    unused = [f"--{name}" for name, value in settings.items() if value is not None]
+    if unused:
+        raise InputError(
+            f"{described[0]}: {', '.join(unused)} belong to recorded motions; a synthetic one says everything itself "
+            "(vertical=..., across=...)"
+        )
+    return parse_motion(described[0])
+
+
+def _is_description(spec: str | Path) -> bool:
+    """Tell a synthetic motion from a file; what is there as a file is a file."""
+    text = str(spec)
+    try:
+        if Path(text).exists():
+            return False
+    except (OSError, ValueError):
+        return looks_synthetic(text)
+    return looks_synthetic(text) or text.strip() in {kind.name for kind in synthetic_motions()}

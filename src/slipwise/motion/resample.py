@@ -1,0 +1,74 @@
+"""Resampling of a motion to the step of a simulation: band-limited, without phase shift and without aliasing.
+
+Two steps. A windowed sinc of linear phase, centred (so that no phase is left), takes the motion to a grid eight times
+finer; it passes frequencies up to 0.95 of the Nyquist frequency of the coarser of the two samplings, and stops what
+would appear above the Nyquist frequency (80 dB). A quintic spline then reads that grid at the wanted times; on it the
+motion is so smooth that the spline's error is below 1e-6 of the amplitude up to the old Nyquist frequency.
+
+What it does to peaks. Refining keeps every recorded sample. The motion between samples is that of the band-limited
+signal, so the largest value may lie between two samples and exceed the recorded one; it is the peak that the
+accelerometer's record stands for. (Straight lines between samples would keep the peak and put the difference into
+frequencies that were never recorded.) Coarsening takes away what the new step cannot carry, and its share of the peak.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import make_interp_spline
+from scipy.signal import resample_poly
+from scipy.signal.windows import kaiser
+
+from slipwise.errors import SettingError
+from slipwise.motion.table_motion import TableMotion
+
+_FINER = 8
+#: Zero crossings of the sinc to each side. With the window below, the transition is 0.04 of the sampling rate wide.
+_CROSSINGS = 64
+#: Kaiser's beta for 80 dB. Source: Kaiser 1974, beta = 0.1102 (A - 8.7).
+_BETA = 0.1102 * (80.0 - 8.7)
+_MOST_SAMPLES = 50_000_000
+
+
+def resample(motion: TableMotion, dt: float) -> TableMotion:
+    """Give the motion at another step.
+
+    Args:
+        motion: the motion.
+        dt: the wanted step [s].
+
+    Returns:
+        The motion at times 0, dt, 2 dt, ... up to the end of the given one. Outside the record, where the filter
+        reaches beyond its ends, the end values are taken to go on.
+
+    Raises:
+        SettingError: the step is not positive, longer than the motion, or gives more than 50 million samples.
+    """
+    if not (np.isfinite(dt) and dt > 0):
+        raise SettingError(f"a step of {dt!r} s is not possible; give a positive one")
+    samples = int(motion.duration / dt * (1 + 1e-12) + 1e-9) + 1
+    if not 2 <= samples <= _MOST_SAMPLES:
+        raise SettingError(
+            f"{motion.title}: a step of {dt:g} s would give {samples} samples over {motion.duration:g} s; "
+            f"between 2 and {_MOST_SAMPLES} are possible"
+        )
+    if abs(dt - motion.dt) * len(motion) < 1e-6 * motion.dt:
+        return motion
+    fine, fine_dt = _refined(motion.acceleration, motion.dt, dt)
+    times = np.arange(samples) * dt
+    spline = make_interp_spline(np.arange(len(fine)) * fine_dt, fine, k=min(5, len(fine) - 1))
+    direction = "band-limited interpolation" if dt < motion.dt else "zero-phase anti-alias filter"
+    words = f"resampled from {motion.dt:.6g} s to {dt:.6g} s ({direction}, no phase shift)"
+    return replace(motion, dt=dt, acceleration=spline(times), treatment=(*motion.treatment, words))
+
+
+def _refined(values: NDArray[np.float64], old: float, new: float) -> tuple[NDArray[np.float64], float]:
+    """Give the values on a finer grid, without what the new step cannot carry; and the grid's step [s]."""
+    # Relative to the old Nyquist frequency; below 1 the sinc is wider and a little lower, to stop at the new one.
+    cutoff = 1.0 if new <= old else 0.96 * old / new
+    half = int(np.ceil(_CROSSINGS * _FINER / cutoff))
+    place = np.arange(-half, half + 1)
+    window = cutoff / _FINER * np.sinc(cutoff * place / _FINER) * kaiser(2 * half + 1, _BETA)
+    fine = resample_poly(values, _FINER, 1, axis=0, window=window, padtype="edge")
+    last = (len(values) - 1) * _FINER
+    return fine[: last + 1], old / _FINER

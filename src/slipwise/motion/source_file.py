@@ -1,0 +1,180 @@
+"""A text file as a reader gets it: decoded, cut into lines, its hash kept; and its numbers, each with its place."""
+
+import hashlib
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from slipwise.errors import InputError
+
+#: How much of a file the recognition of its format sees.
+HEAD_BYTES = 4096
+#: Beyond this a number in a file is damage, and its square would overflow.
+_LARGEST = 1e30
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+
+
+@dataclass(frozen=True)
+class SourceFile:
+    """One file of a motion.
+
+    Attributes:
+        name: the file's name, for messages and provenance.
+        stem: the same without its suffix.
+        sha256: of the file's bytes.
+        head: its first bytes, without a byte-order mark.
+        lines: the decoded lines, without their ends.
+    """
+
+    name: str
+    stem: str
+    sha256: str
+    head: bytes
+    lines: tuple[str, ...]
+
+    def at(self, index: int) -> str:
+        """Give "name, line 5" for the line with index 4."""
+        return f"{self.name}, line {index + 1}"
+
+
+def open_source(path: Path) -> SourceFile:
+    """Read a text file.
+
+    Raises:
+        InputError: no such file, a folder, unreadable, empty or not text.
+    """
+    if path.is_dir():
+        raise InputError(f"{path}: this is a folder; name the motion's files one by one")
+    try:
+        data = path.read_bytes()
+    except FileNotFoundError:
+        raise InputError(f"{path}: no such file; give the path of a motion file or `sine:2Hz,0.3g`") from None
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path}: cannot be read ({error})") from None
+    return source_of(path.name, path.stem, data)
+
+
+def source_of(name: str, stem: str, data: bytes) -> SourceFile:
+    """Decode a file's bytes.
+
+    Raises:
+        InputError: nothing in it, or not text.
+    """
+    body = data.removeprefix(b"\xef\xbb\xbf")
+    if not body.strip(b"\r\n\t \x1a"):
+        raise InputError(f"{name}: the file is empty; fetch or export it again")
+    if b"\x00" in body:
+        raise InputError(f"{name}: this is no text file; export the motion as text (see `slipwise motions`)")
+    # Some files end their lines with CR CR LF, some end with a row of Ctrl-Z: neither may count as a line.
+    text = _decode(body).rstrip("\x1a")
+    ends = "\n" if "\n" in text else "\r"
+    lines = tuple(line.rstrip("\r") for line in text.split(ends))
+    return SourceFile(name, stem, hashlib.sha256(data).hexdigest(), body[:HEAD_BYTES], lines)
+
+
+def _decode(body: bytes) -> str:
+    for encoding in ("utf-8", "cp932"):
+        try:
+            return body.decode(encoding)
+        except UnicodeDecodeError:
+            continue
+    return body.decode("latin-1")
+
+
+def number(text: str, place: str) -> float:
+    """Give a number of a file.
+
+    Args:
+        text: as it stands in the file.
+        place: where, as `SourceFile.at` says it.
+
+    Raises:
+        InputError: no number, not finite, or beyond all reason.
+    """
+    stripped = text.strip()
+    # float() would also take "1_000", "nan" and "infinity".
+    if _NUMBER.fullmatch(stripped):
+        value = float(stripped)
+        if abs(value) < _LARGEST:
+            return value
+        raise InputError(f"{place}: {stripped[:40]!r} is too large to be a measurement; the file is damaged")
+    if stripped.lower().lstrip("+-") in ("nan", "inf", "infinity"):
+        raise InputError(f"{place}: the value is {stripped}; fill or cut the gap, a table cannot follow it")
+    raise InputError(f"{place}: {text[:40]!r} is not a number; the file is damaged or of another format")
+
+
+def is_number(text: str) -> bool:
+    """Tell whether a field is meant as a number, be it NaN."""
+    return bool(_NUMBER.fullmatch(text)) or text.lower().lstrip("+-") in ("nan", "inf", "infinity")
+
+
+def blank_separated(source: SourceFile, start: int, count: int, stated_by: str) -> list[float]:
+    """Read numbers that stand between blanks, from a line to the end of the file.
+
+    Args:
+        source: the file.
+        start: index of the first line.
+        count: how many the header states.
+        stated_by: the header's words for it, for the message.
+
+    Raises:
+        InputError: something that is no number, or another count than stated.
+    """
+    values = [number(field, source.at(i)) for i in range(start, len(source.lines)) for field in source.lines[i].split()]
+    check_count(len(values), count, source, stated_by)
+    return values
+
+
+def check_count(found: int, stated: int, source: SourceFile, stated_by: str) -> None:
+    """Refuse a record that holds another number of values than its header states.
+
+    Raises:
+        InputError: it does.
+    """
+    if stated < 2:
+        raise InputError(f"{source.name}: {stated_by} promises {stated} values; that is no record")
+    if found < stated:
+        raise InputError(
+            f"{source.name}: the record is truncated: {stated_by} promises {stated} values, {found} are there; "
+            "fetch the file again"
+        )
+    if found > stated:
+        raise InputError(
+            f"{source.name}: {stated_by} promises {stated} values, but {found} are there; "
+            "the header or the data are of another record"
+        )
+
+
+def header_field(source: SourceFile, pattern: str, start: int, end: int, what: str) -> tuple[re.Match[str], int]:
+    """Find a header line by a regular expression (case does not matter).
+
+    Args:
+        source: the file.
+        pattern: what to search for.
+        start: index of the first line to look at.
+        end: index after the last.
+        what: what the line states, for the message.
+
+    Returns:
+        The match and the index of its line.
+
+    Raises:
+        InputError: no line holds it.
+    """
+    for i in range(start, min(end, len(source.lines))):
+        match = re.search(pattern, source.lines[i], re.IGNORECASE)
+        if match:
+            return match, i
+    raise InputError(f"{source.name}: the header does not state {what}; the file is damaged or of another format")
+
+
+def positive(value: float, place: str, what: str) -> float:
+    """Refuse zero and negative values of what must be positive.
+
+    Raises:
+        InputError: it is not positive.
+    """
+    if not (math.isfinite(value) and value > 0):
+        raise InputError(f"{place}: {what} is {value:g}; it must be positive")
+    return value

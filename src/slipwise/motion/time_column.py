@@ -1,0 +1,63 @@
+"""A column of times: it must rise evenly, and its step is the record's."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.errors import InputError
+from slipwise.motion.rows import Rows
+from slipwise.motion.source_file import SourceFile
+from slipwise.units import parse_unit
+
+
+def column_step(rows: Rows, source: SourceFile) -> float:
+    """Give the step of the first column, in its own unit if it states one in seconds, after checking it.
+
+    Raises:
+        InputError: times that run backwards, repeat, or are not even.
+        UnitError: the column's unit is none of time.
+    """
+    factor = 1.0
+    if rows.units:
+        factor = parse_unit(rows.units[0], "s", f"column {rows.names[0]!r} of {source.name}")
+    time = rows.values[:, 0]
+    if len(time) < 2:
+        raise InputError(f"{source.name}: {len(time)} row is no record; at least 2 are needed")
+    return factor * even_step(time, rows, source)
+
+
+def even_step(time: NDArray[np.float64], rows: Rows, source: SourceFile) -> float:
+    """Give the step of times that rise evenly.
+
+    Raises:
+        InputError: they do not; the message names the line.
+    """
+    steps = np.diff(time)
+    for wrong, words in ((steps < 0, "runs backwards"), (steps == 0, "repeats")):
+        if wrong.any():
+            i = int(np.flatnonzero(wrong)[0])
+            raise InputError(
+                f"{source.at(rows.first[i + 1])}: the time {words}: {time[i + 1]:g} after {time[i]:g}; repair the file"
+            )
+    dt = float((time[-1] - time[0]) / (len(time) - 1))
+    # Times are rounded as written: an even record may be off by one unit of the last digit, not by more.
+    rounding = _last_digit(source.lines[rows.first[-1]])
+    uneven = np.abs(steps - dt) > max(0.01 * dt, min(1.01 * rounding, 0.4 * dt))
+    if uneven.any():
+        i = int(np.flatnonzero(uneven)[0])
+        raise InputError(
+            f"{source.at(rows.first[i + 1])}: the samples are not evenly spaced: a step of {steps[i]:g} where "
+            f"{dt:g} is the mean; samples are missing, or the record must be resampled first"
+        )
+    return dt
+
+
+def _last_digit(line: str) -> float:
+    """Give the worth of the last digit of a line's first field."""
+    text = line.strip().replace(",", " ").replace(";", " ").split()[0].lower()
+    mantissa, _, exponent = text.partition("e")
+    return 10.0 ** (-len(mantissa.partition(".")[2]) + _clipped(exponent))
+
+
+def _clipped(exponent: str) -> int:
+    """Give a written exponent, within what a float can hold."""
+    return max(-300, min(300, int(exponent or 0)))
