@@ -44,6 +44,12 @@ class EffectUse:
             channel(self.target)
 
     @property
+    def is_neutral(self) -> bool:
+        """Whether every parameter that could switch it on has its neutral value."""
+        switches = [p for p in self.effect.parameters if p.neutral is not None]
+        return bool(switches) and all(self.values[p.name] == p.neutral for p in switches)
+
+    @property
     def label(self) -> str:
         """Name with target, e.g. "channel_gain[pad_A_N]"."""
         return f"{self.effect.name}[{self.target}]" if self.target else self.effect.name
@@ -101,12 +107,17 @@ class Model:
         )
 
     def on_port(self, *ports: str) -> tuple[EffectUse, ...]:
-        """Give the effects on these ports: by port, then as listed."""
-        return tuple(u for port in PORTS if port in ports for u in self.uses if u.effect.port == port)
+        """Give the effects on these ports: by port, then as listed, but a law that replaces another one first.
+
+        Listed behind others it would wipe out what they did.
+        """
+        chosen = [u for port in PORTS if port in ports for u in self.uses if u.effect.port == port]
+        order = list(PORTS)
+        return tuple(sorted(chosen, key=lambda u: (order.index(u.effect.port), not u.effect.replaces)))
 
     def with_hook(self, hook: str) -> tuple[EffectUse, ...]:
-        """Give the effects that have a hook: by port, then as listed."""
-        return tuple(u for port in PORTS for u in self.uses if u.effect.port == port and hook in u.effect.hooks)
+        """Give the effects that have a hook, in the order of `on_port`."""
+        return tuple(u for u in self.on_port(*PORTS) if hook in u.effect.hooks)
 
     def adding(self, *uses: EffectUse) -> "Model":
         """Give a model with more effects."""

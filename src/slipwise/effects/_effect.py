@@ -22,6 +22,7 @@ Hooks of whole arrays (numpy):
 """
 
 import fnmatch
+import functools
 import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -116,6 +117,10 @@ PORTS: dict[str, tuple[str, ...]] = {
     "girder": ("rig", "drag", "lift", "balance"),
     "gauge": ("gauge", "undo"),
 }
+#: Channels of girder, pads and buffers: what any change of the physics moves. The table follows its command.
+RESPONSE: tuple[str, ...] = (
+    "pad_*", "buffer_*", "girder_*", "slip_*", "yaw", "pitch", "roll", "heave",
+)  # fmt: skip
 COMPONENTS: tuple[str, ...] = ("pad friction", "pad load", "buffer", "girder", "table", "instrument")
 
 
@@ -223,6 +228,8 @@ def read_effect(module: ModuleType, path: Path) -> Effect:
                 f"possible: {', '.join(allowed)}"
             )
         _check_arguments(path, found, hook, function)
+        if not HOOKS[hook].instant:
+            hooks[hook] = _by_name(hook, function)
     if not hooks:
         raise SettingError(f"{path.name} has no hook; an effect on port {found.port!r} may have: {', '.join(allowed)}")
     if len({p.name for p in found.parameters}) < len(found.parameters):
@@ -249,6 +256,18 @@ def _check_arguments(path: Path, effect: Effect, hook: str, function: Callable[.
                 f"{path.name}: {hook}() asks for {argument!r}, which is neither one of its parameters "
                 f"({', '.join(effect.parameter_names)}) nor something this hook can have: {', '.join(sorted(known))}"
             )
+
+
+def _by_name(hook: str, function: Callable[..., Any]) -> Callable[..., Any]:
+    """Let a hook of whole arrays be called with everything it may have; it gets what it asks for."""
+    asked = inspect.signature(function).parameters
+
+    @functools.wraps(function)
+    def called(*given: Any, **named: Any) -> Any:
+        everything = {**dict(zip(HOOKS[hook].leading, given, strict=False)), **named}
+        return function(**{name: value for name, value in everything.items() if name in asked})
+
+    return called
 
 
 def _matches(pattern: str, channel: str) -> bool:

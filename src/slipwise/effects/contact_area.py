@@ -18,7 +18,7 @@ Source: paper, eq. (3); k = 0.102 from the identification below eq. (8), its uni
 
 from math import expm1
 
-from slipwise.effects._effect import Effect
+from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
 
 
@@ -37,7 +37,7 @@ EFFECT = Effect(
             "k: how fast the real area fills the apparent one", "1/MPa",
         ),
     ),
-    moves=("pad_*_F?", "girder_a*", "slip_*", "yaw", "pitch", "roll", "heave", "pad_*_N", "buffer_*"),
+    moves=RESPONSE,
     signature="friction grows less than load: odd in velocity, a function of pressure only",
     confused_with={"pressure_law": "sines of equal speed at several pressures"},
     replaces="real area proportional to load, eq. (2)",

@@ -14,7 +14,7 @@ size of mu; s/cm because energies are in kN cm and because n in the literature i
 
 from math import expm1
 
-from slipwise.effects._effect import Effect
+from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
 
 
@@ -41,7 +41,7 @@ EFFECT = Effect(
             "alpha: friction coefficient at zero speed",
         ),
     ),
-    moves=("pad_*_F?", "girder_a*", "slip_*", "yaw", "pitch", "roll", "heave", "pad_*_N", "buffer_*"),
+    moves=RESPONSE,
     signature="friction grows with speed up to about 0.1 m/s: odd in velocity, a function of speed only",
     confused_with={"rate_and_state": "constant speeds: a straight line over log V is rate_and_state"},
     replaces="constant shear strength (Coulomb)",

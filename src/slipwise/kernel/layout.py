@@ -120,7 +120,6 @@ def fill(layout: Layout, model: Model, dt: float) -> NDArray[np.float64]:
         s for place in specimen.pad_places for s in (1.0 if place[0] >= 0 else -1.0, 1.0 if place[1] >= 0 else -1.0)
     ]
     array[at["side"] : at["side"] + 2 * n_pads] = sides
-    set_values(layout, array, model)
     index = {effect.name: i for i, effect in enumerate(layout.effects)}
     for chain in CHAINS:
         uses = model.with_hook(chain)
@@ -129,11 +128,16 @@ def fill(layout: Layout, model: Model, dt: float) -> NDArray[np.float64]:
             raise SettingError(f"this kernel was not compiled for {', '.join(unknown)}")
         array[at[chain]] = len(uses)
         array[at[chain] + 1 : at[chain] + 1 + len(uses)] = [index[u.effect.name] for u in uses]
+    set_values(layout, array, model)
     return array
 
 
 def set_values(layout: Layout, array: NDArray[np.float64], model: Model) -> None:
-    """Write the parameter values of a model's effects into an array in place."""
+    """Write the parameter values of a model's effects into an array in place.
+
+    An effect on how a pad sticks takes the place of the rigid stick: at its neutral value it must not be called at all.
+    """
+    array[layout.at["stick"]] = sum("stick" in u.effect.hooks and not u.is_neutral for u in model.uses)
     for entry in model.uses:
         start = layout.parameters.get(entry.effect.name)
         if start is not None:
@@ -165,12 +169,5 @@ def apply_rest(layout: Layout, array: NDArray[np.float64], model: Model, seconds
             blocks, start = pad_memories(layout, array), layout.pad_memory[name]
         else:
             blocks, start = buffer_memories(layout, array).reshape(-1, layout.buffer_block), layout.buffer_memory[name]
-        wanted = _asked(entry.effect, "rest")
         for block in blocks:
-            entry.effect.hooks["rest"](block[start : start + size], seconds, **{n: entry.values[n] for n in wanted})
-
-
-def _asked(effect: Effect, hook: str) -> list[str]:
-    code = effect.hooks[hook].__code__
-    names = code.co_varnames[: code.co_argcount]
-    return [n for n in names if n in effect.parameter_names]
+            entry.effect.hooks["rest"](block[start : start + size], seconds, **entry.values)

@@ -102,8 +102,14 @@ def pad_advance(u, z, bound, friction, {pad_arguments}):
 
 
 def buffer_spring(u, z, {", ".join(_BUFFER_ARGUMENTS)}):
-    """Force of the girder on a buffer in one direction [N]; its memory goes on by dt."""
-{_chain(layout, "deflection", "deflection = {call}")}    force = stiffness * deflection
+    """Force of the girder on a buffer in one direction [N]; its memory goes on by dt.
+
+    A buffer that the girder does not touch (`deflection` leaves nothing of it) is not strained: its rate is zero.
+    """
+    between = deflection
+{_chain(layout, "deflection", "deflection = {call}")}    if deflection == 0.0 and between != 0.0:
+        rate = 0.0
+    force = stiffness * deflection
 {_chain(layout, "spring", "force = {call}")}{_chain(layout, "settle", "{call}")}    return force
 
 

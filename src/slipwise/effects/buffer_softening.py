@@ -1,0 +1,41 @@
+"""Virgin rubber is stiffer: the Mullins effect.
+
+    F_b *= 1 + m exp(-x_max / x_0),        x_max = largest |x| so far
+
+The first stretch breaks bonds between chains and filler, and what is broken stays so for days. Every first excursion to
+a new largest stroke is stiffer than any later one.
+
+Valid: m 0.1 to 0.3. Rubber recovers in part over days, which is left out.
+Source: Mullins (1969); sizes from memory of the literature, assumed; decay over x_0 assumed.
+"""
+
+from math import exp
+
+import numpy as np
+
+from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.params import Parameter
+
+
+def spring(force: float, deflection: float, memory: np.ndarray, rise: float, length: float) -> float:
+    """Stiffen the force [N] by what the largest excursion leaves."""
+    memory[0] = max(memory[0], abs(deflection))
+    return force * (1.0 + rise * exp(-memory[0] / length))
+
+
+EFFECT = Effect(
+    port="buffer",
+    component="buffer",
+    equation="F_b *= 1 + m exp(-x_max/x_0)",
+    parameters=(
+        Parameter("rise", "1", 0.2, -0.5, 1.0, 0.0, "0.1 to 0.3, assumed", "m: of virgin rubber over worked", "%"),
+        Parameter("length", "m", 0.015, 1e-3, 0.1, None, "assumed", "x_0: stroke that works it", "mm"),
+    ),
+    moves=RESPONSE,
+    signature="the first cycles of the first run are stiffer in the girder balance; memory of the largest slip",
+    confused_with={
+        "run_in": "that shows in the pads, this in the girder balance",
+        "buffer_hardening": "a second run at the same stroke: hardening is back, softening is not",
+    },
+    memory=("largest",),
+)  # fmt: skip

@@ -1,0 +1,34 @@
+"""A channel that runs into its rail.
+
+    y = min(max(x, -r S), r S)
+
+The amplifier or the logger cannot show more. Peaks become plateaus, all at one level. S is the span of a usual gauge
+(see `channel_offset`).
+
+Valid: always. There is no inverse: what was cut off is gone.
+Source: definition; the rail's place assumed.
+"""
+
+import numpy as np
+
+from slipwise.effects._effect import Effect
+from slipwise.effects._gauges import changed, span
+from slipwise.params import Parameter
+from slipwise.record import Record
+
+
+def gauge(record: Record, target: str, rail: float) -> Record:
+    """Cut the channel off."""
+    return changed(record, target, lambda name, x: np.clip(x, -rail * span(name), rail * span(name)))
+
+
+EFFECT = Effect(
+    port="gauge",
+    component="instrument",
+    equation="y = min(max(x, -r S), r S)",
+    parameters=(Parameter("rail", "1", 0.5, 0.005, 1000.0, 1000.0, "assumed", "r: in spans of the gauge", "%"),),
+    moves=("*",),
+    signature="plateaus of equal height at the peaks",
+    confused_with={"channel_gain": "a gain lowers every value, a rail only the peaks"},
+    target="channel",
+)  # fmt: skip

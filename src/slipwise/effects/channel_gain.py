@@ -1,0 +1,40 @@
+"""A gauge that reads too much or too little.
+
+    y = (1 + g) x
+
+Wrong calibration factor, wrong bridge voltage, a shunt: everything is off by the same share. In a load cell this looks
+exactly like more friction; only the balances of the girder can tell, for there all cells and the mass must agree.
+
+Valid: 1 to 5 % for a calibrated gauge.
+Source: definition; sizes assumed.
+"""
+
+from slipwise.effects._effect import Effect
+from slipwise.effects._gauges import changed
+from slipwise.params import Parameter
+from slipwise.record import Record
+
+
+def gauge(record: Record, target: str, gain: float) -> Record:
+    """Scale the channel."""
+    return changed(record, target, lambda name, x: x * (1.0 + gain))
+
+
+def undo(record: Record, target: str, gain: float) -> Record:
+    """Scale it back."""
+    return changed(record, target, lambda name, y: y / (1.0 + gain))
+
+
+EFFECT = Effect(
+    port="gauge",
+    component="instrument",
+    equation="y = (1 + g) x",
+    parameters=(Parameter("gain", "1", 0.03, -0.5, 1.0, 0.0, "1 to 5 %, assumed", "g: error of the gain", "%"),),
+    moves=("*",),
+    signature="odd and flat in everything; breaks the balances in proportion to the channel",
+    confused_with={
+        "pad_spread": "the girder balance stays clean with a spread of friction",
+        "buffer_damping": "for girder_ax: damping follows velocity, a gain follows acceleration",
+    },
+    target="channel",
+)  # fmt: skip

@@ -1,0 +1,41 @@
+"""A gauge whose zero is off.
+
+    y = x + o S
+
+The zero was taken under load, or not at all. S is the span of a usual gauge of that unit (50 kN, 100 mm, 1 m/s, 2 g,
+20 mrad), so that o reads as instrument makers write it: in per cent of full scale.
+
+Valid: below a few per cent of the span.
+Source: definition; spans in `_gauges`; size assumed.
+"""
+
+from slipwise.effects._effect import Effect
+from slipwise.effects._gauges import changed, span
+from slipwise.params import Parameter
+from slipwise.record import Record
+
+
+def gauge(record: Record, target: str, offset: float) -> Record:
+    """Shift the channel's zero."""
+    return changed(record, target, lambda name, x: x + offset * span(name))
+
+
+def undo(record: Record, target: str, offset: float) -> Record:
+    """Shift it back."""
+    return changed(record, target, lambda name, y: y - offset * span(name))
+
+
+EFFECT = Effect(
+    port="gauge",
+    component="instrument",
+    equation="y = x + o S",
+    parameters=(Parameter("offset", "1", 0.002, -0.2, 0.2, 0.0, "assumed", "o: in spans of the gauge", "%"),),
+    moves=("*",),
+    signature="even and constant, at rest too; zero readings before and after show it",
+    confused_with={
+        "slide_tilt": "a tilt follows N",
+        "direction_asymmetry": "that follows mu N and is nothing at rest",
+        "uneven_seating": "for a cell's N: an offset of one cell moves heave as well",
+    },
+    target="channel",
+)  # fmt: skip

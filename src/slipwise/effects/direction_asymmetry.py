@@ -1,0 +1,37 @@
+"""Friction that is higher one way than the other.
+
+    mu *= 1 + d v_x / |v|
+
+Polishing leaves a nap, wear leaves burrs that point in the direction of sliding, and a pad that leans presses its
+leading edge. d is half the relative difference between the two directions.
+
+Valid: |d| up to a few per cent for new pads.
+Source: assumed, after the habit of test standards (EN 1337-2) to report both directions of a cycle.
+"""
+
+from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.params import Parameter
+
+
+def shear(shear: float, velocity_x: float, speed: float, difference: float) -> float:
+    """Scale the shear strength [Pa] by the direction of the slip."""
+    if speed == 0.0:
+        return shear
+    return shear * (1.0 + difference * velocity_x / speed)
+
+
+EFFECT = Effect(
+    port="shear",
+    component="pad friction",
+    equation="mu *= 1 + d v_x/|v|",
+    parameters=(
+        Parameter("difference", "1", 0.03, -0.3, 0.3, 0.0, "assumed", "d: half the difference of the directions", "%"),
+    ),
+    moves=RESPONSE,
+    signature="even in velocity, proportional to mu N: loops sit off centre, higher with more friction",
+    confused_with={
+        "channel_offset": "only a changing load tells: an offset does not follow mu N",
+        "slide_tilt": "a tilt goes with N, this with mu(V, P) N: it vanishes where friction is low",
+        "load_crosstalk": "as slide_tilt; the girder balance moves only with cross-talk",
+    },
+)  # fmt: skip

@@ -1,0 +1,54 @@
+"""The girder bends: its first vertical mode rings on the pads (the paper's Factor C).
+
+    q'' + 2 z w q' + w^2 q = -a_z,        sum N = m (g + a_z) + m_e q''
+
+A beam is not rigid. Its middle swings up and down against its ends, and the inertia of that swing comes down on the
+pads. A simple beam has 8/pi^2 = 0.81 of its mass in the first mode; a frame with a weight on it far less.
+
+Valid: while the next mode is much higher. Model frequency 6 to 13 Hz if the prototype's 2 to 4 Hz were scaled; a stiff
+steel rig is above 20 Hz.
+Source: paper, "Factor C"; modal analysis of a beam; frequency and share assumed. The balance's filter is exact for an
+acceleration that is straight between samples.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import cont2discrete, lfilter
+
+from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._states import BalanceStates
+from slipwise.params import Parameter
+from slipwise.rig import Specimen
+
+
+def rig(specimen: Specimen, share: float, frequency: float, damping: float) -> Specimen:
+    """Give the specimen with a part of its mass in the mode."""
+    return replace(specimen, bending_mass=share * specimen.mass, bending_frequency=frequency, bending_damping=damping)
+
+
+def balance(states: BalanceStates, share: float, frequency: float, damping: float) -> dict[str, NDArray[np.float64]]:
+    """Give the inertia of the mode, m_e q'' (n,) [N]."""
+    w = 2.0 * np.pi * frequency
+    dt = float(states.time[1] - states.time[0])
+    above, below, _ = cont2discrete(([-1.0, 0.0, 0.0], [1.0, 2.0 * damping * w, w * w]), dt, method="foh")
+    return {"heave": share * states.specimen.mass * lfilter(above.ravel(), below, states.girder_acceleration[:, 2])}
+
+
+EFFECT = Effect(
+    port="girder",
+    component="girder",
+    equation="q'' + 2 z w q' + w^2 q = -a_z,  sum N += m_e q''",
+    parameters=(
+        Parameter("share", "1", 0.3, 0.0, 0.9, 0.0, "0.81 for a simple beam; 0.3 assumed", "m_e/m: mass of the mode"),
+        Parameter("frequency", "Hz", 15.0, 3.0, 60.0, None, "6 to 20 Hz, assumed", "of the mode on fixed ends"),
+        Parameter("damping", "1", 0.02, 0.002, 0.2, None, "assumed", "z: of critical", "%"),
+    ),
+    moves=RESPONSE,
+    signature="sum N rings at one frequency after a_z has ended",
+    confused_with={
+        "key_friction": "that is locked to the buffers' force and does not ring",
+        "pad_compliance": "the pads' own frequency shows in pitch as well",
+    },
+)  # fmt: skip

@@ -1,0 +1,37 @@
+"""Pads that are not alike: each has its own level of friction.
+
+    mu_i *= 1 + p side_x + r side_y + w side_x side_y
+
+Four pads cut from one sheet differ by a few per cent, and so do their plates. The mean of the four belongs to the law;
+what is left are three contrasts: front against back, one side against the other, one diagonal against the other. An
+unlike pair at +-y turns the girder.
+
+Valid: a few per cent each; the sum of the three below 100 %.
+Source: 3 % of spread between pads of one batch, assumed.
+"""
+
+from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.params import Parameter
+
+
+def shear(shear: float, side_x: float, side_y: float, along: float, across: float, diagonal: float) -> float:
+    """Scale the shear strength [Pa] of this pad."""
+    return shear * (1.0 + along * side_x + across * side_y + diagonal * side_x * side_y)
+
+
+EFFECT = Effect(
+    port="shear",
+    component="pad friction",
+    equation="mu_i *= 1 + p side_x + r side_y + w side_x side_y",
+    parameters=(
+        Parameter("along", "1", 0.03, -0.3, 0.3, 0.0, "assumed", "p: pads A, C over B, D", "%"),
+        Parameter("across", "1", 0.0, -0.3, 0.3, 0.0, "assumed", "r: pads A, B over C, D", "%"),
+        Parameter("diagonal", "1", 0.0, -0.3, 0.3, 0.0, "assumed", "w: pads A, D over B, C", "%"),
+    ),
+    moves=RESPONSE,
+    signature="odd and flat in everything; differs from pad to pad and sums to zero",
+    confused_with={
+        "channel_gain": "the girder balance: a gain changes sum F, a spread of friction does not disturb the balance",
+        "uneven_seating": "that shows in the loads at rest",
+    },
+)  # fmt: skip

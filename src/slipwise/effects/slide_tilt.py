@@ -1,0 +1,35 @@
+"""A sliding face that is not level.
+
+    F_x += N beta
+
+On a slope the pad's normal load leans, and its horizontal part is there whichever way the girder goes. beta > 0 means
+that the face rises towards +x, so that the girder pushes the pads towards +x. The table's level counts as well.
+
+Valid: small angles; 0.0005 to 0.005 rad (1/300 is 3.3 mm in 1 m).
+Source: equilibrium on an incline; 1/300 is a usual tolerance of erection, assumed.
+"""
+
+from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.params import Parameter
+
+
+def pad(load: float, tilt: float) -> tuple[float, float]:
+    """Give the load's share along the slope (force_x, force_y) [N]."""
+    return load * tilt, 0.0
+
+
+EFFECT = Effect(
+    port="pad",
+    component="pad friction",
+    equation="F_x += N beta",
+    parameters=(
+        Parameter("tilt", "rad", 1.0 / 300.0, -0.02, 0.02, 0.0, "1/300, assumed", "beta: rise towards +x", "mrad"),
+    ),
+    moves=RESPONSE,
+    signature="even in velocity, proportional to N: loops off centre, the girder drifts downhill",
+    confused_with={
+        "load_crosstalk": "identical in one pad; the girder balance moves with cross-talk only; level the table",
+        "channel_offset": "an offset does not follow N",
+        "direction_asymmetry": "that follows mu N, and is small where friction is low",
+    },
+)  # fmt: skip

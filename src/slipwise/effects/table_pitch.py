@@ -1,0 +1,63 @@
+"""The table rocks while it shakes.
+
+    theta'' + 2 z w theta' + w^2 theta = w^2 c a_x,        z = 0.3
+
+The overturning moment of table and specimen bends the vertical actuators: the table pitches by c a_x, through its own
+oil-column resonance w. Gravity then pulls along the face (g theta, 0.017 m/s2 for 0.1 degree), and the pads feel the
+turning. c > 0: nose down at +x when pushed towards +x.
+
+Valid: 0.01 to 0.1 degree; small angles.
+Source: table-specimen interaction, 0.01 to 0.1 degree at 5 m/s2 assumed; resonance 10 to 30 Hz and z assumed.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import cont2discrete, lfilter
+
+from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._states import BalanceStates
+from slipwise.params import Parameter
+
+DAMPING = 0.3
+Array = NDArray[np.float64]
+
+
+def _turning(push: Array, dt: float, compliance: float, frequency: float, order: int) -> Array:
+    """Give theta (order 0) or its second derivative (order 2), exact for a push straight between samples."""
+    w = 2.0 * np.pi * frequency
+    above = [0.0, 0.0, w * w] if order == 0 else [w * w, 0.0, 0.0]
+    b, a, _ = cont2discrete((above, [1.0, 2.0 * DAMPING * w, w * w]), dt, method="foh")
+    return compliance * lfilter(b.ravel(), a, push)
+
+
+def table(acceleration: Array, dt: float, compliance: float, frequency: float) -> Array:
+    """Add the pitch acceleration to the table's motion (n, 4)."""
+    out = acceleration.copy()
+    out[:, 3] += _turning(acceleration[:, 0], dt, compliance, frequency, 2)
+    return out
+
+
+def balance(states: BalanceStates, compliance: float, frequency: float) -> dict[str, Array]:
+    """Give gravity along the face, and the moments of gravity and of the girder's inertia (n,) [N]."""
+    push, dt, specimen = states.table_acceleration[:, 0], float(states.time[1] - states.time[0]), states.specimen
+    angle = _turning(push, dt, compliance, frequency, 0)
+    inertia = specimen.inertia[1] * _turning(push, dt, compliance, frequency, 2)
+    weight = states.load.sum(axis=1)
+    moment = weight * specimen.centre_height * angle - inertia
+    return {"girder": -weight * angle, "pitch": moment / specimen.half_spacing[0]}
+
+
+EFFECT = Effect(
+    port="table",
+    component="table",
+    equation="theta ~ c a_x:  a_x += g theta,  pitch of the loads -= I theta''/b_x",
+    parameters=(
+        Parameter(
+            "compliance", "rad*s^2/m", 2e-4, -2e-3, 2e-3, 0.0, "0.06 degree at 5 m/s2, assumed", "c: nose down per a_x"
+        ),
+        Parameter("frequency", "Hz", 20.0, 5.0, 50.0, None, "oil column 10 to 30 Hz, assumed", "of the table's pitch"),
+    ),
+    moves=("table_*", *RESPONSE),
+    signature="pitch of the loads and an even force, both in step with the table's acceleration",
+    confused_with={"buffer_height": "that goes with slip", "cell_inertia": "that moves heave with a_z as well"},
+)  # fmt: skip
