@@ -1,0 +1,49 @@
+"""The command line: one short function per command; each command is one verb of the library."""
+
+import sys
+import warnings
+
+import click
+import typer
+
+from slipwise.cli import lists, replay, view
+from slipwise.errors import SlipwiseError, SlipwiseWarning
+
+app = typer.Typer(
+    name="slipwise",
+    help="Which physical effect does the model of a structure on sliding bearings lack?",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode="markdown",
+    pretty_exceptions_enable=False,
+)
+replay.register(app)
+view.register(app)
+lists.register(app)
+
+
+def _show_warning(message: Warning | str, category: type[Warning], *_: object, **__: object) -> None:
+    if issubclass(category, SlipwiseWarning):
+        print(f"warning: {message}", file=sys.stderr)
+
+
+def main() -> None:
+    """Run the command line: 0 done, 2 bad input (one clear message), 130 interrupted."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", SlipwiseWarning)
+        warnings.showwarning = _show_warning
+        try:
+            code = app(standalone_mode=False)
+        except click.ClickException as error:
+            error.show()
+            code = 2
+        except SlipwiseError as error:
+            print(f"error: {error}", file=sys.stderr)
+            code = 2
+        except (KeyboardInterrupt, click.Abort):
+            print("interrupted: nothing half-written was left", file=sys.stderr)
+            code = 130
+        except BrokenPipeError:
+            sys.stderr.close()
+            code = 0
+    sys.exit(code if isinstance(code, int) else 0)

@@ -1,0 +1,44 @@
+"""What commands share: printing, progress, and the folder that takes the results."""
+
+import json
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+from slipwise.errors import InputError
+
+OUT = Console()
+ERR = Console(stderr=True)
+
+
+def print_json(content: object) -> None:
+    """Print JSON for a program to read."""
+    sys.stdout.write(json.dumps(content, indent=1, allow_nan=False) + "\n")
+
+
+def out_folder(path: Path) -> Path:
+    """Make the folder for the results.
+
+    Raises:
+        InputError: there is a file of that name, or it cannot be made.
+    """
+    if path.exists() and not path.is_dir():
+        raise InputError(f"--out {path}: a file of this name exists; give a folder")
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"--out {path}: the folder cannot be made ({error.strerror})") from None
+    return path
+
+
+@contextmanager
+def progress(words: str) -> Iterator[Callable[[float], None]]:
+    """Show the progress of long work on the terminal; call what it gives with the fraction done."""
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"), TimeElapsedColumn())
+    with Progress(*columns, console=ERR, transient=True, disable=not ERR.is_terminal) as bar:
+        task = bar.add_task(words, total=1.0)
+        yield lambda fraction: bar.update(task, completed=fraction)

@@ -1,0 +1,148 @@
+"""`slipwise replay`: a table motion in, the record of every channel out."""
+
+import time
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from slipwise.cli.console import OUT, out_folder, print_json, progress
+from slipwise.errors import SettingError
+from slipwise.model import Model, base_model, use
+from slipwise.motion import TableMotion, load_motion, scale, scale_time, scale_to_peak, trim, warn_beyond_stroke
+from slipwise.record import write_json, write_record
+from slipwise.replay import DT, OUTPUT_DT, Replay, SimulationDiverged, summary
+from slipwise.replay import replay as run_replay
+from slipwise.rig import LENGTH_SCALE
+from slipwise.units import quantity
+
+
+def replay(
+    motion: Annotated[list[str], typer.Argument(help="Files of a recorded motion, or one synthetic: see `slipwise motions`.")],
+    rig: Annotated[str, typer.Option(help="bridge1, bridge2, block, pad, or the path of an MJCF file.")] = "bridge1",
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("out/replay"),
+    x: Annotated[str | None, typer.Option(help="What shakes along x: a component, a file, or none; - reverses it.")] = None,
+    y: Annotated[str | None, typer.Option(help="What shakes along y.")] = None,
+    z: Annotated[str | None, typer.Option(help="What shakes upwards.")] = None,
+    motion_dt: Annotated[str | None, typer.Option(help="Step of a text file without times, e.g. '0.005 s'.")] = None,
+    unit: Annotated[str | None, typer.Option(help="Unit of a text file that states none: g, gal, m/s^2 ...")] = None,
+    baseline: Annotated[str | None, typer.Option(help="mean, linear or none; by default what the format asks for.")] = None,
+    amplitude: Annotated[float, typer.Option("--scale", help="Factor on the acceleration.")] = 1.0,
+    peak: Annotated[str | None, typer.Option(help="Scale to this peak along x, e.g. '0.7 g'.")] = None,
+    similarity: Annotated[
+        str | None, typer.Option(help="Shorten time as the model's: bridge1, bridge2 or a scale of length.")
+    ] = None,
+    start: Annotated[str, typer.Option(help="Begin at this time of the motion.")] = "0 s",
+    end: Annotated[str | None, typer.Option(help="End at this time of the motion.")] = None,
+    stroke: Annotated[str | None, typer.Option(help="Warn when the table would have to go farther, e.g. '150 mm'.")] = None,
+    step: Annotated[str, typer.Option(help="Time step of the simulation.")] = "0.5 ms",
+    output_step: Annotated[str, typer.Option(help="Time step of the record.")] = "2 ms",
+    effect: Annotated[list[str] | None, typer.Option(help="Switch an effect on, by name or file, at its typical size.")] = None,
+    law: Annotated[str, typer.Option(help="paper (eqs. 7 and 8) or coulomb: what the effects are added to.")] = "paper",
+    engine: Annotated[str, typer.Option(help="compiled, or python to step through with a debugger.")] = "compiled",
+    csv: Annotated[bool, typer.Option("--csv", help="Write record.csv instead of record.parquet.")] = False,
+    pictures: Annotated[bool, typer.Option(help="Draw the loops and histories.")] = True,
+    recording: Annotated[bool, typer.Option(help="Write the recording for the rerun viewer.")] = True,
+    json: Annotated[bool, typer.Option("--json", help="Print summary.json for a program to read.")] = False,
+) -> None:
+    """Replay a table motion on a rig.
+
+    Example: `slipwise replay quake:seed=1,peak=0.7g,vertical=0.3g --rig bridge1 --out out/quake`
+    """
+    began = time.perf_counter()
+    seconds = None if motion_dt is None else quantity(motion_dt, "s", "--motion-dt")
+    shaking = load_motion(motion, x=x, y=y, z=z, dt=seconds, unit=unit, baseline=baseline)  # type: ignore[arg-type]
+    shaking = _shaped(shaking, amplitude, peak, similarity, start, end)
+    if stroke is not None:
+        warn_beyond_stroke(shaking, quantity(stroke, "m", "--stroke"))
+    model = _model(rig, law, effect or [])
+    folder = out_folder(out)
+    settings = {
+        "dt": quantity(step, "s", "--step") if step else DT,
+        "output_dt": quantity(output_step, "s", "--output-step") if output_step else OUTPUT_DT,
+        "engine": engine,
+    }
+    try:
+        with progress("replay") as report:
+            answer = run_replay(model, shaking, progress=report, **settings)
+    except SimulationDiverged as error:
+        _write_record(error.replay, folder, csv)
+        raise
+    files = [_write_record(answer, folder, csv)]
+    files += _draw(answer, model, folder, shaking.title, pictures, recording)
+    numbers = summary(answer, shaking, time.perf_counter() - began)
+    write_json(folder / "summary.json", numbers)
+    if json:
+        print_json(numbers)
+    else:
+        _tell(numbers, shaking, [*files, folder / "summary.json"])
+
+
+def _shaped(
+    motion: TableMotion, amplitude: float, peak: str | None, similarity: str | None, start: str, end: str | None
+) -> TableMotion:
+    first, last = quantity(start, "s", "--start"), None if end is None else quantity(end, "s", "--end")
+    if first > 0.0 or last is not None:
+        motion = trim(motion, first, last)
+    if similarity is not None:
+        try:
+            motion = scale_time(motion, LENGTH_SCALE[similarity] if similarity in LENGTH_SCALE else float(similarity))
+        except ValueError:
+            possible = ", ".join(LENGTH_SCALE)
+            raise SettingError(f"--similarity {similarity!r}: give {possible} or a scale of length, e.g. 10.69") from None
+    if peak is not None:
+        motion = scale_to_peak(motion, quantity(peak, "m/s^2", "--peak"))
+    return motion if amplitude == 1.0 else scale(motion, amplitude)
+
+
+def _model(rig: str, law: str, effects: list[str]) -> Model:
+    from slipwise.effects import load_effect
+    from slipwise.model import BASE_EFFECTS
+
+    if law not in ("paper", "coulomb"):
+        raise SettingError(f"--law {law!r}: possible are paper and coulomb")
+    model = base_model(rig, BASE_EFFECTS if law == "paper" else ())
+    for name in effects:
+        model = model.adding(use(load_effect(Path(name))) if name.endswith(".py") else use(name))
+    return model
+
+
+def _write_record(answer: Replay, folder: Path, csv: bool) -> Path:
+    path = folder / ("record.csv" if csv else "record.parquet")
+    write_record(answer.record, path)
+    return path
+
+
+def _draw(answer: Replay, model: Model, folder: Path, title: str, pictures: bool, recording: bool) -> list[Path]:
+    """Import pictures and recordings only where they are wanted: they take a second to load."""
+    files: list[Path] = []
+    if not (pictures or recording):
+        return files
+    from slipwise.view.geometry import geometry_of
+
+    geometry = geometry_of(model.built_specimen())
+    if pictures:
+        from slipwise.view.pictures import save_pictures
+
+        files += save_pictures(answer.record, geometry, folder)
+    if recording:
+        from slipwise.view.recording import write_recording
+
+        write_recording(answer.record, geometry, folder / "replay.rrd", title)
+        files.append(folder / "replay.rrd")
+    return files
+
+
+def _tell(numbers: dict, motion: TableMotion, files: list[Path]) -> None:
+    from slipwise.view.terminal import print_summary
+
+    print_summary(numbers)
+    for words in motion.treatment:
+        OUT.print(f"motion: {words}", markup=False, highlight=False)
+    for path in files:
+        OUT.print(f"wrote {path}", markup=False, highlight=False, soft_wrap=True)
+
+
+def register(app: typer.Typer) -> None:
+    """Add this command to the command line."""
+    app.command()(replay)

@@ -1,0 +1,21 @@
+"""`slipwise view`: open a recording."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from slipwise.view.viewer import open_viewer
+
+
+def view(folder: Annotated[Path, typer.Argument(help="A folder that a command wrote, or an .rrd file.")]) -> None:
+    """Open a folder's recording in the rerun viewer, which listens on this machine only.
+
+    Example: `slipwise view out/replay`
+    """
+    open_viewer(folder)
+
+
+def register(app: typer.Typer) -> None:
+    """Add this command to the command line."""
+    app.command()(view)
