@@ -28,7 +28,7 @@ _HEAD: tuple[tuple[str, int], ...] = (
     ("tendon", 2 * (MAX_PADS + MAX_BUFFERS)), ("friction_row", 2 * MAX_PADS),
     ("jacobian", 2 * (MAX_PADS + MAX_BUFFERS) * MAX_DOFS),
     ("load", MAX_PADS), ("new_load", MAX_PADS), ("bound", MAX_PADS), ("explicit", 2 * MAX_PADS),
-    ("force", 2 * MAX_PADS), ("buffer_force", 2 * MAX_BUFFERS),
+    ("force", 2 * MAX_PADS), ("buffer_force", 2 * MAX_BUFFERS), ("girder_force", 3),
 )  # fmt: skip
 
 

@@ -213,7 +213,11 @@ def control_step(u, time, ten_length, ten_velocity, qvel, frictionloss, applied)
         force_x, force_y = girder_drag(u, qvel[dof_x], qvel[dof_y], qvel[dof_z], time, dt)
         applied[dof_x] -= force_x
         applied[dof_y] -= force_y
-        applied[dof_z] += girder_lift(u, sum_x, sum_y, qvel[dof_x], qvel[dof_y], qvel[dof_z], time, dt)
+        force_z = girder_lift(u, sum_x, sum_y, qvel[dof_x], qvel[dof_y], qvel[dof_z], time, dt)
+        applied[dof_z] += force_z
+        u[{at["girder_force"]}] = -force_x
+        u[{at["girder_force"]} + 1] = -force_y
+        u[{at["girder_force"]} + 2] = force_z
     return 0
 
 
@@ -244,6 +248,9 @@ def sensor_step(u, loads, time, ten_length, ten_velocity, friction_force, sensor
         sensordata[first + 3 * pad + 2] = force_y
     for i in range(2 * int(u[{at["n_buffers"]}])):
         sensordata[first + 3 * n_pads + i] = u[{at["buffer_force"]} + i]
+    last = first + 3 * n_pads + 2 * int(u[{at["n_buffers"]}])
+    for axis in range(3):
+        sensordata[last + axis] = u[{at["girder_force"]} + axis]
     return 0
 '''
 

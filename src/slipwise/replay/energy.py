@@ -25,7 +25,8 @@ class EnergyBook:
         table: work of the table's acceleration on the girder, in the table's frame.
         friction: dissipated and stored at the pads, horizontally, per pad (n_pads,).
         buffers: dissipated and stored in the buffers.
-        others: work of gravity, of the pads' contacts and of the bending mode on the girder.
+        others: work of gravity, of the pads' contacts, of drag, of the shear keys' vertical friction and of the bending
+            mode on the girder.
     """
 
     rig: Rig
@@ -33,12 +34,14 @@ class EnergyBook:
     others: float = 0.0
     buffers: float = 0.0
     friction: Array | None = None
+    turning: bool = False
     kinetic_start: float | None = None
     kinetic_end: float = 0.0
     _last: tuple[Array, Array] | None = None
 
     def add(self, sensordata: Array, control: Array) -> None:
         """Book a chunk: sensordata (n, n_sensors) and command (n, 4)."""
+        self.turning = self.turning or bool(np.any(control[:, 3]))
         if not self.rig.specimen.free:
             return
         if self._last is not None:
@@ -71,7 +74,8 @@ class EnergyBook:
         per_row = np.sum(0.5 * (force[1:] + force[:-1]) * slip[:, : 2 * n_pads], axis=0)
         done = per_row[0::2] + per_row[1::2]
         self.friction = done if self.friction is None else self.friction + done
-        self.buffers += _work(user[:, 3 * n_pads :], slip[:, 2 * n_pads :])
+        self.buffers += _work(user[:, 3 * n_pads : -3], slip[:, 2 * n_pads :])
+        self.others += _work(user[:, -3:], steps[:, :3])
         if has_sensor(rig, "at_bending"):
             self._add_bending(sensordata, at)
         kinetic = 0.5 * np.sum(inertia * rate[[0, -1]] ** 2, axis=1)
@@ -94,10 +98,10 @@ class EnergyBook:
         """Work against friction of all pads [J]."""
         return float(self.friction.sum()) if self.friction is not None else 0.0
 
-    def error(self) -> float:
-        """What does not close, as a fraction of what was put in [1]."""
-        if self.kinetic_start is None:
-            return 0.0
+    def error(self) -> float | None:
+        """What does not close, as a fraction of what was put in [1]; None where slip is prescribed or the table turns."""
+        if self.kinetic_start is None or self.turning:
+            return None
         left = self.table + self.others - self.dissipated - self.buffers - (self.kinetic_end - self.kinetic_start)
         put_in = max(abs(self.table), self.dissipated)
         return left / put_in if put_in > 0.0 else 0.0

@@ -55,7 +55,8 @@ class Replay:
         record: every channel at the output rate.
         pad_energy: pad -> work against its friction [J], summed at every step.
         uplift: time during which at least one pad carried no load [s].
-        energy_error: what the energy balance leaves open, as a fraction of the input [1].
+        energy_error: what the energy balance leaves open, as a fraction of the input [1]; None where slip is prescribed
+            or the table turns.
         slip_range: smallest and largest slip_x, of every step [m].
         load_range: pad -> smallest and largest load, of every step [N].
         largest_friction: pad -> largest |F|, of every step [N].
@@ -68,7 +69,7 @@ class Replay:
     record: Record
     pad_energy: dict[str, float]
     uplift: float
-    energy_error: float
+    energy_error: float | None
     slip_range: tuple[float, float]
     load_range: dict[str, tuple[float, float]]
     largest_friction: dict[str, float]
