@@ -137,7 +137,9 @@ def main() -> None:
             continue
         ratio = statistics.median(a / b for a, b in zip(times[name], bare, strict=True))
         print(f"{name:40s} {value:8.2f} us a step  {ratio:6.3f} of the bare step")
-    gain = statistics.median(a / b for a, b in zip(one_thread, times["eight motions, compiled, two threads"], strict=True))
+    gain = statistics.median(
+        a / b for a, b in zip(one_thread, times["eight motions, compiled, two threads"], strict=True)
+    )
     print(f"two threads step {gain:.2f} times as many as one")
     kept = {name: None if np.isnan(value) else value for name, value in table.items()}
     write_json(chosen.out / "speed.json", {"microseconds_per_step": kept, "two_threads_over_one": gain})

@@ -23,7 +23,9 @@ def needs_shared(*parts: str) -> Path:
     return path
 
 
-def sine(frequency: float, amplitude: float, seconds: float, dt: float = 5e-4, vertical: tuple[float, float] = (0.0, 0.0)):
+def sine(
+    frequency: float, amplitude: float, seconds: float, dt: float = 5e-4, vertical: tuple[float, float] = (0.0, 0.0)
+):
     """Table acceleration (n, 3): a sine along x [m/s^2] that ramps in over four cycles, and one along z."""
     t = np.arange(round(seconds / dt)) * dt
     ramp = np.clip(t * frequency / 4.0, 0.0, 1.0)

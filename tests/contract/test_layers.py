@@ -15,7 +15,7 @@ LAYERS: tuple[tuple[str, ...], ...] = (
     ("effects",),
     ("model", "model_file"),
     ("kernel", "predict", "replay", "loops", "loads", "pier"),
-    ("campaign", "audit", "floor", "compare", "fit"),
+    ("campaign", "audit", "floor", "system", "compare", "fit"),
     ("diagnose", "ladder", "next_test", "paper", "demo"),
     ("view",),
     ("cli",),
@@ -25,7 +25,7 @@ WITHIN = {
     "errors": 0, "units": 1, "params": 1, "channels": 1,
     "signals": 1, "record": 0, "motion": 1,
     "kernel": 0, "predict": 1, "replay": 2, "loops": 0, "loads": 0, "pier": 0,
-    "campaign": 0, "audit": 1, "floor": 1, "fit": 2, "compare": 3,
+    "campaign": 0, "audit": 1, "floor": 1, "system": 1, "fit": 2, "compare": 3,
 }  # fmt: skip
 FILES = sorted(PACKAGE.rglob("*.py"))
 
@@ -62,7 +62,9 @@ def test_a_file_imports_only_what_stands_above_it(path):
 
 
 def test_numerics_pull_in_neither_matplotlib_nor_rerun():
-    numerics = sorted(name for names in LAYERS[:7] for name in names if (PACKAGE / name).exists() or (PACKAGE / f"{name}.py").exists())
+    numerics = sorted(
+        name for names in LAYERS[:7] for name in names if (PACKAGE / name).exists() or (PACKAGE / f"{name}.py").exists()
+    )
     code = ";".join(f"import slipwise.{name}" for name in numerics)
     code += ";import sys;print([m for m in ('matplotlib','rerun','typer') if m in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

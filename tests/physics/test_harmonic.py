@@ -53,7 +53,14 @@ def _den_hartog(r: float, ratio: float) -> float:
 
 @pytest.mark.parametrize(
     ("r", "ratio", "table"),
-    [(0.8, 0.3, 2.62610), (1.25, 0.3, 1.61706), (1.25, 0.5, 1.28256), (2.0, 0.3, 0.29768), (2.0, 0.5, 0.22048), (3.0, 0.3, 0.11087)],
+    [
+        (0.8, 0.3, 2.62610),
+        (1.25, 0.3, 1.61706),
+        (1.25, 0.5, 1.28256),
+        (2.0, 0.3, 0.29768),
+        (2.0, 0.5, 0.22048),
+        (3.0, 0.3, 0.11087),
+    ],
 )
 def test_a_girder_on_buffers_moves_as_den_hartog_says(r, ratio, table):
     # V5: base motion of amplitude a0 = F / (ratio m); a low centre of gravity, as his oscillator does not rock.

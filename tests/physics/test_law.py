@@ -16,7 +16,9 @@ def friction(pressure, speed, model=None, engine="compiled"):
     load = np.repeat((pressure.ravel() * AREA)[:, None], 4, axis=1)
     velocity = np.zeros((n, 4, 2))
     velocity[:, :, 0] = speed.ravel()[:, None]
-    answer = predictor(model or base_model("bridge1"), engine=engine).pads(np.arange(n) * 1e-3, load, velocity, np.zeros((n, 4, 2)))
+    answer = predictor(model or base_model("bridge1"), engine=engine).pads(
+        np.arange(n) * 1e-3, load, velocity, np.zeros((n, 4, 2))
+    )
     return (answer.bound[:, 0] / load[:, 0]).reshape(pressure.shape)
 
 
@@ -27,7 +29,9 @@ def test_mu_at_high_speed_is_the_papers_at_every_pressure():
 
 def test_mu_at_rated_pressure_is_the_papers_at_every_speed():
     speed = np.array([0.5, 1, 2, 5, 10, 20, 30]) * 1e-2
-    assert friction(1e4 * G / 4 / AREA, speed) == pytest.approx([0.0523, 0.0580, 0.0678, 0.0880, 0.1037, 0.1118, 0.1129], abs=6e-5)
+    assert friction(1e4 * G / 4 / AREA, speed) == pytest.approx(
+        [0.0523, 0.0580, 0.0678, 0.0880, 0.1037, 0.1118, 0.1129], abs=6e-5
+    )
 
 
 def test_for_small_pressure_the_law_is_coulombs():

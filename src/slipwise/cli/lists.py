@@ -51,7 +51,9 @@ def motions(json: Json = False) -> None:
 
     Example: `slipwise motions`
     """
-    made = [{"motion": m.name, "syntax": m.syntax, "meaning": m.meaning, "example": m.example} for m in synthetic_motions()]
+    made = [
+        {"motion": m.name, "syntax": m.syntax, "meaning": m.meaning, "example": m.example} for m in synthetic_motions()
+    ]
     read = [{"format": f.name, "note": f.note} for f in FORMATS]
     if json:
         print_json({"synthetic": made, "formats": read})

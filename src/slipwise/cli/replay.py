@@ -18,15 +18,21 @@ from slipwise.units import quantity
 
 
 def replay(
-    motion: Annotated[list[str], typer.Argument(help="Files of a recorded motion, or one synthetic: see `slipwise motions`.")],
+    motion: Annotated[
+        list[str], typer.Argument(help="Files of a recorded motion, or one synthetic: see `slipwise motions`.")
+    ],
     rig: Annotated[str, typer.Option(help="bridge1, bridge2, block, pad, or the path of an MJCF file.")] = "bridge1",
     out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("out/replay"),
-    x: Annotated[str | None, typer.Option(help="What shakes along x: a component, a file, or none; - reverses it.")] = None,
+    x: Annotated[
+        str | None, typer.Option(help="What shakes along x: a component, a file, or none; - reverses it.")
+    ] = None,
     y: Annotated[str | None, typer.Option(help="What shakes along y.")] = None,
     z: Annotated[str | None, typer.Option(help="What shakes upwards.")] = None,
     motion_dt: Annotated[str | None, typer.Option(help="Step of a text file without times, e.g. '0.005 s'.")] = None,
     unit: Annotated[str | None, typer.Option(help="Unit of a text file that states none: g, gal, m/s^2 ...")] = None,
-    baseline: Annotated[str | None, typer.Option(help="mean, linear or none; by default what the format asks for.")] = None,
+    baseline: Annotated[
+        str | None, typer.Option(help="mean, linear or none; by default what the format asks for.")
+    ] = None,
     amplitude: Annotated[float, typer.Option("--scale", help="Factor on the acceleration.")] = 1.0,
     peak: Annotated[str | None, typer.Option(help="Scale to this peak along x, e.g. '0.7 g'.")] = None,
     similarity: Annotated[
@@ -34,10 +40,14 @@ def replay(
     ] = None,
     start: Annotated[str, typer.Option(help="Begin at this time of the motion.")] = "0 s",
     end: Annotated[str | None, typer.Option(help="End at this time of the motion.")] = None,
-    stroke: Annotated[str | None, typer.Option(help="Warn when the table would have to go farther, e.g. '150 mm'.")] = None,
+    stroke: Annotated[
+        str | None, typer.Option(help="Warn when the table would have to go farther, e.g. '150 mm'.")
+    ] = None,
     step: Annotated[str, typer.Option(help="Time step of the simulation.")] = "0.5 ms",
     output_step: Annotated[str, typer.Option(help="Time step of the record.")] = "2 ms",
-    effect: Annotated[list[str] | None, typer.Option(help="Switch an effect on, by name or file, at its typical size.")] = None,
+    effect: Annotated[
+        list[str] | None, typer.Option(help="Switch an effect on, by name or file, at its typical size.")
+    ] = None,
     law: Annotated[str, typer.Option(help="paper (eqs. 7 and 8) or coulomb: what the effects are added to.")] = "paper",
     engine: Annotated[str, typer.Option(help="compiled, or python to step through with a debugger.")] = "compiled",
     csv: Annotated[bool, typer.Option("--csv", help="Write record.csv instead of record.parquet.")] = False,
@@ -89,7 +99,9 @@ def _shaped(
             motion = scale_time(motion, LENGTH_SCALE[similarity] if similarity in LENGTH_SCALE else float(similarity))
         except ValueError:
             possible = ", ".join(LENGTH_SCALE)
-            raise SettingError(f"--similarity {similarity!r}: give {possible} or a scale of length, e.g. 10.69") from None
+            raise SettingError(
+                f"--similarity {similarity!r}: give {possible} or a scale of length, e.g. 10.69"
+            ) from None
     if peak is not None:
         motion = scale_to_peak(motion, quantity(peak, "m/s^2", "--peak"))
     return motion if amplitude == 1.0 else scale(motion, amplitude)

@@ -19,7 +19,9 @@ def test_the_girder_weighs_ten_tons_and_presses_its_pads_with_16_9_megapascal(ri
     assert specimen.rated_pressure / 1e6 == pytest.approx(16.9, abs=0.05)
 
 
-@pytest.mark.parametrize(("rig", "stiffness", "frequency", "ratio"), [("bridge1", 3.46, 2.96, 0.122), ("bridge2", 2.25, 2.39, 0.244)])
+@pytest.mark.parametrize(
+    ("rig", "stiffness", "frequency", "ratio"), [("bridge1", 3.46, 2.96, 0.122), ("bridge2", 2.25, 2.39, 0.244)]
+)
 def test_buffers_frequency_and_height_are_the_papers(rig, stiffness, frequency, ratio):
     specimen = load_specimen(rig)
     assert sum(specimen.buffer_stiffness) / 1e6 == pytest.approx(stiffness, abs=0.005)
@@ -30,7 +32,16 @@ def test_buffers_frequency_and_height_are_the_papers(rig, stiffness, frequency, 
 @pytest.mark.parametrize("rig", RIGS)
 def test_every_rated_value_names_its_source_or_says_assumed(rig):
     specimen = load_specimen(rig)
-    needed = {"mass", "centre_height", "inertia", "pad_radius", "pad_stiffness", "pad_damping", "plastic_pressure", "shear_strength"}
+    needed = {
+        "mass",
+        "centre_height",
+        "inertia",
+        "pad_radius",
+        "pad_stiffness",
+        "pad_damping",
+        "plastic_pressure",
+        "shear_strength",
+    }
     if specimen.buffer_stiffness:
         needed |= {"buffer_stiffness", "buffer_place", "buffer_height"}
     assert needed <= set(specimen.sources)

@@ -1,0 +1,141 @@
+"""Faults of gauges: what they do to true channels before the logger, and to samples after it."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import butter, sosfilt
+
+from bench.settings import PADS
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One fault.
+
+    Attributes:
+        effect: its name in the catalogue.
+        channels: that it touches.
+        size: delay [s], gain [1], offset in the channel's SI unit, drift [unit/s], cut-off [Hz], rail as a share of
+            the largest excursion [1], share of samples [1], clock error [1], cross-talk [N/N], cell's mass [kg].
+        form: variant of the law, in words.
+        rails: (low, high) of each channel once the runs are known; see `with_rails`.
+    """
+
+    effect: str
+    channels: tuple[str, ...]
+    size: float
+    form: str = ""
+    rails: dict[str, tuple[float, float]] = field(default_factory=dict)
+
+    def describe(self) -> dict[str, object]:
+        """Give the fault as plain data."""
+        said: dict[str, object] = {"channels": list(self.channels), "size": self.size, "form": self.form}
+        return {**said, "rails": self.rails} if self.rails else said
+
+
+def with_rails(fault: Fault, runs: list[dict[str, Array]]) -> Fault:
+    """Give a clipping fault rails at a share of the largest excursion from rest over all runs."""
+    rails = {}
+    for name in fault.channels:
+        rest = float(runs[0][name][0])
+        reach = fault.size * max(float(np.abs(run[name] - rest).max()) for run in runs)
+        rails[name] = (rest - reach, rest + reach)
+    return Fault(fault.effect, fault.channels, fault.size, fault.form, rails)
+
+
+def apply_before_logger(fault: Fault, channels: dict[str, Array], time: Array, true: dict[str, Array]) -> None:
+    """Change analogue channels in place; `true` holds what no gauge has touched."""
+    if fault.effect == "load_crosstalk":
+        _crosstalk(fault, channels, true)
+    elif fault.effect == "cell_inertia":
+        _inertia(fault, channels, true)
+    for name in fault.channels:
+        if fault.effect == "channel_gain":
+            channels[name] = channels[name] * (1.0 + fault.size)
+        elif fault.effect == "channel_sign":
+            channels[name] = -channels[name]
+        elif fault.effect == "channel_offset":
+            channels[name] = channels[name] + fault.size
+        elif fault.effect == "channel_drift":
+            warm = 3.0 * (1.0 - np.exp(-time / 3.0)) if fault.form == "warming up" else time
+            channels[name] = channels[name] + fault.size * warm
+        elif fault.effect == "channel_filter":
+            order = 2 if fault.form == "second order" else 1
+            sos = butter(order, fault.size, fs=1.0 / (time[1] - time[0]), output="sos")
+            rest = channels[name][0]
+            channels[name] = rest + np.asarray(sosfilt(sos, channels[name] - rest))
+        elif fault.effect == "table_gain":
+            # what is recorded is the command; the table does more or less of it
+            channels[name] = channels[name] / (1.0 + fault.size)
+        elif fault.effect == "table_cross_axis":
+            channels[name] = channels[name] - fault.size * true["table_ax"]
+
+
+def _crosstalk(fault: Fault, channels: dict[str, Array], true: dict[str, Array]) -> None:
+    for name in fault.channels:
+        other = name.replace("_Fx", "_N") if name.endswith("_Fx") else name.replace("_N", "_Fx")
+        leak = true[other] - true[other][0] if fault.form == "zeroed at rest" else true[other]
+        channels[name] = channels[name] + fault.size * leak
+
+
+def _inertia(fault: Fault, channels: dict[str, Array], true: dict[str, Array]) -> None:
+    """Plate and cell of mass m move with the table: N reads m a_z more, F reads m a_x less (form "added": more).
+
+    A plate between pad and cell passes on F - m a_x when F is the girder's force on the pad. The catalogue writes
+    the sign the other way; a rig whose cells hang on the other side has it so.
+    """
+    sign = 1.0 if fault.form == "added" else -1.0
+    for name in fault.channels:
+        if name.endswith("_N"):
+            channels[name] = channels[name] + fault.size * true["table_az"]
+        else:
+            channels[name] = channels[name] + sign * fault.size * true["table_a" + name[-1]]
+
+
+def late_by(faults: list[Fault], name: str, time: Array) -> Array | float:
+    """Give how late a channel is at each sample [s]."""
+    late: Array | float = 0.0
+    for fault in faults:
+        if name in fault.channels:
+            if fault.effect == "channel_delay":
+                late = late + fault.size
+            elif fault.effect == "clock_skew":
+                late = late + fault.size * time
+    return late
+
+
+def apply_after_logger(fault: Fault, channels: dict[str, Array], rng: np.random.Generator) -> None:
+    """Change samples in place: rails and lost samples."""
+    if fault.effect == "channel_clipping":
+        for name in fault.channels:
+            low, high = fault.rails[name]
+            channels[name] = np.clip(channels[name], low, high)
+    elif fault.effect == "dropped_samples":
+        count = channels[fault.channels[0]].size
+        keep = np.ones(count, dtype=bool)
+        while count - keep.sum() < fault.size * count:
+            at = int(rng.integers(count // 10, count))
+            keep[at : at + int(rng.integers(1, 7))] = False
+        last = np.maximum.accumulate(np.where(keep, np.arange(count), 0))
+        if fault.form == "lost":
+            kept = np.flatnonzero(keep)
+            last = np.concatenate([kept, np.full(count - kept.size, kept[-1])])
+        for name in fault.channels:
+            channels[name] = channels[name][last]
+
+
+#: Groups of channels that a fault may touch together.
+GROUPS: dict[str, tuple[str, ...]] = {
+    "slip": ("slip_x",),
+    "girder": ("girder_ax",),
+    "forces": tuple(f"pad_{pad}_Fx" for pad in PADS),
+    "loads": tuple(f"pad_{pad}_N" for pad in PADS),
+    **{f"force {pad}": (f"pad_{pad}_Fx",) for pad in PADS},
+    **{f"load {pad}": (f"pad_{pad}_N",) for pad in PADS},
+    "table": ("table_ax",),
+    "table up": ("table_az",),
+    "girder up": ("girder_az",),
+}

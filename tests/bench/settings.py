@@ -1,0 +1,160 @@
+"""Everything a rig of the bench has, its hidden effects included: numbers only, SI, all effects absent by default."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+GRAVITY = 9.80665
+PAD_AREA = np.pi * 0.0215**2
+PADS = ("A", "B", "C", "D")
+PAD_SIGN_X = (1.0, -1.0, 1.0, -1.0)
+PAD_SIGN_Y = (1.0, 1.0, -1.0, -1.0)
+#: (height of the centre of gravity [m], both buffers' stiffness [N/m])
+RIGS = {"bridge1": (0.366, 3.4612e6), "bridge2": (0.732, 2.2514e6), "block": (0.366, 0.0)}
+
+Four = tuple[float, float, float, float]
+NONE: Four = (0.0, 0.0, 0.0, 0.0)
+ONES: Four = (1.0, 1.0, 1.0, 1.0)
+
+
+class Settings(NamedTuple):
+    """The rig and its hidden effects.
+
+    A `_form` chooses between laws of one effect (0: absent). Lengths [m], forces [N], speeds [m/s], masses [kg].
+    """
+
+    # specimen: a box of 3 x 5 x 0.5 m on pads 3 m apart in x and 5 m in y
+    mass: float = 1.0e4
+    height: float = 0.366
+    inertia_roll: float = 21041.7
+    inertia_pitch: float = 7708.3
+    inertia_yaw: float = 28333.3
+    spacing_x: float = 3.0
+    spacing_y: float = 5.0
+    centre_x: float = 0.0
+    centre_y: float = 0.0
+    pad_area: float = PAD_AREA
+    pad_stiffness: float = 2.5e8
+    pad_damping: float = 6.0e4
+    seating: Four = NONE
+    # eq. (7), and a stick that is elastic over a few micrometres with a share of critical damping
+    s1: float = 1.379e6
+    n: float = 19.7
+    k: float = 0.102e-6
+    alpha: float = 0.046
+    stick_length: float = 4.0e-6
+    stick_damping: float = 0.6
+    # both buffers together, at x = 0, y = +-buffer_place
+    buffer_stiffness: float = 3.4612e6
+    buffer_place: float = 1.5
+    buffer_height: float = 0.0
+    # pad friction
+    breakaway_form: int = 0
+    breakaway: float = 0.0
+    breakaway_speed: float = 0.01
+    breakaway_ageing: float = 0.0
+    presliding_form: int = 0
+    presliding_length: float = 1.0e-4
+    heat_form: int = 0
+    heat: float = 0.0
+    heat_time: float = 10.0
+    wear_form: int = 0
+    wear: float = 0.0
+    wear_length: float = 0.3
+    rate_form: int = 0
+    rate_direct: float = 0.0
+    rate_evolution: float = 0.0
+    age_length: float = 1.0e-4
+    pressure_form: int = 0
+    pressure_size: float = 0.0
+    asymmetry: float = 0.0
+    anisotropy: float = 0.0
+    patch_form: int = 0
+    patch: Four = NONE
+    patch_place: float = 0.0
+    patch_width: float = 0.005
+    pad_factor: Four = ONES
+    tilt: float = 0.0
+    curvature: float = 0.0
+    # buffers and key
+    buffer_damping_form: int = 0
+    buffer_damping: float = 0.0
+    hysteresis_form: int = 0
+    hysteresis_force: float = 0.0
+    hysteresis_length: float = 2.0e-3
+    hardening: float = 0.0
+    hardening_length: float = 0.02
+    hardening_power: float = 2.0
+    softening_form: int = 0
+    softening: float = 0.0
+    softening_length: float = 0.01
+    mismatch: float = 0.0
+    clearance: float = 0.0
+    key_impact: float = 0.0
+    key_form: int = 0
+    key_friction: float = 0.0
+    key_scale: float = 2.0e-4
+    # girder and table
+    bending_mass: float = 0.0
+    bending_frequency: float = 15.0
+    bending_damping: float = 0.02
+    bending_gauge: float = 0.0
+    drag_form: int = 0
+    drag: float = 0.0
+    pitch_form: int = 0
+    pitch_per_acceleration: float = 0.0
+    pitch_frequency: float = 15.0
+    # outside the catalogue
+    unknown_form: int = 0
+    unknown_size: float = 0.0
+    unknown_scale: float = 1.0
+    unknown_place: float = 0.0
+    clock: float = 0.0
+
+    def changed(self, **changes: Any) -> "Settings":
+        """Give a copy with other values, each of the type that the default has (one compiled loop serves them all)."""
+        typed = {name: _like(getattr(_DEFAULT, name), value) for name, value in changes.items()}
+        return self._replace(**typed)
+
+
+_DEFAULT = Settings()
+
+
+def _like(default: Any, value: Any) -> Any:
+    if isinstance(default, tuple):
+        return tuple(float(one) for one in value)
+    return type(default)(value)
+
+
+def rated(rig: str) -> Settings:
+    """Give the rated values of bridge1, bridge2 or block (bridge1 without buffers)."""
+    height, stiffness = RIGS[rig]
+    return Settings().changed(height=height, buffer_stiffness=stiffness)
+
+
+def random_rig(rig: str, rng: np.random.Generator) -> Settings:
+    """Give a specimen whose base parameters are several percent off the rated ones.
+
+    Heave is between 40 and 60 Hz, pitch (on its four pads, about the centre of gravity) between 50 and 100 Hz.
+    """
+    base = rated(rig)
+    mass = base.mass * (1.0 + rng.normal(0.0, 0.004))
+    stiffness = 0.25 * mass * (2.0 * np.pi * rng.uniform(40.0, 60.0)) ** 2
+    pitch = 2.0 * np.pi * rng.uniform(*((70.0, 100.0) if rig == "bridge1" else (52.0, 85.0)))
+    inertia_pitch = stiffness * base.spacing_x**2 / pitch**2
+    return base.changed(
+        mass=mass,
+        height=base.height * (1.0 + rng.normal(0.0, 0.01)),
+        inertia_pitch=np.clip(inertia_pitch, 6.0e3, 1.6e4),
+        inertia_roll=base.inertia_roll * rng.uniform(0.9, 1.15),
+        inertia_yaw=base.inertia_yaw * rng.uniform(0.9, 1.1),
+        pad_stiffness=stiffness,
+        pad_damping=2.0 * rng.uniform(0.02, 0.06) * np.sqrt(stiffness * 0.25 * mass),
+        s1=base.s1 * (1.0 + rng.normal(0.0, 0.04)),
+        n=base.n * (1.0 + rng.normal(0.0, 0.06)),
+        k=base.k * (1.0 + rng.normal(0.0, 0.05)),
+        alpha=base.alpha * (1.0 + rng.normal(0.0, 0.05)),
+        stick_length=rng.uniform(2.0e-6, 1.0e-5),
+        stick_damping=rng.uniform(0.4, 1.0),
+        buffer_stiffness=base.buffer_stiffness * (1.0 + rng.normal(0.0, 0.04)),
+    )
