@@ -1,8 +1,8 @@
 """Why the pads' friction is not MuJoCo's contact friction.
 
-The girder of Bridge 1 is shaken by two horizontal sines and a vertical one. Three ways to make friction are held against
-a reference: the same rig at a twentieth of the step. MuJoCo's contact model couples slip to lift: it lets the pads
-chatter, whatever cone or step is chosen. A dry-friction constraint whose bound follows the pad's law does not.
+The girder of Bridge 1 is shaken by two horizontal sines and a vertical one. Three ways to make friction are held
+against a reference: the same rig at a twentieth of the step. MuJoCo's contact model couples slip to lift: it lets the
+pads chatter, whatever cone or step is chosen. A dry-friction constraint whose bound follows the pad's law does not.
 
     python scripts/02_why_not_contact_friction.py --out out/why [--quick]
 """
@@ -122,8 +122,9 @@ def main() -> None:
         panel.plot(t, truth["load"] / 1e3, lw=2.5, color="0.75", label=reference)
         own = np.arange(len(found["load"])) * dt
         panel.plot(own, found["load"] / 1e3, lw=0.7, color="#b03a2e", label=f"step {dt * 1e3:g} ms")
-        panel.set_title(f"{name}: slip {errors[name]['slip']:.2f} %, load {errors[name]['load']:.1f} %, friction {errors[name]['friction']:.1f} %",
-                        loc="left", fontsize=10)  # fmt: skip
+        wrong = errors[name]
+        words = f"slip {wrong['slip']:.2f} %, load {wrong['load']:.1f} %, friction {wrong['friction']:.1f} %"
+        panel.set_title(f"{name}: {words}", loc="left", fontsize=10)
         panel.set_ylabel("N of pad A [kN]")
         panel.legend(loc="upper right", fontsize=8)
     axes[-1].set_xlabel("time [s]")

@@ -2,8 +2,8 @@
 
     python scripts/04_speed.py [--quick] [--out out/speed]
 
-Runs of each kind take turns, so that a busy machine slows all of them alike; medians are shown. If OpenSeesPy happens to
-be installed, one of its sliders on the same motion stands beside them.
+Runs of each kind take turns, so that a busy machine slows all of them alike; medians are shown. If OpenSeesPy happens
+to be installed, one of its sliders on the same motion stands beside them.
 """
 
 import argparse

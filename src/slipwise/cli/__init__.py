@@ -3,7 +3,6 @@
 import sys
 import warnings
 
-import click
 import typer
 
 from slipwise.cli import lists, replay, view
@@ -34,13 +33,13 @@ def main() -> None:
         warnings.showwarning = _show_warning
         try:
             code = app(standalone_mode=False)
-        except click.ClickException as error:
+        except typer.TyperException as error:
             error.show()
             code = 2
         except SlipwiseError as error:
             print(f"error: {error}", file=sys.stderr)
             code = 2
-        except (KeyboardInterrupt, click.Abort):
+        except (KeyboardInterrupt, typer.Abort):
             print("interrupted: nothing half-written was left", file=sys.stderr)
             code = 130
         except BrokenPipeError:

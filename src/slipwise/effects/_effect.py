@@ -25,7 +25,7 @@ import fnmatch
 import functools
 import inspect
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace, replace
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -241,9 +241,7 @@ def read_effect(module: ModuleType, path: Path) -> Effect:
             raise SettingError(
                 f"{path.name}: 'moves' names {pattern!r}, which is no channel; `slipwise channels` lists them"
             )
-    return Effect(
-        **{**vars(found), "name": name, "summary": text.splitlines()[0], "text": text, "hooks": hooks, "path": path}
-    )
+    return replace(found, name=name, summary=text.splitlines()[0], text=text, hooks=hooks, path=path)
 
 
 def _check_arguments(path: Path, effect: Effect, hook: str, function: Callable[..., Any]) -> None:

@@ -99,7 +99,7 @@ class EnergyBook:
         return float(self.friction.sum()) if self.friction is not None else 0.0
 
     def error(self) -> float | None:
-        """What does not close, as a fraction of what was put in [1]; None where slip is prescribed or the table turns."""
+        """What does not close, as a fraction of the input [1]; None where slip is prescribed or the table turns."""
         if self.kinetic_start is None or self.turning:
             return None
         left = self.table + self.others - self.dissipated - self.buffers - (self.kinetic_end - self.kinetic_start)

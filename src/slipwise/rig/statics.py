@@ -53,6 +53,6 @@ def at_rest(specimen: Specimen) -> Rest:
             return Rest(float(heave), float(roll), float(pitch), np.where(touching, load, 0.0))
         touching = load > 0.0
     raise SettingError(
-        f"{specimen.name}: with a centre of gravity {specimen.centre_x:g}, {specimen.centre_y:g} m off the middle and this "
-        "seating the girder does not stand on at least three pads; reduce them"
+        f"{specimen.name}: with a centre of gravity {specimen.centre_x:g}, {specimen.centre_y:g} m off the middle "
+        "and this seating the girder does not stand on at least three pads; reduce them"
     )
