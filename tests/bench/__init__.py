@@ -1,0 +1,29 @@
+"""A blind bench: a second simulator of the rig that shares nothing with the library, and campaigns made with it."""
+
+from bench.campaign import Campaign, build_campaign, make_campaign
+from bench.hidden import INSTRUMENTS, PHYSICS, SIZES, Case, draw, plan
+from bench.motions import Motion
+from bench.rig_ode import Memory, simulate
+from bench.settings import Settings, random_rig, rated
+from bench.truth import Truth
+from bench.write import write_truth
+
+__all__ = [
+    "INSTRUMENTS",
+    "PHYSICS",
+    "SIZES",
+    "Campaign",
+    "Case",
+    "Memory",
+    "Motion",
+    "Settings",
+    "Truth",
+    "build_campaign",
+    "draw",
+    "make_campaign",
+    "plan",
+    "random_rig",
+    "rated",
+    "simulate",
+    "write_truth",
+]

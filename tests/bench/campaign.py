@@ -3,18 +3,18 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bench.faults import with_rails
 from bench.floors import sizes_in_floors
-from bench.gauges import RICH, USUAL, Logger, draw_logger, measure
-from bench.hidden import Case, Hidden, draw, hide
+from bench.gauges import RICH, USUAL, draw_logger, measure
+from bench.hidden import SIZES, Case, draw, hide
 from bench.motions import Motion, draw_quake, draw_sine
 from bench.rig_ode import Memory, simulate
 from bench.settings import GRAVITY, PADS, Settings, random_rig
+from bench.truth import Truth
 from bench.write import RUNS, write_campaign
 
 Array = NDArray[np.float64]
@@ -22,70 +22,31 @@ Run = dict[str, Array]
 MOST_SLIP = 0.045
 LEAST_LOAD = 600.0
 _COARSE = 4.0e-5
+_CALMER = 6  # times that motions are made smaller when a hidden effect lets the girder slip or lift too far
 
 
 @dataclass(frozen=True)
-class Truth:
-    """The answer of one campaign.
+class Campaign:
+    """A campaign in memory.
 
     Attributes:
-        name: of the folder.
-        seed: that made it.
-        rig: bridge1 or bridge2.
-        rich: whether it has motion across and more gauges.
-        size: small, medium or large; "" for a complete model.
-        hidden: what the base model lacks.
-        base: true base parameters.
-        logger: what the chain did.
-        floors: {"raw" or "after_fit": {balance: size in floors}}; see `bench.floors`.
+        truth: the answer.
+        true: run -> channels of `simulate` at 5 kHz, true slip speed among them.
+        recorded: run -> channels at 500 Hz as the laboratory has them.
     """
 
-    name: str
-    seed: int
-    rig: str
-    rich: bool
-    size: str
-    hidden: Hidden
-    base: Settings
-    logger: Logger
-    floors: dict[str, dict[str, float]]
+    truth: Truth
+    true: dict[str, Run]
+    recorded: dict[str, Run]
 
-    @property
-    def missing(self) -> tuple[str, ...]:
-        """Names that a verdict should give."""
-        return self.hidden.missing
-
-    @property
-    def size_in_floors(self) -> float:
-        """Largest of the balances before any base fit."""
-        return max(self.floors["raw"].values())
-
-    def as_dict(self) -> dict[str, Any]:
-        """Give the answer as plain data, in the form of the practice campaigns and more."""
-        base = self.base
-        settings = {"h": base.height, "Kb": 0.5 * base.buffer_stiffness, "s1": base.s1, "n": base.n, "k": base.k}
-        settings |= {"alpha": base.alpha, "mass": base.mass, "pad_stiffness": base.pad_stiffness}
-        settings |= {"pad_damping": base.pad_damping, "inertia_pitch": base.inertia_pitch}
-        instruments = {fault.effect: fault.describe() for fault in self.hidden.faults}
-        logger = {"lowpass": self.logger.lowpass, "order": self.logger.order, "phase": self.logger.phase}
-        logger |= {"noise": self.logger.noise, "late": self.logger.late, "correlation": self.logger.correlation}
-        return {
-            "missing": list(self.missing),
-            "settings": settings,
-            "instruments": instruments,
-            "details": self.hidden.details,
-            "size": self.size,
-            "size_in_floors": self.size_in_floors,
-            "floors": self.floors,
-            "seed": self.seed,
-            "rig": self.rig,
-            "rich": self.rich,
-            "logger": logger,
-        }
+    def at_samples(self, run: str) -> Run:
+        """Give the true channels of a run, unfiltered and free of noise, at the recorded instants."""
+        stride = int(round(self.recorded[run]["time"][1] / self.true[run]["time"][1]))
+        return {name: values[::stride] for name, values in self.true[run].items()}
 
 
 def fit_amplitude(base: Settings, motion: Motion, target: float, low: float, high: float) -> Motion:
-    """Scale the horizontal part so that the base rig slips about `target` [m], its peak within `low`..`high` [m/s^2]."""
+    """Scale the horizontal part until the base rig slips about `target` [m], its peak within `low`..`high` [m/s^2]."""
     for _ in range(3):
         peak = float(np.abs(motion.ax).max())
         slip = float(np.abs(simulate(base, motion, step=_COARSE)["slip_x"]).max())
@@ -126,6 +87,55 @@ def _too_wild(runs: dict[str, Run]) -> bool:
     return not (slip < MOST_SLIP and load > LEAST_LOAD)
 
 
+def build_campaign(
+    seed: int,
+    *,
+    name: str = "",
+    effects: Sequence[str] | None = None,
+    size: str | None = None,
+    rig: str | None = None,
+    rich: bool = False,
+) -> Campaign:
+    """Make a campaign in memory: true channels, recorded channels and the answer.
+
+    Args:
+        seed: of everything random.
+        name: for the answer.
+        effects: what to hide (see `bench.hidden.hide`); empty: nothing; None: drawn from the seed.
+        size: "small", "medium" or "large"; None: drawn.
+        rig: "bridge1" or "bridge2"; None: drawn.
+        rich: motion across as well, and gauges for yaw, the girder's edges and F_y.
+    """
+    rngs = np.random.default_rng(seed).spawn(6)
+    case = draw(seed) if effects is None else Case(tuple(effects), str(rngs[0].choice(list(SIZES))), rich)
+    size = size or case.size
+    rich = rich or case.rich
+    rig = rig or str(rngs[1].choice(["bridge1", "bridge2"]))
+    base = random_rig(rig, rngs[1])
+    motions = draw_motions(rig, base, rngs[2], rich)
+    hidden = hide(case.effects, size, base, rngs[3])
+    settings = base.changed(**hidden.settings)
+    clock = float(rngs[3].uniform(0.0, 100.0))
+    runs = shake(settings, motions, clock)
+    for _ in range(_CALMER):
+        if not _too_wild(runs):
+            break
+        motions = {run: motion.scaled(0.85, 0.92) for run, motion in motions.items()}
+        runs = shake(settings, motions, clock)
+    logger = draw_logger(rngs[4], rich)
+    in_step = replace(logger, late={})
+    names = RICH if rich else USUAL
+    faults = [with_rails(f, list(runs.values())) if f.effect == "channel_clipping" else f for f in hidden.faults]
+    recorded, clean = {}, []
+    for number, (run, true) in enumerate(runs.items()):
+        recorded[run] = measure(true, names, logger, faults, rngs[5], number)
+        clean.append(measure(true, names, in_step, faults, None, number))
+    floors = sizes_in_floors(base, list(runs.values()), clean, in_step)
+    hidden = replace(hidden, faults=tuple(faults))
+    truth = Truth(name, seed, rig, rich, size if hidden.missing else "", hidden, base, logger, floors)
+    return Campaign(truth, runs, recorded)
+
+
 def make_campaign(
     folder: Path,
     seed: int,
@@ -139,35 +149,8 @@ def make_campaign(
 
     Args:
         folder: of the campaign; its name becomes the campaign's.
-        seed: of everything random.
-        effects: what to hide (see `bench.hidden.hide`); empty: nothing; None: drawn from the seed.
-        size: "small", "medium" or "large"; None: drawn.
-        rig: "bridge1" or "bridge2"; None: drawn.
-        rich: motion across as well, and gauges for yaw, the girder's edges and F_y.
+        seed, effects, size, rig, rich: as in `build_campaign`.
     """
-    rngs = np.random.default_rng(seed).spawn(6)
-    case = draw(seed) if effects is None else Case(tuple(effects), str(rngs[0].choice(["small", "medium", "large"])), rich)
-    size = size or case.size
-    rich = rich or case.rich
-    rig = rig or str(rngs[1].choice(["bridge1", "bridge2"]))
-    base = random_rig(rig, rngs[1])
-    motions = draw_motions(rig, base, rngs[2], rich)
-    hidden = hide(case.effects, size, base, rngs[3])
-    settings = base.changed(**hidden.settings)
-    clock = float(rngs[3].uniform(0.0, 100.0))
-    runs = shake(settings, motions, clock)
-    for _ in range(6):
-        if not _too_wild(runs):
-            break
-        motions = {name: motion.scaled(0.85, 0.92) for name, motion in motions.items()}
-        runs = shake(settings, motions, clock)
-    logger = draw_logger(rngs[4], rich)
-    names = RICH if rich else USUAL
-    faults = [with_rails(f, list(runs.values())) if f.effect == "channel_clipping" else f for f in hidden.faults]
-    recorded = {name: measure(run, names, logger, faults, rngs[5]) for name, run in runs.items()}
-    in_step = replace(logger, late={})
-    clean = [measure(run, names, in_step, faults, None) for run in runs.values()]
-    floors = sizes_in_floors(base, list(runs.values()), clean, in_step)
-    write_campaign(folder, rig, logger, recorded)
-    hidden = Hidden(hidden.missing, hidden.settings, tuple(faults), hidden.details)
-    return Truth(folder.name, seed, rig, rich, size if hidden.missing else "", hidden, base, logger, floors)
+    made = build_campaign(seed, name=folder.name, effects=effects, size=size, rig=rig, rich=rich)
+    write_campaign(folder, made.truth.rig, made.truth.logger, made.recorded)
+    return made.truth

@@ -1,6 +1,6 @@
 """Faults of gauges: what they do to true channels before the logger, and to samples after it."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,7 @@ class Fault:
             the largest excursion [1], share of samples [1], clock error [1], cross-talk [N/N], cell's mass [kg].
         form: variant of the law, in words.
         rails: (low, high) of each channel once the runs are known; see `with_rails`.
+        seed: of the places where samples are lost.
     """
 
     effect: str
@@ -29,6 +30,7 @@ class Fault:
     size: float
     form: str = ""
     rails: dict[str, tuple[float, float]] = field(default_factory=dict)
+    seed: int = 0
 
     def describe(self) -> dict[str, object]:
         """Give the fault as plain data."""
@@ -43,7 +45,7 @@ def with_rails(fault: Fault, runs: list[dict[str, Array]]) -> Fault:
         rest = float(runs[0][name][0])
         reach = fault.size * max(float(np.abs(run[name] - rest).max()) for run in runs)
         rails[name] = (rest - reach, rest + reach)
-    return Fault(fault.effect, fault.channels, fault.size, fault.form, rails)
+    return replace(fault, rails=rails)
 
 
 def apply_before_logger(fault: Fault, channels: dict[str, Array], time: Array, true: dict[str, Array]) -> None:
@@ -107,13 +109,14 @@ def late_by(faults: list[Fault], name: str, time: Array) -> Array | float:
     return late
 
 
-def apply_after_logger(fault: Fault, channels: dict[str, Array], rng: np.random.Generator) -> None:
-    """Change samples in place: rails and lost samples."""
+def apply_after_logger(fault: Fault, channels: dict[str, Array], number: int) -> None:
+    """Change samples of the campaign's run `number` in place: rails and lost samples."""
     if fault.effect == "channel_clipping":
         for name in fault.channels:
             low, high = fault.rails[name]
             channels[name] = np.clip(channels[name], low, high)
     elif fault.effect == "dropped_samples":
+        rng = np.random.default_rng([fault.seed, number])
         count = channels[fault.channels[0]].size
         keep = np.ones(count, dtype=bool)
         while count - keep.sum() < fault.size * count:

@@ -1,7 +1,8 @@
 """Size of a hidden effect in floors: what it moves in each balance, over what sensor noise moves there.
 
 Residuals are those of a model with the TRUE base parameters, from noise-free recorded channels:
-pads F - F_base(N, v); girder m a_x + sum F + K x; heave sum N - m (g + a_z); pitch, roll and warp of the loads.
+pads F - F_base(N, v); girder m a_x + sum F + K x; heave sum N - m (g + a_z); pitch, roll and warp of the loads;
+kinematics: girder less table acceleration, in x and in z, against the true one.
 "raw" is their rms over the floor; "after_fit" what is left of it when the base parameters are fitted to it (linearly).
 """
 
@@ -19,7 +20,9 @@ def _stack(run: dict[str, Array], part: str) -> Array:
     return np.stack([run[f"pad_{pad}_{part}"] for pad in PADS])
 
 
-def _pad_balance(p: Settings, true: dict[str, Array], clean: dict[str, Array], logger: Logger, stride: int, axis: str) -> Balance:
+def _pad_balance(
+    p: Settings, true: dict[str, Array], clean: dict[str, Array], logger: Logger, stride: int, axis: str
+) -> Balance:
     rate = 1.0 / (true["time"][1] - true["time"][0])
     residual, columns = [], []
     speed = np.hypot(true["slip_vx"], true["slip_vy"])[::stride]
@@ -45,7 +48,9 @@ def _pad_balance(p: Settings, true: dict[str, Array], clean: dict[str, Array], l
     return np.concatenate(residual), np.concatenate(columns)
 
 
-def _rigid_balances(p: Settings, true: dict[str, Array], clean: dict[str, Array], logger: Logger, stride: int) -> dict[str, Balance]:
+def _rigid_balances(
+    p: Settings, true: dict[str, Array], clean: dict[str, Array], logger: Logger, stride: int
+) -> dict[str, Balance]:
     rate = 1.0 / (true["time"][1] - true["time"][0])
 
     def smooth(signal: Array) -> Array:
@@ -57,6 +62,7 @@ def _rigid_balances(p: Settings, true: dict[str, Array], clean: dict[str, Array]
     arm_x = 0.5 * p.spacing_x * np.array(PAD_SIGN_X)[:, None] - slip
     arm_y = 0.5 * p.spacing_y * np.array(PAD_SIGN_Y)[:, None] - smooth(true["slip_y"])
     turn, tilt = smooth(true["pitch_acceleration"]), smooth(true["roll_acceleration"])
+    nothing = np.zeros((slip.size, 0))
     across = smooth(_stack(true, "Fy").sum(axis=0)) + p.buffer_stiffness * smooth(true["slip_y"])
     pitch = p.height * (force + buffer) - (arm_x * load).sum(axis=0)
     roll = (arm_y * load).sum(axis=0) - p.height * across
@@ -65,22 +71,27 @@ def _rigid_balances(p: Settings, true: dict[str, Array], clean: dict[str, Array]
         "heave": (load.sum(axis=0) - p.mass * (GRAVITY + az), (GRAVITY + az)[:, None]),
         "pitch": (pitch - p.inertia_pitch * turn, np.stack([force + buffer, turn], axis=1)),
         "roll": (roll - p.inertia_roll * tilt, np.stack([across, tilt], axis=1)),
-        "warp": (load[0] - load[1] - load[2] + load[3], np.zeros((slip.size, 0))),
+        "warp": (load[0] - load[1] - load[2] + load[3], nothing),
+        "kinematics": (ax - clean["table_ax"] - smooth(true["girder_ax"] - true["table_ax"]), nothing),
+        "kinematics_z": (az - clean["table_az"] - smooth(true["girder_az"] - true["table_az"]), nothing),
     }
 
 
 def noise_floors(p: Settings, noise: dict[str, float]) -> dict[str, float]:
-    """Give the standard deviation that sensor noise alone gives each balance, in its unit [N or N m]."""
+    """Give the standard deviation that sensor noise alone gives each balance, in its unit [N, N m or m/s^2]."""
     buffer = p.buffer_stiffness * noise["slip"]
     force = 2.0 * noise["force"]
     return {
         "pads": noise["force"],
-        "pads_y": noise["force"],
         "girder": float(np.sqrt((p.mass * noise["girder"]) ** 2 + force**2 + buffer**2)),
         "heave": float(np.hypot(2.0 * noise["load"], p.mass * noise["girder"])),
-        "pitch": float(np.sqrt((p.spacing_x * noise["load"]) ** 2 + (p.height * force) ** 2 + (p.height * buffer) ** 2)),
+        "pitch": float(
+            np.sqrt((p.spacing_x * noise["load"]) ** 2 + (p.height * force) ** 2 + (p.height * buffer) ** 2)
+        ),
         "roll": p.spacing_y * noise["load"],
         "warp": 2.0 * noise["load"],
+        "kinematics": float(np.hypot(noise["girder"], noise["table"])),
+        "kinematics_z": float(np.hypot(noise["girder"], noise["table"])),
     }
 
 
@@ -98,11 +109,9 @@ def sizes_in_floors(
     balances: dict[str, list[Balance]] = {}
     for of_run, shown in zip(true, clean, strict=True):
         stride = int(round((shown["time"][1] - shown["time"][0]) / (of_run["time"][1] - of_run["time"][0])))
-        found = {"pads": _pad_balance(p, of_run, shown, logger, stride, "x")}
-        if "pad_A_Fy" in shown:
-            found["pads_y"] = _pad_balance(p, of_run, shown, logger, stride, "y")
-        found |= _rigid_balances(p, of_run, shown, logger, stride)
-        for name, balance in found.items():
+        for axis in "xy" if "pad_A_Fy" in shown else "x":
+            balances.setdefault("pads", []).append(_pad_balance(p, of_run, shown, logger, stride, axis))
+        for name, balance in _rigid_balances(p, of_run, shown, logger, stride).items():
             balances.setdefault(name, []).append(balance)
     floors = noise_floors(p, logger.noise)
     raw, left = {}, {}

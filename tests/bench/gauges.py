@@ -100,6 +100,7 @@ def measure(
     logger: Logger,
     faults: list[Fault],
     rng: np.random.Generator | None,
+    number: int = 0,
 ) -> dict[str, Array]:
     """Give what a laboratory would have recorded of a run.
 
@@ -108,7 +109,8 @@ def measure(
         names: channels to record.
         logger: the chain.
         faults: of gauges, in order.
-        rng: for noise and lost samples. None: neither (what a perfect sensor behind the same chain would show).
+        rng: for noise. None: no noise.
+        number: of the run in its campaign.
 
     Returns:
         "time" [s] and the channels at 500 Hz, SI.
@@ -132,6 +134,5 @@ def measure(
         if rng is not None:
             recorded[name] += _noise(logger, sensor(name), samples.size, rng)
     for fault in faults:
-        if rng is not None or fault.effect == "channel_clipping":
-            apply_after_logger(fault, recorded, rng or np.random.default_rng(0))
+        apply_after_logger(fault, recorded, number)
     return {"time": samples, **recorded}

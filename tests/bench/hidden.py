@@ -79,7 +79,11 @@ def hide(effects: Sequence[str], size: str, base: Settings, rng: np.random.Gener
         else:
             change, form = {**PAD_EFFECTS, **RIG_EFFECTS}[family](rng, scale, base)
         settings.update(change)
-        details[family] = {"scale": scale, "form": form, **{key: np.asarray(value).tolist() for key, value in change.items()}}
+        details[family] = {
+            "scale": scale,
+            "form": form,
+            **{key: np.asarray(value).tolist() for key, value in change.items()},
+        }
     return Hidden(tuple(missing), settings, tuple(faults), details)
 
 

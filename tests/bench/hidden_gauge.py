@@ -65,16 +65,16 @@ def channel_filter(rng: np.random.Generator, scale: float) -> Fault:
 
 
 def channel_clipping(rng: np.random.Generator, scale: float) -> Fault:
-    """A gauge that meets its rail at 50 to 90 % of the largest excursion."""
+    """A gauge that meets its rail at 35 to 90 % of the largest excursion."""
     group = _pick(rng, "girder", _one_force(rng), _one_load(rng))
-    return Fault("channel_clipping", GROUPS[group], float(np.clip(1.0 - 0.22 * scale, 0.4, 0.92)))
+    return Fault("channel_clipping", GROUPS[group], float(np.clip(1.0 - 0.3 * scale, 0.35, 0.92)))
 
 
 def dropped_samples(rng: np.random.Generator, scale: float) -> Fault:
     """0.5 to 6 % of a channel's samples repeat the last value; or are lost, and the rest moves up."""
     group = _pick(rng, "slip", "girder", "forces", _one_force(rng), _one_load(rng))
-    form = "held" if rng.random() < 0.7 else "lost"
-    return Fault("dropped_samples", GROUPS[group], (0.02 if form == "held" else 0.0025) * scale, form)
+    form, share = ("held", 0.02) if rng.random() < 0.7 else ("lost", 0.0025)
+    return Fault("dropped_samples", GROUPS[group], share * scale, form, seed=int(rng.integers(2**31)))
 
 
 def clock_skew(rng: np.random.Generator, scale: float) -> Fault:
@@ -85,7 +85,7 @@ def clock_skew(rng: np.random.Generator, scale: float) -> Fault:
 def load_crosstalk(rng: np.random.Generator, scale: float) -> Fault:
     """Cells whose friction channel feels 0.3 to 2 % of the load, or the other way round."""
     group = _pick(rng, "forces", "forces", _one_force(rng), "loads")
-    size = _sign(rng) * (0.008 if "force" in group else 0.05) * scale
+    size = _sign(rng) * (0.008 if "force" in group else 0.08) * scale
     form = "zeroed at rest" if rng.random() < 0.3 else "not zeroed"
     return Fault("load_crosstalk", GROUPS[group], size, form)
 

@@ -67,8 +67,10 @@ def rate_and_state(rng: np.random.Generator, scale: float, base: Settings) -> Ch
 def pressure_law(rng: np.random.Generator, scale: float, base: Settings) -> Change:
     """Another dependence on pressure than (1 - exp(-k P)); part of it hides in k and alpha."""
     form = int(rng.integers(1, 4))
-    typical = (0.16, 0.2, 0.14)[form - 1]
-    return {"pressure_form": form, "pressure_size": _sign(rng) * typical * scale}, ("power", "quadratic", "tanh")[form - 1]
+    typical = (0.2, 0.4, 0.2)[form - 1]
+    return {"pressure_form": form, "pressure_size": _sign(rng) * typical * scale}, ("power", "quadratic", "tanh")[
+        form - 1
+    ]
 
 
 def direction_asymmetry(rng: np.random.Generator, scale: float, base: Settings) -> Change:
@@ -108,7 +110,7 @@ def slide_tilt(rng: np.random.Generator, scale: float, base: Settings) -> Change
 
 def slide_curvature(rng: np.random.Generator, scale: float, base: Settings) -> Change:
     """Dished plates: a force N x / R. All dish alike, so the girder's rise changes no load and is left out."""
-    return {"curvature": 0.12 * scale * _sign(rng)}, "constant radius"
+    return {"curvature": 0.2 * scale * _sign(rng)}, "constant radius"
 
 
 def uneven_seating(rng: np.random.Generator, scale: float, base: Settings) -> Change:

@@ -14,9 +14,13 @@ def buffer_damping(rng: np.random.Generator, scale: float, base: Settings) -> Ch
 
 
 def buffer_hysteresis(rng: np.random.Generator, scale: float, base: Settings) -> Change:
-    """A loop of 0.4 to 2.5 kN that does not depend on speed."""
+    """A loop of 0.5 to 3 kN that does not depend on speed."""
     form = int(rng.integers(1, 3))
-    change = {"hysteresis_form": form, "hysteresis_force": 900.0 * scale, "hysteresis_length": rng.uniform(1.0e-3, 5.0e-3)}
+    change = {
+        "hysteresis_form": form,
+        "hysteresis_force": 1.3e3 * scale,
+        "hysteresis_length": rng.uniform(1.0e-3, 5.0e-3),
+    }
     return change, ("Bouc-Wen, exponent 1", "Bouc-Wen, exponent 2")[form - 1]
 
 
@@ -28,7 +32,11 @@ def buffer_hardening(rng: np.random.Generator, scale: float, base: Settings) -> 
 def buffer_softening(rng: np.random.Generator, scale: float, base: Settings) -> Change:
     """Mullins: stiffer until the rubber has been stretched; its memory outlives the rest between runs."""
     form = int(rng.integers(1, 3))
-    change = {"softening_form": form, "softening": 0.15 * scale, "softening_length": rng.uniform(5.0e-3, 1.5e-2)}
+    change = {
+        "softening_form": form,
+        "softening": min(0.2 * scale, 0.45),
+        "softening_length": rng.uniform(5.0e-3, 1.5e-2),
+    }
     return change, ("exponential in the largest excursion", "linear in the largest excursion")[form - 1]
 
 
@@ -71,7 +79,7 @@ def girder_bending(rng: np.random.Generator, scale: float, base: Settings) -> Ch
 def guide_drag(rng: np.random.Generator, scale: float, base: Settings) -> Change:
     """A guide that drags with speed on the girder's side, at the height of its centre of gravity."""
     form = int(rng.integers(1, 3))
-    return {"drag_form": form, "drag": 2.5e3 * scale}, ("linear", "quadratic in speed")[form - 1]
+    return {"drag_form": form, "drag": 5.0e3 * scale}, ("linear", "quadratic in speed")[form - 1]
 
 
 def table_pitch(rng: np.random.Generator, scale: float, base: Settings) -> Change:
@@ -104,8 +112,8 @@ UNKNOWN_KINDS: dict[str, tuple[int, float, tuple[float, float], tuple[float, flo
     "load_rate_friction": (4, 0.10, (1.5e5, 4.0e5), (0.0, 0.0)),
     "cubic_drag": (5, 0.030, (0.25, 0.4), (0.0, 0.0)),
     "away_from_centre": (6, 0.09, (2.0e-3, 5.0e-3), (0.0, 0.0)),
-    "swinging_mass": (7, 300.0, (4.0, 8.0), (0.0, 0.0)),
-    "rubbing_bar": (8, 900.0, (5.0e-3, 2.0e-2), (-1.0e-2, 1.0e-2)),
+    "swinging_mass": (7, 600.0, (4.0, 8.0), (0.0, 0.0)),
+    "rubbing_bar": (8, 2.5e3, (5.0e-3, 2.0e-2), (-1.0e-2, 1.0e-2)),
     "late_contact_area": (9, 1.0, (0.0, 0.0), (0.012, 0.018)),
 }
 
@@ -117,6 +125,6 @@ def unknown(kind: str, rng: np.random.Generator, scale: float) -> Change:
     if kind == "late_contact_area":
         size, place = 1.0, place * scale
     elif kind == "swinging_mass":
-        size = min(size, 800.0)
+        size = min(size, 1.5e3)
     change = {"unknown_form": form, "unknown_size": size, "unknown_scale": rng.uniform(*widths), "unknown_place": place}
     return change, kind

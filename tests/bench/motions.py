@@ -65,7 +65,9 @@ def draw_sine(rig: str, rng: np.random.Generator, across: bool = False) -> Motio
     time = np.arange(0.0, length + quiet + 1.4, STEP)
     shape = _ramps(time, quiet, quiet + length, rng.uniform(0.6, 1.2))
     ax = 0.30 * GRAVITY * shape * np.sin(2.0 * np.pi * frequency * (time - quiet))
-    az = rng.uniform(0.15, 0.3) * GRAVITY * shape * np.sin(2.0 * np.pi * upward * (time - quiet) + rng.uniform(0.0, 6.0))
+    az = (
+        rng.uniform(0.15, 0.3) * GRAVITY * shape * np.sin(2.0 * np.pi * upward * (time - quiet) + rng.uniform(0.0, 6.0))
+    )
     ay = np.zeros_like(ax)
     if across:
         share = rng.uniform(0.35, 0.6)
@@ -86,7 +88,7 @@ def _quake_component(rng: np.random.Generator, time: Array, envelope: Array, fre
 
 
 def draw_quake(rng: np.random.Generator, across: bool = False) -> Motion:
-    """Give an earthquake at a pier's top in model time: 3 to 5 Hz, strong for 2.5 to 4 s, peak 0.7 g, vertical 0.3 g."""
+    """Give an earthquake at a pier's top in model time: 3 to 5 Hz, strong for 2 to 3 s, peak 0.7 g, vertical 0.3 g."""
     quiet, strong = rng.uniform(0.8, 1.1), rng.uniform(2.0, 3.2)
     rise, tail = rng.uniform(0.4, 0.8), rng.uniform(0.7, 1.2)
     time = np.arange(0.0, 7.5, STEP)

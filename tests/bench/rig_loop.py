@@ -228,7 +228,7 @@ def run(p, start, table, table_step, step, settle, steps, every, pads, buffers, 
         row[12] = g[5]
         row[13] = g[4]
         row[14] = g[3]
-        row[15] = turn
+        row[15] = a[4]
         row[16] = a[3]
         if s >= 0 and s % every == 0:
             out[rows] = row

@@ -19,7 +19,7 @@ EVERY = 10
 SETTLE = 0.3
 _PAD_MEMORY = 8
 _LONG_REST = 1800.0
-#: De-dimensioned half-space of steel: dT = sqrt(D/pi)/ks * integral of q(t - u)/sqrt(u) du. Source: physics P3.
+#: Half-space of steel: dT = sqrt(D/pi)/ks * integral of q(t - u)/sqrt(u) du. Source: physics P3.
 DIFFUSIVITY = 4.44e-6
 CONDUCTIVITY = 18.0
 
@@ -39,12 +39,12 @@ class Memory:
     largest: Array = field(default_factory=lambda: np.zeros(2))
 
 
-def heat_kernel(terms: int = 10) -> tuple[Array, Array]:
+def heat_kernel(terms: int = 12) -> tuple[Array, Array]:
     """Give rates [1/s] and weights [K m^2/J] of exponentials that together make the half-space kernel.
 
-    1/sqrt(u) = pi^-1/2 times the integral of s^-1/2 exp(-u s) ds, with equal steps of log s between 1/200 s and 400/s.
+    1/sqrt(u) = pi^-1/2 times the integral of s^-1/2 exp(-u s) ds, with equal steps of log s from 5e-5/s to 4000/s.
     """
-    log_rates, spacing = np.linspace(np.log(5.0e-3), np.log(400.0), terms, retstep=True)
+    log_rates, spacing = np.linspace(np.log(5.0e-5), np.log(4.0e3), terms, retstep=True)
     rates = np.exp(log_rates)
     weights = np.sqrt(rates / np.pi) * spacing * np.sqrt(DIFFUSIVITY / np.pi) / CONDUCTIVITY
     return rates, weights
@@ -76,8 +76,10 @@ def simulate(
     Returns:
         "time" [s] and `COLUMNS`, each (rows,), in SI units with the signs of the contract (N compression; Fx force of
         the girder on the pad, positive when sliding to +x; buffer force positive when the girder is at +x).
-        "pad_A_vx" is the pad's true slip speed, "pad_A_Fx_base" what the base law makes of the same load and the middle's slip.
-        Accelerations of the girder are what an accelerometer there feels, weight excluded.
+        "pad_A_vx" is the pad's true slip speed, "pad_A_Fx_base" what the base law makes of the pad's load and the
+        middle's slip.
+        Accelerations of the girder are what an accelerometer there feels, weight excluded; "pitch_acceleration" is
+        relative to the table.
     """
     memory = Memory() if memory is None else memory
     rates, weights = heat_kernel()
@@ -95,4 +97,5 @@ def simulate(
     memory.distance = pads[:, 6].copy()
     memory.largest = buffers[:, 1].copy()
     channels = {name: np.ascontiguousarray(out[:, i]) for i, name in enumerate(COLUMNS)}
-    return {"time": np.arange(out.shape[0]) * step * every, **channels}
+    time: Array = step * every * np.arange(out.shape[0], dtype=np.float64)
+    return {"time": time, **channels}

@@ -47,7 +47,13 @@ def campaign_toml(name: str, rig: str, logger: Logger) -> str:
     """Give the text of campaign.toml; the logger is described where the laboratory knows it."""
     lines = [f'name = "{name}"', f'rig = "{rig}"', ""]
     if logger.stated:
-        lines += ["[logger]", f'lowpass = "{logger.lowpass:g} Hz"', f"order = {logger.order}", f'phase = "{logger.phase}"', ""]
+        lines += [
+            "[logger]",
+            f'lowpass = "{logger.lowpass:g} Hz"',
+            f"order = {logger.order}",
+            f'phase = "{logger.phase}"',
+            "",
+        ]
     lines += ["# One specimen, five runs. The girder was at rest before each run.", ""]
     for run, role in RUNS:
         lines += ["[[run]]", f'file = "{run}.csv"', f'role = "{role}"', 'rest_before = "30 min"', ""]
