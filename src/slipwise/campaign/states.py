@@ -12,14 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.campaign.aligned import aligned_run, long_enough, spread
 from slipwise.campaign.campaign import Campaign, Run
 from slipwise.channels import PAD_SIGNS, PADS
 from slipwise.errors import InputError
 from slipwise.loads import load_modes, vertical_acceleration
 from slipwise.record import Record
 from slipwise.rig import Specimen
-from slipwise.signals import Fused, LowPass, align, derivative, fuse
-from slipwise.signals.resample import resampled, uniform_time
+from slipwise.signals import Fused, LowPass, derivative, fuse
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -133,7 +133,8 @@ def measured_states(run: Run, campaign: Campaign) -> States:
         raise InputError(
             f"{run.file}: slip_x is needed to know how the girder moves; it has {', '.join(run.record.channels)}"
         )
-    record, measured, lowpass = _uniform(run, campaign)
+    aligned = aligned_run(run, campaign.logger)
+    record, lowpass = aligned.record, aligned.lowpass
     specimen = campaign.specimen
     missing: list[str] = []
     pads = [pad for pad in PADS if any(f"pad_{pad}_{kind}" in record for kind in ("N", "P", "Fx"))]
@@ -162,7 +163,7 @@ def measured_states(run: Run, campaign: Campaign) -> States:
         stuck=stuck,
         near_reversal=~stuck & _slow(speed, velocity[:, 0], record.dt, slowest),
         uplift=_uplift(load, record.dt, pads),
-        valid=measured & _inside(len(record)),
+        valid=aligned.measured & _inside(len(record)),
         has_y=across is not None,
         has_yaw=yaw is not None,
         lowpass=lowpass,
@@ -170,18 +171,6 @@ def measured_states(run: Run, campaign: Campaign) -> States:
         record=record,
         missing=tuple(missing),
     )
-
-
-def _uniform(run: Run, campaign: Campaign) -> tuple[Record, Mask, dict[str, LowPass | None]]:
-    """Put all channels on a uniform axis and take the lag of causal filters out."""
-    axis = uniform_time(run.record.time)
-    dt = float(np.median(np.diff(axis.time)))
-    channels: dict[str, Array] = {}
-    lowpass: dict[str, LowPass | None] = {}
-    for name, values in run.record.channels.items():
-        placed = resampled(run.record.time, values, axis.time) if axis.moved else values
-        channels[name], lowpass[name] = align(placed, dt, campaign.logger.of(name))
-    return Record(axis.time, channels, run.record.provenance), axis.measured, lowpass
 
 
 def _loads(record: Record, specimen: Specimen, pads: list[str], run: Run, missing: list[str]) -> Array:
@@ -267,16 +256,7 @@ def _across(record: Record, missing: list[str]) -> Fused | None:
 
 def _stuck(speed: Array) -> Mask:
     limit = min(_STUCK, _STUCK_PART * float(np.quantile(speed, 0.95)))
-    return _long_enough(speed < limit, _STUCK_SAMPLES)
-
-
-def _long_enough(mask: Mask, count: int) -> Mask:
-    """Keep only stretches of at least this many samples."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(int)))
-    kept = np.zeros(len(mask), dtype=bool)
-    for start, end in zip(edges[::2], edges[1::2], strict=True):
-        kept[start:end] = end - start >= count
-    return kept
+    return long_enough(speed < limit, _STUCK_SAMPLES)
 
 
 def _slow(speed: Array, velocity: Array, dt: float, lowpass: LowPass | None) -> Mask:
@@ -285,13 +265,7 @@ def _slow(speed: Array, velocity: Array, dt: float, lowpass: LowPass | None) -> 
     turns = np.zeros(len(speed), dtype=bool)
     turns[1:] = np.signbit(velocity[1:]) != np.signbit(velocity[:-1])
     reach = int(np.ceil(0.5 / (lowpass.frequency * dt))) if lowpass else 2
-    return slow | _spread(turns, reach, reach)
-
-
-def _spread(mask: Mask, before: int, after: int) -> Mask:
-    """Make every true sample true for its neighbours too."""
-    kernel = np.ones(before + after + 1)
-    return np.convolve(mask.astype(float), kernel)[before : before + len(mask)] > 0.5
+    return slow | spread(turns, reach, reach)
 
 
 def _uplift(load: Array, dt: float, pads: list[str]) -> Mask:
@@ -299,7 +273,7 @@ def _uplift(load: Array, dt: float, pads: list[str]) -> Mask:
     if len(pads) < len(PAD_SIGNS) or not np.isfinite(load).all():
         return np.zeros(len(load), dtype=bool)
     lifted = np.any(load < _LIFTED * np.median(load, axis=0), axis=1)
-    return _spread(np.asarray(lifted), 1, int(np.ceil(_RINGING / dt)))
+    return spread(np.asarray(lifted), 1, int(np.ceil(_RINGING / dt)))
 
 
 def _inside(count: int) -> Mask:

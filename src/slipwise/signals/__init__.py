@@ -4,19 +4,23 @@ from slipwise.signals.derivative import derivative, integral
 from slipwise.signals.filters import LowPass, align, lowpass, response
 from slipwise.signals.fused import Fused, fuse
 from slipwise.signals.noise import Noise, noise, white_level
+from slipwise.signals.resample import UniformTime, resampled, uniform_time
 from slipwise.signals.shift import shift
 
 __all__ = [
     "Fused",
     "LowPass",
     "Noise",
+    "UniformTime",
     "align",
     "derivative",
     "fuse",
     "integral",
     "lowpass",
     "noise",
+    "resampled",
     "response",
     "shift",
+    "uniform_time",
     "white_level",
 ]
