@@ -1,0 +1,174 @@
+"""What a rigid girder on four springs asks of the measured channels, without any law of friction.
+
+    girder  m a_x = -(sum F + F_buffers + drag)
+    heave   sum N = m (g + a_z) - lift
+    pitch   Q_pitch = P(s) [h sum F + (h - z_b) F_buffers] / half_x + x sum N / half_x + ...
+    roll    Q_roll = 0,    warp = 0
+    motion  a_x - a_x,table = d2(slip)/dt2
+
+P(s) = (2 z w s + w^2) / (s^2 + 2 z w s + w^2) is the girder's pitch on its pads: taken as quasi-static, the balance
+leaves 2.5 times the noise. Effects add to each by their `balance`, `spring`, `drag` and `lift` hooks.
+
+Source: physics.md 1.2, 1.7; Harris' Shock and Vibration Handbook, base-excited oscillator.
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.effects import BalanceStates
+from slipwise.fit.data import FitRun
+from slipwise.loads import load_modes
+from slipwise.model import Model
+from slipwise.predict import Predictor
+from slipwise.rig import Specimen
+from slipwise.signals import shift
+from slipwise.signals.ends import in_frequency
+
+Array = NDArray[np.float64]
+BALANCES: tuple[str, ...] = ("girder", "heave", "pitch", "roll", "warp", "motion")
+
+
+def available(run: FitRun, specimen: Specimen) -> tuple[str, ...]:
+    """Tell which balances a run's channels allow."""
+    out = []
+    if not specimen.free or len(specimen.pads) != 4 or len(run.pads) != 4 or not np.isfinite(run.load).all():
+        return ()
+    if "girder_ax" in run.record:
+        out.append("girder")
+    if np.isfinite(run.states.girder_acceleration[:, 2]).all():
+        out.append("heave")
+    out += ["pitch", "warp"] if run.states.has_y else ["pitch", "roll", "warp"]
+    if run.record.has_all("girder_ax", "table_ax"):
+        out.append("motion")
+    return tuple(out)
+
+
+def through_pitch(values: Array, dt: float, frequency: float, damping: float) -> Array:
+    """Pass a pitch load (n,) through the girder's pitch on its pads."""
+
+    def gain(f: Array) -> NDArray[np.complex128]:
+        ratio = f / frequency
+        spring = 1.0 + 2j * damping * ratio
+        return spring / (spring - ratio**2)
+
+    return in_frequency(values, dt, gain, int(3.0 / (dt * frequency * max(damping, 0.01))) + 8)
+
+
+def buffer_forces(law: Predictor, run: FitRun, slip: Array, velocity: Array) -> Array:
+    """Give the force of the girder on each buffer along x, (n, n_buffers) [N]; yaw moves the buffers apart.
+
+    Args:
+        law: the model's laws with their memory.
+        run: for the time.
+        slip: (n, n_buffers) deflection [m].
+        velocity: (n, n_buffers) its rate [m/s].
+    """
+    deflection = np.stack([slip, np.zeros_like(slip)], axis=2)
+    rate = np.stack([velocity, np.zeros_like(velocity)], axis=2)
+    return law.buffers(run.time, deflection, rate)[:, :, 0]
+
+
+def heave_rate(run: FitRun, specimen: Specimen) -> Array:
+    """Give the girder's vertical rate over the table (n,) [m/s]: the pads' shortening under the measured loads."""
+    total = run.load.sum(axis=1)
+    stiffness = len(specimen.pads) * specimen.pad_stiffness
+    smooth = in_frequency(total, run.dt, lambda f: 1.0 / (1.0 + (f / 100.0) ** 8), 64)
+    return -np.gradient(smooth, run.dt) / stiffness
+
+
+def predicted(
+    model: Model,
+    run: FitRun,
+    force: Array,
+    buffers: Array,
+    values: Mapping[str, float],
+) -> tuple[dict[str, Array], dict[str, Array]]:
+    """Give what the balances predict and what was measured, each relation (n,).
+
+    Args:
+        model: with the numbers of the fit.
+        run: its channels, instrument faults of the hypothesis taken out.
+        force: (n, 4) measured pad forces, faults taken out [N].
+        buffers: (n, n_buffers) [N].
+        values: of the fit, for the pitch of the girder on its pads.
+    """
+    specimen = model.built_specimen()
+    half = specimen.half_spacing[0]
+    total, fb = force.sum(axis=1), buffers.sum(axis=1)
+    height = specimen.centre_height
+    turning = height * total + (height - specimen.buffer_height) * fb
+    heave = run.load.sum(axis=1)
+    swing = run.slip * heave if specimen.pads_on == "table" else 0.0
+    pitch = through_pitch(
+        (turning + swing) / half, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"]
+    )
+    modes = load_modes(run.load)
+    mass, gravity = specimen.mass, specimen.gravity
+    said = {
+        "girder": _late(-(total + fb) / mass, run.dt, values["rig.late_girder"]),
+        "heave": _late(mass * (gravity + run.states.girder_acceleration[:, 2]), run.dt, values["rig.late_load"]),
+        "pitch": _late(pitch, run.dt, values["rig.late_pitch"]),
+        "roll": np.zeros(len(heave)),
+        "warp": np.zeros(len(heave)),
+    }
+    seen = {"girder": run.channel("girder_ax"), "heave": heave, "pitch": modes.pitch, "roll": modes.roll}
+    seen["warp"] = modes.warp
+    for name, more in _hooks(model, run, specimen, force, buffers).items():
+        said[name] = said[name] + (-more / mass if name == "girder" else more)
+    return said, seen
+
+
+def _late(values: Array, dt: float, lag: float) -> Array:
+    """Shift a smooth signal by a lag far below the sampling step."""
+    return values - lag * np.gradient(values, dt)
+
+
+def _hooks(
+    model: Model, run: FitRun, specimen: Specimen, force: Array, buffers: Array
+) -> dict[str, Array]:
+    uses = model.with_hook("balance")
+    if not uses:
+        return {}
+    zero = np.zeros(len(run.time))
+    across = np.zeros_like(force)
+    states = BalanceStates(
+        time=run.time,
+        specimen=specimen,
+        slip=run.states.slip,
+        velocity=run.states.velocity,
+        load=run.load,
+        pad_force=np.stack([force, across], axis=2),
+        girder_acceleration=np.nan_to_num(run.states.girder_acceleration),
+        table_acceleration=np.nan_to_num(run.states.table_acceleration),
+        buffer_force=np.stack([buffers.sum(axis=1), zero], axis=1),
+        buffer_size=np.stack([np.abs(buffers).sum(axis=1), zero], axis=1),
+        heave_rate=heave_rate(run, specimen),
+    )
+    out: dict[str, Array] = {}
+    for entry in uses:
+        for name, more in entry.effect.hooks["balance"](states, **entry.values).items():
+            out[name] = out.get(name, zero) + more
+    return out
+
+
+def motion_residual(run: FitRun, late: float) -> Array:
+    """Give a_x - a_x,table - d2(slip)/dt2, whitened by the noise of the three gauges: (n,) of unit variance.
+
+    Args:
+        run: its channels.
+        late: by which the slip gauge lags behind the accelerometers [s].
+    """
+    level = np.hypot(run.noise["girder_ax"], run.noise["table_ax"])
+    gauge = run.noise["slip_x"]
+
+    def white(f: Array) -> Array:
+        return 1.0 / np.sqrt(level**2 + ((2.0 * np.pi * f) ** 2 * gauge) ** 2)
+
+    relative = run.record["girder_ax"] - run.record["table_ax"]
+    slip = shift(run.record["slip_x"], run.dt, -late)
+    bend = in_frequency(slip - slip[0], run.dt, lambda f: (2.0 * np.pi * f) ** 2 * white(f), 256)
+    return in_frequency(relative, run.dt, white, 256) + bend
+
+

@@ -1,0 +1,187 @@
+"""What a fit needs of a run: states on the samples and between them, masks, and the noise of every channel."""
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.campaign import Campaign, Logger, Run
+from slipwise.campaign.states import States, measured_states
+from slipwise.channels import PADS
+from slipwise.errors import InputError
+from slipwise.record import Record
+from slipwise.signals import LowPass, lowpass, noise
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+#: Masked before and after a stuck stretch [s].
+_STUCK_MARGIN = 0.016
+#: Samples at rest that are enough to know a gauge's noise.
+_ENOUGH_QUIET = 60
+#: Instants per sample at which the laws are evaluated: a reversal between two samples must not wait for the second.
+FINE = 2
+
+
+@dataclass(frozen=True)
+class FitRun:
+    """One run, ready for the relations of a fit.
+
+    Attributes:
+        name: of the run.
+        role: "fit", "repeat" or "holdout".
+        rest_before: pause before it [s].
+        states: measured states.
+        filtered: what the logger did to the friction channels; None where nothing is known.
+        pads: places of the measured pads among the rig's pads.
+        load: (n, p) [N].
+        force: (n, p) along x [N].
+        sliding: (n,) samples at which the law says the force of a pad.
+        grounded: (n,) samples at which every pad carries load, ends left out.
+        noise: channel -> standard deviation of one sample.
+        source: campaign and run from which it was made, to make states anew from changed channels.
+    """
+
+    name: str
+    role: str
+    rest_before: float
+    states: States
+    filtered: LowPass | None
+    pads: tuple[str, ...]
+    load: Array
+    force: Array
+    sliding: Mask
+    grounded: Mask
+    source: tuple[Campaign, Run]
+    noise: dict[str, float] = field(default_factory=dict[str, float])
+
+    @property
+    def record(self) -> Record:
+        """All channels, lag of a causal logger taken out."""
+        return self.states.record
+
+    @property
+    def time(self) -> Array:
+        """Time of the samples (n,) [s]."""
+        return self.states.time
+
+    @property
+    def dt(self) -> float:
+        """Sampling step [s]."""
+        return self.states.dt
+
+    @property
+    def slip(self) -> Array:
+        """Slip along x (n,) [m]."""
+        return self.states.slip[:, 0]
+
+    @property
+    def velocity(self) -> Array:
+        """Slip rate along x (n,) [m/s]."""
+        return self.states.velocity[:, 0]
+
+    def channel(self, name: str) -> Array:
+        """Give a channel (n,), zero where it was not measured."""
+        return self.record[name] if name in self.record else np.zeros(len(self.record))
+
+    def with_record(self, record: Record, *, moved: bool) -> "FitRun":
+        """Give the run with other channels.
+
+        Args:
+            record: all channels.
+            moved: whether slip and velocity must be made anew.
+        """
+        campaign, run = self.source
+        if moved:
+            states = measured_states(replace(run, record=record), campaign)
+        else:
+            states = replace(self.states, record=record, load=_stacked(record, self.pads, "N", self.states.load))
+        return replace(self, states=states, load=states.load)
+
+
+def fit_runs(campaign: Campaign) -> list[FitRun]:
+    """Prepare every run of a campaign.
+
+    Raises:
+        InputError: a run lacks slip, or a pad's friction.
+    """
+    return [_fit_run(run, campaign) for run in campaign.runs]
+
+
+def _fit_run(run: Run, campaign: Campaign) -> FitRun:
+    states = measured_states(run, campaign)
+    pads = tuple(p for p in PADS if f"pad_{p}_Fx" in states.record)
+    if not pads:
+        raise InputError(f"{run.file}: no pad_*_Fx was measured, so no law of friction can be fitted")
+    here = [i for i, p in enumerate(_measured(states.record)) if p in pads]
+    load = states.load[:, here]
+    margin = max(2, round(_STUCK_MARGIN / states.dt))
+    grounded = states.usable & np.isfinite(load).all(axis=1)
+    sliding = grounded & ~_widened(states.stuck, margin)
+    quiet = _quiet(states.record)
+    levels = {c: _level(v, quiet) for c, v in states.record.channels.items()}
+    aligned = replace(campaign, logger=Logger(None, dict(states.lowpass), known=True))
+    force = _stacked(states.record, pads, "Fx", states.load)
+    filtered = states.lowpass.get(f"pad_{pads[0]}_Fx")
+    rest = 0.0 if run.rest_before is None else run.rest_before
+    return FitRun(
+        run.name, run.role, rest, states, filtered, pads, load, force, sliding, grounded,
+        (aligned, replace(run, record=states.record)), levels,
+    )  # fmt: skip
+
+
+def _level(values: Array, quiet: Mask | None) -> float:
+    """Give the noise of a channel: at rest where the run shows it, else from the top of the spectrum."""
+    if quiet is None or np.count_nonzero(quiet) < _ENOUGH_QUIET:
+        return noise(values).level
+    still = values[quiet]
+    place = np.arange(len(still))
+    return float(np.std(still - np.polynomial.Polynomial.fit(place, still, 1)(place), ddof=2))
+
+
+def _measured(record: Record) -> list[str]:
+    return [p for p in PADS if any(f"pad_{p}_{kind}" in record for kind in ("N", "P", "Fx"))]
+
+
+def _stacked(record: Record, pads: tuple[str, ...], kind: str, otherwise: Array) -> Array:
+    names = [f"pad_{p}_{kind}" for p in pads]
+    if not record.has_all(*names):
+        return otherwise
+    return np.stack([record[n] for n in names], axis=1)
+
+
+def _quiet(record: Record) -> Mask | None:
+    """Tell which samples at the start of a run are at rest: the table has not moved yet."""
+    if "table_ax" not in record:
+        return None
+    level = noise(record["table_ax"]).level
+    block = max(8, round(0.02 / record.dt))
+    smooth = np.convolve(np.abs(record["table_ax"] - np.median(record["table_ax"][:block])), np.ones(block) / block)
+    moving = smooth[: len(record)] > 3.0 * level
+    first = int(np.argmax(moving)) - block if moving.any() else len(record)
+    return np.arange(len(record)) < first
+
+
+def _widened(flags: Mask, reach: int) -> Mask:
+    """Spread flags to the samples before and after them."""
+    count = np.concatenate([[0], np.cumsum(flags)])
+    place = np.arange(len(flags))
+    low, high = np.maximum(place - reach, 0), np.minimum(place + reach + 1, len(flags))
+    return count[high] > count[low]
+
+
+def refined(values: Array) -> Array:
+    """Give the values (n, ...) at the instants, (FINE (n - 1) + 1, ...), by cubics through four neighbours."""
+    out = np.empty((FINE * (len(values) - 1) + 1, *values.shape[1:]))
+    out[::FINE] = values
+    earlier, later = np.concatenate([values[:1], values[:-2]]), np.concatenate([values[2:], values[-1:]])
+    for j in range(1, FINE):
+        t = j / FINE
+        weights = (-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2)
+        last = (t + 1) * t * (t - 1) / 6
+        out[j::FINE] = weights[0] * earlier + weights[1] * values[:-1] + weights[2] * values[1:] + last * later
+    return out
+
+
+def smoothed(values: Array, run: FitRun) -> Array:
+    """Give a channel without what lies above the logger's band."""
+    return lowpass(values, run.dt, run.filtered or LowPass(0.2 / run.dt))

@@ -1,0 +1,351 @@
+"""One stacked fit: pads, girder, heave, pitch, roll, warp and motion with one set of numbers.
+
+Residuals are (measured - predicted) / noise in measured units: a fault of a gauge is put on the prediction, or its
+inverse on the measurement with the noise scaled alike. Else a gain below one would shrink the noise and look good.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.effects import Effect
+from slipwise.fit.balances import available, buffer_forces, motion_residual, predicted
+from slipwise.fit.data import FitRun, smoothed
+from slipwise.fit.pads import Instants, PadLaw, instants, lost_velocity
+from slipwise.fit.terms import Term, fitted_model
+from slipwise.model import Model
+from slipwise.predict import Predictor, predictor
+from slipwise.record import Record
+from slipwise.rig import Specimen
+from slipwise.signals import LowPass
+from slipwise.signals.ends import in_frequency
+
+Array = NDArray[np.float64]
+RELATIONS: tuple[str, ...] = ("pads", "girder", "heave", "pitch", "roll", "warp", "motion")
+#: The pitch balance leaves this much more than noise even on a perfect rig: the pads' damping is not that of P(s).
+_PITCH_FLOOR = 1.2
+#: Timing of a reversal that nobody can vouch for: shear of pad and cell, cards of the logger [s].
+_TIMING = 1e-4
+#: Numbers of the rig that change the pads' states.
+_MOTION_KEYS = ("rig.pitch_slip", "rig.stick_length")
+_PAD_KEYS = (*_MOTION_KEYS, "rig.shear_strength", "rig.late_force", "rig.logger")
+_PAD_PORTS = ("area", "shear", "stick", "pad")
+#: Results of this many recent sets of numbers are kept: a difference quotient comes back to its base.
+_KEPT = 4
+#: Where a model has its own memory of slip, or nothing is fitted yet [m].
+_SHORT_STICK = 1e-6
+
+
+@dataclass(frozen=True)
+class Residuals:
+    """Residuals of every relation, in units of the noise, per run.
+
+    Attributes:
+        parts: relation -> per run (n,), or (n, p) for pads; zero where masked.
+        pad_forces: per run (n, p) predicted [N].
+    """
+
+    parts: dict[str, list[Array]]
+    pad_forces: list[Array]
+
+    def stacked(self, which: Sequence[int], relations: Sequence[str] = RELATIONS) -> Array:
+        """Give all residuals of these runs in one vector."""
+        return np.concatenate([self.parts[r][i].ravel() for r in relations if r in self.parts for i in which])
+
+
+@dataclass
+class Problem:
+    """A campaign's runs held against a base model with further terms.
+
+    Attributes:
+        runs: in the order in which they were made; memory goes on from one to the next.
+        specimen: rated values.
+        terms: effects of the base model, then those of the hypothesis.
+        sigmas: relation -> per run noise, broadcastable to the residual; made by `weigh`.
+        lost: per run (f,) velocity that the logger's filter took at reversals [m/s]; made by `weigh`.
+    """
+
+    runs: list[FitRun]
+    specimen: Specimen
+    terms: tuple[Term, ...]
+    sigmas: dict[str, list[Array]] = field(default_factory=dict[str, list[Array]])
+    lost: list[Array] = field(default_factory=list[Array])
+
+    def __post_init__(self) -> None:
+        """Sort the terms by what they touch and make ready what never changes."""
+        self.relations = ("pads", *(r for r in RELATIONS if all(r in available(x, self.specimen) for x in self.runs)))
+        self._gauges = [t for t in self.terms if t.effect.port == "gauge"]
+        self._on_force = [t for t in self._gauges if _acts_on_force(t)]
+        self._on_state = [t for t in self._gauges if not _acts_on_force(t)]
+        self._memo: dict[str, dict[tuple[float, ...], Any]] = {}
+        self._turning = [_pitch_rate(r) if len(r.pads) == 4 else np.zeros(len(r.time)) for r in self.runs]
+        self._here = [self.specimen.pads.index(p) for p in self.runs[0].pads]
+        self._law: PadLaw | None = None
+
+    @property
+    def fitted(self) -> list[int]:
+        """Places of the runs that may be fitted."""
+        return [i for i, r in enumerate(self.runs) if r.role != "holdout"]
+
+    @property
+    def held_out(self) -> list[int]:
+        """Places of the runs that are never fitted."""
+        return [i for i, r in enumerate(self.runs) if r.role == "holdout"]
+
+    def adding(self, *terms: Term) -> "Problem":
+        """Give the same problem with more terms; the noise stays."""
+        return Problem(self.runs, self.specimen, (*self.terms, *terms), self.sigmas, self.lost)
+
+    def model(self, values: Mapping[str, float]) -> Model:
+        """Give the model that these numbers describe."""
+        return fitted_model(self.specimen, self.terms, values)
+
+    def residuals(self, values: Mapping[str, float], *, fitted_only: bool = False) -> Residuals:
+        """Evaluate every relation.
+
+        Args:
+            values: key -> value, of every term's parameters and the rig's numbers.
+            fitted_only: leave out the runs after the last one that may be fitted; their parts are missing then.
+        """
+        model = self.model(values)
+        count = max(self.fitted) + 1 if fitted_only else len(self.runs)
+        pad_key = (count, *self._pad_key(values))
+        pads = self._remembered("pad parts", pad_key, lambda: self._pad_parts(model, values, count))
+        if len(self.relations) == 1:
+            return Residuals({"pads": pads[0]}, pads[1])
+        key = (count, *self._balance_key(values), *(pad_key if self._on_force else ()))
+        balances = self._remembered("balances", key, lambda: self._balance_parts(model, values, pads[2]))
+        return Residuals({"pads": pads[0], **balances}, pads[1])
+
+    def _pad_parts(
+        self, model: Model, values: Mapping[str, float], count: int
+    ) -> tuple[list[Array], list[Array], list[Array]]:
+        """Give residuals and predictions of the pads, and measured forces without their gauges' faults."""
+        runs, _ = self._corrected(values)
+        states = self._states(values, runs)
+        forces = self._pad_forces(model, values, runs[:count], states[:count])
+        parts, outputs, clean = [], [], []
+        for i, (run, force) in enumerate(zip(runs, forces, strict=False)):
+            seen, offset = self._faulty_force(values, run, force)
+            outputs.append(force + offset)
+            clean.append(seen)
+            parts.append(self._over("pads", i, run.force - force - offset, run.sliding[:, None]))
+        return parts, outputs, clean
+
+    def _balance_parts(
+        self, model: Model, values: Mapping[str, float], forces: list[Array]
+    ) -> dict[str, list[Array]]:
+        runs, scale = self._corrected(values)
+        law = predictor(model)
+        parts: dict[str, list[Array]] = {r: [] for r in self.relations[1:]}
+        for i, (run, force) in enumerate(zip(runs, forces, strict=False)):
+            law.rest(run.rest_before)
+            said, seen = predicted(model, run, force, self._buffers(law, run), values)
+            for name in parts:
+                if name == "motion":
+                    left = self._motion(i, run, values)
+                else:
+                    left = (seen[name] - said[name]) / scale.get(name, 1.0)
+                parts[name].append(self._over(name, i, left, run.grounded))
+        return parts
+
+    def weigh(self, values: Mapping[str, float]) -> None:
+        """Set the noise of every relation, error of the velocity near reversals included, and what filters took."""
+        model = self.model(values)
+        law = PadLaw(model)
+        if self.specimen.free:
+            found = law.at_instants(self.runs, [self._instants(r, i, values) for i, r in enumerate(self.runs)])
+            mass = model.specimen.mass
+            pairs = zip(found, self.runs, strict=True)
+            self.lost = [lost_velocity(f.sum(axis=1), r, mass, self._by(values)) for f, r in pairs]
+        self._memo.clear()
+        by = self._by(values)
+        plain = law.forces(self.runs, self._states(values, self.runs), by)
+        faster = [self._instants(r, i, values, more=r.states.velocity_error[0]) for i, r in enumerate(self.runs)]
+        shifted = law.forces(self.runs, faster, by)
+        self.sigmas = {r: [] for r in self.relations}
+        for i, run in enumerate(self.runs):
+            gauge = np.array([run.noise[f"pad_{p}_Fx"] for p in run.pads])
+            loads = np.array([run.noise.get(f"pad_{p}_N", 0.0) for p in run.pads])
+            friction = np.abs(plain[i]) / np.maximum(run.load, 0.05 * run.load.mean())
+            spread = gauge**2 + (0.6 * friction * loads) ** 2 + (shifted[i] - plain[i]) ** 2
+            spread = spread + (_TIMING * np.gradient(plain[i], run.dt, axis=0)) ** 2
+            self.sigmas["pads"].append(np.sqrt(np.maximum(spread, 1e-24)))
+            self._weigh_balances(model, run, gauge, loads)
+
+    def _weigh_balances(self, model: Model, run: FitRun, gauge: Array, loads: Array) -> None:
+        specimen = model.specimen
+        total, force = float(np.sqrt(np.sum(loads**2))), float(np.sqrt(np.sum(gauge**2)))
+        stiffness = sum(specimen.buffer_stiffness)
+        beside = np.hypot(force, stiffness * 0.1 * run.noise["slip_x"]) / specimen.mass
+        lever = specimen.centre_height / specimen.half_spacing[0] if len(specimen.pads) == 4 else 0.0
+        levels = {
+            "girder": np.hypot(run.noise.get("girder_ax", 0.0), beside),
+            "heave": np.hypot(total, specimen.mass * run.noise.get("girder_az", 0.0)),
+            "pitch": _PITCH_FLOOR * np.hypot(total, lever * force),
+            "roll": total,
+            "warp": total,
+            "motion": 1.0,
+        }
+        for name in self.relations[1:]:
+            self.sigmas[name].append(np.array(max(levels[name], 1e-12)))
+
+    def _over(self, name: str, run: int, left: Array, kept: NDArray[np.bool_]) -> Array:
+        if not self.sigmas:
+            return np.where(kept, left, 0.0)
+        return np.where(kept, left / self.sigmas[name][run], 0.0)
+
+    def _remembered(self, what: str, key: tuple[float, ...], make: Callable[[], Any]) -> Any:
+        """Give what was made for this key before, or make it; the last few are kept."""
+        kept = self._memo.setdefault(what, {})
+        if key not in kept:
+            if len(kept) >= _KEPT:
+                del kept[next(iter(kept))]
+            kept[key] = make()
+        else:
+            kept[key] = kept.pop(key)
+        return kept[key]
+
+    def _pad_key(self, values: Mapping[str, float]) -> tuple[float, ...]:
+        own = [t for t in self.terms if t.effect.instant_hooks or "rig" in t.effect.hooks or t in self._gauges]
+        return (*self._values_of(own, values), *(values.get(k, 0.0) for k in _PAD_KEYS))
+
+    def _balance_key(self, values: Mapping[str, float]) -> tuple[float, ...]:
+        own = [t for t in self.terms if t.effect.port not in _PAD_PORTS or "balance" in t.effect.hooks]
+        rig = [v for k, v in values.items() if k.startswith("rig.") and k not in _PAD_KEYS]
+        return (*self._values_of(own, values), *rig)
+
+    def _values_of(self, terms: Sequence[Term], values: Mapping[str, float]) -> tuple[float, ...]:
+        return tuple(values[f"{t.label}.{n}"] for t in terms for n in t.effect.parameter_names)
+
+    def _corrected(self, values: Mapping[str, float]) -> tuple[list[FitRun], dict[str, float]]:
+        """Take the faults of all gauges but those of friction out of the runs; noise scales with it."""
+        if not self._on_state:
+            return self.runs, {}
+
+        def make() -> tuple[list[FitRun], dict[str, float]]:
+            runs = self.runs
+            for term in self._on_state:
+                runs = [_without(term, values, r) for r in runs]
+            return runs, _noise_scale(self._on_state, values, self.runs[0])
+
+        return self._remembered("corrected", self._values_of(self._on_state, values), make)
+
+    def _states(self, values: Mapping[str, float], runs: list[FitRun]) -> list[Instants]:
+        key = (*self._values_of(self._on_state, values), *(values.get(k, 0.0) for k in _MOTION_KEYS))
+
+        def make() -> list[Instants]:
+            return [self._instants(r, i, values) for i, r in enumerate(runs)]
+
+        return self._remembered("states", key, make)
+
+    def _by(self, values: Mapping[str, float]) -> LowPass | None:
+        """Give the logger's filter as fitted, where the campaign does not know it."""
+        return LowPass(values["rig.logger"]) if "rig.logger" in values else None
+
+    def _instants(self, run: FitRun, place: int, values: Mapping[str, float], more: float = 0.0) -> Instants:
+        """Give the states of every pad, with some velocity more."""
+        velocity = run.states.pad_velocity[:, self._here].copy()
+        velocity[:, :, 0] += (more + values.get("rig.pitch_slip", 0.0) * self._turning[place])[:, None]
+        slip = run.states.pad_slip[:, self._here]
+        lost = self.lost[place] if self.lost else None
+        return instants(run, velocity, slip, values.get("rig.stick_length", _SHORT_STICK), lost)
+
+    def _pad_forces(
+        self, model: Model, values: Mapping[str, float], runs: list[FitRun], states: list[Instants]
+    ) -> list[Array]:
+        if self._law is None:
+            self._law = PadLaw(model)
+        self._law.set(model)
+        return self._law.forces(runs, states, self._by(values), values.get("rig.late_force", 0.0))
+
+    def _faulty_force(self, values: Mapping[str, float], run: FitRun, force: Array) -> tuple[Array, Array]:
+        """Give the measured forces without their faults, and what the faults add to the predicted ones, (n, p) each."""
+        if not self._on_force:
+            return run.force, np.zeros_like(force)
+        clean = np.where(run.sliding[:, None], force, run.force)
+        names = [f"pad_{p}_Fx" for p in run.pads]
+        record = run.record.replaced(**{n: clean[:, i] for i, n in enumerate(names)})
+        record = record.replaced(**{f"pad_{p}_N": run.load[:, i] for i, p in enumerate(run.pads)})
+        faulty = _faulted(self._on_force, values, record)
+        offset = np.stack([faulty[n] for n in names], axis=1) - clean
+        return run.force - offset, offset
+
+    def _buffers(self, law: Predictor, run: FitRun) -> Array:
+        count = len(self.specimen.buffer_stiffness)
+        if count == 0:
+            return np.zeros((len(run.time), 1))
+        if not any(t.effect.port == "buffer" for t in self.terms):
+            return run.slip[:, None] * np.array(law.model.specimen.buffer_stiffness)
+        same = np.repeat(run.slip[:, None], count, axis=1), np.repeat(run.velocity[:, None], count, axis=1)
+        return buffer_forces(law, run, *same)
+
+    def _motion(self, place: int, run: FitRun, values: Mapping[str, float]) -> Array:
+        late = values["rig.late_slip"]
+        key = (late, *self._values_of(self._on_state, values))
+        return self._remembered(f"motion{place}", key, lambda: motion_residual(run, late))
+
+
+def _pitch_rate(run: FitRun) -> Array:
+    """Give the rate of the pitch load (n,) [N/s], by which the sliding plane moves against the gauge."""
+    pitch = run.load[:, 0] + run.load[:, 2] - run.load[:, 1] - run.load[:, 3]
+    smooth = in_frequency(pitch, run.dt, lambda f: 1.0 / (1.0 + (f / 120.0) ** 8), 64)
+    return np.gradient(smooth, run.dt)
+
+
+def _acts_on_force(term: Term) -> bool:
+    """Tell whether a gauge's fault shows on friction only: it then acts on the prediction."""
+    if term.effect.target:
+        return all(t.endswith(("_Fx", "_Fy")) for t in term.targets)
+    return "undo" not in term.effect.hooks or all("_F" in c for c in term.effect.moves)
+
+
+def _faulted(terms: Sequence[Term], values: Mapping[str, float], record: Record) -> Record:
+    for term in terms:
+        for entry in term.uses(values):
+            record = _call(entry.effect, "gauge", record, entry.target, entry.values)
+    return record
+
+
+def _call(effect: Effect, hook: str, record: Record, target: str, values: Mapping[str, float]) -> Record:
+    function = effect.hooks[hook]
+    asked = function.__code__.co_varnames[: function.__code__.co_argcount]
+    given = {"record": record, "target": target, **values}
+    return function(**{n: given[n] for n in asked})
+
+
+def _without(term: Term, values: Mapping[str, float], run: FitRun) -> FitRun:
+    """Take a fault out of a run: by its inverse, or by what it does to the smoothed channels."""
+    record = run.record
+    for entry in term.uses(values):
+        if "undo" in term.effect.hooks:
+            record = _call(entry.effect, "undo", record, entry.target, entry.values)
+        else:
+            smooth = record.replaced(**{n: smoothed(v, run) for n, v in record.channels.items()})
+            faulty = _call(entry.effect, "gauge", smooth, entry.target, entry.values)
+            record = record.replaced(**{n: v - (faulty[n] - smooth[n]) for n, v in record.channels.items()})
+    moved = any(record[n] is not run.record[n] for n in ("slip_x", "girder_ax", "table_ax") if n in record)
+    return run.with_record(record, moved=moved)
+
+
+def _noise_scale(terms: Sequence[Term], values: Mapping[str, float], run: FitRun) -> dict[str, float]:
+    """Tell by how much undoing the faults has scaled the noise of the accelerometers' balances."""
+    out: dict[str, float] = {}
+    for relation, channel in (("girder", "girder_ax"), ("heave", "girder_az")):
+        if channel not in run.record or not any(channel in t.targets for t in terms):
+            continue
+        more = run.record.replaced(**{channel: run.record[channel] + 1.0})
+        base, moved = run.record, more
+        for term in terms:
+            for entry in term.uses(values):
+                if "undo" in term.effect.hooks and entry.target == channel:
+                    base = _call(entry.effect, "undo", base, channel, entry.values)
+                    moved = _call(entry.effect, "undo", moved, channel, entry.values)
+        middle = len(run.time) // 2
+        out[relation] = float(abs(moved[channel][middle] - base[channel][middle])) or 1.0
+    return out
+
+

@@ -1,0 +1,147 @@
+"""What a fit may change: numbers of the rig, and parameters of effects, each with a key, a start and bounds."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+
+from slipwise.effects import Effect
+from slipwise.model import EffectUse, Model
+from slipwise.rig import Specimen
+
+#: Largest lag between the cards of a logger that counts as none [s].
+LATE = 1.5e-4
+#: Rated values of the rig may be off by these shares; a frequency and a slip per pitch load are not rated at all.
+_RIG_SHARES: dict[str, tuple[float, float]] = {
+    "rig.mass": (0.7, 1.4),
+    "rig.buffer_stiffness": (0.4, 2.5),
+    "rig.centre_height": (0.5, 2.0),
+}
+#: What no rig is rated for: start, low, high, scale, unit. Pitch of the girder on its pads; time by which channels of
+#: one card may lag behind those of another (more than that is a `channel_delay`).
+_SMALL: dict[str, tuple[float, float, float, float, str]] = {
+    "rig.pitch_frequency": (80.0, 30.0, 200.0, 20.0, "Hz"),
+    "rig.pitch_damping": (0.05, 0.002, 0.6, 0.05, "1"),
+    "rig.pitch_slip": (0.0, -3e-9, 3e-9, 3e-10, "m/N"),
+    "rig.late_girder": (0.0, -LATE, LATE, 5e-5, "s"),
+    "rig.late_load": (0.0, -LATE, LATE, 5e-5, "s"),
+    "rig.late_pitch": (0.0, -LATE, LATE, 5e-5, "s"),
+    "rig.late_slip": (0.0, -LATE, LATE, 5e-5, "s"),
+}
+#: Slip over which a pad's friction turns round without any effect of its own [m]; beyond 20 um it is `presliding`.
+_STICK_LENGTH = (1e-6, 1e-8, 2e-5, 1e-6)
+#: The friction channels' filter where the campaign does not know it [Hz].
+_LOGGER = (100.0, 20.0, 240.0, 20.0)
+
+
+@dataclass(frozen=True)
+class Free:
+    """One number that a fit may change.
+
+    Attributes:
+        key: "rig.mass", "heating.share", "channel_gain[pad_A_N].gain" ...
+        start: where the fit begins [SI].
+        low: lower bound.
+        high: upper bound.
+        scale: a change that matters.
+        unit: SI unit.
+    """
+
+    key: str
+    start: float
+    low: float
+    high: float
+    scale: float
+    unit: str
+
+
+@dataclass(frozen=True)
+class Term:
+    """An effect that a hypothesis adds, with the channels on which it acts alike.
+
+    Attributes:
+        effect: which.
+        targets: channels; ("",) for an effect that needs none.
+        group: name for several targets together, e.g. "pad_*_Fx"; the target itself for one.
+    """
+
+    effect: Effect
+    targets: tuple[str, ...] = ("",)
+    group: str = ""
+
+    @property
+    def label(self) -> str:
+        """Name with the channels it acts on."""
+        return f"{self.effect.name}[{self.group}]" if self.group else self.effect.name
+
+    def uses(self, values: Mapping[str, float]) -> list[EffectUse]:
+        """Give the uses for a model, with the values of a fit."""
+        own = {n: values[f"{self.label}.{n}"] for n in self.effect.parameter_names}
+        return [EffectUse(self.effect, own, target) for target in self.targets]
+
+    def free(self, start: Mapping[str, float]) -> list[Free]:
+        """Give its parameters as free numbers that start where told."""
+        out = []
+        for p in self.effect.parameters:
+            off = p.typical if p.neutral is None else p.neutral
+            size = abs(p.typical - off) or abs(p.typical) or 0.1 * (p.high - p.low)
+            out.append(Free(f"{self.label}.{p.name}", start[p.name], p.low, p.high, size, p.unit))
+        return out
+
+
+def terms_of(model: Model) -> tuple[Term, ...]:
+    """Give the effects of a model as terms, those of several targets one by one."""
+    return tuple(Term(u.effect, (u.target,), u.target) for u in model.uses)
+
+
+def base_free(model: Model, *, balances: bool, logger_known: bool = True) -> list[Free]:
+    """Give the base parameters: those of the model's effects, and the rig's numbers where balances can see them.
+
+    Args:
+        model: the user's model.
+        balances: whether the campaign has what the girder's balances need.
+        logger_known: whether the campaign says what the logger did.
+    """
+    out: list[Free] = []
+    for entry in model.uses:
+        for p in entry.effect.parameters:
+            value = entry.values[p.name]
+            scale = abs(value) or abs(p.typical) or 0.1 * (p.high - p.low)
+            out.append(Free(f"{entry.label}.{p.name}", value, p.low, p.high, scale, p.unit))
+    if not model.with_hook("stick"):
+        out.append(Free("rig.stick_length", *_STICK_LENGTH, "m"))
+    specimen = model.specimen
+    if "shear_rate" not in model:
+        out.append(_around("rig.shear_strength", specimen.shear_strength, 1e-3, 1e3, "Pa"))
+    if balances:
+        rated = {"rig.mass": specimen.mass, "rig.centre_height": specimen.centre_height}
+        if specimen.buffer_stiffness:
+            rated["rig.buffer_stiffness"] = sum(specimen.buffer_stiffness)
+        units = {"rig.mass": "kg", "rig.centre_height": "m", "rig.buffer_stiffness": "N/m"}
+        out += [_around(key, value, *_RIG_SHARES[key], units[key]) for key, value in rated.items()]
+        out += [Free(key, *numbers) for key, numbers in _SMALL.items()]
+        out.append(Free("rig.late_force", 0.0, -LATE, LATE, 5e-5, "s"))
+        if not logger_known:
+            out.append(Free("rig.logger", *_LOGGER, "Hz"))
+    return out
+
+
+def _around(key: str, value: float, low: float, high: float, unit: str) -> Free:
+    return Free(key, value, low * value, high * value, 0.1 * value, unit)
+
+
+def fitted_specimen(specimen: Specimen, values: Mapping[str, float]) -> Specimen:
+    """Give the specimen with the numbers of a fit."""
+    changes: dict[str, object] = {}
+    if "rig.mass" in values:
+        changes["mass"] = values["rig.mass"]
+        changes["centre_height"] = values["rig.centre_height"]
+    if "rig.shear_strength" in values:
+        changes["shear_strength"] = values["rig.shear_strength"]
+    if "rig.buffer_stiffness" in values:
+        share = values["rig.buffer_stiffness"] / sum(specimen.buffer_stiffness)
+        changes["buffer_stiffness"] = tuple(share * k for k in specimen.buffer_stiffness)
+    return replace(specimen, **changes)  # type: ignore[arg-type]
+
+
+def fitted_model(specimen: Specimen, terms: Iterable[Term], values: Mapping[str, float]) -> Model:
+    """Give the model that a fit's numbers describe."""
+    return Model(fitted_specimen(specimen, values), tuple(u for t in terms for u in t.uses(values)))
