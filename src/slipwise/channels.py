@@ -3,6 +3,7 @@
 File name of a column = channel name. Pads: A (+x,+y), B (-x,+y), C (+x,-y), D (-x,-y).
 """
 
+import fnmatch
 import re
 from dataclasses import dataclass
 
@@ -94,6 +95,18 @@ def channel(name: str) -> Channel:
     if known is None:
         raise unknown_channel(name)
     return Channel(name, known.unit, known.shown_in, known.place, known.sign) if match else known
+
+
+def channels_like(pattern: str) -> tuple[str, ...]:
+    """Give the names that a pattern such as "pad_*_N" means; "all" means every channel.
+
+    Raises:
+        UnknownNameError: none; the message offers the nearest ones.
+    """
+    found = tuple(n for n in CHANNELS if pattern == "all" or fnmatch.fnmatchcase(n, pattern))
+    if not found:
+        raise unknown_channel(pattern)
+    return found
 
 
 def unknown_channel(name: str) -> UnknownNameError:

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from slipwise.channels import channel
+from slipwise.channels import channels_like
 from slipwise.effects import PORTS, Effect, find_effect
 from slipwise.errors import SettingError
 from slipwise.rig import Specimen, load_specimen
@@ -20,7 +20,7 @@ class EffectUse:
     Attributes:
         effect: which.
         values: parameter -> value [SI].
-        target: the channel it acts on, for effects that need one.
+        target: the channel it acts on, or channels ("pad_*_N", "all"), for effects that need one.
     """
 
     effect: Effect
@@ -36,12 +36,13 @@ class EffectUse:
             raise SettingError(f"{self.effect.name} lacks a value for {', '.join(missing)}")
         if self.effect.target and not self.target:
             raise SettingError(
-                f"{self.effect.name} must be told which {self.effect.target} it acts on, e.g. target = 'pad_A_N'"
+                f"{self.effect.name} must be told which {self.effect.target} it acts on, "
+                "e.g. target = 'pad_A_N', 'pad_*_N' or 'all'"
             )
         if self.target and not self.effect.target:
             raise SettingError(f"{self.effect.name} acts everywhere; it takes no target ({self.target!r} was given)")
-        if self.target and self.target != "all":
-            channel(self.target)
+        if self.target:
+            channels_like(self.target)
 
     @property
     def is_neutral(self) -> bool:

@@ -1,5 +1,6 @@
 """The catalogue: finds every effect there is, in this folder, in packages that offer some, and in users' files."""
 
+import hashlib
 import importlib
 import importlib.util
 import pkgutil
@@ -48,7 +49,8 @@ def load_effect(path: Path) -> Effect:
     """
     if not path.is_file():
         raise InputError(f"{path}: no such effect file")
-    name = f"slipwise_user_effect_{path.stem}"
+    place = hashlib.sha256(str(path.resolve()).encode()).hexdigest()[:8]
+    name = f"slipwise_user_effect_{path.stem}_{place}"
     spec = importlib.util.spec_from_file_location(name, path)
     if spec is None or spec.loader is None:
         raise InputError(f"{path}: an effect is a Python file (.py)")

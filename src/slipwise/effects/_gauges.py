@@ -5,8 +5,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.channels import channel
-from slipwise.errors import SettingError
+from slipwise.channels import channel, channels_like
+from slipwise.errors import InputError
 from slipwise.record import Record
 
 Array = NDArray[np.float64]
@@ -14,35 +14,31 @@ Array = NDArray[np.float64]
 SPANS: dict[str, float] = {
     "N": 50e3, "m": 0.1, "m/s": 1.0, "m/s^2": 20.0, "rad": 0.02, "Pa": 40e6, "K": 200.0, "s": 1.0,
 }  # fmt: skip
+#: The same for the horizontal bridges of the pads' cells [N].
+FRICTION_SPAN = 10e3
 
 
 def span(name: str) -> float:
-    """Give what a usual gauge of a channel reads at most [SI unit of the channel]: 50 kN, 100 mm, 2 g ..."""
-    return SPANS[channel(name).unit]
+    """Give what a usual gauge of a channel reads at most [SI unit of the channel]: 100 mm, 2 g, 10 kN across a pad."""
+    return FRICTION_SPAN if channels_like("pad_*_F?").count(name) else SPANS[channel(name).unit]
 
 
 def aimed(record: Record, target: str) -> tuple[str, ...]:
-    """Give the channels that an effect with this target changes: one, or every one of the record for "all"."""
-    return tuple(record.channels) if target == "all" else (target,)
+    """Give the channels of a record that a target means: "pad_A_N", "pad_*_N" or "all".
+
+    Raises:
+        InputError: the record has none of them.
+    """
+    found = tuple(name for name in channels_like(target) if name in record)
+    if not found:
+        raise InputError(f"this record has no channel {target!r}; it has: {', '.join(sorted(record.channels))}")
+    return found
 
 
 def changed(record: Record, target: str, change: Callable[[str, Array], Array]) -> Record:
     """Give the record with `change(name, values (n,)) -> (n,)` done to the channels that are aimed at.
 
     Raises:
-        InputError: the record lacks the target.
+        InputError: the record has none of them.
     """
     return record.replaced(**{name: change(name, record[name]) for name in aimed(record, target)})
-
-
-def cells(record: Record, target: str) -> tuple[str, ...]:
-    """Give the pads whose load cells are meant: that of a channel such as "pad_A_Fx", or all for "all".
-
-    Raises:
-        SettingError: the target belongs to no load cell.
-    """
-    if target == "all":
-        return tuple(pad for pad in "ABCD" if f"pad_{pad}_N" in record or f"pad_{pad}_Fx" in record)
-    if not target.startswith("pad_"):
-        raise SettingError(f"{target!r} is no channel of a load cell; possible: all, pad_A_N, pad_A_Fx and so on")
-    return (target.removeprefix("pad_")[0],)

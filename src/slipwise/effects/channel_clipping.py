@@ -1,8 +1,9 @@
 """A channel that runs into its rail.
 
-    y = min(max(x, -r S), r S)
+    y = min(max(x, -r S), q S)
 
-The amplifier or the logger cannot show more. Peaks become plateaus, all at one level. S is the span of a usual gauge
+The amplifier or the logger cannot show more. Peaks become plateaus, all at one level; the two rails differ
+where the zero is not in the middle. S is the span of a usual gauge
 (see `channel_offset`).
 
 Valid: always. There is no inverse: what was cut off is gone.
@@ -17,16 +18,19 @@ from slipwise.params import Parameter
 from slipwise.record import Record
 
 
-def gauge(record: Record, target: str, rail: float) -> Record:
+def gauge(record: Record, target: str, upper: float, lower: float) -> Record:
     """Cut the channel off."""
-    return changed(record, target, lambda name, x: np.clip(x, -rail * span(name), rail * span(name)))
+    return changed(record, target, lambda name, x: np.clip(x, -lower * span(name), upper * span(name)))
 
 
 EFFECT = Effect(
     port="gauge",
     component="instrument",
-    equation="y = min(max(x, -r S), r S)",
-    parameters=(Parameter("rail", "1", 0.5, 0.005, 1000.0, 1000.0, "assumed", "r: in spans of the gauge", "%"),),
+    equation="y = min(max(x, -r S), q S)",
+    parameters=(
+        Parameter("upper", "1", 0.25, 0.005, 1000.0, 1000.0, "assumed", "q: in spans of the gauge", "%"),
+        Parameter("lower", "1", 0.25, 0.005, 1000.0, 1000.0, "assumed", "r: in spans of the gauge", "%"),
+    ),
     moves=("*",),
     signature="plateaus of equal height at the peaks",
     confused_with={"channel_gain": "a gain lowers every value, a rail only the peaks"},

@@ -1,12 +1,15 @@
 """A gauge whose zero wanders.
 
-    y = x + d S t,        t from the start of the run
+    y = x + d S [1 - exp(-w t)] / w,        d S t for w = 0,        t from the start of the run
 
-A cell that warms up, an integrator, a charge amplifier. S is the span of a usual gauge (see `channel_offset`).
+A cell that warms up, an integrator, a charge amplifier. S is the span of a usual gauge (see `channel_offset`); w lets
+the wandering settle.
 
-Valid: slow and straight over one run; every run starts from a new zero.
+Valid: slow; every run starts from a new zero.
 Source: definition; size assumed.
 """
+
+import numpy as np
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._gauges import changed, span
@@ -14,22 +17,25 @@ from slipwise.params import Parameter
 from slipwise.record import Record
 
 
-def gauge(record: Record, target: str, drift: float) -> Record:
+def gauge(record: Record, target: str, drift: float, settling: float) -> Record:
     """Let the channel's zero wander."""
-    return changed(record, target, lambda name, x: x + drift * span(name) * (record.time - record.time[0]))
+    since = record.time - record.time[0]
+    way = drift * (-np.expm1(-settling * since) / settling if settling > 1e-6 else since)
+    return changed(record, target, lambda name, x: x + way * span(name))
 
 
-def undo(record: Record, target: str, drift: float) -> Record:
+def undo(record: Record, target: str, drift: float, settling: float) -> Record:
     """Take the wandering back."""
-    return gauge(record, target, -drift)
+    return gauge(record, target, -drift, settling)
 
 
 EFFECT = Effect(
     port="gauge",
     component="instrument",
-    equation="y = x + d S t",
+    equation="y = x + d S t (w = 0)",
     parameters=(
         Parameter("drift", "1/s", 2e-4, -0.02, 0.02, 0.0, "assumed: 1.2 % a minute", "d: spans a second", "%/min"),
+        Parameter("settling", "1/s", 0.0, 0.0, 5.0, None, "assumed: straight", "w: 0 straight, else it settles"),
     ),
     moves=("*",),
     signature="even, grows with time also while nothing moves",

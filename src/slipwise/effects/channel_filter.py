@@ -1,15 +1,15 @@
 """A channel behind a low-pass filter of its own.
 
-    y = H x,        H = 1 / (1 + s T + s^2 T^2 / 2)
+    y = H x,        H = 1 / (1 + s T + s^2 T^2 / 2) for order 2
 
-A second-order Butterworth filter, lag T for slow signals; its corner is f_c = 1 / (sqrt(2) pi T), 45 Hz for 5 ms. One
-filter on every channel does no harm; a different one on each is the real trap: reversals lag and lose their edge.
+A Butterworth filter with lag T for slow signals; for order 2 its corner is f_c = 1 / (sqrt(2) pi T), 45 Hz for 5 ms.
+One filter on every channel does no harm; a different one on each is the real trap: reversals lag and lose their edge.
 
 Valid: signals well below the corner for the lag to be T. There is no inverse: what a filter took is gone.
 Source: Butterworth (1930); f_c 20 to 50 Hz assumed.
 """
 
-from math import pi, sqrt
+from dataclasses import replace
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._gauges import changed
@@ -18,11 +18,12 @@ from slipwise.record import Record
 from slipwise.signals import LowPass, lowpass
 
 
-def gauge(record: Record, target: str, lag: float) -> Record:
+def gauge(record: Record, target: str, lag: float, order: float) -> Record:
     """Filter the channel."""
     if lag == 0.0:
         return record
-    by = LowPass(1.0 / (sqrt(2.0) * pi * lag), order=2, phase="causal")
+    at_one = LowPass(1.0, order=round(order), phase="causal")
+    by = replace(at_one, frequency=at_one.lag / lag)
     return changed(record, target, lambda name, x: lowpass(x, record.dt, by))
 
 
@@ -30,7 +31,10 @@ EFFECT = Effect(
     port="gauge",
     component="instrument",
     equation="y = x / (1 + s T + s^2 T^2/2)",
-    parameters=(Parameter("lag", "s", 3e-3, 0.0, 0.05, 0.0, "f_c 20 to 50 Hz, assumed", "T: lag", "ms"),),
+    parameters=(
+        Parameter("lag", "s", 3e-3, 0.0, 0.05, 0.0, "f_c 20 to 50 Hz, assumed", "T: of slow signals", "ms"),
+        Parameter("order", "1", 2.0, 1.0, 8.0, None, "assumed", "of the filter, a whole number"),
+    ),
     moves=("*",),
     signature="as a delay, with rounded reversals and lowered peaks",
     confused_with={

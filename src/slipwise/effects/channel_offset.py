@@ -2,8 +2,8 @@
 
     y = x + o S
 
-The zero was taken under load, or not at all. S is the span of a usual gauge of that unit (50 kN, 100 mm, 1 m/s, 2 g,
-20 mrad), so that o reads as instrument makers write it: in per cent of full scale.
+The zero was taken under load, or not at all. S is the span of a usual gauge of that kind (50 kN along, 10 kN across a
+pad, 100 mm, 1 m/s, 2 g, 20 mrad), so that o reads as instrument makers write it: in per cent of full scale.
 
 Valid: below a few per cent of the span.
 Source: definition; spans in `_gauges`; size assumed.

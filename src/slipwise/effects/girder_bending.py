@@ -15,9 +15,9 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import cont2discrete, lfilter
 
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._oscillator import oscillator
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
 from slipwise.rig import Specimen
@@ -30,10 +30,9 @@ def rig(specimen: Specimen, share: float, frequency: float, damping: float) -> S
 
 def balance(states: BalanceStates, share: float, frequency: float, damping: float) -> dict[str, NDArray[np.float64]]:
     """Give the inertia of the mode, m_e q'' (n,) [N]."""
-    w = 2.0 * np.pi * frequency
     dt = float(states.time[1] - states.time[0])
-    above, below, _ = cont2discrete(([-1.0, 0.0, 0.0], [1.0, 2.0 * damping * w, w * w]), dt, method="foh")
-    return {"heave": share * states.specimen.mass * lfilter(above.ravel(), below, states.girder_acceleration[:, 2])}
+    swing = oscillator(-states.girder_acceleration[:, 2], dt, frequency, damping, 2)
+    return {"heave": share * states.specimen.mass * swing}
 
 
 EFFECT = Effect(

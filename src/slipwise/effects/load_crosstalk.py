@@ -1,41 +1,49 @@
-"""A load cell whose horizontal bridge feels the vertical load.
+"""A load cell whose one bridge feels the load of the other.
 
-    F_x,read = F_x + c N_x,        along y alike where that channel is the target
+    F_read = F + c (N - z N_0),        or N_read = N + c F_x where that channel is the target
 
-A three-component cell that stands askew, or whose bridge is not balanced, adds a share of the load, here some 0.25 kN
-for each per cent: a tenth of friction. Even in velocity, it lifts the whole loop. With target "all" every cell has the
-same share in x.
+A cell that stands askew, or whose bridge is not balanced, adds a share of the vertical load to the horizontal reading:
+some 0.25 kN for each per cent here, a tenth of friction. Even in velocity, it lifts the whole loop. z = 1 if the
+horizontal reading was set to zero under the load N_0 at the record's start. With target "all" every cell has the same
+share of N in F_x.
 
 Valid: 0.5 to 2 %.
 Source: definition; sizes assumed.
 """
 
 from slipwise.effects._effect import Effect
-from slipwise.effects._gauges import cells
+from slipwise.effects._gauges import aimed
 from slipwise.params import Parameter
 from slipwise.record import Record
 
 
-def gauge(record: Record, target: str, share: float) -> Record:
-    """Add the load's share to the horizontal reading."""
-    axis = "y" if target.endswith("_Fy") else "x"
-    pads = [pad for pad in cells(record, target) if record.has_all(f"pad_{pad}_N", f"pad_{pad}_F{axis}")]
-    return record.replaced(
-        **{f"pad_{pad}_F{axis}": record[f"pad_{pad}_F{axis}"] + share * record[f"pad_{pad}_N"] for pad in pads}
-    )
+def gauge(record: Record, target: str, share: float, zeroed: float) -> Record:
+    """Add the other load's share to the reading."""
+    out = {}
+    for name in aimed(record, "pad_*_Fx" if target == "all" else target):
+        pad = name[:5]
+        if name == f"{pad}_N":
+            out[name] = record[name] + share * record[f"{pad}_Fx"]
+        else:
+            load = record[f"{pad}_N"]
+            out[name] = record[name] + share * (load - zeroed * load[:10].mean())
+    return record.replaced(**out)
 
 
-def undo(record: Record, target: str, share: float) -> Record:
-    """Take the load's share away again; exact, for the load is not changed."""
-    return gauge(record, target, -share)
+def undo(record: Record, target: str, share: float, zeroed: float) -> Record:
+    """Take the share away again; exact, for the other load is not changed."""
+    return gauge(record, target, -share, zeroed)
 
 
 EFFECT = Effect(
     port="gauge",
     component="instrument",
-    equation="F_read = F + c N",
-    parameters=(Parameter("share", "1", 0.01, -0.1, 0.1, 0.0, "0.5 to 2 %, assumed", "c: of N in F", "%"),),
-    moves=("pad_*_F?",),
+    equation="F_read = F + c (N - z N_0)",
+    parameters=(
+        Parameter("share", "1", 0.01, -0.1, 0.1, 0.0, "0.5 to 2 %, assumed", "c: of N in F", "%"),
+        Parameter("zeroed", "1", 0.0, 0.0, 1.0, None, "assumed", "z: 1 if zeroed under load"),
+    ),
+    moves=("pad_*_F?", "pad_*_N"),
     signature="even in velocity, in step with N, at rest too; moves the girder balance",
     confused_with={
         "slide_tilt": "identical in one pad; a tilt leaves the girder balance clean",

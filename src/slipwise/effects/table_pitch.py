@@ -12,9 +12,9 @@ Source: table-specimen interaction, 0.01 to 0.1 degree at 5 m/s2 assumed; resona
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import cont2discrete, lfilter
 
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._oscillator import oscillator
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
 
@@ -22,12 +22,8 @@ DAMPING = 0.3
 Array = NDArray[np.float64]
 
 
-def _turning(push: Array, dt: float, compliance: float, frequency: float, order: int) -> Array:
-    """Give theta (order 0) or its second derivative (order 2), exact for a push straight between samples."""
-    w = 2.0 * np.pi * frequency
-    above = [0.0, 0.0, w * w] if order == 0 else [w * w, 0.0, 0.0]
-    b, a, _ = cont2discrete((above, [1.0, 2.0 * DAMPING * w, w * w]), dt, method="foh")
-    return compliance * lfilter(b.ravel(), a, push)
+def _turning(push: Array, dt: float, compliance: float, frequency: float, derivative: int) -> Array:
+    return oscillator(compliance * (2.0 * np.pi * frequency) ** 2 * push, dt, frequency, DAMPING, derivative)
 
 
 def table(acceleration: Array, dt: float, compliance: float, frequency: float) -> Array:

@@ -1,7 +1,7 @@
 """One law, written once: compiled into MuJoCo's callbacks, run as Python, and driven over whole records."""
 
 from slipwise.kernel.callbacks import installed
-from slipwise.kernel.engine import ENGINES, Kernel, kernel
+from slipwise.kernel.engine import ENGINES, Kernel, engine_for, kernel
 from slipwise.kernel.layout import Layout, apply_rest, fill, set_values
 
-__all__ = ["ENGINES", "Kernel", "Layout", "apply_rest", "fill", "installed", "kernel", "set_values"]
+__all__ = ["ENGINES", "Kernel", "Layout", "apply_rest", "engine_for", "fill", "installed", "kernel", "set_values"]

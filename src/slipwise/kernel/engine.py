@@ -6,11 +6,11 @@ hash of everything it was made from, so that no stale code is ever run.
 
 import hashlib
 import importlib.util
-import inspect
 import math
 import os
 import sys
 import tempfile
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -21,7 +21,7 @@ from typing import Any
 import mujoco
 
 from slipwise.effects import Effect, catalogue
-from slipwise.errors import SettingError
+from slipwise.errors import SettingError, SlipwiseWarning
 from slipwise.kernel.layout import Layout, make_layout
 from slipwise.kernel.mjdata import offsets
 from slipwise.kernel.source import function_name, write_source
@@ -62,12 +62,30 @@ def kernel(engine: str = "compiled", user_effects: Sequence[Effect] = ()) -> Ker
     """
     if engine not in ENGINES:
         raise SettingError(f"no engine is called {engine!r}; possible: {', '.join(ENGINES)}")
-    return _made(engine, tuple(effect.path for effect in user_effects), _Hidden(tuple(user_effects)))
+    return _made(engine, tuple(_fingerprint(effect) for effect in user_effects), _Hidden(tuple(user_effects)))
+
+
+def engine_for(user_effects: Sequence[Effect]) -> str:
+    """Give the engine that can run a user's effects: "compiled", or "python" where one cannot be compiled.
+
+    The Python engine runs the same law some hundred times slower; a `SlipwiseWarning` says so, and why.
+    """
+    try:
+        kernel("compiled", user_effects)
+    except SettingError as error:
+        names = ", ".join(effect.path.name for effect in user_effects)
+        warnings.warn(f"{names} runs on the Python engine, which is slow: {error}", SlipwiseWarning, stacklevel=2)
+        return "python"
+    return "compiled"
+
+
+def _fingerprint(effect: Effect) -> str:
+    return f"{effect.path} {hashlib.sha256(effect.path.read_bytes()).hexdigest()}"
 
 
 @dataclass(frozen=True)
 class _Hidden:
-    """Carries effects past the cache, whose key is their paths."""
+    """Carries effects past the cache, whose key is their files."""
 
     effects: tuple[Effect, ...]
 
@@ -79,7 +97,7 @@ class _Hidden:
 
 
 @cache
-def _made(engine: str, paths: tuple[Path, ...], user: _Hidden) -> Kernel:
+def _made(engine: str, files: tuple[str, ...], user: _Hidden) -> Kernel:
     layout = make_layout([*catalogue().values(), *user.effects])
     text = write_source(layout)
     if engine == "python":
@@ -100,7 +118,7 @@ def _python(layout: Layout, text: str) -> Kernel:
 
 def _compiled(layout: Layout, text: str) -> Kernel:
     whole = _module_text(layout, text)
-    sources = "".join(inspect.getsource(sys.modules[e.hooks[h].__module__]) for _, e, h in _hooks(layout))
+    sources = "".join(effect.path.read_text(encoding="utf-8") for effect in layout.effects)
     about = f"{mujoco.__version__} {sys.version} {_numba_version()}"
     digest = hashlib.sha256((whole + sources + about).encode()).hexdigest()[:16]
     module = _import(f"slipwise_kernel_{digest}", whole)

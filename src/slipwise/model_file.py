@@ -1,0 +1,278 @@
+"""model.toml: a model that people read and edit by hand.
+
+    rig = "bridge1"
+
+    [specimen]                      # optional: what is known better than the rig's rated values
+    mass = "10.02 t"
+
+    [[effect]]
+    name = "shear_rate"
+    strength = "1.379 MPa"          # a parameter that is not given takes its typical value
+
+    [[effect]]
+    name = "channel_gain"
+    target = "pad_A_N"
+    gain = "3 %"
+
+    [[effect]]
+    file = "mine.py"                # an effect of one's own, beside this file
+
+Comments and order survive every change that Slipwise makes.
+"""
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, cast
+
+import tomlkit
+from tomlkit.exceptions import TOMLKitError
+from tomlkit.items import AoT, Item, Table
+
+from slipwise.effects import Effect, find_effect, load_effect
+from slipwise.errors import InputError, SettingError, unknown_name
+from slipwise.model import BASE_EFFECTS, EffectUse, Model, use
+from slipwise.params import Parameter
+from slipwise.record import write_text
+from slipwise.rig import load_specimen
+from slipwise.rig.known import SPECIMEN_UNITS, better_known, known_better, read_known
+from slipwise.rig.specimen import RIGS
+from slipwise.units import parse_unit, quantity
+
+_TOP = ("rig", "specimen", "effect")
+_ENTRY = ("name", "file", "target")
+_HEAD = """# A model: the rig and the effects that act on it. `slipwise add` and `slipwise remove` edit this file too,
+# and keep your comments. `slipwise effects NAME` tells what an effect is.
+"""
+
+
+def draft_model(rig: str) -> str:
+    """Write the text of a first model.toml: a rig with the paper's law.
+
+    Args:
+        rig: a name, or the path of an MJCF file as seen from the model.toml.
+    """
+    document = tomlkit.parse(f"{_HEAD}rig = {tomlkit.item(rig).as_string()}\n")
+    for name in BASE_EFFECTS:
+        _append(document, use(name), "")
+    return re.sub(r"\n{3,}", "\n\n", tomlkit.dumps(document))
+
+
+def load_model(path: Path) -> Model:
+    """Read a model.toml.
+
+    Raises:
+        InputError: no file, no TOML, or something that is needed is missing.
+        UnknownNameError: a rig, effect, parameter or key that does not exist, with the nearest ones.
+        UnitError: a value without a unit or of the wrong dimension.
+        SettingError: a value out of bounds, or effects that cannot go together.
+    """
+    return _model(_read(path), path)
+
+
+def save_model(model: Model, path: Path) -> None:
+    """Write a model; a file that is there keeps its comments, and its order as far as the model has it.
+
+    Raises:
+        SettingError: the file is of another rig.
+    """
+    rig = model.specimen.name if model.specimen.name in RIGS else str(model.specimen.path)
+    document = _read(path) if path.is_file() else tomlkit.parse(f"{_HEAD}rig = {tomlkit.item(rig).as_string()}\n")
+    rated = load_specimen(str(document["rig"]), path.parent)
+    if rated.path != model.specimen.path:
+        raise SettingError(f"{path} is a model of {document['rig']!r}, not of {rig!r}; write to another file")
+    _write_specimen(document, known_better(model.specimen, rated))
+    labels = [u.label for u in model.uses]
+    entries = _entries(document)
+    for i in reversed(range(len(entries))):
+        if _use(entries[i], path).label not in labels:
+            del entries[i]
+    written = {_use(entry, path).label: entry for entry in entries}
+    for wanted in model.uses:
+        if wanted.label in written:
+            _write_values(written[wanted.label], wanted)
+        else:
+            _append(document, wanted, _file_of(wanted.effect, path))
+    write_text(path, tomlkit.dumps(document))
+
+
+def add_effect(path: Path, name: str, target: str = "", values: Mapping[str, str | float] | None = None) -> Model:
+    """Add an effect to a model.toml.
+
+    Args:
+        path: of the model.toml.
+        name: of an effect of the catalogue, or a path of one's own file ("mine.py").
+        target: the channel, for effects that need one.
+        values: parameter -> quantity with unit, or number [SI]; typical values for the others.
+
+    Returns:
+        The model as it is now.
+
+    Raises:
+        UnknownNameError: no such effect or parameter.
+        SettingError: the model holds it already, a value is out of bounds, or it needs a target.
+    """
+    document = _read(path)
+    effect = load_effect(Path(name)) if name.endswith(".py") else find_effect(name)
+    _append(document, _made(effect, target, values or {}, name), _file_of(effect, path))
+    model = _model(document, path)
+    write_text(path, tomlkit.dumps(document))
+    return model
+
+
+def remove_effect(path: Path, name: str) -> Model:
+    """Take an effect out of a model.toml.
+
+    Args:
+        path: of the model.toml.
+        name: of the effect, or its label where it acts on several channels, e.g. "channel_gain[pad_A_N]".
+
+    Returns:
+        The model as it is now.
+
+    Raises:
+        UnknownNameError: the model has no such effect.
+        SettingError: the name is that of several.
+    """
+    document = _read(path)
+    entries = _entries(document)
+    uses = [_use(entry, path) for entry in entries]
+    found = [i for i, u in enumerate(uses) if name in (u.effect.name, u.label)]
+    if not found:
+        raise unknown_name(f"effect (in {path.name})", name, [u.label for u in uses])
+    if len(found) > 1:
+        raise SettingError(f"{name} acts on several channels; say which: {', '.join(uses[i].label for i in found)}")
+    del entries[found[0]]
+    model = _model(document, path)
+    write_text(path, tomlkit.dumps(document))
+    return model
+
+
+def _read(path: Path) -> tomlkit.TOMLDocument:
+    if not path.is_file():
+        raise InputError(f"{path}: no such file; `slipwise init {path.parent}` drafts one")
+    try:
+        document = tomlkit.parse(path.read_text(encoding="utf-8-sig"))
+    except (TOMLKitError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: not valid TOML: {error}") from None
+    for key in document:
+        if key not in _TOP:
+            raise unknown_name(f"key in {path.name}", key, _TOP)
+    if "rig" not in document:
+        raise InputError(f"{path}: 'rig' is missing; write for example rig = \"bridge1\"")
+    if not isinstance(document.get("effect", AoT([])), AoT):
+        raise InputError(f"{path}: effects are written as [[effect]] with double brackets, one for each")
+    return document
+
+
+def _entries(document: tomlkit.TOMLDocument) -> AoT:
+    return cast(AoT, document.get("effect", AoT([])))
+
+
+def _model(document: tomlkit.TOMLDocument, path: Path) -> Model:
+    specimen = load_specimen(str(document["rig"]), path.parent)
+    part = cast(Mapping[str, Any], document.get("specimen", {}))
+    known = read_known(part, f"[specimen] of {path.name}")
+    uses = tuple(_use(entry, path) for entry in _entries(document))
+    return Model(better_known(specimen, known, path.name), uses)
+
+
+def _use(entry: Table, path: Path) -> EffectUse:
+    if ("name" in entry) == ("file" in entry):
+        raise InputError(f'{path}: each [[effect]] needs either name = "heating" or file = "mine.py"')
+    effect = load_effect(path.parent / str(entry["file"])) if "file" in entry else find_effect(str(entry["name"]))
+    values = {key: entry[key] for key in entry if key not in _ENTRY}
+    return _made(effect, str(entry.get("target", "")), values, f"{path.name}, effect {effect.name}")
+
+
+def _made(effect: Effect, target: str, values: Mapping[str, Any], where: str) -> EffectUse:
+    si: dict[str, float] = {}
+    for name, value in values.items():
+        parameter = effect.parameter(name)
+        # A number of a TOML file must have a unit; one that a program gives is SI.
+        plain = isinstance(value, float | int) and not isinstance(value, Item)
+        found = float(value) if plain else quantity(value, parameter.unit, f"{where}, {name}")
+        si[name] = _snapped(found, parameter)
+    return use(effect, target, **si)
+
+
+def _snapped(value: float, parameter: Parameter) -> float:
+    """Undo what the conversion from "300 mm" did to the last digit of a bound or of the neutral value."""
+    for exact in (parameter.neutral, parameter.typical, parameter.low, parameter.high):
+        if exact is not None and _same(value, exact):
+            return exact
+    return value
+
+
+def _same(value: float, other: float) -> bool:
+    return abs(value - other) <= 1e-13 * abs(other)
+
+
+def _file_of(effect: Effect, path: Path) -> str:
+    """Give a user's effect file as seen from the model file; nothing for an effect of the catalogue."""
+    if effect.path.parent == Path(__file__).parent / "effects":
+        return ""
+    inside = effect.path.is_relative_to(path.parent.resolve())
+    return (effect.path.relative_to(path.parent.resolve()) if inside else effect.path).as_posix()
+
+
+def _append(document: tomlkit.TOMLDocument, wanted: EffectUse, file: str) -> None:
+    entry = tomlkit.table()
+    entry["file" if file else "name"] = file or wanted.effect.name
+    if wanted.target:
+        entry["target"] = wanted.target
+    for parameter in wanted.effect.parameters:
+        bounds = [_shown(bound, parameter, short=True).partition(" ")[0] for bound in (parameter.low, parameter.high)]
+        value = tomlkit.item(_written(wanted.values[parameter.name], parameter))
+        entry.add(parameter.name, value.comment(f"{parameter.meaning}; {' to '.join(bounds)}"))
+    if "effect" not in document:
+        document.add(tomlkit.nl())
+        document["effect"] = tomlkit.aot()
+    elif not tomlkit.dumps(document).endswith("\n\n"):
+        _entries(document)[-1].add(tomlkit.nl())
+    _entries(document).append(entry)
+
+
+def _write_values(entry: Table, wanted: EffectUse) -> None:
+    """Put a model's values into an entry that is there; one that is not there and has its typical value stays away."""
+    for parameter in wanted.effect.parameters:
+        value = wanted.values[parameter.name]
+        if parameter.name in entry:
+            if not _same(quantity(str(entry[parameter.name]), parameter.unit, parameter.name), value):
+                entry[parameter.name] = _written(value, parameter)
+        elif value != parameter.typical:
+            entry[parameter.name] = _written(value, parameter)
+
+
+def _write_specimen(document: tomlkit.TOMLDocument, known: Mapping[str, float | str]) -> None:
+    if "specimen" not in document and not known:
+        return
+    if "specimen" not in document:
+        entries = document.pop("effect", None)
+        document["specimen"] = tomlkit.table()
+        if entries is not None:
+            document["effect"] = entries
+    part = cast(Table, document["specimen"])
+    for name in [n for n in part if n not in known]:
+        del part[name]
+    for name, value in known.items():
+        if isinstance(value, str):
+            part[name] = value
+        elif name not in part or not _same(quantity(str(part[name]), SPECIMEN_UNITS[name], name), value):
+            part[name] = f"{value:.15g} {SPECIMEN_UNITS[name]}".removesuffix(" 1")
+
+
+def _written(value: float, parameter: Parameter) -> str | float:
+    """Give a value as it is written: a pure number bare, anything else with the unit in which people read it."""
+    text = _shown(value, parameter)
+    return text if " " in text else float(text)
+
+
+def _shown(value: float, parameter: Parameter, *, short: bool = False) -> str:
+    """Write a value in the unit in which people read it, with as many digits as bring the same number back."""
+    unit = parameter.shown_in or parameter.unit
+    in_unit = value / parse_unit(unit, parameter.unit, parameter.name)
+    digits = 4
+    while not short and digits < 15 and not _same(float(f"{in_unit:.{digits}g}"), in_unit):
+        digits += 1
+    return f"{in_unit:.{digits}g}{'' if unit == '1' else ' ' + unit}"
