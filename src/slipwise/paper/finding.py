@@ -1,0 +1,61 @@
+"""What is said of one table, figure or sentence of the paper."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.errors import SettingError
+
+Array = NDArray[np.float64]
+HOLDS, LIMITS, FAILS, UNCHECKED = "holds", "holds with limits", "does not hold", "cannot be checked"
+VERDICTS = (HOLDS, LIMITS, FAILS, UNCHECKED)
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One statement of the paper and what became of it.
+
+    Attributes:
+        place: where the paper makes it, e.g. "Table 1" or "Conclusion 2".
+        says: what the paper states, in our words.
+        gets: what we get, with numbers.
+        verdict: one of `VERDICTS`.
+        why: the range within which it holds, or why it cannot be checked.
+        assumed: names of settings, or words, on which the answer rests.
+        numbers: behind `gets`, as JSON can hold them.
+    """
+
+    place: str
+    says: str
+    gets: str
+    verdict: str
+    why: str
+    assumed: tuple[str, ...] = ()
+    numbers: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Refuse a verdict that is none."""
+        if self.verdict not in VERDICTS:
+            raise SettingError(f"{self.verdict!r} is no verdict; possible: {', '.join(VERDICTS)}")
+
+
+@dataclass(frozen=True)
+class Study:
+    """One section of the paper, re-enacted.
+
+    Attributes:
+        name: short, the key in paper.json.
+        title: as a heading.
+        findings: in the paper's order.
+        tables: heading -> rows (column -> value) as they are printed.
+        curves: arrays for the pictures [SI]; they do not go into paper.json.
+    """
+
+    name: str
+    title: str
+    findings: tuple[Finding, ...]
+    tables: Mapping[str, list[dict[str, Any]]] = field(default_factory=dict)
+    curves: Mapping[str, Any] = field(default_factory=dict)
