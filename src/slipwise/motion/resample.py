@@ -1,14 +1,14 @@
 """Resampling of a motion to the step of a simulation: band-limited, without phase shift and without aliasing.
 
-Two steps. A windowed sinc of linear phase, centred (so that no phase is left), takes the motion to a grid eight times
-finer; it passes frequencies up to 0.95 of the Nyquist frequency of the coarser of the two samplings, and stops what
-would appear above the Nyquist frequency (80 dB). A quintic spline then reads that grid at the wanted times; on it the
-motion is so smooth that the spline's error is below 1e-6 of the amplitude up to the old Nyquist frequency.
+Two steps. A windowed sinc, symmetric about each sample (so no phase is left), takes the motion to a grid of eight
+points to the coarser step; a quintic spline then reads that grid at the wanted times. Refining passes frequencies up
+to 0.95 of the old Nyquist frequency within 2e-4 of the amplitude. Coarsening passes up to 0.9 of the new one within
+1e-4, and stops all above the new one by 80 dB: nothing folds back.
 
 What it does to peaks. Refining keeps every recorded sample. The motion between samples is that of the band-limited
-signal, so the largest value may lie between two samples and exceed the recorded one; it is the peak that the
-accelerometer's record stands for. (Straight lines between samples would keep the peak and put the difference into
-frequencies that were never recorded.) Coarsening takes away what the new step cannot carry, and its share of the peak.
+signal, so the largest value may lie between two samples and exceed the recorded one; it is the peak that the record
+stands for. (Straight lines between samples would keep the peak, and put the difference into frequencies that were
+never recorded.) Coarsening takes away what the new step cannot carry, and its share of the peak.
 """
 
 from dataclasses import replace
@@ -23,7 +23,7 @@ from slipwise.errors import SettingError
 from slipwise.motion.table_motion import TableMotion
 
 _FINER = 8
-#: Zero crossings of the sinc to each side. With the window below, the transition is 0.04 of the sampling rate wide.
+#: Zero crossings of the sinc to each side: with the window below, the transition takes 0.04 of the sampling rate.
 _CROSSINGS = 64
 #: Kaiser's beta for 80 dB. Source: Kaiser 1974, beta = 0.1102 (A - 8.7).
 _BETA = 0.1102 * (80.0 - 8.7)
@@ -66,9 +66,12 @@ def _refined(values: NDArray[np.float64], old: float, new: float) -> tuple[NDArr
     """Give the values on a finer grid, without what the new step cannot carry; and the grid's step [s]."""
     # Relative to the old Nyquist frequency; below 1 the sinc is wider and a little lower, to stop at the new one.
     cutoff = 1.0 if new <= old else 0.96 * old / new
-    half = int(np.ceil(_CROSSINGS * _FINER / cutoff))
+    # What passes a coarser step needs no finer grid than eight points to that step. Not below 2: at the same rate
+    # resample_poly gives the values back without filtering them.
+    finer = max(int(np.ceil(_FINER * min(old / new, 1.0))), 2)
+    half = int(np.ceil(_CROSSINGS * finer / cutoff))
     place = np.arange(-half, half + 1)
-    window = cutoff / _FINER * np.sinc(cutoff * place / _FINER) * kaiser(2 * half + 1, _BETA)
-    fine = resample_poly(values, _FINER, 1, axis=0, window=window, padtype="edge")
-    last = (len(values) - 1) * _FINER
-    return fine[: last + 1], old / _FINER
+    window = cutoff / finer * np.sinc(cutoff * place / finer) * kaiser(2 * half + 1, _BETA)
+    fine = resample_poly(values, finer, 1, axis=0, window=window, padtype="edge")
+    last = (len(values) - 1) * finer
+    return fine[: last + 1], old / finer

@@ -123,7 +123,24 @@ def blank_separated(source: SourceFile, start: int, count: int, stated_by: str) 
     """
     values = [number(field, source.at(i)) for i in range(start, len(source.lines)) for field in source.lines[i].split()]
     check_count(len(values), count, source, stated_by)
+    _check_last_number(source, start)
     return values
+
+
+def _check_last_number(source: SourceFile, start: int) -> None:
+    """Refuse a last number that was cut in the middle: it counts as one, but is another number.
+
+    Right-aligned columns tell it: in the last line, too, the last number must end where its column ends.
+    """
+    filled = [i for i in range(start, len(source.lines)) if source.lines[i].strip()]
+    fields = [[match.end() for match in re.finditer(r"\S+", source.lines[i])] for i in (*filled[:5], filled[-1])]
+    *above, last = fields
+    column = len(last) - 1
+    ends = {ends[column] for ends in above if len(ends) > column}
+    if len(filled) > 5 and len(ends) == 1 and last[column] < min(ends):
+        raise InputError(
+            f"{source.at(filled[-1])}: the last number is cut off; the record is truncated, fetch it again"
+        )
 
 
 def check_count(found: int, stated: int, source: SourceFile, stated_by: str) -> None:

@@ -41,12 +41,13 @@ def even_step(time: NDArray[np.float64], rows: Rows, source: SourceFile) -> floa
     dt = float((time[-1] - time[0]) / (len(time) - 1))
     # Times are rounded as written: an even record may be off by one unit of the last digit, not by more.
     rounding = _last_digit(source.lines[rows.first[-1]])
-    uneven = np.abs(steps - dt) > max(0.01 * dt, min(1.01 * rounding, 0.4 * dt))
+    usual = float(np.median(steps))
+    uneven = np.abs(steps - usual) > max(0.01 * usual, min(1.01 * rounding, 0.4 * usual))
     if uneven.any():
         i = int(np.flatnonzero(uneven)[0])
         raise InputError(
             f"{source.at(rows.first[i + 1])}: the samples are not evenly spaced: a step of {steps[i]:g} where "
-            f"{dt:g} is the mean; samples are missing, or the record must be resampled first"
+            f"{usual:g} is usual; samples are missing, or the record must be resampled first"
         )
     return dt
 

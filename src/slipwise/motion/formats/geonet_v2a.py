@@ -47,9 +47,9 @@ def _component(source: SourceFile, given: Given, start: int) -> tuple[Trace, int
         source, r"^\s*Component\s+(\S+)", start, text_end, f"component {start and 'after the first'}"
     )
     name = named[1]
-    step, i = header_field(source, r"data at\s+([\d.]+)\s*sec", start, text_end, "the step of its samples")
+    step, i = header_field(source, r"data at\s+(-?[\d.]+)\s*sec", start, text_end, "the step of its samples")
     dt, dt_words = settle_step(positive(number(step[1], source.at(i)), source.at(i), "the step"), given, source)
-    pattern = r"^\s*Acceleration:\s*peak\s+(-?[\d.]+)\s+(\S+)\s+at\s+([\d.]+)\s*sec"
+    pattern = r"^\s*Acceleration:\s*peak\s+(-?[\d.]+)\s+(\S+)\s+at\s+(-?[\d.]+)\s*sec"
     peak, i = header_field(source, pattern, start, text_end, "the peak of its acceleration")
     factor, unit_words = settle_unit(peak[2], given, source)
     integers = fixed_width(source, text_end, _INTEGERS * 10, 10, _WIDTH)

@@ -1,6 +1,7 @@
 """Our own CSV: "time [s],table_ax [m/s^2],..."; of a measured run, the table's channels are the motion."""
 
 import re
+from difflib import get_close_matches
 
 from slipwise.channels import CHANNELS
 from slipwise.errors import InputError
@@ -30,6 +31,10 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
     rows = read_rows(source)
     if not rows.units:
         raise InputError(f"{source.at(0)}: each column must be named with its unit, as in 'table_ax [m/s^2]'")
+    for name in rows.names:
+        near = get_close_matches(name, _TABLE, n=1, cutoff=0.8)
+        if near and name not in CHANNELS:
+            raise InputError(f"{source.name}: no channel is called {name!r}; did you mean {near[0]}?")
     present = [name for name in _TABLE if name in rows.names]
     if not present:
         raise InputError(
