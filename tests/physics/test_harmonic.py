@@ -1,10 +1,12 @@
 """Harmonic shaking against closed forms and an event-driven integrator (V5, V6, V7, V9)."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+
 from shaking import FAST, G, coulomb, half_range, last_cycles, shaken, sine
 from slipwise.model import base_model
-from dataclasses import replace
 
 
 @pytest.mark.parametrize(

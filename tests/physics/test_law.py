@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from shaking import G
 from slipwise.model import base_model, use
 from slipwise.predict import predictor

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from shaking import coulomb, needs_shared, shaken
 from slipwise.effects import load_effect
 from slipwise.model import base_model, use

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+
 from shaking import G, shaken, sine
 from slipwise.model import base_model
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+
 from shaking import FAST, G, coulomb, shaken
 from slipwise.model import base_model
 from slipwise.replay import simulate

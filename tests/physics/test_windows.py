@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from shaking import G, sine
 from slipwise.model import base_model, use
 from slipwise.replay import simulate
