@@ -114,7 +114,7 @@ def build_campaign(
     base = random_rig(rig, rngs[1])
     motions = draw_motions(rig, base, rngs[2], rich)
     hidden = hide(case.effects, size, base, rngs[3])
-    settings = base.changed(**hidden.settings)
+    settings = base.changed(yaw_known=rich, **hidden.settings)
     clock = float(rngs[3].uniform(0.0, 100.0))
     runs = shake(settings, motions, clock)
     for _ in range(_CALMER):

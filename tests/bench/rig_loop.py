@@ -3,7 +3,7 @@
 Coordinates are the centre of gravity (x, y, z) relative to the table and small rotations (roll about +x, pitch about
 +y: nose down at +x, yaw about +z). Pads stand on the table, so weight moves over them as the girder slips (P-delta).
 Semi-implicit Euler: forces from the state, then speeds, then places. A shadow of each pad follows the base law with
-the pad's load and the slip of the pads' middle: what a hidden effect adds is known exactly.
+the pad's load and the slip of the pads' middle (of the pad, where yaw is recorded): what hides is known exactly.
 
 Trap: numba's cache watches this file only; after editing one of the laws delete `__pycache__`.
 """
@@ -58,6 +58,8 @@ def pad_forces(p, g, w, a, time, step, mem, heat_rates, heat_weights, row, total
         if squeeze <= 0.0 or load < 0.0:
             load = 0.0
         m = mem[i]
+        if p.yaw_known:
+            middle_vx, middle_vy, middle_speed = vx, vy, speed
         shadow = base_bound(p, load, middle_speed)
         sx, sy, m[2], m[3] = slide(m[2], m[3], middle_vx, middle_vy, shadow, 0.0, stiff, damp, step)
         bound = base_bound(p, load, speed)

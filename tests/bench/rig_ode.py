@@ -76,8 +76,8 @@ def simulate(
     Returns:
         "time" [s] and `COLUMNS`, each (rows,), in SI units with the signs of the contract (N compression; Fx force of
         the girder on the pad, positive when sliding to +x; buffer force positive when the girder is at +x).
-        "pad_A_vx" is the pad's true slip speed, "pad_A_Fx_base" what the base law makes of the pad's load and the
-        middle's slip.
+        "pad_A_vx" is the pad's true slip speed, "pad_A_Fx_base" what the base law makes of the pad's load and of the
+        slip at the middle of the pads (with `yaw_known`: at the pad).
         Accelerations of the girder are what an accelerometer there feels, weight excluded; "pitch_acceleration" is
         relative to the table.
     """

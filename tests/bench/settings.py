@@ -110,6 +110,8 @@ class Settings(NamedTuple):
     unknown_scale: float = 1.0
     unknown_place: float = 0.0
     clock: float = 0.0
+    # whether the base law's shadow knows each pad's own slip speed (yaw recorded) or only that of the pads' middle
+    yaw_known: int = 0
 
     def changed(self, **changes: Any) -> "Settings":
         """Give a copy with other values, each of the type that the default has (one compiled loop serves them all)."""

@@ -65,6 +65,10 @@ def test_a_complete_campaign_leaves_sensor_noise_in_its_balances(complete):
         assert 0.9 * floors["heave"] < np.std(heave) < 1.4 * floors["heave"]
 
 
+def test_a_complete_rich_campaign_lacks_nothing_either(rich_run):
+    assert rich_run.truth.size_in_floors < 0.05
+
+
 def test_repeat_is_the_same_motion_with_fresh_noise(complete):
     first, again = complete.recorded["quake_hv"], complete.recorded["quake_hv_again"]
     difference = np.std(first["table_ax"] - again["table_ax"])
