@@ -17,7 +17,7 @@ from slipwise.record import Record
 from slipwise.replay.channels import to_channels
 from slipwise.replay.energy import EnergyBook
 from slipwise.replay.steps import numbers_for, run_compiled, run_python
-from slipwise.rig import Rig, build
+from slipwise.rig import Rig, build, check_step
 
 Array = NDArray[np.float64]
 #: A slip beyond this [m] is no longer a girder on a table.
@@ -156,6 +156,7 @@ def simulate(
         SettingError: a step too large for the pads, an output step that is no multiple of it, an unknown engine.
         SimulationDiverged: it left every bound; the error holds the record so far.
     """
+    check_step(model.built_specimen(), dt)
     every = round(output_dt / dt)
     if every < 1 or abs(every * dt - output_dt) > 1e-9:
         raise SettingError(f"the output step {output_dt * 1e3:g} ms must be a multiple of the step {dt * 1e3:g} ms")

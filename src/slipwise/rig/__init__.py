@@ -1,6 +1,6 @@
 """The specimen on the shaking table: rated values, similarity, and the compiled model."""
 
-from slipwise.rig.build import Rig, build, largest_step, pad_frequencies
+from slipwise.rig.build import Rig, build, check_step, largest_step, pad_frequencies
 from slipwise.rig.readings import Readings, read_paper
 from slipwise.rig.similarity import LENGTH_SCALE, Similarity, similarity
 from slipwise.rig.specimen import RIGS, Specimen, load_specimen
@@ -13,6 +13,7 @@ __all__ = [
     "Similarity",
     "Specimen",
     "build",
+    "check_step",
     "largest_step",
     "load_specimen",
     "pad_frequencies",

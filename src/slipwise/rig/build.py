@@ -58,6 +58,20 @@ def largest_step(specimen: Specimen) -> float:
     return _STABLE / (2.0 * np.pi * max(pad_frequencies(specimen).values()))
 
 
+def check_step(specimen: Specimen, dt: float) -> None:
+    """Refuse a step [s] that is too large for the pads.
+
+    Raises:
+        SettingError: it is; the message gives the largest one.
+    """
+    allowed = largest_step(specimen)
+    if not 0.0 < dt <= allowed:
+        raise SettingError(
+            f"a step of {dt * 1e3:g} ms does not suit pads of {specimen.pad_stiffness / 1e6:g} kN/mm: "
+            f"at most {np.floor(allowed * 1e5) / 1e2:g} ms (or softer pads)"
+        )
+
+
 def build(specimen: Specimen, dt: float, nuserdata: int) -> Rig:
     """Compile a specimen. No callback may be installed meanwhile: MuJoCo would call it.
 
@@ -69,12 +83,7 @@ def build(specimen: Specimen, dt: float, nuserdata: int) -> Rig:
     Raises:
         SettingError: the step is too large for the pads' stiffness.
     """
-    allowed = largest_step(specimen)
-    if not 0.0 < dt <= allowed:
-        raise SettingError(
-            f"a step of {dt * 1e3:g} ms does not suit pads of {specimen.pad_stiffness / 1e6:g} kN/mm: "
-            f"at most {np.floor(allowed * 1e5) / 1e2:g} ms (or softer pads)"
-        )
+    check_step(specimen, dt)
     spec = mujoco.MjSpec.from_file(str(specimen.path))
     spec.option.timestep = dt
     spec.option.gravity = [0.0, 0.0, -specimen.gravity]
