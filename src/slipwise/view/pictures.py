@@ -1,0 +1,276 @@
+"""Pictures of one record: loops, pad loads and their causes, modes, time histories."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from slipwise.channels import BUFFERS, PADS
+from slipwise.errors import InputError
+from slipwise.loads import LoadModes, load_factors, load_modes, rigid_modes
+from slipwise.loops import branches, loop_shape
+from slipwise.record import Record
+from slipwise.view.canvas import new_figure, save_figure
+from slipwise.view.geometry import RigGeometry
+from slipwise.view.style import (
+    AXIS_COLOURS,
+    BUFFER_COLOURS,
+    EXPECTED,
+    GIRDER,
+    MUTED,
+    PAD_COLOURS,
+    PAD_PANELS,
+    PAD_PLACES,
+    SUM,
+    TABLE,
+    UPLIFT,
+    envelope,
+    shown,
+    shown_unit,
+    styled,
+)
+
+Array = NDArray[np.float64]
+#: Longer lines become an image inside an SVG: megabytes of vectors help nobody.
+_VECTOR_POINTS = 4000
+
+
+def save_pictures(record: Record, geometry: RigGeometry, folder: Path) -> list[Path]:
+    """Write loops.png, loads.png, modes.png and histories.png.
+
+    A panel whose channels were not recorded says which are missing.
+
+    Args:
+        record: measured or simulated.
+        geometry: of its rig.
+        folder: made if absent.
+
+    Returns:
+        The files, each there whole or not at all.
+    """
+    figures = {
+        "loops": loops_figure(record),
+        "loads": loads_figure(record, geometry),
+        "modes": modes_figure(record, geometry),
+        "histories": histories_figure(record),
+    }
+    return [save_figure(figure, folder / f"{name}.png") for name, figure in figures.items()]
+
+
+def loops_figure(record: Record) -> Figure:
+    """Draw every pad's loop, arranged as seen from above, and their sum."""
+    with styled():
+        figure = new_figure(12.0, 6.4, "Friction against slip")
+        grid = figure.add_gridspec(2, 4)
+        first: Axes | None = None
+        for pad, (row, column) in PAD_PANELS.items():
+            axes = figure.add_subplot(grid[row, column], sharex=first, sharey=first)
+            first = first or axes
+            axes.set_title(f"Pad {pad}  ({PAD_PLACES[pad]})", color=PAD_COLOURS[pad])
+            if column == 0:
+                axes.set_ylabel("friction F [kN]")
+            if row == 1:
+                axes.set_xlabel("slip x [mm]")
+            _loop(axes, record, [f"pad_{pad}_Fx"], PAD_COLOURS[pad])
+        axes = figure.add_subplot(grid[:, 2:])
+        axes.set(title="Sum of the pads", xlabel="slip x [mm]", ylabel="ΣF [kN]")
+        _loop(axes, record, [f"pad_{pad}_Fx" for pad in PADS], SUM)
+    return figure
+
+
+def _loop(axes: Axes, record: Record, forces: Sequence[str], colour: str) -> None:
+    """Draw the sum of some forces over slip with the loop's numbers beside it."""
+    if _missing(axes, record, ["slip_x", *forces]):
+        return
+    force = np.sum([record[name] for name in forces], axis=0)
+    axes.axhline(0.0, color="#b8c0cb", linewidth=0.8, zorder=1)
+    axes.axvline(0.0, color="#b8c0cb", linewidth=0.8, zorder=1)
+    slip, long = record["slip_x"], len(record) > _VECTOR_POINTS
+    axes.plot(slip * 1e3, force / 1e3, color=colour, linewidth=0.8, alpha=0.45, rasterized=long)
+    widest = _widest_cycle(slip)
+    axes.plot(slip[widest] * 1e3, force[widest] / 1e3, color=colour, linewidth=2.0)
+    axes.margins(0.08, 0.24)
+    try:
+        shape = loop_shape(record["slip_x"], force)
+    except InputError:
+        text = "no loop: it did not slide both ways"
+    else:
+        text = (
+            f"{shape.energy / 10:.1f} kN cm,  edge {shape.edge_slope / 1e6:+.4f} kN/mm\n"
+            f"flatness {shape.flatness:.3f},  corners {shape.corner_sharpness:.3f}"
+        )
+    axes.text(0.03, 0.985, text, transform=axes.transAxes, va="top", fontsize=8.0, color=MUTED, linespacing=1.4)
+
+
+def _widest_cycle(slip: Array) -> slice:
+    """Find the longest way between two turns together with the way back: it shows the shape that a crowd hides."""
+    ends = np.flatnonzero(np.diff(branches(slip)))
+    turns = np.concatenate([[0], ends + 1, [len(slip) - 1]])
+    ways = np.abs(np.diff(slip[turns]))
+    if len(ways) < 3:
+        return slice(0, len(slip))
+    there_and_back = ways[:-1] + ways[1:]
+    i = int(there_and_back.argmax())
+    return slice(int(turns[i]), int(turns[i + 2]) + 1)
+
+
+def loads_figure(record: Record, geometry: RigGeometry) -> Figure:
+    """Draw every pad's load beside what inertia (Factor A) and rocking (Factor B) make of it."""
+    names = [f"pad_{pad}_N" for pad in PADS]
+    with styled():
+        figure = new_figure(12.0, 8.4, "Load on the pads and its causes")
+        panels = figure.subplots(4, 2, sharex=True, sharey="col")
+        if _missing(panels[0, 0], record, names):
+            return figure
+        try:
+            factors = load_factors(record, geometry.mass, geometry.gravity)
+        except InputError as error:
+            factors = None
+            _note(panels[0, 1], str(error))
+        for i, pad in enumerate(PADS):
+            left, right = panels[i]
+            left.set_title(f"Pad {pad}  ({PAD_PLACES[pad]})", color=PAD_COLOURS[pad])
+            left.set_ylabel("N [kN]")
+            left.axhline(0.0, color="#b8c0cb", linewidth=0.8, zorder=1)
+            _shade_uplift(left, record, [pad])
+            if factors is not None:
+                _history(left, record.time, factors.inertia[:, i] / 1e3, EXPECTED, "Factor A: inertia", 2.2)
+                _history(right, record.time, factors.rocking[:, i] / 1e3, PAD_COLOURS[pad], "Factor B: rocking", 1.2)
+                _history(right, record.time, factors.rest[:, i] / 1e3, UPLIFT, "the rest", 0.9)
+                swing = f"A ±{factors.inertia_swing[i]:.0%}, B ±{factors.rocking_swing[i]:.0%} of the load at rest"
+                right.set_title(swing, fontweight="normal", fontsize=9.0, color=MUTED)
+                _legend(right)
+            _history(left, record.time, record[names[i]] / 1e3, PAD_COLOURS[pad], "N", 1.0)
+            _legend(left)
+        _label_time(figure, panels[-1])
+    return figure
+
+
+def modes_figure(record: Record, geometry: RigGeometry) -> Figure:
+    """Draw heave, pitch, roll and warp of the pad loads over what a rigid girder's equilibrium asks for."""
+    with styled():
+        figure = new_figure(12.0, 8.0, "Pad loads as heave, pitch, roll and warp")
+        panels = figure.subplots(4, 1, sharex=True)
+        if _missing(panels[0], record, [f"pad_{pad}_N" for pad in PADS]):
+            return figure
+        modes = load_modes(record.stacked("pad_{}_N"))
+        try:
+            rigid: LoadModes | None = rigid_modes(
+                record, geometry.mass, geometry.gravity, geometry.girder_centre_height, geometry.half_spacing,
+                geometry.pads_on,
+            )  # fmt: skip
+        except InputError as error:
+            rigid = None
+            _note(panels[0], str(error))
+        rows = (
+            ("heave", "Heave  A + B + C + D", "rigid: $m(g + a_z)$", SUM),
+            (
+                "pitch",
+                "Pitch  (A + C) − (B + D)",
+                "rigid: $(x\\,\\Sigma N - m a_x h)$ / half spacing",
+                PAD_COLOURS["A"],
+            ),
+            ("roll", "Roll  (A + B) − (C + D)", "rigid: likewise across", BUFFER_COLOURS["1"]),
+            ("warp", "Warp  (A + D) − (B + C)", "", PAD_COLOURS["B"]),
+        )
+        for axes, (name, title, expected, colour) in zip(panels, rows, strict=True):
+            axes.set_title(title)
+            axes.set_ylabel("kN")
+            _shade_uplift(axes, record, PADS)
+            if rigid is not None and expected:
+                _history(axes, record.time, getattr(rigid, name) / 1e3, EXPECTED, expected, 2.4)
+            _history(axes, record.time, getattr(modes, name) / 1e3, colour, "pads", 1.0)
+            _legend(axes)
+        _at_least(panels[3], 0.02 * geometry.pad_load / 1e3)
+        _at_least(panels[2], 0.02 * geometry.pad_load / 1e3)
+        panels[3].text(
+            0.99, 0.9, "equilibrium leaves warp open: seating and twist set it", transform=panels[3].transAxes,
+            ha="right", va="top", fontsize=9.0, color=MUTED,
+        )  # fmt: skip
+        _label_time(figure, panels[-1:])
+    return figure
+
+
+def histories_figure(record: Record) -> Figure:
+    """Draw accelerations, slip and forces over time."""
+    pad_loads = [(f"pad_{pad}_N", f"pad {pad}", PAD_COLOURS[pad]) for pad in PADS]
+    pad_forces = [(f"pad_{pad}_Fx", f"pad {pad}", PAD_COLOURS[pad]) for pad in PADS]
+    rows: list[tuple[str, list[tuple[str, str, str]]]] = [
+        ("Acceleration along x", [("table_ax", "table", TABLE), ("girder_ax", "girder", GIRDER)]),
+        ("Acceleration, vertical", [("table_az", "table", TABLE), ("girder_az", "girder", GIRDER)]),
+        ("Slip", [(f"slip_{axis}", axis, AXIS_COLOURS[axis]) for axis in "xy"]),
+        ("Load on the pads", pad_loads),
+        ("Friction of the pads along x", pad_forces),
+        ("Buffers along x", [(f"buffer_{b}_Fx", f"buffer {b}", BUFFER_COLOURS[b]) for b in BUFFERS]),
+    ]
+    with styled():
+        figure = new_figure(12.0, 11.0, "Time histories")
+        panels = figure.subplots(len(rows), 1, sharex=True)
+        for axes, (title, lines) in zip(panels, rows, strict=True):
+            axes.set_title(title)
+            axes.set_ylabel(shown_unit(lines[0][0]))
+            there = [line for line in lines if line[0] in record]
+            if not there:
+                _missing(axes, record, [name for name, _, _ in lines])
+                continue
+            _shade_uplift(axes, record, PADS)
+            for i, (name, label, colour) in enumerate(there):
+                # Lines that lie on one another stay visible: the first ones are drawn wide, the others thin on top.
+                _history(axes, record.time, shown(record, name), colour, label, 2.2 if 2 * i < len(there) else 0.9)
+            _legend(axes)
+        _label_time(figure, panels[-1:])
+    return figure
+
+
+def _history(axes: Axes, time: Array, values: Array, colour: str, label: str, width: float) -> None:
+    axes.plot(*envelope(time, values), color=colour, label=label, linewidth=width)
+    axes.set_xlim(float(time[0]), float(time[-1]))
+
+
+def _shade_uplift(axes: Axes, record: Record, pads: Sequence[str]) -> None:
+    """Shade the time during which one of the pads carries nothing."""
+    there = [f"pad_{pad}_N" for pad in pads if f"pad_{pad}_N" in record]
+    if not there:
+        return
+    off = np.any([record[name] <= 0.0 for name in there], axis=0)
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], off.astype(np.int8), [0]])))
+    label = "uplift" if len(pads) == 1 else "a pad is lifted"
+    for start, end in edges.reshape(-1, 2):
+        last = min(end, len(record) - 1)
+        axes.axvspan(
+            float(record.time[start]), float(record.time[last]), color=UPLIFT, alpha=0.25, linewidth=0, label=label
+        )
+        label = "_"
+
+
+def _missing(axes: Axes, record: Record, names: Sequence[str]) -> bool:
+    """Say in a panel which channels it lacks; tell whether any is missing."""
+    absent = [name for name in names if name not in record]
+    if absent:
+        _note(axes, "not recorded: " + ", ".join(absent))
+    return bool(absent)
+
+
+def _note(axes: Axes, text: str) -> None:
+    axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", color=MUTED, fontsize=9.0, wrap=True)
+
+
+def _at_least(axes: Axes, half: float) -> None:
+    """Keep rounding errors from filling a panel."""
+    low, high = axes.get_ylim()
+    if high - low < 2.0 * half:
+        axes.set_ylim(0.5 * (low + high) - half, 0.5 * (low + high) + half)
+
+
+def _legend(axes: Axes) -> None:
+    """Put the legend above the panel, where no line runs."""
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.97), ncols=6, borderaxespad=0.0)
+
+
+def _label_time(figure: Figure, panels: Sequence[Axes]) -> None:
+    for axes in panels:
+        axes.set_xlabel("time [s]")
+    figure.align_ylabels()
