@@ -51,11 +51,13 @@ def read_motion(
         UnknownNameError: `x`, `y` or `z` names neither a component nor a file.
     """
     given = Given(dt, unit)
-    wanted = {axis: None if choice is None else str(choice) for axis, choice in zip(AXES, (x, y, z), strict=True)}
+    wanted = {axis: str(choice) for axis, choice in zip(AXES, (x, y, z), strict=True) if choice is not None}
+    if "" in wanted.values():
+        raise InputError(f"a component has no name; give --x, --y and --z a name, a file, or {AT_REST!r}")
     files = [Path(path) for path in paths]
     read = {file: read_file(file, given) for file in dict.fromkeys(files)}
     for choice in wanted.values():
-        file = _file_of(choice, read)
+        file = _file_of(_sign_and_name(choice, read)[1], read)
         if file is not None and file not in read:
             read[file] = read_file(file, given)
     traces = [trace for group in read.values() for trace in group]
@@ -63,48 +65,44 @@ def read_motion(
         raise InputError("no motion is given; name a file or a synthetic motion such as sine:2Hz,0.3g")
     chosen: dict[str, tuple[Trace, int] | None] = {}
     for axis, choice in wanted.items():
-        if choice is not None and choice.lower() != AT_REST:
-            chosen[axis] = _pick(axis, choice, traces, read)
-        elif choice is not None:
-            chosen[axis] = None
+        chosen[axis] = None if choice.lower() == AT_REST else _pick(axis, choice, traces, read)
     taken = [pair[0] for pair in chosen.values() if pair]
     if files:
         _fill_by_name(chosen, [trace for trace in traces if not any(trace is other for other in taken)])
     return _assemble({axis: chosen.get(axis) for axis in AXES}, baseline)
 
 
-def _file_of(choice: str | None, read: dict[Path, list[Trace]]) -> Path | None:
-    """Give the file that a choice names, None if it names none."""
-    for text in (choice, choice[1:] if choice and choice[0] in "+-" else None):
-        if not text:
-            continue
-        named = [file for file in read if file.name == text or file.resolve() == Path(text).resolve()]
-        if len(named) == 1:
-            return named[0]
-        if Path(text).is_file():
-            return Path(text)
-    return None
+def _file_of(text: str, read: dict[Path, list[Trace]]) -> Path | None:
+    """Give the file of this name or path, None if there is none."""
+    named = [file for file in read if file.name == text or file.resolve() == Path(text).resolve()]
+    if len(named) == 1:
+        return named[0]
+    return Path(text) if Path(text).is_file() else None
+
+
+def _sign_and_name(choice: str, read: dict[Path, list[Trace]]) -> tuple[int | None, str]:
+    """Split "-EW" into -1 and "EW"; the sign is None where none is written, or where it begins a file's name."""
+    if choice[0] not in "+-" or _file_of(choice, read):
+        return None, choice
+    return (-1 if choice[0] == "-" else 1), choice[1:]
 
 
 def _pick(axis: str, choice: str, traces: list[Trace], read: dict[Path, list[Trace]]) -> tuple[Trace, int]:
     """Give the component that a user chose for an axis, and its sign."""
-    signed = choice[0] in "+-" if choice else False
-    bare = choice[1:] if signed else choice
-    file = _file_of(choice, read)
-    candidates = [trace for trace in traces if plain(trace.name) == plain(bare)]
-    where = "give its file instead" if not file else "name the component instead"
-    if file is not None:
-        candidates = read[file]
+    sign, name = _sign_and_name(choice, read)
+    file = _file_of(name, read)
+    candidates = read[file] if file else [trace for trace in traces if plain(trace.name) == plain(name)]
+    where = "name the component instead" if file else "give its file instead"
     if not candidates:
-        error = unknown_name("component or file", bare, {trace.name for trace in traces})
+        error = unknown_name("component or file", name, {trace.name for trace in traces})
         raise UnknownNameError(f"{axis}: {error}")
     if len(candidates) > 1:
         raise InputError(
             f"{axis} = {choice!r} may be {' or '.join(f'{t.name} of {t.source.name}' for t in candidates)}; {where}"
         )
-    if not signed:
-        return candidates[0], -1 if axis == "z" and orientation(candidates[0].name) == "down" else 1
-    return candidates[0], -1 if choice[0] == "-" else 1
+    if sign is None:
+        sign = -1 if axis == "z" and orientation(candidates[0].name) == "down" else 1
+    return candidates[0], sign
 
 
 def _fill_by_name(chosen: dict[str, tuple[Trace, int] | None], left: list[Trace]) -> None:

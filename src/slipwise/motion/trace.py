@@ -59,18 +59,21 @@ class Trace:
             )
 
 
-def check_header_peak(found: float, stated: HeaderPeak, source: SourceFile, name: str) -> None:
-    """Hold the data against the peak that their header states: it tells a wrong unit or a damaged record.
+def check_header_peak(values: Array, dt: float, stated: HeaderPeak, source: SourceFile, name: str) -> None:
+    """Hold the data against the peak that their header states: it tells a wrong unit, a wrong step, a damaged record.
 
     Args:
-        found: largest absolute value of the data, treated as the agency does [m/s^2].
+        values: (n,) treated as the agency does [m/s^2].
+        dt: their step [s].
         stated: the header's.
         source: the file.
         name: the component, for the message.
 
     Raises:
-        InputError: they differ by more than a tenth; a smaller difference is a warning.
+        InputError: the peaks differ by more than a tenth. A smaller difference, or another time, is a warning.
     """
+    size = np.abs(values)
+    found = float(size.max(initial=0.0))
     difference = abs(found - abs(stated.value))
     words = (
         f"{source.name}: the header states a peak of {abs(stated.value):.6g} m/s^2 for {name}, "
@@ -82,6 +85,16 @@ def check_header_peak(found: float, stated: HeaderPeak, source: SourceFile, name
         raise InputError(f"{words}; the record is damaged or its unit is not what the header says, fetch it again")
     if difference > max(1e-3 * abs(stated.value), 2 * rounding):
         warnings.warn(words, SlipwiseWarning, stacklevel=2)
+    if stated.time is None:
+        return
+    near = round(stated.time / dt)
+    if size[max(near - 1, 0) : max(near + 2, 0)].max(initial=0.0) < 0.99 * found:
+        warnings.warn(
+            f"{source.name}: the header states the peak of {name} at {stated.time:.6g} s, the data reach it at "
+            f"{size.argmax() * dt:.6g} s; look at the step of {dt:g} s and at the start of the record",
+            SlipwiseWarning,
+            stacklevel=2,
+        )
 
 
 def half_last_digit(text: str) -> float:

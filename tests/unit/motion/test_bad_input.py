@@ -172,6 +172,13 @@ def test_a_scale_that_contradicts_the_stated_peak_is_refused(load):
         load(data.replace(b"2000(gal)", b"2040(gal)"))
 
 
+@pytest.mark.filterwarnings("ignore:.*of (Up|0 Deg) at")
+def test_a_step_that_contradicts_the_time_of_the_stated_peak_is_warned_of(load):
+    data = samples.csmip([("90 Deg", samples.wave()), ("Up", samples.wave(phase=1.0)), ("0 Deg", samples.wave())])
+    with pytest.warns(SlipwiseWarning, match=r"states the peak of 90 Deg at 0\.02 s, the data reach it at 0\.2 s"):
+        load(data.replace(b"spaced at  0.010 sec", b"spaced at  0.100 sec"))
+
+
 def test_a_shifted_line_of_touching_columns_is_refused_with_its_line(load):
     data = samples.geonet([(name, samples.wave(amplitude=9000.0)) for name in ("N28W", "S62W", "Up")])
     lines = data.decode().split("\n")

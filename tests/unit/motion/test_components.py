@@ -32,7 +32,8 @@ def at2(component: str, n: int = 40, scale: float = 1.0, **settings) -> bytes:
     [
         ("E-W", "east-west"), ("EW", "east-west"), ("90 DEG", "east-west"), ("270", "east-west"), ("090", "east-west"),
         ("N90E", "east-west"), ("NS", "horizontal"), ("N28W", "horizontal"), ("360", "horizontal"),
-        ("0 DEG", "horizontal"), ("L", "horizontal"), ("147", "horizontal"), ("UP", "up"), ("U-D", "up"), ("V", "up"), ("DWN", "down"),
+        ("0 DEG", "horizontal"), ("L", "horizontal"), ("147", "horizontal"),
+        ("UP", "up"), ("U-D", "up"), ("V", "up"), ("DWN", "down"),
         ("Down", "down"), ("table_ax", "table x"), ("table_az", "table z"), ("Northridge", "unknown"),
         ("450", "unknown"),
     ],
@@ -108,6 +109,8 @@ def test_a_name_that_two_files_share_is_refused_and_one_that_none_has_offers_the
     paths = files(a=at2("EW"), b=at2("EW"), c=at2("NS"))
     with pytest.raises(InputError, match="EW of a or EW of b"):
         read_motion(paths, x="EW")
+    with pytest.raises(InputError, match="has no name"):
+        read_motion(paths, x="")
     with pytest.raises(UnknownNameError, match="x: no component or file is called 'N'"):
         read_motion(paths, x="N")
 

@@ -3,9 +3,12 @@
 import numpy as np
 import pytest
 
+from slipwise.errors import InputError, SlipwiseError
+from slipwise.motion import read_motion
 from slipwise.motion.detect import detect
 from slipwise.motion.source_file import source_of
 from slipwise.motion.stated import Given, acceleration_factor
+from slipwise.record import Record, write_record
 from unit.motion import samples
 
 G = 9.80665
@@ -125,8 +128,6 @@ def test_smc_values_touch_and_its_header_gives_both_extremes():
 
 @pytest.mark.parametrize("kind", ["3 VELOCITY", "4 DISPLACEMENT", "1 UNCORRECTED ACCELEROGRAM"])
 def test_smc_files_of_anything_but_corrected_acceleration_are_refused(kind):
-    from slipwise.errors import SlipwiseError
-
     with pytest.raises(SlipwiseError, match="CORRECTED ACCELEROGRAM"):
         read(samples.smc(samples.wave(), kind=kind))
 
@@ -137,6 +138,24 @@ def test_our_own_csv_gives_the_table_channels_of_a_run_and_leaves_the_others():
     assert [trace.name for trace in traces] == ["table_ax", "table_az"]
     np.testing.assert_allclose(traces[1].acceleration, values[:, 2], rtol=1e-6)
     assert traces[0].dt == pytest.approx(0.002)
+
+
+def test_a_record_that_slipwise_wrote_is_a_table_motion_again(tmp_path):
+    time = np.arange(200) * 0.0005
+    channels = {
+        name: samples.wave(200, 3.0, phase) for name, phase in (("table_ax", 0.1), ("slip_x", 1.0), ("table_az", 2.0))
+    }
+    write_record(Record(time, channels), tmp_path / "record.csv")
+    motion = read_motion([tmp_path / "record.csv"])
+    assert motion.components == ("table_ax", "", "table_az")
+    assert motion.dt == pytest.approx(0.0005, rel=1e-9)
+    np.testing.assert_allclose(motion.acceleration[:, 2], channels["table_az"], rtol=1e-8)
+
+
+def test_a_misspelt_channel_of_the_table_is_not_left_out_silently():
+    values = np.stack([samples.wave() / 100, samples.wave() / 100], axis=1)
+    with pytest.raises(InputError, match="'table_axx'; did you mean table_ax"):
+        read(samples.own_csv(values, names=("table_axx", "table_az")))
 
 
 @pytest.mark.parametrize(

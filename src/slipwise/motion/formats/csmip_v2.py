@@ -79,7 +79,7 @@ def _channel(source: SourceFile, given: Given, start: int, end: int) -> Trace:
         number(peak[3], source.at(i)),
         half_last_digit(peak[1]) * peak_factor,
     )
-    check_header_peak(float(np.abs(values).max(initial=0.0)), stated, source, name)
+    check_header_peak(values, dt, stated, source, name)
     station = source.lines[start + 6][:40].strip() if start + 6 < at else source.stem
     return Trace(
         source=source,

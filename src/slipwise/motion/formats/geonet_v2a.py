@@ -43,9 +43,12 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
 def _component(source: SourceFile, given: Given, start: int) -> tuple[Trace, int]:
     """Read the component whose header starts at a line; give it and the line after its last block."""
     text_end = start + _TEXT
-    named, _ = header_field(
-        source, r"^\s*Component\s+(\S+)", start, text_end, f"component {start and 'after the first'}"
-    )
+    if text_end + _INTEGERS + _NUMBERS > len(source.lines):
+        raise InputError(
+            f"{source.name}: the record is truncated: a header should begin at line {start + 1}, "
+            f"the file ends at line {len(source.lines)}; fetch it again"
+        )
+    named, _ = header_field(source, r"^\s*Component\s+(\S+)", start, text_end, "the name of a component")
     name = named[1]
     step, i = header_field(source, r"data at\s+(-?[\d.]+)\s*sec", start, text_end, "the step of its samples")
     dt, dt_words = settle_step(positive(number(step[1], source.at(i)), source.at(i), "the step"), given, source)
@@ -71,7 +74,7 @@ def _component(source: SourceFile, given: Given, start: int) -> tuple[Trace, int
         number(peak[3], source.at(i)) + prepended,
         half_last_digit(peak[1]) * factor,
     )
-    check_header_peak(float(np.abs(values).max(initial=0.0)), stated, source, name)
+    check_header_peak(values, dt, stated, source, name)
     site, event = (source.lines[start + k].strip() for k in (2, 7))
     trace = Trace(
         source=source,

@@ -52,7 +52,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
     acceleration = counts * (per_count * factor)
     peak, place = field("Max. Acc.", r"\((?:\w+)\)\s*([\d.]+)")
     stated = HeaderPeak(number(peak[1], place) * factor, None, half_last_digit(peak[1]) * factor)
-    check_header_peak(float(np.abs(acceleration - acceleration.mean()).max(initial=0.0)), stated, source, name)
+    check_header_peak(acceleration - acceleration.mean(), dt, stated, source, name)
     station = field("Station Code", r"(\S+)")[0][1]
     recorded = field("Record Time", r"(\S.*\S)")[0][1]
     return [

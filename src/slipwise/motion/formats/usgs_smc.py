@@ -58,7 +58,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
         raise InputError(f"{source.name}: more values follow than the {count} that the header states")
     stated = _peak(numbers, factor)
     if stated:
-        check_header_peak(float(np.abs(values).max(initial=0.0)), stated, source, name)
+        check_header_peak(values, dt, stated, source, name)
     return [
         Trace(
             source=source,
