@@ -193,8 +193,8 @@ def _log_pads(
     stream.log(
         path,
         rr.Cylinders3D.from_fields(
-            lengths=[length] * len(pads), radii=[5.0 * geometry.pad_radius] * len(pads), centers=centres, fill_mode="solid",
-            labels=list(pads), show_labels=False,
+            lengths=[length] * len(pads), radii=[5.0 * geometry.pad_radius] * len(pads), centers=centres,
+            fill_mode="solid", labels=list(pads), show_labels=False,
         ),
         static=True,
     )  # fmt: skip
