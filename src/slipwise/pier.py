@@ -73,7 +73,7 @@ class BridgeSettings:
 
     piers: Sequence[Pier] = field(default_factory=lambda: (Pier(),))
     top: int = 0
-    vertical_frequency: float = 10.0
+    vertical_frequency: float = 20.0
     vertical_damping: float = 0.05
     similar_law: bool = False
 
@@ -108,18 +108,26 @@ class BridgeResponse:
     friction: Array
 
 
-def pier_top(motion: TableMotion, bridge: str, settings: BridgeSettings | None = None) -> TableMotion:
+def pier_top(
+    motion: TableMotion, bridge: str, settings: BridgeSettings | None = None, model: Model | None = None
+) -> TableMotion:
     """Turn a ground motion in the prototype's time into the table motion of the model.
 
     Args:
         motion: of the ground; x and z are used, y is left out of a model in the plane.
         bridge: "bridge1" or "bridge2".
         settings: of the bridge; one assumed pier when not given.
+        model: the specimen that stands for the bridge, with its friction law; the paper's when not given.
 
     Raises:
         SettingError: the paper has no such bridge.
+        InputError: nothing shakes it in x.
     """
-    response = bridge_response(motion, bridge, settings)
+    return table_motion(motion, bridge, bridge_response(motion, bridge, settings, model))
+
+
+def table_motion(motion: TableMotion, bridge: str, response: BridgeResponse) -> TableMotion:
+    """Turn what the bridge did under a ground motion into the table motion of its model."""
     values = np.zeros((len(response.pier_ax), 3))
     values[:, 0], values[:, 2] = response.pier_ax, response.pier_az
     words = f"turned into the response at the top of a pier of {bridge} (assumed pier: slipwise.pier)"

@@ -93,14 +93,14 @@ class PaperSettings:
     pier_stiffness: float = Pier.stiffness
     pier_mass: float = Pier.mass
     pier_damping: float = Pier.damping
-    pier_vertical_frequency: float = 10.0
+    pier_vertical_frequency: float = 20.0
     noise_load: float = 0.005
     noise_friction: float = 0.02
     noise_speed: float = 0.5e-3
     seating_share: float = 0.89
     members: int = 200
     seed: int = 1
-    ground: str = "quake:seed=1,peak=0.6g,f=1.2Hz,strong=13s,vertical=0.25g,2.4Hz"
+    ground: str = "quake:seed=1,peak=0.4g,f=1.2Hz,strong=13s,vertical=0.16g,2.4Hz"
 
     def __post_init__(self) -> None:
         """Refuse settings that cannot be."""
