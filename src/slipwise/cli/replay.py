@@ -150,7 +150,7 @@ def _tell(numbers: dict, motion: TableMotion, files: list[Path]) -> None:
 
     print_summary(numbers)
     for words in motion.treatment:
-        OUT.print(f"motion: {words}", markup=False, highlight=False)
+        OUT.print(f"motion: {words}", markup=False, highlight=False, soft_wrap=True)
     for path in files:
         OUT.print(f"wrote {path}", markup=False, highlight=False, soft_wrap=True)
 

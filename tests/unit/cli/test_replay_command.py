@@ -1,0 +1,123 @@
+"""`slipwise replay` and the lists, as a first-time user types them."""
+
+import json
+import sys
+
+import pytest
+
+from slipwise.cli import main
+from slipwise.record import read_record
+
+
+@pytest.fixture
+def slipwise(monkeypatch, capsys):
+    """Run the command line; gives exit code, output and errors."""
+
+    def run(*words):
+        monkeypatch.setattr(sys, "argv", ["slipwise", *map(str, words)])
+        with pytest.raises(SystemExit) as ended:
+            main()
+        caught = capsys.readouterr()
+        return ended.value.code, caught.out, caught.err
+
+    return run
+
+
+def test_a_synthetic_motion_leaves_record_summary_pictures_and_recording(slipwise, tmp_path):
+    code, out, _ = slipwise("replay", "sine:2Hz,0.3g,cycles=9", "--out", tmp_path)
+    assert code == 0
+    names = {p.name for p in tmp_path.iterdir()}
+    assert {"record.parquet", "summary.json", "loops.png", "loads.png", "replay.rrd"} <= names
+    assert "slip, largest" in out
+    numbers = json.loads((tmp_path / "summary.json").read_text())
+    record = read_record(tmp_path / "record.parquet")
+    assert numbers["slip_x_max_mm"] == pytest.approx(abs(record["slip_x"]).max() * 1e3, rel=1e-3)
+    assert record.provenance["rig"] == "bridge1"
+
+
+def test_json_is_for_a_program_to_read(slipwise, tmp_path):
+    code, out, _ = slipwise(
+        "replay", "sine:2Hz,0.3g,cycles=9", "--out", tmp_path, "--json", "--no-pictures", "--no-recording", "--csv"
+    )
+    assert code == 0
+    assert json.loads(out)["rig"] == "bridge1"
+    assert (tmp_path / "record.csv").read_text().startswith("time [s],table_ax [m/s^2]")
+
+
+@pytest.mark.parametrize("rig", ["bridge2", "block", "pad"])
+def test_every_rig_can_be_shaken_and_drawn(slipwise, tmp_path, rig):
+    code, _, err = slipwise("replay", "sine:1Hz,0.2g,cycles=9", "--rig", rig, "--out", tmp_path)
+    assert (code, err) == (0, "")
+    assert (tmp_path / "loops.png").stat().st_size > 10_000
+
+
+def test_an_effect_is_switched_on_by_name_and_by_file(slipwise, tmp_path):
+    common = ("replay", "sine:2Hz,0.3g,cycles=9", "--no-pictures", "--no-recording", "--json")
+    plain = json.loads(slipwise(*common, "--out", tmp_path / "a")[1])
+    damped = json.loads(slipwise(*common, "--out", tmp_path / "b", "--effect", "buffer_damping")[1])
+    assert damped["energy_kN_cm"] < plain["energy_kN_cm"]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("replay", "nothing.at2"), "no such file"),
+        (("replay", "sine:2Hz,0.3g", "--rig", "bridg1"), "bridge1"),
+        (("replay", "sine:2Hz,0.3"), "no unit"),
+        (("replay", "sine:2Hz,0.3kg"), "wrong dimension"),
+        (("replay", "sine:2Hz,0.3g", "--step", "5 ms"), "at most"),
+        (("replay", "sine:2Hz,0.3g", "--effect", "breakawy"), "breakaway"),
+        (("replay", "sine:2Hz,0.3g", "--law", "stribeck"), "paper and coulomb"),
+        (("replay", "sine:2Hz,0.3g", "--similarity", "bridge9"), "bridge1, bridge2"),
+        (("replay", "sine:2Hz,0.3g", "--x", "EW"), "recorded motions"),
+        (("replay",), "Missing argument"),
+        (("view", "nowhere"), "nowhere"),
+    ],
+)
+def test_bad_input_is_one_clear_message_and_exit_2(slipwise, tmp_path, monkeypatch, words, said):
+    monkeypatch.chdir(tmp_path)
+    code, _, err = slipwise(*words)
+    assert code == 2
+    assert said in err
+    assert "Traceback" not in err
+    assert not list(tmp_path.rglob("*.parquet"))
+
+
+def test_a_folder_that_is_a_file_is_refused(slipwise, tmp_path):
+    (tmp_path / "taken").write_text("mine")
+    code, _, err = slipwise("replay", "sine:2Hz,0.3g", "--out", tmp_path / "taken")
+    assert code == 2
+    assert "a file of this name exists" in err
+    assert (tmp_path / "taken").read_text() == "mine"
+
+
+def test_a_motion_beyond_the_tables_stroke_is_warned_of(slipwise, tmp_path):
+    code, _, err = slipwise(
+        "replay", "sine:0.5Hz,0.2g,cycles=9", "--stroke", "100 mm", "--out", tmp_path, "--no-pictures", "--no-recording"
+    )
+    assert code == 0
+    assert "stroke is 100.0 mm" in err
+
+
+def test_a_simulation_that_runs_away_leaves_its_record(slipwise, tmp_path):
+    code, _, err = slipwise("replay", "sine:0.2Hz,9g,cycles=9", "--rig", "block", "--out", tmp_path)
+    assert code == 2
+    assert "stopped at" in err
+    assert len(read_record(tmp_path / "record.parquet")) > 10
+    assert not (tmp_path / "summary.json").exists()
+
+
+@pytest.mark.parametrize("what", ["rigs", "channels", "motions"])
+def test_the_lists_are_printed_and_are_json_on_demand(slipwise, what):
+    assert slipwise(what)[0] == 0
+    assert json.loads(slipwise(what, "--json")[1])
+
+
+def test_every_command_has_help_with_an_example(slipwise):
+    code, out, _ = slipwise("--help")
+    assert code == 0
+    for command in ("replay", "rigs", "channels", "motions", "view"):
+        assert command in out
+        code, text, _ = slipwise(command, "--help")
+        assert code == 0
+        assert "Example" in text
