@@ -6,8 +6,8 @@ The asperities of a contact bend, as bristles z, before they let go. After every
 certain *distance*, a few u, to turn round. A delay of the gauge, which needs a certain *time*, looks alike in one run.
 
 The exponent i is the contact's character: 1 is Dahl's law (approach without end), 0 a bristle that bends elastically
-and then slips (elastic-plastic). Motion across relaxes the bristle by exp(-i s/u); |z| never exceeds u, so that the
-bound is a circle. The update is exact over any step: with w = 1 - z/u, w^(1-i) falls by (1-i) s/u.
+and then slips (elastic-plastic). Motion across relaxes the bristle by exp(-i s/u), and what exceeds u is taken back
+towards the middle: the bound is a circle. The update is exact over any step: w = 1 - z/u, w^(1-i) falls by (1-i) s/u.
 
 Valid: u 0.02 to 0.5 mm for bare sheet, 1 to 5 mm with a rubber layer in series.
 Source: Dahl (1968), exponent form; physics of the rigs: a slope of finite width at each reversal. Dahl is taken
@@ -34,12 +34,14 @@ def stick(
     if way > 0.0:
         x, y = way_x / way, way_y / way
         along, across = memory[0] * x + memory[1] * y, memory[1] * x - memory[0] * y
-        left = max(1.0 - along / length, 0.0)
-        if exponent > 0.999:
-            left *= exp(-way / length)
-        elif left > 0.0:
-            left = max(left ** (1.0 - exponent) - (1.0 - exponent) * way / length, 0.0) ** (1.0 / (1.0 - exponent))
-        along, across = length * (1.0 - left), across * exp(-exponent * way / length)
+        left, power = max(1.0 - along / length, 0.0), 1.0 - exponent
+        across *= exp(-exponent * way / length)
+        if power < 0.001:
+            along = length * (1.0 - left * exp(-way / length))
+        else:
+            # Below zero: what is left of the way, pushed on before the bound takes it back.
+            power_left = left**power - power * way / length
+            along = length * (1.0 - (power_left ** (1.0 / power) if power_left > 0.0 else power_left / power))
         shrink = min(1.0, length / max(sqrt(along * along + across * across), 1e-30))
         memory[0], memory[1] = (along * x - across * y) * shrink, (along * y + across * x) * shrink
     return bound * memory[0] / length, bound * memory[1] / length

@@ -1,0 +1,67 @@
+"""The contract of effects at system level: what a simulation shows when they are off, and what they may move."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from driven import with_effect
+from shaking import shaken
+
+from slipwise.effects import Effect, catalogue, moved_channels
+from slipwise.model import base_model
+from slipwise.record import Record
+
+EFFECTS = [e for e in catalogue().values() if not e.replaces]
+every_effect = pytest.mark.parametrize("effect", EFFECTS, ids=lambda e: e.name)
+TARGETS = ("pad_A_Fx",)
+
+
+@cache
+def shaking() -> np.ndarray:
+    time = 5e-4 * np.arange(1600)
+    out = np.zeros((len(time), 3))
+    out[:, 0] = 4.0 * np.clip(time / 0.2, 0.0, 1.0) * np.sin(2 * np.pi * 2.5 * time)
+    out[:, 1] = 1.0 * np.sin(2 * np.pi * 1.7 * time)
+    out[:, 2] = 2.0 * np.clip(time / 0.2, 0.0, 1.0) * np.sin(2 * np.pi * 6.0 * time)
+    return out
+
+
+@cache
+def base() -> Record:
+    return shaken(base_model("bridge1"), shaking()).record
+
+
+@every_effect
+def test_a_simulation_with_the_neutral_effect_is_the_same_to_the_last_bit(effect: Effect) -> None:
+    record = shaken(with_effect(effect, effect.neutral()), shaking()).record
+    assert set(record.channels) == set(base().channels)
+    for name, values in base().channels.items():
+        assert np.array_equal(record[name], values), name
+
+
+def _same(name: str, values: np.ndarray) -> bool:
+    """To the bit; the girder pushes the table, whose inertia is 1e10 kg, by some nanometres."""
+    allowed = 1e-7 if name.startswith("table_d") else 0.0
+    return bool(np.abs(values - base()[name]).max() <= allowed)
+
+
+@every_effect
+def test_a_simulation_moves_only_the_channels_that_the_effect_names(effect: Effect) -> None:
+    record = shaken(with_effect(effect), shaking()).record
+    moved = {n for n, values in record.channels.items() if n not in base() or not _same(n, values)}
+    assert moved, "at its typical size it must do something"
+    if effect.target:
+        assert moved <= {n for n in record.channels if n[:5] in {t[:5] for t in TARGETS}}
+    else:
+        assert moved <= moved_channels(effect)
+    assert all(np.isfinite(values).all() for values in record.channels.values())
+
+
+@pytest.mark.parametrize("name", ["presliding", "heating", "key_clearance", "buffer_hysteresis", "key_friction"])
+def test_both_engines_replay_alike(name: str) -> None:
+    model = with_effect(catalogue()[name])
+    short = shaking()[:800]
+    compiled, python = (shaken(model, short, engine=engine).record for engine in ("compiled", "python"))
+    for channel, values in compiled.channels.items():
+        scale = max(np.abs(values).max(), 1e-12)
+        assert np.abs(python[channel] - values).max() < 1e-9 * scale, channel

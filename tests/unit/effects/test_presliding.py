@@ -1,0 +1,89 @@
+"""The bristle against closed forms of Dahl's law and of elastic-plastic slip."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from slipwise.model import base_model, use
+from slipwise.predict import predictor
+
+LOAD = 24.5e3
+U = 0.3e-3
+
+
+def _share(slip_x: np.ndarray, exponent: float = 1.0, slip_y: np.ndarray | None = None) -> np.ndarray:
+    """Drive pad A along a path of slip at constant load without speed term; force over bound, (n, 2)."""
+    model = base_model("bridge1", [use("presliding", length=U, exponent=exponent)])
+    time = 0.002 * np.arange(len(slip_x))
+    slip = np.zeros((len(time), 4, 2))
+    slip[:, :, 0] = slip_x[:, None]
+    slip[:, :, 1] = (np.zeros_like(slip_x) if slip_y is None else slip_y)[:, None]
+    forces = predictor(model).pads(time, np.full((len(time), 4), LOAD), np.gradient(slip, time, axis=0), slip)
+    return forces.force[:, 0] / forces.bound[:, :1]
+
+
+def test_the_first_slip_follows_dahls_exponential() -> None:
+    slip = np.linspace(0.0, 5 * U, 200)
+    np.testing.assert_allclose(_share(slip)[:, 0], 1.0 - np.exp(-slip / U), rtol=1e-9, atol=1e-12)
+
+
+def test_after_a_reversal_friction_turns_round_over_a_distance_not_a_time() -> None:
+    """F/F_b = 2 exp(-s/u) - 1 from full friction, however the way back is sampled."""
+    way = np.concatenate([np.linspace(0.0, 40 * U, 50), 40 * U - np.geomspace(1e-3 * U, 8 * U, 31)])
+    back = 40 * U - way[50:]
+    np.testing.assert_allclose(_share(way)[50:, 0], 2.0 * np.exp(-back / U) - 1.0, atol=1e-9)
+
+
+def test_with_exponent_zero_it_is_a_spring_that_slips() -> None:
+    amplitude, n = 4 * U, 4000
+    slip = amplitude * np.sin(np.linspace(0.0, 4 * np.pi, n))
+    share = _share(slip, 0.0)[:, 0]
+    np.testing.assert_allclose(
+        share[slip.argmax() + 1], share[slip.argmax()] - (slip.max() - slip[slip.argmax() + 1]) / U
+    )
+    assert np.abs(share).max() == pytest.approx(1.0, abs=1e-12)
+    half = slice(n // 2, n)
+    work = np.sum(0.5 * (share[half][1:] + share[half][:-1]) * np.diff(slip[half]))
+    assert work == pytest.approx(4.0 * (amplitude - U), rel=1e-3), "area of a parallelogram 4 F_b (X - u)"
+
+
+@pytest.mark.parametrize("exponent", [0.3, 0.5, 0.9])
+def test_between_them_the_exact_step_agrees_with_a_differential_equation(exponent: float) -> None:
+    slip = np.concatenate([np.linspace(0.0, 1.2 * U, 7), np.linspace(1.2 * U, -0.7 * U, 9)[1:]])
+    z = 0.0
+    exact = [0.0]
+    for step in np.diff(slip):
+        sign = np.sign(step)
+        found = solve_ivp(
+            lambda s, z, sign=sign: sign * max(1.0 - sign * z[0] / U, 0.0) ** exponent, (0.0, abs(step)), [z],
+            rtol=1e-10, atol=1e-13,
+        )  # fmt: skip
+        z = found.y[0, -1]
+        exact.append(z / U)
+    np.testing.assert_allclose(_share(slip, exponent)[:, 0], exact, atol=1e-6)
+
+
+@pytest.mark.parametrize("exponent", [0.0, 0.5, 1.0])
+def test_friction_never_exceeds_its_circle_and_ends_up_along_the_motion(exponent: float) -> None:
+    angle = np.linspace(0.0, 2.0, 400)
+    radius = 30 * U
+    share = _share(radius * np.sin(angle), exponent, radius * (1.0 - np.cos(angle)))
+    assert np.hypot(*share.T).max() <= 1.0 + 1e-12
+    across = share[-1] - share[-1] @ [np.cos(2.0), np.sin(2.0)] * np.array([np.cos(2.0), np.sin(2.0)])
+    assert share[-1] @ [np.cos(2.0), np.sin(2.0)] > 0.99 and np.hypot(*across) < 0.1
+
+
+def test_a_closed_path_always_costs_work() -> None:
+    rng = np.random.default_rng(5)
+    for exponent in (0.0, 0.4, 1.0):
+        steps = rng.normal(0.0, U, (500, 2))
+        path = np.concatenate([np.zeros((1, 2)), np.cumsum(steps, axis=0)])
+        path = np.concatenate([path, np.linspace(path[-1], [0.0, 0.0], 50)[1:]])
+        share = _share(path[:, 0], exponent, path[:, 1])
+        assert np.sum(share[1:] * np.diff(path, axis=0)) > 0.0
+
+
+def test_a_gauge_that_does_not_start_at_zero_bends_no_bristle() -> None:
+    assert np.all(_share(np.full(5, 0.01)) == 0.0)
+    shifted = _share(0.01 + np.linspace(0.0, U, 20))
+    np.testing.assert_allclose(shifted, _share(np.linspace(0.0, U, 20)), atol=1e-12)
