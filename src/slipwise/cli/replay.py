@@ -10,6 +10,7 @@ from slipwise.cli.console import OUT, out_folder, print_json, progress
 from slipwise.errors import SettingError
 from slipwise.model import Model, base_model, use
 from slipwise.motion import TableMotion, load_motion, scale, scale_time, scale_to_peak, trim, warn_beyond_stroke
+from slipwise.pier import pier_top
 from slipwise.record import write_json, write_record
 from slipwise.replay import DT, OUTPUT_DT, Replay, SimulationDiverged, summary
 from slipwise.replay import replay as run_replay
@@ -38,6 +39,9 @@ def replay(
     similarity: Annotated[
         str | None, typer.Option(help="Shorten time as the model's: bridge1, bridge2 or a scale of length.")
     ] = None,
+    pier: Annotated[
+        str | None, typer.Option(help="Take the motion for the ground's; shake with the pier's top: bridge1, bridge2.")
+    ] = None,
     start: Annotated[str, typer.Option(help="Begin at this time of the motion.")] = "0 s",
     end: Annotated[str | None, typer.Option(help="End at this time of the motion.")] = None,
     stroke: Annotated[
@@ -62,7 +66,11 @@ def replay(
     began = time.perf_counter()
     seconds = None if motion_dt is None else quantity(motion_dt, "s", "--motion-dt")
     shaking = load_motion(motion, x=x, y=y, z=z, dt=seconds, unit=unit, baseline=baseline)  # type: ignore[arg-type]
+    if pier is not None and similarity is not None:
+        raise SettingError("--pier shortens time by itself, as the model's; leave --similarity out")
     shaking = _shaped(shaking, amplitude, peak, similarity, start, end)
+    if pier is not None:
+        shaking = pier_top(shaking, pier)
     if stroke is not None:
         warn_beyond_stroke(shaking, quantity(stroke, "m", "--stroke"))
     model = _model(rig, law, effect or [])
