@@ -138,12 +138,17 @@ def study(settings: PaperSettings, numbers: dict[str, list[dict[str, Any]]]) -> 
             },
         ),
     )  # fmt: skip
-    curves = {"records": records, "sine": sine, "pairs": pairs, "ratio": ratio, "reach_ratio": reach_ratio, "slips": slips}
+    curves = {
+        "records": records,
+        "sine": sine,
+        "pairs": pairs,
+        "ratio": ratio,
+        "reach_ratio": reach_ratio,
+        "slips": slips,
+    }
     return Study("loops", "Hysteresis loops and energies (Figs. 9, 10)", findings, {}, curves)
 
 
-def _finished(
-    one: list[dict[str, Any]], other: list[dict[str, Any]]
-) -> list[tuple[dict[str, Any], dict[str, Any]]]:
+def _finished(one: list[dict[str, Any]], other: list[dict[str, Any]]) -> list[tuple[dict[str, Any], dict[str, Any]]]:
     """Give the pairs in which neither simulation diverged."""
     return [(a, b) for a, b in zip(one, other, strict=True) if "failed" not in a and "failed" not in b]

@@ -113,7 +113,9 @@ def identify(
         logs[free] = chosen
         return (friction - law(logs, load, speed)) / sigma
 
-    answer = least_squares(residual, first[free], method="trf", x_scale=0.3, bounds=(first[free] - 5.0, first[free] + 5.0))
+    answer = least_squares(
+        residual, first[free], method="trf", x_scale=0.3, bounds=(first[free] - 5.0, first[free] + 5.0)
+    )
     degrees = len(load) - len(free)
     variance = 2.0 * answer.cost / degrees
     covariance = np.linalg.pinv(answer.jac.T @ answer.jac) * variance

@@ -60,11 +60,7 @@ class Member:
 
     def model(self) -> Model:
         """Make the model."""
-        model = paper_model(self.bridge, self.settings).adding(*(use(name) for name in self.effects))
-        if self.slenderness > 0.0:
-            height = self.slenderness * 2.0 * model.specimen.half_spacing[0]
-            model = replace(model, specimen=replace(model.specimen, centre_height=height))
-        return model
+        return _model(self.bridge, self.settings, self.effects, self.slenderness)
 
     def key(self) -> str:
         """Give a hash of everything that decides the result, the code included."""
@@ -74,6 +70,15 @@ class Member:
         motion = [self.seed, self.peak, self.frequency, self.strong, self.vertical, self.target]
         text = json.dumps([specimen, law, motion, version("mujoco"), _code()], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:20]
+
+
+@cache
+def _model(bridge: str, settings: PaperSettings, effects: tuple[str, ...], slenderness: float) -> Model:
+    model = paper_model(bridge, settings).adding(*(use(name) for name in effects))
+    if slenderness > 0.0:
+        height = slenderness * 2.0 * model.specimen.half_spacing[0]
+        model = replace(model, specimen=replace(model.specimen, centre_height=height))
+    return model
 
 
 @cache

@@ -78,7 +78,9 @@ def sine_test(model: Model, swing: float = (HIGHEST - LOWEST) / 2.0) -> tuple[Re
 def pad_data(record: Record, pad: str = PAD) -> PadData:
     """Give one pad's load, speed and friction at the sampling of the identification."""
     step = max(round(_SAMPLING / record.dt), 1)
-    return PadData(record[f"pad_{pad}_N"][::step], np.abs(record["slip_vx"][::step]), np.abs(record[f"pad_{pad}_Fx"][::step]))
+    return PadData(
+        record[f"pad_{pad}_N"][::step], np.abs(record["slip_vx"][::step]), np.abs(record[f"pad_{pad}_Fx"][::step])
+    )
 
 
 def truth(model: Model) -> Array:
@@ -202,8 +204,7 @@ def study(settings: PaperSettings) -> Study:
     )  # fmt: skip
     tables = {
         "Relative standard deviation of each parameter, by the swing of load": [
-            {"swing": f"±{r['swing']:.0%}", **{n: f"{r[n]:.1%}" for n in NAMES}}
-            for r in rows
+            {"swing": f"±{r['swing']:.0%}", **{n: f"{r[n]:.1%}" for n in NAMES}} for r in rows
         ],
         "Correlation of the identified parameters": [
             {"": name, **{other: f"{v:+.2f}" for other, v in zip(NAMES, row, strict=True)}}

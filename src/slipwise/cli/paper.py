@@ -1,0 +1,91 @@
+"""`slipwise paper`: the whole paper re-enacted."""
+
+from contextlib import ExitStack
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from slipwise.cli.console import OUT, out_folder, print_json, progress
+from slipwise.errors import InputError
+from slipwise.motion import load_motion
+from slipwise.paper import PaperSettings, as_json, change, reenact
+from slipwise.record import write_json
+
+#: Motions of the ensemble in quick mode.
+_QUICK = 8
+
+
+def paper(
+    out: Annotated[Path, typer.Option(help="Folder for paper.json, paper.html and the finished replays.")] = Path("out/paper"),
+    readings: Annotated[
+        list[str] | None, typer.Option(help="Change an assumption, NAME=VALUE with unit; the page lists them all.")
+    ] = None,
+    members: Annotated[int, typer.Option(help="Motions of the ensemble, each with and without vertical part.")] = 200,
+    seed: Annotated[int, typer.Option(help="Seed of the ensemble and of the noise.")] = 1,
+    ground: Annotated[
+        list[str] | None, typer.Option(help="Ground motion of the bridge: files of a recorded one, or one synthetic.")
+    ] = None,
+    workers: Annotated[int | None, typer.Option(help="Processes; as many as there are cores when not given.")] = None,
+    cluster: Annotated[
+        str | None, typer.Option(help="Address of a dask scheduler that runs the replays, e.g. tcp://host:8786.")
+    ] = None,
+    quick: Annotated[bool, typer.Option("--quick", help="A few motions only: a look in under a minute.")] = False,
+    json: Annotated[bool, typer.Option("--json", help="Print paper.json for a program to read.")] = False,
+) -> None:
+    """Re-enact the paper: every figure, table and claim, what it states and what we get.
+
+    Killed and called again with the same options, it goes on where it stopped.
+
+    Example: `slipwise paper --out out/paper --readings n_unit=s/mm`
+    """
+    settings = change(replace(PaperSettings(), members=_QUICK if quick else members, seed=seed), readings or [])
+    shaking = None
+    if ground:
+        shaking = load_motion(ground)
+        settings = replace(settings, ground=shaking.title)
+    folder = out_folder(out)
+    with ExitStack() as stack:
+        executor = stack.enter_context(_cluster(cluster)) if cluster else None
+        report = stack.enter_context(progress("re-enacting the paper"))
+        result = reenact(
+            settings, folder, quick=quick, ground=shaking, executor=executor, workers=workers, progress=report
+        )
+    from slipwise.view.paper_page import write_page
+
+    write_json(folder / "paper.json", as_json(result))
+    page = write_page(result, folder / "paper.html")
+    if json:
+        print_json(as_json(result))
+        return
+    for study in result.studies:
+        OUT.print(f"\n{study.title}", style="bold", markup=False, highlight=False)
+        for finding in study.findings:
+            OUT.print(f"  {finding.verdict:18s} {finding.place}: {finding.says}", markup=False, highlight=False)
+    counts = ", ".join(f"{count} {verdict}" for verdict, count in result.verdicts().items())
+    OUT.print(f"\n{counts}; {result.replays} replays in {result.seconds:.0f} s", markup=False, highlight=False)
+    for path in (page, folder / "paper.json"):
+        OUT.print(f"wrote {path}", markup=False, highlight=False, soft_wrap=True)
+
+
+def _cluster(address: str):  # noqa: ANN202  (dask has no types)
+    """Connect to a dask scheduler and give its executor.
+
+    Raises:
+        InputError: dask is not installed, or nothing answers at the address.
+    """
+    try:
+        from distributed import Client
+    except ModuleNotFoundError:
+        raise InputError('--cluster needs dask: pip install "slipwise[cluster]"') from None
+    try:
+        client = Client(address, timeout="10s")
+    except OSError as error:
+        raise InputError(f"--cluster {address}: no scheduler answers there ({error})") from None
+    return client.get_executor()
+
+
+def register(app: typer.Typer) -> None:
+    """Add this command to the command line."""
+    app.command()(paper)
