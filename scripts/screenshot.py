@@ -117,8 +117,8 @@ def what_is_wrong(picture: np.ndarray) -> str:
     Args:
         picture: (height, width, 3 or 4), 0 to 1.
     """
-    pixels = np.rint(255.0 * picture[..., :3]).astype(np.int16)
-    colours = len(np.unique(pixels.reshape(-1, 3), axis=0))
+    pixels = np.rint(255.0 * picture[..., :3]).astype(np.int32)
+    colours = len(np.unique(pixels @ np.array([65536, 256, 1])))
     if colours < 200:
         return f"it is blank: {colours} colours"
     for pad, colour in PAD_COLOURS.items():

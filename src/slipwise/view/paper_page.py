@@ -52,9 +52,12 @@ def summary(result: Reenactment) -> list[Piece]:
     """Answer first."""
     counts = result.verdicts()
     words = (
-        "Takahashi, Iemura, Yanagawa and Hibi shook a 10 t girder on four PTFE pads and two rubber buffers (13WCEE, 2004). "
-        f"Here their rig is simulated and every table, figure and claim is put to the test, with {result.replays} replays. "
-        "Mechanics that follow from the text come out as stated; what rests on one measured pair, or on figures that the "
+        "Takahashi, Iemura, Yanagawa and Hibi shook a 10 t girder on four PTFE pads and two rubber buffers (13WCEE, "
+        "2004). "
+        f"Here their rig is simulated and every table, figure and claim is put to the test, with {result.replays} "
+        "replays. "
+        "Mechanics that follow from the text come out as stated; what rests on one measured pair, or on figures that "
+        "the "
         "text does not give, cannot be confirmed and is marked so."
     )
     facts = {name: counts[name] for name in counts}
@@ -121,7 +124,8 @@ def assumed(result: Reenactment) -> list[Piece]:
         )
     marked = [i for i, entry in enumerate(assumptions(result.settings)) if entry["value"] != entry["default"]]
     words = (
-        "None of these is the paper's unless it says so: its figures and Table 1 are not in the text at hand. Change one and "
+        "None of these is the paper's unless it says so: its figures and Table 1 are not in the text at hand. Change "
+        "one and "
         "run again, for example `slipwise paper --readings n_unit=s/mm --readings buffer_height='0.2 m' --out DIR`."
     )
     ground = f"Ground motion of the bridge model: `{result.settings.ground}`. "

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from slipwise.channels import BUFFERS, PADS
 from slipwise.errors import InputError
-from slipwise.loads import LoadModes, load_factors, load_modes, rigid_modes
+from slipwise.loads import LoadModes, load_factors, load_modes, rest_shares, rigid_modes
 from slipwise.loops import branches, loop_shape
 from slipwise.record import Record
 from slipwise.view.canvas import new_figure, save_figure
@@ -36,6 +36,8 @@ from slipwise.view.style import (
 Array = NDArray[np.float64]
 #: Longer lines become an image inside an SVG: megabytes of vectors help nobody.
 _VECTOR_POINTS = 4000
+#: Time before and after this fraction of the squared accelerations' integral counts as quiet.
+_QUIET = 0.01
 
 
 def save_pictures(record: Record, geometry: RigGeometry, folder: Path) -> list[Path]:
@@ -121,12 +123,14 @@ def loads_figure(record: Record, geometry: RigGeometry) -> Figure:
     """Draw every pad's load beside what inertia (Factor A) and rocking (Factor B) make of it."""
     names = [f"pad_{pad}_N" for pad in PADS]
     with styled():
-        figure = new_figure(12.0, 8.4, "Load on the pads and its causes")
+        whole = record
+        record, part = _shaken(whole)
+        figure = new_figure(12.0, 8.4, f"Load on the pads and its causes{part}")
         panels = figure.subplots(4, 2, sharex=True, sharey="col")
         if _missing(panels[0, 0], record, names):
             return figure
         try:
-            factors = load_factors(record, geometry.mass, geometry.gravity)
+            factors = load_factors(record, geometry.mass, geometry.gravity, rest_shares(whole))
         except InputError as error:
             factors = None
             _note(panels[0, 1], str(error))
@@ -152,7 +156,8 @@ def loads_figure(record: Record, geometry: RigGeometry) -> Figure:
 def modes_figure(record: Record, geometry: RigGeometry) -> Figure:
     """Draw heave, pitch, roll and warp of the pad loads over what a rigid girder's equilibrium asks for."""
     with styled():
-        figure = new_figure(12.0, 8.0, "Pad loads as heave, pitch, roll and warp")
+        record, part = _shaken(record)
+        figure = new_figure(12.0, 8.0, f"Pad loads as heave, pitch, roll and warp{part}")
         panels = figure.subplots(4, 1, sharex=True)
         if _missing(panels[0], record, [f"pad_{pad}_N" for pad in PADS]):
             return figure
@@ -207,7 +212,8 @@ def histories_figure(record: Record) -> Figure:
         ("Buffers along x", [(f"buffer_{b}_Fx", f"buffer {b}", BUFFER_COLOURS[b]) for b in BUFFERS]),
     ]
     with styled():
-        figure = new_figure(12.0, 11.0, "Time histories")
+        record, part = _shaken(record)
+        figure = new_figure(12.0, 11.0, f"Time histories{part}")
         panels = figure.subplots(len(rows), 1, sharex=True)
         for axes, (title, lines) in zip(panels, rows, strict=True):
             axes.set_title(title)
@@ -225,9 +231,24 @@ def histories_figure(record: Record) -> Figure:
     return figure
 
 
+def _shaken(record: Record) -> tuple[Record, str]:
+    """Leave out long quiet stretches before and after the shaking; give the words that say so."""
+    there = [name for name in ("table_ax", "table_ay", "table_az", "girder_ax") if name in record]
+    whole = float(record.time[-1] - record.time[0])
+    strength = np.cumsum(np.sum([record[name] ** 2 for name in there], axis=0)) if there else np.zeros(1)
+    if strength[-1] <= 0.0:
+        return record, ""
+    begin, end = np.interp([_QUIET, 1.0 - _QUIET], strength / strength[-1], record.time)
+    margin = 0.1 * (end - begin)
+    begin, end = max(begin - margin, record.time[0]), min(end + margin, record.time[-1])
+    if end - begin > 0.7 * whole:
+        return record, ""
+    return record.between(begin, end), f" ({begin:.0f} to {end:.0f} s of {whole:.0f} s)"
+
+
 def _history(axes: Axes, time: Array, values: Array, colour: str, label: str, width: float) -> None:
     axes.plot(*envelope(time, values), color=colour, label=label, linewidth=width)
-    axes.set_xlim(float(time[0]), float(time[-1]))
+    axes.margins(x=0.0)
 
 
 def _shade_uplift(axes: Axes, record: Record, pads: Sequence[str]) -> None:

@@ -13,7 +13,8 @@ from slipwise.view.style import NIGHT_INK, PAD_COLOURS, UPLIFT, packed, rgb
 from slipwise.view.timeline import frames, time_column
 
 Array = NDArray[np.float64]
-_STEEL, _DECK, _TOP, _RUBBER = (150, 160, 172), (206, 214, 224), (92, 104, 118), (22, 22, 26)
+_STEEL, _POST, _DECK = (150, 160, 172), (112, 122, 134), (150, 166, 186)
+_TOP, _RUBBER = (92, 104, 118), (22, 22, 26)
 _NICE = (1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 30.0, 50.0, 100.0, 200.0)
 
 
@@ -102,7 +103,7 @@ def _log_table(stream: rr.RecordingStream, path: str, geometry: RigGeometry) -> 
 
 
 def _log_girder(stream: rr.RecordingStream, path: str, geometry: RigGeometry, label: str) -> None:
-    """Draw a deck above the pads, a weight around the centre of gravity, and the outline of the whole."""
+    """Draw a deck above the pads and a weight on a post, its middle at the centre of gravity."""
     long, wide, high = geometry.girder_size
     centre = geometry.girder_centre_height
     deck = min(0.12, 0.25 * high)
@@ -117,17 +118,23 @@ def _log_girder(stream: rr.RecordingStream, path: str, geometry: RigGeometry, la
         ),
         static=True,
     )
+    foot = 0.02 + deck
+    weight = min(0.45 * high, 2.0 * max(centre - foot, 0.05))
+    under = max(centre - 0.5 * weight - foot, 0.0)
     stream.log(
         f"{path}/weight",
         rr.Boxes3D(
-            sizes=[[0.45 * long, 0.5 * wide, 0.45 * high]], centers=[[0, 0, centre]], colors=[_STEEL], fill_mode="solid"
+            sizes=[[0.45 * long, 0.5 * wide, weight], [0.15 * long, 0.3 * wide, under]],
+            centers=[[0, 0, centre], [0, 0, foot + 0.5 * under]],
+            colors=[_STEEL, _POST],
+            fill_mode="solid",
         ),
         static=True,
     )
     stream.log(
         f"{path}/centre_of_gravity",
         rr.Points3D(
-            [[0, 0, centre + 0.225 * high]],
+            [[0, 0, centre + 0.5 * weight]],
             radii=0.04,
             colors=[rgb(NIGHT_INK)],
             labels=label or "centre of gravity",

@@ -10,11 +10,22 @@ from numpy.typing import NDArray
 
 from slipwise.channels import BUFFERS, PADS, channel
 from slipwise.record import Record
-from slipwise.view.style import AXIS_COLOURS, BUFFER_COLOURS, NIGHT_INK, PAD_COLOURS, TABLE, UPLIFT, packed, rgb, shown
-from slipwise.view.timeline import frames, time_column
+from slipwise.view.style import (
+    AXIS_COLOURS,
+    BUFFER_COLOURS,
+    NIGHT_INK,
+    PAD_COLOURS,
+    TABLE,
+    UPLIFT,
+    envelope,
+    packed,
+    rgb,
+    shown,
+)
+from slipwise.view.timeline import time_column
 
-#: Samples of a series [1/s].
-_RATE = 250.0
+#: A longer series is thinned to the smallest and the largest value of so many stretches.
+_STRETCHES = 4000
 #: Slower than this a pad counts as sticking [m/s].
 STICKING = 0.002
 _STATES = {"slides": "#2f6f9f", "sticks": "#39434f", "lifted off": UPLIFT}
@@ -103,7 +114,7 @@ class Line:
 
 
 def log_series(stream: rr.RecordingStream, root: str, record: Record, line: Line | None = None) -> None:
-    """Put every channel of a record into the recording, thinned to what a screen can show.
+    """Put every channel of a record into the recording, thinned so that no extreme is lost.
 
     Args:
         stream: what is being recorded.
@@ -111,9 +122,8 @@ def log_series(stream: rr.RecordingStream, root: str, record: Record, line: Line
         record: its channels.
         line: how the record looks among others; without it every channel has its own colour.
     """
-    thin = frames(record, _RATE)
-    indexes = time_column(record.time[thin])
     for name in record.channels:
+        time, values = envelope(record.time, shown(record, name), _STRETCHES)
         path = f"{root}/{name}/{line.entity}" if line else f"{root}/{name}"
         stream.log(
             path,
@@ -125,7 +135,7 @@ def log_series(stream: rr.RecordingStream, root: str, record: Record, line: Line
             ),
             static=True,
         )
-        stream.send_columns(path, indexes=indexes, columns=rr.Scalars.columns(scalars=shown(record, name)[thin]))
+        stream.send_columns(path, indexes=time_column(time), columns=rr.Scalars.columns(scalars=values))
 
 
 def log_states(stream: rr.RecordingStream, root: str, record: Record) -> bool:

@@ -7,12 +7,14 @@ from numpy.typing import NDArray
 from slipwise.record import Record
 
 TIMELINE = "time"
-#: A display shows no more frames than this [1/s].
-_FRAME_RATE = 100.0
+#: Frames a second of a short record, and of one so long that it would have more than `_FRAMES` [1/s].
+_FAST, _SLOW, _FRAMES = 100.0, 40.0, 5000
 
 
-def frames(record: Record, rate: float = _FRAME_RATE) -> NDArray[np.intp]:
-    """Give the samples to show, at most `rate` a second [1/s]."""
+def frames(record: Record, rate: float | None = None) -> NDArray[np.intp]:
+    """Give the samples to show, at most `rate` a second [1/s]; 40 to 100 by the record's length if not given."""
+    if rate is None:
+        rate = float(np.clip(_FRAMES / (len(record) * record.dt), _SLOW, _FAST))
     return np.arange(0, len(record), max(1, round(1.0 / (rate * record.dt))))
 
 
