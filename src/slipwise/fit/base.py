@@ -8,9 +8,12 @@ from slipwise.fit.problem import Problem
 from slipwise.fit.solve import Solution, solve
 from slipwise.fit.terms import Free, base_free, terms_of
 from slipwise.model import Model, base_model
+from slipwise.signals import LowPass
 
 #: Noise near reversals depends on the fit and the fit on the noise: so often each is made anew.
 _ROUNDS = 2
+#: Filters that are tried where the campaign does not say what the logger did; their frequency is fitted.
+_KINDS: tuple[LowPass, ...] = (LowPass(100.0, 4), LowPass(100.0, 2), LowPass(100.0, 4, "aligned"))
 
 
 @dataclass(frozen=True)
@@ -44,7 +47,12 @@ def fit_base(campaign: Campaign, model: Model | None = None) -> BaseFit:
     """
     model = model or base_model(campaign.specimen)
     runs = fit_runs(campaign)
-    problem = Problem(runs, model.specimen, terms_of(model))
+    kinds = _KINDS[:1] if campaign.logger.known else _KINDS
+    fits = [_fitted(campaign, model, Problem(runs, model.specimen, terms_of(model), logger=kind)) for kind in kinds]
+    return min(fits, key=lambda f: f.solution.cost)
+
+
+def _fitted(campaign: Campaign, model: Model, problem: Problem) -> BaseFit:
     free = base_free(model, balances=len(problem.relations) > 1, logger_known=campaign.logger.known)
     values = {f.key: f.start for f in free}
     problem.weigh(values)

@@ -5,12 +5,13 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.campaign import Campaign, Logger, Run
+from slipwise.campaign import Campaign, Run
 from slipwise.campaign.states import States, measured_states
 from slipwise.channels import PADS
 from slipwise.errors import InputError
 from slipwise.record import Record
 from slipwise.signals import LowPass, lowpass, noise
+from slipwise.signals.ends import in_frequency
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -38,7 +39,6 @@ class FitRun:
         sliding: (n,) samples at which the law says the force of a pad.
         grounded: (n,) samples at which every pad carries load, ends left out.
         noise: channel -> standard deviation of one sample.
-        source: campaign and run from which it was made, to make states anew from changed channels.
     """
 
     name: str
@@ -51,7 +51,6 @@ class FitRun:
     force: Array
     sliding: Mask
     grounded: Mask
-    source: tuple[Campaign, Run]
     noise: dict[str, float] = field(default_factory=dict[str, float])
 
     @property
@@ -90,12 +89,43 @@ class FitRun:
             record: all channels.
             moved: whether slip and velocity must be made anew.
         """
-        campaign, run = self.source
+        states = replace(
+            self.states,
+            record=record,
+            load=_stacked(record, self.pads, "N", self.states.load),
+            girder_acceleration=_accelerations(record, self.states.girder_acceleration),
+        )
         if moved:
-            states = measured_states(replace(run, record=record), campaign)
-        else:
-            states = replace(self.states, record=record, load=_stacked(record, self.pads, "N", self.states.load))
+            slip, velocity = self._moved(record)
+            states = replace(states, slip=slip, velocity=velocity)
         return replace(self, states=states, load=states.load)
+
+    def _moved(self, record: Record) -> tuple[Array, Array]:
+        """Give slip and velocity of changed gauges, by what the smoother makes of the change far from its ends.
+
+        X = (x/s_x^2 - w^2 a/s_a^2) / (1/s_x^2 + w^4/s_a^2): least squares of both gauges at every frequency.
+        """
+        slip, velocity = self.states.slip.copy(), self.states.velocity.copy()
+        gauge = self.noise["slip_x"]
+        accelerometers = np.hypot(self.noise.get("girder_ax", 0.0), self.noise.get("table_ax", 0.0)) or np.inf
+
+        def weights(f: Array) -> tuple[Array, Array]:
+            turn = (2.0 * np.pi * f) ** 2
+            total = 1.0 / gauge**2 + (turn / accelerometers) ** 2
+            return 1.0 / gauge**2 / total, -turn / accelerometers**2 / total
+
+        for place, change in enumerate(self._changes(record)):
+            if np.any(change):
+                slip[:, 0] += in_frequency(change, self.dt, lambda f, i=place: weights(f)[i], 128)
+                rate = in_frequency(change, self.dt, lambda f, i=place: 2j * np.pi * f * weights(f)[i], 128)
+                velocity[:, 0] += rate
+        return slip, velocity
+
+    def _changes(self, record: Record) -> tuple[Array, Array]:
+        def change(name: str) -> Array:
+            return record[name] - self.record[name] if name in record else np.zeros(len(record))
+
+        return change("slip_x"), change("girder_ax") - change("table_ax")
 
 
 def fit_runs(campaign: Campaign) -> list[FitRun]:
@@ -104,7 +134,10 @@ def fit_runs(campaign: Campaign) -> list[FitRun]:
     Raises:
         InputError: a run lacks slip, or a pad's friction.
     """
-    return [_fit_run(run, campaign) for run in campaign.runs]
+    runs = [_fit_run(run, campaign) for run in campaign.runs]
+    # a gauge is as noisy in every run; a run that starts at once has no rest to show it
+    levels = {c: float(np.median([r.noise[c] for r in runs if c in r.noise])) for r in runs for c in r.noise}
+    return [replace(r, noise=levels) for r in runs]
 
 
 def _fit_run(run: Run, campaign: Campaign) -> FitRun:
@@ -119,13 +152,12 @@ def _fit_run(run: Run, campaign: Campaign) -> FitRun:
     sliding = grounded & ~_widened(states.stuck, margin)
     quiet = _quiet(states.record)
     levels = {c: _level(v, quiet) for c, v in states.record.channels.items()}
-    aligned = replace(campaign, logger=Logger(None, dict(states.lowpass), known=True))
     force = _stacked(states.record, pads, "Fx", states.load)
     filtered = states.lowpass.get(f"pad_{pads[0]}_Fx")
     rest = 0.0 if run.rest_before is None else run.rest_before
     return FitRun(
         run.name, run.role, rest, states, filtered, pads, load, force, sliding, grounded,
-        (aligned, replace(run, record=states.record)), levels,
+        levels,
     )  # fmt: skip
 
 
@@ -147,6 +179,11 @@ def _stacked(record: Record, pads: tuple[str, ...], kind: str, otherwise: Array)
     if not record.has_all(*names):
         return otherwise
     return np.stack([record[n] for n in names], axis=1)
+
+
+def _accelerations(record: Record, before: Array) -> Array:
+    columns = [record[n] if (n := f"girder_a{a}") in record else before[:, i] for i, a in enumerate("xyz")]
+    return np.stack(columns, axis=1)
 
 
 def _quiet(record: Record) -> Mask | None:

@@ -5,7 +5,7 @@ inverse on the measurement with the noise scaled alike. Else a gain below one wo
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -65,6 +65,7 @@ class Problem:
         specimen: rated values.
         terms: effects of the base model, then those of the hypothesis.
         sigmas: relation -> per run noise, broadcastable to the residual; made by `weigh`.
+        logger: kind of filter that is fitted where the campaign does not know it.
         lost: per run (f,) velocity that the logger's filter took at reversals [m/s]; made by `weigh`.
     """
 
@@ -73,6 +74,7 @@ class Problem:
     terms: tuple[Term, ...]
     sigmas: dict[str, list[Array]] = field(default_factory=dict[str, list[Array]])
     lost: list[Array] = field(default_factory=list[Array])
+    logger: LowPass = LowPass(100.0)
 
     def __post_init__(self) -> None:
         """Sort the terms by what they touch and make ready what never changes."""
@@ -80,7 +82,7 @@ class Problem:
         self._gauges = [t for t in self.terms if t.effect.port == "gauge"]
         self._on_force = [t for t in self._gauges if _acts_on_force(t)]
         self._on_state = [t for t in self._gauges if not _acts_on_force(t)]
-        self._memo: dict[str, dict[tuple[float, ...], Any]] = {}
+        self._memo: dict[str, dict[tuple[str | float, ...], Any]] = {}
         self._turning = [_pitch_rate(r) if len(r.pads) == 4 else np.zeros(len(r.time)) for r in self.runs]
         self._here = [self.specimen.pads.index(p) for p in self.runs[0].pads]
         self._law: PadLaw | None = None
@@ -97,7 +99,13 @@ class Problem:
 
     def adding(self, *terms: Term) -> "Problem":
         """Give the same problem with more terms; the noise stays."""
-        return Problem(self.runs, self.specimen, (*self.terms, *terms), self.sigmas, self.lost)
+        more = Problem(self.runs, self.specimen, (*self.terms, *terms), self.sigmas, self.lost, self.logger)
+        more._memo = self._memo
+        return more
+
+    def model_has_stick(self, terms: Sequence[Term]) -> bool:
+        """Tell whether the base or these terms decide how a pad sticks."""
+        return any("stick" in t.effect.hooks for t in (*self.terms, *terms))
 
     def model(self, values: Mapping[str, float]) -> Model:
         """Give the model that these numbers describe."""
@@ -126,7 +134,8 @@ class Problem:
         """Give residuals and predictions of the pads, and measured forces without their gauges' faults."""
         runs, _ = self._corrected(values)
         states = self._states(values, runs)
-        forces = self._pad_forces(model, values, runs[:count], states[:count])
+        key = (count, *self._pad_key(values, faults=False))
+        forces = self._remembered("forces", key, lambda: self._pad_forces(model, values, runs[:count], states[:count]))
         parts, outputs, clean = [], [], []
         for i, (run, force) in enumerate(zip(runs, forces, strict=False)):
             seen, offset = self._faulty_force(values, run, force)
@@ -198,7 +207,7 @@ class Problem:
             return np.where(kept, left, 0.0)
         return np.where(kept, left / self.sigmas[name][run], 0.0)
 
-    def _remembered(self, what: str, key: tuple[float, ...], make: Callable[[], Any]) -> Any:
+    def _remembered(self, what: str, key: tuple[str | float, ...], make: Callable[[], Any]) -> Any:
         """Give what was made for this key before, or make it; the last few are kept."""
         kept = self._memo.setdefault(what, {})
         if key not in kept:
@@ -209,17 +218,19 @@ class Problem:
             kept[key] = kept.pop(key)
         return kept[key]
 
-    def _pad_key(self, values: Mapping[str, float]) -> tuple[float, ...]:
-        own = [t for t in self.terms if t.effect.instant_hooks or "rig" in t.effect.hooks or t in self._gauges]
+    def _pad_key(self, values: Mapping[str, float], *, faults: bool = True) -> tuple[str | float, ...]:
+        """Give what the pads' residuals depend on; without the faults of friction gauges, what their forces do."""
+        own = [t for t in self.terms if t.effect.instant_hooks or "rig" in t.effect.hooks or t in self._on_state]
+        own += self._on_force if faults else []
         return (*self._values_of(own, values), *(values.get(k, 0.0) for k in _PAD_KEYS))
 
-    def _balance_key(self, values: Mapping[str, float]) -> tuple[float, ...]:
+    def _balance_key(self, values: Mapping[str, float]) -> tuple[str | float, ...]:
         own = [t for t in self.terms if t.effect.port not in _PAD_PORTS or "balance" in t.effect.hooks]
         rig = [v for k, v in values.items() if k.startswith("rig.") and k not in _PAD_KEYS]
         return (*self._values_of(own, values), *rig)
 
-    def _values_of(self, terms: Sequence[Term], values: Mapping[str, float]) -> tuple[float, ...]:
-        return tuple(values[f"{t.label}.{n}"] for t in terms for n in t.effect.parameter_names)
+    def _values_of(self, terms: Sequence[Term], values: Mapping[str, float]) -> tuple[str | float, ...]:
+        return tuple(x for t in terms for n in t.effect.parameter_names for x in (t.label, values[f"{t.label}.{n}"]))
 
     def _corrected(self, values: Mapping[str, float]) -> tuple[list[FitRun], dict[str, float]]:
         """Take the faults of all gauges but those of friction out of the runs; noise scales with it."""
@@ -244,7 +255,7 @@ class Problem:
 
     def _by(self, values: Mapping[str, float]) -> LowPass | None:
         """Give the logger's filter as fitted, where the campaign does not know it."""
-        return LowPass(values["rig.logger"]) if "rig.logger" in values else None
+        return replace(self.logger, frequency=values["rig.logger"]) if "rig.logger" in values else None
 
     def _instants(self, run: FitRun, place: int, values: Mapping[str, float], more: float = 0.0) -> Instants:
         """Give the states of every pad, with some velocity more."""
@@ -281,7 +292,8 @@ class Problem:
         if not any(t.effect.port == "buffer" for t in self.terms):
             return run.slip[:, None] * np.array(law.model.specimen.buffer_stiffness)
         same = np.repeat(run.slip[:, None], count, axis=1), np.repeat(run.velocity[:, None], count, axis=1)
-        return buffer_forces(law, run, *same)
+        found = buffer_forces(law, run, *same)
+        return np.stack([smoothed(found[:, i], run) for i in range(count)], axis=1) if run.filtered else found
 
     def _motion(self, place: int, run: FitRun, values: Mapping[str, float]) -> Array:
         late = values["rig.late_slip"]
@@ -311,10 +323,7 @@ def _faulted(terms: Sequence[Term], values: Mapping[str, float], record: Record)
 
 
 def _call(effect: Effect, hook: str, record: Record, target: str, values: Mapping[str, float]) -> Record:
-    function = effect.hooks[hook]
-    asked = function.__code__.co_varnames[: function.__code__.co_argcount]
-    given = {"record": record, "target": target, **values}
-    return function(**{n: given[n] for n in asked})
+    return effect.hooks[hook](record=record, target=target, **values)
 
 
 def _without(term: Term, values: Mapping[str, float], run: FitRun) -> FitRun:
@@ -332,20 +341,28 @@ def _without(term: Term, values: Mapping[str, float], run: FitRun) -> FitRun:
 
 
 def _noise_scale(terms: Sequence[Term], values: Mapping[str, float], run: FitRun) -> dict[str, float]:
-    """Tell by how much undoing the faults has scaled the noise of the accelerometers' balances."""
+    """Tell by how much undoing the faults has scaled the noise of the balances' own channels."""
+    loads = [f"pad_{p}_N" for p in run.pads if f"pad_{p}_N" in run.record]
+    channels = {"girder": ["girder_ax"], "heave": ["girder_az"], "pitch": loads, "roll": loads, "warp": loads}
     out: dict[str, float] = {}
-    for relation, channel in (("girder", "girder_ax"), ("heave", "girder_az")):
-        if channel not in run.record or not any(channel in t.targets for t in terms):
-            continue
-        more = run.record.replaced(**{channel: run.record[channel] + 1.0})
-        base, moved = run.record, more
-        for term in terms:
-            for entry in term.uses(values):
-                if "undo" in term.effect.hooks and entry.target == channel:
-                    base = _call(entry.effect, "undo", base, channel, entry.values)
-                    moved = _call(entry.effect, "undo", moved, channel, entry.values)
-        middle = len(run.time) // 2
-        out[relation] = float(abs(moved[channel][middle] - base[channel][middle])) or 1.0
+    for relation, names in channels.items():
+        touched = [n for n in names if n in run.record and any(n in t.targets for t in terms)]
+        if touched:
+            out[relation] = sum(_amplified(terms, values, run, n) if n in touched else 1.0 for n in names) / len(names)
+    touched = [n for n in loads if any(n in t.targets for t in terms)]
+    if touched:  # noise of heave is of both kinds
+        own = sum(_amplified(terms, values, run, n) if n in touched else 1.0 for n in loads) / len(loads)
+        out["heave"] = max(out.get("heave", 1.0), own) if own > 1.0 else min(out.get("heave", 1.0), own)
     return out
 
 
+def _amplified(terms: Sequence[Term], values: Mapping[str, float], run: FitRun, name: str) -> float:
+    """Give the factor by which undoing the faults changes a small constant on a channel."""
+    base, moved = run.record, run.record.replaced(**{name: run.record[name] + 1.0})
+    for term in terms:
+        for entry in term.uses(values):
+            if "undo" in term.effect.hooks and entry.target == name:
+                base = _call(entry.effect, "undo", base, name, entry.values)
+                moved = _call(entry.effect, "undo", moved, name, entry.values)
+    middle = len(run.time) // 2
+    return float(abs(moved[name][middle] - base[name][middle])) or 1.0

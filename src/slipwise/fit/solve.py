@@ -109,7 +109,8 @@ def solve(
         better = False
         for _ in range(8):
             step = _bounded_step(normal, gradient, damping, here, low, high, scale)
-            trial = {**values, **{f.key: float(v) for f, v in zip(free, here + step * scale, strict=True)}}
+            end = np.clip(here + step * scale, low, high)
+            trial = {**values, **{f.key: float(v) for f, v in zip(free, end, strict=True)}}
             moved = problem.residuals(trial, fitted_only=True)
             evaluations += 1
             trial_left = moved.stacked(which, problem.relations)

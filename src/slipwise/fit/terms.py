@@ -9,6 +9,8 @@ from slipwise.rig import Specimen
 
 #: Largest lag between the cards of a logger that counts as none [s].
 LATE = 1.5e-4
+#: The same of the friction channels where nothing is known of the logger's filters [s].
+_LATE_UNKNOWN = 4e-4
 #: Rated values of the rig may be off by these shares; a frequency and a slip per pitch load are not rated at all.
 _RIG_SHARES: dict[str, tuple[float, float]] = {
     "rig.mass": (0.7, 1.4),
@@ -118,7 +120,8 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True) -> lis
         units = {"rig.mass": "kg", "rig.centre_height": "m", "rig.buffer_stiffness": "N/m"}
         out += [_around(key, value, *_RIG_SHARES[key], units[key]) for key, value in rated.items()]
         out += [Free(key, *numbers) for key, numbers in _SMALL.items()]
-        out.append(Free("rig.late_force", 0.0, -LATE, LATE, 5e-5, "s"))
+        late = LATE if logger_known else _LATE_UNKNOWN
+        out.append(Free("rig.late_force", 0.0, -late, late, 5e-5, "s"))
         if not logger_known:
             out.append(Free("rig.logger", *_LOGGER, "Hz"))
     return out

@@ -1,0 +1,108 @@
+"""What may be missing: every effect of the catalogue that this campaign could show, instruments on equal terms."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from slipwise.effects import Effect, catalogue
+from slipwise.fit.base import BaseFit
+from slipwise.fit.problem import Problem
+from slipwise.fit.terms import Term
+
+#: Part of the base fit, never missing by themselves.
+BASE_PARTS: frozenset[str] = frozenset({"pad_compliance"})
+#: Faults of samples rather than of signals: found by looking at the samples, see `samples.py`.
+SAMPLE_FAULTS: frozenset[str] = frozenset({"channel_sign", "channel_clipping", "dropped_samples"})
+#: Laws of the table's command: the fit is driven by the motion that was measured.
+_COMMAND: dict[str, str] = {
+    "table_gain": "the model is driven by the measured table motion; only the command could show it",
+    "table_cross_axis": "the model is driven by the measured table motion; only the command could show it",
+}
+
+
+def candidates(base: BaseFit) -> tuple[list[Term], dict[str, str]]:
+    """Give the candidates, and the effects that this campaign cannot test with the reason.
+
+    Args:
+        base: the base fit.
+    """
+    problem, model = base.problem, base.model
+    terms: list[Term] = []
+    cannot: dict[str, str] = {}
+    for name, effect in catalogue().items():
+        if name in BASE_PARTS or name in SAMPLE_FAULTS or (name in model and not effect.target):
+            continue
+        if name in _COMMAND:
+            cannot[name] = _COMMAND[name]
+            continue
+        reason = _untestable(effect, problem)
+        if reason:
+            cannot[name] = reason
+            continue
+        if effect.replaces:
+            if all(u.effect.replaces != effect.replaces for u in model.uses):
+                terms.append(Term(effect))
+        elif effect.target:
+            terms += list(_aimed(effect, problem))
+        else:
+            terms.append(Term(effect))
+    return terms, cannot
+
+
+def _untestable(effect: Effect, problem: Problem) -> str:
+    relations, run = problem.relations, problem.runs[0]
+    specimen = problem.specimen
+    if effect.component == "buffer" and (not specimen.buffer_stiffness or "girder" not in relations):
+        return "no buffers, or no girder_ax or pad forces to see them by"
+    if effect.component in ("girder", "table", "pad load") and len(relations) == 1:
+        return "one slider has no balance of a girder"
+    if effect.name in ("girder_bending", "key_friction") and "heave" not in relations:
+        return "needs girder_az and the loads of four pads"
+    if effect.name in ("anisotropy",) and not run.states.has_y:
+        return "needs motion across"
+    if effect.name == "pad_spread" and len(run.pads) < 2:
+        return "one slider only"
+    if effect.name in ("slide_tilt", "slide_curvature", "load_crosstalk", "pressure_law") and not _load_varies(problem):
+        return "the load never changes, so this is one with an offset, an asymmetry or the base law"
+    if effect.name == "buffer_mismatch" and not run.states.has_yaw:
+        return "needs yaw: a second slip gauge, or friction across"
+    return ""
+
+
+def _load_varies(problem: Problem) -> bool:
+    return any(float(np.std(r.load)) > 0.005 * float(np.mean(r.load)) for r in problem.runs)
+
+
+def groups(problem: Problem) -> dict[str, tuple[str, ...]]:
+    """Give the channels on which one fault may act together: a whole card, or one gauge."""
+    run = problem.runs[0]
+    out: dict[str, tuple[str, ...]] = {}
+    for kind in ("Fx", "N"):
+        names = tuple(f"pad_{p}_{kind}" for p in run.pads if f"pad_{p}_{kind}" in run.record)
+        if len(names) > 1:
+            out[f"pad_*_{kind}"] = names
+        out.update({n: (n,) for n in names})
+    singles = ("slip_x", "girder_ax", "girder_az", "table_ax")
+    out.update({n: (n,) for n in singles if n in run.record})
+    return out
+
+
+def _aimed(effect: Effect, problem: Problem) -> Iterator[Term]:
+    """Give a gauge's fault on every channel or card on which it means something."""
+    free = len(problem.relations) > 1
+    for group, targets in groups(problem).items():
+        cell = group.startswith("pad_")
+        if effect.name == "load_crosstalk":
+            if group.endswith("Fx"):
+                yield Term(effect, targets, group)
+        elif effect.name == "cell_inertia":
+            if group in ("pad_*_N", "pad_A_N") and len(targets) == len(problem.runs[0].pads):
+                yield Term(effect, targets, "pad_*")
+        elif effect.name in ("channel_offset", "channel_drift") and len(targets) > 1:
+            continue  # the zeros of several gauges do not move alike
+        elif effect.name == "clock_skew" and len(targets) == 1 and group.startswith("pad_"):
+            continue  # a clock belongs to a card
+        elif free or cell or group == "slip_x":
+            if effect.name == "channel_gain" and not free:
+                continue  # a gain of one slider's gauges is its friction
+            yield Term(effect, targets, group)

@@ -1,0 +1,140 @@
+"""Refits: a candidate with its own parameters and all base parameters free, and what it is worth."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.fit.base import BaseFit
+from slipwise.fit.problem import Problem
+from slipwise.fit.solve import Solution, solve
+from slipwise.fit.terms import Free, Term
+
+Array = NDArray[np.float64]
+#: Constants that only say at which value a law is neutral: free, they would be one with its strength.
+_REFERENCES: frozenset[str] = frozenset({"rated"})
+#: Slip over which a pad turns round belongs to the stick of the base model only.
+_STICK_LENGTH = "rig.stick_length"
+
+
+@dataclass(frozen=True)
+class Account:
+    """Squared residuals of a solution, by relation.
+
+    Attributes:
+        fitted: relation -> sum over the runs that were fitted.
+        held_out: relation -> sum over the runs that were not.
+        counts: relation -> (samples fitted, samples held out).
+    """
+
+    fitted: dict[str, float]
+    held_out: dict[str, float]
+    counts: dict[str, tuple[int, int]]
+
+    def level(self, relation: str, *, held_out: bool) -> float:
+        """Give the mean squared residual of a relation in units of the noise's variance."""
+        total, count = (self.held_out, 1) if held_out else (self.fitted, 0)
+        return total[relation] / max(self.counts[relation][count], 1)
+
+    @property
+    def total(self) -> float:
+        """Sum over all runs and relations."""
+        return sum(self.fitted.values()) + sum(self.held_out.values())
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """Effects that were added to the base model, refitted.
+
+    Attributes:
+        terms: the effects.
+        problem: base and effects.
+        solution: of the fit.
+        account: of its residuals.
+    """
+
+    terms: tuple[Term, ...]
+    problem: Problem
+    solution: Solution
+    account: Account
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the effects, each once."""
+        return tuple(dict.fromkeys(t.effect.name for t in self.terms))
+
+    def values_of(self, term: Term) -> dict[str, float]:
+        """Give the fitted parameters of one effect."""
+        return {n: self.solution.values[f"{term.label}.{n}"] for n in term.effect.parameter_names}
+
+
+def account(problem: Problem, solution: Solution) -> Account:
+    """Sum up a solution's squared residuals."""
+    parts = solution.residuals.parts
+    fitted, held_out, counts = {}, {}, {}
+    for name in problem.relations:
+        of = [(float(np.sum(parts[name][i] ** 2)), _samples(problem, name, i)) for i in range(len(problem.runs))]
+        fitted[name] = sum(of[i][0] for i in problem.fitted)
+        held_out[name] = sum(of[i][0] for i in problem.held_out)
+        counts[name] = (sum(of[i][1] for i in problem.fitted), sum(of[i][1] for i in problem.held_out))
+    return Account(fitted, held_out, counts)
+
+
+def _samples(problem: Problem, relation: str, place: int) -> int:
+    run = problem.runs[place]
+    if relation == "pads":
+        return int(np.count_nonzero(run.sliding)) * len(run.pads)
+    return int(np.count_nonzero(run.grounded))
+
+
+def base_hypothesis(base: BaseFit) -> Hypothesis:
+    """Give the base model as a hypothesis without effects."""
+    return Hypothesis((), base.problem, base.solution, account(base.problem, base.solution))
+
+
+def refit(
+    base: BaseFit,
+    terms: Sequence[Term],
+    starts: Mapping[str, Mapping[str, float]],
+    before: Hypothesis | None = None,
+    *,
+    most: int = 7,
+) -> Hypothesis:
+    """Fit a hypothesis, all base parameters free.
+
+    Args:
+        base: the base fit.
+        terms: effects to add.
+        starts: label -> parameters to start from.
+        before: a hypothesis whose numbers are a better start than the base's.
+        most: Jacobians at most.
+    """
+    problem = base.problem.adding(*terms)
+    values = dict((before.solution if before else base.solution).values)
+    free: list[Free] = [f for f in base.free if f.key != _STICK_LENGTH or not problem.model_has_stick(terms)]
+    for term in terms:
+        if before is not None and f"{term.label}.{term.effect.parameter_names[0]}" in before.solution.values:
+            start = before.values_of(term)
+        else:
+            start = _inside(term, starts[term.label])
+        values.update({f"{term.label}.{k}": v for k, v in start.items()})
+        free += [f for f in term.free(start) if f.key.rsplit(".", 1)[1] not in _REFERENCES]
+    known = {f.key: base.solution.jacobian[:, j] for j, f in enumerate(base.free)}
+    solution = solve(problem, values, free, most=most, enough=10.0, known=known)
+    solution = solve(problem, solution.values, free, most=2, enough=10.0)
+    return Hypothesis(tuple(terms), problem, solution, account(problem, solution))
+
+
+def _inside(term: Term, start: Mapping[str, float]) -> dict[str, float]:
+    """Move a start off neutral values and bounds, where slopes vanish or point outside."""
+    out = {}
+    for p in term.effect.parameters:
+        value = start[p.name]
+        width = abs(p.typical - (p.neutral or 0.0)) or 0.1 * (p.high - p.low)
+        if p.neutral is not None and p.neutral in (p.low, p.high):
+            inward = 1.0 if p.neutral == p.low else -1.0
+            if abs(value - p.neutral) < 0.02 * width and p.typical != p.neutral:
+                value = p.neutral + inward * 0.02 * width
+        out[p.name] = float(np.clip(value, p.low, p.high))
+    return out

@@ -1,0 +1,263 @@
+"""The search for what is missing: one effect after another, pairs one step ahead, and back again.
+
+An effect counts when it lowers the mean squared residual of some relation by `MATERIAL` noise variances on the fitted
+runs and by half of that on held-out runs: significance alone is no rule, for a modeller's own small errors are
+significant too.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.diagnose.candidates import candidates
+from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, refit
+from slipwise.diagnose.screen import Screened, projector, screen, strengths
+from slipwise.fit.base import BaseFit
+from slipwise.fit.terms import Term
+
+Array = NDArray[np.float64]
+#: Least drop of a relation's mean squared residual that is worth a name [noise variance].
+MATERIAL = 0.10
+#: A further effect must also take this share of what the base left in that relation.
+FURTHER = 0.025
+#: Candidates that are refitted at each step.
+_REFITTED = 4
+_REFITTED_PAIRS = 2
+#: Most effects that are added.
+MOST_EFFECTS = 3
+#: A pair that screens this much better than the best single's best partner is tried too.
+_PAIR_LEAD = 1.15
+_PAIR_POOL = 24
+
+
+@dataclass
+class Search:
+    """What a search has looked at.
+
+    Attributes:
+        base: the base fit.
+        screened: candidates by their score against the base.
+        cannot: effects that the campaign cannot test, with the reason.
+        path: base first, then the best hypothesis with one, two ... effects.
+        tried: every hypothesis that was refitted.
+    """
+
+    base: BaseFit
+    screened: list[Screened]
+    cannot: dict[str, str]
+    path: list[Hypothesis] = field(default_factory=list[Hypothesis])
+    tried: list[Hypothesis] = field(default_factory=list[Hypothesis])
+
+    @property
+    def best(self) -> Hypothesis:
+        """The hypothesis at which the search ended."""
+        return self.path[-1]
+
+
+def worth(before: Account, after: Account) -> tuple[float, str]:
+    """Give the largest material drop of a relation's mean squared residual, and the relation.
+
+    The drop on held-out runs counts double, so that it may be half of that on fitted runs but not less; a campaign
+    without held-out runs is judged by its fitted ones.
+    """
+    best, where = 0.0, ""
+    for name in before.fitted:
+        fitted = before.level(name, held_out=False) - after.level(name, held_out=False)
+        if before.counts[name][1]:
+            held = before.level(name, held_out=True) - after.level(name, held_out=True)
+            fitted = min(fitted, 2.0 * held)
+        if fitted > best:
+            best, where = fitted, name
+    return best, where
+
+
+def material(base: Account, before: Account, after: Account) -> bool:
+    """Tell whether a step is worth a name.
+
+    Args:
+        base: of the base model.
+        before: without the effect.
+        after: with it.
+    """
+    drop, where = worth(before, after)
+    if drop < MATERIAL:
+        return False
+    if before is base:
+        return True
+    excess = max(base.level(where, held_out=False) - 1.0, 0.0)
+    return drop > FURTHER * excess
+
+
+def score(before: Account, after: Account) -> float:
+    """Give the drop of all squared residuals, held-out runs included; below zero where those get worse."""
+    held = sum(before.held_out.values()) - sum(after.held_out.values())
+    if held < 0.0:
+        return held
+    return before.total - after.total
+
+
+def search(base: BaseFit, progress: Callable[[str, float], None] | None = None) -> Search:
+    """Find what the base model lacks.
+
+    Args:
+        base: the base fit.
+        progress: called with what is being done and the share done.
+    """
+    terms, cannot = candidates(base)
+    tell = progress or (lambda what, share: None)
+    found = screen(base, terms, lambda share: tell("screening", 0.15 + 0.45 * share))
+    state = Search(base, found, cannot, [base_hypothesis(base)])
+    tell("refitting", 0.6)
+    _first(state)
+    while len(state.path) - 1 and len(state.best.terms) < MOST_EFFECTS:
+        tell("refitting", 0.7 + 0.1 * len(state.best.terms))
+        if not _further(state):
+            break
+    _prune(state)
+    tell("done", 1.0)
+    return state
+
+
+def _first(state: Search) -> None:
+    origin = state.path[0]
+    chosen = _various(state.screened, _REFITTED)
+    least = 0.4 * MATERIAL * min(n for n, _ in origin.account.counts.values())
+    tried = [_try(state, [s.term], {s.term.label: s.values}) for s in chosen if s.gain > least]
+    good = [h for h in tried if material(origin.account, origin.account, h.account)]
+    best = max(good, key=lambda h: score(origin.account, h.account), default=None)
+    pair = _leading_pair(state, best)
+    if pair is not None:
+        both = _try(state, [p.term for p in pair], {p.term.label: p.values for p in pair})
+        if material(origin.account, origin.account, both.account) and _beats(origin, both, best):
+            single = best or origin
+            if material(origin.account, single.account, both.account):
+                state.path.append(both)
+                return
+    if best is not None:
+        state.path.append(best)
+
+
+def _beats(origin: Hypothesis, both: Hypothesis, single: Hypothesis | None) -> bool:
+    return single is None or score(origin.account, both.account) > score(origin.account, single.account)
+
+
+def _further(state: Search) -> bool:
+    """Add the effect that helps most beside those found; false when none is worth it."""
+    before, origin = state.best, state.path[0]
+    found = rescreen(state, before)
+    tried = []
+    for s in _various(found, _REFITTED_PAIRS + 1):
+        tried.append(_try(state, [*before.terms, s.term], {s.term.label: s.values}, before))
+    good = [h for h in tried if material(origin.account, before.account, h.account)]
+    if not good:
+        return False
+    state.path.append(max(good, key=lambda h: score(before.account, h.account)))
+    return True
+
+
+def rescreen(state: Search, before: Hypothesis) -> list[Screened]:
+    """Score the remaining candidates against what a hypothesis has left, by the columns that are there already."""
+    taken = {t.label for t in before.terms}
+    names = set(before.names)
+    sticks = any("stick" in t.effect.hooks for t in before.terms)
+    problem, solution = before.problem, before.solution
+    project = projector(solution.jacobian)
+    residual = project(solution.residuals.stacked(problem.fitted, problem.relations))
+    out = []
+    for s in state.screened:
+        effect = s.term.effect
+        if s.term.label in taken or (effect.name in names and not effect.target):
+            continue
+        if sticks and "stick" in effect.hooks:
+            continue
+        column = project(s.column)
+        length = float(column @ column)
+        amount = -float(column @ residual) / length if length > 1e-6 else 0.0
+        two_sided = all(p.low < float(p.neutral or 0.0) < p.high for p in strengths(effect))
+        if amount > 0.0 or two_sided:
+            out.append(_scaled(s, amount, amount**2 * length))
+    return sorted(out, key=lambda s: -s.gain)
+
+
+def _scaled(found: Screened, amount: float, gain: float) -> Screened:
+    """Give a candidate with the strength that fits the residual at hand."""
+    ratio = amount / found.length if found.length else 0.0
+    values = dict(found.values)
+    for p in strengths(found.term.effect):
+        off = float(p.neutral or 0.0)
+        values[p.name] = float(np.clip(off + ratio * (values[p.name] - off), p.low, p.high))
+    return replace(found, values=values, gain=gain)
+
+
+def _try(state: Search, terms: Sequence[Term], starts: dict, before: Hypothesis | None = None) -> Hypothesis:
+    found = refit(state.base, terms, starts, before)
+    state.tried.append(found)
+    return found
+
+
+def _various(found: list[Screened], count: int) -> list[Screened]:
+    """Give the best candidates, each effect at most twice: a card and a single gauge."""
+    out: list[Screened] = []
+    for s in found:
+        if sum(o.term.effect.name == s.term.effect.name for o in out) < 2:
+            out.append(s)
+        if len(out) == count:
+            break
+    return out
+
+
+def _leading_pair(state: Search, best: Hypothesis | None) -> tuple[Screened, Screened] | None:
+    """Give the pair that screens best, if the best single is not part of it or there is none."""
+    pool = state.screened[:_PAIR_POOL]
+    if len(pool) < 2:
+        return None
+    project = projector(state.base.solution.jacobian)
+    problem = state.base.problem
+    residual = project(state.base.solution.residuals.stacked(problem.fitted, problem.relations))
+    columns = np.stack([s.column for s in pool], axis=1)
+    gram, right = columns.T @ columns, -(columns.T @ residual)
+    gains: dict[tuple[int, int], float] = {}
+    for i in range(len(pool)):
+        for j in range(i):
+            if pool[i].term.effect.name == pool[j].term.effect.name or _both_stick(pool[i].term, pool[j].term):
+                continue
+            two = gram[np.ix_([i, j], [i, j])]
+            if abs(two[0, 1]) > 0.98:
+                continue
+            amounts = np.linalg.solve(two, right[[i, j]])
+            if (amounts > 0.0).all():
+                gains[(j, i)] = float(amounts @ right[[i, j]])
+    if not gains:
+        return None
+    top = max(gains, key=lambda k: gains[k])
+    leader = best.terms[0].label if best else pool[0].term.label
+    labels = {k: (pool[k[0]].term.label, pool[k[1]].term.label) for k in gains}
+    with_leader = max((g for k, g in gains.items() if leader in labels[k]), default=0.0)
+    if leader in labels[top] and best is not None:
+        return None
+    if gains[top] < _PAIR_LEAD * with_leader and best is not None:
+        return None
+    return pool[top[0]], pool[top[1]]
+
+
+def _both_stick(a: Term, b: Term) -> bool:
+    return "stick" in a.effect.hooks and "stick" in b.effect.hooks
+
+
+def _prune(state: Search) -> None:
+    """Take effects away again whose loss is not material."""
+    origin = state.path[0]
+    while len(state.best.terms) > 1:
+        whole = state.best
+        for term in whole.terms:
+            rest = [t for t in whole.terms if t.label != term.label]
+            fewer = _try(state, rest, {}, whole)
+            if not material(origin.account, fewer.account, whole.account):
+                state.path.append(fewer)
+                break
+        else:
+            return
+
+

@@ -1,0 +1,127 @@
+"""From a finished search to a verdict, never stronger than its evidence."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from slipwise.diagnose.leftover import Surface, leftover, structured
+from slipwise.diagnose.refit import Account, Hypothesis
+from slipwise.diagnose.search import MATERIAL, MOST_EFFECTS, Search, material, score, worth
+
+#: A right family explains this share of what the base left, whatever its exact form [1].
+RIGHT_FAMILY = 0.75
+#: Rivals whose scores differ by less than this share, or by less than this much, cannot be told apart.
+_SAME_SHARE, _SAME_SCORE = 0.004, 60.0
+#: One thing to a rig without a gauge that could part them.
+ONE_THING: tuple[frozenset[str], ...] = (frozenset({"buffer_damping", "guide_drag"}),)
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What is missing.
+
+    Attributes:
+        kind: complete, named, ambiguous, unknown or instrument.
+        effects: names.
+        probability: that kind and names are right.
+        leftover: "none" or "unknown".
+        explained: share of what the base left above the noise that the named effects take away [1].
+        surface: what remains, where anything does.
+        rivals: hypotheses that nearly tie with the named one.
+    """
+
+    kind: str
+    effects: tuple[str, ...]
+    probability: float
+    leftover: str
+    explained: float
+    surface: Surface | None
+    rivals: tuple[Hypothesis, ...]
+
+
+def excess(of: Account) -> float:
+    """Give how much squared residual stands above the noise, over all relations and runs."""
+    total = 0.0
+    for name, (fitted, held) in of.counts.items():
+        total += max(of.fitted[name] - fitted, 0.0) + max(of.held_out[name] - held, 0.0)
+    return total
+
+
+def judge(state: Search) -> Verdict:
+    """Give the verdict of a search."""
+    origin, best = state.path[0], state.best
+    surface = leftover(best)
+    remains = structured(surface)
+    explained = 1.0 - excess(best.account) / max(excess(origin.account), 1e-12)
+    if not best.terms:
+        if remains:
+            return Verdict("unknown", (), _unknown_probability(surface, 0.0), "unknown", 0.0, surface, ())
+        return Verdict("complete", (), _complete_probability(state), "none", 1.0, surface, ())
+    too_many = len(best.terms) >= MOST_EFFECTS
+    if remains and (explained < RIGHT_FAMILY or too_many):
+        probability = _unknown_probability(surface, explained)
+        return Verdict("unknown", (), probability, "unknown", explained, surface, ())
+    rivals = _rivals(state, best)
+    names = best.names
+    left = "unknown" if remains else "none"
+    margin = _margin(state, best)
+    probability = _named_probability(margin, explained, best, left)
+    if rivals:
+        every = tuple(dict.fromkeys(n for h in (best, *rivals) for n in h.names))
+        return Verdict("ambiguous", every, probability, left, explained, surface, rivals)
+    for pair in ONE_THING:
+        found = pair & set(names)
+        if len(names) == 1 and found and not best.problem.runs[0].states.has_yaw:
+            return Verdict("ambiguous", tuple(sorted(pair)), probability, left, explained, surface, ())
+    instruments = all(t.effect.component == "instrument" for t in best.terms)
+    return Verdict("instrument" if instruments else "named", names, probability, left, explained, surface, ())
+
+
+def _rivals(state: Search, best: Hypothesis) -> tuple[Hypothesis, ...]:
+    """Give other hypotheses of as many effects that explain as much."""
+    origin = state.path[0]
+    top = score(origin.account, best.account)
+    out: dict[tuple[str, ...], Hypothesis] = {}
+    for h in state.tried:
+        if len(h.terms) != len(best.terms) or set(h.names) == set(best.names):
+            continue
+        behind = top - score(origin.account, h.account)
+        if behind < max(_SAME_SCORE, _SAME_SHARE * top) and material(origin.account, origin.account, h.account):
+            out[h.names] = h
+    return tuple(out.values())
+
+
+def _margin(state: Search, best: Hypothesis) -> float:
+    """Give by which share of its score the best hypothesis leads the next of other names."""
+    origin = state.path[0]
+    top = score(origin.account, best.account)
+    others = [
+        score(origin.account, h.account)
+        for h in state.tried
+        if len(h.terms) <= len(best.terms) and not set(h.names) <= set(best.names)
+    ]
+    return float((top - max(others, default=0.0)) / max(top, 1e-12))
+
+
+def _named_probability(margin: float, explained: float, best: Hypothesis, left: str) -> float:
+    """Give the chance that these names are right; logistic in lead and share explained."""
+    lead = np.clip(margin, 0.0, 0.5)
+    odds = 0.6 + 5.0 * lead / 0.5 + 2.0 * (np.clip(explained, 0.4, 1.0) - 0.7) / 0.3
+    odds -= 1.2 * (len(best.terms) - 1) + (0.7 if left == "unknown" else 0.0)
+    return float(np.clip(1.0 / (1.0 + np.exp(-odds)), 0.3, 0.99))
+
+
+def _unknown_probability(surface: Surface | None, explained: float) -> float:
+    share = surface.explained if surface is not None else 0.0
+    odds = 0.3 + 3.0 * np.clip(share, 0.0, 0.6) + 2.5 * (0.75 - np.clip(explained, 0.0, 0.75))
+    return float(np.clip(1.0 / (1.0 + np.exp(-odds)), 0.3, 0.98))
+
+
+def _complete_probability(state: Search) -> float:
+    origin = state.path[0]
+    near = max((_drop(origin, h) for h in state.tried), default=0.0)
+    return float(np.clip(0.98 - 0.4 * near / MATERIAL, 0.55, 0.98))
+
+
+def _drop(origin: Hypothesis, found: Hypothesis) -> float:
+    return min(worth(origin.account, found.account)[0], MATERIAL)
