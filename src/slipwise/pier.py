@@ -2,13 +2,13 @@
 
 The paper's table followed the pier's top, not the ground: the whole bridge was analysed first. Its bridge model is not
 in the text, so this is a small one in the plane of shaking: a rigid superstructure on isolators and buffers on piers.
-Each pier is a mass on a spring and a damper sideways; vertically pier and superstructure ride on the pier's axial spring.
+Each pier is a mass on a spring and a damper sideways; upwards, pier and superstructure ride on the pier's axial spring.
 
     M v_s' = -M a_g - sum (F_i + k_b x_i)          m_i u_i'' = -m_i a_g - k_i u_i - c_i u_i' + F_i + k_b x_i
     x_i = slip over pier i,   |F_i| <= the model's law at load M_i (g + a_z) and speed |x_i'|
 
-Friction is set-valued: a step asks for the force that stops the slip, and takes what the pads can give. Everything is in
-the prototype's size and time until `pier_top` shortens the time to the model's.
+Friction is set-valued: a step asks for the force that stops the slip, and takes what the pads can give. Everything is
+in the prototype's size and time until `pier_top` shortens the time to the model's.
 
 Source: paper, Input motion and Fig. 5, for what is done; stiffness, mass and damping of piers are assumed.
 """
@@ -19,7 +19,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import cont2discrete, lfilter
+from scipy.linalg import expm
 
 from slipwise.errors import InputError, SettingError, SlipwiseWarning
 from slipwise.kernel import fill, kernel
@@ -178,16 +178,20 @@ def bridge_response(
 def _oscillator(ground: Array, dt: float, frequency: float, damping: float) -> Array:
     """Give the absolute acceleration of a mass on a spring and a damper, exact for straight lines between samples."""
     omega = 2.0 * np.pi * frequency
-    system = (
-        np.array([[0.0, 1.0], [-(omega**2), -2.0 * damping * omega]]),
-        np.array([[0.0], [-1.0]]),
-        np.array([[-(omega**2), -2.0 * damping * omega]]),
-        np.array([[0.0]]),
-    )
-    a, b, c, d, _ = cont2discrete(system, dt, method="foh")
-    poles = np.poly(a)
-    zeros = np.poly(a - b @ c) + (d[0, 0] - 1.0) * poles
-    return np.asarray(lfilter(zeros, poles, ground))
+    block = np.zeros((4, 4))
+    block[:2, :2] = dt * np.array([[0.0, 1.0], [-(omega**2), -2.0 * damping * omega]])
+    block[1, 2], block[2, 3] = -dt, 1.0
+    step = expm(block)
+    (a, b), (c, d) = step[:2, :2].tolist()
+    (p, q), (r, s) = step[:2, 2:].tolist()
+    place = rate = 0.0
+    out = np.zeros_like(ground)
+    values = ground.tolist()
+    for i, (now, then) in enumerate(zip(values[:-1], values[1:], strict=True)):
+        rise = then - now
+        place, rate = a * place + b * rate + p * now + q * rise, c * place + d * rate + r * now + s * rise
+        out[i + 1] = -(omega**2) * place - 2.0 * damping * omega * rate
+    return out
 
 
 def _march(

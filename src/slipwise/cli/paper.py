@@ -1,6 +1,8 @@
 """`slipwise paper`: the whole paper re-enacted."""
 
+from concurrent.futures import Executor
 from contextlib import ExitStack
+from importlib import import_module
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
@@ -18,7 +20,9 @@ _QUICK = 8
 
 
 def paper(
-    out: Annotated[Path, typer.Option(help="Folder for paper.json, paper.html and the finished replays.")] = Path("out/paper"),
+    out: Annotated[Path, typer.Option(help="Folder for paper.json, paper.html and the finished replays.")] = Path(
+        "out/paper"
+    ),
     readings: Annotated[
         list[str] | None, typer.Option(help="Change an assumption, NAME=VALUE with unit; the page lists them all.")
     ] = None,
@@ -69,18 +73,18 @@ def paper(
         OUT.print(f"wrote {path}", markup=False, highlight=False, soft_wrap=True)
 
 
-def _cluster(address: str):  # noqa: ANN202  (dask has no types)
+def _cluster(address: str) -> Executor:
     """Connect to a dask scheduler and give its executor.
 
     Raises:
         InputError: dask is not installed, or nothing answers at the address.
     """
     try:
-        from distributed import Client
+        distributed = import_module("distributed")
     except ModuleNotFoundError:
         raise InputError('--cluster needs dask: pip install "slipwise[cluster]"') from None
     try:
-        client = Client(address, timeout="10s")
+        client = distributed.Client(address, timeout="10s")
     except OSError as error:
         raise InputError(f"--cluster {address}: no scheduler answers there ({error})") from None
     return client.get_executor()

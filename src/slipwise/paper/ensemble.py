@@ -1,7 +1,7 @@
 """Many replays at once: on all cores or on somebody else's, resumable, each member run once.
 
-Every finished member is one line of `members.jsonl`, written by one process, flushed to the disk before the next. After a
-kill the lines that are whole count, a torn last line is cut off, and only what is missing is run.
+Every finished member is one line of `members.jsonl`, written by one process, flushed to the disk before the next. After
+a kill the lines that are whole count, a torn last line is cut off, and only what is missing is run.
 """
 
 import json

@@ -21,6 +21,7 @@ class Finding:
     Attributes:
         place: where the paper makes it, e.g. "Table 1" or "Conclusion 2".
         says: what the paper states, in our words.
+        brief: what we get, in half a line.
         gets: what we get, with numbers.
         verdict: one of `VERDICTS`.
         why: the range within which it holds, or why it cannot be checked.
@@ -30,6 +31,7 @@ class Finding:
 
     place: str
     says: str
+    brief: str
     gets: str
     verdict: str
     why: str

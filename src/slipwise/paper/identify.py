@@ -2,8 +2,8 @@
 
     min sum [F - |N| mu(N/A, |v|; s', n, k, alpha)]^2 / sigma^2 over samples that slide, parameters as logarithms
 
-Covariance is (J' J)^-1 times the residual's variance; intervals are 95 %. Noise of load and speed is propagated into the
-weights, so that samples whose speed says little count little.
+Covariance is (J' J)^-1 times the residual's variance; intervals are 95 %. Noise of load and speed is propagated into
+the weights, so that samples whose speed says little count little.
 
 Source: paper, below eq. (8), for what is identified; the method is not stated there.
 """

@@ -19,15 +19,13 @@ SWINGS = (0.05, 0.1, 0.2, 0.3, 0.5, 0.6, 0.8, 1.0)
 def mu(model: Model, pressure: Array | float, speed: Array | float) -> Array:
     """Give the coefficient of friction that the model's law carries at pressures [Pa] and speeds [m/s]."""
     pressure, speed = np.broadcast_arrays(np.asarray(pressure, dtype=float), np.asarray(speed, dtype=float))
-    load = pressure.ravel() * model.built_specimen().pad_area
-    velocity = np.zeros((len(load), 4, 2))
-    velocity[:, :, 0] = speed.ravel()[:, None]
-    time = np.arange(max(len(load), 2))[: len(load)] * 1e-3
-    if len(load) == 1:  # a record needs two instants to have a step
-        again = mu(model, np.repeat(pressure.ravel(), 2), np.repeat(speed.ravel(), 2))
-        return again[:1].reshape(pressure.shape)
+    count = max(pressure.size, 2)  # a record needs two instants to have a step
+    load = np.resize(pressure, count) * model.built_specimen().pad_area
+    velocity = np.zeros((count, 4, 2))
+    velocity[:, :, 0] = np.resize(speed, count)[:, None]
+    time = np.arange(count, dtype=np.float64) * 1e-3
     bound = predictor(model).pads(time, np.repeat(load[:, None], 4, axis=1), velocity, np.zeros_like(velocity)).bound
-    return (bound[:, 0] / load).reshape(pressure.shape)
+    return (bound[:, 0] / load)[: pressure.size].reshape(pressure.shape)
 
 
 def per_load(model: Model, pressure: Array, speed: float = FAST) -> Array:
@@ -85,7 +83,9 @@ def study(settings: PaperSettings) -> Study:
         Finding(
             "Eqs. (1) to (8)",
             "Friction is shear strength times real contact area; both depend on pressure, the strength on speed.",
-            f"The two effects composed give eq. (8) within {error:.0e}. Small pressure: Coulomb's law with s'k + alpha, "
+            f"limits exact within {max(error, abs(heavy), abs(light)):.0e}",
+            f"The two effects composed give eq. (8) within {error:.0e}. Small pressure: Coulomb's law with s'k + "
+            "alpha, "
             f"within {abs(light):.0e}; large pressure: s' A + alpha N, within {abs(heavy):.0e}; at rest alpha.",
             HOLDS if max(error, abs(heavy), abs(light)) < 1e-12 else FAILS,
             "The limit for small pressure is approached as kP/2, which is taken off here.",
@@ -95,7 +95,9 @@ def study(settings: PaperSettings) -> Study:
         Finding(
             "Eq. (7)",
             "The second bracket is printed with exp(-kV).",
-            f"With exp(-kP), as eqs. (3), (6) and (8) need, friction falls {falls:.2f} times from 5 to 25 MPa; as printed it "
+            "a misprint: exp(-kP)",
+            f"With exp(-kP), as eqs. (3), (6) and (8) need, friction falls {falls:.2f} times from 5 to 25 MPa; as "
+            "printed it "
             "would not depend on pressure at all.",
             FAILS,
             "A misprint: k has the unit of 1/pressure. exp(-kP) is used everywhere here.",
@@ -103,7 +105,9 @@ def study(settings: PaperSettings) -> Study:
         Finding(
             "Friction of PTFE",
             "Friction grows with speed up to a point and then stays or falls a little; it falls with pressure.",
-            f"mu at the rated pressure grows from {float(mu(model, rated, 0.0)):.3f} to {float(mu(model, rated, FAST)):.4f}, "
+            f"mu {float(mu(model, rated, 0.0)):.3f} at rest, {float(mu(model, rated, FAST)):.4f} fast",
+            f"mu at the rated pressure grows from {float(mu(model, rated, 0.0)):.3f} to "
+            f"{float(mu(model, rated, FAST)):.4f}, "
             f"95 % of the way at {3.0 / n * 100:.0f} cm/s, and falls with pressure at every speed.",
             LIMITS,
             "Eq. (7) cannot fall again at high speed, knows neither temperature nor roughness, and has no peak at "
@@ -114,6 +118,7 @@ def study(settings: PaperSettings) -> Study:
         Finding(
             "Four parameters",
             "s', n, k, alpha = 1.379, 0.197, 0.102, 0.046; units are not stated.",
+            f"MPa, {settings.n_unit}, 1/MPa taken",
             f"MPa, {settings.n_unit}, 1/MPa and 1: mu = {float(mu(model, rated, FAST)):.4f} fast, {alpha:.3f} slow; "
             f"dF/dN = {float(per_load(model, np.array([rated]))[0]):.4f}, so load moves friction by "
             f"{float(per_load(model, np.array([rated]))[0] / mu(model, rated, FAST)):.0%} of what Coulomb's law would.",

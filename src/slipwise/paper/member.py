@@ -22,7 +22,10 @@ from slipwise.replay import Replay, replay
 #: Energy that a searched motion has to reach lies within this fraction; at most so many replays are tried.
 _CLOSE, _TRIES = 5e-4, 12
 #: Parts of the package whose change makes kept results stale.
-_DECIDING = ("effects", "kernel", "motion", "paper", "replay", "rig")
+_DECIDING = (
+    "effects/*.py", "kernel/*.py", "motion/**/*.py", "replay/*.py", "rig/*.py", "loops.py", "model.py", "predict.py",
+    "paper/member.py", "paper/one_dof.py",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -85,7 +88,7 @@ def _model(bridge: str, settings: PaperSettings, effects: tuple[str, ...], slend
 def _code() -> str:
     """Give a hash of the code that makes a result: results of older code must not be taken for new ones."""
     package = Path(slipwise.__file__).parent
-    files = sorted(path for part in _DECIDING for path in (package / part).rglob("*.py"))
+    files = sorted(path for part in _DECIDING for path in package.glob(part))
     return hashlib.sha256(b"".join(path.read_bytes() for path in files)).hexdigest()[:16]
 
 

@@ -69,4 +69,4 @@ def one_dof(model: Model, motion: TableMotion, dt: float = 0.0005) -> OneDof:
         out[i] = slip, friction
         velocity = new
     energy = float(np.sum(out[1:, 1] * np.diff(out[:, 0])))
-    return OneDof(np.arange(len(table)) * dt, out[:, 0], out[:, 1], loads, energy)
+    return OneDof(np.arange(len(table), dtype=np.float64) * dt, out[:, 0], out[:, 1], loads, energy)

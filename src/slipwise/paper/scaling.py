@@ -75,13 +75,16 @@ def study(settings: PaperSettings) -> Study:
         Finding(
             "Table 1",
             "Length scales 10.69 and 12.17; acceleration, pressure and h/b scale by 1.",
+            "exact but for n, heat and pre-sliding",
             f"Time and speed scale by {one['time']:.3f} and {two['time']:.3f}, mass and force by {one['mass']:.1f} and "
-            f"{two['mass']:.1f}, energy by {one['energy']:.0f} and {two['energy']:.0f}. What the material keeps does not "
+            f"{two['mass']:.1f}, energy by {one['energy']:.0f} and {two['energy']:.0f}. What the material keeps does "
+            "not "
             f"scale: at 10 cm/s in the model eq. (5) has {1 / lost['bridge1']['speed_saturation']:.0%} of the bridge's "
             f"speed term, the model warms {lost['bridge1']['heating_model_over_bridge']:.2f} of the bridge, and "
             f"pre-sliding and run-in lengths are {lost['bridge1']['lengths_model_over_bridge']:.0f} times too long.",
             LIMITS,
-            "Exact for rigid-body mechanics and buffers; broken for n (s/m), heating, pre-sliding and run-in. The table "
+            "Exact for rigid-body mechanics and buffers; broken for n (s/m), heating, pre-sliding and run-in. The "
+            "table "
             "itself is not in the text: these are the scales that its two statements imply.",
             (),
             {"bridges": rows, "unscaled": lost},
@@ -89,7 +92,9 @@ def study(settings: PaperSettings) -> Study:
         Finding(
             "Specimen",
             "Four 43 mm discs under a 10 t girder give 16.9 MPa.",
-            f"{one['pressure'] / 1e6:.2f} MPa; any mass from {low / 1e3:.2f} to {high / 1e3:.2f} t rounds to 16.9: the pads "
+            f"{one['pressure'] / 1e6:.2f} MPa",
+            f"{one['pressure'] / 1e6:.2f} MPa; any mass from {low / 1e3:.2f} to {high / 1e3:.2f} t rounds to 16.9: "
+            "the pads "
             "carry everything, the buffers nothing.",
             HOLDS if low <= models["bridge1"].specimen.mass <= high else LIMITS,
             "For full discs and four pads.",
@@ -99,8 +104,11 @@ def study(settings: PaperSettings) -> Study:
         Finding(
             "Buffers",
             "18.5 and 13.7 kN/mm in the prototype.",
-            f"Divided by the scale: {one['buffer_each'] / 1e6:.4f} and {two['buffer_each'] / 1e6:.4f} kN/mm each; periods "
-            f"{one['period_model']:.4f} and {two['period_model']:.4f} s in the model, {one['period_prototype']:.3f} and "
+            f"{one['buffer_each'] / 1e6:.3f} and {two['buffer_each'] / 1e6:.3f} kN/mm in the model",
+            f"Divided by the scale: {one['buffer_each'] / 1e6:.4f} and {two['buffer_each'] / 1e6:.4f} kN/mm each; "
+            "periods "
+            f"{one['period_model']:.4f} and {two['period_model']:.4f} s in the model, {one['period_prototype']:.3f} "
+            "and "
             f"{two['period_prototype']:.3f} s in the prototype.",
             HOLDS,
             "Two buffers to a specimen, each with the stated stiffness.",
@@ -110,6 +118,7 @@ def study(settings: PaperSettings) -> Study:
         Finding(
             "Prototypes",
             "h/b is 0.122 and 0.244.",
+            f"h = {one['centre_height']:.3f} and {two['centre_height']:.3f} m",
             f"h = {one['centre_height']:.3f} and {two['centre_height']:.3f} m; rocking moves the pressure by "
             f"{one['pressure_per_g'] / 1e6:.2f} and {two['pressure_per_g'] / 1e6:.2f} MPa per g and lifts a pad at "
             f"{one['uplift']:.2f} and {two['uplift']:.2f} g.",

@@ -19,20 +19,43 @@ _TONES: dict[str, Tone] = {HOLDS: "good", LIMITS: "warn", FAILS: "bad", UNCHECKE
 Draw = Callable[[Mapping[str, Any]], Figure]
 #: Study -> its pictures, each with its caption.
 PICTURES: dict[str, tuple[tuple[Draw, str], ...]] = {
-    "input": ((input_figure, "From the ground through the pier to the table, Bridge 1. The motion is assumed, not the paper's."),),
-    "loads": ((loads_figure, "Load of pad A in both bridges under their pier-top motions, split as in Figs. 7 and 8."),),
-    "loops": (
-        (loops_figure, "Above: a sine, four trapezoids, mirrored on opposite sides. Below: an earthquake scaled to 532 kN cm."),
-        (energies_figure, "Every motion with and without its vertical part. The paper's pair is one point of such a cloud."),
+    "input": (
+        (
+            input_figure,
+            "From the ground through the pier to the table, Bridge 1. The motion is assumed, not the paper's.",
+        ),
     ),
-    "law": ((law_figure, "Left: eq. (8). Right: exact leftover of pads in pairs whose loads swing against each other."),),
-    "identification": ((identification_figure, "Sine tests of ours, with the paper's range of pressure, and the fit to them."),),
+    "loads": (
+        (loads_figure, "Load of pad A in both bridges under their pier-top motions, split as in Figs. 7 and 8."),
+    ),
+    "loops": (
+        (
+            loops_figure,
+            "Above: a sine, trapezoids mirrored on opposite sides. Below: an earthquake scaled to 532 kN cm.",
+        ),
+        (
+            energies_figure,
+            "Each motion with and without its vertical part. The paper's pair is one point of such a cloud.",
+        ),
+    ),
+    "law": ((law_figure, "Left: eq. (8). Right: exact leftover of pairs of pads that swing against each other."),),
+    "identification": (
+        (identification_figure, "Sine tests of ours, with the paper's range of pressure, and the fit to them."),
+    ),
     "extreme": (
-        (extreme_figure, "The full rig rings after landing; its loop and that of one degree of freedom hardly differ."),
+        (
+            extreme_figure,
+            "Pads ring after landing; the loop of the full rig and that of one degree of freedom are close.",
+        ),
         (map_figure, "Mean over the motions: where rocking and landing matter to the slip."),
     ),
-    "claims": ((claims_figure, "Rocking changes next to nothing, vertical motion little, extreme vertical motion a few per cent."),),
-}  # fmt: skip
+    "claims": (
+        (
+            claims_figure,
+            "Rocking changes next to nothing, vertical motion little, five times as much several per cent.",
+        ),
+    ),
+}
 
 
 def write_page(result: Reenactment, path: Path) -> Path:
@@ -75,7 +98,7 @@ def summary(result: Reenactment) -> list[Piece]:
 def overview(result: Reenactment) -> Html:
     """Make one row of every finding."""
     rows = [
-        {"where": finding.place, "the paper": finding.says, "verdict": _mark(finding.verdict)}
+        {"where": finding.place, "the paper": finding.says, "here": finding.brief, "verdict": _mark(finding.verdict)}
         for study in result.studies
         for finding in study.findings
     ]
@@ -129,5 +152,7 @@ def assumed(result: Reenactment) -> list[Piece]:
         "run again, for example `slipwise paper --readings n_unit=s/mm --readings buffer_height='0.2 m' --out DIR`."
     )
     ground = f"Ground motion of the bridge model: `{result.settings.ground}`. "
-    ensemble = f"Ensemble: {result.settings.members} motions from seed {result.settings.seed}, each with and without vertical part."
+    ensemble = (
+        f"Ensemble: {result.settings.members} motions from seed {result.settings.seed}, with and without vertical part."
+    )
     return [paragraph(words), details("All assumptions", [table(rows, marked=marked)]), paragraph(ground + ensemble)]

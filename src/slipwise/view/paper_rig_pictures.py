@@ -10,10 +10,9 @@ from matplotlib.figure import Figure
 from slipwise.channels import PADS
 from slipwise.record import Record
 from slipwise.view.canvas import new_figure
-from slipwise.view.style import BUFFER_COLOURS, EXPECTED, MUTED, PAD_COLOURS, SUM, TABLE, UPLIFT, envelope, styled
+from slipwise.view.style import EXPECTED, MUTED, PAD_COLOURS, SUM, TABLE, UPLIFT, envelope, styled
 
 GRAVITY = 9.80665
-#: Time shown of the paper's earthquakes ends when nothing moves any more [s].
 _TITLES = {"bridge1": "Bridge 1", "bridge2": "Bridge 2"}
 
 
@@ -39,6 +38,7 @@ def input_figure(curves: Mapping[str, Any]) -> Figure:
             *envelope(time, curves["rig_slip"]), color=SUM, linewidth=1.0, label="girder on the table, times 10.69"
         )
         axes.set(title="Slip, in the prototype's size", ylabel="x [m]", xlabel="time of the model [s]")
+        axes.margins(y=0.3)
         axes.legend(ncols=2, loc="upper right")
     return figure
 
