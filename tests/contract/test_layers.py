@@ -14,7 +14,7 @@ LAYERS: tuple[tuple[str, ...], ...] = (
     ("rig",),
     ("effects",),
     ("model", "model_file"),
-    ("kernel", "predict", "replay", "loops", "loads", "pier"),
+    ("kernel", "predict", "replay", "loops", "loads", "pier", "demonstration"),
     ("campaign", "audit", "floor", "system", "compare", "fit"),
     ("diagnose", "ladder", "next_test", "paper", "demo"),
     ("view",),
@@ -24,7 +24,7 @@ LAYERS: tuple[tuple[str, ...], ...] = (
 WITHIN = {
     "errors": 0, "units": 1, "params": 1, "channels": 1,
     "signals": 1, "record": 0, "motion": 1,
-    "kernel": 0, "predict": 1, "replay": 2, "loops": 0, "loads": 0, "pier": 0,
+    "kernel": 0, "predict": 1, "replay": 2, "loops": 0, "loads": 0, "pier": 0, "demonstration": 2,
     "campaign": 0, "audit": 1, "floor": 1, "system": 1, "fit": 2, "compare": 3,
 }  # fmt: skip
 FILES = sorted(PACKAGE.rglob("*.py"))

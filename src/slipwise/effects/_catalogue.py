@@ -10,7 +10,7 @@ from importlib.metadata import entry_points
 from pathlib import Path
 
 from slipwise.effects._effect import Effect, read_effect
-from slipwise.errors import InputError, SettingError, unknown_name
+from slipwise.errors import InputError, SettingError, SlipwiseError, unknown_name
 
 #: Packages offer effects by an entry point of this group whose value is a module.
 ENTRY_POINT_GROUP = "slipwise.effects"
@@ -58,6 +58,9 @@ def load_effect(path: Path) -> Effect:
     sys.modules[name] = module
     try:
         spec.loader.exec_module(module)
+    except SlipwiseError as error:
+        del sys.modules[name]
+        raise type(error)(f"{path.name}: {error}") from None
     except Exception as error:
         del sys.modules[name]
         raise InputError(f"{path} cannot be imported: {type(error).__name__}: {error}") from error

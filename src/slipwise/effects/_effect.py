@@ -218,6 +218,8 @@ def read_effect(module: ModuleType, path: Path) -> Effect:
         raise unknown_name(f"port (of {path.name})", found.port, PORTS)
     if found.component not in COMPONENTS:
         raise unknown_name(f"component (of {path.name})", found.component, COMPONENTS)
+    if len({p.name for p in found.parameters}) < len(found.parameters):
+        raise SettingError(f"{path.name}: two parameters share a name")
     defined = {n: f for n, f in vars(module).items() if inspect.isfunction(f) and f.__module__ == module.__name__}
     hooks = {n: f for n, f in defined.items() if not n.startswith("_")}
     allowed = PORTS[found.port]
@@ -232,8 +234,6 @@ def read_effect(module: ModuleType, path: Path) -> Effect:
             hooks[hook] = _by_name(hook, function)
     if not hooks:
         raise SettingError(f"{path.name} has no hook; an effect on port {found.port!r} may have: {', '.join(allowed)}")
-    if len({p.name for p in found.parameters}) < len(found.parameters):
-        raise SettingError(f"{path.name}: two parameters share a name")
     if not found.replaces and all(p.neutral is None for p in found.parameters):
         raise SettingError(f"{path.name}: no parameter has a neutral value, so the effect could never be off")
     for pattern in found.moves:

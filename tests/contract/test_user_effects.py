@@ -1,0 +1,169 @@
+"""One file is all that an effect needs, wherever it lies; a file that breaks the contract is told how to mend it."""
+
+import shutil
+import textwrap
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from driven import motion
+from shaking import shaken, sine
+from slipwise.effects import catalogue, find_effect, load_effect
+from slipwise.errors import InputError, SettingError, SlipwiseWarning, UnknownNameError
+from slipwise.kernel import engine_for
+from slipwise.model import base_model, use
+from slipwise.model_file import add_effect, draft_model, load_model
+from slipwise.predict import predictor
+from slipwise.view.effects import effect_rows
+
+MINE = '''
+"""Washboard: friction that goes up and down along the plate.
+
+    mu *= 1 + c sin(2 pi x / l)
+
+Valid: machined plates.
+Source: assumed.
+"""
+
+from math import pi, sin
+
+from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.params import Parameter
+
+
+def shear(shear, slip_x, height, length):
+    """Scale the shear strength."""
+    return shear * (1.0 + height * sin(2.0 * pi * slip_x / length))
+
+
+EFFECT = Effect(
+    port="shear",
+    component="pad friction",
+    equation="mu *= 1 + c sin(2 pi x/l)",
+    parameters=(
+        Parameter("height", "1", 0.2, -0.5, 0.5, 0.0, "assumed", "c"),
+        Parameter("length", "m", 0.01, 1e-3, 0.1, None, "assumed", "l", "mm"),
+    ),
+    moves=RESPONSE,
+    signature="odd, periodic in slip",
+    confused_with={"position_patch": "a patch is there once"},
+)
+'''
+
+
+@pytest.fixture(autouse=True)
+def own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Kernels of these tests are kept apart from the user's."""
+    monkeypatch.setenv("SLIPWISE_CACHE", str(tmp_path_factory.getbasetemp() / "kernels"))
+
+
+def written(folder: Path, text: str = MINE, name: str = "washboard.py") -> Path:
+    path = folder / name
+    path.write_text(textwrap.dedent(text).lstrip())
+    return path
+
+
+def test_a_file_dropped_into_a_folder_predicts_replays_and_is_listed(tmp_path: Path) -> None:
+    effect = load_effect(written(tmp_path))
+    model = base_model("bridge1").adding(use(effect))
+    moving = motion()
+    states = [moving[key] for key in ("time", "load", "velocity", "slip")]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert engine_for([effect]) == "compiled"
+    ours, base = predictor(model).pads(*states).bound, predictor(base_model("bridge1")).pads(*states).bound
+    carrying = moving["load"] > 0.0
+    factor = 1.0 + 0.2 * np.sin(2 * np.pi * moving["slip"][:, :, 0] / 0.01)
+    np.testing.assert_allclose((ours / np.where(carrying, base, 1.0))[carrying], factor[carrying], rtol=1e-12)
+    np.testing.assert_allclose(predictor(model, engine="python").pads(*states).bound, ours, rtol=1e-12)
+    shake = sine(2.0, 3.0, 0.5)
+    moved = shaken(model, shake).record["slip_x"]
+    assert not np.array_equal(moved, shaken(base_model("bridge1"), shake).record["slip_x"])
+    assert [row["name"] for row in effect_rows([effect])] == ["washboard"]
+    assert "washboard" not in catalogue(), "files touched to add one effect: one, and none of Slipwise's"
+
+
+def test_a_copy_of_any_shipped_effect_works_from_outside(tmp_path: Path) -> None:
+    """The catalogue has no privilege: the same text under another name gives the same answer."""
+    model, again = base_model("bridge1"), base_model("bridge1")
+    for name in ("heating", "key_clearance"):
+        path = tmp_path / f"my_{name}.py"
+        shutil.copy(find_effect(name).path, path)
+        model, again = model.adding(use(name)), again.adding(use(load_effect(path)))
+    moving = motion()
+    states = [moving[key] for key in ("time", "load", "velocity", "slip")]
+    assert np.array_equal(predictor(model).pads(*states).force, predictor(again).pads(*states).force)
+
+
+def test_model_toml_takes_a_file_of_ones_own(tmp_path: Path) -> None:
+    path = tmp_path / "model.toml"
+    path.write_text(draft_model("bridge1"))
+    written(tmp_path)
+    model = add_effect(path, str(tmp_path / "washboard.py"), values={"length": "20 mm"})
+    assert 'file = "washboard.py"' in path.read_text()
+    assert model["washboard"].values["length"] == load_model(path)["washboard"].values["length"] == 0.02
+
+
+def test_an_effect_that_cannot_be_compiled_runs_on_the_python_engine_and_says_so(tmp_path: Path) -> None:
+    text = MINE.replace("return shear *", "return shear * {'one': 1.0, 2: 'two'}['one'] *")
+    effect = load_effect(written(tmp_path, text, "dictionary.py"))
+    with pytest.warns(SlipwiseWarning, match=r"dictionary\.py runs on the Python engine"):
+        engine = engine_for([effect])
+    assert engine == "python"
+    moving = motion()
+    states = [moving[key][:50] for key in ("time", "load", "velocity", "slip")]
+    assert np.isfinite(predictor(base_model("bridge1").adding(use(effect)), engine=engine).pads(*states).force).all()
+
+
+def test_an_edited_file_is_not_answered_for_by_its_old_self(tmp_path: Path) -> None:
+    moving = motion()
+    states = [moving[key][:100] for key in ("time", "load", "velocity", "slip")]
+    first = predictor(base_model("bridge1").adding(use(load_effect(written(tmp_path)))), engine="python")
+    before = first.pads(*states).bound
+    edited = load_effect(written(tmp_path, MINE.replace("1.0 + height * sin", "1.0 - height * sin")))
+    after = predictor(base_model("bridge1").adding(use(edited)), engine="python").pads(*states).bound
+    plain = predictor(base_model("bridge1"), engine="python").pads(*states).bound
+    np.testing.assert_allclose(before + after, 2.0 * plain, rtol=1e-12)
+
+
+REFUSED = {
+    "no EFFECT": (MINE.replace("EFFECT =", "OTHER ="), SettingError, "defines no EFFECT"),
+    "no range": (MINE.replace("Valid:", "Range:"), SettingError, "Valid:"),
+    "no source": (MINE.replace("Source: assumed", "From: assumed"), SettingError, "Source:"),
+    "no unit": (MINE.replace('"length", "m"', '"length", ""'), SettingError, "needs a unit"),
+    "empty bounds": (MINE.replace("1e-3, 0.1, None", "0.1, 1e-3, None"), SettingError, "bounds"),
+    "typical outside": (MINE.replace("0.01, 1e-3, 0.1, None", "0.5, 1e-3, 0.1, None"), SettingError, "outside"),
+    "unknown port": (MINE.replace('port="shear"', 'port="sheer"'), UnknownNameError, "did you mean shear"),
+    "unknown component": (MINE.replace('"pad friction"', '"pads"'), UnknownNameError, "component"),
+    "unknown input": (
+        MINE.replace("slip_x, height", "slip_z, height").replace("* slip_x", "* slip_z"),
+        SettingError,
+        "slip_z",
+    ),
+    "wrong hook": (MINE.replace("def shear(shear,", "def area(shear,"), SettingError, "cannot have a hook 'area'"),
+    "no hook": (MINE.replace("def shear(", "def _shear("), SettingError, "has no hook"),
+    "never off": (MINE.replace("-0.5, 0.5, 0.0,", "-0.5, 0.5, None,"), SettingError, "could never be off"),
+    "no channel": (MINE.replace("moves=RESPONSE", 'moves=("pad_*_Q",)'), SettingError, "no channel"),
+    "same name twice": (MINE.replace('"length", "m"', '"height", "m"'), SettingError, "share a name"),
+    "does not import": (MINE.replace("from math import", "from maths import"), InputError, "cannot be imported"),
+}
+
+
+@pytest.mark.parametrize("what", REFUSED)
+def test_a_file_that_breaks_the_contract_is_refused_with_what_to_do(what: str, tmp_path: Path) -> None:
+    text, error, words = REFUSED[what]
+    with pytest.raises(error, match=words) as caught:
+        load_effect(written(tmp_path, text))
+    assert "washboard.py" in str(caught.value)
+
+
+def test_a_name_that_exists_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(SettingError, match="rename"):
+        load_effect(written(tmp_path, MINE, "run_in.py"))
+
+
+def test_a_missing_file_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="no such effect file"):
+        load_effect(tmp_path / "nothing.py")
