@@ -7,6 +7,7 @@ alignment and are checked against a live object before they are used.
 import ctypes
 from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
 import mujoco
 from mujoco.introspect import ast_nodes, structs
@@ -44,7 +45,7 @@ class Offsets:
     contact: dict[str, int]
 
 
-def _ctype(node: object) -> type:
+def _ctype(node: Any) -> type:
     if isinstance(node, ast_nodes.PointerType):
         return ctypes.c_void_p
     if isinstance(node, ast_nodes.ArrayType):

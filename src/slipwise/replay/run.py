@@ -216,7 +216,7 @@ def _answer(
         "settings": {"dt": dt, "output_dt": output_dt, "engine": engine},
         **(provenance or {}),
     }
-    record = Record(np.arange(count) * output_dt, channels, about)
+    record = Record(np.asarray(np.arange(count) * output_dt, dtype=np.float64), channels, about)
     for entry in model.with_hook("gauge"):
         record = entry.effect.hooks["gauge"](record, entry.target, **entry.values)
     pads = model.specimen.pads
