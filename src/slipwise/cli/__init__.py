@@ -34,7 +34,8 @@ def main() -> None:
         try:
             code = app(standalone_mode=False)
         except typer.TyperException as error:
-            error.show()
+            words = getattr(error, "format_message", error.__str__)()
+            print(f"error: {words.rstrip('.')}; `slipwise --help` shows what is possible", file=sys.stderr)
             code = 2
         except SlipwiseError as error:
             print(f"error: {error}", file=sys.stderr)
