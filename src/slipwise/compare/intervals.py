@@ -1,0 +1,144 @@
+"""Intervals of fitted numbers that stay right when residuals are correlated: the sandwich with blocks of time.
+
+    C = A^-1 (sum over blocks of s s') A^-1,    A = J'J,    s = sum of J_t' r_t over a block
+
+Residuals of pads and balances at one instant share gauges, and neighbours share what the model lacks: a block holds all
+relations over a stretch of time, and only blocks are taken as independent. The usual formula, one variance for all rows,
+covers the truth in 15 to 40 % of the cases when residuals are correlated.
+
+Source: White (1980), Newey and West (1987); blocks as clusters: Liang and Zeger (1986); methods.md D9.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import t as student
+
+from slipwise.fit.base import BaseFit
+from slipwise.fit.terms import Free
+
+Array = NDArray[np.float64]
+#: Length of a block [s]: some cycles of whatever the model lacks.
+BLOCK = 0.5
+#: Fewer blocks than this many for each free number are no basis; blocks are then made shorter [1].
+_BLOCKS_EACH = 3
+COVERAGE = 0.95
+
+
+@dataclass(frozen=True)
+class Interval:
+    """One fitted number.
+
+    Attributes:
+        key: "rig.mass", "shear_rate.rate" ...
+        value: fitted [SI].
+        low: lower end of the 95 % interval; NaN where the fit ended on a bound.
+        high: upper end.
+        rated: where the fit began.
+        unit: SI unit.
+        bound: "", or "lower" or "upper" when the fit ended there.
+    """
+
+    key: str
+    value: float
+    low: float
+    high: float
+    rated: float
+    unit: str
+    bound: str
+
+
+@dataclass(frozen=True)
+class Intervals:
+    """All fitted numbers with what ties them together.
+
+    Attributes:
+        entries: one for each free number.
+        keys: of the numbers inside their bounds, in the order of the matrices.
+        covariance: (k, k) of these numbers [SI].
+        correlation: (k, k) [1].
+        blocks: stretches of time taken as independent.
+    """
+
+    entries: tuple[Interval, ...]
+    keys: tuple[str, ...]
+    covariance: Array
+    correlation: Array
+    blocks: int
+
+    def strongest(self, count: int = 5) -> list[tuple[str, str, float]]:
+        """Give the pairs of numbers that the data tell apart worst: (key, key, correlation)."""
+        i, j = np.triu_indices(len(self.keys), 1)
+        order = np.argsort(-np.abs(self.correlation[i, j]))[:count]
+        return [(self.keys[i[o]], self.keys[j[o]], float(self.correlation[i[o], j[o]])) for o in order]
+
+
+def intervals(base: BaseFit) -> Intervals:
+    """Give the intervals of a base fit."""
+    solution, problem = base.solution, base.problem
+    rows: list[NDArray[np.int64]] = []
+    start = 0
+    offsets: dict[int, int] = {}
+    length = _block_length(base)
+    for i in problem.fitted:
+        offsets[i] = start
+        start += int(len(problem.runs[i].time) * problem.runs[i].dt / length) + 1
+    for relation in problem.relations:
+        for i in problem.fitted:
+            part = solution.residuals.parts[relation][i]
+            of_sample = (np.arange(len(part)) * problem.runs[i].dt / length).astype(np.int64) + offsets[i]
+            rows.append(np.repeat(of_sample, part.size // len(part)))
+    left = solution.residuals.stacked(problem.fitted, problem.relations)
+    return of_fit(solution.free, solution.values, solution.jacobian, left, np.concatenate(rows))
+
+
+def of_fit(
+    free: Sequence[Free], values: Mapping[str, float], jacobian: Array, residual: Array, block: NDArray[np.int64]
+) -> Intervals:
+    """Give the intervals of a least-squares fit.
+
+    Args:
+        free: what was fitted, k numbers.
+        values: where the fit ended.
+        jacobian: (m, k) of the residuals, per unit of each number's scale.
+        residual: (m,) in units of the noise; rows that were masked are zero.
+        block: (m,) number of the block of time that each row belongs to.
+    """
+    ends = [_bound(f, values[f.key]) for f in free]
+    inside = [j for j, end in enumerate(ends) if not end and np.any(jacobian[:, j])]
+    scale = np.array([free[j].scale for j in inside])
+    slopes = jacobian[:, inside]
+    counted = np.bincount(block, weights=(residual != 0.0).astype(float))
+    blocks = int(np.count_nonzero(counted))
+    scores = np.zeros((len(counted), len(inside)))
+    for j in range(len(inside)):
+        scores[:, j] = np.bincount(block, weights=slopes[:, j] * residual)
+    bread = np.linalg.pinv(slopes.T @ slopes, rcond=1e-12, hermitian=True)
+    # each fitted number takes one block's freedom
+    freedom = max(blocks - len(inside), 2)
+    covariance = bread @ (scores.T @ scores) @ bread * (blocks / freedom) * np.outer(scale, scale)
+    deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0))
+    reach = float(student.ppf(0.5 + COVERAGE / 2, freedom)) * deviation
+    entries = []
+    for j, (f, end) in enumerate(zip(free, ends, strict=True)):
+        value = values[f.key]
+        half = float(reach[inside.index(j)]) if j in inside else float("nan")
+        low, high = value - half, value + half
+        entries.append(Interval(f.key, value, max(low, f.low), min(high, f.high), f.start, f.unit, end))
+    outer = np.outer(deviation, deviation)
+    correlation = np.divide(covariance, outer, out=np.zeros_like(covariance), where=outer > 0.0)
+    return Intervals(tuple(entries), tuple(free[j].key for j in inside), covariance, correlation, blocks)
+
+
+def _bound(free: Free, value: float) -> str:
+    if value - free.low < 1e-6 * free.scale:
+        return "lower"
+    return "upper" if free.high - value < 1e-6 * free.scale else ""
+
+
+def _block_length(base: BaseFit) -> float:
+    seconds = sum(float(base.problem.runs[i].time[-1] - base.problem.runs[i].time[0]) for i in base.problem.fitted)
+    longest = seconds / (_BLOCKS_EACH * max(len(base.free), 1))
+    return min(BLOCK, longest) if seconds < 200.0 else seconds / 400.0
