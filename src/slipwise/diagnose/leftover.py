@@ -76,7 +76,7 @@ def leftover(found: Hypothesis, relations: tuple[str, ...] | None = None) -> Sur
         return None
     best: Surface | None = None
     for name in relations or tuple(r for r in ("pads", "girder", "heave") if r in problem.relations):
-        if found.account.level(name, held_out=True) < 1.0 + LEVEL and found.account.level(name, held_out=False) < 1.0 + LEVEL:
+        if max(found.account.level(name, held_out=h) for h in (True, False)) < 1.0 + LEVEL:
             continue
         samples = [_samples(found, name, i) for i in range(len(problem.runs))]
         for surface in _surfaces(found, name, samples):
@@ -174,7 +174,9 @@ def _edges(values: Array, bins: int, *, signed: bool) -> Array:
     return edges if len(edges) > 1 else np.array([edges[0] - 1.0, edges[0] + 1.0])
 
 
-def _place(of: dict[str, Array], states: tuple[str, ...], edges: tuple[Array, ...], shape: tuple[int, ...]) -> NDArray[np.int64]:
+def _place(
+    of: dict[str, Array], states: tuple[str, ...], edges: tuple[Array, ...], shape: tuple[int, ...]
+) -> NDArray[np.int64]:
     places = [
         np.clip(np.searchsorted(e, of[s], side="right") - 1, 0, len(e) - 2) for s, e in zip(states, edges, strict=True)
     ]

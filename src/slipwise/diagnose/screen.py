@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 #: Size at which a column is taken, as a share of the typical size.
 _SMALL = 0.3
 #: Most points of the grid over shape constants.
-_MOST_POINTS = 6
+_MOST_POINTS = 5
 #: Frequencies at which a resonance is tried [Hz].
 _LEAST_HERTZ, _MOST_HERTZ, _RESONANCES = 5.0, 30.0, 8
 
@@ -116,7 +116,8 @@ def _best_mix(
     matrix = np.stack(columns, axis=1)
     kept = list(range(len(columns)))
     while kept:
-        amounts = -np.linalg.lstsq(matrix[:, kept], residual, rcond=None)[0]
+        part = matrix[:, kept]
+        amounts = -np.linalg.lstsq(part.T @ part, part.T @ residual, rcond=1e-10)[0]
         bad = [k for k, a in zip(kept, amounts, strict=True) if a < 0.0 and not _two_sided(starts[k][0])]
         if not bad:
             break
@@ -188,6 +189,8 @@ def _residual(base: BaseFit, term: Term, values: Mapping[str, float]) -> Array |
 
 def shapes(effect: Effect) -> list[dict[str, float]]:
     """Give a small grid over the constants that switch nothing: typical, and a third and three times of it."""
+    if effect.port == "gauge":  # the form of a gauge's fault hardly changes its column; the refit frees it
+        return [{p.name: p.typical for p in effect.parameters if p.neutral is None}]
     axes = []
     for p in effect.parameters:
         if p.neutral is not None:

@@ -1,6 +1,7 @@
 """What a fit needs of a run: states on the samples and between them, masks, and the noise of every channel."""
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,7 +64,7 @@ class FitRun:
         """Time of the samples (n,) [s]."""
         return self.states.time
 
-    @property
+    @cached_property
     def dt(self) -> float:
         """Sampling step [s]."""
         return self.states.dt

@@ -5,6 +5,7 @@ inverse on the measurement with the noise scaled alike. Else a gain below one wo
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -77,14 +78,18 @@ class Problem:
     logger: LowPass = LowPass(100.0)
 
     def __post_init__(self) -> None:
-        """Sort the terms by what they touch and make ready what never changes."""
+        """Make ready what never changes."""
         self.relations = ("pads", *(r for r in RELATIONS if all(r in available(x, self.specimen) for x in self.runs)))
-        self._gauges = [t for t in self.terms if t.effect.port == "gauge"]
-        self._on_force = [t for t in self._gauges if _acts_on_force(t)]
-        self._on_state = [t for t in self._gauges if not _acts_on_force(t)]
         self._memo: dict[str, dict[tuple[str | float, ...], Any]] = {}
         self._turning = [_pitch_rate(r) if len(r.pads) == 4 else np.zeros(len(r.time)) for r in self.runs]
         self._here = [self.specimen.pads.index(p) for p in self.runs[0].pads]
+        self._sort()
+
+    def _sort(self) -> None:
+        """Sort the terms by what they touch."""
+        self._gauges = [t for t in self.terms if t.effect.port == "gauge"]
+        self._on_force = [t for t in self._gauges if _acts_on_force(t)]
+        self._on_state = [t for t in self._gauges if not _acts_on_force(t)]
         self._law: PadLaw | None = None
 
     @property
@@ -99,8 +104,9 @@ class Problem:
 
     def adding(self, *terms: Term) -> "Problem":
         """Give the same problem with more terms; the noise stays."""
-        more = Problem(self.runs, self.specimen, (*self.terms, *terms), self.sigmas, self.lost, self.logger)
-        more._memo = self._memo
+        more = copy(self)  # the memory of results is shared: a candidate leaves most relations as they are
+        more.terms = (*self.terms, *terms)
+        more._sort()
         return more
 
     def model_has_stick(self, terms: Sequence[Term]) -> bool:

@@ -1,0 +1,189 @@
+"""The verb: diagnose a campaign."""
+
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from slipwise.campaign import Campaign, load_campaign
+from slipwise.compare.intervals import Interval, intervals
+from slipwise.compare.system_level import system_level
+from slipwise.diagnose.refit import Account, Hypothesis
+from slipwise.diagnose.result import Candidate, Diagnosis
+from slipwise.diagnose.screen import Screened, strengths
+from slipwise.diagnose.search import MATERIAL, Search, score, search, worth
+from slipwise.diagnose.verdict import Verdict, judge
+from slipwise.errors import InputError
+from slipwise.fit.base import BaseFit, fit_base
+from slipwise.fit.solve import jacobian
+from slipwise.model import Model
+
+#: Hypotheses that are listed.
+_LISTED = 6
+_SEED = 1
+
+
+def diagnose(
+    campaign: Campaign | Path | str,
+    model: Model | None = None,
+    *,
+    system: bool = False,
+    progress: Callable[[str, float], None] | None = None,
+) -> Diagnosis:
+    """Say which effect a model lacks.
+
+    Args:
+        campaign: or its folder.
+        model: the user's current model; the paper's law on the campaign's rig when not given.
+        system: replay base and final model as well.
+        progress: called with what is being done and the share done.
+
+    Raises:
+        InputError: the campaign lacks what every fit needs.
+    """
+    began = time.perf_counter()
+    tell = progress or (lambda words, share: None)
+    tell("reading", 0.0)
+    found = campaign if isinstance(campaign, Campaign) else load_campaign(campaign)
+    tell("fitting base parameters", 0.02)
+    base = fit_base(found, model)
+    part = 0.7 if system else 1.0
+    state = search(base, lambda words, share: tell(words, part * share))
+    verdict = judge(state)
+    final = as_fit(base, state.best)
+    cannot = [f"{name}: {reason}" for name, reason in state.cannot.items()]
+    replayed: dict[str, float] = {}
+    if system:
+        tell("replaying", 0.7)
+        try:
+            replayed = {"base": _replayed(base), "final": _replayed(final)}
+        except InputError as error:
+            cannot.append(f"system level: {error}")
+    relations = _relations(state)
+    tell("done", 1.0)
+    return Diagnosis(
+        campaign=found.name,
+        verdict=verdict,
+        component=_component(state, verdict),
+        base_error=max(a for a, _ in relations.values()),
+        final_error=max(b for _, b in relations.values()),
+        relations=relations,
+        system=replayed,
+        candidates=_candidates(state, verdict, final),
+        least=_least(state),
+        cannot_tell=tuple(cannot),
+        search=state,
+        final=final,
+        seconds=time.perf_counter() - began,
+    )
+
+
+def as_fit(base: BaseFit, found: Hypothesis) -> BaseFit:
+    """Give a hypothesis as a fit of its own, with its own Jacobian, for intervals, locating and replays."""
+    if not found.terms:
+        return base
+    solution = found.solution
+    slopes = jacobian(found.problem, solution.values, solution.free, solution.residuals)
+    return BaseFit(base.campaign, base.model, found.problem, solution.free, replace(solution, jacobian=slopes))
+
+
+def error_of(account: Account, relation: str) -> float:
+    """Give the held-out error of a relation in floors; that of the fitted runs where none is held out."""
+    held = account.counts[relation][1] > 0
+    return float(np.sqrt(account.level(relation, held_out=held)))
+
+
+def _relations(state: Search) -> dict[str, tuple[float, float]]:
+    origin, best = state.path[0].account, state.best.account
+    return {r: (error_of(origin, r), error_of(best, r)) for r in origin.fitted}
+
+
+def _component(state: Search, verdict: Verdict) -> str:
+    if verdict.kind == "complete":
+        return "none"
+    if state.best.terms and verdict.kind != "unknown":
+        return state.best.terms[0].effect.component
+    relation = verdict.surface.relation if verdict.surface else "pads"
+    return {"pads": "pad friction", "girder": "girder", "heave": "pad load"}.get(relation, "pad load")
+
+
+def _candidates(state: Search, verdict: Verdict, final: BaseFit) -> tuple[Candidate, ...]:
+    origin = state.path[0]
+    unique: dict[tuple[str, ...], Hypothesis] = {}
+    for h in sorted(state.tried, key=lambda h: -score(origin.account, h.account)):
+        if h.terms and score(origin.account, h.account) > 0.0:
+            unique.setdefault(h.names, h)
+    best = state.best
+    order = [best, *(h for n, h in unique.items() if n != best.names)] if best.terms else list(unique.values())
+    absorbed = {s.term.label: s.absorbed for s in state.screened}
+    listed = order[:_LISTED]
+    shares = _shares(state, verdict, listed)
+    ends = {i.key: i for i in intervals(final).entries} if best.terms else {}
+    out = []
+    for h, probability in zip(listed, shares, strict=True):
+        _, where = worth(origin.account, h.account)
+        where = where or "pads"
+        out.append(
+            Candidate(
+                effect=" + ".join(t.label for t in h.terms),
+                probability=probability,
+                holdout_before=error_of(origin.account, where),
+                holdout_after=error_of(h.account, where),
+                absorbed_by_base=max(absorbed.get(t.label, 0.0) for t in h.terms),
+                parameters=_parameters(h, ends if h is best else {}),
+            )
+        )
+    return tuple(out)
+
+
+def _shares(state: Search, verdict: Verdict, listed: list[Hypothesis]) -> list[float]:
+    """Give each listed hypothesis its chance: the named one that of the verdict, the others what is left."""
+    named = verdict.kind in ("named", "instrument", "ambiguous")
+    if not listed:
+        return []
+    origin = state.path[0]
+    weights = np.array([max(score(origin.account, h.account), 1e-9) for h in listed])
+    if not named:
+        return [float(x) for x in (1.0 - verdict.probability) * weights / weights.sum()]
+    rest = weights[1:] / weights[1:].sum() if len(listed) > 1 else np.zeros(0)
+    return [verdict.probability, *(float(x) for x in (1.0 - verdict.probability) * rest)]
+
+
+def _parameters(found: Hypothesis, ends: dict[str, Interval]) -> dict[str, Interval]:
+    out = {}
+    for f in found.solution.free:
+        if any(f.key.startswith(f"{t.label}.") for t in found.terms):
+            value = found.solution.values[f.key]
+            out[f.key] = ends.get(f.key, Interval(f.key, value, float("nan"), float("nan"), f.start, f.unit, ""))
+    return out
+
+
+def _least(state: Search) -> dict[str, tuple[float, str]]:
+    """Give the smallest size of each effect that would have been material here, by its column."""
+    counts = state.path[0].account.counts
+    samples = min(n for n, _ in counts.values())
+    out: dict[str, tuple[float, str]] = {}
+    for s in state.screened:
+        parameter = strengths(s.term.effect)[0]
+        size = _size(s, samples)
+        old = out.get(s.term.effect.name)
+        if np.isfinite(size) and (old is None or size < old[0]):
+            out[s.term.effect.name] = (size, parameter.unit)
+    return dict(sorted(out.items()))
+
+
+def _size(found: Screened, samples: int) -> float:
+    sizes = [abs(found.values[p.name] - float(p.neutral or 0.0)) for p in strengths(found.term.effect)]
+    if found.length <= 0.0 or max(sizes) == 0.0:
+        return float("nan")
+    return float(max(sizes) * np.sqrt(MATERIAL * samples) / found.length)
+
+
+def _replayed(fit: BaseFit) -> float:
+    """Give the held-out error of the replay over slip and pad forces, in floors."""
+    level = system_level(fit, np.random.default_rng(_SEED))
+    roles = ("holdout",) if any(e.role == "holdout" for e in level.errors) else ("fit", "repeat")
+    chosen = [e.error**2 for e in level.errors if e.role in roles and (e.channel == "slip_x" or "_Fx" in e.channel)]
+    return float(np.sqrt(np.mean(chosen))) if chosen else float("nan")

@@ -1,0 +1,193 @@
+"""The ladder: effects added one by one, the error falling rung by rung, on runs the fit has not seen."""
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from slipwise.campaign import Campaign, load_campaign
+from slipwise.compare.system_level import system_level
+from slipwise.diagnose.candidates import candidates
+from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, refit
+from slipwise.diagnose.run import as_fit
+from slipwise.diagnose.screen import Screened, screen
+from slipwise.diagnose.search import Search, search
+from slipwise.effects import find_effect
+from slipwise.errors import InputError, SettingError
+from slipwise.fit.base import BaseFit, fit_base
+from slipwise.model import Model
+
+_SEED = 1
+
+
+@dataclass(frozen=True)
+class Rung:
+    """One model of the ladder.
+
+    Attributes:
+        effects: labels of what was added to the base model.
+        fit_error: component-level error on fitted runs, worst relation, in floors.
+        holdout_error: the same on held-out runs; NaN where none is held out.
+        system_holdout_error: held-out error of the replay, in floors; NaN where it was not asked for or cannot be.
+        floor: 1 by definition of the errors.
+        relations: relation -> held-out error in floors.
+    """
+
+    effects: tuple[str, ...]
+    fit_error: float
+    holdout_error: float
+    system_holdout_error: float
+    floor: float
+    relations: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """All rungs.
+
+    Attributes:
+        campaign: its name.
+        rungs: base first.
+        tried: number of candidates that were screened, and of hypotheses that were refitted.
+        stopped: why no further rung was climbed.
+        fits: the fit of each rung, for pictures and model.toml.
+        seconds: it took.
+    """
+
+    campaign: str
+    rungs: tuple[Rung, ...]
+    tried: tuple[int, int]
+    stopped: str
+    fits: tuple[BaseFit, ...]
+    seconds: float
+
+    def as_json(self) -> dict[str, Any]:
+        """Give the contract of ladder.json."""
+        return {
+            "schema": 1,
+            "campaign": self.campaign,
+            "rungs": [
+                {
+                    "effects": list(r.effects),
+                    "fit_error": _number(r.fit_error),
+                    "holdout_error": _number(r.holdout_error),
+                    "system_holdout_error": _number(r.system_holdout_error),
+                    "floor": r.floor,
+                }
+                for r in self.rungs
+            ],
+            "screened": self.tried[0],
+            "refitted": self.tried[1],
+            "stopped": self.stopped,
+            "seconds": round(self.seconds, 1),
+        }
+
+
+def ladder(
+    campaign: Campaign | Path | str,
+    add: Sequence[str] = (),
+    model: Model | None = None,
+    *,
+    system: bool = False,
+    progress: Callable[[str, float], None] | None = None,
+) -> Ladder:
+    """Climb the ladder: forward, pairs one step ahead, and effects taken away again that are not worth it.
+
+    Args:
+        campaign: or its folder.
+        add: names of effects to add in this order instead of searching.
+        model: where the ladder stands; the paper's law on the campaign's rig when not given.
+        system: replay every rung as well.
+        progress: called with what is being done and the share done.
+
+    Raises:
+        UnknownNameError: an effect of `add` does not exist.
+        SettingError: the campaign cannot test an effect of `add`.
+    """
+    began = time.perf_counter()
+    tell = progress or (lambda words, share: None)
+    for name in add:
+        find_effect(name)
+    found = campaign if isinstance(campaign, Campaign) else load_campaign(campaign)
+    tell("fitting base parameters", 0.02)
+    base = fit_base(found, model)
+    part = 0.6 if system else 1.0
+    if add:
+        path, counts, stopped = _asked(base, add, lambda share: tell("refitting", part * share))
+    else:
+        state = search(base, lambda words, share: tell(words, part * share))
+        path, counts, stopped = state.path, (len(state.screened), len(state.tried)), _why(state)
+    fits = tuple(as_fit(base, h) for h in path)
+    rungs = []
+    for i, (h, fit) in enumerate(zip(path, fits, strict=True)):
+        if system:
+            tell("replaying", part + (1.0 - part) * i / len(path))
+        rungs.append(_rung(h, _replayed(fit) if system else float("nan")))
+    tell("done", 1.0)
+    return Ladder(found.name, tuple(rungs), counts, stopped, fits, time.perf_counter() - began)
+
+
+def _asked(
+    base: BaseFit, add: Sequence[str], tell: Callable[[float], None]
+) -> tuple[list[Hypothesis], tuple[int, int], str]:
+    """Add effects in the order asked for; a gauge's fault goes to the channel where it explains most."""
+    terms, cannot = candidates(base)
+    path = [base_hypothesis(base)]
+    screened = 0
+    for i, name in enumerate(add):
+        own = [t for t in terms if t.effect.name == name]
+        if not own:
+            reason = cannot.get(name, "it is part of the model already")
+            raise SettingError(f"{name} cannot be added here: {reason}")
+        found: list[Screened] = screen(base, own)
+        screened += len(found)
+        if not found:
+            raise SettingError(f"{name} changes nothing in this campaign, so it cannot be fitted")
+        best = found[0]
+        before = path[-1]
+        path.append(refit(base, [*before.terms, best.term], {best.term.label: best.values}, before))
+        tell((i + 1) / len(add))
+    return path, (screened, len(add)), "these effects were asked for"
+
+
+def _why(state: Search) -> str:
+    if not state.screened:
+        return "no effect of the catalogue can be tested here"
+    worst = max(_errors(state.best.account, held_out=True).values(), default=float("nan"))
+    if np.isfinite(worst) and worst < 1.15:
+        return "nothing above the noise floor is left"
+    return "no further effect of the catalogue is worth a rung"
+
+
+def _rung(found: Hypothesis, replayed: float) -> Rung:
+    fitted = _errors(found.account, held_out=False)
+    held = _errors(found.account, held_out=True)
+    return Rung(
+        effects=tuple(t.label for t in found.terms),
+        fit_error=max(fitted.values()),
+        holdout_error=max(held.values(), default=float("nan")),
+        system_holdout_error=replayed,
+        floor=1.0,
+        relations=held,
+    )
+
+
+def _errors(account: Account, *, held_out: bool) -> dict[str, float]:
+    counted = {r: c for r, c in account.counts.items() if c[int(held_out)] > 0}
+    return {r: float(np.sqrt(account.level(r, held_out=held_out))) for r in counted}
+
+
+def _replayed(fit: BaseFit) -> float:
+    try:
+        level = system_level(fit, np.random.default_rng(_SEED))
+    except InputError:
+        return float("nan")
+    chosen = [e.error**2 for e in level.errors if e.role == "holdout" and (e.channel == "slip_x" or "_Fx" in e.channel)]
+    return float(np.sqrt(np.mean(chosen))) if chosen else float("nan")
+
+
+def _number(value: float) -> float | None:
+    return float(f"{value:.4g}") if np.isfinite(value) else None
