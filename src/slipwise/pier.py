@@ -194,6 +194,20 @@ def _oscillator(ground: Array, dt: float, frequency: float, damping: float) -> A
     return out
 
 
+def _resolved(pier: Pier, dt: float) -> None:
+    """Refuse a pier that swings too fast for the step: the midpoint rule would let it ring for ever.
+
+    Raises:
+        SettingError: its frequency on its own is above a tenth of the sampling rate.
+    """
+    frequency = float(np.sqrt(pier.stiffness / pier.mass)) / (2.0 * np.pi)
+    if frequency > 0.1 / dt:
+        raise SettingError(
+            f"a pier of {pier.stiffness / 1e6:g} kN/mm and {pier.mass / 1e3:g} t swings at {frequency:.0f} Hz on its own; "
+            f"at most {0.1 / dt:.0f} Hz can be followed: give it more mass or less stiffness"
+        )
+
+
 def _march(
     dt: float, ground: Array, vertical: Array, scale: float, chosen: BridgeSettings, model: Model
 ) -> BridgeResponse:
@@ -205,6 +219,8 @@ def _march(
     pads, mass = len(specimen.pads), specimen.mass * scale**2
     buffer = sum(specimen.buffer_stiffness) * scale
     shorter = 1.0 / scale**0.5 if chosen.similar_law else 1.0
+    for pier in chosen.piers:
+        _resolved(pier, dt)
     masses = np.array([count * mass, *(p.mass for p in chosen.piers)])
     couple = np.concatenate([np.ones((1, count)), -np.eye(count)])  # slip rates = couple.T @ velocities
     own = np.diag([0.0, *(p.stiffness for p in chosen.piers)])

@@ -2,8 +2,8 @@
 
 from concurrent.futures import Executor
 from contextlib import ExitStack
-from importlib import import_module
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 from typing import Annotated
 

@@ -57,7 +57,8 @@ def one_dof(model: Model, motion: TableMotion, dt: float = 0.0005) -> OneDof:
     effective = mass + 0.25 * dt**2 * stiffness
     out = np.zeros((len(table), 2))
     slip = velocity = 0.0
-    for i, (a_x, load) in enumerate(zip(table[:, 0].tolist(), loads.tolist(), strict=True)):
+    middle = 0.5 * (table[1:, 0] + table[:-1, 0])
+    for i, (a_x, load) in enumerate(zip(middle.tolist(), loads[1:].tolist(), strict=True), start=1):
         pad = (load / pads, velocity, 0.0, slip, 0.0, 1.0, 1.0, i * dt, dt)
         bound = pads * bound_of(numbers, memory, *pad)
         push = (mass - 0.25 * dt**2 * stiffness) * velocity - dt * (mass * a_x + stiffness * slip)

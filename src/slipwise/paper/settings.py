@@ -110,6 +110,11 @@ class PaperSettings:
             low, high = getattr(self, f"{name}_low"), getattr(self, f"{name}_high")
             if not 0.0 < low <= high:
                 raise SettingError(f"{name}_low = {low:g} and {name}_high = {high:g}: 0 < low <= high is needed")
+        if self.strong_low * self.frequency_low < 4.0:
+            raise SettingError(
+                f"strong_low = {self.strong_low:g} s is too short for frequency_low = {self.frequency_low:g} Hz: an "
+                "earthquake needs 4 cycles at least"
+            )
         if self.members < 2:
             raise SettingError(f"an ensemble of {self.members} says nothing; give at least 2 motions")
         for name in ("noise_load", "noise_friction", "noise_speed", "vertical_share"):
