@@ -38,7 +38,7 @@ Source: assumed, for a tutorial.
 
 from math import exp
 
-from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects import RESPONSE, Effect
 from slipwise.params import Parameter
 
 

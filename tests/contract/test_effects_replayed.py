@@ -4,12 +4,13 @@ from functools import cache
 
 import numpy as np
 import pytest
+
 from driven import with_effect
 from shaking import shaken
-
 from slipwise.effects import Effect, catalogue, moved_channels
 from slipwise.model import base_model
 from slipwise.record import Record
+from slipwise.replay import Replay
 
 EFFECTS = [e for e in catalogue().values() if not e.replaces]
 every_effect = pytest.mark.parametrize("effect", EFFECTS, ids=lambda e: e.name)
@@ -55,6 +56,39 @@ def test_a_simulation_moves_only_the_channels_that_the_effect_names(effect: Effe
     else:
         assert moved <= moved_channels(effect)
     assert all(np.isfinite(values).all() for values in record.channels.values())
+
+
+def _friction(answer: Replay) -> float:
+    """Mean coefficient of pad A while it slides."""
+    record = answer.record
+    fast = np.abs(record["slip_vx"]) > 0.05
+    return float(np.mean(np.abs(record["pad_A_Fx"][fast]) / record["pad_A_N"][fast]))
+
+
+def test_what_pads_and_buffers_remember_goes_on_in_the_next_run() -> None:
+    """Slid distance and the largest stroke stay; heat goes in a pause."""
+    for name, kept in (("run_in", True), ("heating", False)):
+        model = with_effect(catalogue()[name], {**catalogue()[name].typical(), **({"distance": 0.02} if kept else {})})
+        first = shaken(model, shaking())
+        at_once = shaken(model, shaking(), start=first.memory)
+        later = shaken(model, shaking(), start=first.memory, rest=86400.0)
+        assert _friction(at_once) < 0.97 * _friction(first), name
+        back = abs(_friction(later) - _friction(first)) < 0.2 * abs(_friction(at_once) - _friction(first))
+        assert back is not kept, name
+    rubber = with_effect(catalogue()["buffer_softening"])
+    first = shaken(rubber, shaking())
+    again = shaken(rubber, shaking(), start=first.memory, rest=86400.0)
+    stiff = [r.record["buffer_1_Fx"][200] / r.record["slip_x"][200] for r in (first, again)]
+    assert stiff[1] < 0.95 * stiff[0]
+
+
+def test_presliding_becomes_the_rigid_stick_as_its_length_vanishes() -> None:
+    rigid = base()["slip_x"]
+    for length, error in ((1e-4, 0.05), (1e-5, 0.005), (1e-6, 1e-3)):
+        for exponent in (0.0, 1.0):
+            model = with_effect(catalogue()["presliding"], {"length": length, "exponent": exponent})
+            slip = shaken(model, shaking()).record["slip_x"]
+            assert np.abs(slip - rigid).max() < error * np.ptp(rigid)
 
 
 @pytest.mark.parametrize("name", ["presliding", "heating", "key_clearance", "buffer_hysteresis", "key_friction"])

@@ -3,6 +3,7 @@
 import shutil
 import textwrap
 import warnings
+from importlib.metadata import EntryPoint
 from pathlib import Path
 
 import numpy as np
@@ -29,7 +30,7 @@ Source: assumed.
 
 from math import pi, sin
 
-from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects import RESPONSE, Effect
 from slipwise.params import Parameter
 
 
@@ -126,6 +127,18 @@ def test_an_edited_file_is_not_answered_for_by_its_old_self(tmp_path: Path) -> N
     after = predictor(base_model("bridge1").adding(use(edited)), engine="python").pads(*states).bound
     plain = predictor(base_model("bridge1"), engine="python").pads(*states).bound
     np.testing.assert_allclose(before + after, 2.0 * plain, rtol=1e-12)
+
+
+def test_a_package_offers_an_effect_by_an_entry_point(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    written(tmp_path)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    point = EntryPoint("washboard", "washboard", "slipwise.effects")
+    monkeypatch.setattr("slipwise.effects._catalogue.entry_points", lambda group: [point])
+    catalogue.cache_clear()
+    try:
+        assert catalogue()["washboard"].path == tmp_path / "washboard.py"
+    finally:
+        catalogue.cache_clear()
 
 
 REFUSED = {

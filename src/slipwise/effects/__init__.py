@@ -1,7 +1,7 @@
 """The catalogue: one small file per physical or instrument effect."""
 
 from slipwise.effects._catalogue import catalogue, find_effect, load_effect
-from slipwise.effects._effect import COMPONENTS, HOOKS, PORTS, Effect, moved_channels, read_effect
+from slipwise.effects._effect import COMPONENTS, HOOKS, PORTS, RESPONSE, Effect, moved_channels, read_effect
 from slipwise.effects._states import BalanceStates
 
 __all__ = [
@@ -9,6 +9,7 @@ __all__ = [
     "COMPONENTS",
     "HOOKS",
     "PORTS",
+    "RESPONSE",
     "Effect",
     "catalogue",
     "find_effect",

@@ -23,13 +23,14 @@ from slipwise.params import Parameter
 
 
 def stick(
-    bound: float, slip_x: float, slip_y: float, memory: np.ndarray, length: float, exponent: float
-) -> tuple[float, float]:
+    bound: float, slip_x: float, slip_y: float, time: float, dt: float, memory: np.ndarray,
+    length: float, exponent: float,
+) -> tuple[float, float]:  # fmt: skip
     """Bend the bristle by the slip since the instant before; give its force [N]."""
     way_x, way_y = slip_x - memory[2], slip_y - memory[3]
-    if memory[4] == 0.0:
+    if abs(time - memory[4] - dt) > 0.5 * dt:  # a new run: its gauge may stand anywhere
         way_x, way_y = 0.0, 0.0
-    memory[2], memory[3], memory[4] = slip_x, slip_y, 1.0
+    memory[2], memory[3], memory[4] = slip_x, slip_y, time
     way = sqrt(way_x * way_x + way_y * way_y)
     if way > 0.0:
         x, y = way_x / way, way_y / way
@@ -47,11 +48,6 @@ def stick(
     return bound * memory[0] / length, bound * memory[1] / length
 
 
-def rest(memory: np.ndarray, seconds: float) -> None:
-    """Forget where the slip gauge stood; the bristle stays bent."""
-    memory[4] = 0.0
-
-
 EFFECT = Effect(
     port="stick",
     component="pad friction",
@@ -66,5 +62,5 @@ EFFECT = Effect(
         "channel_delay": "reversals of different acceleration: constant distance is pre-sliding, constant time a delay",
         "channel_filter": "the same; and the girder balance stays clean with pre-sliding",
     },
-    memory=("bristle_x", "bristle_y", "last_x", "last_y", "started"),
+    memory=("bristle_x", "bristle_y", "last_x", "last_y", "last_time"),
 )  # fmt: skip

@@ -83,6 +83,16 @@ def test_a_closed_path_always_costs_work() -> None:
         assert np.sum(share[1:] * np.diff(path, axis=0)) > 0.0
 
 
+def test_a_new_run_goes_on_with_the_bent_bristle_wherever_its_gauge_stands() -> None:
+    model = base_model("bridge1", [use("presliding", length=U)])
+    law = predictor(model)
+    time, load, still = 0.002 * np.arange(40), np.full((40, 4), LOAD), np.zeros((40, 4, 2))
+    slip = still.copy()
+    slip[:, :, 0] = np.linspace(0.0, 5 * U, 40)[:, None]
+    end = law.pads(time, load, still, slip).force[-1]
+    np.testing.assert_allclose(law.pads(time, load, still, still - 0.01).force, np.tile(end, (40, 1, 1)), rtol=1e-12)
+
+
 def test_a_gauge_that_does_not_start_at_zero_bends_no_bristle() -> None:
     assert np.all(_share(np.full(5, 0.01)) == 0.0)
     shifted = _share(0.01 + np.linspace(0.0, U, 20))
