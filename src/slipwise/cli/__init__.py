@@ -5,7 +5,7 @@ import warnings
 
 import typer
 
-from slipwise.cli import lists, replay, view
+from slipwise.cli import diagnose, lists, paper, replay, view
 from slipwise.errors import SlipwiseError, SlipwiseWarning
 
 app = typer.Typer(
@@ -17,6 +17,8 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 replay.register(app)
+diagnose.register(app)
+paper.register(app)
 view.register(app)
 lists.register(app)
 

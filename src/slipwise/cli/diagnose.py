@@ -1,0 +1,144 @@
+"""`slipwise diagnose` and `slipwise ladder`: name what is missing, and watch the error fall."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+from slipwise.campaign import load_campaign
+from slipwise.cli.console import ERR, OUT, out_folder, print_json
+from slipwise.errors import InputError
+from slipwise.model import Model
+from slipwise.model_file import load_model
+from slipwise.record import write_json, write_text
+
+CampaignFolder = Annotated[Path, typer.Argument(help="Folder with campaign.toml and the measured runs.")]
+System = Annotated[bool, typer.Option(help="Replay the models in MuJoCo as well (system level).")]
+ModelFile = Annotated[
+    Path | None,
+    typer.Option("--model", help="A model.toml to start from; the one beside campaign.toml if there is one."),
+]
+Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON for a program to read.")]
+
+
+@contextmanager
+def steps() -> Iterator[Callable[[str, float], None]]:
+    """Show what is being done, and how far it is."""
+    columns = (TextColumn("{task.description:32s}"), BarColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=ERR, transient=True, disable=not ERR.is_terminal) as bar:
+        task = bar.add_task("reading", total=1.0)
+        yield lambda words, share: bar.update(task, description=words, completed=share)
+
+
+def start_model(campaign: Path, given: Path | None) -> Model | None:
+    """Give the user's model: the file named, or model.toml beside campaign.toml, or nothing."""
+    beside = campaign / "model.toml"
+    if given is not None:
+        return load_model(given)
+    return load_model(beside) if beside.is_file() else None
+
+
+def diagnose(
+    campaign: CampaignFolder,
+    out: Annotated[Path, typer.Option(help="Folder for diagnosis.json, report.html and the recording.")] = Path(
+        "out/diagnosis"
+    ),
+    model: ModelFile = None,
+    system: System = True,
+    recording: Annotated[
+        bool, typer.Option(help="Write the model before and after beside the measurement, for the viewer.")
+    ] = True,
+    json: Json = False,
+) -> None:
+    """Say which effect the model lacks, with a probability that means what it says.
+
+    Example: `slipwise diagnose campaigns/march --out out/march`
+    """
+    from slipwise.diagnose import diagnose as run_diagnosis
+    from slipwise.view.diagnosis_page import diagnosis_page
+
+    measured = load_campaign(campaign)
+    folder = out_folder(out)
+    with steps() as tell:
+        found = run_diagnosis(measured, start_model(campaign, model), system=system, progress=tell)
+    write_json(folder / "diagnosis.json", found.as_json())
+    write_text(folder / "report.html", diagnosis_page(found))
+    files = [folder / "diagnosis.json", folder / "report.html"]
+    if recording and measured.specimen.free:
+        files += _record(found, folder)
+    if json:
+        print_json(found.as_json())
+        return
+    from slipwise.view.terminal import print_table
+
+    OUT.print(found.sentence, markup=False, highlight=False)
+    rows = [
+        {"hypothesis": c.effect, "probability": round(c.probability, 3), "held-out before": round(c.holdout_before, 2),
+         "after": round(c.holdout_after, 2)}
+        for c in found.candidates
+    ]  # fmt: skip
+    if rows:
+        print_table("Hypotheses, in multiples of the noise floor", rows)
+    for words in found.cannot_tell:
+        OUT.print(f"cannot tell {words}", markup=False, highlight=False, soft_wrap=True)
+    _wrote(files)
+
+
+def _record(found, folder: Path) -> list[Path]:  # noqa: ANN001 - a Diagnosis; imported where it is used
+    from slipwise.diagnose.replays import replays
+    from slipwise.view.comparison import write_comparison
+    from slipwise.view.geometry import geometry_of
+
+    try:
+        measured, simulated = replays(found)
+    except InputError as error:
+        OUT.print(f"no recording: {error}", markup=False, highlight=False, soft_wrap=True)
+        return []
+    geometry = geometry_of(found.final.campaign.specimen)
+    return [write_comparison(measured, simulated, geometry, folder / "before_and_after.rrd", found.sentence)]
+
+
+def ladder(
+    campaign: CampaignFolder,
+    out: Annotated[Path, typer.Option(help="Folder for ladder.json and the picture.")] = Path("out/ladder"),
+    add: Annotated[list[str] | None, typer.Option(help="Add these effects in this order instead of searching.")] = None,
+    model: ModelFile = None,
+    system: System = True,
+    json: Json = False,
+) -> None:
+    """Watch the error fall, rung by rung, on runs that no fit has seen, down to the noise floor.
+
+    Example: `slipwise ladder campaigns/march --out out/march`
+    """
+    from slipwise.ladder import ladder as climb
+    from slipwise.view.canvas import save_figure
+    from slipwise.view.diagnosis_figures import ladder_figure
+
+    measured = load_campaign(campaign)
+    folder = out_folder(out)
+    with steps() as tell:
+        found = climb(measured, add or [], start_model(campaign, model), system=system, progress=tell)
+    write_json(folder / "ladder.json", found.as_json())
+    picture = save_figure(ladder_figure(found), folder / "ladder.png")
+    if json:
+        print_json(found.as_json())
+        return
+    from slipwise.view.terminal import print_table
+
+    print_table("Error in multiples of the noise floor", found.as_json()["rungs"])
+    OUT.print(f"{found.tried[0]} candidates screened, {found.tried[1]} hypotheses refitted; {found.stopped}")
+    _wrote([folder / "ladder.json", picture])
+
+
+def _wrote(files: list[Path]) -> None:
+    for path in files:
+        OUT.print(f"wrote {path}", markup=False, highlight=False, soft_wrap=True)
+
+
+def register(app: typer.Typer) -> None:
+    """Add these commands to the command line."""
+    app.command()(diagnose)
+    app.command()(ladder)

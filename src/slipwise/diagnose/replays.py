@@ -1,0 +1,36 @@
+"""Free replays of a held-out run: the measurement, the model before and the model after, for the viewer."""
+
+from slipwise.campaign import measured_states
+from slipwise.diagnose.result import Diagnosis
+from slipwise.fit.base import BaseFit
+from slipwise.model import Model
+from slipwise.record import Record
+from slipwise.replay import replay
+from slipwise.system import measured_motion
+
+
+def replays(found: Diagnosis) -> tuple[Record, list[tuple[str, Record]]]:
+    """Replay the first held-out run (or the first run) from its measured table motion.
+
+    Gauges are left out: the viewer shows what the rig does.
+
+    Returns:
+        The measured record, and label and record of the base model and, if anything was named, of the final one.
+
+    Raises:
+        InputError: the table's motion was not recorded.
+    """
+    campaign = found.final.campaign
+    run = next((r for r in campaign.runs if r.role == "holdout"), campaign.runs[0])
+    states = measured_states(run, campaign)
+    motion = measured_motion(states)
+    models = [("base model", found.search.base)]
+    if found.search.best.terms:
+        models.append((f"with {' and '.join(found.search.best.names)}", found.final))
+    return states.record, [(label, replay(_mechanics(fit), motion, output_dt=0.002).record) for label, fit in models]
+
+
+def _mechanics(fit: BaseFit) -> Model:
+    model = fit.problem.model(fit.solution.values)
+    gauges = [u.label for u in model.on_port("gauge")]
+    return model.without(*gauges)

@@ -1,0 +1,118 @@
+"""Pictures of a diagnosis: the falling error, every balance before and after, pads' loops, and what is left."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from slipwise.diagnose import Diagnosis, Surface
+from slipwise.diagnose.leftover import WORDS
+from slipwise.ladder import Ladder
+from slipwise.view.canvas import new_figure
+from slipwise.view.style import EXPECTED, INK, MODEL_COLOURS, MUTED
+
+Array = NDArray[np.float64]
+_RELATIONS = {
+    "pads": "pads\nF(N, v)", "girder": "girder\nbalance", "heave": "heave\nsum N", "pitch": "pitch", "roll": "roll",
+    "warp": "warp", "motion": "slip against\naccelerometers",
+}  # fmt: skip
+_BEFORE, _AFTER = MODEL_COLOURS[0], MODEL_COLOURS[5]
+
+
+def balances_figure(found: Diagnosis) -> Figure:
+    """Draw the held-out error of every balance, before and after, in multiples of the floor."""
+    figure = new_figure(8.0, 3.4)
+    axes = figure.subplots()
+    names = list(found.relations)
+    places = np.arange(len(names))
+    before, after = (np.array([found.relations[n][i] for n in names]) for i in (0, 1))
+    axes.bar(places - 0.19, before, 0.36, color=_BEFORE, label="base model")
+    if found.search.best.terms:
+        axes.bar(places + 0.19, after, 0.36, color=_AFTER, label=f"with {' and '.join(found.search.best.names)}")
+    axes.axhline(1.0, color=INK, lw=1.0, ls="--")
+    axes.annotate("noise floor", (1.0, 1.0), xycoords=("axes fraction", "data"), ha="right", va="bottom", color=MUTED)
+    axes.set_xticks(places, [_RELATIONS.get(n, n) for n in names])
+    axes.set_ylabel("held-out error / floor")
+    axes.legend()
+    return figure
+
+
+def ladder_figure(found: Ladder) -> Figure:
+    """Draw the error rung by rung, fitted and held-out, component and system level."""
+    figure = new_figure(8.0, 3.6)
+    axes = figure.subplots()
+    places = np.arange(len(found.rungs))
+    lines = (
+        ("fitted runs", [r.fit_error for r in found.rungs], EXPECTED, "o"),
+        ("held-out runs", [r.holdout_error for r in found.rungs], _AFTER, "o"),
+        ("held-out, replay", [r.system_holdout_error for r in found.rungs], _BEFORE, "s"),
+    )
+    for label, values, colour, marker in lines:
+        if np.isfinite(values).any():
+            axes.plot(places, values, marker=marker, color=colour, label=label, lw=2.0)
+    axes.axhline(1.0, color=INK, lw=1.0, ls="--", label="noise floor")
+    labels = [
+        "base model",
+        *(f"+ {_new(a.effects, b.effects)}" for a, b in zip(found.rungs, found.rungs[1:], strict=False)),
+    ]
+    axes.set_xticks(places, labels)
+    axes.set_xlim(-0.3, len(places) - 0.7)
+    axes.set_ylim(bottom=0.0)
+    axes.set_ylabel("error / floor")
+    axes.legend()
+    return figure
+
+
+def _new(before: tuple[str, ...], after: tuple[str, ...]) -> str:
+    return "\n+ ".join(e for e in after if e not in before) or "(one taken away)"
+
+
+def loops_figure(found: Diagnosis) -> Figure:
+    """Draw pad A's friction against slip in a held-out run: measured, base model, final model."""
+    problem = found.search.base.problem
+    place = (problem.held_out or [0])[0]
+    run = problem.runs[place]
+    figure = new_figure(8.6, 4.2)
+    panels = figure.subplots(1, 2, sharey=True, sharex=True)
+    base = found.search.base.solution.residuals.pad_forces[place][:, 0]
+    final = found.final.solution.residuals.pad_forces[place][:, 0]
+    for axes, label, force, colour in (
+        (panels[0], "base model", base, _BEFORE),
+        (panels[1], f"with {' and '.join(found.search.best.names) or 'nothing added'}", final, _AFTER),
+    ):
+        _loop(axes, run.slip, run.force[:, 0], EXPECTED, "measured", 2.2)
+        _loop(axes, run.slip, np.where(run.sliding, force, np.nan), colour, label, 0.9)
+        axes.set_title(label)
+        axes.set_xlabel("slip [mm]")
+        axes.legend(loc="lower right")
+    panels[0].set_ylabel(f"friction of pad {run.pads[0]} [kN]")
+    return figure
+
+
+def _loop(axes: Axes, slip: Array, force: Array, colour: str, label: str, width: float) -> None:
+    axes.plot(slip * 1e3, force / 1e3, color=colour, lw=width, label=label)
+
+
+def surface_figure(surface: Surface) -> Figure:
+    """Draw the missing force over the one or two states that organise it best, with its band."""
+    figure = new_figure(8.0, 4.0)
+    axes = figure.subplots()
+    middles = [(e[1:] + e[:-1]) / 2.0 for e in surface.edges]
+    axes.set_xlabel(WORDS[surface.states[0]])
+    if len(surface.states) == 1:
+        axes.fill_between(
+            middles[0], surface.mean - surface.band, surface.mean + surface.band, color=EXPECTED, label="95 %"
+        )
+        axes.plot(middles[0], surface.mean, color=_AFTER, marker="o", ms=3, label="missing force")
+        axes.axhline(0.0, color=INK, lw=0.8)
+        axes.set_ylabel(f"{surface.relation} [{surface.unit}]")
+        axes.legend()
+        return figure
+    limit = float(np.nanmax(np.abs(surface.mean)))
+    sure = np.where(np.abs(surface.mean) > surface.band, surface.mean, np.nan)
+    axes.set_facecolor("#eef1f4")
+    drawn = axes.pcolormesh(*surface.edges, sure.T, cmap="RdBu_r", vmin=-limit, vmax=limit)
+    axes.set_ylabel(WORDS[surface.states[1]])
+    axes.set_title("missing force; grey where it is not told from zero")
+    figure.colorbar(drawn, ax=axes, label=f"{surface.relation} [{surface.unit}]")
+    return figure

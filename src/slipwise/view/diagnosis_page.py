@@ -1,0 +1,158 @@
+"""The page of a diagnosis: the verdict in a sentence, the evidence, the rivals, and what would change our mind."""
+
+from slipwise.diagnose import Diagnosis
+from slipwise.effects import catalogue
+from slipwise.ladder import Ladder
+from slipwise.units import convert
+from slipwise.view.diagnosis_figures import balances_figure, ladder_figure, loops_figure, surface_figure
+from slipwise.view.html import Section, bullets, callout, details, figure, page, paragraph, table, verdict
+
+_TONES = {"complete": "good", "named": "warn", "instrument": "warn", "ambiguous": "warn", "unknown": "bad"}
+_HEADLINES = {
+    "complete": "Nothing is missing",
+    "named": "An effect is missing",
+    "instrument": "A gauge is at fault",
+    "ambiguous": "Two explanations, one measurement",
+    "unknown": "Something that is not in the catalogue",
+}
+
+
+def diagnosis_page(found: Diagnosis, ladder: Ladder | None = None) -> str:
+    """Make the page.
+
+    Args:
+        found: the diagnosis.
+        ladder: the falling error, where it was climbed.
+
+    Returns:
+        The text of a self-contained HTML file.
+    """
+    names = ", ".join(found.verdict.effects)
+    facts = {
+        "probability": f"{100 * found.verdict.probability:.0f} %",
+        "held-out error before": f"{found.base_error:.2f} floors",
+        "after": f"{found.final_error:.2f} floors",
+        "where": found.component,
+    }
+    if found.system:
+        facts["replay before / after"] = f"{found.system['base']:.1f} / {found.system['final']:.1f} floors"
+    headline = _HEADLINES[found.verdict.kind] + (f": {names}" if names else "")
+    box = verdict(headline, found.sentence, _TONES[found.verdict.kind], facts)  # type: ignore[arg-type]
+    sections = [_evidence(found), _what_it_is(found), _rivals(found)]
+    if found.verdict.leftover == "unknown" and found.verdict.surface is not None:
+        sections.insert(1, _shape(found))
+    if ladder is not None:
+        sections.insert(1, _falling(ladder))
+    sections += [_change(found), _limits(found)]
+    return page(f"Diagnosis of {found.campaign}", sections, [box])
+
+
+def _evidence(found: Diagnosis) -> Section:
+    return Section(
+        "The evidence",
+        [
+            paragraph(
+                "Every balance of the rig, on runs that no fit has seen, in multiples of the noise floor: 1 is what a "
+                "perfect model leaves. Pads are driven by measured load and speed, so that each part answers for itself."
+            ),
+            figure(balances_figure(found), "Held-out error of every balance, before and after."),
+            figure(loops_figure(found), "Friction of one pad against slip in a held-out run."),
+        ],
+    )
+
+
+def _falling(ladder: Ladder) -> Section:
+    rows = [
+        {
+            "model": " + ".join(("base", *rung.effects)),
+            "fitted runs": round(rung.fit_error, 2),
+            "held-out runs": round(rung.holdout_error, 2),
+            "held-out, replay": round(rung.system_holdout_error, 2),
+        }
+        for rung in ladder.rungs
+    ]
+    words = f"{ladder.tried[0]} candidates were screened and {ladder.tried[1]} hypotheses refitted; {ladder.stopped}."
+    return Section(
+        "The error, rung by rung",
+        [figure(ladder_figure(ladder), "Error in multiples of the floor."), table(rows), paragraph(words)],
+    )
+
+
+def _shape(found: Diagnosis) -> Section:
+    surface = found.verdict.surface
+    assert surface is not None
+    return Section(
+        "The shape of what is missing",
+        [
+            paragraph(f"What remains after the best effects of the catalogue, {surface.words}."),
+            figure(surface_figure(surface), "Missing force, orthogonal to what the base parameters can do."),
+        ],
+    )
+
+
+def _what_it_is(found: Diagnosis) -> Section:
+    pieces = []
+    known = catalogue()
+    for name in found.verdict.effects:
+        effect = known.get(name)
+        if effect is None:
+            continue
+        pieces += [
+            callout(name, f"{effect.summary} `{effect.equation}`"),
+            paragraph(f"How it shows: {effect.signature}."),
+        ]
+    best = found.candidates[0] if found.candidates and found.search.best.terms else None
+    if best is not None:
+        rows = []
+        for key, interval in best.parameters.items():
+            label, _, parameter = key.rpartition(".")
+            rows.append({"parameter": f"{label}: {parameter}", **_numbers(label, parameter, interval)})
+        pieces.append(table(rows, "Fitted on the fit runs, with 95 % intervals that hold for correlated noise"))
+    if not pieces:
+        pieces.append(paragraph("No effect of the catalogue was worth a name."))
+    return Section("What it is, and how large", pieces)
+
+
+def _numbers(label: str, parameter: str, interval) -> dict[str, object]:  # noqa: ANN001 - an Interval
+    known = catalogue()[label.partition("[")[0]].parameter(parameter)
+    shown = known.shown_in or known.unit
+    value, low, high = (convert(v, known.unit, shown) for v in (interval.value, interval.low, interval.high))
+    out = {"value": f"{value:.4g}", "low": f"{low:.4g}", "high": f"{high:.4g}", "unit": "" if shown == "1" else shown}
+    return {**out, "meaning": known.meaning}
+
+
+def _rivals(found: Diagnosis) -> Section:
+    rows = [
+        {
+            "hypothesis": c.effect,
+            "probability": f"{100 * c.probability:.1f} %",
+            "held-out before": round(c.holdout_before, 2),
+            "held-out after": round(c.holdout_after, 2),
+            "hidden by the base fit": f"{100 * c.absorbed_by_base:.0f} %",
+        }
+        for c in found.candidates
+    ]
+    words = "The hypotheses that were refitted, with all base parameters free, best first."
+    pieces = [paragraph(words), table(rows)] if rows else [paragraph("No hypothesis lowered the error.")]
+    return Section("Rivals", pieces)
+
+
+def _change(found: Diagnosis) -> Section:
+    known = catalogue()
+    items = []
+    for name in found.verdict.effects:
+        if name in known:
+            items += [f"{rival} instead of {name}: {test}." for rival, test in known[name].confused_with.items()]
+    items.append(
+        "A held-out run of another kind (amplitude, frequency, rest before it) on which the error does not fall."
+    )
+    return Section("What would change our mind", [bullets(items), paragraph("`slipwise next` ranks table motions.")])
+
+
+def _limits(found: Diagnosis) -> Section:
+    pieces = []
+    if found.cannot_tell:
+        pieces.append(bullets(list(found.cannot_tell)))
+    least = [{"effect": n, "smallest size": f"{v:.3g}", "unit": u} for n, (v, u) in found.least.items()]
+    pieces.append(details("Smallest size of each effect that this campaign would have shown", [table(least)]))
+    return Section("What this campaign could not tell", pieces)
