@@ -1,0 +1,48 @@
+"""`slipwise effects` says what the files say."""
+
+import json
+from pathlib import Path
+
+import pytest
+import typer
+from typer.testing import CliRunner
+
+from slipwise.cli.effects import register
+from slipwise.effects import catalogue, find_effect
+from slipwise.errors import SettingError, UnknownNameError
+from slipwise.view.effects import effect_rows
+
+
+@pytest.fixture
+def run():
+    app = typer.Typer()
+    register(app)
+
+    def call(*words: str) -> str:
+        result = CliRunner().invoke(app, list(words))
+        if result.exception and not isinstance(result.exception, SystemExit):
+            raise result.exception
+        assert result.exit_code == 0, result.output
+        return result.stdout
+
+    return call
+
+
+def test_the_list_and_one_effect_are_the_librarys_answers(run) -> None:
+    assert json.loads(run("--json")) == effect_rows()
+    assert json.loads(run("heating", "--json")) == effect_rows([catalogue()["heating"]])[0]
+    assert run("run_in", "--source") == find_effect("run_in").path.read_text()
+
+
+def test_a_picture_is_written_where_it_was_asked_for(run, tmp_path: Path) -> None:
+    run("breakaway", "--picture", str(tmp_path / "breakaway.png"))
+    assert (tmp_path / "breakaway.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_wrong_names_and_options_are_refused_with_what_is_possible(run, tmp_path: Path) -> None:
+    with pytest.raises(UnknownNameError, match="did you mean heating"):
+        run("heatin")
+    with pytest.raises(SettingError, match="say which"):
+        run("--source")
+    with pytest.raises(SettingError, match="png"):
+        run("heating", "--picture", str(tmp_path / "heating.svg"))
