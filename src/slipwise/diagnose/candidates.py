@@ -64,8 +64,6 @@ def _untestable(effect: Effect, problem: Problem) -> str:
         return "one slider only"
     if effect.name in ("slide_tilt", "slide_curvature", "load_crosstalk", "pressure_law") and not _load_varies(problem):
         return "the load never changes, so this is one with an offset, an asymmetry or the base law"
-    if effect.name == "buffer_mismatch" and not run.states.has_yaw:
-        return "needs yaw: a second slip gauge, or friction across"
     return ""
 
 

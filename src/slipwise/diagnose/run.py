@@ -10,11 +10,12 @@ import numpy as np
 from slipwise.campaign import Campaign, load_campaign
 from slipwise.compare.intervals import Interval, intervals
 from slipwise.compare.system_level import system_level
-from slipwise.diagnose.refit import Account, Hypothesis
+from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis
 from slipwise.diagnose.result import Candidate, Diagnosis
+from slipwise.diagnose.samples import mended, sample_faults
 from slipwise.diagnose.screen import Screened, strengths
 from slipwise.diagnose.search import MATERIAL, Search, score, search, worth
-from slipwise.diagnose.verdict import Verdict, judge
+from slipwise.diagnose.verdict import Verdict, judge, with_faults
 from slipwise.errors import InputError
 from slipwise.fit.base import BaseFit, fit_base
 from slipwise.fit.solve import jacobian
@@ -48,10 +49,12 @@ def diagnose(
     tell("reading", 0.0)
     found = campaign if isinstance(campaign, Campaign) else load_campaign(campaign)
     tell("fitting base parameters", 0.02)
-    base = fit_base(found, model)
+    faults = sample_faults(found)
+    whole, spoiled = mended(found, faults) if faults else (found, {})
+    base = fit_base(whole, model, spoiled)
     part = 0.7 if system else 1.0
     state = search(base, lambda words, share: tell(words, part * share))
-    verdict = judge(state)
+    verdict = with_faults(judge(state), faults)
     final = as_fit(base, state.best)
     cannot = [f"{name}: {reason}" for name, reason in state.cannot.items()]
     replayed: dict[str, float] = {}
@@ -62,12 +65,14 @@ def diagnose(
         except InputError as error:
             cannot.append(f"system level: {error}")
     relations = _relations(state)
+    unmended = base_hypothesis(fit_base(found, model)).account if faults else state.path[0].account
+    before = max(error_of(unmended, r) for r in unmended.fitted)
     tell("done", 1.0)
     return Diagnosis(
         campaign=found.name,
         verdict=verdict,
         component=_component(state, verdict),
-        base_error=max(a for a, _ in relations.values()),
+        base_error=before,
         final_error=max(b for _, b in relations.values()),
         relations=relations,
         system=replayed,
@@ -103,6 +108,8 @@ def _relations(state: Search) -> dict[str, tuple[float, float]]:
 def _component(state: Search, verdict: Verdict) -> str:
     if verdict.kind == "complete":
         return "none"
+    if verdict.kind == "instrument":
+        return "instrument"
     if state.best.terms and verdict.kind != "unknown":
         return state.best.terms[0].effect.component
     relation = verdict.surface.relation if verdict.surface else "pads"

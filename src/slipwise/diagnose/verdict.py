@@ -1,15 +1,19 @@
 """From a finished search to a verdict, never stronger than its evidence."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from slipwise.diagnose.leftover import Surface, leftover, structured
 from slipwise.diagnose.refit import Account, Hypothesis
+from slipwise.diagnose.samples import SampleFault
 from slipwise.diagnose.search import MATERIAL, MOST_EFFECTS, Search, material, score, worth
 
 #: A right family explains this share of what the base left, whatever its exact form [1].
 RIGHT_FAMILY = 0.75
+#: An effect that explains less than half of little, and leaves nothing with structure, is no finding.
+HALF, _FAINT, _COIN = 0.5, 0.4, 0.6
 #: Rivals whose scores differ by less than this share, or by less than this much, cannot be told apart.
 _SAME_SHARE, _SAME_SCORE = 0.004, 60.0
 #: One thing to a rig without a gauge that could part them.
@@ -61,6 +65,9 @@ def judge(state: Search) -> Verdict:
     if remains and (explained < RIGHT_FAMILY or too_many):
         probability = _unknown_probability(surface, explained)
         return Verdict("unknown", (), probability, "unknown", explained, surface, ())
+    drop = worth(origin.account, best.account)[0]
+    if explained < HALF and not remains and drop < _FAINT:
+        return Verdict("complete", (), _COIN, "none", explained, surface, ())
     rivals = _rivals(state, best)
     names = best.names
     left = "unknown" if remains else "none"
@@ -75,6 +82,18 @@ def judge(state: Search) -> Verdict:
             return Verdict("ambiguous", tuple(sorted(pair)), probability, left, explained, surface, ())
     instruments = all(t.effect.component == "instrument" for t in best.terms)
     return Verdict("instrument" if instruments else "named", names, probability, left, explained, surface, ())
+
+
+def with_faults(found: Verdict, faults: Sequence[SampleFault]) -> Verdict:
+    """Add faults of samples to a verdict on what is left when they are mended."""
+    if not faults:
+        return found
+    names = tuple(dict.fromkeys(f.effect for f in faults))
+    if found.kind == "complete":
+        return replace(found, kind="instrument", effects=names, probability=max(found.probability, 0.9))
+    if found.kind == "unknown":
+        return replace(found, kind="named" if found.explained else "instrument", effects=names, probability=0.5)
+    return replace(found, effects=(*found.effects, *(n for n in names if n not in found.effects)))
 
 
 def _rivals(state: Search, best: Hypothesis) -> tuple[Hypothesis, ...]:

@@ -1,19 +1,23 @@
 """The base fit: the user's model with its own parameters and the rig's numbers, nothing missing added."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
-from slipwise.campaign import Campaign
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.campaign import Campaign, Logger
 from slipwise.fit.data import fit_runs
+from slipwise.fit.logger import estimated_logger
 from slipwise.fit.problem import Problem
 from slipwise.fit.solve import Solution, solve
 from slipwise.fit.terms import Free, base_free, terms_of
 from slipwise.model import Model, base_model
-from slipwise.signals import LowPass
 
 #: Noise near reversals depends on the fit and the fit on the noise: so often each is made anew.
 _ROUNDS = 2
-#: Filters that are tried where the campaign does not say what the logger did; their frequency is fitted.
-_KINDS: tuple[LowPass, ...] = (LowPass(100.0, 4), LowPass(100.0, 2), LowPass(100.0, 4, "aligned"))
+#: Share of the pads' squared residual that yaw must take away [1].
+_EARNED = 0.03
 
 
 @dataclass(frozen=True)
@@ -21,7 +25,7 @@ class BaseFit:
     """What the base model makes of a campaign.
 
     Attributes:
-        campaign: that was fitted.
+        campaign: that was fitted, with the logger's filter as it was found where nobody knew it.
         model: where the fit began.
         problem: relations and noise.
         free: base parameters.
@@ -35,21 +39,27 @@ class BaseFit:
     solution: Solution
 
 
-def fit_base(campaign: Campaign, model: Model | None = None) -> BaseFit:
+def fit_base(
+    campaign: Campaign, model: Model | None = None, spoiled: Mapping[str, NDArray[np.bool_]] | None = None
+) -> BaseFit:
     """Fit a campaign's base parameters on its runs of role fit and repeat.
 
     Args:
         campaign: with at least one run that is not held out.
         model: the user's current model; the paper's law on the campaign's rig when not given.
+        spoiled: run -> samples (n,) that must not be judged.
 
     Raises:
         InputError: a run lacks what every fit needs.
     """
     model = model or base_model(campaign.specimen)
-    runs = fit_runs(campaign)
-    kinds = _KINDS[:1] if campaign.logger.known else _KINDS
-    fits = [_fitted(campaign, model, Problem(runs, model.specimen, terms_of(model), logger=kind)) for kind in kinds]
-    return min(fits, key=lambda f: f.solution.cost)
+    runs = fit_runs(campaign, spoiled)
+    found = _fitted(campaign, model, Problem(runs, model.specimen, terms_of(model)))
+    if campaign.logger.known or len(found.problem.relations) == 1:
+        return found
+    kind = estimated_logger(campaign, model, found.solution)
+    known = replace(campaign, logger=Logger(kind, known=True))
+    return _fitted(known, model, Problem(fit_runs(known, spoiled), model.specimen, terms_of(model)))
 
 
 def _fitted(campaign: Campaign, model: Model, problem: Problem) -> BaseFit:
@@ -60,4 +70,20 @@ def _fitted(campaign: Campaign, model: Model, problem: Problem) -> BaseFit:
     for _ in range(_ROUNDS):
         problem.weigh(solution.values)
         solution = solve(problem, solution.values, free, most=8, enough=1.0)
+    if _turns(problem, solution):
+        problem.yaw = True
+        problem = problem.adding()
+        solution = solve(problem, solution.values, free, most=8, enough=1.0)
     return BaseFit(campaign, model, problem, tuple(free), solution)
+
+
+def _turns(problem: Problem, solution: Solution) -> bool:
+    """Tell whether yaw made from the measured forces earns its noise."""
+    if len(problem.relations) == 1 or problem.runs[0].states.has_yaw:
+        return False
+    turning = problem.adding()
+    turning.yaw = True
+    turning = turning.adding()
+    left = turning.residuals(solution.values, fitted_only=True).stacked(problem.fitted, ("pads",))
+    before = solution.residuals.stacked(problem.fitted, ("pads",))
+    return float(left @ left) < (1.0 - _EARNED) * float(before @ before)

@@ -1,5 +1,6 @@
 """What a fit needs of a run: states on the samples and between them, masks, and the noise of every channel."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -129,19 +130,23 @@ class FitRun:
         return change("slip_x"), change("girder_ax") - change("table_ax")
 
 
-def fit_runs(campaign: Campaign) -> list[FitRun]:
+def fit_runs(campaign: Campaign, spoiled: Mapping[str, Mask] | None = None) -> list[FitRun]:
     """Prepare every run of a campaign.
+
+    Args:
+        campaign: the runs.
+        spoiled: run -> samples (n,) that must not be judged.
 
     Raises:
         InputError: a run lacks slip, or a pad's friction.
     """
-    runs = [_fit_run(run, campaign) for run in campaign.runs]
+    runs = [_fit_run(run, campaign, (spoiled or {}).get(run.name)) for run in campaign.runs]
     # a gauge is as noisy in every run; a run that starts at once has no rest to show it
     levels = {c: float(np.median([r.noise[c] for r in runs if c in r.noise])) for r in runs for c in r.noise}
     return [replace(r, noise=levels) for r in runs]
 
 
-def _fit_run(run: Run, campaign: Campaign) -> FitRun:
+def _fit_run(run: Run, campaign: Campaign, spoiled: Mask | None) -> FitRun:
     states = measured_states(run, campaign)
     pads = tuple(p for p in PADS if f"pad_{p}_Fx" in states.record)
     if not pads:
@@ -150,6 +155,8 @@ def _fit_run(run: Run, campaign: Campaign) -> FitRun:
     load = states.load[:, here]
     margin = max(2, round(_STUCK_MARGIN / states.dt))
     grounded = states.usable & np.isfinite(load).all(axis=1)
+    if spoiled is not None and len(spoiled) == len(grounded):
+        grounded = grounded & ~spoiled
     sliding = grounded & ~_widened(states.stuck, margin)
     quiet = _quiet(states.record)
     levels = {c: _level(v, quiet) for c, v in states.record.channels.items()}

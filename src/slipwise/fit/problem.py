@@ -6,7 +6,7 @@ inverse on the measurement with the noise scaled alike. Else a gain below one wo
 
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from slipwise.fit.balances import available, buffer_forces, motion_residual, pre
 from slipwise.fit.data import FitRun, smoothed
 from slipwise.fit.pads import Instants, PadLaw, instants, lost_velocity
 from slipwise.fit.terms import Term, fitted_model
+from slipwise.fit.yaw import yaw_of
 from slipwise.model import Model
 from slipwise.predict import Predictor, predictor
 from slipwise.record import Record
@@ -33,6 +34,8 @@ _TIMING = 1e-4
 #: Numbers of the rig that change the pads' states.
 _MOTION_KEYS = ("rig.pitch_slip", "rig.stick_length")
 _PAD_KEYS = (*_MOTION_KEYS, "rig.shear_strength", "rig.late_force", "rig.logger")
+#: Effects of the catalogue that turn the girder about the vertical.
+_TURNERS = ("buffer_mismatch", "mass_eccentricity")
 _PAD_PORTS = ("area", "shear", "stick", "pad")
 #: Results of this many recent sets of numbers are kept: a difference quotient comes back to its base.
 _KEPT = 4
@@ -66,7 +69,7 @@ class Problem:
         specimen: rated values.
         terms: effects of the base model, then those of the hypothesis.
         sigmas: relation -> per run noise, broadcastable to the residual; made by `weigh`.
-        logger: kind of filter that is fitted where the campaign does not know it.
+        yaw: whether the girder's yaw is made from the measured forces even if no term turns it.
         lost: per run (f,) velocity that the logger's filter took at reversals [m/s]; made by `weigh`.
     """
 
@@ -75,7 +78,7 @@ class Problem:
     terms: tuple[Term, ...]
     sigmas: dict[str, list[Array]] = field(default_factory=dict[str, list[Array]])
     lost: list[Array] = field(default_factory=list[Array])
-    logger: LowPass = LowPass(100.0)
+    yaw: bool = False
 
     def __post_init__(self) -> None:
         """Make ready what never changes."""
@@ -90,6 +93,9 @@ class Problem:
         self._gauges = [t for t in self.terms if t.effect.port == "gauge"]
         self._on_force = [t for t in self._gauges if _acts_on_force(t)]
         self._on_state = [t for t in self._gauges if not _acts_on_force(t)]
+        self._turners = [t for t in self.terms if t.effect.name in _TURNERS]
+        measured = self.runs[0].states.has_yaw or len(self.relations) == 1
+        self._yaws = (self.yaw or bool(self._turners)) and not measured
         self._law: PadLaw | None = None
 
     @property
@@ -228,7 +234,8 @@ class Problem:
         """Give what the pads' residuals depend on; without the faults of friction gauges, what their forces do."""
         own = [t for t in self.terms if t.effect.instant_hooks or "rig" in t.effect.hooks or t in self._on_state]
         own += self._on_force if faults else []
-        return (*self._values_of(own, values), *(values.get(k, 0.0) for k in _PAD_KEYS))
+        turned = ("yaw", values.get("rig.buffer_stiffness", 0.0)) if self._yaws else ()
+        return (*self._values_of(own, values), *turned, *(values.get(k, 0.0) for k in _PAD_KEYS))
 
     def _balance_key(self, values: Mapping[str, float]) -> tuple[str | float, ...]:
         own = [t for t in self.terms if t.effect.port not in _PAD_PORTS or "balance" in t.effect.hooks]
@@ -252,7 +259,9 @@ class Problem:
         return self._remembered("corrected", self._values_of(self._on_state, values), make)
 
     def _states(self, values: Mapping[str, float], runs: list[FitRun]) -> list[Instants]:
-        key = (*self._values_of(self._on_state, values), *(values.get(k, 0.0) for k in _MOTION_KEYS))
+        key = (*self._values_of([*self._on_state, *self._turners], values), *(values.get(k, 0.0) for k in _MOTION_KEYS))
+        if self._yaws:
+            key = (*key, "yaw", values["rig.buffer_stiffness"] if "rig.buffer_stiffness" in values else 0.0)
 
         def make() -> list[Instants]:
             return [self._instants(r, i, values) for i, r in enumerate(runs)]
@@ -261,15 +270,24 @@ class Problem:
 
     def _by(self, values: Mapping[str, float]) -> LowPass | None:
         """Give the logger's filter as fitted, where the campaign does not know it."""
-        return replace(self.logger, frequency=values["rig.logger"]) if "rig.logger" in values else None
+        return LowPass(values["rig.logger"]) if "rig.logger" in values else None
 
     def _instants(self, run: FitRun, place: int, values: Mapping[str, float], more: float = 0.0) -> Instants:
         """Give the states of every pad, with some velocity more."""
         velocity = run.states.pad_velocity[:, self._here].copy()
         velocity[:, :, 0] += (more + values.get("rig.pitch_slip", 0.0) * self._turning[place])[:, None]
         slip = run.states.pad_slip[:, self._here]
+        if self._yaws:
+            angle, rate = self._turning_of(run, values)
+            across = np.array(self.specimen.pad_places)[self._here]
+            velocity = velocity + rate[:, None, None] * np.stack([-across[:, 1], across[:, 0]], axis=1)[None]
+            slip = slip + angle[:, None, None] * np.stack([-across[:, 1], across[:, 0]], axis=1)[None]
         lost = self.lost[place] if self.lost else None
         return instants(run, velocity, slip, values.get("rig.stick_length", _SHORT_STICK), lost)
+
+    def _turning_of(self, run: FitRun, values: Mapping[str, float]) -> tuple[Array, Array]:
+        model = self.model(values)
+        return yaw_of(run, model.built_specimen(), run.force, self._buffers(predictor(model), run))
 
     def _pad_forces(
         self, model: Model, values: Mapping[str, float], runs: list[FitRun], states: list[Instants]

@@ -1,0 +1,57 @@
+"""Yaw of the girder where no gauge shows it, from the friction that was measured on its pads.
+
+    I psi'' = sum (y_i - y_c) F_i + sum (y_j - y_c) B_j - K_psi psi - C psi',   C = sum |F_i| x_i^2 / |v|
+
+Unequal buffers, an eccentric mass and unequal pads turn the girder, and pads at +y then slide at another speed than
+those at -y. Friction along y damps the turning: it is F_i times the share x_i psi'/|v| of the speed that points there.
+Forces are measured with noise, so with equal pads yaw only makes the velocities noisier: use it where it earns it.
+"""
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from slipwise.fit.data import FitRun
+from slipwise.rig import Specimen
+
+Array = NDArray[np.float64]
+#: Below this speed friction holds the girder from turning as well [m/s].
+_SLOW = 2e-3
+
+
+@njit(cache=True)
+def _turned(torque, damping, stiffness, inertia, held, dt, angle, rate):  # pragma: no cover - compiled
+    """Step the yaw by the implicit rule, which no damping can upset."""
+    psi = 0.0
+    w = 0.0
+    for i in range(len(torque)):
+        if held[i]:
+            w = 0.0
+        else:
+            w = (w + dt * (torque[i] - stiffness * psi) / inertia) / (1.0 + dt * damping[i] / inertia)
+        psi += dt * w
+        angle[i] = psi
+        rate[i] = w
+
+
+def yaw_of(run: FitRun, specimen: Specimen, force: Array, buffers: Array) -> tuple[Array, Array]:
+    """Give yaw [rad] and its rate [rad/s], (n,) each.
+
+    Args:
+        run: its times and velocities.
+        specimen: places of pads and buffers, centre of gravity, inertia.
+        force: (n, 4) measured friction along x [N].
+        buffers: (n, n_buffers) force of the girder on each buffer if it did not turn [N].
+    """
+    pads = np.array(specimen.pad_places)
+    torque = force @ (pads[:, 1] - specimen.centre_y)
+    stiffness = 0.0
+    if specimen.buffer_stiffness:
+        sides = np.array(specimen.buffer_places)[:, 1] - specimen.centre_y
+        torque = torque + buffers @ sides
+        stiffness = float(np.array(specimen.buffer_stiffness) @ sides**2)
+    speed = np.maximum(np.abs(run.velocity), _SLOW)
+    damping = np.abs(force) @ (pads[:, 0] - specimen.centre_x) ** 2 / speed
+    angle, rate = np.zeros(len(torque)), np.zeros(len(torque))
+    _turned(torque, damping, stiffness, specimen.inertia[2], run.states.stuck, run.dt, angle, rate)
+    return angle, rate
