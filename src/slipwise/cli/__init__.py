@@ -5,7 +5,7 @@ import warnings
 
 import typer
 
-from slipwise.cli import diagnose, lists, paper, replay, view
+from slipwise.cli import diagnose, edit, effects, lists, paper, replay, view
 from slipwise.errors import SlipwiseError, SlipwiseWarning
 
 app = typer.Typer(
@@ -18,9 +18,11 @@ app = typer.Typer(
 )
 replay.register(app)
 diagnose.register(app)
+edit.register(app)
 paper.register(app)
 view.register(app)
 lists.register(app)
+effects.register(app)
 
 
 def _show_warning(message: Warning | str, category: type[Warning], *_: object, **__: object) -> None:

@@ -116,13 +116,15 @@ def ladder(
     from slipwise.ladder import ladder as climb
     from slipwise.view.canvas import save_figure
     from slipwise.view.diagnosis_figures import ladder_figure
+    from slipwise.view.style import styled
 
     measured = load_campaign(campaign)
     folder = out_folder(out)
     with steps() as tell:
         found = climb(measured, add or [], start_model(campaign, model), system=system, progress=tell)
     write_json(folder / "ladder.json", found.as_json())
-    picture = save_figure(ladder_figure(found), folder / "ladder.png")
+    with styled():
+        picture = save_figure(ladder_figure(found), folder / "ladder.png")
     if json:
         print_json(found.as_json())
         return

@@ -6,6 +6,7 @@ from slipwise.ladder import Ladder
 from slipwise.units import convert
 from slipwise.view.diagnosis_figures import balances_figure, ladder_figure, loops_figure, surface_figure
 from slipwise.view.html import Section, bullets, callout, details, figure, page, paragraph, table, verdict
+from slipwise.view.style import styled
 
 _TONES = {"complete": "good", "named": "warn", "instrument": "warn", "ambiguous": "warn", "unknown": "bad"}
 _HEADLINES = {
@@ -27,6 +28,11 @@ def diagnosis_page(found: Diagnosis, ladder: Ladder | None = None) -> str:
     Returns:
         The text of a self-contained HTML file.
     """
+    with styled():
+        return _page(found, ladder)
+
+
+def _page(found: Diagnosis, ladder: Ladder | None) -> str:
     names = ", ".join(found.verdict.effects)
     facts = {
         "probability": f"{100 * found.verdict.probability:.0f} %",
@@ -53,7 +59,7 @@ def _evidence(found: Diagnosis) -> Section:
         [
             paragraph(
                 "Every balance of the rig, on runs that no fit has seen, in multiples of the noise floor: 1 is what a "
-                "perfect model leaves. Pads are driven by measured load and speed, so that each part answers for itself."
+                "perfect model leaves. Pads are driven by measured load and speed: each part answers for itself."
             ),
             figure(balances_figure(found), "Held-out error of every balance, before and after."),
             figure(loops_figure(found), "Friction of one pad against slip in a held-out run."),
