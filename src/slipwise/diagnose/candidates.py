@@ -19,6 +19,8 @@ _COMMAND: dict[str, str] = {
     "table_cross_axis": "the model is driven by the measured table motion; only the command could show it",
 }
 
+_EVEN = ("slide_tilt", "slide_curvature", "direction_asymmetry", "channel_offset", "load_crosstalk")
+
 
 def candidates(base: BaseFit) -> tuple[list[Term], dict[str, str]]:
     """Give the candidates, and the effects that this campaign cannot test with the reason.
@@ -62,9 +64,16 @@ def _untestable(effect: Effect, problem: Problem) -> str:
         return "needs motion across"
     if effect.name == "pad_spread" and len(run.pads) < 2:
         return "one slider only"
+    if effect.name in _EVEN and _one_way(problem):
+        return "the slider moves one way only, so what is even in velocity is one with friction"
     if effect.name in ("slide_tilt", "slide_curvature", "load_crosstalk", "pressure_law") and not _load_varies(problem):
         return "the load never changes, so this is one with an offset, an asymmetry or the base law"
     return ""
+
+
+def _one_way(problem: Problem) -> bool:
+    forth = [float(np.mean(r.velocity[r.sliding] > 0.0)) for r in problem.runs if r.sliding.any()]
+    return bool(forth) and all(min(f, 1.0 - f) < 0.05 for f in forth)
 
 
 def _load_varies(problem: Problem) -> bool:

@@ -120,10 +120,39 @@ def refit(
             start = _inside(term, starts[term.label])
         values.update({f"{term.label}.{k}": v for k, v in start.items()})
         free += [f for f in term.free(start) if f.key.rsplit(".", 1)[1] not in _REFERENCES]
-    known = {f.key: base.solution.jacobian[:, j] for j, f in enumerate(base.free)}
-    solution = solve(problem, values, free, most=most, enough=10.0, known=known)
-    solution = solve(problem, solution.values, free, most=2, enough=10.0)
+    if len(problem.relations) == 1 and before is None:
+        solution = _several_starts(problem, values, free, terms)
+    else:
+        known = {f.key: base.solution.jacobian[:, j] for j, f in enumerate(base.free)}
+        solution = solve(problem, values, free, most=most, enough=10.0, known=known)
+        solution = solve(problem, solution.values, free, most=2, enough=10.0)
     return Hypothesis(tuple(terms), problem, solution, account(problem, solution))
+
+
+def _several_starts(
+    problem: Problem, values: Mapping[str, float], free: Sequence[Free], terms: Sequence[Term]
+) -> Solution:
+    """Fit one slider from several starts: its material may be far from any rated value.
+
+    Friction that does not depend on speed, as high as the record's usual force, is tried beside the base fit; a length
+    of slip also at several shares of the stroke.
+    """
+    bounds = {f.key: f for f in free}
+    force = np.concatenate([problem.runs[i].force.ravel() for i in problem.fitted])
+    load = np.concatenate([problem.runs[i].load.ravel() for i in problem.fitted])
+    usual = float(np.quantile(np.abs(force), 0.8) / max(float(np.mean(load)), 1e-12))
+    strength = usual * problem.specimen.plastic_pressure
+    flat = {"shear_rate.strength": 0.0, "shear_rate.slow": usual, "rig.shear_strength": strength}
+    stroke = max(float(np.ptp(problem.runs[i].slip)) for i in problem.fitted)
+    lengths = [f"{t.label}.length" for t in terms if "stick" in t.effect.hooks]
+    starts = [dict(values), {**values, **{k: v for k, v in flat.items() if k in values}}]
+    for key in lengths:
+        starts += [{**starts[1], key: share * stroke} for share in (0.03, 0.1, 0.3)]
+    for start in starts:
+        start.update({k: float(np.clip(v, bounds[k].low, bounds[k].high)) for k, v in start.items() if k in bounds})
+    tries = [solve(problem, s, free, most=6, enough=100.0) for s in starts]
+    best = min(tries, key=lambda s: s.cost)
+    return solve(problem, best.values, free, most=12, enough=10.0)
 
 
 def _inside(term: Term, start: Mapping[str, float]) -> dict[str, float]:

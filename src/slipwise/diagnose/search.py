@@ -81,13 +81,18 @@ def material(base: Account, before: Account, after: Account) -> bool:
         before: without the effect.
         after: with it.
     """
-    drop, where = worth(before, after)
-    if drop < MATERIAL:
-        return False
     if before is base:
-        return True
-    excess = max(base.level(where, held_out=False) - 1.0, 0.0)
-    return drop > FURTHER * excess
+        return worth(before, after)[0] >= MATERIAL
+    for name in base.fitted:
+        # an effect that only repairs what the one before has spoilt explains nothing of the rig
+        least = {h: min(base.level(name, held_out=h), before.level(name, held_out=h)) for h in (False, True)}
+        drop = least[False] - after.level(name, held_out=False)
+        if base.counts[name][1]:
+            drop = min(drop, 2.0 * (least[True] - after.level(name, held_out=True)))
+        excess = max(base.level(name, held_out=False) - 1.0, 0.0)
+        if drop >= MATERIAL and drop > FURTHER * excess:
+            return True
+    return False
 
 
 def score(before: Account, after: Account) -> float:

@@ -16,6 +16,8 @@ from slipwise.model import Model, base_model
 
 #: Noise near reversals depends on the fit and the fit on the noise: so often each is made anew.
 _ROUNDS = 2
+#: A stick longer than this share of the stroke is no detail of the rig [1].
+_STICK_SHARE = 0.01
 #: Share of the pads' squared residual that yaw must take away [1].
 _EARNED = 0.03
 
@@ -64,6 +66,11 @@ def fit_base(
 
 def _fitted(campaign: Campaign, model: Model, problem: Problem) -> BaseFit:
     free = base_free(model, balances=len(problem.relations) > 1, logger_known=campaign.logger.known)
+    stroke = min(float(np.ptp(problem.runs[i].slip)) for i in problem.fitted)
+    most = max(_STICK_SHARE * stroke, 1e-7)
+    free = [
+        replace(f, high=min(f.high, most), start=min(f.start, most)) if f.key == "rig.stick_length" else f for f in free
+    ]
     values = {f.key: f.start for f in free}
     problem.weigh(values)
     solution = solve(problem, values, free, most=6, enough=50.0)
