@@ -1,7 +1,7 @@
 """The ladder: effects added one by one, the error falling rung by rung, on runs the fit has not seen."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -128,6 +128,23 @@ def ladder(
         rungs.append(_rung(h, _replayed(fit) if system else float("nan")))
     tell("done", 1.0)
     return Ladder(found.name, tuple(rungs), counts, stopped, fits, time.perf_counter() - began)
+
+
+def ladder_of(search: Search, replayed: Mapping[str, float] | None = None) -> Ladder:
+    """Give the ladder that a search has climbed already.
+
+    Args:
+        search: of a diagnosis.
+        replayed: {"base", "final"} held-out error of the replay in floors, where it is known.
+    """
+    known = replayed or {}
+    last = len(search.path) - 1
+    rungs = []
+    for i, h in enumerate(search.path):
+        rungs.append(_rung(h, known.get("base" if i == 0 else "final", float("nan")) if i in (0, last) else float("nan")))
+    fits = tuple(as_fit(search.base, h) for h in search.path)
+    counts = (len(search.screened), len(search.tried))
+    return Ladder(search.base.campaign.name, tuple(rungs), counts, _why(search), fits, 0.0)
 
 
 def _asked(

@@ -5,7 +5,7 @@ import warnings
 
 import typer
 
-from slipwise.cli import diagnose, edit, effects, lists, paper, replay, view
+from slipwise.cli import demo, diagnose, edit, effects, lists, paper, replay, view
 from slipwise.errors import SlipwiseError, SlipwiseWarning
 
 app = typer.Typer(
@@ -16,6 +16,7 @@ app = typer.Typer(
     rich_markup_mode="markdown",
     pretty_exceptions_enable=False,
 )
+demo.register(app)
 replay.register(app)
 diagnose.register(app)
 edit.register(app)

@@ -58,6 +58,7 @@ def diagnose(
     Example: `slipwise diagnose campaigns/march --out out/march`
     """
     from slipwise.diagnose import diagnose as run_diagnosis
+    from slipwise.ladder import ladder_of
     from slipwise.view.diagnosis_page import diagnosis_page
 
     measured = load_campaign(campaign)
@@ -65,7 +66,7 @@ def diagnose(
     with steps() as tell:
         found = run_diagnosis(measured, start_model(campaign, model), system=system, progress=tell)
     write_json(folder / "diagnosis.json", found.as_json())
-    write_text(folder / "report.html", diagnosis_page(found))
+    write_text(folder / "report.html", diagnosis_page(found, ladder_of(found.search, found.system)))
     files = [folder / "diagnosis.json", folder / "report.html"]
     if recording and measured.specimen.free:
         files += _record(found, folder)

@@ -56,7 +56,9 @@ def paper(
         result = reenact(
             settings, folder, quick=quick, ground=shaking, executor=executor, workers=workers, progress=report
         )
+    # Pictures take a second to load: only when there is something to draw.
     from slipwise.view.paper_page import write_page
+    from slipwise.view.terminal import print_table
 
     write_json(folder / "paper.json", as_json(result))
     page = write_page(result, folder / "paper.html")
@@ -64,9 +66,8 @@ def paper(
         print_json(as_json(result))
         return
     for study in result.studies:
-        OUT.print(f"\n{study.title}", style="bold", markup=False, highlight=False)
-        for finding in study.findings:
-            OUT.print(f"  {finding.verdict:18s} {finding.place}: {finding.says}", markup=False, highlight=False)
+        rows = [{"where": f.place, "the paper": f.says, "here": f.brief, "verdict": f.verdict} for f in study.findings]
+        print_table(study.title, rows)
     counts = ", ".join(f"{count} {verdict}" for verdict, count in result.verdicts().items())
     OUT.print(f"\n{counts}; {result.replays} replays in {result.seconds:.0f} s", markup=False, highlight=False)
     for path in (page, folder / "paper.json"):

@@ -1,0 +1,120 @@
+"""`slipwise demo`: the whole promise on data that ships with the package."""
+
+import shutil
+import time
+from importlib.resources import files
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from slipwise.cli.console import OUT, out_folder
+from slipwise.cli.diagnose import steps
+from slipwise.record import write_json, write_text
+
+#: Worst places of the error that are told.
+_TOLD = 3
+
+
+def demo(
+    out: Annotated[Path, typer.Option(help="Folder for the campaign, the report and the recording.")] = Path("out/demo"),
+) -> None:
+    """Show the whole promise: a campaign with a hidden effect, compared, located, named, added, and the error falling.
+
+    Example: `slipwise demo`
+    """
+    from slipwise.campaign import load_campaign
+    from slipwise.compare import compare
+    from slipwise.diagnose import diagnose
+    from slipwise.diagnose.replays import replays
+    from slipwise.ladder import ladder_of
+    from slipwise.model_file import save_model
+    from slipwise.view.comparison import write_comparison
+    from slipwise.view.diagnosis_page import diagnosis_page
+    from slipwise.view.geometry import geometry_of
+    from slipwise.view.terminal import print_table
+
+    began = time.perf_counter()
+    folder = out_folder(out)
+    campaign = folder / "campaign"
+    _copy(campaign)
+    _say(
+        "1  A laboratory has shaken a girder",
+        "Ten tons on four PTFE pads and two rubber buffers (the rig of Takahashi et al., 2004): five runs on the shaking "
+        f"table. They lie in {campaign}. A second simulator made them, with one physical effect hidden in it.",
+    )
+    measured = load_campaign(campaign)
+    print_table(
+        "Runs",
+        [{"run": r.name, "role": r.role, "seconds": round(float(r.record.time[-1]), 1), "channels": len(r.record.channels)}
+         for r in measured.runs],
+    )  # fmt: skip
+    with steps() as tell:
+        compared = compare(measured, system=False, progress=tell)
+    _say(
+        "2  The paper's model, fitted to four runs, is held against the one that it has not seen",
+        "Each balance of the rig answers for itself; 1 is the noise floor, what a perfect model would leave.",
+    )
+    rows = [{"balance": n, "held-out error / floor": _rounded(compared.error(n, held_out=True))} for n in compared.relations]
+    print_table("Where the model fails", rows)
+    for place in compared.places[:_TOLD]:
+        OUT.print(f"  - {place.words}", markup=False, highlight=False, soft_wrap=True)
+    with steps() as tell:
+        found = diagnose(measured, system=True, progress=tell)
+    climbed = ladder_of(found.search, found.system)
+    _say("3  What is missing?", found.sentence)
+    hypotheses = [{"hypothesis": c.effect, "probability": round(c.probability, 3)} for c in found.candidates]
+    print_table(f"{climbed.tried[0]} candidates screened, {climbed.tried[1]} refitted", hypotheses)
+    _say(
+        "4  Add it, and watch the error fall",
+        f"Refitted with {' and '.join(found.search.best.names) or 'nothing more'}; the held-out run decides, no fit has "
+        f"seen it. It stops here: {climbed.stopped}.",
+    )
+    print_table("Error in multiples of the noise floor", [_rung(r) for r in climbed.as_json()["rungs"]])
+    save_model(found.final.problem.model(found.final.solution.values), campaign / "model.toml")
+    write_json(folder / "diagnosis.json", found.as_json())
+    write_json(folder / "ladder.json", climbed.as_json())
+    write_text(folder / "report.html", diagnosis_page(found, climbed))
+    seen, simulated = replays(found)
+    geometry = geometry_of(measured.specimen)
+    write_comparison(seen, simulated, geometry, folder / "before_and_after.rrd", found.sentence)
+    _say("5  Look at it", "The report opens in any browser, the recording in the rerun viewer:")
+    for line in (
+        f"{folder / 'report.html'}",
+        f"slipwise view {folder}",
+        f"slipwise diagnose {campaign} --model {campaign / 'model.toml'}   (nothing is missing any more)",
+        "slipwise effects run_in   (what it is, and where it comes from)",
+    ):
+        OUT.print(f"  {line}", markup=False, highlight=False, soft_wrap=True)
+    OUT.print(f"\n{time.perf_counter() - began:.0f} s")
+
+
+def _copy(campaign: Path) -> None:
+    """Copy the packed campaign into the user's folder."""
+    campaign.mkdir(parents=True, exist_ok=True)
+    for entry in Path(str(files("slipwise"))).joinpath("demo_data").iterdir():
+        shutil.copyfile(entry, campaign / entry.name)
+    (campaign / "model.toml").unlink(missing_ok=True)
+
+
+def _say(title: str, words: str) -> None:
+    OUT.print(f"\n[bold]{title}[/bold]")
+    OUT.print(words, markup=False, highlight=False)
+
+
+def _rounded(value: float | None) -> float | None:
+    return None if value is None else round(value, 2)
+
+
+def _rung(rung: dict) -> dict:
+    return {
+        "model": " + ".join(["base", *rung["effects"]]),
+        "fitted runs": rung["fit_error"],
+        "held-out run": rung["holdout_error"],
+        "held-out, replay": rung["system_holdout_error"],
+    }
+
+
+def register(app: typer.Typer) -> None:
+    """Add this command to the command line."""
+    app.command()(demo)
