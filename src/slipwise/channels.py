@@ -6,6 +6,7 @@ File name of a column = channel name. Pads: A (+x,+y), B (-x,+y), C (+x,-y), D (
 import fnmatch
 import re
 from dataclasses import dataclass
+from functools import cache
 
 from slipwise.errors import UnknownNameError, unknown_name
 
@@ -97,6 +98,7 @@ def channel(name: str) -> Channel:
     return Channel(name, known.unit, known.shown_in, known.place, known.sign) if match else known
 
 
+@cache
 def channels_like(pattern: str) -> tuple[str, ...]:
     """Give the names that a pattern such as "pad_*_N" means; "all" means every channel.
 

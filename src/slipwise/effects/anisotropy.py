@@ -7,8 +7,7 @@ no longer parallel. Coupling matters even for r = 1: motion across takes its sha
 along x shrinks by |v_x|/|v|. Below 1 mm/s of slip the further force fades with speed.
 
 Valid: r 1.0 to 1.2.
-Source: 1.0 to 1.2 with the lay of the polish, from memory of the literature, assumed; physics as in plasticity with an
-ellipse for the bound.
+Source: 1.0 to 1.2 with the lay of the polish, assumed; the bound is an ellipse.
 """
 
 from slipwise.effects._effect import RESPONSE, Effect

@@ -7,7 +7,7 @@ cannot: on Bridge 1, 4 % cuts the energy that friction has to take by a third. p
 rubber creeps with a smaller exponent.
 
 Valid: rates of 0.01 to 1 m/s; c is per buffer.
-Source: Kelvin & Voigt; damping ratios from memory of the literature, assumed; 7.45 kN s/m each is 4 % on Bridge 1.
+Source: Kelvin & Voigt; damping ratios assumed; 7.45 kN s/m each is 4 % of critical on Bridge 1.
 """
 
 from math import copysign

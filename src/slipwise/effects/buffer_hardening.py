@@ -6,7 +6,7 @@ Beyond 150 to 200 % of shear the chains are stretched and rubber stiffens. g is 
 30 mm; what length it is counted from does not matter as long as p is known, so it is fixed.
 
 Valid: the first upturn of the curve; not near rupture.
-Source: 5 to 50 % above 150 to 200 % of shear, from memory of the literature, assumed.
+Source: 5 to 50 % above 150 to 200 % of shear, assumed.
 """
 
 from slipwise.effects._effect import RESPONSE, Effect

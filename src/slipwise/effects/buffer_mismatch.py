@@ -6,7 +6,7 @@ Rubber of two moulds differs by some per cent. The sum stays; but the buffers st
 unlike forces turn it, in step with the slip.
 
 Valid: |d| up to 20 %.
-Source: tolerance of rubber bearings' stiffness, +-10 to 20 % (EN 15129), assumed for these.
+Source: two springs side by side; sizes assumed.
 """
 
 from slipwise.effects._effect import RESPONSE, Effect

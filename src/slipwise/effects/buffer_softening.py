@@ -6,7 +6,7 @@ The first stretch breaks bonds between chains and filler, and what is broken sta
 a new largest stroke is stiffer than any later one.
 
 Valid: m 0.1 to 0.3. Rubber recovers in part over days, which is left out.
-Source: Mullins (1969); sizes from memory of the literature, assumed; decay over x_0 assumed.
+Source: Mullins (1969); sizes and the decay over x_0 assumed.
 """
 
 from math import exp

@@ -6,7 +6,7 @@ Polishing leaves a nap, wear leaves burrs that point in the direction of sliding
 leading edge. d is half the relative difference between the two directions.
 
 Valid: |d| up to a few per cent for new pads.
-Source: assumed, after the habit of test standards (EN 1337-2) to report both directions of a cycle.
+Source: assumed.
 """
 
 from slipwise.effects._effect import RESPONSE, Effect

@@ -10,8 +10,7 @@ and then slips (elastic-plastic). Motion across relaxes the bristle by exp(-i s/
 towards the middle: the bound is a circle. The update is exact over any step: w = 1 - z/u, w^(1-i) falls by (1-i) s/u.
 
 Valid: u 0.02 to 0.5 mm for bare sheet, 1 to 5 mm with a rubber layer in series.
-Source: Dahl (1968), exponent form; physics of the rigs: a slope of finite width at each reversal. Dahl is taken
-rather than LuGre, whose viscous bristle no gauge of these rigs can see.
+Source: Dahl (1968), with his exponent; LuGre's viscous bristle is left out. Sizes assumed.
 """
 
 from math import exp, sqrt

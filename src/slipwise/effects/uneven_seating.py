@@ -8,7 +8,7 @@ a millimetre moves most of the weight to one diagonal. Unequal shares break the 
 rises and falls.
 
 Valid: while every pad carries; e below N/k_v.
-Source: stiffness times height; sizes assumed: 0.02 mm, a third of a shim.
+Source: stiffness times height; sizes assumed.
 """
 
 from dataclasses import replace
