@@ -60,8 +60,8 @@ def _untestable(effect: Effect, problem: Problem) -> str:
         return "one slider has no balance of a girder"
     if effect.name in ("girder_bending", "key_friction") and "heave" not in relations:
         return "needs girder_az and the loads of four pads"
-    if effect.name in ("anisotropy",) and not run.states.has_y:
-        return "needs motion across"
+    if effect.name == "anisotropy":
+        return "needs friction across, which the fit does not hold against the laws"
     if effect.name == "pad_spread" and len(run.pads) < 2:
         return "one slider only"
     if effect.name in _EVEN and _one_way(problem):

@@ -11,7 +11,7 @@ from slipwise.diagnose.samples import SampleFault
 from slipwise.diagnose.search import MATERIAL, MOST_EFFECTS, Search, material, score, worth
 
 #: A right family explains this share of what the base left, whatever its exact form [1].
-RIGHT_FAMILY = 0.75
+RIGHT_FAMILY = 0.66
 #: An effect that explains less than half of little, and leaves nothing with structure, is no finding.
 HALF, _FAINT, _COIN = 0.5, 0.4, 0.6
 #: Rivals whose scores differ by less than this share, or by less than this much, cannot be told apart.

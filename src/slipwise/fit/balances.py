@@ -56,18 +56,18 @@ def through_pitch(values: Array, dt: float, frequency: float, damping: float) ->
     return in_frequency(values, dt, gain, int(3.0 / (dt * frequency * max(damping, 0.01))) + 8)
 
 
-def buffer_forces(law: Predictor, run: FitRun, slip: Array, velocity: Array) -> Array:
+def buffer_forces(law: Predictor, time: Array, slip: Array, velocity: Array) -> Array:
     """Give the force of the girder on each buffer along x, (n, n_buffers) [N]; yaw moves the buffers apart.
 
     Args:
         law: the model's laws with their memory.
-        run: for the time.
+        time: (n,) [s].
         slip: (n, n_buffers) deflection [m].
         velocity: (n, n_buffers) its rate [m/s].
     """
     deflection = np.stack([slip, np.zeros_like(slip)], axis=2)
     rate = np.stack([velocity, np.zeros_like(velocity)], axis=2)
-    return law.buffers(run.time, deflection, rate)[:, :, 0]
+    return law.buffers(time, deflection, rate)[:, :, 0]
 
 
 def heave_rate(run: FitRun, specimen: Specimen) -> Array:

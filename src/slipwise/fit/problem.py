@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from slipwise.effects import Effect
 from slipwise.fit.balances import available, buffer_forces, motion_residual, predicted
-from slipwise.fit.data import FitRun, smoothed
-from slipwise.fit.pads import Instants, PadLaw, instants, lost_velocity
+from slipwise.fit.data import FitRun, refined, smoothed
+from slipwise.fit.pads import Instants, PadLaw, as_logged, instants, lost_velocity
 from slipwise.fit.terms import Term, fitted_model
 from slipwise.fit.yaw import yaw_of
 from slipwise.model import Model
@@ -37,6 +37,8 @@ _PAD_KEYS = (*_MOTION_KEYS, "rig.shear_strength", "rig.late_force", "rig.logger"
 #: Effects of the catalogue that turn the girder about the vertical.
 _TURNERS = ("buffer_mismatch", "mass_eccentricity")
 _PAD_PORTS = ("area", "shear", "stick", "pad")
+#: Rounds in which a fault without an inverse is taken out.
+_NEUMANN = 4
 #: Results of this many recent sets of numbers are kept: a difference quotient comes back to its base.
 _KEPT = 4
 #: Where a model has its own memory of slip, or nothing is fitted yet [m].
@@ -315,9 +317,10 @@ class Problem:
             return np.zeros((len(run.time), 1))
         if not any(t.effect.port == "buffer" for t in self.terms):
             return run.slip[:, None] * np.array(law.model.specimen.buffer_stiffness)
-        same = np.repeat(run.slip[:, None], count, axis=1), np.repeat(run.velocity[:, None], count, axis=1)
-        found = buffer_forces(law, run, *same)
-        return np.stack([smoothed(found[:, i], run) for i in range(count)], axis=1) if run.filtered else found
+        slip, velocity = refined(run.slip[:, None]), refined(run.velocity[:, None])
+        time = np.linspace(run.time[0], run.time[-1], len(slip))
+        fine = buffer_forces(law, time, np.repeat(slip, count, axis=1), np.repeat(velocity, count, axis=1))
+        return as_logged(fine, run, None, averaged=False)
 
     def _motion(self, place: int, run: FitRun, values: Mapping[str, float]) -> Array:
         late = values["rig.late_slip"]
@@ -351,15 +354,19 @@ def _call(effect: Effect, hook: str, record: Record, target: str, values: Mappin
 
 
 def _without(term: Term, values: Mapping[str, float], run: FitRun) -> FitRun:
-    """Take a fault out of a run: by its inverse, or by what it does to the smoothed channels."""
+    """Take a fault out of a run: by its inverse, or by what it does to the smoothed channel."""
     record = run.record
     for entry in term.uses(values):
         if "undo" in term.effect.hooks:
             record = _call(entry.effect, "undo", record, entry.target, entry.values)
         else:
-            smooth = record.replaced(**{n: smoothed(v, run) for n, v in record.channels.items()})
-            faulty = _call(entry.effect, "gauge", smooth, entry.target, entry.values)
-            record = record.replaced(**{n: v - (faulty[n] - smooth[n]) for n, v in record.channels.items()})
+            measured = record.replaced(**{entry.target: smoothed(record[entry.target], run)})
+            true = measured
+            for _ in range(_NEUMANN):  # true = measured - (fault(true) - true)
+                faulty = _call(entry.effect, "gauge", true, entry.target, entry.values)
+                change = faulty[entry.target] - true[entry.target]
+                true = measured.replaced(**{entry.target: measured[entry.target] - change})
+            record = record.replaced(**{entry.target: record[entry.target] - change})
     moved = any(record[n] is not run.record[n] for n in ("slip_x", "girder_ax", "table_ax") if n in record)
     return run.with_record(record, moved=moved)
 

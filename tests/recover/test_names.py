@@ -1,0 +1,40 @@
+"""Hide an effect with the second simulator, and name it from the records alone."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bench import make_campaign
+from slipwise.diagnose import diagnose
+from slipwise.ladder import ladder
+
+
+def test_a_complete_model_is_not_accused(tmp_path: Path) -> None:
+    make_campaign(tmp_path / "made", 7001, effects=())
+    found = diagnose(tmp_path / "made")
+    assert found.verdict.kind == "complete", found.sentence
+    assert found.final_error < 1.15
+
+
+@pytest.mark.parametrize(
+    ("effect", "seed", "kind"),
+    [("heating", 7002, "named"), ("buffer_hysteresis", 7003, "named"), ("load_crosstalk", 7004, "instrument")],
+)
+def test_a_hidden_effect_is_named(tmp_path: Path, effect: str, seed: int, kind: str) -> None:
+    make_campaign(tmp_path / "made", seed, effects=(effect,), size="medium")
+    found = diagnose(tmp_path / "made")
+    assert (found.verdict.kind, found.verdict.effects) == (kind, (effect,)), found.sentence
+    assert found.final_error < found.base_error
+    said = json.loads(json.dumps(found.as_json(), allow_nan=False))
+    assert said["candidates"][0]["effect"].startswith(effect)
+
+
+def test_the_ladder_falls_on_runs_that_the_fit_has_not_seen(tmp_path: Path) -> None:
+    make_campaign(tmp_path / "made", 7005, effects=("run_in",), size="medium")
+    found = ladder(tmp_path / "made", add=("run_in",))
+    first, last = found.rungs
+    assert (first.effects, last.effects) == ((), ("run_in",))
+    assert last.holdout_error < 0.5 * first.holdout_error
+    assert np.isnan(last.system_holdout_error)

@@ -1,0 +1,69 @@
+"""Faults of samples are seen without any fit."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from slipwise.campaign import Campaign, Logger, Run
+from slipwise.diagnose.samples import mended, sample_faults
+from slipwise.record import Record
+from slipwise.rig import load_specimen
+
+
+def _campaign(**changed: np.ndarray) -> Campaign:
+    """A girder that slides back and forth under rigid balances, with noise on every gauge."""
+    rng = np.random.default_rng(4)
+    time = np.arange(3000) * 0.002
+    slip = 0.02 * np.sin(2.0 * np.pi * 1.5 * time)
+    bend = -((2.0 * np.pi * 1.5) ** 2) * slip
+    table = 3.0 * np.sin(2.0 * np.pi * 1.5 * time + 0.4)
+    vertical = 1.5 * np.sin(2.0 * np.pi * 4.0 * time)
+    noisy = {
+        "table_ax": table + rng.normal(0.0, 0.02, time.size),
+        "girder_ax": table + bend + rng.normal(0.0, 0.03, time.size),
+        "girder_az": vertical + rng.normal(0.0, 0.03, time.size),
+        "slip_x": slip + rng.normal(0.0, 2e-5, time.size),
+    }
+    for pad in "ABCD":
+        noisy[f"pad_{pad}_N"] = 2500.0 * (9.80665 + vertical) + rng.normal(0.0, 40.0, time.size)
+        noisy[f"pad_{pad}_Fx"] = 2400.0 * np.tanh(np.gradient(slip, time) / 0.01) + rng.normal(0.0, 15.0, time.size)
+    record = Record(time, {**noisy, **changed})
+    specimen = load_specimen("bridge1")
+    run = Run("only", "fit", record, 0.0, None, "only.csv", "")
+    return Campaign("made", "bridge1", specimen, Logger(), (run,), specimen.path.parent)
+
+
+def test_sound_gauges_show_no_fault() -> None:
+    assert sample_faults(_campaign()) == ()
+
+
+@pytest.mark.parametrize("name", ["slip_x", "girder_ax", "girder_az", "pad_C_Fx"])
+def test_a_gauge_wired_the_wrong_way_round_is_named_and_turned_back(name: str) -> None:
+    campaign = _campaign()
+    wrong = replace(
+        campaign.runs[0], record=campaign.runs[0].record.replaced(**{name: -campaign.runs[0].record[name]})
+    )
+    broken = replace(campaign, runs=(wrong,))
+    faults = sample_faults(broken)
+    assert [(f.effect, f.channel) for f in faults] == [("channel_sign", name)]
+    whole, _ = mended(broken, faults)
+    assert np.array_equal(whole.runs[0].record[name], campaign.runs[0].record[name])
+
+
+def test_a_rail_is_told_from_a_peak() -> None:
+    force = _campaign().runs[0].record["pad_A_Fx"]
+    faults = sample_faults(_campaign(pad_A_Fx=np.minimum(force, 2380.0)))
+    assert [(f.effect, f.channel) for f in faults] == [("channel_clipping", "pad_A_Fx")]
+
+
+def test_lost_samples_are_told_and_left_out() -> None:
+    load = _campaign().runs[0].record["pad_B_N"].copy()
+    lost = np.arange(100, 2900, 40)
+    load[lost] = load[lost - 1]
+    broken = _campaign(pad_B_N=load)
+    faults = sample_faults(broken)
+    assert [(f.effect, f.channel) for f in faults] == [("dropped_samples", "pad_B_N")]
+    assert faults[0].share == pytest.approx(lost.size / load.size, rel=0.3)
+    _, spoiled = mended(broken, faults)
+    assert spoiled["only"][lost].all()

@@ -1,0 +1,29 @@
+"""Projection and grids of the screening."""
+
+import numpy as np
+
+from slipwise.diagnose.screen import projector, shapes, strengths
+from slipwise.effects import catalogue
+
+
+def test_what_the_base_can_do_is_projected_out_and_the_rest_stays() -> None:
+    rng = np.random.default_rng(1)
+    base = rng.normal(size=(200, 4))
+    base[:, 3] = 2.0 * base[:, 0]  # parameters that are one thing must not spoil the others
+    project = projector(base)
+    other = rng.normal(size=200)
+    assert np.allclose(project(base @ np.array([1.0, -2.0, 0.5, 3.0])), 0.0, atol=1e-9)
+    assert np.allclose(base.T @ project(other), 0.0, atol=1e-9)
+    assert np.allclose(project(project(other)), project(other))
+
+
+def test_every_effect_of_the_catalogue_has_a_strength_or_replaces_a_law() -> None:
+    for effect in catalogue().values():
+        assert strengths(effect) or effect.replaces or effect.name == "pad_compliance", effect.name
+
+
+def test_shapes_stay_within_their_bounds() -> None:
+    for effect in catalogue().values():
+        for shape in shapes(effect):
+            for name, value in shape.items():
+                effect.parameter(name).check(value, effect.name)

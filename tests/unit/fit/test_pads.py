@@ -1,0 +1,65 @@
+"""Pads' forces as a logger writes them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from slipwise.fit.data import FINE, refined
+from slipwise.fit.pads import as_logged, lost_velocity
+from slipwise.signals import LowPass, lowpass
+
+
+@dataclass(frozen=True)
+class _Run:
+    time: np.ndarray
+    dt: float
+    filtered: LowPass | None
+
+
+def _run(by: LowPass | None) -> _Run:
+    return _Run(np.arange(2001) * 0.002, 0.002, by)
+
+
+def test_a_force_without_kinks_is_filtered_as_the_logger_filters() -> None:
+    run = _run(LowPass(60.0))
+    fine = np.linspace(run.time[0], run.time[-1], FINE * (len(run.time) - 1) + 1)
+    force = np.sin(2.0 * np.pi * 40.0 * fine)[:, None]
+    logged = as_logged(force, run, None, averaged=False)[:, 0]  # type: ignore[arg-type]
+    gain = 1.0 / (1.0 + (40.0 / 60.0) ** 8)
+    inside = slice(200, -200)
+    assert np.sqrt(2.0) * np.std(logged[inside]) == pytest.approx(gain, rel=1e-3)
+
+
+def test_a_reversal_between_two_samples_is_timed_to_a_fraction_of_a_sample() -> None:
+    run = _run(LowPass(80.0))
+    fine = np.linspace(run.time[0], run.time[-1], FINE * (len(run.time) - 1) + 1)
+    half = run.dt / FINE / 2.0
+    turn = 2.0003
+    share = np.clip((fine - turn) / half, -1.0, 1.0)  # mean of the sign over each instant
+    logged = as_logged(share[:, None], run, None, averaged=True)[:, 0]  # type: ignore[arg-type]
+    near = np.abs(run.time - turn) < 0.006
+    crossing = np.interp(0.0, logged[near], run.time[near])
+    assert crossing == pytest.approx(turn, abs=2e-5)
+
+
+def test_most_of_a_kink_that_the_filter_took_from_the_velocity_is_given_back() -> None:
+    by, mass = LowPass(80.0), 1e4
+    run = _run(by)
+    fine = np.linspace(run.time[0], run.time[-1], FINE * (len(run.time) - 1) + 1)
+    force = 5e3 * np.sign(fine - 2.0)
+    sharp = -5e3 * np.abs(fine - 2.0) / mass
+    seen = lowpass(sharp, run.dt / FINE, by)[::FINE]
+    sharp = sharp[::FINE]
+    given_back = seen + lost_velocity(force, run, mass, None)[::FINE]  # type: ignore[arg-type]
+    near = np.abs(run.time - 2.0) < 0.02
+    assert np.abs(given_back - sharp)[near].max() < np.abs(seen - sharp)[near].max() / 3.0
+
+
+def test_instants_pass_through_the_samples_and_reproduce_a_cubic() -> None:
+    place = np.arange(50.0)
+    values = 0.01 * place**3 - place
+    fine = refined(values)
+    assert np.array_equal(fine[::FINE], values)
+    between = np.linspace(0.0, 49.0, FINE * 49 + 1)
+    assert np.allclose(fine[FINE:-FINE], (0.01 * between**3 - between)[FINE:-FINE])
