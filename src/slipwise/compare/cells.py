@@ -1,8 +1,10 @@
 """Locate: where does error stand above the floor, cell by cell, corrected for the number of cells looked at.
 
 A cell is a part of the samples of one relation: a state of motion, a range of speed, pressure, position, way since the
-last reversal, slid path or time, a pad, a direction, a run, a band of frequency. Its error is tested against the floor
-with an honest number of samples: neighbours in time, and pads at one instant, are not independent.
+last reversal, slid path or time, a pad, a direction, a run, a band of frequency. Its error is tested against what noise
+at the floor would make of it, with an honest number of samples: neighbours in time, and pads at one instant, are not
+independent. Their memory is that of the residual, but no longer than noise can have: a missing force has a long one of
+its own, which must not speak for its innocence.
 
 Source: methods.md D4; Benjamini and Hochberg (1995) for the number of cells.
 """
@@ -12,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import t as student
+from scipy.stats import chi2
 
 from slipwise.compare.motion_states import STATES, MotionStates
 from slipwise.fit.data import FitRun
@@ -25,6 +27,8 @@ ALLOWANCE = 1.3
 _FALSE = 0.01
 #: A cell with fewer independent samples than this is not tested.
 _FEWEST = 8.0
+#: Noise at the floor remembers no more samples than this: those of a logger's filter [1].
+_LONGEST = 5.0
 _BANDS = (0.0, 1.0, 3.0, 10.0, 30.0, 100.0, np.inf)
 
 
@@ -70,7 +74,8 @@ class Samples:
         residual: (n,) in floors.
         values: kind -> (n,) value of each sample, or number of its label.
         labels: kind -> labels, for kinds that are no ranges.
-        spread: samples for one independent one [1].
+        spread: samples of the residual for one independent one [1].
+        noise_spread: the same of noise at the floor [1].
         spectrum: frequency (f,) [Hz] and squared error in floors (f,), the mean over pads.
     """
 
@@ -80,6 +85,7 @@ class Samples:
     values: Mapping[str, Array]
     labels: Mapping[str, tuple[str, ...]]
     spread: float
+    noise_spread: float
     spectrum: tuple[Array, Array]
 
 
@@ -102,7 +108,6 @@ def gather(
         wide = part if part.ndim == 2 else part[:, None]
         width = wide.shape[1]
         judged = wide != 0.0
-        pressure = run.load / area if wide.shape[1] == run.load.shape[1] else run.load.mean(axis=1)[:, None] / area
         single = {
             "state": motion.label,
             "speed": np.abs(run.velocity),
@@ -113,7 +118,9 @@ def gather(
             "direction": motion.direction,
         }
         rows = {name: np.broadcast_to(np.asarray(v, dtype=float)[:, None], wide.shape) for name, v in single.items()}
-        rows["pressure"] = np.broadcast_to(pressure, wide.shape)
+        if relation == "pads":
+            # a balance of loads sorted by load would sort its own noise
+            rows["pressure"] = np.broadcast_to(run.load / area, wide.shape)
         rows["run"] = np.full(wide.shape, float(number))
         if width > 1:
             rows["pad"] = np.broadcast_to(np.arange(width, dtype=float)[None], wide.shape)
@@ -130,8 +137,10 @@ def gather(
     }
     values = {name: np.concatenate(rows) for name, rows in columns.items()}
     values["direction"] = values["direction"] + 1.0
+    spread, pads = _spread(parts), parts[0].shape[1] if parts[0].ndim == 2 else 1
+    spectrum = _spectrum(parts, [r.dt for r in runs])
     return Samples(
-        relation, residual**2, residual, values, labels, _spread(parts), _spectrum(parts, [r.dt for r in runs])
+        relation, residual**2, residual, values, labels, spread, min(spread, _LONGEST * pads), spectrum
     )
 
 
@@ -144,7 +153,7 @@ def cells_of(samples: Samples) -> list[Cell]:
             for number, label in enumerate(samples.labels[kind]):
                 out.append(_cell(samples, kind, label, np.nan, np.nan, known & (values == number)))
             continue
-        edges = _edges(kind, values[known])
+        edges = edges_of(kind, values[known])
         for low, high in zip(edges[:-1], edges[1:], strict=True):
             last = high == edges[-1]
             inside = known & (values >= low) & ((values <= high) if last else (values < high))
@@ -167,7 +176,7 @@ def corrected(cells: Iterable[Cell]) -> tuple[Cell, ...]:
 def _cell(samples: Samples, kind: str, label: str, low: float, high: float, inside: Mask) -> Cell:
     squares = samples.squared[inside]
     count = len(squares)
-    effective = count / samples.spread
+    effective = count / samples.noise_spread
     return _tested(samples.relation, kind, label, low, high, squares, count, effective)
 
 
@@ -175,15 +184,12 @@ def _tested(
     relation: str, kind: str, label: str, low: float, high: float, squares: Array, count: int, effective: float
 ) -> Cell:
     mean = float(squares.mean()) if count else 0.0
-    chance = 1.0
-    if effective >= _FEWEST:
-        scatter = float(squares.std(ddof=1)) / np.sqrt(effective)
-        chance = float(student.sf((mean - ALLOWANCE**2) / max(scatter, 1e-12), effective - 1.0))
+    chance = float(chi2.sf(effective * mean / ALLOWANCE**2, effective)) if effective >= _FEWEST else 1.0
     excess = count * max(mean - 1.0, 0.0)
     return Cell(relation, kind, label, low, high, float(np.sqrt(mean)), count, effective, chance, False, excess)
 
 
-def _edges(kind: str, values: Array) -> Array:
+def edges_of(kind: str, values: Array) -> Array:
     """Give the edges of a kind's ranges: round numbers for the way since a reversal, equal counts for the rest."""
     if len(values) == 0:
         return np.zeros(0)

@@ -8,10 +8,12 @@ import numpy as np
 
 from slipwise.campaign import Campaign, load_campaign
 from slipwise.compare.cells import cells_of, corrected, gather
+from slipwise.compare.checks import Checks, check_instruments
 from slipwise.compare.component import component_errors, in_floors, repeat_errors
 from slipwise.compare.intervals import intervals
 from slipwise.compare.motion_states import motion_states
 from slipwise.compare.parity import parity
+from slipwise.compare.patterns import patterns_of
 from slipwise.compare.result import Comparison
 from slipwise.compare.surface import surface
 from slipwise.compare.system_level import SystemLevel, system_level
@@ -30,6 +32,7 @@ def compare(
     model: Model | None = None,
     *,
     system: bool = True,
+    checks: Checks | None = None,
     progress: Callable[[str, float], None] | None = None,
 ) -> Comparison:
     """Hold a model against a campaign.
@@ -40,6 +43,7 @@ def compare(
         campaign: or its folder.
         model: the user's current model; the paper's law on the campaign's rig when not given.
         system: replay the runs as well.
+        checks: the audit of the instruments, where it was made already.
         progress: called with what is being done and the fraction done.
 
     Raises:
@@ -50,7 +54,9 @@ def compare(
     tell("reading", 0.0)
     if not isinstance(campaign, Campaign):
         campaign = load_campaign(campaign)
-    tell("fitting base parameters", 0.1)
+    tell("auditing the instruments", 0.05)
+    checks = checks or check_instruments(campaign)
+    tell("fitting base parameters", 0.25)
     base = fit_base(campaign, model)
     tell("locating errors", 0.5)
     residuals = in_floors(base)
@@ -64,6 +70,7 @@ def compare(
     }
     cells = corrected(cell for one in samples.values() for cell in cells_of(one))
     parities = {r: found for r, one in samples.items() if (found := parity(one)) is not None}
+    patterns = tuple(pattern for one in samples.values() for pattern in patterns_of(one))
     errors = {r: float(np.sqrt(one.squared.mean())) for r, one in samples.items()}
     found = intervals(base)
     tell("drawing the friction surface", 0.6)
@@ -84,6 +91,7 @@ def compare(
         campaign=campaign,
         model=base.problem.model(base.solution.values),
         base=base,
+        checks=checks,
         residuals=residuals,
         components=components,
         repeats=repeat_errors(base, residuals),
@@ -91,9 +99,10 @@ def compare(
         intervals=found,
         surface=friction,
         cells=cells,
+        patterns=patterns,
         parities=parities,
-        places=places(cells, parities, errors),
-        cannot=tuple(cannot),
+        places=places(cells, patterns, parities, errors),
+        cannot=(*cannot, *(f"audit: {words}" for words in checks.cannot)),
         notes=tuple(dict.fromkeys([*campaign.notes, *(level.notes if level else ())])),
         seconds=time.perf_counter() - began,
     )

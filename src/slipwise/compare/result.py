@@ -6,9 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 from slipwise.campaign import Campaign
 from slipwise.compare.cells import Cell
+from slipwise.compare.checks import Checks
 from slipwise.compare.component import ComponentError, pooled
 from slipwise.compare.intervals import Intervals
 from slipwise.compare.parity import Parity
+from slipwise.compare.patterns import Pattern
 from slipwise.compare.surface import Surface
 from slipwise.compare.system_level import SystemLevel, held_out_channels
 from slipwise.compare.words import Place
@@ -19,7 +21,7 @@ from slipwise.model import Model
 if TYPE_CHECKING:
     import pandas
 
-TABLES: tuple[str, ...] = ("components", "system", "parameters", "correlations", "cells", "places", "parity", "floor")
+TABLES: tuple[str, ...] = ("audit", "components", "system", "parameters", "correlations", "cells", "places", "parity", "floor")
 
 
 @dataclass(frozen=True)
@@ -30,6 +32,7 @@ class Comparison:
         campaign: that was measured.
         model: fitted on the runs that may be fitted.
         base: the fit, with residuals of all runs.
+        checks: of the instruments, before any fit.
         residuals: relation -> per run residual in floors, zero where masked.
         components: error of every relation in every run.
         repeats: relation -> what a repeated run says of its floor: 1 where the floor is right.
@@ -37,6 +40,7 @@ class Comparison:
         intervals: of the fitted numbers.
         surface: mu(P, V) with its band; None where no load is known.
         cells: every part of the samples that was looked at.
+        patterns: mean residual over every state of motion.
         parities: relation -> odd and even part.
         places: where the error is, in words, the worst first.
         cannot: what could not be done, and for want of what.
@@ -47,6 +51,7 @@ class Comparison:
     campaign: Campaign
     model: Model
     base: BaseFit
+    checks: Checks
     residuals: Mapping[str, Sequence[Any]]
     components: tuple[ComponentError, ...]
     repeats: Mapping[str, float]
@@ -54,6 +59,7 @@ class Comparison:
     intervals: Intervals
     surface: Surface | None
     cells: tuple[Cell, ...]
+    patterns: tuple[Pattern, ...]
     parities: Mapping[str, Parity]
     places: tuple[Place, ...]
     cannot: tuple[str, ...]
@@ -88,7 +94,7 @@ class Comparison:
         """Give one of the tables as rows, SI.
 
         Args:
-            table: components, system, parameters, correlations, cells, places, parity or floor.
+            table: audit, components, system, parameters, correlations, cells, places, parity or floor.
 
         Raises:
             UnknownNameError: no such table.

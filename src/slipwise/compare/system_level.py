@@ -97,7 +97,7 @@ def replayed_model(base: BaseFit) -> tuple[Model, tuple[str, ...]]:
     # a bristle of this length swings the girder once in some steps: a shorter one is too stiff for them
     stiff = _STIFFEST * DT**2 * model.specimen.gravity
     if not model.with_hook("stick") and length > stiff:
-        model = model.adding(use("presliding", length=length, exponent=0.0))
+        model = model.adding(use("presliding", length=length, exponent=1.0))
         notes.append(f"pads stick elastically over {length * 1e6:.1f} um, as the base fit found")
     return model, tuple(notes)
 

@@ -3,6 +3,8 @@
 import math
 from typing import Any
 
+import numpy as np
+
 from slipwise.compare.component import NAMES, floors
 from slipwise.compare.result import Comparison
 
@@ -61,23 +63,29 @@ def _parity(found: Comparison) -> list[dict[str, Any]]:
 
 def _floor(found: Comparison) -> list[dict[str, Any]]:
     own = floors(found.base)
+    runs = found.base.problem.runs
     out = []
     for relation in found.relations:
-        parts = own[relation]
-        mean = math.sqrt(sum(float((p**2).mean()) for p in parts) / len(parts))
-        out.append(
-            {
-                "relation": relation,
-                "floor": mean,
-                "unit": NAMES[relation][1],
-                "basis": "noise of the gauges and of the velocity",
-                "repeated_runs": found.repeats.get(relation),
-            }
-        )
+        sliding, turning = [], []
+        for sigma, part, run in zip(own[relation], found.residuals[relation], runs, strict=True):
+            wide = part if part.ndim == 2 else part[:, None]
+            level = np.broadcast_to(sigma if np.ndim(sigma) != 1 else np.asarray(sigma)[:, None], wide.shape)
+            turns = np.broadcast_to(run.states.near_reversal[:, None], wide.shape)
+            sliding.append(level[(wide != 0.0) & ~turns])
+            turning.append(level[(wide != 0.0) & turns])
+        row = {"relation": relation, "floor": _rms(sliding), "near_reversals": _rms(turning)}
+        row |= {"unit": NAMES[relation][1], "repeated_runs": found.repeats.get(relation)}
+        out.append(row)
     return out
 
 
+def _rms(parts: list[np.ndarray]) -> float | None:
+    values = np.concatenate(parts)
+    return float(np.sqrt(np.mean(values**2))) if len(values) else None
+
+
 _MAKERS = {
+    "audit": lambda found: [dict(row) for row in found.checks.rows],
     "components": _components,
     "system": _system,
     "parameters": _parameters,
@@ -93,10 +101,10 @@ def as_json(found: Comparison) -> dict[str, Any]:
     """Give a comparison as compare.json holds it: SI, errors in multiples of the floor, null where unknown.
 
     Keys: `schema` 1 · `campaign` · `rig` · `model` (effects with their fitted values) · `components` {relation: {fit,
-    holdout, repeats}} · `system` {channel: {fit, holdout}} · `worst` {relation, error} · `places` [{relation, words,
+    holdout, repeats}} · `system` {channel: {fit, holdout}} · `audit` {accused, words, findings: [...]} · `worst` {relation, error} · `places` [{relation, words,
     error, elsewhere, share, part, kind, direction}], the worst first · `parameters` [{parameter, value, low, high, rated,
     unit, bound}], 95 % · `correlations` [{parameter, other, correlation}], the strongest first · `surface` {pressure,
-    speed, friction, deviation} · `floor` [{relation, floor, unit, basis, repeated_runs}] · `parity` [{relation, odd,
+    speed, friction, deviation} · `floor` [{relation, floor, near_reversals, unit, repeated_runs}] · `parity` [{relation, odd,
     even, plus, minus}] · `cells` [{relation, kind, label, low, high, error, samples, effective, chance, above}] · `runs`
     {components: [...], system: [...]}, error of every run · `cannot` and `notes`, in words · `seconds`.
     """
@@ -130,6 +138,7 @@ def as_json(found: Comparison) -> dict[str, Any]:
             for r in found.relations
         },
         "system": system,
+        "audit": {"accused": found.checks.accused, "words": found.checks.words, "findings": found.rows("audit")},
         "worst": {"relation": worst, "error": error},
         "surface": surface,
         **{name: found.rows(name) for name in ("places", "parameters", "correlations", "floor", "parity", "cells")},

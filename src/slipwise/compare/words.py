@@ -6,11 +6,14 @@ from dataclasses import dataclass
 from slipwise.compare.cells import ALLOWANCE, Cell
 from slipwise.compare.component import NAMES
 from slipwise.compare.parity import Parity
+from slipwise.compare.patterns import Pattern
 
 #: Both directions count as equal within this ratio of their errors, and with this part of even residual [1].
 _EQUAL, _EVEN = 1.15, 0.25
 #: A place is worth naming when its part of the excess is this much more than its part of the samples [1].
 _WORTH = 0.2
+#: A pattern that explains this part of the squared residual tells more than where the error is large [1].
+_PATTERN = 0.1
 #: And with this part of the excess it is "most of it" [1].
 _MOST = 0.6
 #: kind -> unit and factor from SI for words.
@@ -23,6 +26,8 @@ UNITS: Mapping[str, tuple[str, float]] = {
     "time": ("s", 1.0),
     "frequency": ("Hz", 1.0),
 }
+#: Bands that begin below this are not named [Hz].
+_SLOW_BAND = 3.0
 #: A way since the last reversal says more than the state or the speed that goes with it, a run less than its cause.
 _TELLING: Mapping[str, float] = {"since reversal": 1.35, "run": 0.7, "time": 0.8, "frequency": 0.5}
 _ORDERED = ("since reversal", "speed", "pressure", "position", "path", "time", "frequency")
@@ -54,19 +59,31 @@ class Place:
     direction: str
 
 
-def places(cells: Sequence[Cell], parities: Mapping[str, Parity], errors: Mapping[str, float]) -> tuple[Place, ...]:
+def places(
+    cells: Sequence[Cell],
+    patterns: Sequence[Pattern],
+    parities: Mapping[str, Parity],
+    errors: Mapping[str, float],
+) -> tuple[Place, ...]:
     """Say for every relation with a cell above the floor where its error is, the worst relation first.
 
     Args:
         cells: all that were tested, corrected for their number.
+        patterns: of all relations.
         parities: relation -> odd and even part.
         errors: relation -> rms over all runs [floors].
     """
     out = []
     for relation in dict.fromkeys(c.relation for c in cells):
         own = [c for c in cells if c.relation == relation]
-        if any(c.above for c in own):
-            out.append(_place(relation, own, parities.get(relation), errors[relation]))
+        # misfit that is slow alone is an offset or a share of the rig's numbers, no place in the motion
+        if any(c.above and not (c.kind == "frequency" and c.low < _SLOW_BAND) for c in own):
+            shown = [p for p in patterns if p.relation == relation]
+            best = max(shown, key=lambda p: p.explained * _telling(relation, p.kind), default=None)
+            if best is not None and best.explained > _PATTERN:
+                out.append(_patterned(relation, own, best))
+            else:
+                out.append(_place(relation, own, parities.get(relation), errors[relation]))
     return tuple(sorted(out, key=lambda p: -p.error))
 
 
@@ -77,9 +94,10 @@ def _place(relation: str, cells: Sequence[Cell], found: Parity | None, error: fl
         if kind == "state":
             own = [c for c in own if c.label != "uplift"]
         chosen = _concentrated(own, ordered=kind in _ORDERED)
-        if chosen:
+        # misfit of any kind is slow: only a band above that tells something
+        if chosen and not (kind == "frequency" and chosen[0].low < _SLOW_BAND):
             gain = _part(own, chosen, "excess") - _part(own, chosen, "samples")
-            if best is None or gain * _TELLING.get(kind, 1.0) > best[0] * _TELLING.get(best[1], 1.0):
+            if best is None or gain * _telling(relation, kind) > best[0] * _telling(relation, best[1]):
                 best = (gain, kind, own, chosen)
     direction = _direction(cells, found)
     called = NAMES[relation][0]
@@ -97,6 +115,37 @@ def _place(relation: str, cells: Sequence[Cell], found: Parity | None, error: fl
         most = "most of it" if share >= _MOST else f"{share:.0%} of it"
         words = f"{subject}: {most} {where}: {here:.1f} floors there, {there:.1f} elsewhere"
     return Place(relation, words, here, there, share, part, kind, direction)
+
+
+def _telling(relation: str, kind: str) -> float:
+    return _TELLING.get(kind, 1.0) if relation == "pads" or kind != "since reversal" else 1.0
+
+
+def _patterned(relation: str, cells: Sequence[Cell], pattern: Pattern) -> Place:
+    """Say where the mean residual is largest, and what it means: too much or too little, or always one way."""
+    bins, is_odd = pattern.strongest()
+    part = pattern.odd if is_odd else pattern.even
+    own = [c for c in cells if c.kind == pattern.kind]
+    chosen = own[bins]
+    rest = [c for c in own if c not in chosen]
+    direction = pattern.directions(bins)
+    weight = pattern.samples[bins]
+    there = float((weight * part[bins]).sum() / weight.sum())
+    here, elsewhere = _rms(chosen), _rms(rest)
+    after = ["after reversals"] if pattern.kind == "since reversal" else []
+    subject = ", ".join([NAMES[relation][0], *after, *([direction] if direction else []), *_pads(cells)])
+    if relation == "pads":
+        means = f"measured friction {abs(there):.1f} floors {'above' if there > 0 else 'below'} the model's"
+        means = means if is_odd else f"a force of {abs(there):.1f} floors to {'+x' if there > 0 else '−x'}"
+    else:
+        means = f"{abs(there):.1f} floors, {'with' if is_odd else 'whatever'} the direction of sliding"
+    if rest:
+        words = f"{subject}: {_where(pattern.kind, own, chosen)}, {means}"
+        words += f" ({here:.1f} floors rms, {elsewhere:.1f} elsewhere)"
+    else:
+        words = f"{subject}: {means}, everywhere alike ({here:.1f} floors rms)"
+    share, size = _part(own, chosen, "excess"), _part(own, chosen, "samples")
+    return Place(relation, words, here, elsewhere, share, size, pattern.kind, direction)
 
 
 def _concentrated(cells: Sequence[Cell], *, ordered: bool) -> list[Cell]:

@@ -1,0 +1,118 @@
+"""`slipwise init`, `audit` and `compare`: draft a campaign, check its instruments, hold a model against it."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from slipwise.campaign import load_campaign
+from slipwise.cli.console import OUT, out_folder, print_json
+from slipwise.cli.diagnose import CampaignFolder, Json, ModelFile, System, start_model, steps
+from slipwise.errors import InputError
+from slipwise.record import write_json, write_text
+
+Correct = Annotated[
+    list[str] | None,
+    typer.Option(help="Correct the records by a finding of the audit, named as it prints it; may be repeated."),
+]
+
+
+def init(folder: Annotated[Path, typer.Argument(help="Folder with the files of the measured runs.")]) -> None:
+    """Draft campaign.toml from the files of a folder; what only you can know is marked in it.
+
+    Example: `slipwise init campaigns/march`
+    """
+    from slipwise.campaign.draft import draft_campaign
+
+    path = folder / "campaign.toml"
+    if path.exists():
+        raise InputError(f"{path} exists and is not overwritten; move it away to draft a new one")
+    write_text(path, draft_campaign(folder))
+    OUT.print(f"wrote {path}; read it, and decide what is marked in it", markup=False, highlight=False, soft_wrap=True)
+
+
+def audit(campaign: CampaignFolder, correct: Correct = None, json: Json = False) -> None:
+    """Check whether the instruments tell the truth, before any law of friction.
+
+    Example: `slipwise audit campaigns/march`
+    """
+    from slipwise.compare import check_instruments, corrected_campaign
+    from slipwise.view.terminal import print_table
+
+    measured = load_campaign(campaign)
+    with steps() as tell:
+        tell("auditing the instruments", 0.2)
+        found = check_instruments(measured)
+        notes: tuple[str, ...] = ()
+        if correct:
+            mended = corrected_campaign(measured, found, correct)
+            notes = mended.notes[len(measured.notes) :]
+            tell("auditing once more", 0.6)
+            found = check_instruments(mended)
+    if json:
+        content = {"schema": 1, "campaign": measured.name, "accused": found.accused, "words": found.words}
+        content |= {"findings": [dict(row) for row in found.rows], "cannot": list(found.cannot), "notes": list(notes)}
+        print_json(content)
+        return
+    for words in (*notes, found.words):
+        OUT.print(words, markup=False, highlight=False, soft_wrap=True)
+    if found.rows:
+        print_table("Findings", found.rows)
+    for words in found.cannot:
+        OUT.print(f"could not be tested: {words}", markup=False, highlight=False, soft_wrap=True)
+
+
+def compare(
+    campaign: CampaignFolder,
+    out: Annotated[Path, typer.Option(help="Folder for compare.json, report.html and the recording.")] = Path(
+        "out/compare"
+    ),
+    model: ModelFile = None,
+    system: System = True,
+    correct: Correct = None,
+    recording: Annotated[bool, typer.Option(help="Write measured and simulated side by side for the viewer.")] = True,
+    json: Json = False,
+) -> None:
+    """Hold the model against the measurement: how well does it do, and exactly where does it fail.
+
+    Example: `slipwise compare campaigns/march --out out/march`
+    """
+    from slipwise.compare import as_json, check_instruments, corrected_campaign
+    from slipwise.compare import compare as run_comparison
+    from slipwise.view.compare_page import compare_page
+
+    measured = load_campaign(campaign)
+    start = start_model(campaign, model)
+    folder = out_folder(out)
+    with steps() as tell:
+        if correct:
+            measured = corrected_campaign(measured, check_instruments(measured), correct)
+        found = run_comparison(measured, start, system=system, progress=tell)
+        tell("writing the report", 0.97)
+        content = as_json(found)
+        write_text(folder / "report.html", compare_page(found))
+        write_json(folder / "compare.json", content)
+        files = [folder / "compare.json", folder / "report.html"]
+        if recording:
+            from slipwise.view.compare_recording import write_compare_recording
+
+            files.append(write_compare_recording(found, folder / "compare.rrd"))
+    if json:
+        print_json(content)
+        return
+    from slipwise.view.compare_page import one_minute
+    from slipwise.view.terminal import print_table
+
+    rows = [{"component": r, "fitted": found.error(r, held_out=False), "held out": found.error(r, held_out=True)}
+            for r in found.relations]  # fmt: skip
+    print_table("Error in multiples of the noise floor", rows)
+    for question, answer in one_minute(found):
+        OUT.print(f"{question} {answer}", markup=False, highlight=False, soft_wrap=True)
+    for path in files:
+        OUT.print(f"wrote {path}", markup=False, highlight=False, soft_wrap=True)
+
+
+def register(app: typer.Typer) -> None:
+    """Add these commands to the command line."""
+    for command in (init, audit, compare):
+        app.command()(command)

@@ -1,0 +1,371 @@
+"""The report of a comparison: a page that a professor understands in one minute, and everything behind it."""
+
+from typing import Any
+
+from slipwise.compare import Comparison
+from slipwise.compare.cells import ALLOWANCE, Cell
+from slipwise.compare.component import NAMES
+from slipwise.compare.words import UNITS
+from slipwise.units import parse_unit
+from slipwise.view import compare_figures as figures
+from slipwise.view.html import Html, Section, Tone, bullets, callout, details, figure, page, paragraph, table, verdict
+
+#: Fitted numbers -> what they are called, unit in which they are shown.
+_CALLED: dict[str, tuple[str, str]] = {
+    "rig.mass": ("mass of the girder", "t"),
+    "rig.centre_height": ("height of the centre of gravity", "m"),
+    "rig.buffer_stiffness": ("buffer stiffness, together", "kN/mm"),
+    "rig.pitch_frequency": ("pitch of the girder on its pads", "Hz"),
+    "rig.pitch_damping": ("its damping", "1"),
+    "rig.pitch_slip": ("slip at the gauge for pitch load", "mm/kN"),
+    "rig.stick_length": ("slip over which stick turns round", "um"),
+    "rig.shear_strength": ("shear strength s", "MPa"),
+    "rig.logger": ("logger's filter of the friction channels", "Hz"),
+    "shear_rate.strength": ("s' of eq. (5)", "MPa"),
+    "shear_rate.rate": ("n of eq. (5)", "s/m"),
+    "shear_rate.slow": ("alpha of eq. (5)", "1"),
+    "contact_area.saturation": ("k of eq. (3)", "1/MPa"),
+}
+_LATE = "rig.late_"
+
+
+def compare_page(found: Comparison) -> str:
+    """Make the report of a comparison: the text of one HTML file that needs nothing else."""
+    name = found.campaign.name
+    sections = [
+        Section("How well the model does", _errors(found)),
+        Section("Where it fails", _places(found)),
+        Section("Histories", _histories(found)),
+        Section("Loops", _loops(found)),
+        Section("Are the instruments telling the truth", _audit(found)),
+        Section("Noise floor", _floor(found)),
+        Section("Fitted numbers", _parameters(found)),
+        Section("What was done, and what could not be", _about(found)),
+    ]
+    return page(f"{name}: the model against the measurement", sections, _summary(found))
+
+
+def headline(found: Comparison) -> tuple[str, str, Tone]:
+    """Give the answer in a few words, in a sentence, and its tone."""
+    relation, error = found.worst
+    where = "on the held-out runs" if found.base.problem.held_out else "on the fitted runs (none is held out)"
+    if not found.places:
+        return (
+            "Nothing above the noise floor is left",
+            f"The largest error of any component is {error:.2f} floors {where} ({NAMES[relation][0]}).",
+            "good",
+        )
+    words = f"{_capital(NAMES[relation][0])} errs by {error:.3g} times the noise floor {where}."
+    return f"The model fails in {NAMES[found.places[0].relation][0]}", words, "bad" if error > 3.0 else "warn"
+
+
+def _summary(found: Comparison) -> list[Any]:
+    title, words, tone = headline(found)
+    facts = {}
+    for held, label in ((True, "held out"), (False, "fitted")):
+        value = found.error(found.worst[0], held_out=held)
+        if value is not None:
+            facts[f"worst component, {label}"] = f"{value:.3g} floors"
+    slip = found.system_errors.get("slip_x")
+    if slip is not None:
+        facts["slip of the replay"] = f"{slip:.3g} floors"
+    facts["runs"] = _roles(found)
+    # a grid, so that the four answers are seen at once on a desk and one below the other on a phone
+    columns = "display:grid;gap:0 1.2rem;grid-template-columns:repeat(auto-fit,minmax(min(100%,24rem),1fr))"
+    boxes = "".join(callout(question, answer, own).text for (question, answer), own in zip(
+        one_minute(found), _tones(found), strict=True))
+    return [verdict(title, words, tone, facts), Html(f'<div style="{columns}">{boxes}</div>')]
+
+
+def one_minute(found: Comparison) -> list[tuple[str, str]]:
+    """Give the four questions that everybody asks first, with their answers."""
+    return [
+        ("Are the instruments telling the truth?", found.checks.words),
+        ("What is the noise floor?", _floor_words(found)),
+        ("How well does the model do?", _error_words(found)),
+        ("Exactly where does it fail?", _place_words(found)),
+    ]
+
+
+def _tones(found: Comparison) -> tuple[Tone, ...]:
+    tone = headline(found)[2]
+    checked: Tone = "bad" if found.checks.accused else "good" if found.checks.words.startswith("Yes") else "warn"
+    return checked, "plain", tone, tone
+
+
+def _roles(found: Comparison) -> str:
+    roles = [run.role for run in found.campaign.runs]
+    named = {"fit": "fitted", "repeat": "repeated", "holdout": "held out"}
+    return ", ".join(f"{roles.count(r)} {w}" for r, w in named.items() if r in roles)
+
+
+def _floor_words(found: Comparison) -> str:
+    row = next(r for r in found.rows("floor") if r["relation"] == "pads")
+    words = "unknown while sliding" if row["floor"] is None else f"{_size(row['floor'], 'N')} while sliding"
+    if row["near_reversals"] is not None:
+        words += f" and {_size(row['near_reversals'], 'N')} near reversals"
+    words = f"On the friction of one pad {words}, from the noise of gauges and velocity"
+    again = row["repeated_runs"]
+    if again is None:
+        return words + "; no repeated run confirms it."
+    return words + f"; a repeated run shows {again:.2f} times that."
+
+
+def _error_words(found: Comparison) -> str:
+    held = bool(found.base.problem.held_out)
+    errors = {r: found.error(r, held_out=held) for r in found.relations}
+    known = {r: e for r, e in errors.items() if e is not None}
+    good = [r for r, e in known.items() if e <= ALLOWANCE]
+    bad = sorted((r for r in known if r not in good), key=lambda r: -known[r])
+    words = f"{len(good)} of {len(known)} components are at the floor"
+    if bad:
+        words += "; above it: " + ", ".join(f"{NAMES[r][0]} {known[r]:.3g}" for r in bad)
+    if found.system:
+        channels = found.system_errors
+        worst = max(channels, key=lambda c: channels[c])
+        words += f". Replayed from the table motion, slip errs by {channels['slip_x']:.3g} floors"
+        words += f", the worst channel ({worst}) by {channels[worst]:.3g}"
+    share = [e.share for e in found.components if e.relation == "pads" and (e.role == "holdout") == held]
+    if share:
+        words += f". Friction of the pads errs by {max(share):.2%} of its rms"
+    return words + "."
+
+
+def _place_words(found: Comparison) -> str:
+    if not found.places:
+        return "Nowhere: no state of motion, pad, speed, pressure or run stands above the floor."
+    first = found.places[0].words
+    more = len(found.places) - 1
+    return _capital(first) + (f". And {more} more component{'s' if more > 1 else ''}, below." if more else ".")
+
+
+def _errors(found: Comparison) -> list[Any]:
+    pieces: list[Any] = [
+        figure(
+            figures.errors_figure(found),
+            "Error of every component and channel in multiples of its noise floor. Left of the green line a model cannot "
+            "get; blue bars are runs that the fit has not seen.",
+            "Bars of error over floor for every component and channel",
+        )
+    ]
+    rows = []
+    for e in found.components:
+        rows.append(
+            {
+                "component": NAMES[e.relation][0],
+                "run": e.run,
+                "role": e.role,
+                "error [floors]": round(e.error, 3),
+                "of measured": "" if e.share != e.share else f"{e.share:.2%}",
+                "samples": e.samples,
+            }
+        )
+    pieces.append(details("Every component in every run", [table(rows)]))
+    if found.system:
+        own = [
+            {
+                "channel": e.channel,
+                "run": e.run,
+                "role": e.role,
+                "error [floors]": round(e.error, 3),
+                "of measured": f"{e.share:.2%}",
+                "gauge noise": e.gauge / e.floor,
+                "noise fed in": e.fed / e.floor,
+                "step halved": e.step / e.floor,
+            }
+            for e in found.system.errors
+        ]
+        words = (
+            "The floor of a replay has three parts, shown as parts of it: noise of the gauge, noise of table motion and "
+            "restarts gone through the rig, and the change when the step is halved."
+        )
+        pieces.append(details("Every channel of the replay in every run", [words, table(own)]))
+    return pieces
+
+
+def _places(found: Comparison) -> list[Any]:
+    pieces: list[Any] = []
+    if found.places:
+        pieces.append(bullets([_capital(p.words) + "." for p in found.places]))
+    else:
+        pieces.append(paragraph(_place_words(found)))
+    pieces.append(
+        figure(
+            figures.map_figure(found),
+            f"Error by component and state of motion, in floors. Bold: above the floor beyond doubt (more than "
+            f"{ALLOWANCE:g} floors, corrected for the {len(found.cells)} cells looked at).",
+            "Table of error over floor by component and state of motion",
+        )
+    )
+    for relation in figures.shown_relations(found):
+        called = NAMES[relation][0]
+        if any(p.relation == relation for p in found.patterns):
+            pieces.append(
+                figure(
+                    figures.patterns_figure(found, relation),
+                    f"{_capital(called)}: mean residual (measured less predicted) over every state, both directions of "
+                    "sliding apart, with two standard errors. Mirrored curves are friction, equal curves a constant pull.",
+                    f"Mean residual of {called} over states of motion",
+                )
+            )
+        pieces.append(
+            figure(
+                figures.plane_figure(found, relation),
+                f"{_capital(called)}: error over slip and velocity, all runs.",
+                f"Map of the error of {called} over slip and velocity",
+            )
+        )
+    worst = sorted((c for c in found.cells if c.above), key=lambda c: -c.error)[:24]
+    if worst:
+        pieces.append(details("The worst cells", [table([_cell_row(c) for c in worst])]))
+    split = [
+        {
+            "component": NAMES[p.relation][0],
+            "turns with the direction [floors]": round(p.odd, 2),
+            "does not turn [floors]": round(p.even, 2),
+            "rms sliding to +x": round(p.plus, 2),
+            "rms sliding to −x": round(p.minus, 2),
+        }
+        for p in found.parities.values()
+    ]
+    if split:
+        pieces.append(
+            details("Odd and even part in the direction of sliding", [table(split)])
+        )
+    return pieces
+
+
+def _cell_row(cell: Cell) -> dict[str, Any]:
+    label = cell.label
+    if not label:
+        unit, factor = UNITS[cell.kind]
+        label = f"{factor * cell.low:.3g} to {factor * cell.high:.3g} {unit}"
+    return {
+        "component": NAMES[cell.relation][0],
+        "sorted by": cell.kind,
+        "cell": label,
+        "error [floors]": round(cell.error, 2),
+        "samples": cell.samples,
+        "independent": round(cell.effective),
+        "by chance": "below 1e-9" if cell.chance < 1e-9 else f"{cell.chance:.1g}",
+    }
+
+
+def _histories(found: Comparison) -> list[Any]:
+    run = found.base.problem.runs[figures.shown_run(found)]
+    how = (
+        "replayed from the measured table motion in windows that restart from measured states"
+        if found.system
+        else "the law fed with the measured load, slip and speed"
+    )
+    caption = f"Run {run.name} ({_role_words(run.role)}): measured, and {how}. The difference is drawn below."
+    return [figure(figures.histories_figure(found), caption, f"Measured and modelled histories of run {run.name}")]
+
+
+def _loops(found: Comparison) -> list[Any]:
+    run = found.base.problem.runs[figures.shown_run(found)]
+    caption = (
+        f"Run {run.name} ({_role_words(run.role)}): friction over slip, measured and as the law has it at the measured "
+        "load and speed; the widest loop stands out, the rest of the run is grey."
+    )
+    return [figure(figures.loops_figure(found), caption, f"Friction loops of run {run.name}")]
+
+
+def _role_words(role: str) -> str:
+    return {"holdout": "held out", "fit": "fitted", "repeat": "repeated, fitted"}[role]
+
+
+def _audit(found: Comparison) -> list[Any]:
+    pieces: list[Any] = [paragraph(found.checks.words)]
+    if found.checks.rows:
+        pieces.append(table(list(found.checks.rows)))
+    if found.checks.cannot:
+        pieces.append(details("What could not be tested", [bullets(found.checks.cannot)]))
+    return pieces
+
+
+def _floor(found: Comparison) -> list[Any]:
+    rows = []
+    for row in found.rows("floor"):
+        again = row["repeated_runs"]
+        rows.append(
+            {
+                "component": NAMES[row["relation"]][0],
+                "while sliding": _size(row["floor"], row["unit"]),
+                "near reversals": _size(row["near_reversals"], row["unit"]),
+                "a repeated run shows": "" if again is None else f"{again:.2f} floors",
+            }
+        )
+    words = (
+        "The floor of a component is what a perfect model would leave: noise of its gauges, and near reversals the noise "
+        "of the velocity, which turns friction round a little early or late. A repeated run tests it: what differs "
+        "between two runs of one motion is noise."
+    )
+    return [paragraph(words), table(rows)]
+
+
+def _parameters(found: Comparison) -> list[Any]:
+    rows, marked = [], []
+    for entry in found.intervals.entries:
+        called, unit = _called(entry.key, entry.unit)
+        factor = parse_unit(unit, entry.unit, entry.key)
+        row = {"number": called, "unit": unit, "value": f"{entry.value / factor:.5g}"}
+        if entry.bound:
+            marked.append(len(rows))
+            row["95 % interval"] = f"ended on its {entry.bound} bound"
+        else:
+            row["95 % interval"] = f"{entry.low / factor:.5g} to {entry.high / factor:.5g}"
+        row["rated"] = f"{entry.rated / factor:.5g}"
+        rows.append(row)
+    words = (
+        f"Fitted on runs of role fit and repeat. Intervals hold for correlated noise: only {found.intervals.blocks} "
+        "stretches of time count as independent."
+    )
+    pieces: list[Any] = [paragraph(words), table(rows, marked=marked)]
+    strong = [(a, b, c) for a, b, c in found.intervals.strongest(8) if abs(c) > 0.7]
+    if strong:
+        pairs = [f"{_called(a, '')[0]} and {_called(b, '')[0]} ({c:+.2f})" for a, b, c in strong]
+        pieces.append(paragraph("Numbers that these runs hardly tell apart (correlation): " + "; ".join(pairs) + "."))
+    if found.surface:
+        pieces.append(
+            figure(
+                figures.surface_figure(found),
+                "Coefficient of friction that the fit means, where the campaign has been, with its 95 % band: numbers "
+                "trade off against each other, this surface does not.",
+                "Coefficient of friction over speed for some pressures",
+            )
+        )
+    return pieces
+
+
+def _called(key: str, unit: str) -> tuple[str, str]:
+    if key.startswith(_LATE):
+        return f"lag of the {key.removeprefix(_LATE)} channels", "us"
+    return _CALLED.get(key, (key, unit))
+
+
+def _about(found: Comparison) -> list[Any]:
+    pieces: list[Any] = []
+    if found.notes:
+        pieces.append(bullets(found.notes))
+    if found.cannot:
+        pieces.append(callout("Could not be done:", "; ".join(found.cannot) + ".", "warn"))
+    uses = ", ".join(u.label for u in found.model.uses) or "Coulomb friction alone"
+    pieces.append(paragraph(f"Model: {found.campaign.rig} with {uses}. Made in {found.seconds:.0f} s."))
+    runs = [
+        {"run": r.name, "role": r.role, "file": r.file, "samples": len(r.record), "step [ms]": round(1e3 * r.record.dt, 4)}
+        for r in found.campaign.runs
+    ]
+    return [*pieces, table(runs)]
+
+
+def _size(value: float | None, unit: str) -> str:
+    if value is None:
+        return "unknown"
+    shown = {"N": ("kN", 1e-3) if value >= 1000.0 else ("N", 1.0), "m/s^2": ("m/s²", 1.0), "1": ("", 1.0)}
+    name, factor = shown.get(unit, (unit, 1.0))
+    return f"{value * factor:.3g} {name}".strip()
+
+
+def _capital(words: str) -> str:
+    return words[:1].upper() + words[1:]

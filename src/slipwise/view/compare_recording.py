@@ -1,0 +1,46 @@
+"""The recording of a comparison: measured and simulated side by side on one timeline."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from slipwise.compare import Comparison
+from slipwise.fit.data import FitRun
+from slipwise.record import Record
+from slipwise.view.compare_figures import shown_run
+from slipwise.view.comparison import write_comparison
+from slipwise.view.geometry import geometry_of
+
+
+def write_compare_recording(found: Comparison, path: Path) -> Path:
+    """Write the run that the report shows: measured, and replayed; or, where slip is prescribed, the law's forces.
+
+    Args:
+        found: the comparison.
+        path: of the file, ending in .rrd.
+
+    Returns:
+        The path; the file is there whole or not at all.
+    """
+    place = shown_run(found)
+    run = found.base.problem.runs[place]
+    label = "replayed" if found.system else "law at measured N, v"
+    measured, simulated = _pair(found, place, run)
+    geometry = geometry_of(found.model.built_specimen())
+    if not found.campaign.specimen.free:
+        geometry = replace(geometry, buffer_places=())
+    return write_comparison(measured, [(label, simulated)], geometry, path, f"{found.campaign.name}, {run.name}")
+
+
+def _pair(found: Comparison, place: int, run: FitRun) -> tuple[Record, Record]:
+    """Give measured and simulated channels where both are known; a replay has no past at a window's start."""
+    if found.system is None:
+        said = found.base.solution.residuals.pad_forces[place]
+        forces = {f"pad_{pad}_Fx": said[:, i] for i, pad in enumerate(run.pads)}
+        return run.record, run.record.replaced(**forces)
+    one = found.system.runs[place]
+    known = np.all([np.isfinite(v) for v in one.simulated.values()], axis=0)
+    table = {n: v[known] for n, v in run.record.channels.items() if n.startswith("table_")}
+    simulated = Record(one.time[known], {**table, **{n: v[known] for n, v in one.simulated.items()}})
+    return run.record, simulated
