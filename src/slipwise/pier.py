@@ -203,8 +203,8 @@ def _resolved(pier: Pier, dt: float) -> None:
     frequency = float(np.sqrt(pier.stiffness / pier.mass)) / (2.0 * np.pi)
     if frequency > 0.1 / dt:
         raise SettingError(
-            f"a pier of {pier.stiffness / 1e6:g} kN/mm and {pier.mass / 1e3:g} t swings at {frequency:.0f} Hz on its own; "
-            f"at most {0.1 / dt:.0f} Hz can be followed: give it more mass or less stiffness"
+            f"a pier of {pier.stiffness / 1e6:g} kN/mm and {pier.mass / 1e3:g} t swings at {frequency:.0f} Hz on its "
+            f"own; at most {0.1 / dt:.0f} Hz can be followed: give it more mass or less stiffness"
         )
 
 

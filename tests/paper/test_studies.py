@@ -171,7 +171,8 @@ def test_a_sceptic_changes_assumptions_by_name_with_units():
     ("text", "error", "words"),
     [("n_unit", SettingError, "NAME=VALUE"), ("bufer_height=0.2 m", UnknownNameError, "buffer_height"),
      ("buffer_height=0.2", UnitError, "unit"), ("n_unit=s/ft", UnknownNameError, "s/cm"),
-     ("peak_low=2 g", SettingError, "low <= high"), ("strong_low=1 s", SettingError, "4 cycles"), ("pads_on=roof", UnknownNameError, "table"),
+     ("peak_low=2 g", SettingError, "low <= high"), ("strong_low=1 s", SettingError, "4 cycles"),
+     ("pads_on=roof", UnknownNameError, "table"),
      ("seating_share=2", SettingError, "0.5 and 1")],
 )  # fmt: skip
 def test_an_impossible_assumption_is_refused_with_what_is_possible(text, error, words):

@@ -66,7 +66,7 @@ def paper(
         print_json(as_json(result))
         return
     for study in result.studies:
-        rows = [{"where": f.place, "the paper": f.says, "here": f.brief, "verdict": f.verdict} for f in study.findings]
+        rows = [{"where": f.place, "we get": f.brief, "verdict": f.verdict} for f in study.findings]
         print_table(study.title, rows)
     counts = ", ".join(f"{count} {verdict}" for verdict, count in result.verdicts().items())
     OUT.print(f"\n{counts}; {result.replays} replays in {result.seconds:.0f} s", markup=False, highlight=False)

@@ -94,7 +94,7 @@ def study(settings: PaperSettings, records: dict[str, Record]) -> Study:
             "Fig. 8",
             "Pads A and B, on opposite sides, swing against each other.",
             f"correlation {one['correlation_A_B']:.3f}",
-            f"Correlation {one['correlation_A_B']:.4f} and {two['correlation_A_B']:.4f}; the sum of their Factors B "
+            f"Correlation {one['correlation_A_B']:.3f} and {two['correlation_A_B']:.3f}; the sum of their Factors B "
             "stays "
             f"below {max(one['sum_A_B'], two['sum_A_B'], 1e-3):.1%} of one.",
             HOLDS if max(r["correlation_A_B"] for r in rows) < -0.99 else FAILS,

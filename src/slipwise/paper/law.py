@@ -64,6 +64,10 @@ def edge_slope(model: Model, *, p_delta: bool) -> float:
     return float(per_load(model, np.array([specimen.rated_pressure]))[0]) * swing
 
 
+def _within(error: float) -> str:
+    return f"within {abs(error):.0e}" if error else "exactly"
+
+
 def study(settings: PaperSettings) -> Study:
     """Check the law in its limits and say what it implies."""
     model = paper_model("bridge1", settings)
@@ -86,7 +90,7 @@ def study(settings: PaperSettings) -> Study:
             f"limits exact within {max(error, abs(heavy), abs(light)):.0e}",
             f"The two effects composed give eq. (8) within {error:.0e}. Small pressure: Coulomb's law with s'k + "
             "alpha, "
-            f"within {abs(light):.0e}; large pressure: s' A + alpha N, within {abs(heavy):.0e}; at rest alpha.",
+            f"within {abs(light):.0e}; large pressure: s' A + alpha N, {_within(heavy)}; at rest alpha.",
             HOLDS if max(error, abs(heavy), abs(light)) < 1e-12 else FAILS,
             "The limit for small pressure is approached as kP/2, which is taken off here.",
             ("n_unit",),

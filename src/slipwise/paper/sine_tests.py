@@ -184,7 +184,7 @@ def study(settings: PaperSettings) -> Study:
         ),
         Finding(
             "Identifiability of k",
-            "(Not discussed in the paper.)",
+            "what makes k identifiable is not discussed.",
             f"k within {small:.0%} at ±{rows[0]['swing']:.0%}, {large:.0%} at ±{rows[-1]['swing']:.0%} of load",
             f"k is known from the swing of pressure: with equal speeds its standard deviation falls from {small:.1%} "
             "at "

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from slipwise.view.canvas import new_figure
@@ -25,7 +26,8 @@ def law_figure(curves: Mapping[str, Any]) -> Figure:
         for swing, words in ((20.0, "0.8 % at ±20 %"), (60.0, "7.5 % at ±10 MPa"), (100.0, "24 % at uplift")):
             height = float(np.interp(swing, curves["swing"] * 100, curves["leftover"] * 100))
             right.plot(swing, height, "o", color=UPLIFT)
-            right.annotate(words, (swing, height), (-8, 8), textcoords="offset points", ha="right", color=MUTED)
+            place = {"xytext": (-8, 8), "ha": "right"} if swing > 30.0 else {"xytext": (4, 10), "ha": "left"}
+            right.annotate(words, (swing, height), textcoords="offset points", color=MUTED, **place)
         right.set(title="What rocking takes from the sum", xlabel="swing of load [%]", ylabel="lost [%]", ylim=(-1, 27))
     return figure
 
@@ -35,27 +37,27 @@ def identification_figure(curves: Mapping[str, Any]) -> Figure:
     time = curves["time"]
     inside = time <= time[0] + 1.5
     with styled():
-        figure = new_figure(11.0, 6.8)
-        grid = figure.add_gridspec(2, 2)
-        pressure = figure.add_subplot(grid[0, 0])
+        figure = new_figure(11.0, 6.6)
+        grid = figure.add_gridspec(2, 6)
+        pressure = figure.add_subplot(grid[0, :3])
         pressure.plot(time[inside], curves["pressure"][inside] / 1e6, color=PAD_COLOURS["C"], linewidth=1.5)
         for level in (5.0, 25.0):
             pressure.axhline(level, color=UPLIFT, linewidth=1.0, linestyle="--")
         pressure.set(title="Pressure at pad C (Fig. 12)", ylabel="P [MPa]", xlabel="time [s]", ylim=(0, 28))
-        speed = figure.add_subplot(grid[0, 1])
+        speed = figure.add_subplot(grid[0, 3:])
         speed.plot(time[inside], curves["speed"][inside] * 100, color=PAD_COLOURS["C"], linewidth=1.5)
         speed.set(title="Velocity (Fig. 12)", ylabel="v [cm/s]", xlabel="time [s]")
-        loop = figure.add_subplot(grid[1, 0])
-        loop.plot(
-            curves["slip"] * 1e3, curves["measured"] / 1e3, ".", color=EXPECTED, markersize=3, label="simulated, noisy"
-        )
-        loop.plot(
-            curves["slip"] * 1e3, curves["predicted"] / 1e3, color=SUM, linewidth=0.7, label="eq. (7) as identified"
-        )
-        loop.set(title="Loop of pad C (Fig. 13)", xlabel="slip [mm]", ylabel="F [kN]")
-        loop.legend(loc="upper left", bbox_to_anchor=(0.0, 1.0))
-        loop.margins(y=0.3)
-        worth = figure.add_subplot(grid[1, 1])
+        left: Axes | None = None
+        for column, (name, title, colour) in enumerate(
+            (("measured", "Simulated, noisy (Fig. 13)", PAD_COLOURS["C"]), ("predicted", "Eq. (7) as identified", SUM))
+        ):
+            loop = figure.add_subplot(grid[1, 2 * column : 2 * column + 2], sharex=left, sharey=left)
+            left = left or loop
+            if column == 0:
+                loop.set_ylabel("F of pad C [kN]")
+            loop.plot(curves["slip"] * 1e3, curves[name] / 1e3, color=colour, linewidth=0.6)
+            loop.set(title=title, xlabel="slip [mm]")
+        worth = figure.add_subplot(grid[1, 4:])
         swings = [100 * row["swing"] for row in curves["swings"]]
         for colour, name in zip(MODEL_COLOURS, ("s'", "n", "k", "alpha"), strict=False):
             worth.plot(swings, [100 * r[name] for r in curves["swings"]], "o-", color=colour, label=name, linewidth=1.6)

@@ -1,6 +1,7 @@
 """The page of the re-enacted paper: in the paper's order, what it states, what we get, whether it holds."""
 
 from collections.abc import Callable, Mapping
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -98,16 +99,17 @@ def summary(result: Reenactment) -> list[Piece]:
 def overview(result: Reenactment) -> Html:
     """Make one row of every finding."""
     rows = [
-        {"where": finding.place, "the paper": finding.says, "here": finding.brief, "verdict": _mark(finding.verdict)}
+        {"where": _mark(finding), "the paper": finding.says, "here": finding.brief}
         for study in result.studies
         for finding in study.findings
     ]
     return table(rows)
 
 
-def _mark(words: str) -> Html:
-    """Colour a verdict; the words carry the meaning."""
-    return Html(f'<strong class="{_TONES[words]}" style="color: var(--tone)">{words}</strong>')
+def _mark(finding: Finding) -> Html:
+    """Give a place with its verdict below, coloured; the words carry the meaning."""
+    tone, words = _TONES[finding.verdict], finding.verdict
+    return Html(f'{escape(finding.place)}<br><strong class="{tone}" style="color: var(--tone)">{words}</strong>')
 
 
 def section(study: Study) -> Section:
@@ -115,7 +117,7 @@ def section(study: Study) -> Section:
     pieces: list[Piece] = [figure(draw(study.curves), caption) for draw, caption in PICTURES.get(study.name, ())]
     for finding in study.findings:
         pieces += card(finding)
-    pieces += [table(rows, caption) for caption, rows in study.tables.items()]
+    pieces += [details(caption, [table(rows)]) for caption, rows in study.tables.items()]
     return Section(study.title, pieces)
 
 

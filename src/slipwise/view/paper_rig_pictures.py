@@ -126,6 +126,8 @@ def energies_figure(curves: Mapping[str, Any]) -> Figure:
         right.axvline(532 / 531, color=UPLIFT, linewidth=2.0, label="paper: 1.002")
         right.plot(reach, np.full(len(reach), 0.4), "|", color=SUM, markersize=12, label="scaled to 532 kN cm")
         right.set(title="Energy with over without vertical motion", xlabel="ratio", ylabel="motions")
+        right.margins(y=0.35)
+        right.set_ylim(bottom=0.0)
         right.legend()
     return figure
 
@@ -146,11 +148,13 @@ def extreme_figure(curves: Mapping[str, Any]) -> Figure:
             load.plot(
                 single.time[kept], single.load[kept] / 4e3, color=UPLIFT, linewidth=1.0, label="one d.o.f., a quarter"
             )
-            load.set(title=f"Load of a pad, {title}", ylabel="N [kN]", ylim=(-5, None), xlim=(start, end))
+            load.set(title=f"Load of a pad, {title}", ylabel="N [kN]", xlim=(start, end))
+            load.set_ylim(-0.04 * load.get_ylim()[1], 1.25 * load.get_ylim()[1])
             load.legend(loc="upper right", ncols=2)
             _sum_loop(loop, record, PAD_COLOURS["A"], "rig")
             loop.plot(single.slip * 1e3, single.friction / 1e3, color=UPLIFT, linewidth=0.6, label="one d.o.f.")
             loop.set(title="Sum of the pads", ylabel="kN")
+            loop.margins(y=0.2)
             loop.legend(loc="upper left", ncols=2)
         panels[1, 0].set_xlabel("time [s]")
         panels[1, 1].set_xlabel("slip [mm]")
