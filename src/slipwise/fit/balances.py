@@ -120,13 +120,33 @@ def predicted(
     return said, seen
 
 
+def heave_noise(model: Model, run: FitRun) -> float:
+    """Tell by which factor effects change the accelerometer's noise in the heave balance.
+
+    A girder that bends hides part of a_z at high frequency, noise included: without this factor every such effect
+    would seem to explain something.
+    """
+    uses = model.with_hook("balance")
+    if not uses or not np.isfinite(run.states.girder_acceleration[:, 2]).all():
+        return 1.0
+    shaken = np.random.default_rng(0).normal(size=len(run.time))
+    acceleration = np.zeros((len(run.time), 3))
+    quiet = _hooks(model, run, model.specimen, run.force, np.zeros((len(run.time), 1)), acceleration)
+    acceleration = acceleration + np.array([0.0, 0.0, 1.0]) * shaken[:, None]
+    noisy = _hooks(model, run, model.specimen, run.force, np.zeros((len(run.time), 1)), acceleration)
+    if "heave" not in noisy:
+        return 1.0
+    more = (noisy["heave"] - quiet["heave"]) / model.specimen.mass
+    return float(np.std(shaken + more) / np.std(shaken))
+
+
 def _late(values: Array, dt: float, lag: float) -> Array:
     """Shift a smooth signal by a lag far below the sampling step."""
     return values - lag * np.gradient(values, dt)
 
 
 def _hooks(
-    model: Model, run: FitRun, specimen: Specimen, force: Array, buffers: Array
+    model: Model, run: FitRun, specimen: Specimen, force: Array, buffers: Array, acceleration: Array | None = None
 ) -> dict[str, Array]:
     uses = model.with_hook("balance")
     if not uses:
@@ -140,7 +160,7 @@ def _hooks(
         velocity=run.states.velocity,
         load=run.load,
         pad_force=np.stack([force, across], axis=2),
-        girder_acceleration=np.nan_to_num(run.states.girder_acceleration),
+        girder_acceleration=np.nan_to_num(run.states.girder_acceleration) if acceleration is None else acceleration,
         table_acceleration=np.nan_to_num(run.states.table_acceleration),
         buffer_force=np.stack([buffers.sum(axis=1), zero], axis=1),
         buffer_size=np.stack([np.abs(buffers).sum(axis=1), zero], axis=1),

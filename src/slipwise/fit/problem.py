@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.effects import Effect
-from slipwise.fit.balances import available, buffer_forces, motion_residual, predicted
+from slipwise.fit.balances import available, buffer_forces, heave_noise, motion_residual, predicted
 from slipwise.fit.data import FitRun, refined, smoothed
 from slipwise.fit.pads import Instants, PadLaw, as_logged, instants, lost_velocity
 from slipwise.fit.terms import Term, fitted_model
@@ -164,6 +164,8 @@ class Problem:
         runs, scale = self._corrected(values)
         law = predictor(model)
         parts: dict[str, list[Array]] = {r: [] for r in self.relations[1:]}
+        if "heave" in parts:
+            scale = {**scale, "heave": scale.get("heave", 1.0) * self._heave_scale(model, runs[0])}
         for i, (run, force) in enumerate(zip(runs, forces, strict=False)):
             law.rest(run.rest_before)
             said, seen = predicted(model, run, force, self._buffers(law, run), values)
@@ -174,6 +176,15 @@ class Problem:
                     left = (seen[name] - said[name]) / scale.get(name, 1.0)
                 parts[name].append(self._over(name, i, left, run.grounded))
         return parts
+
+    def _heave_scale(self, model: Model, run: FitRun) -> float:
+        """Give by how much the noise of the heave balance differs from what it was weighed with."""
+        factor = heave_noise(model, run)
+        if factor == 1.0:
+            return 1.0
+        loads = float(np.sqrt(sum(run.noise.get(f"pad_{p}_N", 0.0) ** 2 for p in run.pads)))
+        vertical = model.specimen.mass * run.noise.get("girder_az", 0.0)
+        return float(np.hypot(loads, factor * vertical) / np.hypot(loads, vertical))
 
     def weigh(self, values: Mapping[str, float]) -> None:
         """Set the noise of every relation, error of the velocity near reversals included, and what filters took."""
