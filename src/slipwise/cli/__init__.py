@@ -5,7 +5,7 @@ import warnings
 
 import typer
 
-from slipwise.cli import demo, diagnose, edit, effects, lists, paper, replay, view
+from slipwise.cli import campaign, demo, diagnose, edit, effects, lists, paper, replay, view
 from slipwise.errors import SlipwiseError, SlipwiseWarning
 
 app = typer.Typer(
@@ -18,6 +18,7 @@ app = typer.Typer(
 )
 demo.register(app)
 replay.register(app)
+campaign.register(app)
 diagnose.register(app)
 edit.register(app)
 paper.register(app)

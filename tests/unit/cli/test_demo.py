@@ -1,0 +1,84 @@
+"""The promise, as a newcomer types it: demo, then add and remove on the same data."""
+
+import json
+import re
+import shutil
+import sys
+from importlib.resources import files
+from pathlib import Path
+
+import pytest
+
+from slipwise.cli import main
+from slipwise.model_file import load_model
+
+
+@pytest.fixture
+def slipwise(monkeypatch, capsys):
+    def run(*words):
+        monkeypatch.setattr(sys, "argv", ["slipwise", *map(str, words)])
+        with pytest.raises(SystemExit) as ended:
+            main()
+        caught = capsys.readouterr()
+        return ended.value.code, caught.out, caught.err
+
+    return run
+
+
+def test_the_demo_names_the_hidden_effect_and_the_error_falls_to_the_floor(slipwise, tmp_path):
+    code, out, err = slipwise("demo", "--out", tmp_path)
+    assert (code, err) == (0, "")
+    said = json.loads((tmp_path / "diagnosis.json").read_text())
+    assert (said["verdict"], said["effects"]) == ("named", ["run_in"])
+    assert said["base_error"] > 2.0
+    assert said["final_error"] < 1.15
+    assert said["system"]["final"] < said["system"]["base"]
+    rungs = json.loads((tmp_path / "ladder.json").read_text())["rungs"]
+    assert rungs[0]["effects"] == []
+    assert rungs[-1]["effects"] == ["run_in"]
+    page = (tmp_path / "report.html").read_text()
+    assert "run_in" in page
+    assert not re.search(r"""(src|href)=["']https?:""", page)
+    assert (tmp_path / "before_and_after.rrd").stat().st_size > 100_000
+    assert "run_in" in load_model(tmp_path / "campaign" / "model.toml")
+    assert "nothing above the noise floor is left" in " ".join(out.split())
+
+
+def test_add_and_remove_edit_the_model_and_print_the_error_before_and_after(slipwise, tmp_path):
+    campaign = tmp_path / "campaign"
+    shutil.copytree(Path(str(files("slipwise"))) / "demo_data", campaign)
+    code, out, _ = slipwise("add", "run_in", "--campaign", campaign)
+    assert code == 0
+    pads = next(line for line in out.splitlines() if line.strip().startswith("pads")).split()
+    assert float(pads[1]) > 3.0 > 1.2 > float(pads[2])
+    assert "run_in" in load_model(campaign / "model.toml")
+    code, out, _ = slipwise("remove", "run_in", "--campaign", campaign)
+    assert code == 0
+    pads = next(line for line in out.splitlines() if line.strip().startswith("pads")).split()
+    assert float(pads[1]) < 1.2 < 3.0 < float(pads[2])
+    assert "run_in" not in load_model(campaign / "model.toml")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("add", "run_inn", "--campaign", "."), "campaign.toml"),
+        (("diagnose", "nowhere"), "nowhere"),
+        (("ladder", "nowhere"), "nowhere"),
+    ],
+)
+def test_bad_input_is_one_clear_message_and_exit_2(slipwise, tmp_path, monkeypatch, words, said):
+    monkeypatch.chdir(tmp_path)
+    code, _, err = slipwise(*words)
+    assert code == 2
+    assert said in err
+    assert "Traceback" not in err
+
+
+def test_an_unknown_effect_is_answered_with_the_nearest(slipwise, tmp_path):
+    campaign = tmp_path / "campaign"
+    shutil.copytree(Path(str(files("slipwise"))) / "demo_data", campaign)
+    code, _, err = slipwise("add", "run_inn", "--campaign", campaign)
+    assert code == 2
+    assert "run_in" in err
+    assert not (campaign / "model.toml").exists()
