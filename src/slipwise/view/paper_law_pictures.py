@@ -26,7 +26,7 @@ def law_figure(curves: Mapping[str, Any]) -> Figure:
         for swing, words in ((20.0, "0.8 % at ±20 %"), (60.0, "7.5 % at ±10 MPa"), (100.0, "24 % at uplift")):
             height = float(np.interp(swing, curves["swing"] * 100, curves["leftover"] * 100))
             right.plot(swing, height, "o", color=UPLIFT)
-            place = {"xytext": (-8, 8), "ha": "right"} if swing > 30.0 else {"xytext": (4, 10), "ha": "left"}
+            place = {"xytext": (-8, 8), "ha": "right"} if swing > 30.0 else {"xytext": (-12, 14), "ha": "center"}
             right.annotate(words, (swing, height), textcoords="offset points", color=MUTED, **place)
         right.set(title="What rocking takes from the sum", xlabel="swing of load [%]", ylabel="lost [%]", ylim=(-1, 27))
     return figure
