@@ -20,7 +20,9 @@ from slipwise.fit.terms import Term
 Array = NDArray[np.float64]
 #: Least drop of a relation's mean squared residual that is worth a name [noise variance].
 MATERIAL = 0.10
-#: A further effect must also take this share of what the base left in that relation.
+#: A further effect must lower a relation by more, and by this share of what the base left in it: what the first effect
+#: does not quite describe is not a second effect.
+MATERIAL_FURTHER = 0.20
 FURTHER = 0.025
 #: Candidates that are refitted at each step.
 _REFITTED = 4
@@ -90,7 +92,7 @@ def material(base: Account, before: Account, after: Account) -> bool:
         if base.counts[name][1]:
             drop = min(drop, 2.0 * (least[True] - after.level(name, held_out=True)))
         excess = max(base.level(name, held_out=False) - 1.0, 0.0)
-        if drop >= MATERIAL and drop > FURTHER * excess:
+        if drop >= MATERIAL_FURTHER and drop > FURTHER * excess:
             return True
     return False
 
