@@ -5,7 +5,7 @@ import warnings
 
 import typer
 
-from slipwise.cli import campaign, demo, diagnose, edit, effects, lists, paper, replay, view
+from slipwise.cli import campaign, demo, diagnose, edit, effects, lists, next_test, paper, replay, view
 from slipwise.errors import SlipwiseError, SlipwiseWarning
 
 app = typer.Typer(
@@ -21,6 +21,7 @@ replay.register(app)
 campaign.register(app)
 diagnose.register(app)
 edit.register(app)
+next_test.register(app)
 paper.register(app)
 view.register(app)
 lists.register(app)

@@ -17,7 +17,9 @@ _TOLD = 3
 
 
 def demo(
-    out: Annotated[Path, typer.Option(help="Folder for the campaign, the report and the recording.")] = Path("out/demo"),
+    out: Annotated[Path, typer.Option(help="Folder for the campaign, the report and the recording.")] = Path(
+        "out/demo"
+    ),
 ) -> None:
     """Show the whole promise: a campaign with a hidden effect, compared, located, named, added, and the error falling.
 
@@ -40,22 +42,21 @@ def demo(
     _copy(campaign)
     _say(
         "1  A laboratory has shaken a girder",
-        "Ten tons on four PTFE pads and two rubber buffers (the rig of Takahashi et al., 2004): five runs on the shaking "
-        f"table. They lie in {campaign}. A second simulator made them, with one physical effect hidden in it.",
+        "Ten tons on four PTFE pads and two rubber buffers (the rig of Takahashi et al., 2004): five runs on the "
+        f"shaking table. They lie in {campaign}. A second simulator made them, with one physical effect hidden in it.",
     )
     measured = load_campaign(campaign)
-    print_table(
-        "Runs",
-        [{"run": r.name, "role": r.role, "seconds": round(float(r.record.time[-1]), 1), "channels": len(r.record.channels)}
-         for r in measured.runs],
-    )  # fmt: skip
+    runs = [{"run": r.name, "role": r.role, "seconds": round(float(r.record.time[-1]), 1)} for r in measured.runs]
+    print_table("Runs", runs)
     with steps() as tell:
         compared = compare(measured, system=False, progress=tell)
     _say(
         "2  The paper's model, fitted to four runs, is held against the one that it has not seen",
         "Each balance of the rig answers for itself; 1 is the noise floor, what a perfect model would leave.",
     )
-    rows = [{"balance": n, "held-out error / floor": _rounded(compared.error(n, held_out=True))} for n in compared.relations]
+    rows = [
+        {"balance": n, "held-out error / floor": _rounded(compared.error(n, held_out=True))} for n in compared.relations
+    ]
     print_table("Where the model fails", rows)
     for place in compared.places[:_TOLD]:
         OUT.print(f"  - {place.words}", markup=False, highlight=False, soft_wrap=True)
@@ -67,8 +68,8 @@ def demo(
     print_table(f"{climbed.tried[0]} candidates screened, {climbed.tried[1]} refitted", hypotheses)
     _say(
         "4  Add it, and watch the error fall",
-        f"Refitted with {' and '.join(found.search.best.names) or 'nothing more'}; the held-out run decides, no fit has "
-        f"seen it. It stops here: {climbed.stopped}.",
+        f"Refitted with {' and '.join(found.search.best.names) or 'nothing more'}; the held-out run, which no fit has "
+        f"seen, decides. It stops here: {climbed.stopped}.",
     )
     print_table("Error in multiples of the noise floor", [_rung(r) for r in climbed.as_json()["rungs"]])
     save_model(found.final.problem.model(found.final.solution.values), campaign / "model.toml")

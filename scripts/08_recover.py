@@ -1,0 +1,133 @@
+"""Plant every effect at its typical size, measure with noise, fit with all base parameters free: is the truth found?
+
+    python scripts/08_recover.py [--out out/recover] [--quick]
+
+The rig is replayed in MuJoCo under a sine and two earthquakes with vertical and cross-wise parts; every channel gets
+white noise of 1 % of its standard deviation. The fit starts at half the planted strength. For each effect the page says
+whether the truth lies inside the 95 % interval, and how much of the effect the base parameters could hide.
+"""
+
+import argparse
+import hashlib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from slipwise.campaign import Campaign, Logger, Run
+from slipwise.compare.intervals import intervals
+from slipwise.diagnose.candidates import candidates
+from slipwise.diagnose.screen import screen, strengths
+from slipwise.errors import SlipwiseError
+from slipwise.fit.base import fit_base
+from slipwise.fit.terms import Term
+from slipwise.model import EffectUse, Model, base_model
+from slipwise.motion import load_motion
+from slipwise.record import Record, write_json
+from slipwise.replay import replay
+
+NOISE = 0.01
+MOTIONS = {
+    "sine": "sine:1.6Hz,0.25g,cycles=12,vertical=5Hz,0.2g,across=1.1Hz,0.05g",
+    "quake": "quake:seed=3,peak=0.6g,f=4Hz,strong=4s,vertical=0.3g,across=0.2g",
+    "quake2": "quake:seed=8,peak=0.8g,f=3.5Hz,strong=4s,vertical=0.3g,across=0.2g",
+}
+#: What a laboratory would record; the rest of what a replay knows is left out.
+KEPT = ("table_a", "girder_a", "slip_x", "slip_y", "yaw", "pad_")
+QUICK = ("run_in", "buffer_damping", "load_crosstalk")
+
+
+def measured(model: Model, rng: np.random.Generator) -> Campaign:
+    """Replay a model and measure it with noise."""
+    runs, memory = [], None
+    for name, text in MOTIONS.items():
+        answer = replay(model, load_motion(text), start=memory, rest=1800.0)
+        memory = answer.memory
+        channels = {}
+        for channel, values in answer.record.channels.items():
+            if channel.startswith(KEPT) and not channel.endswith(("_P", "_vx", "_vy")):
+                channels[channel] = values + NOISE * np.std(values) * rng.standard_normal(len(values))
+        digest = hashlib.sha256(name.encode()).hexdigest()
+        runs.append(Run(name, "fit", Record(answer.record.time, channels), 1800.0, None, name, digest))
+    return Campaign(
+        name="planted", rig="bridge1", specimen=base_model("bridge1").specimen, logger=Logger(known=True),
+        runs=tuple(runs), folder=Path(), known={}, notes=(),
+    )  # fmt: skip
+
+
+def plant(term: Term) -> dict[str, float]:
+    """Give the planted values: typical, and for a strength that is usually absent a fifth of its range."""
+    values = term.effect.typical()
+    for p in strengths(term.effect):
+        if p.typical == p.neutral and len(strengths(term.effect)) == 1:
+            values[p.name] = 0.2 * p.high
+    return values
+
+
+def recover(term: Term, rng: np.random.Generator) -> dict[str, Any]:
+    """Plant one effect, fit it, and tell what came out."""
+    values = plant(term)
+    keyed = {f"{term.label}.{n}": v for n, v in values.items()}
+    base = base_model("bridge1")
+    campaign = measured(base.adding(*term.uses(keyed)), rng)
+    # One fault on a whole card is one number, not four.
+    card = term.group if "*" in term.group and term.effect.target else ""
+    half = {p.name: 0.5 * (values[p.name] + float(p.neutral or 0.0)) for p in strengths(term.effect)}
+    start = {**values, **half}
+    uses = [EffectUse(term.effect, start, target) for target in ((card,) if card else term.targets)]
+    fitted = fit_base(campaign, base.adding(*uses))
+    found = {i.key: i for i in intervals(fitted).entries}
+    plain = fit_base(campaign)
+    hidden = next((s.absorbed for s in screen(plain, [term])), float("nan"))
+    rows = {}
+    for p in strengths(term.effect):
+        for key in (f"{entry.label}.{p.name}" for entry in uses):
+            i = found[key]
+            rows[key] = {"planted": values[p.name], "found": i.value, "low": i.low, "high": i.high, "unit": p.unit,
+                         "inside": bool(i.low <= values[p.name] <= i.high)}  # fmt: skip
+    return {"inside": all(r["inside"] for r in rows.values()), "hidden by base": hidden, "parameters": rows}
+
+
+def _tell(name: str, result: dict[str, Any]) -> None:
+    words = "inside " if result["inside"] else "OUTSIDE"
+    print(f"{name:22s} {words}  hidden by base {result['hidden by base']:.2f}", flush=True)
+    for key, row in result["parameters"].items():
+        found = f"found {row['found']:.4g} ({row['low']:.4g} to {row['high']:.4g}) {row['unit']}"
+        print(f"    {key:44s} planted {row['planted']:.4g}, {found}", flush=True)
+
+
+def main() -> None:
+    """Plant, fit, print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", type=Path, default=Path("out/recover"))
+    parser.add_argument("--quick", action="store_true", help="three effects only")
+    parser.add_argument("--seed", type=int, default=4)
+    chosen = parser.parse_args()
+    rng = np.random.default_rng(chosen.seed)
+    terms, cannot = candidates(fit_base(measured(base_model("bridge1"), rng)))
+    first: dict[str, Term] = {}
+    for term in terms:
+        first.setdefault(term.effect.name, term)
+    results: dict[str, dict[str, Any]] = {}
+    good = 0
+    for name, term in first.items():
+        if chosen.quick and name not in QUICK:
+            continue
+        try:
+            result = recover(term, rng)
+        except SlipwiseError as error:
+            result = {"inside": False, "error": str(error), "hidden by base": float("nan"), "parameters": {}}
+        good += bool(result["inside"])
+        results[name] = result
+        _tell(name, result)
+    for name, reason in cannot.items():
+        print(f"{name:22s} not testable: {reason}")
+    print(f"truth inside the 95 % interval: {good} of {len(results)}")
+    clean = {
+        k: {**v, "hidden by base": None} if not np.isfinite(v["hidden by base"]) else v for k, v in results.items()
+    }
+    write_json(chosen.out / "recover.json", {"good": good, "of": len(results), "effects": clean, "cannot": cannot})
+
+
+if __name__ == "__main__":
+    main()
