@@ -139,9 +139,7 @@ def gather(
     values["direction"] = values["direction"] + 1.0
     spread, pads = _spread(parts), parts[0].shape[1] if parts[0].ndim == 2 else 1
     spectrum = _spectrum(parts, [r.dt for r in runs])
-    return Samples(
-        relation, residual**2, residual, values, labels, spread, min(spread, _LONGEST * pads), spectrum
-    )
+    return Samples(relation, residual**2, residual, values, labels, spread, min(spread, _LONGEST * pads), spectrum)
 
 
 def cells_of(samples: Samples) -> list[Cell]:
@@ -170,7 +168,10 @@ def corrected(cells: Iterable[Cell]) -> tuple[Cell, ...]:
     for rank, chance in enumerate(tested, start=1):
         if chance <= _FALSE * rank / len(tested):
             limit = chance
-    return tuple(replace(c, above=bool(c.effective >= _FEWEST and c.chance <= limit)) for c in cells)
+    named = [replace(c, above=bool(c.effective >= _FEWEST and c.chance <= limit)) for c in cells]
+    # noise of a logger may have a colour of its own: a band alone accuses nobody
+    accused = {c.relation for c in named if c.above and c.kind != "frequency"}
+    return tuple(replace(c, above=c.above and c.relation in accused) for c in named)
 
 
 def _cell(samples: Samples, kind: str, label: str, low: float, high: float, inside: Mask) -> Cell:

@@ -1,4 +1,4 @@
-"""The audit of the instruments in words and rows: what lies, on which channel, how large, how sure, what else it could be.
+"""The audit of the instruments in words and rows: what lies, on which channel, how large, how sure, what else it is.
 
 Nothing is corrected unless a finding is named: then the records are mended by its size, and the campaign says so.
 """
@@ -7,8 +7,6 @@ import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
-
-import numpy as np
 
 from slipwise.campaign import Campaign
 from slipwise.errors import InputError, unknown_name
@@ -118,4 +116,4 @@ def _shown(found: "Evidence") -> tuple[float, str]:
 
 def _size(found: "Evidence") -> str:
     scale, unit = _shown(found)
-    return f"{np.format_float_positional(scale * found.size, 3, fractional=False)} {unit}".strip()
+    return f"{scale * found.size:.3g} {unit}".strip()

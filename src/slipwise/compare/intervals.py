@@ -2,9 +2,9 @@
 
     C = A^-1 (sum over blocks of s s') A^-1,    A = J'J,    s = sum of J_t' r_t over a block
 
-Residuals of pads and balances at one instant share gauges, and neighbours share what the model lacks: a block holds all
-relations over a stretch of time, and only blocks are taken as independent. The usual formula, one variance for all rows,
-covers the truth in 15 to 40 % of the cases when residuals are correlated.
+Residuals of pads and balances at one instant share gauges, and neighbours share what the model lacks: a block holds
+all relations over a stretch of time, and only blocks are taken as independent. The usual formula, one variance for all
+rows, covers the truth in 15 to 40 % of the cases when residuals are correlated.
 
 Source: White (1980), Newey and West (1987); blocks as clusters: Liang and Zeger (1986); methods.md D9.
 """

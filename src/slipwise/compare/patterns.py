@@ -1,7 +1,8 @@
-"""Patterns: the mean residual over each state of motion, in both directions of sliding, and how much of it that explains.
+"""Patterns: the mean residual over each state of motion, in both directions of sliding, and how much that explains.
 
 Noise has no pattern and a missing force has one: the mean over a bin keeps what the law lacks there. Odd in the
-direction of sliding is friction that is larger or smaller than the law says; even is a force that always points one way.
+direction of sliding is friction that is larger or smaller than the law says; even is a force that always points one
+way.
 """
 
 from collections.abc import Sequence
@@ -80,10 +81,11 @@ class Pattern:
             float(np.sqrt(np.nansum((weight * e[where]) ** 2)) / weight.sum())
             for e in (self.plus_error, self.minus_error)
         ]
-        for size, other, error, name in ((*sizes, errors[1], "+x"), (*sizes[::-1], errors[0], "−x")):
+        pairs = ((sizes[0], sizes[1], errors[1], "+x"), (sizes[1], sizes[0], errors[0], "−x"))
+        for size, other, error, name in pairs:
             if other < 0.2 * size and size > 1.0 and other < 2.0 * error:
                 return f"only sliding to {name}"
-        apart = abs(sizes[0] - sizes[1]) > _SURE * float(np.hypot(*errors))
+        apart = abs(sizes[0] - sizes[1]) > _SURE * float(np.hypot(errors[0], errors[1]))
         unequal = apart and max(sizes) > _EQUAL * min(sizes)
         return "both directions, unequal" if unequal else "both directions, equal"
 

@@ -21,7 +21,9 @@ from slipwise.model import Model
 if TYPE_CHECKING:
     import pandas
 
-TABLES: tuple[str, ...] = ("audit", "components", "system", "parameters", "correlations", "cells", "places", "parity", "floor")
+TABLES: tuple[str, ...] = (
+    "audit", "components", "system", "parameters", "correlations", "cells", "places", "parity", "floor",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,8 @@ The floor of a replay is more than the noise of the gauge it is compared with: n
 the states at which windows restart goes through the rig too, and so does the error of the step. All three are measured:
 by a replay with as much noise again in what it is fed with, and by one with the step halved.
 
-Two numbers of the rig that only a replay needs are fitted here on the runs that may be fitted: stiffness and damping of
-the pads, from the girder's answer to vertical motion. A pad sticks on the few micrometres that the base fit found.
+Numbers of the rig that only a replay needs are taken here from the runs that may be fitted: stiffness and damping of the
+pads, from the girder's answer to vertical motion, and its pitch inertia, from the fitted pitch frequency. A pad sticks on the few micrometres that the base fit found.
 """
 
 from collections.abc import Callable, Mapping
@@ -27,6 +27,8 @@ from slipwise.system import SystemRun, replay_runs
 Array = NDArray[np.float64]
 #: Vertical motion below this many times its own noise tells nothing of the springs.
 _SHAKEN = 8.0
+#: Largest lag between the accelerometers of table and girder [s].
+_LAG = 2e-3
 #: Shortest elastic stick over g dt^2: mu g / length is the square of its frequency [1].
 _STIFFEST = 0.3
 
@@ -86,12 +88,17 @@ def replayed_model(base: BaseFit) -> tuple[Model, tuple[str, ...]]:
     notes = []
     springs = pad_springs(base, model)
     if springs is not None:
-        model = replace(
-            model, specimen=replace(model.specimen, pad_stiffness=springs[0], pad_damping=springs[1])
-        )
+        model = replace(model, specimen=replace(model.specimen, pad_stiffness=springs[0], pad_damping=springs[1]))
         notes.append(
             f"pads' stiffness {springs[0] / 1e6:.0f} kN/mm and damping {springs[1] / 1e3:.0f} kN s/m each, "
             "from the girder's answer to vertical motion in the fitted runs"
+        )
+    if "rig.pitch_frequency" in values and "rig.pitch_frequency" not in base.solution.at_bounds:
+        inertia = _pitch_inertia(model, values["rig.pitch_frequency"])
+        roll, _, yaw = model.specimen.inertia
+        model = replace(model, specimen=replace(model.specimen, inertia=(roll, inertia, yaw)))
+        notes.append(
+            f"the girder's pitch inertia {inertia / 1e3:.2f} t m2, from its fitted pitch frequency on the pads"
         )
     length = values.get("rig.stick_length", 0.0)
     # a bristle of this length swings the girder once in some steps: a shorter one is too stiff for them
@@ -102,41 +109,54 @@ def replayed_model(base: BaseFit) -> tuple[Model, tuple[str, ...]]:
     return model, tuple(notes)
 
 
+def _pitch_inertia(model: Model, frequency: float) -> float:
+    """Give the inertia [kg m^2] with which the girder pitches at a frequency while it slides: (2 pi f)^2 J = p k b^2."""
+    specimen = model.built_specimen()
+    spring = len(specimen.pads) * specimen.pad_stiffness * specimen.half_spacing[0] ** 2
+    return spring / (2.0 * np.pi * frequency) ** 2
+
+
 def pad_springs(base: BaseFit, model: Model) -> tuple[float, float] | None:
     """Fit stiffness [N/m] and damping [N s/m] of a pad to the girder's vertical answer to the table.
 
-    m a_z = K (s) (a_z,table - a_z) / s^2 with K(s) = p (k + c s): H = K / (m s^2 + K). None where vertical motion was
-    not measured or too weak, or where the model sets the springs itself.
+    H = K / (m s^2 + K) exp(-lag s) with K(s) = p (k + c s); the lag between both accelerometers is fitted too, for it
+    would pass for damping. None where vertical motion was not measured or too weak, or where the model sets the springs.
     """
-    if "pad_compliance" in model or not model.specimen.free:
+    if "pad_compliance" in model or "rig.pitch_frequency" not in base.solution.values:
         return None
     runs = [
         run
         for i in base.problem.fitted
         if (run := base.problem.runs[i]).record.has_all("table_az", "girder_az")
+        and run.noise["table_az"] > 0.0
         and float(np.std(run.record["table_az"])) > _SHAKEN * run.noise["table_az"]
     ]
     if not runs:
         return None
-    start = np.array([model.specimen.pad_stiffness, model.specimen.pad_damping])
+    rated = model.specimen.pad_stiffness
+    values = base.solution.values
+    # pitch and heave ring on the same springs: c/k is known from the pitch, which rings freely after each reversal
+    ratio = 2.0 * values["rig.pitch_damping"] / (2.0 * np.pi * values["rig.pitch_frequency"])
     pads, mass = len(model.specimen.pads), model.specimen.mass
 
     def left(scaled: Array) -> Array:
-        stiffness, damping = scaled * start
+        stiffness = scaled[0] * rated
+        damping = ratio * stiffness
         out = []
         for run in runs:
 
             def answer(frequency: Array) -> NDArray[np.complex128]:
                 turn = 2j * np.pi * frequency
                 spring = pads * (stiffness + damping * turn)
-                return spring / (mass * turn**2 + spring)
+                return spring / (mass * turn**2 + spring) * np.exp(-_LAG * scaled[1] * turn)
 
             said = in_frequency(run.record["table_az"], run.dt, answer, 256)
             out.append((run.record["girder_az"] - said)[run.grounded] / run.noise["girder_az"])
         return np.concatenate(out)
 
-    found = least_squares(left, np.ones(2), bounds=([0.2, 0.05], [5.0, 10.0]), loss="soft_l1")
-    return float(found.x[0] * start[0]), float(found.x[1] * start[1])
+    found = least_squares(left, np.array([1.0, 0.0]), bounds=([0.2, -1.0], [5.0, 1.0]), loss="soft_l1")
+    stiffness = float(found.x[0] * rated)
+    return stiffness, ratio * stiffness
 
 
 def system_level(

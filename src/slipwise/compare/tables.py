@@ -100,13 +100,23 @@ _MAKERS = {
 def as_json(found: Comparison) -> dict[str, Any]:
     """Give a comparison as compare.json holds it: SI, errors in multiples of the floor, null where unknown.
 
-    Keys: `schema` 1 · `campaign` · `rig` · `model` (effects with their fitted values) · `components` {relation: {fit,
-    holdout, repeats}} · `system` {channel: {fit, holdout}} · `audit` {accused, words, findings: [...]} · `worst` {relation, error} · `places` [{relation, words,
-    error, elsewhere, share, part, kind, direction}], the worst first · `parameters` [{parameter, value, low, high, rated,
-    unit, bound}], 95 % · `correlations` [{parameter, other, correlation}], the strongest first · `surface` {pressure,
-    speed, friction, deviation} · `floor` [{relation, floor, near_reversals, unit, repeated_runs}] · `parity` [{relation, odd,
-    even, plus, minus}] · `cells` [{relation, kind, label, low, high, error, samples, effective, chance, above}] · `runs`
-    {components: [...], system: [...]}, error of every run · `cannot` and `notes`, in words · `seconds`.
+    schema: 1
+    campaign, rig: names
+    model: [{effect, target, values}], as fitted
+    components: {relation: {fit, holdout, repeats}}
+    system: {channel: {fit, holdout}}
+    audit: {accused, words, findings: [...]}
+    worst: {relation, error}
+    places: [{relation, words, error, elsewhere, share, part, kind, direction}], the worst first
+    parameters: [{parameter, value, low, high, rated, unit, bound}], 95 % intervals
+    correlations: [{parameter, other, correlation}], the strongest first
+    surface: {pressure, speed, friction, deviation}, mu(P, V), or null
+    floor: [{relation, floor, near_reversals, unit, repeated_runs}]
+    parity: [{relation, odd, even, plus, minus}]
+    cells: [{relation, kind, label, low, high, error, samples, effective, chance, above}]
+    runs: {components: [...], system: [...]}, error of every run
+    cannot, notes: in words
+    seconds: that it took
     """
     from slipwise.compare.system_level import pooled_system
 
@@ -126,9 +136,7 @@ def as_json(found: Comparison) -> dict[str, Any]:
         "schema": 1,
         "campaign": found.campaign.name,
         "rig": found.campaign.rig,
-        "model": [
-            {"effect": u.effect.name, "target": u.target, "values": dict(u.values)} for u in found.model.uses
-        ],
+        "model": [{"effect": u.effect.name, "target": u.target, "values": dict(u.values)} for u in found.model.uses],
         "components": {
             r: {
                 "fit": found.error(r, held_out=False),

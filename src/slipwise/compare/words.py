@@ -76,8 +76,7 @@ def places(
     out = []
     for relation in dict.fromkeys(c.relation for c in cells):
         own = [c for c in cells if c.relation == relation]
-        # misfit that is slow alone is an offset or a share of the rig's numbers, no place in the motion
-        if any(c.above and not (c.kind == "frequency" and c.low < _SLOW_BAND) for c in own):
+        if any(c.above for c in own):
             shown = [p for p in patterns if p.relation == relation]
             best = max(shown, key=lambda p: p.explained * _telling(relation, p.kind), default=None)
             if best is not None and best.explained > _PATTERN:
@@ -216,8 +215,11 @@ def _direction(cells: Sequence[Cell], found: Parity | None) -> str:
 def _pads(cells: Sequence[Cell]) -> list[str]:
     own = [c for c in cells if c.kind == "pad"]
     above = [c for c in own if c.above]
-    if len(own) < 2 or not above or len(above) == len(own) and max(c.error for c in own) < 1.3 * min(
-        c.error for c in own
+    if (
+        len(own) < 2
+        or not above
+        or len(above) == len(own)
+        and max(c.error for c in own) < 1.3 * min(c.error for c in own)
     ):
         return []
     if len(above) < len(own):

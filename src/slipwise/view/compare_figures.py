@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from slipwise.channels import channel
@@ -21,6 +22,11 @@ from slipwise.view.style import INK, MUTED, PAD_COLOURS, PAD_PANELS, PAD_PLACES,
 
 Array = NDArray[np.float64]
 _MEASURED, _MODEL, _HELD = INK, "#e69f00", "#0072b2"
+_STATES_CALLED = {
+    "since reversal": "way since the last reversal",
+    "path": "slid path of the campaign",
+    "time": "time in run",
+}
 _PLUS, _MINUS = "#0072b2", "#d55e00"
 
 
@@ -62,8 +68,14 @@ def errors_figure(found: Comparison) -> Figure:
                     continue
                 above = value > ALLOWANCE and colour == _HELD
                 axes.barh(place + shift, value, height=height, color=UPLIFT if above else colour, zorder=2)
-                axes.text(value * 1.03, place + shift, f"{value:.2f}" if value < 10 else f"{value:.0f}", va="center",
-                          fontsize=8.5 if colour == _HELD else 7.5, color=INK if colour == _HELD else MUTED)
+                axes.text(
+                    value * 1.03,
+                    place + shift,
+                    f"{value:.2f}" if value < 10 else f"{value:.0f}",
+                    va="center",
+                    fontsize=8.5 if colour == _HELD else 7.5,
+                    color=INK if colour == _HELD else MUTED,
+                )
         axes.set_yticks(places, [r[0] for r in rows])
         axes.set_ylim(places[-1] - 0.6, places[0] + 0.6)
         axes.set_xscale("log")
@@ -74,11 +86,21 @@ def errors_figure(found: Comparison) -> Figure:
         axes.set_xlabel("error in multiples of the noise floor (1 = only noise is left)")
         axes.grid(False, axis="y")
         if found.system:
-            for start, words in ((0, "component level: laws fed with what was measured"),
-                                 (split, "system level: replay from the measured table motion")):
-                axes.text(0.995, places[start] + 0.46, words, transform=axes.get_yaxis_transform(), ha="right",
-                          va="bottom", fontsize=8.0, color=MUTED)
-        handles = [axes.barh(places[0], 0, color=c) for c in ("#b9c1cb", _HELD, UPLIFT)]
+            for start, words in (
+                (0, "component level: laws fed with what was measured"),
+                (split, "system level: replay from the measured table motion"),
+            ):
+                axes.text(
+                    0.995,
+                    places[start] + 0.46,
+                    words,
+                    transform=axes.get_yaxis_transform(),
+                    ha="right",
+                    va="bottom",
+                    fontsize=8.0,
+                    color=MUTED,
+                )
+        handles = [Patch(color=c) for c in ("#b9c1cb", _HELD, UPLIFT)]
         words = ["fitted runs", "held-out runs", "held out, above the floor"]
         figure.legend(handles, words, loc="outside upper right", ncols=3)
     return figure
@@ -172,8 +194,15 @@ def map_figure(found: Comparison) -> Figure:
         for (i, j), value in np.ndenumerate(values):
             if np.isfinite(value):
                 dark = np.log(max(value, 1.0)) > 0.7 * np.log(top)
-                axes.text(j, i, f"{value:.3g}" if value >= 10 else f"{value:.2f}", ha="center", va="center",
-                          color="white" if dark else INK, fontweight="bold" if above[i, j] else "normal")
+                axes.text(
+                    j,
+                    i,
+                    f"{value:.3g}" if value >= 10 else f"{value:.2f}",
+                    ha="center",
+                    va="center",
+                    color="white" if dark else INK,
+                    fontweight="bold" if above[i, j] else "normal",
+                )
             else:
                 axes.text(j, i, "not judged", ha="center", va="center", fontsize=7.5, color=MUTED)
         axes.set_xticks(range(len(STATES)), STATES)
@@ -251,10 +280,18 @@ def _pattern(axes: Axes, pattern: Pattern) -> None:
         (pattern.plus, pattern.plus_error, _PLUS, "sliding to +x"),
         (pattern.minus, pattern.minus_error, _MINUS, "sliding to −x"),
     ):
-        axes.errorbar(middle, mean, yerr=2.0 * error, color=colour, marker="o", markersize=3.5, linewidth=1.2,
-                      capsize=2.0, label=words)
-    names = {"since reversal": "way since the last reversal", "path": "slid path of the campaign", "time": "time in run"}
-    axes.set_xlabel(f"{names.get(pattern.kind, pattern.kind)} [{unit}]")
+        axes.errorbar(
+            middle,
+            mean,
+            yerr=2.0 * error,
+            color=colour,
+            marker="o",
+            markersize=3.5,
+            linewidth=1.2,
+            capsize=2.0,
+            label=words,
+        )
+    axes.set_xlabel(f"{_STATES_CALLED.get(pattern.kind, pattern.kind)} [{unit}]")
     axes.set_title(f"explains {pattern.explained:.0%}", fontsize=9.0)
 
 

@@ -72,8 +72,10 @@ def _summary(found: Comparison) -> list[Any]:
     facts["runs"] = _roles(found)
     # a grid, so that the four answers are seen at once on a desk and one below the other on a phone
     columns = "display:grid;gap:0 1.2rem;grid-template-columns:repeat(auto-fit,minmax(min(100%,24rem),1fr))"
-    boxes = "".join(callout(question, answer, own).text for (question, answer), own in zip(
-        one_minute(found), _tones(found), strict=True))
+    boxes = "".join(
+        callout(question, answer, own).text
+        for (question, answer), own in zip(one_minute(found), _tones(found), strict=True)
+    )
     return [verdict(title, words, tone, facts), Html(f'<div style="{columns}">{boxes}</div>')]
 
 
@@ -143,8 +145,8 @@ def _errors(found: Comparison) -> list[Any]:
     pieces: list[Any] = [
         figure(
             figures.errors_figure(found),
-            "Error of every component and channel in multiples of its noise floor. Left of the green line a model cannot "
-            "get; blue bars are runs that the fit has not seen.",
+            "Error of every component and channel in multiples of its noise floor. Left of the green line a model "
+            "cannot get; blue bars are runs that the fit has not seen.",
             "Bars of error over floor for every component and channel",
         )
     ]
@@ -176,8 +178,8 @@ def _errors(found: Comparison) -> list[Any]:
             for e in found.system.errors
         ]
         words = (
-            "The floor of a replay has three parts, shown as parts of it: noise of the gauge, noise of table motion and "
-            "restarts gone through the rig, and the change when the step is halved."
+            "The floor of a replay has three parts, shown as parts of it: noise of the gauge, noise of table motion "
+            "and restarts gone through the rig, and the change when the step is halved."
         )
         pieces.append(details("Every channel of the replay in every run", [words, table(own)]))
     return pieces
@@ -203,8 +205,9 @@ def _places(found: Comparison) -> list[Any]:
             pieces.append(
                 figure(
                     figures.patterns_figure(found, relation),
-                    f"{_capital(called)}: mean residual (measured less predicted) over every state, both directions of "
-                    "sliding apart, with two standard errors. Mirrored curves are friction, equal curves a constant pull.",
+                    f"{_capital(called)}: mean residual (measured less predicted) over every state, both directions "
+                    "of sliding apart, with two standard errors. Mirrored curves are friction, equal curves a constant "
+                    "pull.",
                     f"Mean residual of {called} over states of motion",
                 )
             )
@@ -229,9 +232,7 @@ def _places(found: Comparison) -> list[Any]:
         for p in found.parities.values()
     ]
     if split:
-        pieces.append(
-            details("Odd and even part in the direction of sliding", [table(split)])
-        )
+        pieces.append(details("Odd and even part in the direction of sliding", [table(split)]))
     return pieces
 
 
@@ -297,9 +298,9 @@ def _floor(found: Comparison) -> list[Any]:
             }
         )
     words = (
-        "The floor of a component is what a perfect model would leave: noise of its gauges, and near reversals the noise "
-        "of the velocity, which turns friction round a little early or late. A repeated run tests it: what differs "
-        "between two runs of one motion is noise."
+        "The floor of a component is what a perfect model would leave: noise of its gauges, and near reversals the "
+        "noise of the velocity, which turns friction round a little early or late. A repeated run tests it: what "
+        "differs between two runs of one motion is noise."
     )
     return [paragraph(words), table(rows)]
 
@@ -353,7 +354,13 @@ def _about(found: Comparison) -> list[Any]:
     uses = ", ".join(u.label for u in found.model.uses) or "Coulomb friction alone"
     pieces.append(paragraph(f"Model: {found.campaign.rig} with {uses}. Made in {found.seconds:.0f} s."))
     runs = [
-        {"run": r.name, "role": r.role, "file": r.file, "samples": len(r.record), "step [ms]": round(1e3 * r.record.dt, 4)}
+        {
+            "run": r.name,
+            "role": r.role,
+            "file": r.file,
+            "samples": len(r.record),
+            "step [ms]": round(1e3 * r.record.dt, 4),
+        }
         for r in found.campaign.runs
     ]
     return [*pieces, table(runs)]
