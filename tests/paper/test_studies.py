@@ -141,6 +141,19 @@ def test_the_page_shows_every_finding_picture_and_assumption(result, tmp_path):
     assert "http" not in page.replace("http://www.w3.org", "")
 
 
+def test_a_claim_that_breaks_is_in_the_headline(result):
+    from slipwise.view.paper_page import paper_page
+
+    assert "Rocking cancels and vertical motion matters little" in paper_page(result)
+    broken = [
+        replace(s, findings=tuple(replace(f, verdict=FAILS) if f.place == "Fig. 9" else f for f in s.findings))
+        for s in result.studies
+    ]
+    page = paper_page(replace(result, studies=tuple(broken)))
+    assert "does not hold: Fig. 9" in page
+    assert "Rocking cancels and vertical motion matters little" not in page
+
+
 def test_the_plan_pairs_every_motion_with_itself_without_vertical_part():
     full = plan(PaperSettings())
     assert len(full.groups["with"]) == len(full.groups["without"]) == 200

@@ -5,7 +5,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from slipwise.paper import PaperSettings, paper_model
+from slipwise.paper import PaperSettings, change, paper_model
+from slipwise.paper.hysteresis import steady_loops
 from slipwise.paper.law import FAST, edge_slope, leftover, mu, per_load, vertical_loss
 from slipwise.paper.scaling import bridge_row, masses_that_round_to, unscaled
 
@@ -110,6 +111,19 @@ def test_edges_of_the_trapezoids():
         for m in (ONE, TWO)
     ]
     assert np.array(coulomb) / 1e6 == pytest.approx([0.0239, 0.0311], abs=5.5e-5)
+
+
+def test_buffers_at_the_height_of_the_centre_leave_no_trapezoid():
+    # physics 1.2: with zb = h only friction loads the pads, and the loops are offset rectangles.
+    half = paper_model("bridge1", change(SETTINGS, ["buffer_height=0.183 m", "pads_on=girder"]))
+    whole = paper_model("bridge1", change(SETTINGS, ["buffer_height=0.366 m", "pads_on=girder"]))
+    slope = edge_slope(ONE, p_delta=False)
+    assert edge_slope(half, p_delta=False) == pytest.approx(0.5 * slope, rel=1e-9)
+    assert edge_slope(whole, p_delta=False) == pytest.approx(0.0, abs=1e-9 * slope)
+    pads, _, _ = steady_loops(half)
+    assert np.mean([abs(pad.edge_slope) for pad in pads.values()]) == pytest.approx(0.5 * slope, rel=0.05)
+    pads, _, _ = steady_loops(whole)
+    assert np.mean([abs(pad.edge_slope) for pad in pads.values()]) < 0.1 * slope
 
 
 def test_what_rocking_takes_from_the_sum():

@@ -56,11 +56,16 @@ def vertical_loss(model: Model, accelerations: Array) -> Array:
 
 
 def edge_slope(model: Model, *, p_delta: bool) -> float:
-    """Give the edge slope of a pad's trapezoid while sliding fast, dF/dN dN/dx [N/m]."""
+    """Give the edge slope of a pad's trapezoid while sliding fast [N/m].
+
+    dF/dx = dF/dN dN/dx, dN/dx = K (h - z_b)/(2 b), and m g/(2 b) more with the weight moving over the pads (P-delta).
+    """
     specimen = model.built_specimen()
-    swing = specimen.slenderness * 0.5 * sum(specimen.buffer_stiffness)
+    spacing = 2.0 * specimen.half_spacing[0]
+    lever = specimen.centre_height - specimen.buffer_height
+    swing = sum(specimen.buffer_stiffness) * lever / (2.0 * spacing)
     if p_delta:
-        swing += specimen.weight / (4.0 * specimen.half_spacing[0])
+        swing += specimen.weight / (2.0 * spacing)
     return float(per_load(model, np.array([specimen.rated_pressure]))[0]) * swing
 
 

@@ -18,6 +18,8 @@ from slipwise.view.paper_rig_pictures import energies_figure, extreme_figure, in
 
 _TONES: dict[str, Tone] = {HOLDS: "good", LIMITS: "warn", FAILS: "bad", UNCHECKED: "plain"}
 Draw = Callable[[Mapping[str, Any]], Figure]
+#: Studies whose findings carry the headline.
+_HEADLINE = ("loads", "loops", "extreme", "claims")
 #: Study -> its pictures, each with its caption.
 PICTURES: dict[str, tuple[tuple[Draw, str], ...]] = {
     "input": (
@@ -85,9 +87,12 @@ def summary(result: Reenactment) -> list[Piece]:
         "text does not give, cannot be confirmed and is marked so."
     )
     facts = {name: counts[name] for name in counts}
-    out: list[Piece] = [
-        verdict("Rocking cancels and vertical motion matters little, within limits", words, "good", facts)
-    ]
+    broken = [f.place for s in result.studies if s.name in _HEADLINE for f in s.findings if f.verdict == FAILS]
+    tone: Tone = "good"
+    headline = "Rocking cancels and vertical motion matters little, within limits"
+    if broken:
+        headline, tone = f"Under these assumptions does not hold: {', '.join(broken)}", "bad"
+    out: list[Piece] = [verdict(headline, words, tone, facts)]
     if result.failed:
         out.append(callout("Note.", f"{result.failed} of {result.replays} replays diverged and were left out.", "warn"))
     changed = [a["name"] for a in assumptions(result.settings) if a["value"] != a["default"]]
