@@ -123,10 +123,15 @@ def main() -> None:
     for name, reason in cannot.items():
         print(f"{name:22s} not testable: {reason}")
     print(f"truth inside the 95 % interval: {good} of {len(results)}")
-    clean = {
-        k: {**v, "hidden by base": None} if not np.isfinite(v["hidden by base"]) else v for k, v in results.items()
-    }
-    write_json(chosen.out / "recover.json", {"good": good, "of": len(results), "effects": clean, "cannot": cannot})
+    clean = _finite({"good": good, "of": len(results), "effects": results, "cannot": cannot})
+    write_json(chosen.out / "recover.json", clean)
+
+
+def _finite(content: Any) -> Any:
+    """Write what is not a number as null: JSON has no NaN."""
+    if isinstance(content, dict):
+        return {key: _finite(value) for key, value in content.items()}
+    return None if isinstance(content, float) and not np.isfinite(content) else content
 
 
 if __name__ == "__main__":
