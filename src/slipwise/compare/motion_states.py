@@ -44,7 +44,10 @@ def motion_states(run: FitRun) -> MotionStates:
     moving = min(_MOVING, _MOVING_PART * usual)
     direction = _held(np.where(speed > moving, np.sign(velocity), 0.0)).astype(np.int64)
     path = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(run.time))])
-    turns = _turns(direction, velocity)
+    turns, clear = _turns(direction, velocity)
+    for turn, first in zip(turns, clear, strict=True):
+        # a direction begins where motion turned, not where it became clear
+        direction[turn:first] = direction[first]
     since_turn = _since(path, turns)
     ways = np.diff(path[turns]) if len(turns) > 1 else np.array([path[-1]])
     way = float(np.quantile(ways[ways > 0.0], 0.9)) if np.any(ways > 0.0) else float(path[-1])
@@ -69,14 +72,18 @@ def _held(values: Array) -> Array:
     return values[np.maximum.accumulate(place)]
 
 
-def _turns(direction: NDArray[np.int64], velocity: Array) -> NDArray[np.int64]:
-    """Give the samples at which motion turns round: where velocity last changed sign before the new direction."""
+def _turns(direction: NDArray[np.int64], velocity: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Give the samples at which motion turns round, and those at which the new direction is clear.
+
+    It turns where velocity last changed sign before the new direction.
+    """
     changed = np.flatnonzero((direction[1:] != direction[:-1]) & (direction[:-1] != 0)) + 1
     crossings = np.flatnonzero(np.signbit(velocity[1:]) != np.signbit(velocity[:-1])) + 1
     if len(crossings) == 0 or len(changed) == 0:
-        return np.zeros(0, dtype=np.int64)
+        return np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64)
     last = np.searchsorted(crossings, changed, side="right") - 1
-    return np.unique(crossings[np.maximum(last, 0)])
+    turns, places = np.unique(crossings[np.maximum(last, 0)], return_index=True)
+    return turns, changed[places]
 
 
 def _since(path: Array, events: NDArray[np.int64]) -> Array:

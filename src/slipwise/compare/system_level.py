@@ -4,8 +4,9 @@ The floor of a replay is more than the noise of the gauge it is compared with: n
 the states at which windows restart goes through the rig too, and so does the error of the step. All three are measured:
 by a replay with as much noise again in what it is fed with, and by one with the step halved.
 
-Numbers of the rig that only a replay needs are taken here from the runs that may be fitted: stiffness and damping of the
-pads, from the girder's answer to vertical motion, and its pitch inertia, from the fitted pitch frequency. A pad sticks on the few micrometres that the base fit found.
+Numbers of the rig that only a replay needs are taken here from the runs that may be fitted: stiffness and damping of
+the pads, from the girder's answer to vertical motion, and its pitch inertia, from the fitted pitch frequency. A pad
+sticks on the few micrometres that the base fit found.
 """
 
 from collections.abc import Callable, Mapping
@@ -110,7 +111,7 @@ def replayed_model(base: BaseFit) -> tuple[Model, tuple[str, ...]]:
 
 
 def _pitch_inertia(model: Model, frequency: float) -> float:
-    """Give the inertia [kg m^2] with which the girder pitches at a frequency while it slides: (2 pi f)^2 J = p k b^2."""
+    """Give the inertia [kg m^2] of a girder that pitches on its pads at a frequency: (2 pi f)^2 J = p k b^2."""
     specimen = model.built_specimen()
     spring = len(specimen.pads) * specimen.pad_stiffness * specimen.half_spacing[0] ** 2
     return spring / (2.0 * np.pi * frequency) ** 2
@@ -120,7 +121,7 @@ def pad_springs(base: BaseFit, model: Model) -> tuple[float, float] | None:
     """Fit stiffness [N/m] and damping [N s/m] of a pad to the girder's vertical answer to the table.
 
     H = K / (m s^2 + K) exp(-lag s) with K(s) = p (k + c s); the lag between both accelerometers is fitted too, for it
-    would pass for damping. None where vertical motion was not measured or too weak, or where the model sets the springs.
+    would pass for damping. None where vertical motion was not measured or too weak, or the model sets the springs.
     """
     if "pad_compliance" in model or "rig.pitch_frequency" not in base.solution.values:
         return None
