@@ -13,6 +13,9 @@ from slipwise.signals import LowPass, align, lowpass, resampled, uniform_time, w
 Mask = NDArray[np.bool_]
 #: Table and girder count as at rest below this many standard deviations of their smoothed noise.
 _STILL = 5.0
+#: Their noise is taken from the calmest tenth of blocks of this length [s]; noise that is not white may show there
+#: up to this many times what the top of the spectrum says [1].
+_BLOCK, _CALM, _COLOURED = 0.2, 0.1, 5.0
 #: Smoothing for that, and the shortest stretch that counts.
 _SMOOTH = LowPass(20.0, 4, "aligned")
 _SHORTEST = 0.15
@@ -60,13 +63,14 @@ def quiet_samples(record: Record) -> Mask:
     watched = [n for n in ("table_ax", "table_ay", "table_az", "girder_ax", "girder_ay") if n in record]
     for name in watched or [n for n in ("slip_x", "slip_y") if n in record]:
         smoothed = lowpass(record[name], dt, smooth)
-        level = max(part * white_level(record[name]), 1e-9)
-        # The rest position is the middle of the calmest tenth of a second that the record has.
-        width = max(int(0.1 / dt), 4)
+        width = max(int(_BLOCK / dt), 4)
         blocks = smoothed[: len(smoothed) // width * width].reshape(-1, width)
         if len(blocks) == 0:
             return np.zeros(len(record), dtype=bool)
-        rest = float(blocks[np.argmin(np.ptp(blocks, axis=1))].mean())
+        scatter = blocks.std(axis=1)
+        white = max(part * white_level(record[name]), 1e-9)
+        level = float(np.clip(np.quantile(scatter, _CALM), white, _COLOURED * white))
+        rest = float(np.median(blocks[scatter <= np.quantile(scatter, _CALM)]))
         still &= np.abs(smoothed - rest) < _STILL * level
     return long_enough(still, max(int(_SHORTEST / dt), 8))
 

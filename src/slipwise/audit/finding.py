@@ -1,0 +1,126 @@
+"""What an audit says: findings with intervals and rivals, what could not be tested, and what holds."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from slipwise.signals import LowPass
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One fault of an instrument.
+
+    Attributes:
+        what: name of the effect in the catalogue, e.g. "channel_delay".
+        channel: the channel, or a card of cells as a pattern, e.g. "pad_*_Fx".
+        size: in `unit`.
+        low: lower end of the 95 % interval.
+        high: upper end.
+        unit: SI unit; "1" for a share.
+        probability: that this fault, on this channel, is what is there.
+        mistaken_for: other explanations, nearest first.
+        settle_by: what would tell them apart.
+        words: the finding as a sentence.
+        target: of the effect that undoes it.
+        values: parameters of that effect.
+        runs: names of the runs that show it.
+    """
+
+    what: str
+    channel: str
+    size: float
+    low: float
+    high: float
+    unit: str
+    probability: float
+    mistaken_for: tuple[str, ...]
+    settle_by: str
+    words: str
+    target: str
+    values: Mapping[str, float]
+    runs: tuple[str, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """What and where, as one writes it after --correct."""
+        return f"{self.what}:{self.channel}"
+
+
+@dataclass(frozen=True)
+class Balance:
+    """How well one relation holds.
+
+    Attributes:
+        relation: its name.
+        floor: what noise alone leaves, in the relation's unit.
+        left: what it leaves as recorded, constants of the rig fitted, in floors.
+        explained: what it leaves after findings and physical alternatives, in floors.
+        rows: how many samples it was held on.
+    """
+
+    relation: str
+    floor: float
+    left: float
+    explained: float
+    rows: int
+
+
+@dataclass(frozen=True)
+class LoggerEstimate:
+    """What the data say of the logger's filter.
+
+    Attributes:
+        lowpass: the filter, None when the data do not tell.
+        low: lower end of the 95 % interval of its frequency [Hz].
+        high: upper end.
+        why: how it was found, or why it was not.
+    """
+
+    lowpass: LowPass | None
+    low: float
+    high: float
+    why: str
+
+
+@dataclass(frozen=True)
+class AuditReport:
+    """Result of an audit. It changes no data.
+
+    Attributes:
+        campaign: its name.
+        findings: faults of instruments, most probable first.
+        balances: how well each relation holds.
+        physics: what the balances show beside the base rig that is no fault of a gauge: names of effects, or words.
+        constants: mass [kg], stiffness_x [N/m], lever (mass times height of the centre of gravity) [kg m], ...
+        logger: estimate of the filter; None where campaign.toml describes the logger.
+        cannot: what could not be tested, and why.
+        notes: small things that matter to nobody but should be known.
+    """
+
+    campaign: str
+    findings: tuple[Finding, ...]
+    balances: tuple[Balance, ...]
+    physics: tuple[str, ...]
+    constants: Mapping[str, float]
+    logger: LoggerEstimate | None
+    cannot: tuple[str, ...]
+    notes: tuple[str, ...] = field(default=())
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Give the findings as rows of a table."""
+        return [
+            {
+                "what": f.what,
+                "channel": f.channel,
+                "size": f.size,
+                "low": f.low,
+                "high": f.high,
+                "unit": f.unit,
+                "probability": f.probability,
+                "mistaken_for": ", ".join(f.mistaken_for),
+                "settle_by": f.settle_by,
+                "words": f.words,
+            }
+            for f in self.findings
+        ]

@@ -1,0 +1,222 @@
+"""Which suspects stand: forward choice among suspects and physics, then what speaks for each suspect."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.audit.alternatives import Alternative, alternatives
+from slipwise.audit.judge import Case, Fit, fit, noise_with_itself, predicted, signature, start, supports
+from slipwise.audit.normal import inverse, parts_of, weighed
+from slipwise.audit.rows import Block
+from slipwise.audit.suspects import Suspect, suspects
+
+Array = NDArray[np.float64]
+#: Explanations that are tried at most, refused ones included.
+_MOST = 10
+#: Candidates that are fitted in each step, and how near to the best they must be for that [1].
+_TRIED, _NEAR = 4, 0.4
+#: Least gain of the score for an explanation to be taken up.
+_WORTH = 12.0
+#: A fault explains at least this part of what its relations show above their floors, and of what they showed at first.
+_SHARE, _FIRST_SHARE = 0.5, 0.1
+#: Floors are known this well: what is below this many of their squares is no excess [1].
+_FLOOR_SURE = 1.15
+#: Sizes seen by single runs and single relations lie within this of the whole [1].
+_AGREE = 0.5
+#: Runs and relations that hold less than this part of the evidence are not asked.
+_ASKED = 0.08
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What was found.
+
+    Attributes:
+        fit: the last joint fit.
+        accepted: suspects that stand, with reasons in numbers.
+        small: suspects that are there, but too small to matter.
+        refused: suspects that explained something but not as a fault would.
+        physics: names of physical alternatives that were taken up.
+    """
+
+    fit: Fit
+    accepted: tuple["Evidence", ...]
+    small: tuple["Evidence", ...]
+    refused: tuple["Evidence", ...]
+    physics: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What speaks for one suspect.
+
+    Attributes:
+        suspect: who.
+        size: fitted.
+        error: its standard error.
+        share: of what its relations showed above their floors that it explains [1].
+        runs: sizes that single runs give.
+        balances: relation -> size that it gives alone.
+        gain: of the score.
+        rivals: (name, loss of score if the rival stood in its place), nearest first.
+        why_not: reason for refusal, or "".
+        small: whether its size is below what matters.
+    """
+
+    suspect: Suspect
+    size: float
+    error: float
+    share: float
+    runs: tuple[float, ...]
+    balances: dict[str, float]
+    gain: float
+    rivals: tuple[tuple[str, float], ...] = ()
+    why_not: str = ""
+    small: bool = False
+
+
+def judge(case: Case) -> Verdict:
+    """Choose explanations one by one until nothing is worth another."""
+    first = here = start(case)
+    candidates: list[Suspect | Alternative] = [*suspects(case.runs[0].record)]
+    blocks: list[Block] = []
+    itself: list[Mapping[str, float]] = []
+    one_sided: list[bool] = []
+    for who in candidates:
+        assert isinstance(who, Suspect)
+        blocks.append(signature(case, who, first.mended, first.stack, first.constants))
+        itself.append(noise_with_itself(case, who, first.mended, first.stack, first.constants))
+        one_sided.append(who.one_sided)
+    for alternative in alternatives(case.runs, case.relations):
+        candidates.append(alternative)
+        blocks.append(alternative.columns)
+        itself.append({})
+        one_sided.append(False)
+    accepted: list[Evidence] = []
+    refused: list[Evidence] = []
+    small: list[Evidence] = []
+    for _ in range(_MOST):
+        found = supports(here, case, blocks, itself, one_sided)
+        fits = {i: _with(case, here, candidates[i]) for i in _to_try(found)}
+        for i, tried in fits.items():
+            # signatures are taken at small sizes: a large delay explains more than its signature does
+            found[i] = tried.score - here.score
+        best = max(fits, key=lambda i: float(found[i]), default=-1)
+        if best < 0:
+            break
+        chosen, worth = candidates[best], float(found[best])
+        rivals = sorted(((_called(c), worth - float(g)) for c, g in zip(candidates, found, strict=True)), key=_loss)
+        for pile in (candidates, blocks, itself, one_sided):
+            del pile[best]
+        if worth < _WORTH:
+            continue
+        if isinstance(chosen, Alternative):
+            here = fits[best]
+            continue
+        tried = fits[best]
+        evidence = weigh(case, first, here, tried, len(tried.model.sizes) - 1)
+        if evidence.small and _possible(evidence):
+            # too small to matter, but true: it stays, lest its traces be given to others
+            small.append(evidence)
+            here = tried
+        elif evidence.why_not:
+            refused.append(evidence)
+        else:
+            accepted.append(replace(evidence, rivals=tuple(r for r in rivals if r[0] != _called(chosen))[:6]))
+            here = tried
+    return Verdict(here, tuple(accepted), tuple(small), tuple(refused), tuple(a.name for a in here.model.physics))
+
+
+def _loss(rival: tuple[str, float]) -> float:
+    return rival[1]
+
+
+def _to_try(found: Array) -> list[int]:
+    """Give the numbers of the candidates that are worth a fit of their own: the best few that are near the best."""
+    if len(found) == 0:
+        return []
+    best = np.argsort(-found)[:_TRIED]
+    return [int(i) for i in best if found[i] > max(_WORTH, _NEAR * found[best[0]])]
+
+
+def _with(case: Case, here: Fit, who: Suspect | Alternative) -> Fit:
+    if isinstance(who, Alternative):
+        model = replace(here.model, physics=(*here.model.physics, who))
+    else:
+        model = replace(here.model, sizes=(*here.model.sizes, (who, 0.0)))
+    return fit(case, model, here.constants)
+
+
+def _called(who: Suspect | Alternative) -> str:
+    return who.name if isinstance(who, Alternative) else f"{who.effect} {who.label}"
+
+
+def weigh(case: Case, first: Fit, before: Fit, after: Fit, number: int) -> Evidence:
+    """Say what speaks for the suspect that a fit has and the one before has not."""
+    suspect, size = after.model.sizes[number]
+    free = _alone(after, len(after.stack.base) + number)
+    weight = {n: 1.0 / s for n, s in after.scale.items()}
+    asked = [r.name for r in case.relations if r.accuses and r.name in free]
+    power = {n: (weight[n] * free[n]) ** 2 for n in asked}
+    along = {n: weight[n] ** 2 * free[n] * (after.left[n] + size * free[n]) for n in asked}
+    total = sum(float(p.sum()) for p in power.values()) or 1e-300
+    balances = {n: float(along[n].sum() / power[n].sum()) for n in asked if float(power[n].sum()) > _ASKED * total}
+    runs = []
+    for i in range(len(case.runs)):
+        held = sum(float(power[n][after.stack.run_of[n] == i].sum()) for n in asked)
+        seen = sum(float(along[n][after.stack.run_of[n] == i].sum()) for n in asked)
+        if held > _ASKED * total:
+            runs.append(seen / held)
+    share, first_share = _shares(first, before, after, balances)
+    gain, little = after.score - before.score, abs(size) < suspect.least
+    evidence = Evidence(suspect, size, after.errors[number], share, tuple(runs), balances, gain, small=little)
+    return replace(evidence, why_not=_why_not(evidence, first_share))
+
+
+def _alone(after: Fit, number: int) -> dict[str, Array]:
+    """Give a signature without what constants and the other explanations could imitate, relation -> (n,)."""
+    own = {n: columns[:, 0] for n, columns in after.held[number].items()}
+    others = [block for i, block in enumerate(after.held) if i != number]
+    whole = {n: own.get(n, np.zeros(len(left))) for n, left in after.left.items()}
+    parts, starts = parts_of(others, whole)
+    squares, along = weighed(parts, {n: 1.0 / s for n, s in after.scale.items()}, int(starts[-1]))
+    solution = inverse(squares) @ along
+    return {n: rows - predicted(others, n, solution, starts) for n, rows in whole.items()}
+
+
+def _shares(first: Fit, before: Fit, after: Fit, balances: Mapping[str, float]) -> tuple[float, float]:
+    """Give the part of the excess over the floors that the last explanation took, of the excess before it and at first."""
+    took = was = began = 0.0
+    for name in balances:
+        squares = [float(np.sum((f.left[name] / after.floor[name]) ** 2)) for f in (first, before, after)]
+        sure = _FLOOR_SURE * len(after.left[name])
+        took += squares[1] - squares[2]
+        was += max(squares[1] - sure, 0.0)
+        began += max(squares[0] - sure, 0.0)
+    return (took / was if was > 0.0 else 1.0), (took / began if began > 0.0 else 1.0)
+
+
+def _possible(evidence: Evidence) -> bool:
+    return evidence.size > 0.0 or not evidence.suspect.one_sided
+
+
+def _why_not(evidence: Evidence, first_share: float) -> str:
+    suspect, size = evidence.suspect, evidence.size
+    if not evidence.balances:
+        return "no balance that may accuse shows it"
+    if not _possible(evidence):
+        return "its size has a sign that this fault cannot have"
+    if evidence.small:
+        return f"{size:.3g} {suspect.unit} is below {suspect.least:g}, from where it matters"
+    if abs(size) < 4.0 * evidence.error:
+        return "its interval reaches zero"
+    if evidence.share < _SHARE:
+        return f"it explains only {evidence.share:.0%} of what its balances show"
+    if first_share < _FIRST_SHARE:
+        return f"it explains only {first_share:.0%} of what its balances showed before anything else was named"
+    for kind, sizes in (("runs", evidence.runs), ("balances", tuple(evidence.balances.values()))):
+        if any(abs(one / size - 1.0) > _AGREE for one in sizes):
+            return f"{kind} disagree on its size: " + ", ".join(f"{one:.3g}" for one in sizes)
+    return ""
