@@ -24,7 +24,9 @@ _SMALL = 0.3
 #: Most points of the grid over shape constants.
 _MOST_POINTS = 5
 #: Frequencies at which a resonance is tried [Hz].
-_LEAST_HERTZ, _MOST_HERTZ, _RESONANCES = 5.0, 30.0, 8
+_LEAST_HERTZ, _MOST_HERTZ, _RESONANCES = 5.0, 30.0, 14
+#: A resonance is tried with this many times its typical damping, so that it is seen from a neighbouring frequency.
+_BROAD = 3.0
 
 
 @dataclass(frozen=True)
@@ -209,5 +211,7 @@ def shapes(effect: Effect) -> list[dict[str, float]]:
     whole = [dict(zip([a[0] for a in axes], c, strict=True)) for c in product(*(a[1] for a in axes))]
     if len(whole) <= _MOST_POINTS:
         return whole
-    centre = {a[0]: a[2] for a in axes}
+    broad = _BROAD if any(p.unit == "Hz" and p.neutral is None for p in effect.parameters) else 1.0
+    highest = {p.name: p.high for p in effect.parameters}
+    centre = {a[0]: min(broad * a[2], highest[a[0]]) if a[2] > 0.0 else a[2] for a in axes}
     return [centre, *({**centre, name: x} for name, points, middle in axes for x in points if x != middle)]

@@ -27,6 +27,8 @@ FURTHER = 0.025
 #: Candidates that are refitted at each step.
 _REFITTED = 4
 _REFITTED_PAIRS = 2
+#: The best physics is refitted even where faults of gauges screen better, and far from its best shape.
+_REFITTED_PHYSICS = 2
 #: Most effects that are added.
 MOST_EFFECTS = 3
 #: A pair that screens this much better than the best single's best partner is tried too.
@@ -130,6 +132,8 @@ def search(base: BaseFit, progress: Callable[[str, float], None] | None = None) 
 def _first(state: Search) -> None:
     origin = state.path[0]
     chosen = _various(state.screened, _REFITTED)
+    physics = [s for s in state.screened if s.term.effect.component != "instrument"]
+    chosen += [s for s in physics[:_REFITTED_PHYSICS] if all(s is not c for c in chosen)]
     least = 0.4 * MATERIAL * min(n for n, _ in origin.account.counts.values())
     tried = [_try(state, [s.term], {s.term.label: s.values}) for s in chosen if s.gain > least]
     good = [h for h in tried if material(origin.account, origin.account, h.account)]

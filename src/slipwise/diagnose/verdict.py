@@ -104,8 +104,12 @@ def _rivals(state: Search, best: Hypothesis) -> tuple[Hypothesis, ...]:
     for h in state.tried:
         if len(h.terms) != len(best.terms) or set(h.names) == set(best.names):
             continue
+        common = set(h.names) & set(best.names)
+        shared = [score(origin.account, o.account) for o in state.tried if o.names and set(o.names) <= common]
         behind = top - score(origin.account, h.account)
-        if behind < max(_SAME_SCORE, _SAME_SHARE * top) and material(origin.account, origin.account, h.account):
+        # only what is explained beyond the effects that both name can tell the two apart
+        near = max(_SAME_SCORE, _SAME_SHARE * (top - max(shared, default=0.0)))
+        if behind < near and material(origin.account, origin.account, h.account):
             out[h.names] = h
     return tuple(out.values())
 

@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numba import njit
+from numpy.fft import irfft, rfft, rfftfreq
 from numpy.typing import NDArray
-from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
+from scipy.fft import next_fast_len
 
 from slipwise.fit.data import FINE, FitRun, refined
 from slipwise.model import Model
@@ -150,10 +151,10 @@ def lost_velocity(force: Array, run: FitRun, mass: float, by: LowPass | None) ->
     if filtered is None:
         return np.zeros(len(force))
     step = run.dt / FINE
-    size = next_fast_len(len(force) + 2 * _BEYOND)
+    size = int(next_fast_len(len(force) + 2 * _BEYOND) or 0)
     padded = np.concatenate([np.repeat(force[:1], _BEYOND), force, np.repeat(force[-1:], size - len(force) - _BEYOND)])
     frequency = rfftfreq(size, step)
-    missing = 1.0 - np.abs(response(filtered, frequency))
+    missing = 1.0 - np.abs(response(filtered, np.asarray(frequency, dtype=np.float64)))
     turn = 2j * np.pi * np.where(frequency > 0.0, frequency, 1.0)
     return -irfft(rfft(padded) * (missing / turn), size)[_BEYOND : _BEYOND + len(force)] / mass
 
@@ -177,7 +178,7 @@ def as_logged(force: Array, run: FitRun, by: LowPass | None, *, averaged: bool, 
     filtered = run.filtered or by
     if filtered is None and late == 0.0:
         return force[::FINE]
-    size = next_fast_len(len(force) + 2 * _BEYOND)
+    size = int(next_fast_len(len(force) + 2 * _BEYOND) or 0)
     step = run.dt / FINE
     gain = _gain(size, step, filtered, averaged) if filtered else np.ones(size // 2 + 1)
     if late != 0.0:
@@ -193,6 +194,6 @@ def _gain(size: int, step: float, by: LowPass, averaged: bool) -> Array:
         if len(_GAINS) > 64:
             _GAINS.clear()
         frequency = rfftfreq(size, step)
-        gain = np.abs(response(by, frequency))
+        gain = np.abs(response(by, np.asarray(frequency, dtype=np.float64)))
         _GAINS[key] = gain / np.sinc(frequency * step) if averaged else gain
     return _GAINS[key]

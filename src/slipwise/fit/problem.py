@@ -164,8 +164,7 @@ class Problem:
         runs, scale = self._corrected(values)
         law = predictor(model)
         parts: dict[str, list[Array]] = {r: [] for r in self.relations[1:]}
-        if "heave" in parts:
-            scale = {**scale, "heave": scale.get("heave", 1.0) * self._heave_scale(model, runs[0])}
+        hidden = max(0.0, 1.0 - self._heave_scale(model, runs[0]) ** 2) if "heave" in parts else 0.0
         for i, (run, force) in enumerate(zip(runs, forces, strict=False)):
             law.rest(run.rest_before)
             said, seen = predicted(model, run, force, self._buffers(law, run), values)
@@ -175,6 +174,10 @@ class Problem:
                 else:
                     left = (seen[name] - said[name]) / scale.get(name, 1.0)
                 parts[name].append(self._over(name, i, left, run.grounded))
+                if name == "heave" and hidden > 0.0:  # noise that the effect hides counts as if it were still there
+                    part = parts[name][-1]
+                    whole = np.copysign(np.sqrt(part**2 + hidden), part)
+                    parts[name][-1] = np.where(run.grounded, whole, 0.0)
         return parts
 
     def _heave_scale(self, model: Model, run: FitRun) -> float:
