@@ -1,0 +1,97 @@
+"""A model held against campaigns of a second simulator: a complete one leaves noise, a hidden effect is located."""
+
+import builtins
+import json
+
+import numpy as np
+import pytest
+from bench import make_campaign
+
+from slipwise.compare import as_json, compare
+from slipwise.errors import InputError, UnknownNameError
+
+
+@pytest.fixture(scope="module")
+def complete(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("complete")
+    make_campaign(folder, 11, effects=[])
+    return compare(folder)
+
+
+@pytest.fixture(scope="module")
+def breaking_away(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("breaking")
+    make_campaign(folder, 13, effects=["breakaway"], size="large")
+    return compare(folder, system=False)
+
+
+def test_a_complete_model_leaves_every_component_at_its_floor_on_the_run_it_has_not_seen(complete):
+    errors = {r: complete.error(r, held_out=True) for r in complete.relations}
+    assert set(errors) == {"pads", "girder", "heave", "pitch", "roll", "warp", "motion"}
+    assert all(0.9 <= e <= 1.1 for e in errors.values()), errors
+
+
+def test_a_complete_model_fails_nowhere(complete):
+    assert complete.places == ()
+
+
+def test_a_repeated_run_confirms_the_floor(complete):
+    assert all(0.85 <= again <= 1.15 for again in complete.repeats.values()), complete.repeats
+
+
+def test_the_replay_of_a_complete_model_slips_as_measured(complete):
+    assert complete.system_errors["slip_x"] <= 1.5
+
+
+def test_the_floor_of_a_replay_is_no_less_than_each_of_its_parts(complete):
+    for e in complete.system.errors:
+        assert e.floor >= max(e.gauge, e.fed, e.step)
+        assert e.error == pytest.approx(e.rms / e.floor)
+
+
+def test_fitted_numbers_carry_intervals_of_sensible_width(complete):
+    for entry in complete.intervals.entries:
+        if entry.key.startswith(("shear_rate", "contact_area", "rig.mass", "rig.buffer")):
+            assert entry.low < entry.value < entry.high
+            assert entry.high - entry.low < 0.05 * entry.value
+    band = complete.surface.deviation / complete.surface.friction
+    assert np.all(band < 0.02)
+
+
+def test_a_hidden_breakaway_is_found_in_the_pads_and_not_in_the_girder(breaking_away):
+    assert breaking_away.places[0].relation == "pads"
+    assert breaking_away.error("pads", held_out=True) > 2.0
+    assert breaking_away.error("girder", held_out=True) < 1.2
+    assert {p.relation for p in breaking_away.places} <= {"pads", "pitch"}
+
+
+def test_a_comparison_is_json_and_holds_what_the_tables_hold(complete):
+    content = json.loads(json.dumps(as_json(complete), allow_nan=False))
+    assert content["components"]["pads"]["holdout"] == pytest.approx(complete.error("pads", held_out=True))
+    assert len(content["cells"]) == len(complete.rows("cells"))
+    assert content["audit"]["accused"] is False
+
+
+def test_tables_turn_into_pandas_frames(complete):
+    pandas = pytest.importorskip("pandas", reason="pandas is not installed")
+    frame = complete.to_pandas("system")
+    assert isinstance(frame, pandas.DataFrame)
+    assert set(frame["role"]) == {"fit", "repeat", "holdout"}
+
+
+def test_without_pandas_the_error_names_it_and_the_way_round(complete, monkeypatch):
+    real = builtins.__import__
+
+    def without(name, *rest, **more):
+        if name == "pandas":
+            raise ModuleNotFoundError(name)
+        return real(name, *rest, **more)
+
+    monkeypatch.setattr(builtins, "__import__", without)
+    with pytest.raises(InputError, match="pip install pandas"):
+        complete.to_pandas()
+
+
+def test_a_table_that_does_not_exist_is_answered_with_those_that_do(complete):
+    with pytest.raises(UnknownNameError, match="components"):
+        complete.rows("component")
