@@ -31,7 +31,7 @@ def one(folder: Path, name: str, seed: int, effects: tuple[str, ...], size: str,
     truth = make_campaign(folder / name, seed, effects=effects, size=size, rich=rich)
     began = time.perf_counter()
     try:
-        said = diagnose(load_campaign(folder / name), system=False).as_dict()
+        said = diagnose(load_campaign(folder / name), system=False).as_json()
     except Exception as error:  # a campaign that breaks the diagnosis is counted as wrong, and shown
         said = {"verdict": f"failed: {type(error).__name__}: {error}", "effects": [], "probability": 0.0}
     said["seconds"] = time.perf_counter() - began
