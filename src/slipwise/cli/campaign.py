@@ -57,7 +57,8 @@ def audit(campaign: CampaignFolder, correct: Correct = None, json: Json = False)
     for words in (*notes, found.words):
         OUT.print(words, markup=False, highlight=False, soft_wrap=True)
     if found.rows:
-        print_table("Findings", found.rows)
+        shown = ("finding", "size", "95 % interval", "shown by", "could be mistaken for")
+        print_table("Findings", [{key: row[key] for key in shown} for row in found.rows])
     for words in found.cannot:
         OUT.print(f"could not be tested: {words}", markup=False, highlight=False, soft_wrap=True)
 

@@ -79,10 +79,12 @@ def places(
         if any(c.above for c in own):
             shown = [p for p in patterns if p.relation == relation]
             best = max(shown, key=lambda p: p.explained * _telling(relation, p.kind), default=None)
+            place = _place(relation, own, parities.get(relation), errors[relation])
             if best is not None and best.explained > _PATTERN:
-                out.append(_patterned(relation, own, best))
-            else:
-                out.append(_place(relation, own, parities.get(relation), errors[relation]))
+                patterned = _patterned(relation, own, best)
+                # the mean may be clearest where the error is not largest; the place is where it is largest
+                place = patterned if patterned.error >= patterned.elsewhere else place
+            out.append(place)
     return tuple(sorted(out, key=lambda p: -p.error))
 
 
