@@ -56,7 +56,8 @@ def main() -> None:
     # %% Every result is a table: found.rows(...), or found.to_pandas(...) where pandas is installed
     named = [c for c in found.rows("cells") if c["above"] and c["kind"] != "frequency"]
     worst = sorted(named, key=lambda c: -c["error"])[:5]
-    print_table("Worst cells", [{k: c[k] for k in ("relation", "kind", "label", "low", "high", "error")} for c in worst])
+    keys = ("relation", "kind", "label", "low", "high", "error")
+    print_table("Worst cells", [{k: c[k] for k in keys} for c in worst])
 
     # %% The report, the numbers and the recording
     write_text(given.out / "report.html", compare_page(found))

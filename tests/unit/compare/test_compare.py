@@ -5,8 +5,8 @@ import json
 
 import numpy as np
 import pytest
-from bench import make_campaign
 
+from bench import make_campaign
 from slipwise.compare import as_json, compare
 from slipwise.errors import InputError, UnknownNameError
 
