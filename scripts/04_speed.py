@@ -73,7 +73,7 @@ def opensees(control: np.ndarray) -> float:
     """One flat slider in OpenSeesPy under the same motion, in microseconds per step; NaN where it is not installed."""
     if importlib.util.find_spec("openseespy") is None:
         return float("nan")
-    import openseespy.opensees as ops
+    import openseespy.opensees as ops  # pyright: ignore[reportMissingImports]
 
     ops.wipe()
     ops.model("basic", "-ndm", 2, "-ndf", 3)

@@ -139,9 +139,8 @@ def ladder_of(search: Search, replayed: Mapping[str, float] | None = None) -> La
     """
     known = replayed or {}
     last = len(search.path) - 1
-    rungs = []
-    for i, h in enumerate(search.path):
-        rungs.append(_rung(h, known.get("base" if i == 0 else "final", float("nan")) if i in (0, last) else float("nan")))
+    ends = {0: known.get("base", np.nan), last: known.get("final", np.nan)}
+    rungs = [_rung(h, float(ends.get(i, np.nan))) for i, h in enumerate(search.path)]
     fits = tuple(as_fit(search.base, h) for h in search.path)
     counts = (len(search.screened), len(search.tried))
     return Ladder(search.base.campaign.name, tuple(rungs), counts, _why(search), fits, 0.0)

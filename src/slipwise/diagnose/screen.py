@@ -46,7 +46,7 @@ class Screened:
     values: dict[str, float]
     gain: float
     absorbed: float
-    column: Array
+    column: NDArray[np.float32]
     length: float
 
 

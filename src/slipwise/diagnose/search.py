@@ -270,5 +270,3 @@ def _prune(state: Search) -> None:
                 break
         else:
             return
-
-

@@ -101,9 +101,7 @@ def predicted(
     turning = height * total + (height - specimen.buffer_height) * fb
     heave = run.load.sum(axis=1)
     swing = run.slip * heave if specimen.pads_on == "table" else 0.0
-    pitch = through_pitch(
-        (turning + swing) / half, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"]
-    )
+    pitch = through_pitch((turning + swing) / half, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
     modes = load_modes(run.load)
     mass, gravity = specimen.mass, specimen.gravity
     said = {
@@ -190,5 +188,3 @@ def motion_residual(run: FitRun, late: float) -> Array:
     slip = shift(run.record["slip_x"], run.dt, -late)
     bend = in_frequency(slip - slip[0], run.dt, lambda f: (2.0 * np.pi * f) ** 2 * white(f), 256)
     return in_frequency(relative, run.dt, white, 256) + bend
-
-

@@ -158,9 +158,7 @@ class Problem:
             parts.append(self._over("pads", i, run.force - force - offset, run.sliding[:, None]))
         return parts, outputs, clean
 
-    def _balance_parts(
-        self, model: Model, values: Mapping[str, float], forces: list[Array]
-    ) -> dict[str, list[Array]]:
+    def _balance_parts(self, model: Model, values: Mapping[str, float], forces: list[Array]) -> dict[str, list[Array]]:
         runs, scale = self._corrected(values)
         law = predictor(model)
         parts: dict[str, list[Array]] = {r: [] for r in self.relations[1:]}

@@ -170,7 +170,7 @@ class Page(HTMLParser):
 @pytest.fixture
 def report(slipwise, tmp_path):
     folder = tmp_path / "evil"
-    write_campaign(folder, name="<script>alert(1)</script> & \"two\"")
+    write_campaign(folder, name='<script>alert(1)</script> & "two"')
     assert slipwise("compare", folder, "--out", tmp_path / "out", "--no-recording")[0] == 0
     return tmp_path / "out" / "report.html"
 

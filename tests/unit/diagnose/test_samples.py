@@ -41,9 +41,7 @@ def test_sound_gauges_show_no_fault() -> None:
 @pytest.mark.parametrize("name", ["slip_x", "girder_ax", "girder_az", "pad_C_Fx"])
 def test_a_gauge_wired_the_wrong_way_round_is_named_and_turned_back(name: str) -> None:
     campaign = _campaign()
-    wrong = replace(
-        campaign.runs[0], record=campaign.runs[0].record.replaced(**{name: -campaign.runs[0].record[name]})
-    )
+    wrong = replace(campaign.runs[0], record=campaign.runs[0].record.replaced(**{name: -campaign.runs[0].record[name]}))
     broken = replace(campaign, runs=(wrong,))
     faults = sample_faults(broken)
     assert [(f.effect, f.channel) for f in faults] == [("channel_sign", name)]
