@@ -8,6 +8,7 @@ change of the residual is its column. What the base parameters could do is proje
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import product
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,7 +47,7 @@ class Screened:
     values: dict[str, float]
     gain: float
     absorbed: float
-    column: NDArray[np.float32]
+    column: Array
     length: float
 
 
@@ -137,7 +138,9 @@ def _best_mix(
     if length == 0.0:
         return None
     clean = float(sum(c @ c for c in columns))
-    return Screened(term, values, gain, 1.0 - clean / raw, (step / length).astype(np.float32), length)
+    # Hundreds of columns are kept: four bytes a number are enough to compare them.
+    column: Any = (step / length).astype(np.float32)
+    return Screened(term, values, gain, 1.0 - clean / raw, column, length)
 
 
 def _two_sided(p: Parameter) -> bool:
