@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-SCRIPT = runpy.run_path(str(Path(__file__).parents[2] / "scripts" / "05_sizes_of_effects.py"))
+SCRIPT = runpy.run_path(str(Path(__file__).parents[2] / "scripts" / "01_sizes_of_effects.py"))
 ROWS, COLUMNS = SCRIPT["ROWS"], SCRIPT["COLUMNS"]
 #: (effect, column) that differ by more, and why.
 APART = {

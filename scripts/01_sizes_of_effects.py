@@ -8,12 +8,13 @@ The other program has rigid pads, quasi-static rocking, a stick zone of 0.2 mm/s
 (E 517 kN cm, 28.3 mm). Among twelve seeds, the one of like energy and slip is taken here. So sign and order of
 magnitude are what can agree.
 
-    python scripts/05_sizes_of_effects.py [--quick]
+    python scripts/01_sizes_of_effects.py [--quick]
 """
 
 import argparse
 import math
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +22,7 @@ from numpy.typing import NDArray
 from slipwise.model import EffectUse, Model, base_model, use
 from slipwise.motion import load_motion
 from slipwise.predict import predictor
-from slipwise.record import Record
+from slipwise.record import Record, write_json
 from slipwise.replay import Replay, replay
 from slipwise.view.terminal import print_table
 
@@ -144,7 +145,9 @@ def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description="Sizes of effects on a Bridge 1 earthquake.")
     parser.add_argument("--quick", action="store_true", help="three rows only")
-    rows = ROWS[:3] if parser.parse_args().quick else ROWS
+    parser.add_argument("--out", type=Path, help="folder for sizes.json")
+    chosen = parser.parse_args()
+    rows = ROWS[:3] if chosen.quick else ROWS
     numbers = sizes(rows)
     lines = []
     for name, ours, theirs in zip(
@@ -156,6 +159,8 @@ def main() -> None:
         }
         lines.append({"effect": name, **cells})
     print_table("ours / the other program; E [kN cm], max slip [mm], all others [%]", lines)
+    if chosen.out is not None:
+        write_json(chosen.out / "sizes.json", lines)
 
 
 if __name__ == "__main__":
