@@ -96,8 +96,7 @@ def replayed_model(base: BaseFit) -> tuple[Model, tuple[str, ...]]:
         )
     if "rig.pitch_frequency" in values and "rig.pitch_frequency" not in base.solution.at_bounds:
         inertia = _pitch_inertia(model, values["rig.pitch_frequency"])
-        roll, _, yaw = model.specimen.inertia
-        model = replace(model, specimen=replace(model.specimen, inertia=(roll, inertia, yaw)))
+        model = replace(model, specimen=replace(model.specimen, inertia=_of_a_body(model.specimen.inertia, inertia)))
         notes.append(
             f"the girder's pitch inertia {inertia / 1e3:.2f} t m2, from its fitted pitch frequency on the pads"
         )
@@ -108,6 +107,13 @@ def replayed_model(base: BaseFit) -> tuple[Model, tuple[str, ...]]:
         model = model.adding(use("presliding", length=length, exponent=1.0))
         notes.append(f"pads stick elastically over {length * 1e6:.1f} um, as the base fit found")
     return model, tuple(notes)
+
+
+def _of_a_body(rated: tuple[float, float, float], pitch: float) -> tuple[float, float, float]:
+    """Give roll, pitch and yaw inertia with this pitch: no one of a body's three exceeds the sum of the others."""
+    roll, _, yaw = rated
+    yaw = min(max(yaw, pitch - roll), pitch + roll)
+    return roll, pitch, max(yaw, roll - pitch)
 
 
 def _pitch_inertia(model: Model, frequency: float) -> float:

@@ -81,7 +81,7 @@ def build(specimen: Specimen, dt: float, nuserdata: int) -> Rig:
         nuserdata: numbers that the callbacks keep in `data.userdata`.
 
     Raises:
-        SettingError: the step is too large for the pads' stiffness.
+        SettingError: the step is too large for the pads' stiffness, or the values are not those of a body.
     """
     check_step(specimen, dt)
     spec = mujoco.MjSpec.from_file(str(specimen.path))
@@ -95,8 +95,11 @@ def build(specimen: Specimen, dt: float, nuserdata: int) -> Rig:
     if specimen.bending_mass > 0.0:
         _add_bending(spec, specimen)
     _add_sensors(spec, specimen)
-    _pad_contact(spec, specimen)
-    model = spec.compile()
+    try:
+        _pad_contact(spec, specimen)
+        model = spec.compile()
+    except ValueError as error:
+        raise SettingError(f"{specimen.name}: MuJoCo cannot build a rig with these values: {error}") from None
     names = [f"pad_{pad}_{axis}" for pad in specimen.pads for axis in "xy"]
     names += [f"buffer_{BUFFERS[i]}_{axis}" for i in range(len(specimen.buffer_stiffness)) for axis in "xy"]
     tendons = tuple(int(model.tendon(name).id) for name in names)
