@@ -67,7 +67,7 @@ def relations(record: Record, specimen: Specimen) -> tuple[list[Relation], list[
     """Give the relations that these channels allow, and in words those that they do not.
 
     Args:
-        record: any run of the campaign.
+        record: of a run, with the channels that all runs have.
         specimen: with its pads; a rig whose slip is prescribed has no balances.
     """
     possible = [*_rest(record)]

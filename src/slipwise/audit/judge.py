@@ -208,7 +208,13 @@ def noise_with_itself(
     return {name: float(rows @ rows) for name, rows in found.items()}
 
 
-def supports(fitted: Fit, case: Case, candidates: Sequence[Block], itself: Sequence[Mapping[str, float]]) -> Array:
+def supports(
+    fitted: Fit,
+    case: Case,
+    candidates: Sequence[Block],
+    itself: Sequence[Mapping[str, float]],
+    one_sided: Sequence[bool],
+) -> Array:
     """Give about how much each candidate would add to the score, everything fitted again.
 
     Args:

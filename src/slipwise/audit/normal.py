@@ -48,7 +48,7 @@ def parts_of(blocks: Sequence[Block], residual: Mapping[str, Array]) -> tuple[di
 
 
 def weighed(parts: Mapping[str, Part], weight: Mapping[str, float], count: int) -> tuple[Array, Array]:
-    """Give the normal equations (count, count), (count,) of all relations, each row weighed by its relation's weight."""
+    """Give the normal equations (count, count), (count,) of all rows, weighed by their relations' weights."""
     squares, along = np.zeros((count, count)), np.zeros(count)
     for name, part in parts.items():
         square = weight[name] ** 2

@@ -15,6 +15,7 @@ from slipwise.rig import Specimen
 from slipwise.signals import LowPass, lowpass, white_level
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 #: Columns over the rows of relations: relation -> (n, q). A relation that is not named has zeros.
 Block = Mapping[str, Array]
 #: Band in which channels are compared [Hz]: below the loggers' filters, above what the rig does.
@@ -56,22 +57,33 @@ class Held:
         return chosen - (sums / np.maximum(np.bincount(self.stretch), 1))[self.stretch]
 
 
-def hold(campaign: Campaign) -> tuple[list[Held], float]:
-    """Prepare every run; give them and the band's edge [Hz]."""
+def hold(campaign: Campaign, left_out: Mapping[str, Mask] | None = None) -> tuple[list[Held], float]:
+    """Prepare every run; give them and the band's edge [Hz].
+
+    Args:
+        campaign: whose runs are prepared.
+        left_out: run -> samples (n,) that are no measurement.
+    """
     aligned = [aligned_run(run, campaign.logger) for run in campaign.runs]
     filters = [by.frequency for run in aligned for by in run.lowpass.values() if by is not None]
     rate = min(1.0 / run.record.dt for run in aligned)
     band = min(_BAND, _OF_RATE * rate, *(_OF_FILTER * f for f in filters))
-    return [_hold(run.name, one, band) for run, one in zip(campaign.runs, aligned, strict=True)], band
+    out = left_out or {}
+    held = [_hold(run.name, one, band, out.get(run.name)) for run, one in zip(campaign.runs, aligned, strict=True)]
+    # what only some runs have cannot be held in all of them
+    common = [name for name in held[0].record.channels if all(name in run.record for run in held)]
+    return with_records(held, lambda r: Record(r.time, {n: r[n] for n in common}, r.provenance)), band
 
 
-def _hold(name: str, run: AlignedRun, band: float) -> Held:
+def _hold(name: str, run: AlignedRun, band: float, left_out: Mask | None) -> Held:
     full = run.record
     by = LowPass(band, 6, "aligned")
     every = slice(None, None, max(1, int(1.0 / (_KEPT * band * full.dt))))
     channels = {n: lowpass(v, full.dt, by)[every] for n, v in full.channels.items()}
     record = Record(full.time[every], channels, full.provenance)
     good, quiet = run.measured[every].copy(), run.quiet[every]
+    if left_out is not None and len(left_out) == len(full):
+        good &= ~left_out[every]
     loads = [n for n in (f"pad_{pad}_N" for pad in PADS) if n in record]
     if len(loads) == len(PADS):
         lifted = np.any([record[n] < _LIFTED * np.median(record[n]) for n in loads], axis=0)

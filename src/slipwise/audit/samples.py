@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
+from scipy.ndimage import uniform_filter1d
 
 from slipwise.campaign import Campaign, Run
 from slipwise.campaign.aligned import spread
@@ -14,13 +15,17 @@ from slipwise.signals import white_level
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-#: A rail holds at least this many samples of a campaign, most of them side by side [1].
-_RAIL, _BESIDE = 6, 0.6
-#: Samples repeat when so many more of them equal their neighbour than equal the one after it (standard deviations),
-#: and this part of all [1].
+#: A rail holds at least this many samples of a campaign, in one place at least that many, this part side by side [1].
+_RAIL, _LONG_RAIL, _BESIDE = 6, 15, 0.5
+#: Samples repeat when so many more of them equal their neighbour than rounding explains (standard deviations), and
+#: this part of all [1].
 _SURE, _REPEATED = 6.0, 0.002
-#: Equal values at the end of a channel that others do not have: as many were lost before.
-_TAIL = 4
+#: Equal values at the end of a channel, where single ones are rare: as many were lost before.
+_TAIL, _RARE = 4, 0.15
+#: Steps are of one size within this; a size that more than this part of all steps have shows coarse rounding [1].
+_LIKE, _COMMON = 0.02, 0.08
+#: Samples over which noise is taken to be the same.
+_NEAR = 51
 #: A step of time longer than this many usual ones has lost samples.
 _GAP = 1.6
 
@@ -72,13 +77,16 @@ def _rail(name: str, runs: Sequence[Run]) -> SampleFault | None:
         bad = {run.name: side * run.record[name] >= top for run in runs}
         count = sum(int(b.sum()) for b in bad.values())
         beside = sum(int((b[1:] & b[:-1]).sum()) for b in bad.values())
-        if count >= _RAIL and beside >= _BESIDE * count and _cut(name, runs, bad, side):
-            return SampleFault("rail", (name,), side * top, bad, tuple(n for n, b in bad.items() if b.any()))
+        # one burst of repeated samples at the peak is no rail
+        met = count - beside
+        if (met >= 2 or count >= _LONG_RAIL) and count >= _RAIL and beside >= _BESIDE * count:
+            if _cut(name, runs, bad, side):
+                return SampleFault("rail", (name,), side * top, bad, tuple(n for n, b in bad.items() if b.any()))
     return None
 
 
 def _cut(name: str, runs: Sequence[Run], bad: dict[str, Mask], side: float) -> bool:
-    """Tell a rail from a rest at the largest value: a rail is met and left at speed, far above the noise of a sample."""
+    """Tell a rail from a rest at the largest value: a rail is met and left at speed, far above noise."""
     steps, everywhere = [], []
     for run in runs:
         values, on = side * run.record[name], bad[run.name]
@@ -89,34 +97,63 @@ def _cut(name: str, runs: Sequence[Run], bad: dict[str, Mask], side: float) -> b
 
 
 def _held(name: str, runs: Sequence[Run]) -> SampleFault | None:
+    # what was computed from coarse channels repeats with them
+    computed = name.startswith("slip_v") or any(f"{name}_raw" in run.record for run in runs)
+    if computed or any(coarse(run.record[name]) for run in runs):
+        return None
     bad: dict[str, Mask] = {}
-    equal = unequal = count = 0
+    equal = expected = count = 0.0
     for run in runs:
         values = run.record[name]
         same = np.zeros(len(values), dtype=bool)
         same[1:] = values[1:] == values[:-1]
-        # by chance a sample equals the one before the last as often as the last
-        chance = np.zeros(len(values), dtype=bool)
-        chance[2:] = (values[2:] == values[:-2]) & ~same[2:] & ~same[1:-1]
-        tail = _tail(values)
-        same[len(values) - tail :] = False
-        equal, unequal, count = equal + int(same.sum()), unequal + int(chance.sum()), count + len(values)
+        same[len(values) - _tail(values) :] = False
+        equal, expected, count = equal + same.sum(), expected + chance_of_equal(values).sum(), count + len(values)
         bad[run.name] = same
-    coarse = any(_coarse(run.record[name]) for run in runs)
-    if coarse or equal - unequal < _SURE * np.sqrt(equal + unequal + 1.0) or equal - unequal < _REPEATED * count:
+    more = float(equal - expected)
+    if more < _SURE * np.sqrt(expected + 1.0) or more < _REPEATED * count:
         return None
-    return SampleFault("held", (name,), (equal - unequal) / count, bad, tuple(n for n, b in bad.items() if b.any()))
+    return SampleFault("held", (name,), more / float(count), bad, tuple(n for n, b in bad.items() if b.any()))
 
 
-def _coarse(values: Array) -> bool:
-    """Tell whether values are so coarse that neighbours are often equal by rounding."""
+def coarse(values: Array) -> bool:
+    """Tell whether steps between neighbours come in few sizes, so that equal neighbours say nothing."""
     steps = np.abs(np.diff(values))
-    moving = steps[steps > 0.0]
-    return (
-        len(moving) < 10
-        or float(np.median(moving)) < 4.0 * float(np.quantile(moving, 0.02))
-        or (len(np.unique(values)) < 0.05 * len(values))
-    )
+    steps = steps[steps > 0.0]
+    if len(steps) < 0.2 * len(values):
+        return True
+    sizes = np.unique(np.round(np.log(steps) / _LIKE), return_counts=True)[1]
+    return bool(sizes.max() > _COMMON * len(steps))
+
+
+def chance_of_equal(values: Array) -> Array:
+    """Give the probability that each sample equals the one before by rounding alone, (n,).
+
+    Two samples that differ by a slope d and independent noise s fall into the same step q with about
+    q / (2 sqrt(pi) s) exp(-d^2 / (4 s^2)). The step grows with the value where a file keeps a number of digits.
+    """
+    step = _rounding(values)
+    third = np.zeros(len(values))
+    third[2:-1] = np.diff(values, 3) ** 2 / 20.0
+    noise = np.sqrt(np.maximum(uniform_filter1d(third, _NEAR), 0.0))
+    slope = np.zeros(len(values))
+    slope[4:-3] = (values[7:] - values[:-7]) / 7.0
+    noise = np.maximum(noise, step / np.sqrt(12.0))
+    near = np.exp(-np.square(slope / np.maximum(2.0 * noise, 1e-300)))
+    return np.minimum(step / np.maximum(2.0 * np.sqrt(np.pi) * noise, 1e-300) * near, 1.0)
+
+
+def _rounding(values: Array) -> Array:
+    """Give the rounding step at each sample (n,): the smallest difference between values of like size."""
+    size = np.abs(values)
+    place = np.floor(np.log2(np.maximum(size, 1e-6 * max(float(size.max()), 1e-300)))).astype(int)
+    steps = np.zeros(len(values))
+    for number in np.unique(place):
+        here = place == number
+        apart = np.diff(np.unique(size[here]))
+        apart = apart[apart > 1e-9 * max(float(size[here].max()), 1e-300)]
+        steps[here] = float(apart.min()) if len(apart) else float(size[here].max())
+    return steps
 
 
 def _tail(values: Array) -> int:
@@ -127,8 +164,9 @@ def _tail(values: Array) -> int:
 
 def _lost(name: str, runs: Sequence[Run]) -> SampleFault | None:
     tails = {run.name: _tail(run.record[name]) for run in runs}
-    shown = [n for n, tail in tails.items() if tail >= _TAIL]
-    if not shown or any(_coarse(run.record[name]) for run in runs):
+    chance = {run.name: float(np.mean(chance_of_equal(run.record[name])[-_NEAR - tails[run.name] :])) for run in runs}
+    shown = [n for n, tail in tails.items() if tail >= _TAIL and chance[n] < _RARE]
+    if not shown or any(coarse(run.record[name]) for run in runs):
         return None
     bad = {run.name: np.ones(len(run.record), dtype=bool) for run in runs if run.name in shown}
     count = sum(len(run.record) for run in runs)

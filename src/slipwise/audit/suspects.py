@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from slipwise.channels import PADS, channel
 from slipwise.effects import catalogue
-from slipwise.effects._gauges import span
+from slipwise.effects._gauges import aimed, span
 from slipwise.record import Record
 from slipwise.signals import LowPass, response
 from slipwise.signals.ends import in_frequency
@@ -81,14 +81,14 @@ class Suspect:
         hooks = catalogue()[self.effect].hooks
         if "undo" in hooks:
             return hooks["undo"](record, self.target, **self.values(size))
-        return _sharpened(record, self.channels, **self.values(size))
+        return sharpened(record, self.target, **self.values(size))
 
 
 def groups_of(record: Record) -> dict[str, tuple[str, ...]]:
     """Give the channels, and the cards of four cells, that a fault may touch together."""
     single = [n for n in record.channels if n.startswith(("slip_x", "slip_y", "girder_a", "table_a", "yaw"))]
     single += [n for n in record.channels if n.startswith("pad_") and n[6:] in ("N", "Fx", "Fy")]
-    groups = {name: (name,) for name in single}
+    groups: dict[str, tuple[str, ...]] = {name: (name,) for name in single}
     for kind in ("N", "Fx", "Fy"):
         names = tuple(f"pad_{pad}_{kind}" for pad in PADS)
         if record.has_all(*names):
@@ -181,8 +181,15 @@ def _leaking(record: Record, axis: str) -> list[Suspect]:
     return found
 
 
-def _sharpened(record: Record, channels: tuple[str, ...], lag: float, order: float) -> Record:
-    """Take a causal filter out by its inverse, which is limited where the filter leaves little."""
+def sharpened(record: Record, target: str, lag: float, order: float) -> Record:
+    """Take a causal filter out by its inverse, which is limited where the filter leaves little.
+
+    Args:
+        record: with the filtered channels.
+        target: of the effect `channel_filter`.
+        lag: of the filter for slow signals [s].
+        order: of the filter.
+    """
     if lag <= 0.0:
         return record
     at_one = LowPass(1.0, round(order), "causal")
@@ -190,7 +197,8 @@ def _sharpened(record: Record, channels: tuple[str, ...], lag: float, order: flo
 
     def inverse(frequency: Array) -> NDArray[np.complex128]:
         through = response(by, frequency)
-        return np.conj(through) / np.maximum(np.abs(through) ** 2, np.abs(through) / _RAISE)
+        size = np.abs(through)
+        return np.asarray(np.conj(through) / np.maximum(size**2, size / _RAISE), dtype=np.complex128)
 
     beyond = int(30.0 * lag / record.dt) + 64
-    return record.replaced(**{n: in_frequency(record[n], record.dt, inverse, beyond) for n in channels})
+    return record.replaced(**{n: in_frequency(record[n], record.dt, inverse, beyond) for n in aimed(record, target)})

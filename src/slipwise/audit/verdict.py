@@ -1,6 +1,6 @@
 """Which suspects stand: forward choice among suspects and physics, then what speaks for each suspect."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,6 +19,8 @@ _MOST = 10
 _TRIED, _NEAR = 4, 0.4
 #: Least gain of the score for an explanation to be taken up.
 _WORTH = 12.0
+#: A filter must explain more than a delay by this, in units of the score.
+_ALIKE = 15.0
 #: A fault explains at least this part of what its relations show above their floors, and of what they showed at first.
 _SHARE, _FIRST_SHARE = 0.5, 0.1
 #: Floors are known this well: what is below this many of their squares is no excess [1].
@@ -77,9 +79,14 @@ class Evidence:
     small: bool = False
 
 
-def judge(case: Case) -> Verdict:
-    """Choose explanations one by one until nothing is worth another."""
-    first = here = start(case)
+def judge(case: Case, begun: Fit | None = None) -> Verdict:
+    """Choose explanations one by one until nothing is worth another.
+
+    Args:
+        case: what is judged.
+        begun: its fit of constants alone, if there is one.
+    """
+    first = here = begun or start(case)
     candidates: list[Suspect | Alternative] = [*suspects(case.runs[0].record)]
     blocks: list[Block] = []
     itself: list[Mapping[str, float]] = []
@@ -106,6 +113,7 @@ def judge(case: Case) -> Verdict:
         best = max(fits, key=lambda i: float(found[i]), default=-1)
         if best < 0:
             break
+        best = _plainer(candidates, found, fits, best)
         chosen, worth = candidates[best], float(found[best])
         rivals = sorted(((_called(c), worth - float(g)) for c, g in zip(candidates, found, strict=True)), key=_loss)
         for pile in (candidates, blocks, itself, one_sided):
@@ -127,6 +135,18 @@ def judge(case: Case) -> Verdict:
             accepted.append(replace(evidence, rivals=tuple(r for r in rivals if r[0] != _called(chosen))[:6]))
             here = tried
     return Verdict(here, tuple(accepted), tuple(small), tuple(refused), tuple(a.name for a in here.model.physics))
+
+
+def _plainer(candidates: Sequence[Suspect | Alternative], found: Array, fits: Mapping[int, Fit], best: int) -> int:
+    """Take the delay where a slower filter explains hardly more: below the band's edge they are nearly one."""
+    who = candidates[best]
+    if isinstance(who, Suspect) and who.effect == "channel_filter":
+        for i in fits:
+            other = candidates[i]
+            if isinstance(other, Suspect) and (other.effect, other.target) == ("channel_delay", who.target):
+                if found[i] > found[best] - _ALIKE:
+                    return i
+    return best
 
 
 def _loss(rival: tuple[str, float]) -> float:
@@ -187,7 +207,7 @@ def _alone(after: Fit, number: int) -> dict[str, Array]:
 
 
 def _shares(first: Fit, before: Fit, after: Fit, balances: Mapping[str, float]) -> tuple[float, float]:
-    """Give the part of the excess over the floors that the last explanation took, of the excess before it and at first."""
+    """Give the part of the excess over the floors that the last explanation took: of what was left, and of all."""
     took = was = began = 0.0
     for name in balances:
         squares = [float(np.sum((f.left[name] / after.floor[name]) ** 2)) for f in (first, before, after)]
