@@ -29,7 +29,7 @@ LEAST: dict[str, float] = {
 }
 #: Offsets, and drifts per second, that matter, by unit of the channel; a drift counts by what it adds in a second.
 _LEAST_OFFSET = {"m/s^2": 0.03, "m": 1e-4, "N": 40.0, "rad": 1e-4}
-_LEAST_DRIFT = {"m/s^2": 0.01, "m": 2e-5, "N": 12.0, "rad": 3e-5}
+_LEAST_DRIFT = {"m/s^2": 0.01, "m": 2e-5, "N": 20.0, "rad": 3e-5}
 #: Friction in a cell's load matters less than load in its friction, which is ten times smaller [1].
 _INTO_LOAD = 8.0
 #: The table's vertical motion is tied to the girder only through the pads' springs: its faults must be larger [1].
