@@ -10,6 +10,7 @@ from slipwise.campaign.campaign import ROLES, Logger
 from slipwise.channels import CHANNELS, channel
 from slipwise.errors import InputError, SettingError, unknown_name
 from slipwise.rig import Specimen
+from slipwise.rig.known import SPECIMEN_UNITS, SPECIMEN_WORDS
 from slipwise.signals import LowPass
 from slipwise.units import quantity
 
@@ -17,26 +18,6 @@ _TOP = ("name", "rig", "description", "specimen", "columns", "constants", "deriv
 _RUN = ("file", "role", "window", "rest_before", "description")
 _COLUMN = ("channel", "unit", "sign")
 _LOWPASS = ("lowpass", "order", "phase")
-#: SI unit of what [specimen] may give: the scalar fields of a Specimen.
-SPECIMEN_UNITS: Mapping[str, str] = {
-    "mass": "kg",
-    "centre_height": "m",
-    "centre_x": "m",
-    "centre_y": "m",
-    "pad_radius": "m",
-    "pad_stiffness": "N/m",
-    "pad_damping": "N*s/m",
-    "plastic_pressure": "Pa",
-    "shear_strength": "Pa",
-    "buffer_stiffness": "N/m",
-    "buffer_height": "m",
-    "bending_mass": "kg",
-    "bending_frequency": "Hz",
-    "bending_damping": "1",
-    "gravity": "m/s^2",
-}
-#: What [specimen] may choose by a word.
-_SPECIMEN_WORDS = ("pads_on", "stick_capacity")
 
 
 @dataclass(frozen=True)
@@ -138,10 +119,10 @@ def _text(value: Any, key: str, where: str) -> str:
 
 def _specimen(part: Mapping[str, Any], where: str) -> dict[str, float | str]:
     names = {f.name for f in fields(Specimen)}
-    _keys(part, [n for n in (*SPECIMEN_UNITS, *_SPECIMEN_WORDS) if n in names], where)
+    _keys(part, [n for n in (*SPECIMEN_UNITS, *SPECIMEN_WORDS) if n in names], where)
     return {
         key: _text(value, key, where)
-        if key in _SPECIMEN_WORDS
+        if key in SPECIMEN_WORDS
         else quantity(value, SPECIMEN_UNITS[key], f"{where}, {key!r}")
         for key, value in part.items()
     }

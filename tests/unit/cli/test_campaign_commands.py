@@ -4,29 +4,12 @@ import json
 import re
 import shutil
 import subprocess
-import sys
 from html.parser import HTMLParser
 
 import numpy as np
 import pytest
 
-from slipwise.cli import main
-
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome") or ""
-
-
-@pytest.fixture
-def slipwise(monkeypatch, capsys):
-    """Run the command line; gives exit code, output and errors."""
-
-    def run(*words):
-        monkeypatch.setattr(sys, "argv", ["slipwise", *map(str, words)])
-        with pytest.raises(SystemExit) as ended:
-            main()
-        caught = capsys.readouterr()
-        return ended.value.code, caught.out, caught.err
-
-    return run
 
 
 def write_run(path, frequency, seed, force_header="pad_A_Fx [kN]"):

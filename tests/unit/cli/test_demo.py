@@ -3,26 +3,12 @@
 import json
 import re
 import shutil
-import sys
 from importlib.resources import files
 from pathlib import Path
 
 import pytest
 
-from slipwise.cli import main
 from slipwise.model_file import load_model
-
-
-@pytest.fixture
-def slipwise(monkeypatch, capsys):
-    def run(*words):
-        monkeypatch.setattr(sys, "argv", ["slipwise", *map(str, words)])
-        with pytest.raises(SystemExit) as ended:
-            main()
-        caught = capsys.readouterr()
-        return ended.value.code, caught.out, caught.err
-
-    return run
 
 
 def test_the_demo_names_the_hidden_effect_and_the_error_falls_to_the_floor(slipwise, tmp_path):

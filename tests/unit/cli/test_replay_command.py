@@ -1,26 +1,10 @@
 """`slipwise replay` and the lists, as a first-time user types them."""
 
 import json
-import sys
 
 import pytest
 
-from slipwise.cli import main
 from slipwise.record import read_record
-
-
-@pytest.fixture
-def slipwise(monkeypatch, capsys):
-    """Run the command line; gives exit code, output and errors."""
-
-    def run(*words):
-        monkeypatch.setattr(sys, "argv", ["slipwise", *map(str, words)])
-        with pytest.raises(SystemExit) as ended:
-            main()
-        caught = capsys.readouterr()
-        return ended.value.code, caught.out, caught.err
-
-    return run
 
 
 def test_a_synthetic_motion_leaves_record_summary_pictures_and_recording(slipwise, tmp_path):
