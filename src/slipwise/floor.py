@@ -30,7 +30,7 @@ STATES: tuple[str, ...] = ("stuck", "near reversal", "sliding")
 _ENOUGH = 60
 #: Two runs are of one motion when their tables' difference leaves this part of the motion unexplained, less noise [1].
 _SAME = 0.95
-#: A repeat whose difference is larger than this many times the quiet noise holds more than noise [1].
+#: A repeat whose difference is larger than this many times the lowest level holds more than noise [1].
 _MORE = 1.5
 #: A change of friction between two runs that is worth a word [1].
 _CHANGED = 0.01
@@ -184,13 +184,15 @@ def _channel(
     lowest = max(calm, white) if still else white
     source = "quiet stretch" if still else "top of the spectrum"
     pure = _pure_error(name, pairs, changes)
+    # what rings on alike in both runs of a pair is no noise, quiet or not
+    lowest = min([lowest, *(level for level in pure.values() if level > 0.0)])
     by_state, basis = {}, {}
     for state in STATES:
         repeated = pure.get(state, float("nan"))
         if np.isfinite(repeated):
-            by_state[state], basis[state] = max(repeated, lowest), "repeat"
+            by_state[state], basis[state] = repeated, "repeat"
             if repeated > _MORE * lowest:
-                basis[state] = f"repeat, {repeated / lowest:.1f} times the {source}: the motion did not repeat exactly"
+                basis[state] = f"repeat, {repeated / lowest:.1f} times the lowest: the motion did not repeat exactly"
         elif state == "stuck" or still or white > 0.0:
             by_state[state], basis[state] = lowest, source
         else:
