@@ -48,7 +48,8 @@ def uniform_time(time: Array) -> UniformTime:
     line = np.polynomial.Polynomial.fit(np.arange(len(time)), time, 1)(np.arange(len(time)))
     if np.max(np.abs(line - time)) < _ROUNDED * dt:
         return UniformTime(np.asarray(line), everywhere, moved=False)
-    count = int(np.floor((time[-1] - time[0]) / dt)) + 1
+    # rounding must not lose the last sample
+    count = int(np.floor((time[-1] - time[0]) / dt + 1e-6)) + 1
     new = time[0] + dt * np.arange(count)
     after = np.clip(np.searchsorted(time, new, side="right"), 1, len(time) - 1)
     return UniformTime(new, steps[after - 1] <= _GAP * dt, moved=True)

@@ -1,0 +1,76 @@
+"""Slip velocity from the slip gauge and two accelerometers: right within 0.3 mm/s where differentiation errs by much."""
+
+import numpy as np
+import pytest
+
+from bench import build_campaign
+from measured import as_campaign
+from slipwise.campaign import measured_states
+from slipwise.errors import InputError
+from slipwise.signals import fuse
+
+#: Root of the mean square of the error that is allowed [m/s].
+ALLOWED = 3e-4
+
+
+@pytest.fixture(scope="module", params=["bridge1", "bridge2"])
+def made(request):
+    return build_campaign(31, effects=(), rig=request.param)
+
+
+def test_slip_velocity_of_a_campaign_is_right_within_a_third_of_a_millimetre_a_second(made):
+    campaign = as_campaign(made)
+    for run in campaign.runs:
+        states = measured_states(run, campaign)
+        true = made.at_samples(run.name)["slip_vx"][: len(states.time)]
+        error = (states.velocity[:, 0] - true)[states.valid]
+        assert np.sqrt(np.mean(error**2)) < ALLOWED
+        assert np.sqrt(np.mean((np.gradient(run.record["slip_x"], run.record.dt) - true) ** 2)) > 10.0 * ALLOWED
+
+
+def test_the_smoother_knows_its_own_error(made):
+    campaign = as_campaign(made)
+    states = measured_states(campaign.runs[0], campaign)
+    error = states.velocity[:, 0] - made.at_samples("sine_hv")["slip_vx"]
+    assert np.std(error[states.valid]) == pytest.approx(states.velocity_error[0], rel=0.6)
+
+
+def sine(noise: float, count: int = 4000, seed: int = 1) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Give time, noisy position, true velocity and true acceleration of 10 mm at 1.5 Hz."""
+    time = 0.002 * np.arange(count)
+    turn = 2.0 * np.pi * 1.5
+    position = 0.01 * np.sin(turn * time) + noise * np.random.default_rng(seed).standard_normal(count)
+    return time, position, 0.01 * turn * np.cos(turn * time), -0.01 * turn**2 * np.sin(turn * time)
+
+
+def test_a_biased_accelerometer_does_not_bias_the_velocity():
+    time, position, velocity, acceleration = sine(2e-5)
+    noisy = acceleration + 0.036 * np.random.default_rng(2).standard_normal(len(time)) + 0.15
+    fused = fuse(time, position, noisy)
+    assert np.std(fused.velocity - velocity) < ALLOWED
+    assert abs(np.mean(fused.velocity - velocity)) < 0.2 * ALLOWED
+    assert np.median(fused.bias) == pytest.approx(0.15, abs=0.02)
+    assert fused.position_noise == pytest.approx(2e-5, rel=0.2)
+
+
+def test_a_slip_gauge_alone_gives_a_velocity_too():
+    time, position, velocity, _ = sine(1e-5)
+    assert np.std((fuse(time, position).velocity - velocity)[20:-20]) < 0.02 * np.std(velocity)
+
+
+def test_missing_samples_of_the_gauge_are_bridged():
+    time, position, velocity, acceleration = sine(2e-5)
+    position[1000:1040] = np.nan
+    fused = fuse(time, position, acceleration + 0.03 * np.random.default_rng(3).standard_normal(len(time)))
+    assert np.max(np.abs(fused.velocity - velocity)[1000:1040]) < 10.0 * ALLOWED
+
+
+@pytest.mark.parametrize(
+    ("count", "gap", "told"), [(6, None, "too few"), (400, 17, "cannot be integrated")], ids=["short", "gap"]
+)
+def test_what_cannot_be_fused_is_refused(count, gap, told):
+    time, position, _, acceleration = sine(1e-5, count)
+    if gap is not None:
+        acceleration[gap] = np.nan
+    with pytest.raises(InputError, match=told):
+        fuse(time, position, acceleration)
