@@ -157,7 +157,11 @@ def _beats(origin: Hypothesis, both: Hypothesis, single: Hypothesis | None) -> b
 def _further(state: Search) -> bool:
     """Add the effect that helps most beside those found; false when none is worth it."""
     before, origin = state.best, state.path[0]
-    found = rescreen(state, before)
+    account = before.account
+    if all(account.level(r, held_out=h) < 1.0 + MATERIAL for r in account.fitted for h in (False, True)):
+        return False  # nothing is left that could be worth a name
+    least = 0.4 * MATERIAL_FURTHER * min(n for n, _ in account.counts.values())
+    found = [s for s in rescreen(state, before) if s.gain > least]
     tried = []
     for s in _various(found, _REFITTED_PAIRS + 1):
         tried.append(_try(state, [*before.terms, s.term], {s.term.label: s.values}, before))

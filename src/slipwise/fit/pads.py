@@ -10,7 +10,7 @@ from scipy.fft import next_fast_len
 
 from slipwise.fit.data import FINE, FitRun, refined
 from slipwise.model import Model
-from slipwise.predict import predictor
+from slipwise.predict import PadForces, predictor
 from slipwise.signals import LowPass, response
 
 Array = NDArray[np.float64]
@@ -31,14 +31,12 @@ class Instants:
         load: (f, p) [N].
         velocity: (f, p, 2) [m/s].
         slip: (f, p, 2) [m].
-        share: (f, p) mean share of the bound that acts along x, half an instant before to half an instant after [1].
     """
 
     time: Array
     load: Array
     velocity: Array
     slip: Array
-    share: Array
 
 
 @njit(cache=True)
@@ -63,28 +61,34 @@ def _stick(along, step, length, parts, share):  # pragma: no cover - compiled
             share[i, pad] = total / (parts * length)
 
 
-def instants(run: FitRun, velocity: Array, slip: Array, stick_length: float, lost: Array | None = None) -> Instants:
+def instants(run: FitRun, velocity: Array, slip: Array, lost: Array | None = None) -> Instants:
     """Refine the states of a run.
 
     Args:
         run: its loads and times.
         velocity: (n, p, 2) of each pad [m/s].
         slip: (n, p, 2) of each pad [m].
-        stick_length: slip over which a pad's friction turns round [m]: micrometres, the shear of pad and cell.
         lost: (f,) what the logger's filter took from the velocity, see `lost_velocity` [m/s].
     """
     time = np.linspace(run.time[0], run.time[-1], FINE * (len(run.time) - 1) + 1)
     fine = refined(velocity)
     if lost is not None:
         fine[:, :, 0] += lost[:, None]
-    along = np.ascontiguousarray(fine[:, :, 0])
-    share = np.zeros_like(along)
-    alike = bool(np.all(along == along[:, :1]))
-    followed = along[:, :1].copy() if alike else along
-    out = np.zeros_like(followed)
-    _stick(followed, run.dt / FINE, stick_length, _STICK_STEPS, out)
-    share[:] = out
-    return Instants(time, np.maximum(refined(run.load), 0.0), fine, refined(slip), share)
+    return Instants(time, np.maximum(refined(run.load), 0.0), fine, refined(slip))
+
+
+def stick_share(state: Instants, stick_length: float) -> Array:
+    """Give the mean share of the bound that acts along x, half an instant before to half an instant after, (f, p) [1].
+
+    Args:
+        state: of the pads.
+        stick_length: slip over which a pad's friction turns round [m]: micrometres, the shear of pad and cell.
+    """
+    along = np.ascontiguousarray(state.velocity[:, :, 0])
+    followed = along[:, :1].copy() if bool(np.all(along == along[:, :1])) else along
+    share = np.zeros_like(followed)
+    _stick(followed, state.time[1] - state.time[0], stick_length, _STICK_STEPS, share)
+    return np.broadcast_to(share, along.shape)
 
 
 @dataclass
@@ -102,37 +106,35 @@ class PadLaw:
         self.model = model
         self._predictor.model = model
 
-    def at_instants(self, runs: list[FitRun], states: list[Instants]) -> list[Array]:
-        """Give the force of every pad along x at the instants, a list of (f, p) [N]."""
+    def at_instants(self, runs: list[FitRun], states: list[Instants]) -> list[PadForces]:
+        """Drive the law through the runs; gives force (f, p, 2) and bound (f, p) of every pad at the instants [N]."""
         law = self._predictor
         law.reset()
-        bristle = bool(self.model.with_hook("stick"))
         out = []
         for run, state in zip(runs, states, strict=True):
             law.rest(run.rest_before)
-            found = law.pads(state.time, state.load, state.velocity, state.slip)
-            force = found.force[:, :, 0]
-            if not bristle:
-                along, across = state.velocity[:, :, 0], state.velocity[:, :, 1]
-                speed = np.hypot(along, across)
-                sharp = np.divide(along, speed, out=np.zeros_like(along), where=speed > 0.0)
-                turned = np.divide(np.abs(along), speed, out=np.ones_like(along), where=speed > 0.0)
-                force = force + found.bound * (state.share * turned - sharp)
-            out.append(force)
+            out.append(law.pads(state.time, state.load, state.velocity, state.slip))
         return out
 
-    def forces(self, runs: list[FitRun], states: list[Instants], by: LowPass | None, late: float = 0.0) -> list[Array]:
-        """Give the force of every pad along x as measured, a list of (n, p) [N].
 
-        Args:
-            runs: in the order in which they were made.
-            states: of each run.
-            by: the logger's filter where the campaign does not know it.
-            late: by which the friction channels lag behind the others [s].
-        """
-        averaged = not self.model.with_hook("stick")
-        found = zip(self.at_instants(runs, states), runs, strict=True)
-        return [as_logged(force, run, by, averaged=averaged, late=late) for force, run in found]
+def force_along(found: PadForces, state: Instants, share: Array | None) -> Array:
+    """Give the force of every pad along x at the instants, (f, p) [N].
+
+    Args:
+        found: what the law answers.
+        state: to which.
+        share: of the bound that acts, see `stick_share`; None for a law that knows itself how a pad sticks.
+    """
+    force = found.force[:, :, 0]
+    if share is None:
+        return force
+    along, across = state.velocity[:, :, 0], state.velocity[:, :, 1]
+    if not across.any():
+        return force + found.bound * (share - np.sign(along))
+    speed = np.hypot(along, across)
+    sharp = np.divide(along, speed, out=np.zeros_like(along), where=speed > 0.0)
+    turned = np.divide(np.abs(along), speed, out=np.ones_like(along), where=speed > 0.0)
+    return force + found.bound * (share * turned - sharp)
 
 
 def lost_velocity(force: Array, run: FitRun, mass: float, by: LowPass | None) -> Array:

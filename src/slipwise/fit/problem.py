@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 from slipwise.effects import Effect
 from slipwise.fit.balances import available, buffer_forces, heave_noise, motion_residual, predicted
 from slipwise.fit.data import FitRun, refined, smoothed
-from slipwise.fit.pads import Instants, PadLaw, as_logged, instants, lost_velocity
+from slipwise.fit.pads import Instants, PadLaw, as_logged, force_along, instants, lost_velocity, stick_share
 from slipwise.fit.terms import Term, fitted_model
 from slipwise.fit.yaw import yaw_of
 from slipwise.model import Model
-from slipwise.predict import Predictor, predictor
+from slipwise.predict import PadForces, Predictor, predictor
 from slipwise.record import Record
 from slipwise.rig import Specimen
 from slipwise.signals import LowPass
@@ -32,8 +32,11 @@ _PITCH_FLOOR = 1.2
 #: Timing of a reversal that nobody can vouch for: shear of pad and cell, cards of the logger [s].
 _TIMING = 1e-4
 #: Numbers of the rig that change the pads' states.
-_MOTION_KEYS = ("rig.pitch_slip", "rig.stick_length")
-_PAD_KEYS = (*_MOTION_KEYS, "rig.shear_strength", "rig.late_force", "rig.logger")
+_MOTION_KEYS = ("rig.pitch_slip",)
+_LAW_KEYS = (*_MOTION_KEYS, "rig.shear_strength")
+#: Numbers that change what is seen of the pads' forces, not what their law says.
+_SEEN_KEYS = ("rig.stick_length", "rig.late_force", "rig.logger")
+_PAD_KEYS = (*_LAW_KEYS, *_SEEN_KEYS)
 #: Effects of the catalogue that turn the girder about the vertical.
 _TURNERS = ("buffer_mismatch", "mass_eccentricity")
 _PAD_PORTS = ("area", "shear", "stick", "pad")
@@ -149,7 +152,9 @@ class Problem:
         runs, _ = self._corrected(values)
         states = self._states(values, runs)
         key = (count, *self._pad_key(values, faults=False))
-        forces = self._remembered("forces", key, lambda: self._pad_forces(model, values, runs[:count], states[:count]))
+        said = self._remembered("law", key, lambda: self._law_of(model).at_instants(runs[:count], states[:count]))
+        key = (*key, *(values.get(k, 0.0) for k in _SEEN_KEYS))
+        forces = self._remembered("forces", key, lambda: self._logged(values, runs, states, said))
         parts, outputs, clean = [], [], []
         for i, (run, force) in enumerate(zip(runs, forces, strict=False)):
             seen, offset = self._faulty_force(values, run, force)
@@ -192,15 +197,17 @@ class Problem:
         model = self.model(values)
         law = PadLaw(model)
         if self.specimen.free:
-            found = law.at_instants(self.runs, [self._instants(r, i, values) for i, r in enumerate(self.runs)])
+            states = [self._instants(r, i, values) for i, r in enumerate(self.runs)]
+            found = self._along(values, states, law.at_instants(self.runs, states))
             mass = model.specimen.mass
             pairs = zip(found, self.runs, strict=True)
             self.lost = [lost_velocity(f.sum(axis=1), r, mass, self._by(values)) for f, r in pairs]
         self._memo.clear()
-        by = self._by(values)
-        plain = law.forces(self.runs, self._states(values, self.runs), by)
+        states = self._states(values, self.runs)
+        still = {**values, "rig.late_force": 0.0}
+        plain = self._logged(still, self.runs, states, law.at_instants(self.runs, states))
         faster = [self._instants(r, i, values, more=r.states.velocity_error[0]) for i, r in enumerate(self.runs)]
-        shifted = law.forces(self.runs, faster, by)
+        shifted = self._logged(still, self.runs, faster, law.at_instants(self.runs, faster))
         self.sigmas = {r: [] for r in self.relations}
         for i, run in enumerate(self.runs):
             gauge = np.array([run.noise[f"pad_{p}_Fx"] for p in run.pads])
@@ -245,11 +252,12 @@ class Problem:
         return kept[key]
 
     def _pad_key(self, values: Mapping[str, float], *, faults: bool = True) -> tuple[str | float, ...]:
-        """Give what the pads' residuals depend on; without the faults of friction gauges, what their forces do."""
+        """Give what the pads' residuals depend on; without the faults of friction gauges, what their law does."""
         own = [t for t in self.terms if t.effect.instant_hooks or "rig" in t.effect.hooks or t in self._on_state]
         own += self._on_force if faults else []
         turned = ("yaw", values.get("rig.buffer_stiffness", 0.0)) if self._yaws else ()
-        return (*self._values_of(own, values), *turned, *(values.get(k, 0.0) for k in _PAD_KEYS))
+        keys = _PAD_KEYS if faults else _LAW_KEYS
+        return (*self._values_of(own, values), *turned, *(values.get(k, 0.0) for k in keys))
 
     def _balance_key(self, values: Mapping[str, float]) -> tuple[str | float, ...]:
         own = [t for t in self.terms if t.effect.port not in _PAD_PORTS or "balance" in t.effect.hooks]
@@ -297,19 +305,32 @@ class Problem:
             velocity = velocity + rate[:, None, None] * np.stack([-across[:, 1], across[:, 0]], axis=1)[None]
             slip = slip + angle[:, None, None] * np.stack([-across[:, 1], across[:, 0]], axis=1)[None]
         lost = self.lost[place] if self.lost else None
-        return instants(run, velocity, slip, values.get("rig.stick_length", _SHORT_STICK), lost)
+        return instants(run, velocity, slip, lost)
 
     def _turning_of(self, run: FitRun, values: Mapping[str, float]) -> tuple[Array, Array]:
         model = self.model(values)
         return yaw_of(run, model.built_specimen(), run.force, self._buffers(predictor(model), run))
 
-    def _pad_forces(
-        self, model: Model, values: Mapping[str, float], runs: list[FitRun], states: list[Instants]
-    ) -> list[Array]:
+    def _law_of(self, model: Model) -> PadLaw:
         if self._law is None:
             self._law = PadLaw(model)
         self._law.set(model)
-        return self._law.forces(runs, states, self._by(values), values.get("rig.late_force", 0.0))
+        return self._law
+
+    def _along(self, values: Mapping[str, float], states: list[Instants], said: list[PadForces]) -> list[Array]:
+        """Give the pads' forces along x at the instants, a list of (f, p) [N]."""
+        length = values.get("rig.stick_length", _SHORT_STICK)
+        sharp = not self.model_has_stick(())
+        shares = [stick_share(s, length) if sharp else None for s in states]
+        return [force_along(*each) for each in zip(said, states, shares, strict=False)]
+
+    def _logged(
+        self, values: Mapping[str, float], runs: list[FitRun], states: list[Instants], said: list[PadForces]
+    ) -> list[Array]:
+        """Give the pads' forces along x as measured, a list of (n, p) [N]."""
+        by, late, averaged = self._by(values), values.get("rig.late_force", 0.0), not self.model_has_stick(())
+        forces = self._along(values, states[: len(said)], said)
+        return [as_logged(f, r, by, averaged=averaged, late=late) for f, r in zip(forces, runs, strict=False)]
 
     def _faulty_force(self, values: Mapping[str, float], run: FitRun, force: Array) -> tuple[Array, Array]:
         """Give the measured forces without their faults, and what the faults add to the predicted ones, (n, p) each."""

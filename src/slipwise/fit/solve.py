@@ -55,7 +55,7 @@ def jacobian(
     """Give d(residual)/d(value / scale) of the fitted runs, (m, k), by one-sided differences into the bounds."""
     which = problem.fitted
     base = now.stacked(which, problem.relations)
-    out = np.empty((len(base), len(free)))
+    out = np.empty((len(free), len(base))).T  # column by column
     for j, f in enumerate(free):
         if known is not None and f.key in known:
             out[:, j] = known[f.key]

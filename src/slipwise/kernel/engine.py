@@ -184,7 +184,8 @@ def _module_text(layout: Layout, text: str) -> str:
         else:
             imports.append(f"_{name} = sys.modules[{module!r}].{hook}")
         imports.append(f"{name} = njit(_{name})")
-    body = "\n".join("@njit(cache=True)\n" + part if part.startswith("def ") else part for part in _split(text))
+    compiled = "@njit(cache=True, nogil=True)\n"
+    body = "\n".join(compiled + part if part.startswith("def ") else part for part in _split(text))
     return f'''"""The law of every effect, written and compiled by slipwise.kernel.engine. Do not edit."""
 
 import sys

@@ -262,14 +262,14 @@ TINY = 1e-9
 def _record_text(layout: Layout) -> str:
     at = layout.at
     return f'''
-def pads_over_record(u, time, load, velocity, slip, force, bounds):
-    """Drive every pad's law with measured load (n, p), velocity and slip (n, p, 2); fills force (n, p, 2), bounds (n, p).
+def pads_over_record(u, time, load, velocity, slip, force, bounds, first, last):
+    """Drive the law of pads first..last-1 with measured load (n, p), velocity and slip (n, p, 2).
 
-    Where a pad sticks without a bristle, the law gives only the bound: force is then the bound along the motion.
+    Fills force (n, p, 2) and bounds (n, p). Pads share nothing, so that several threads may each drive some. Where a
+    pad sticks without a bristle, the law gives only the bound: force is then the bound along the motion.
     """
-    n_pads = load.shape[1]
     bristle = u[{at["stick"]}] > 0.0
-    for pad in range(n_pads):
+    for pad in range(first, last):
         z = {at["pad_memory"]} + pad * {layout.pad_block}
         side_x = u[{at["side"]} + 2 * pad]
         side_y = u[{at["side"]} + 2 * pad + 1]

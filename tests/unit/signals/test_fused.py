@@ -1,4 +1,4 @@
-"""Slip velocity from the slip gauge and two accelerometers: right within 0.3 mm/s where differentiation errs by much."""
+"""Slip velocity from slip gauge and two accelerometers: within 0.3 mm/s, where differentiating errs far more."""
 
 import numpy as np
 import pytest
@@ -32,7 +32,7 @@ def test_the_smoother_knows_its_own_error(made):
     campaign = as_campaign(made)
     states = measured_states(campaign.runs[0], campaign)
     error = states.velocity[:, 0] - made.at_samples("sine_hv")["slip_vx"]
-    assert np.std(error[states.valid]) == pytest.approx(states.velocity_error[0], rel=0.6)
+    assert np.std(error[states.valid]) == pytest.approx(states.velocity_error[0], rel=0.15)
 
 
 def sine(noise: float, count: int = 4000, seed: int = 1) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
