@@ -1,0 +1,80 @@
+"""`slipwise init` drafts what the headers say, marks what only a person knows, and what it drafts can be read."""
+
+import re
+import tomllib
+
+import pytest
+from scipy.io import savemat
+
+from slipwise.campaign import load_campaign
+from slipwise.campaign.draft import draft_campaign
+from slipwise.errors import InputError
+from unit.campaign.slider import HEADER, slider, text
+
+
+def drafted(folder, **files: str) -> str:
+    for name, content in files.items():
+        (folder / f"{name}.csv").write_text(content, encoding="utf-8")
+    draft = draft_campaign(folder)
+    (folder / "campaign.toml").write_text(draft, encoding="utf-8")
+    return draft
+
+
+def test_our_own_headers_are_read_as_drafted(tmp_path):
+    draft = drafted(tmp_path, a=text(slider(1)), b=text(slider(2)))
+    assert "[columns]" not in draft and draft.count("decide") >= 3
+    assert [run.role for run in load_campaign(tmp_path).runs] == ["fit", "holdout"]
+
+
+@pytest.mark.parametrize(
+    ("header", "unit", "channel"),
+    [
+        ("Zeit [ms]", "ms", "time"),
+        ("disp (in)", "in", "slip_x"),
+        ("velocity (in/s)", "in/s", "slip_vx"),
+        ("normal load [kN]", "kN", "pad_A_N"),
+        ("friction force (kip)", "kip", "pad_A_Fx"),
+        ("pressure [bar]", "bar", "pad_A_P"),
+        ("girder acc [g]", "g", "girder_ax"),
+    ],
+)
+def test_a_foreign_header_is_mapped_where_word_and_unit_agree_and_marked_for_the_eye(tmp_path, header, unit, channel):
+    draft = drafted(tmp_path, a=f"{header},other (-)\n0,1\n1,2\n")
+    (line,) = [line for line in draft.splitlines() if line.startswith(f'"{header}"')]
+    assert "# decide" in line
+    assert tomllib.loads(line)[header] == {"channel": channel, "unit": unit}
+
+
+def test_a_word_whose_unit_does_not_fit_is_left_to_the_user(tmp_path):
+    draft = drafted(tmp_path, a="time [s],force [mm]\n0,1\n1,2\n")
+    assert re.search(r'^# "force \[mm\]".*decide', draft, re.MULTILINE)
+
+
+def test_a_pad_without_a_load_is_asked_for_one(tmp_path):
+    draft = drafted(tmp_path, a="time [s],slip_x [mm],pad_A_Fx [kN]\n0,1,2\n1,2,3\n")
+    assert '# pad_A_N = "10 kN"' in draft
+
+
+def test_four_pads_make_a_girder_and_one_pad_a_slider(tmp_path):
+    four = ",".join(f"pad_{pad}_Fx [kN]" for pad in "ABCD")
+    assert 'rig  = "bridge1"' in drafted(tmp_path, a=f"time [s],{four}\n0,1,2,3,4\n1,2,3,4,5\n")
+    assert 'rig  = "pad"' in drafted(tmp_path, a=text(slider(1), HEADER))
+
+
+def test_matlab_files_are_drafted_by_the_names_of_their_variables(tmp_path):
+    savemat(tmp_path / "run.mat", {"t": slider(1)[:, 0], "x": slider(1)[:, 1:]})
+    draft = draft_campaign(tmp_path)
+    assert 'file = "run.mat"' in draft and '# "x(:,1)"' in draft
+
+
+def test_a_name_with_quotes_and_brackets_stays_inside_its_string(tmp_path):
+    folder = tmp_path / 'a "b" [c]'
+    folder.mkdir()
+    assert tomllib.loads(drafted(folder, a=text(slider(1))))["name"] == 'a "b" [c]'
+
+
+def test_a_folder_without_data_says_which_files_are_data(tmp_path):
+    with pytest.raises(InputError, match=r"no data file in it; possible: \.csv"):
+        draft_campaign(tmp_path)
+    with pytest.raises(InputError, match="no such folder"):
+        draft_campaign(tmp_path / "nowhere")

@@ -1,0 +1,107 @@
+"""Measured states: stuck, near a reversal, sliding; loads from pressure; what is missing is said."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bench import build_campaign
+from bench.write import write_campaign
+from measured import as_campaign
+from slipwise.campaign import load_campaign, measured_states
+from slipwise.errors import InputError
+from slipwise.record import Record
+from unit.campaign.slider import HEADER, slider, text
+
+
+@pytest.fixture(scope="module")
+def made():
+    return build_campaign(34, effects=(), rig="bridge1")
+
+
+@pytest.fixture(scope="module")
+def states(made):
+    campaign = as_campaign(made)
+    return measured_states(campaign.run("quake_hv"), campaign)
+
+
+def without(campaign, *names: str):
+    """Give a campaign whose runs lack some channels."""
+    records = {
+        run.name: Record(run.record.time, {n: v for n, v in run.record.channels.items() if n not in names})
+        for run in campaign.runs
+    }
+    return campaign.with_records(records, "channels left out")
+
+
+def test_every_sample_is_in_one_state(states):
+    assert np.all(states.stuck.astype(int) + states.near_reversal + states.sliding == 1)
+    assert states.stuck.any() and states.near_reversal.any() and states.sliding.any()
+
+
+def test_states_agree_with_the_true_speed(states, made):
+    speed = np.abs(made.at_samples("quake_hv")["slip_vx"])
+    assert np.quantile(speed[states.stuck & states.valid], 0.99) < 4e-3
+    assert speed[states.sliding & states.valid].min() > 0.015
+    assert speed[states.near_reversal].mean() < 0.5 * speed[states.sliding].mean()
+
+
+def test_ends_of_a_run_and_samples_of_an_uplift_are_not_used(states, made):
+    assert not states.valid[:8].any() and not states.valid[-8:].any() and states.valid[8:-8].all()
+    campaign = as_campaign(made)
+    run = campaign.run("quake_hv")
+    load = run.record["pad_A_N"].copy()
+    load[2000:2003] = 0.0
+    lifted = replace(run, record=run.record.replaced(pad_A_N=load))
+    uplift = measured_states(lifted, campaign).uplift
+    assert uplift[2000:2100].all() and not uplift[:1900].any() and not uplift[2200:].any()
+
+
+def test_shapes_and_signs_of_four_pads(states):
+    count = len(states.time)
+    assert states.load.shape == (count, 4) and states.force.shape == (count, 4, 2)
+    assert np.isnan(states.force[:, :, 1]).all()
+    pushed = np.sum(states.force[states.sliding][:, :, 0], axis=1)
+    assert np.mean(np.sign(pushed) == np.sign(states.velocity[states.sliding, 0])) > 0.99
+
+
+def test_pads_move_apart_where_the_girder_turns(states):
+    turning = replace(states, yaw_rate=np.full(len(states.time), 0.01))
+    apart = turning.pad_velocity[:, 0, 0] - turning.pad_velocity[:, 2, 0]
+    across = states.specimen.pad_places[0][1] - states.specimen.pad_places[2][1]
+    assert apart == pytest.approx(-0.01 * across)
+
+
+def test_what_was_not_measured_is_said(made):
+    campaign = without(as_campaign(made), "girder_ax")
+    states = measured_states(campaign.runs[0], campaign)
+    assert np.isnan(states.girder_acceleration[:, 0]).all()
+    said = " ".join(states.missing)
+    assert "slip gauge alone" in said and "slip_y" in said and "yaw" in said
+    assert not states.has_y and not states.has_yaw
+
+
+def test_a_run_without_slip_or_without_any_pad_has_no_states(made):
+    every = [f"pad_{pad}_{kind}" for pad in "ABCD" for kind in ("N", "Fx")]
+    for names, told in ((("slip_x",), "slip_x is needed"), (every, "no pad has a load")):
+        campaign = without(as_campaign(made), *names)
+        with pytest.raises(InputError, match=told):
+            measured_states(campaign.runs[0], campaign)
+
+
+def test_a_pressure_becomes_a_load_over_the_pads_area(campaign):
+    header = HEADER.replace("pad_A_N [kN]", "pad_A_P [MPa]")
+    read = load_campaign(campaign(one=text(slider(1), header), two=text(slider(2), header)))
+    states = measured_states(read.runs[0], read)
+    assert states.load[:, 0] == pytest.approx(1e6 * slider(1)[:, 2] * read.specimen.pad_area, rel=1e-5)
+    assert any("pressure times the rig's pad area" in words for words in states.missing)
+
+
+def test_runs_of_different_rigs_do_not_make_a_campaign(made, tmp_path):
+    recorded = {name: dict(channels) for name, channels in made.recorded.items()}
+    for name in recorded["quake2_hv"]:
+        if name.endswith("_N"):
+            recorded["quake2_hv"][name] = 1.5 * recorded["quake2_hv"][name]
+    write_campaign(tmp_path / "mixed", "bridge1", made.truth.logger, recorded)
+    with pytest.raises(InputError, match="runs of different rigs.*'quake2_hv'"):
+        load_campaign(tmp_path / "mixed")
