@@ -102,10 +102,10 @@ def test_what_the_campaign_knows_better_than_the_rated_values_is_used(campaign):
 
 
 @pytest.mark.parametrize(
-    ("more", "order", "phase"),
-    [('[logger]\nlowpass = "80 Hz"', 4, "zero"), ('[logger]\nlowpass = "80 Hz"\norder = 2\nphase = "causal"', 2, "causal")],
-)  # fmt: skip
+    ("more", "order", "phase"), [("", 4, "zero"), ('order = 2\nphase = "causal"', 2, "causal")], ids=["plain", "causal"]
+)
 def test_the_logger_is_known_where_the_campaign_describes_it(campaign, more, order, phase):
+    more = f'[logger]\nlowpass = "80 Hz"\n{more}'
     more += '\n"pad_*_N" = {lowpass = "30 Hz"}\nslip_x = {lowpass = "none"}'
     logger = load_campaign(campaign(more)).logger
     by = logger.of("pad_A_Fx")

@@ -1,0 +1,29 @@
+"""A logger that ran for an hour: two million rows fit into an ordinary machine."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pyarrow as pa
+from pyarrow import csv
+
+ROWS = 2_000_000
+READ = """
+import resource, sys
+from slipwise.campaign import load_campaign
+rows = len(load_campaign(sys.argv[1]).runs[0].record)
+print(rows, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20)
+"""
+
+
+def test_two_million_rows_of_fourteen_channels_are_read_in_less_than_two_gigabytes(tmp_path):
+    values = np.random.default_rng(1).integers(-9999, 9999, ROWS) / 1000.0
+    names = ["table_ax [m/s^2]", "table_az [m/s^2]", "girder_ax [m/s^2]", "girder_az [m/s^2]", "slip_x [mm]"]
+    names += [f"pad_{pad}_{kind} [kN]" for pad in "ABCD" for kind in ("N", "Fx")]
+    columns = {"time [s]": 0.002 * np.arange(ROWS), **dict.fromkeys(names, values)}
+    csv.write_csv(pa.table(columns), tmp_path / "long.csv")
+    (tmp_path / "campaign.toml").write_text('rig = "bridge1"\n[[run]]\nfile = "long.csv"\nrole = "fit"\n')
+    done = subprocess.run([sys.executable, "-c", READ, tmp_path], capture_output=True, text=True, check=True)
+    rows, gigabytes = done.stdout.split()
+    assert int(rows) == ROWS
+    assert float(gigabytes) < 2.0
