@@ -10,7 +10,7 @@ Array = NDArray[np.float64]
 
 
 def oscillator(push: Array, dt: float, frequency: float, damping: float, derivative: int) -> Array:
-    """Solve q'' + 2 z w q' + w^2 q = push from rest; exact for a push that is straight between samples.
+    """Solve q'' + 2 z w q' + w^2 q = push from rest, for a push that is smooth between its samples.
 
     Args:
         push: (n,) per unit mass.
@@ -23,6 +23,15 @@ def oscillator(push: Array, dt: float, frequency: float, damping: float, derivat
         (n,).
     """
     w = 2.0 * np.pi * frequency
-    system = ([1.0] + [0.0] * derivative, [1.0, 2.0 * damping * w, w * w])
-    numerator, denominator, _ = cast(Any, cont2discrete(system, dt, method="foh"))
-    return cast(Array, lfilter(numerator.ravel(), denominator, push))
+    curved = push.copy()
+    # Straight lines between samples cut the crests of a sine by (pi f dt)^2 / 3: 0.3 % at 15 Hz and 500 samples a second.
+    curved[1:-1] -= (push[2:] - 2.0 * push[1:-1] + push[:-2]) / 12.0
+
+    def solved(order: int) -> Array:
+        system = ([1.0] + [0.0] * order, [1.0, 2.0 * damping * w, w * w])
+        numerator, denominator, _ = cast(Any, cont2discrete(system, dt, method="foh"))
+        return cast(Array, lfilter(numerator.ravel(), denominator, curved))
+
+    if derivative < 2:
+        return solved(derivative)
+    return push - 2.0 * damping * w * solved(1) - w * w * solved(0)

@@ -177,10 +177,8 @@ class Problem:
                 else:
                     left = (seen[name] - said[name]) / scale.get(name, 1.0)
                 parts[name].append(self._over(name, i, left, run.grounded))
-                if name == "heave" and hidden > 0.0:  # noise that the effect hides counts as if it were still there
-                    part = parts[name][-1]
-                    whole = np.copysign(np.sqrt(part**2 + hidden), part)
-                    parts[name][-1] = np.where(run.grounded, whole, 0.0)
+                if name == "heave" and hidden > 0.0:
+                    parts[name][-1] = _with_hidden(parts[name][-1], hidden)
         return parts
 
     def _heave_scale(self, model: Model, run: FitRun) -> float:
@@ -366,6 +364,15 @@ def _pitch_rate(run: FitRun) -> Array:
     pitch = run.load[:, 0] + run.load[:, 2] - run.load[:, 1] - run.load[:, 3]
     smooth = in_frequency(pitch, run.dt, lambda f: 1.0 / (1.0 + (f / 120.0) ** 8), 64)
     return np.gradient(smooth, run.dt)
+
+
+def _with_hidden(part: Array, hidden: float) -> Array:
+    """Count noise that an effect hides as if it were still there: the sum of squares grows by it, each sample alike.
+
+    Put on every sample by itself it would make residuals jump as they change sign, and slopes of that are noise.
+    """
+    total = float(part @ part)
+    return part * np.sqrt(1.0 + hidden * np.count_nonzero(part) / total) if total > 0.0 else part
 
 
 def _acts_on_force(term: Term) -> bool:

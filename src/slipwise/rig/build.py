@@ -45,10 +45,10 @@ class Rig:
 def pad_frequencies(specimen: Specimen) -> dict[str, float]:
     """Give the frequencies of heave, pitch and roll on the pads [Hz], the girder taken as rigid."""
     half_x, half_y = specimen.half_spacing
-    n, k, h = len(specimen.pads), specimen.pad_stiffness, specimen.centre_height
+    n, k = len(specimen.pads), specimen.pad_stiffness
     out = {"heave": np.sqrt(n * k / specimen.mass)}
     if specimen.free:
-        out["pitch"] = np.sqrt(n * k * half_x**2 / (specimen.inertia[1] + 0.0 * h))
+        out["pitch"] = np.sqrt(n * k * half_x**2 / specimen.inertia[1])
         out["roll"] = np.sqrt(n * k * half_y**2 / specimen.inertia[0])
     return {name: float(value / (2.0 * np.pi)) for name, value in out.items()}
 
@@ -123,7 +123,8 @@ def _place_girder(spec: mujoco.MjSpec, specimen: Specimen) -> None:
         for geom in girder.geoms:
             geom.pos = np.array(geom.pos) - shift
     girder.mass = specimen.mass - specimen.bending_mass
-    girder.inertia = np.array(specimen.inertia) * (girder.mass / specimen.mass)
+    # The first vertical mode is even about the middle: it takes mass from heave, nothing from pitch and roll.
+    girder.inertia = list(specimen.inertia)
     for pad, place, height in zip(specimen.pads, specimen.pad_places, specimen.seating, strict=True):
         for geom in (f"pad_{pad}", f"disc_{pad}", f"cell_{pad}"):
             spec.geom(geom).pos = [*place, spec.geom(geom).pos[2]]

@@ -120,3 +120,20 @@ def test_similarity_gives_the_scales_of_both_prototypes():
     assert one.acceleration == one.pressure == 1.0
     assert load_specimen("bridge1").mass * one.mass == pytest.approx(1143e3, rel=1e-3)
     assert 2 * load_specimen("bridge2").pad_radius * two.length == pytest.approx(0.523, abs=5e-4)
+
+
+def test_a_girder_that_bends_pitches_and_rolls_as_a_rigid_one():
+    """The first vertical mode is even about the middle, pitch is odd: by symmetry they share no inertia."""
+    rigid = load_specimen("bridge1")
+    bending = replace(rigid, bending_mass=0.3 * rigid.mass)
+    turning = []
+    for specimen in (rigid, bending):
+        rig = build(specimen, 5e-4, 0)
+        data = mujoco.MjData(rig.model)
+        mujoco.mj_forward(rig.model, data)
+        whole = np.zeros((rig.model.nv, rig.model.nv))
+        mujoco.mj_fullM(rig.model, data, whole)
+        at = [int(rig.model.joint(f"girder_{name}").dofadr[0]) for name in ("roll", "pitch", "yaw")]
+        turning.append(np.diag(whole)[at])
+    assert turning[1] == pytest.approx(turning[0], rel=1e-6)
+    assert turning[0] == pytest.approx(rigid.inertia, rel=1e-6)
