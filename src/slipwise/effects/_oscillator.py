@@ -24,7 +24,7 @@ def oscillator(push: Array, dt: float, frequency: float, damping: float, derivat
     """
     w = 2.0 * np.pi * frequency
     curved = push.copy()
-    # Straight lines between samples cut the crests of a sine by (pi f dt)^2 / 3: 0.3 % at 15 Hz and 500 samples a second.
+    # Straight lines between samples cut the crests of a sine by (pi f dt)^2 / 3: 0.3 % at 15 Hz and 2 ms.
     curved[1:-1] -= (push[2:] - 2.0 * push[1:-1] + push[:-2]) / 12.0
 
     def solved(order: int) -> Array:
