@@ -11,7 +11,7 @@ import numpy as np
 from slipwise.campaign import Campaign, load_campaign
 from slipwise.compare.system_level import system_level
 from slipwise.diagnose.candidates import candidates
-from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, refit
+from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, polished, refit
 from slipwise.diagnose.run import as_fit
 from slipwise.diagnose.screen import Screened, screen
 from slipwise.diagnose.search import Search, search
@@ -164,7 +164,7 @@ def _asked(
             raise SettingError(f"{name} changes nothing in this campaign, so it cannot be fitted")
         best = found[0]
         before = path[-1]
-        path.append(refit(base, [*before.terms, best.term], {best.term.label: best.values}, before))
+        path.append(polished(refit(base, [*before.terms, best.term], {best.term.label: best.values}, before)))
         tell((i + 1) / len(add))
     return path, (screened, len(add)), "these effects were asked for"
 

@@ -101,7 +101,7 @@ def refit(
     *,
     most: int = 7,
 ) -> Hypothesis:
-    """Fit a hypothesis, all base parameters free.
+    """Fit a hypothesis, all base parameters free; `polished` takes what is worth it to the end.
 
     Args:
         base: the base fit.
@@ -113,6 +113,8 @@ def refit(
     problem = base.problem.adding(*terms)
     values = dict((before.solution if before else base.solution).values)
     free: list[Free] = [f for f in base.free if f.key != _STICK_LENGTH or not problem.model_has_stick(terms)]
+    if any(t.effect.name == "shear_rate" for t in terms):
+        free = [f for f in free if f.key != "rig.shear_strength"]
     for term in terms:
         if before is not None and f"{term.label}.{term.effect.parameter_names[0]}" in before.solution.values:
             start = before.values_of(term)
@@ -125,8 +127,13 @@ def refit(
     else:
         known = {f.key: base.solution.jacobian[:, j] for j, f in enumerate(base.free)}
         solution = solve(problem, values, free, most=most, enough=10.0, known=known)
-        solution = solve(problem, solution.values, free, most=2, enough=10.0)
     return Hypothesis(tuple(terms), problem, solution, account(problem, solution))
+
+
+def polished(found: Hypothesis) -> Hypothesis:
+    """Fit on with slopes of its own: those of the base, taken without the effects, lead only near the end."""
+    solution = solve(found.problem, found.solution.values, found.solution.free, most=2, enough=10.0)
+    return Hypothesis(found.terms, found.problem, solution, account(found.problem, solution))
 
 
 def _several_starts(

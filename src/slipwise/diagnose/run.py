@@ -173,6 +173,8 @@ def _least(state: Search) -> dict[str, tuple[float, str]]:
     samples = min(n for n, _ in counts.values())
     out: dict[str, tuple[float, str]] = {}
     for s in state.screened:
+        if not strengths(s.term.effect):
+            continue
         parameter = strengths(s.term.effect)[0]
         size = _size(s, samples)
         old = out.get(s.term.effect.name)

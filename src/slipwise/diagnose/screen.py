@@ -22,6 +22,8 @@ from slipwise.params import Parameter
 Array = NDArray[np.float64]
 #: Size at which a column is taken, as a share of the typical size.
 _SMALL = 0.3
+#: Step of a slope, as a share of the value.
+_NEAR = 0.01
 #: Most points of the grid over shape constants.
 _MOST_POINTS = 5
 #: Frequencies at which a resonance is tried [Hz].
@@ -89,6 +91,8 @@ def projector(jacobian: Array) -> Callable[[Array], Array]:
 def _screened(
     base: BaseFit, term: Term, left: Array, residual: Array, project: Callable[[Array], Array]
 ) -> Screened | None:
+    if not strengths(term.effect):
+        return _replacing(base, term, residual, project)
     best: Screened | None = None
     for shape in shapes(term.effect):
         columns, starts, raw = [], [], 0.0
@@ -110,6 +114,28 @@ def _screened(
         if found is not None and (best is None or found.gain > best.gain):
             best = found
     return best
+
+
+def _replacing(base: BaseFit, term: Term, residual: Array, project: Callable[[Array], Array]) -> Screened | None:
+    """Score a law that takes another's place: it is never absent, so a step of a fit from typical values tells."""
+    values = term.effect.typical()
+    there = _residual(base, term, values)
+    if there is None:
+        return None
+    columns = []
+    for p in term.effect.parameters:
+        moved = _residual(base, term, {**values, p.name: values[p.name] * (1.0 + _NEAR)})
+        if moved is not None:
+            columns.append(project(moved - there))
+    rest = project(there)
+    basis = np.linalg.qr(np.stack(columns, axis=1))[0]
+    rest = rest - basis @ (basis.T @ rest)
+    step = rest - residual
+    length = float(np.sqrt(step @ step))
+    if length == 0.0:
+        return None
+    column: Any = (step / length).astype(np.float32)
+    return Screened(term, values, float(residual @ residual - rest @ rest), 0.0, column, length)
 
 
 def _best_mix(

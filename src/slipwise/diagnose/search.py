@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.diagnose.candidates import candidates
-from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, refit
+from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, polished, refit
 from slipwise.diagnose.screen import Screened, projector, screen, strengths
 from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Term
@@ -27,6 +27,8 @@ FURTHER = 0.025
 #: Candidates that are refitted at each step.
 _REFITTED = 4
 _REFITTED_PAIRS = 2
+#: Those of them that are fitted to the end.
+_POLISHED = 2
 #: The best physics is refitted even where faults of gauges screen better, and far from its best shape.
 _REFITTED_PHYSICS = 2
 #: Most effects that are added.
@@ -135,7 +137,7 @@ def _first(state: Search) -> None:
     physics = [s for s in state.screened if s.term.effect.component != "instrument"]
     chosen += [s for s in physics[:_REFITTED_PHYSICS] if all(s is not c for c in chosen)]
     least = 0.4 * MATERIAL * min(n for n, _ in origin.account.counts.values())
-    tried = [_try(state, [s.term], {s.term.label: s.values}) for s in chosen if s.gain > least]
+    tried = _try_all(state, [([s.term], {s.term.label: s.values}) for s in chosen if s.gain > least])
     good = [h for h in tried if material(origin.account, origin.account, h.account)]
     best = max(good, key=lambda h: score(origin.account, h.account), default=None)
     pair = _leading_pair(state, best)
@@ -162,9 +164,8 @@ def _further(state: Search) -> bool:
         return False  # nothing is left that could be worth a name
     least = 0.4 * MATERIAL_FURTHER * min(n for n, _ in account.counts.values())
     found = [s for s in rescreen(state, before) if s.gain > least]
-    tried = []
-    for s in _various(found, _REFITTED_PAIRS + 1):
-        tried.append(_try(state, [*before.terms, s.term], {s.term.label: s.values}, before))
+    chosen = _various(found, _REFITTED_PAIRS + 1)
+    tried = _try_all(state, [([*before.terms, s.term], {s.term.label: s.values}) for s in chosen], before)
     good = [h for h in tried if material(origin.account, before.account, h.account)]
     if not good:
         return False
@@ -207,8 +208,18 @@ def _scaled(found: Screened, amount: float, gain: float) -> Screened:
 
 
 def _try(state: Search, terms: Sequence[Term], starts: dict, before: Hypothesis | None = None) -> Hypothesis:
-    found = refit(state.base, terms, starts, before)
-    state.tried.append(found)
+    return _try_all(state, [(terms, starts)], before)[0]
+
+
+def _try_all(
+    state: Search, asked: Sequence[tuple[Sequence[Term], dict]], before: Hypothesis | None = None
+) -> list[Hypothesis]:
+    """Refit hypotheses of one kind; only the best of them are worth a fit to the end."""
+    origin = state.path[0].account
+    found = [refit(state.base, terms, starts, before) for terms, starts in asked]
+    found.sort(key=lambda h: -score(origin, h.account))
+    found = [polished(h) if i < _POLISHED else h for i, h in enumerate(found)]
+    state.tried += found
     return found
 
 
@@ -268,7 +279,11 @@ def _prune(state: Search) -> None:
         whole = state.best
         for term in whole.terms:
             rest = [t for t in whole.terms if t.label != term.label]
-            fewer = _try(state, rest, {}, whole)
+            labels = {t.label for t in rest}
+            # what was fitted before may do; only if not is it fitted again, from where the whole ended
+            known = [h for h in state.tried if {t.label for t in h.terms} == labels]
+            spare = next((h for h in known if not material(origin.account, h.account, whole.account)), None)
+            fewer = spare or _try(state, rest, {}, whole)
             if not material(origin.account, fewer.account, whole.account):
                 state.path.append(fewer)
                 break

@@ -14,6 +14,8 @@ from slipwise.diagnose.search import MATERIAL, MOST_EFFECTS, Search, material, s
 RIGHT_FAMILY = 0.66
 #: An effect that explains less than half of little, and leaves nothing with structure, is no finding.
 HALF, _FAINT, _COIN = 0.5, 0.4, 0.6
+#: A mean squared residual above this is no perfect model's [noise variance], even where no state foretells it.
+LOUD = 1.5
 #: Rivals whose scores differ by less than this share, or by less than this much, cannot be told apart.
 _SAME_SHARE, _SAME_SCORE = 0.004, 60.0
 #: One thing to a rig without a gauge that could part them.
@@ -58,13 +60,14 @@ def judge(state: Search) -> Verdict:
     remains = structured(surface)
     explained = 1.0 - excess(best.account) / max(excess(origin.account), 1e-12)
     if not best.terms:
-        if remains:
-            return Verdict("unknown", (), _unknown_probability(surface, 0.0), "unknown", 0.0, surface, ())
+        if remains or _loud(best):
+            shown = surface if remains else None
+            return Verdict("unknown", (), _unknown_probability(shown, 0.0), "unknown", 0.0, shown, ())
         return Verdict("complete", (), _complete_probability(state), "none", 1.0, surface, ())
     too_many = len(best.terms) >= MOST_EFFECTS
-    if remains and (explained < RIGHT_FAMILY or too_many):
-        probability = _unknown_probability(surface, explained)
-        return Verdict("unknown", (), probability, "unknown", explained, surface, ())
+    if (remains and (explained < RIGHT_FAMILY or too_many)) or (_loud(best) and explained < HALF):
+        shown = surface if remains else None
+        return Verdict("unknown", (), _unknown_probability(shown, explained), "unknown", explained, shown, ())
     drop = worth(origin.account, best.account)[0]
     if explained < HALF and not remains and drop < _FAINT:
         return Verdict("complete", (), _COIN, "none", explained, surface, ())
@@ -82,6 +85,14 @@ def judge(state: Search) -> Verdict:
             return Verdict("ambiguous", tuple(sorted(pair)), probability, left, explained, surface, ())
     instruments = all(t.effect.component == "instrument" for t in best.terms)
     return Verdict("instrument" if instruments else "named", names, probability, left, explained, surface, ())
+
+
+def _loud(found: Hypothesis) -> bool:
+    """Tell whether a hypothesis leaves more than noise in all runs, whether or not a state organises it."""
+    levels = found.account
+    told = [r for r in ("pads", "girder", "heave") if r in levels.fitted]
+    both = [[levels.level(r, held_out=h) for h in (False, True) if levels.counts[r][h]] for r in told]
+    return any(min(of) > LOUD for of in both if of)
 
 
 def with_faults(found: Verdict, faults: Sequence[SampleFault]) -> Verdict:
