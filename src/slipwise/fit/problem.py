@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.channels import channels_like
 from slipwise.effects import Effect
 from slipwise.fit.balances import available, buffer_forces, heave_noise, motion_residual, predicted
 from slipwise.fit.data import FitRun, refined, smoothed
@@ -40,8 +41,8 @@ _PAD_KEYS = (*_LAW_KEYS, *_SEEN_KEYS)
 #: Effects of the catalogue that turn the girder about the vertical.
 _TURNERS = ("buffer_mismatch", "mass_eccentricity")
 _PAD_PORTS = ("area", "shear", "stick", "pad")
-#: Rounds in which a fault without an inverse is taken out.
-_NEUMANN = 4
+#: A fault without an inverse is taken out as far as it weakened a channel by no more than this [1].
+_SHARPEST = 3.0
 #: Results of this many recent sets of numbers are kept: a difference quotient comes back to its base.
 _KEPT = 4
 #: Where a model has its own memory of slip, or nothing is fitted yet [m].
@@ -206,6 +207,9 @@ class Problem:
         plain = self._logged(still, self.runs, states, law.at_instants(self.runs, states))
         faster = [self._instants(r, i, values, more=r.states.velocity_error[0]) for i, r in enumerate(self.runs)]
         shifted = self._logged(still, self.runs, faster, law.at_instants(self.runs, faster))
+        for forces in (plain, shifted):  # a late gauge shows its reversals, and their noise, later too
+            for i, run in enumerate(self.runs):
+                forces[i] = forces[i] + self._faulty_force(values, run, forces[i])[1]
         self.sigmas = {r: [] for r in self.relations}
         for i, run in enumerate(self.runs):
             gauge = np.array([run.noise[f"pad_{p}_Fx"] for p in run.pads])
@@ -334,8 +338,13 @@ class Problem:
         """Give the measured forces without their faults, and what the faults add to the predicted ones, (n, p) each."""
         if not self._on_force:
             return run.force, np.zeros_like(force)
-        clean = np.where(run.sliding[:, None], force, run.force)
         names = [f"pad_{p}_Fx" for p in run.pads]
+        mended = run
+        for term in self._on_force:
+            mended = _without(term, values, mended)
+        # while a pad sticks the law does not say its force
+        stuck = np.stack([mended.record[n] for n in names], axis=1)
+        clean = np.where(run.sliding[:, None], force, stuck)
         record = run.record.replaced(**{n: clean[:, i] for i, n in enumerate(names)})
         record = record.replaced(**{f"pad_{p}_N": run.load[:, i] for i, p in enumerate(run.pads)})
         faulty = _faulted(self._on_force, values, record)
@@ -400,15 +409,31 @@ def _without(term: Term, values: Mapping[str, float], run: FitRun) -> FitRun:
         if "undo" in term.effect.hooks:
             record = _call(entry.effect, "undo", record, entry.target, entry.values)
         else:
-            measured = record.replaced(**{entry.target: smoothed(record[entry.target], run)})
-            true = measured
-            for _ in range(_NEUMANN):  # true = measured - (fault(true) - true)
-                faulty = _call(entry.effect, "gauge", true, entry.target, entry.values)
-                change = faulty[entry.target] - true[entry.target]
-                true = measured.replaced(**{entry.target: measured[entry.target] - change})
-            record = record.replaced(**{entry.target: record[entry.target] - change})
+            names = [n for n in channels_like(entry.target) if n in record]
+            pulse = np.zeros(len(record))
+            pulse[len(pulse) // 2] = 1.0
+            shown = _call(entry.effect, "gauge", record.replaced(**{n: pulse for n in names}), entry.target, entry.values)
+            for n in names:
+                seen = smoothed(record[n], run)
+                record = record.replaced(**{n: record[n] + _sharpened(seen, shown[n], run.dt) - seen})
     moved = any(record[n] is not run.record[n] for n in ("slip_x", "girder_ax", "table_ax") if n in record)
     return run.with_record(record, moved=moved)
+
+
+def _sharpened(values: Array, pulse: Array, dt: float) -> Array:
+    """Take out of values (n,) what made a pulse in the middle of a record look like `pulse` (n,).
+
+    What came out weaker than a third stays as weak as that would be: its noise would be all there is.
+    """
+    middle = len(pulse) // 2
+    passed, grid = np.fft.rfft(np.roll(pulse, -middle)), np.fft.rfftfreq(len(pulse), dt)
+
+    def inverse(f: Array) -> NDArray[np.complex128]:
+        here = np.interp(f, grid, passed.real) + 1j * np.interp(f, grid, passed.imag)
+        size = np.maximum(np.abs(here), 1e-12)
+        return np.minimum(1.0 / size, _SHARPEST) * np.conj(here) / size
+
+    return in_frequency(values, dt, inverse, min(middle, 256))
 
 
 def _noise_scale(terms: Sequence[Term], values: Mapping[str, float], run: FitRun) -> dict[str, float]:

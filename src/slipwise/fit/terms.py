@@ -28,6 +28,15 @@ _SMALL: dict[str, tuple[float, float, float, float, str]] = {
     "rig.late_pitch": (0.0, -LATE, LATE, 5e-5, "s"),
     "rig.late_slip": (0.0, -LATE, LATE, 5e-5, "s"),
 }
+#: The lag of these channels is the number; a `channel_delay` on them takes its place.
+_LAGS: dict[str, str] = {
+    "rig.late_force": "pad_*_Fx",
+    "rig.late_load": "pad_*_N",
+    "rig.late_pitch": "pad_*_N",
+    "rig.late_girder": "girder_ax",
+    "rig.late_slip": "slip_x",
+}
+_DELAY = "channel_delay"
 #: Slip over which a pad's friction turns round without any effect of its own [m]; beyond 20 um it is `presliding`.
 _STICK_LENGTH = (1e-6, 1e-8, 2e-5, 1e-6)
 #: The friction channels' filter where the campaign does not know it [Hz].
@@ -124,7 +133,8 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True) -> lis
         out.append(Free("rig.late_force", 0.0, -late, late, 5e-5, "s"))
         if not logger_known:
             out.append(Free("rig.logger", *_LOGGER, "Hz"))
-    return out
+    delayed = {entry.target for entry in model.uses if entry.effect.name == _DELAY}
+    return [f for f in out if _LAGS.get(f.key) not in delayed]
 
 
 def _around(key: str, value: float, low: float, high: float, unit: str) -> Free:
