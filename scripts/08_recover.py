@@ -2,14 +2,15 @@
 
     python scripts/08_recover.py [--out out/recover] [--quick]
 
-The rig is replayed in MuJoCo under a sine and two earthquakes with vertical and cross-wise parts and recorded as a
-laboratory would: through a low-pass filter that the campaign states, then at 500 Hz, every channel with white noise of
-1 % of its standard deviation. The fit starts at half the planted strength. For each effect the page says
+The rig is replayed in MuJoCo, in steps that leave no error of their own, under a sine and two earthquakes with vertical
+parts, and recorded as a laboratory would: through a low-pass filter that the campaign states, then at 500 Hz, every
+channel with white noise of 1 % of its standard deviation. The fit starts at half the planted strength. For each effect the page says
 whether the truth lies inside the 95 % interval, and how much of the effect the base parameters could hide.
 """
 
 import argparse
 import hashlib
+from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
 
@@ -25,20 +26,22 @@ from slipwise.fit.terms import Term
 from slipwise.model import EffectUse, Model, base_model
 from slipwise.motion import load_motion
 from slipwise.record import Record, write_json
-from slipwise.replay import DT, replay
+from slipwise.replay import replay
 from slipwise.signals import LowPass, lowpass
 
 NOISE = 0.01
 #: Without it reversals, which take a fraction of a millisecond, would alias.
 LOGGER = LowPass(100.0)
 SAMPLE_DT = 0.002
+#: In steps of 0.5 ms friction turns round up to a millisecond off, which a law would have to make up for.
+DT = 5e-5
 MOTIONS = {
-    "sine": "sine:1.6Hz,0.25g,cycles=12,vertical=5Hz,0.2g,across=1.1Hz,0.05g",
-    "quake": "quake:seed=3,peak=0.6g,f=4Hz,strong=4s,vertical=0.3g,across=0.2g",
-    "quake2": "quake:seed=8,peak=0.8g,f=3.5Hz,strong=4s,vertical=0.3g,across=0.2g",
+    "sine": "sine:1.6Hz,0.25g,cycles=12,vertical=5Hz,0.2g",
+    "quake": "quake:seed=3,peak=0.6g,f=4Hz,strong=4s,vertical=0.3g",
+    "quake2": "quake:seed=8,peak=0.8g,f=3.5Hz,strong=4s,vertical=0.3g",
 }
 #: What a laboratory would record; the rest of what a replay knows is left out.
-KEPT = ("table_a", "girder_a", "slip_x", "slip_y", "yaw", "pad_")
+KEPT = ("table_a?", "girder_a?", "slip_x", "pad_?_N", "pad_?_Fx")
 QUICK = ("run_in", "buffer_damping", "load_crosstalk")
 
 
@@ -46,12 +49,12 @@ def measured(model: Model, rng: np.random.Generator) -> Campaign:
     """Replay a model and measure it with noise."""
     runs, memory = [], None
     for name, text in MOTIONS.items():
-        answer = replay(model, load_motion(text), output_dt=DT, start=memory, rest=1800.0)
+        answer = replay(model, load_motion(text), dt=DT, output_dt=DT, start=memory, rest=1800.0)
         memory = answer.memory
         every = round(SAMPLE_DT / DT)
         channels = {}
         for channel, values in answer.record.channels.items():
-            if channel.startswith(KEPT) and not channel.endswith(("_P", "_vx", "_vy")):
+            if any(fnmatchcase(channel, kept) for kept in KEPT):
                 seen = lowpass(values, DT, LOGGER)[::every]
                 channels[channel] = seen + NOISE * np.std(seen) * rng.standard_normal(len(seen))
         digest = hashlib.sha256(name.encode()).hexdigest()

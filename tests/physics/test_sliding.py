@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from shaking import FAST, G, coulomb, shaken
+from shaking import FAST, G, coulomb, shaken, sine
 from slipwise.model import base_model
 from slipwise.replay import simulate
 from slipwise.rig import load_specimen
@@ -148,3 +148,15 @@ def test_warp_changes_no_motion_with_coulomb_friction_and_little_with_eq7():
         uneven = shaken(replace(model, specimen=replace(model.specimen, seating=warped)), motion).record
         assert uneven.stacked("pad_{}_N")[0] == pytest.approx(24516.625 + 200e6 * np.array(warped), rel=1e-9)
         assert half_range(uneven["slip_x"]) == pytest.approx(half_range(flat), rel=allowed)
+
+
+@pytest.mark.parametrize("dt", [5e-4, 1e-4])
+def test_friction_turns_round_with_the_slip_to_a_few_steps(dt):
+    """A finer step must be a better answer: a friction that let go early by a fixed time would never converge."""
+    record = shaken(coulomb("bridge1"), sine(2.0, 4.0, 3.0, dt=dt), dt=dt).record
+    late = record.time > 1.5
+    friction, speed = sum(record[f"pad_{p}_Fx"] for p in "ABCD")[late], record["slip_vx"][late]
+    turns = np.flatnonzero(np.signbit(speed[1:]) != np.signbit(speed[:-1]))
+    changes = np.flatnonzero(np.signbit(friction[1:]) != np.signbit(friction[:-1]))
+    assert len(turns) >= 5
+    assert all(np.abs(changes - turn).min() <= 3 for turn in turns)

@@ -14,6 +14,8 @@ from slipwise.rig.specimen import Specimen
 _IMPEDANCE = 0.001
 #: Largest step times angular frequency of the stiffest mode: beyond it explicit springs gain energy.
 _STABLE = 0.6
+#: Shortest time constant of a constraint over the step: MuJoCo takes no less.
+_SHORTEST_STOP = 2.0
 #: Armature of the table's joints [kg]: it makes the table follow its command whatever the girder does.
 _ARMATURE = 1e10
 TABLE_AXES: tuple[str, ...] = ("ax", "ay", "az", "apitch")
@@ -90,7 +92,7 @@ def build(specimen: Specimen, dt: float, nuserdata: int) -> Rig:
     spec.nuserdata = nuserdata
     _place_girder(spec, specimen)
     if specimen.free:
-        _place_tendons(spec, specimen)
+        _place_tendons(spec, specimen, dt)
     _drive_table(spec, specimen)
     if specimen.bending_mass > 0.0:
         _add_bending(spec, specimen)
@@ -155,8 +157,12 @@ def _swap_pads(spec: mujoco.MjSpec, specimen: Specimen) -> None:
         table.add_geom(name=f"plate_{pad}", pos=[low[0], low[1], low[2] - floor["size"][2]], **floor)
 
 
-def _place_tendons(spec: mujoco.MjSpec, specimen: Specimen) -> None:
-    """Write the slip rate of the soffit over each pad and of each key, v = v_centre + turning x arm."""
+def _place_tendons(spec: mujoco.MjSpec, specimen: Specimen, dt: float) -> None:
+    """Write the slip rate of the soffit over each pad and of each key, v = v_centre + turning x arm.
+
+    Dry friction brings a slider to rest within a time constant, and turns round that much before the slip does: it is
+    made as short as the step allows, so that a finer step is a better answer.
+    """
     arms: dict[str, tuple[float, float, float]] = {}
     for pad, (x, y) in zip(specimen.pads, specimen.pad_places, strict=True):
         arms[f"pad_{pad}"] = (x - specimen.centre_x, y - specimen.centre_y, -specimen.centre_height)
@@ -177,6 +183,7 @@ def _place_tendons(spec: mujoco.MjSpec, specimen: Specimen) -> None:
                 field: getattr(old, field) for field in ("frictionloss", "solref_friction", "solimp_friction", "rgba")
             }
             kept = {field: (np.array(value) if np.ndim(value) else value) for field, value in kept.items()}
+            kept["solref_friction"][0] = _SHORTEST_STOP * dt
             spec.delete(old)
             new = spec.add_tendon(name=f"{name}_{axis}", **kept)
             for joint, coefficient in coefficients.items():
