@@ -11,41 +11,59 @@ import numpy as np
 from slipwise.campaign import Campaign, Logger
 from slipwise.fit.data import fit_runs
 from slipwise.fit.problem import Problem
-from slipwise.fit.solve import Solution
-from slipwise.fit.terms import terms_of
+from slipwise.fit.solve import Solution, solve
+from slipwise.fit.terms import base_free, terms_of
 from slipwise.model import Model
 from slipwise.signals import LowPass
 
 _KINDS: tuple[tuple[int, str], ...] = ((4, "zero"), (2, "zero"), (4, "causal"), (2, "causal"))
-_FREQUENCIES: tuple[float, ...] = (50.0, 65.0, 80.0, 100.0, 125.0, 155.0, 190.0)
-_FINER: tuple[float, ...] = (0.9, 0.95, 1.05, 1.1)
+_FREQUENCIES: tuple[float, ...] = (55.0, 80.0, 115.0, 165.0)
+#: A kind is looked at more closely while its best error is within this factor of the best of all.
+_NEAR = 1.6
+#: Ratio of neighbouring frequencies at which the closer look begins and ends; each round takes its square root.
+_WIDE, _NARROW = 1.2, 1.02
+#: Numbers of the rig that decide how a reversal looks.
+_OF_REVERSALS = ("rig.stick_length", "rig.late_force", "rig.pitch_slip", "rig.shear_strength")
 
 
 def estimated_logger(campaign: Campaign, model: Model, first: Solution) -> LowPass:
-    """Give the filter under which a fitted law explains the reversals of one run best.
+    """Give the filter under which the law of friction, fitted anew for each, explains one run's pads best.
+
+    A law that was fitted under a wrong filter has bent itself to it and speaks for a filter like that one.
 
     Args:
         campaign: of unknown logger.
         model: its base model.
-        first: a fit with a guessed filter; its law is kept.
+        first: a fit with a guessed filter; a start.
     """
     fastest = max(campaign.with_role("fit", "repeat"), key=lambda r: float(np.ptp(r.record["slip_x"])))
     limit = 0.48 / fastest.record.dt
-    alone = replace(campaign, runs=(fastest,))
-    values = {**first.values, "rig.stick_length": 1e-7, "rig.late_force": 0.0, "rig.pitch_slip": 0.0}
-    values.pop("rig.logger", None)
+    alone = replace(campaign, runs=(replace(fastest, role="fit"),))
+    start = {k: v for k, v in first.values.items() if k != "rig.logger"}
+    start |= {"rig.stick_length": 1e-6, "rig.late_force": 0.0}
+    own = [f for f in base_free(model, balances=True) if not f.key.startswith("rig.") or f.key in _OF_REVERSALS]
+    tried: dict[LowPass, float] = {}
 
     def error(kind: LowPass) -> float:
-        runs = fit_runs(replace(alone, logger=Logger(kind, known=True)))
-        problem = Problem(runs, model.specimen, terms_of(model))
-        problem.weigh(values)
-        problem.weigh(values)
-        left = problem.residuals(values).parts["pads"][0] * problem.sigmas["pads"][0]
-        return float(np.sum(left**2))
+        if kind not in tried:
+            runs = fit_runs(replace(alone, logger=Logger(kind, known=True)))
+            problem = Problem(runs, model.specimen, terms_of(model))
+            problem.relations = ("pads",)
+            problem.weigh(start)
+            values = solve(problem, start, own, most=3, enough=20.0).values
+            problem.weigh(values)
+            found = solve(problem, values, own, most=1, enough=20.0)
+            tried[kind] = float(np.sum((found.residuals.parts["pads"][0] * problem.sigmas["pads"][0]) ** 2))
+        return tried[kind]
 
-    kinds = [LowPass(f, order, phase) for order, phase in _KINDS for f in _FREQUENCIES if f < limit]
-    tried = {kind: error(kind) for kind in kinds}
-    best = min(tried, key=lambda k: tried[k])
-    finer = [replace(best, frequency=best.frequency * x) for x in _FINER if best.frequency * x < limit]
-    tried.update({kind: error(kind) for kind in finer})
-    return min(tried, key=lambda k: tried[k])
+    coarse = [[LowPass(f, order, phase) for f in _FREQUENCIES if f < limit] for order, phase in _KINDS]
+    leaders = [min(kinds, key=error) for kinds in coarse]
+    best = min(leaders, key=error)
+    for leader in [k for k in leaders if error(k) <= _NEAR * error(best)]:
+        ratio, centre = _WIDE, leader
+        while ratio > _NARROW:
+            beside = [replace(centre, frequency=centre.frequency * x) for x in (1.0 / ratio, ratio)]
+            centre = min([centre, *(k for k in beside if k.frequency < limit)], key=error)
+            ratio = float(np.sqrt(ratio))
+        best = min(best, centre, key=error)
+    return best
