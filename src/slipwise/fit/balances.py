@@ -74,7 +74,8 @@ def heave_rate(run: FitRun, specimen: Specimen) -> Array:
     """Give the girder's vertical rate over the table (n,) [m/s]: the pads' shortening under the measured loads."""
     total = run.load.sum(axis=1)
     stiffness = len(specimen.pads) * specimen.pad_stiffness
-    smooth = in_frequency(total, run.dt, lambda f: 1.0 / (1.0 + (f / 100.0) ** 8), 64)
+    lag = specimen.pad_damping / specimen.pad_stiffness  # a pad's damper carries load before its spring has given way
+    smooth = in_frequency(total, run.dt, lambda f: 1.0 / (1.0 + (f / 100.0) ** 8) / (1.0 + 2j * np.pi * f * lag), 64)
     return -np.gradient(smooth, run.dt) / stiffness
 
 
