@@ -3,9 +3,9 @@
 from dataclasses import replace
 
 import pytest
+
 from bench import build_campaign
 from bench.write import write_campaign
-
 from slipwise.campaign import load_campaign
 from slipwise.fit.base import fit_base
 
