@@ -1,6 +1,7 @@
 """A blind bench: a second simulator of the rig that shares nothing with the library, and campaigns made with it."""
 
-from bench.campaign import Campaign, build_campaign, make_campaign
+from bench.campaign import Campaign, build_campaign, make_campaign, with_faults
+from bench.faults import GROUPS, Fault
 from bench.hidden import INSTRUMENTS, PHYSICS, SIZES, Case, draw, plan
 from bench.motions import Motion
 from bench.rig_ode import Memory, simulate
@@ -9,11 +10,13 @@ from bench.truth import Truth
 from bench.write import write_truth
 
 __all__ = [
+    "GROUPS",
     "INSTRUMENTS",
     "PHYSICS",
     "SIZES",
     "Campaign",
     "Case",
+    "Fault",
     "Memory",
     "Motion",
     "Settings",
@@ -25,5 +28,6 @@ __all__ = [
     "random_rig",
     "rated",
     "simulate",
+    "with_faults",
     "write_truth",
 ]

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from bench.faults import with_rails
+from bench.faults import Fault, with_rails
 from bench.floors import sizes_in_floors
 from bench.gauges import RICH, USUAL, draw_logger, measure
 from bench.hidden import SIZES, Case, draw, hide
@@ -134,6 +134,24 @@ def build_campaign(
     hidden = replace(hidden, faults=tuple(faults))
     truth = Truth(name, seed, rig, rich, size if hidden.missing else "", hidden, base, logger, floors)
     return Campaign(truth, runs, recorded)
+
+
+def with_faults(made: Campaign, faults: Sequence[Fault], seed: int) -> Campaign:
+    """Record the same shaking once more, with other faults of gauges and fresh noise; the truth stays the rig's.
+
+    Args:
+        made: whose true channels are measured.
+        faults: of gauges, in order.
+        seed: of the noise.
+    """
+    logger = made.truth.logger
+    names = [name for name in next(iter(made.recorded.values())) if name != "time"]
+    railed = [with_rails(f, list(made.true.values())) if f.effect == "channel_clipping" else f for f in faults]
+    rng = np.random.default_rng(seed)
+    recorded = {
+        run: measure(true, names, logger, railed, rng, number) for number, (run, true) in enumerate(made.true.items())
+    }
+    return replace(made, recorded=recorded)
 
 
 def make_campaign(

@@ -4,5 +4,6 @@ from slipwise.audit.audit import audit
 from slipwise.audit.correct import correct
 from slipwise.audit.finding import AuditReport, Balance, Finding, LoggerEstimate
 from slipwise.audit.logger import estimate_logger
+from slipwise.audit.words import shown
 
-__all__ = ["AuditReport", "Balance", "Finding", "LoggerEstimate", "audit", "correct", "estimate_logger"]
+__all__ = ["AuditReport", "Balance", "Finding", "LoggerEstimate", "audit", "correct", "estimate_logger", "shown"]

@@ -9,7 +9,7 @@ from slipwise.audit.finding import AuditReport, Balance, Finding
 from slipwise.audit.judge import KNOWN_MASS, RATED_MASS, Case, Fit
 from slipwise.audit.logger import estimate_logger
 from slipwise.audit.rows import hold, noise_of_channels, noise_of_runs
-from slipwise.audit.samples import SampleFault, coarse, repaired, sample_faults
+from slipwise.audit.samples import RAILS, SampleFault, coarse, repaired, sample_faults
 from slipwise.audit.signs import turned_gauges
 from slipwise.audit.suspects import Suspect
 from slipwise.audit.verdict import Evidence, judge
@@ -26,7 +26,7 @@ _SUREST = 0.99
 #: A rounding step above this many standard deviations of noise is worth a word [1].
 _COARSE = 2.0
 #: Sample faults -> effect of the catalogue, and how sure they are.
-_SAMPLE = {"dead": "channel_gain", "rail": "channel_clipping"}
+_SAMPLE = {"dead": "channel_gain", **dict.fromkeys(RAILS, "channel_clipping")}
 
 
 def audit(campaign: Campaign) -> AuditReport:
@@ -115,14 +115,17 @@ def _of_samples(fault: SampleFault) -> Finding:
     """Turn bad samples into a finding."""
     effect = _SAMPLE.get(fault.kind, "dropped_samples")
     place = _place(fault.channels)
-    unit = channel(fault.channels[0]).unit if fault.kind == "rail" else "1"
+    unit = channel(fault.channels[0]).unit if fault.kind in RAILS else "1"
     words = {
         "dead": f"{place} is dead in {', '.join(fault.runs)}",
         "lost": f"{place} has lost samples: what follows them came early, and the end repeats one value",
         "gap": f"the logger has lost {fault.size:.2%} of all samples",
     }.get(fault.kind, sentence(effect, place, fault.size, unit))
-    parameter = catalogue()[effect].parameters[0]
-    value = abs(fault.size) / span(fault.channels[0]) if fault.kind == "rail" else fault.size
+    if fault.kind in RAILS:
+        upper = fault.kind == RAILS[0]
+        values = {"upper" if upper else "lower": (1.0 if upper else -1.0) * fault.size / span(fault.channels[0])}
+    else:
+        values = {catalogue()[effect].parameters[0].name: fault.size}
     return Finding(
         what=effect,
         channel=place,
@@ -135,7 +138,7 @@ def _of_samples(fault: SampleFault) -> Finding:
         settle_by=how_to_settle(effect, ()),
         words=words,
         target=fault.channels[0] if len(fault.channels) == 1 else place,
-        values={parameter.name: value},
+        values=values,
         runs=fault.runs,
     )
 

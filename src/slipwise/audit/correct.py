@@ -26,13 +26,15 @@ def correct(campaign: Campaign, report: AuditReport, names: Iterable[str]) -> tu
 
     Raises:
         UnknownNameError: no finding has such a name.
-        InputError: a fault whose harm cannot be undone, such as a rail.
+        InputError: nothing was found at all, or a fault whose harm cannot be undone, such as a rail.
     """
     done: list[str] = []
     for name in names:
         chosen = [finding for finding in report.findings if name in (finding.name, finding.what)]
         if not chosen:
             known = [finding.name for finding in report.findings]
+            if not known:
+                raise InputError(f"{name!r}: the audit accuses no gauge, there is nothing to correct")
             raise unknown_name("finding", name, known, "`slipwise audit` lists them.")
         for finding in chosen:
             words = f"corrected: {finding.words}"

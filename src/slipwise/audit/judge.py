@@ -27,6 +27,8 @@ EVIDENCE = 0.2
 PER_NUMBER = 4.0
 #: A floor is known well enough that no explanation is paid for going below this part of it [1].
 _SURE = 0.7
+#: Part of a column's power below which what is left of it is rounding [1].
+_NOTHING = 1e-6
 #: Steps of Gauss-Newton at most; sizes that change by less than this part of what matters have come to rest.
 _STEPS, _RESTED = 5, 0.02
 
@@ -240,9 +242,11 @@ def supports(
         own = slice(int(first[len(fitted.held) + k]), int(first[len(fitted.held) + k + 1]))
         mine = slice(own.start - known, own.stop - known)
         left = squares[own, own] - squares[own, :known] @ carried[:, mine]
-        size = np.diag(squares)[own]
-        if own.stop == own.start or not np.any(np.diag(left) > 1e-6 * np.maximum(size, 1e-300)):
+        # columns that are known already, but for rounding, get no step
+        known_already = np.diag(left) <= _NOTHING * np.maximum(np.diag(squares)[own], 1e-300)
+        if known_already.all():
             continue
+        left[known_already], left[:, known_already] = 0.0, 0.0
         noise = sum(weight[n] ** 2 * power for n, power in itself[k].items())
         step = inverse(left) @ (along[own] - carried[:, mine].T @ along[:known] - noise)
         if one_sided[k] and step[0] < 0.0:

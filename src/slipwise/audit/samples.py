@@ -12,11 +12,15 @@ from slipwise.campaign import Campaign, Run
 from slipwise.campaign.aligned import spread
 from slipwise.record import Record
 from slipwise.signals import white_level
+from slipwise.signals.noise import quantum
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 #: A rail holds at least this many samples of a campaign, in one place at least that many, this part side by side [1].
 _RAIL, _LONG_RAIL, _BESIDE = 6, 15, 0.5
+RAILS: tuple[str, ...] = ("upper rail", "lower rail")
+#: A rail is met faster than this many standard deviations of noise, and this many steps of rounding, a sample [1].
+_FAST, _STEPS = 0.2, 1.5
 #: Samples repeat when so many more of them equal their neighbour than rounding explains (standard deviations), and
 #: this part of all [1].
 _SURE, _REPEATED = 6.0, 0.002
@@ -35,7 +39,7 @@ class SampleFault:
     """Bad samples of one channel, or of several at the same instants.
 
     Attributes:
-        kind: "dead", "rail", "held", "lost" or "gap".
+        kind: "dead", "upper rail", "lower rail", "held", "lost" or "gap".
         channels: that show it.
         size: rail in the channel's unit; else share of all samples [1].
         bad: run -> samples that are no measurement (n,).
@@ -56,9 +60,12 @@ def sample_faults(campaign: Campaign) -> list[SampleFault]:
     for name in names:
         runs = [run for run in campaign.runs if name in run.record]
         fault = _dead(name, runs)
-        if fault is None and not (name.startswith("slip") and not campaign.specimen.free):
-            fault = _rail(name, runs)
-        found += [fault] if fault else [f for f in (_held(name, runs), _lost(name, runs)) if f]
+        if fault is not None:
+            found.append(fault)
+            continue
+        # an actuator holds its stroke's end: no rail
+        rails = [] if name.startswith("slip") and not campaign.specimen.free else _rails(name, runs)
+        found += rails or [f for f in (_held(name, runs), _lost(name, runs)) if f]
     return [*_gaps(campaign), *_together(found)]
 
 
@@ -71,8 +78,10 @@ def _dead(name: str, runs: Sequence[Run]) -> SampleFault | None:
     return SampleFault("dead", (name,), -1.0, bad, tuple(bad))
 
 
-def _rail(name: str, runs: Sequence[Run]) -> SampleFault | None:
-    for side in (1.0, -1.0):
+def _rails(name: str, runs: Sequence[Run]) -> list[SampleFault]:
+    """An amplifier has two rails, and a gauge may meet either of them or both."""
+    found = []
+    for kind, side in (("upper rail", 1.0), ("lower rail", -1.0)):
         top = max(float((side * run.record[name]).max()) for run in runs)
         bad = {run.name: side * run.record[name] >= top for run in runs}
         count = sum(int(b.sum()) for b in bad.values())
@@ -81,19 +90,21 @@ def _rail(name: str, runs: Sequence[Run]) -> SampleFault | None:
         met = count - beside
         if (met >= 2 or count >= _LONG_RAIL) and count >= _RAIL and beside >= _BESIDE * count:
             if _cut(name, runs, bad, side):
-                return SampleFault("rail", (name,), side * top, bad, tuple(n for n, b in bad.items() if b.any()))
-    return None
+                found.append(SampleFault(kind, (name,), side * top, bad, tuple(n for n, b in bad.items() if b.any())))
+    return found
 
 
 def _cut(name: str, runs: Sequence[Run], bad: dict[str, Mask], side: float) -> bool:
-    """Tell a rail from a rest at the largest value: a rail is met and left at speed, far above noise."""
-    steps, everywhere = [], []
+    """Tell a rail from a rest at the largest value: a rail is met and left at speed, far above noise and rounding."""
+    steps, everywhere, rounding = [], [], []
     for run in runs:
         values, on = side * run.record[name], bad[run.name]
         edges = np.flatnonzero(on[1:] != on[:-1])
         steps.extend(np.abs(values[edges + 1] - values[edges]).tolist())
         everywhere.append(white_level(values))
-    return bool(steps) and float(np.median(steps)) > 0.2 * float(np.median(everywhere))
+        rounding.append(quantum(values))
+    least = max(_FAST * float(np.median(everywhere)), _STEPS * max(rounding))
+    return bool(steps) and float(np.median(steps)) > least
 
 
 def _held(name: str, runs: Sequence[Run]) -> SampleFault | None:
@@ -224,7 +235,7 @@ def repaired(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[dict[st
             bad = fault.bad.get(run.name)
             if bad is None:
                 continue
-            if fault.kind in ("rail", "gap"):
+            if fault.kind in (*RAILS, "gap"):
                 leave |= bad
             for name in fault.channels:
                 if fault.kind == "held" and name in channels:

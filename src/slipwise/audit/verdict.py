@@ -1,13 +1,13 @@
 """Which suspects stand: forward choice among suspects and physics, then what speaks for each suspect."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.audit.alternatives import Alternative, alternatives
-from slipwise.audit.judge import Case, Fit, fit, noise_with_itself, predicted, signature, start, supports
+from slipwise.audit.judge import EVIDENCE, Case, Fit, fit, noise_with_itself, predicted, signature, start, supports
 from slipwise.audit.normal import inverse, parts_of, weighed
 from slipwise.audit.rows import Block
 from slipwise.audit.suspects import Suspect, suspects
@@ -25,8 +25,10 @@ _ALIKE = 15.0
 _SHARE, _FIRST_SHARE = 0.5, 0.1
 #: Floors are known this well: what is below this many of their squares is no excess [1].
 _FLOOR_SURE = 1.15
-#: Sizes seen by single runs and single relations lie within this of the whole [1].
-_AGREE = 0.5
+#: Sizes seen by single runs and single relations lie within this of the whole [1], or this many standard errors.
+_AGREE, _APART = 0.5, 3.0
+#: A size is known when it is this many standard errors from zero, in balances that may accuse too.
+_SIGNIFICANT = 4.0
 #: Runs and relations that hold less than this part of the evidence are not asked.
 _ASKED = 0.08
 
@@ -87,6 +89,8 @@ def judge(case: Case, begun: Fit | None = None) -> Verdict:
         begun: its fit of constants alone, if there is one.
     """
     first = here = begun or start(case)
+    # before physics is named, what a fault that stands has left is what the next one has to explain
+    plain = first
     candidates: list[Suspect | Alternative] = [*suspects(case.runs[0].record)]
     blocks: list[Block] = []
     itself: list[Mapping[str, float]] = []
@@ -124,7 +128,7 @@ def judge(case: Case, begun: Fit | None = None) -> Verdict:
             here = fits[best]
             continue
         tried = fits[best]
-        evidence = weigh(case, first, here, tried, len(tried.model.sizes) - 1)
+        evidence = weigh(case, plain, here, tried, len(tried.model.sizes) - 1)
         if evidence.small and _possible(evidence):
             # too small to matter, but true: it stays, lest its traces be given to others
             small.append(evidence)
@@ -134,7 +138,15 @@ def judge(case: Case, begun: Fit | None = None) -> Verdict:
         else:
             accepted.append(replace(evidence, rivals=tuple(r for r in rivals if r[0] != _called(chosen))[:6]))
             here = tried
-    return Verdict(here, tuple(accepted), tuple(small), tuple(refused), tuple(a.name for a in here.model.physics))
+            plain = plain if here.model.physics else here
+    physics = tuple(a.name for a in here.model.physics)
+    return Verdict(here, _as_fitted_last(accepted, here), _as_fitted_last(small, here), tuple(refused), physics)
+
+
+def _as_fitted_last(evidence: Sequence[Evidence], last: Fit) -> tuple[Evidence, ...]:
+    """Give evidence with the sizes of the last joint fit: what was named later had disturbed the earlier ones."""
+    sizes = {who.key: (size, error) for (who, size), error in zip(last.model.sizes, last.errors, strict=True)}
+    return tuple(replace(e, size=sizes[e.suspect.key][0], error=sizes[e.suspect.key][1]) for e in evidence)
 
 
 def _plainer(candidates: Sequence[Suspect | Alternative], found: Array, fits: Mapping[int, Fit], best: int) -> int:
@@ -183,16 +195,32 @@ def weigh(case: Case, first: Fit, before: Fit, after: Fit, number: int) -> Evide
     along = {n: weight[n] ** 2 * free[n] * (after.left[n] + size * free[n]) for n in asked}
     total = sum(float(p.sum()) for p in power.values()) or 1e-300
     balances = {n: float(along[n].sum() / power[n].sum()) for n in asked if float(power[n].sum()) > _ASKED * total}
-    runs = []
+    # standard errors grow with what is left, for a relation weighs by that
+    spread = {n: _error(float(power[n].sum())) for n in balances}
+    runs, run_errors = [], []
     for i in range(len(case.runs)):
         held = sum(float(power[n][after.stack.run_of[n] == i].sum()) for n in asked)
         seen = sum(float(along[n][after.stack.run_of[n] == i].sum()) for n in asked)
         if held > _ASKED * total:
             runs.append(seen / held)
+            run_errors.append(_error(held))
     share, first_share = _shares(first, before, after, balances)
     gain, little = after.score - before.score, abs(size) < suspect.least
     evidence = Evidence(suspect, size, after.errors[number], share, tuple(runs), balances, gain, small=little)
-    return replace(evidence, why_not=_why_not(evidence, first_share))
+    apart = {"runs": _apart(size, runs, run_errors), "balances": _apart(size, balances.values(), spread.values())}
+    return replace(evidence, why_not=_why_not(evidence, first_share, _error(total), apart))
+
+
+def _error(power: float) -> float:
+    """Give the standard error of a size that has so much weighed power behind it."""
+    return 1.0 / float(np.sqrt(max(EVIDENCE * power, 1e-300)))
+
+
+def _apart(size: float, sizes: Iterable[float], errors: Iterable[float]) -> bool:
+    """Tell whether single sizes differ from the whole by more than usual, and by more than their errors."""
+    return any(
+        abs(one - size) > max(_AGREE * abs(size), _APART * error) for one, error in zip(sizes, errors, strict=True)
+    )
 
 
 def _alone(after: Fit, number: int) -> dict[str, Array]:
@@ -222,7 +250,7 @@ def _possible(evidence: Evidence) -> bool:
     return evidence.size > 0.0 or not evidence.suspect.one_sided
 
 
-def _why_not(evidence: Evidence, first_share: float) -> str:
+def _why_not(evidence: Evidence, first_share: float, error: float, apart: Mapping[str, bool]) -> str:
     suspect, size = evidence.suspect, evidence.size
     if not evidence.balances:
         return "no balance that may accuse shows it"
@@ -230,13 +258,15 @@ def _why_not(evidence: Evidence, first_share: float) -> str:
         return "its size has a sign that this fault cannot have"
     if evidence.small:
         return f"{size:.3g} {suspect.unit} is below {suspect.least:g}, from where it matters"
-    if abs(size) < 4.0 * evidence.error:
+    if abs(size) < _SIGNIFICANT * evidence.error:
         return "its interval reaches zero"
+    if abs(size) < _SIGNIFICANT * error:
+        return "the balances that may accuse are too noisy to confirm it: only pads that differ show it"
     if evidence.share < _SHARE:
         return f"it explains only {evidence.share:.0%} of what its balances show"
     if first_share < _FIRST_SHARE:
         return f"it explains only {first_share:.0%} of what its balances showed before anything else was named"
     for kind, sizes in (("runs", evidence.runs), ("balances", tuple(evidence.balances.values()))):
-        if any(abs(one / size - 1.0) > _AGREE for one in sizes):
+        if apart[kind]:
             return f"{kind} disagree on its size: " + ", ".join(f"{one:.3g}" for one in sizes)
     return ""

@@ -51,14 +51,16 @@ def audit(campaign: CampaignFolder, correct: Correct = None, json: Json = False)
             found = check_instruments(mended)
     if json:
         content = {"schema": 1, "campaign": measured.name, "accused": found.accused, "words": found.words}
-        content |= {"findings": [dict(row) for row in found.rows], "cannot": list(found.cannot), "notes": list(notes)}
+        notes = (*notes, *found.notes)
+        content |= {"findings": found.report.rows(), "cannot": list(found.cannot), "notes": list(notes)}
         print_json(content)
         return
     for words in (*notes, found.words):
         OUT.print(words, markup=False, highlight=False, soft_wrap=True)
     if found.rows:
-        shown = ("finding", "size", "95 % interval", "shown by", "could be mistaken for")
-        print_table("Findings", [{key: row[key] for key in shown} for row in found.rows])
+        print_table("Findings", found.rows)
+    for words in found.notes:
+        OUT.print(f"note: {words}", markup=False, highlight=False, soft_wrap=True)
     for words in found.cannot:
         OUT.print(f"could not be tested: {words}", markup=False, highlight=False, soft_wrap=True)
 

@@ -6,13 +6,10 @@ Nothing is corrected unless a finding is named: then the records are mended by i
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from slipwise.audit import AuditReport, Finding, LoggerEstimate, audit, correct, shown
 from slipwise.campaign import Campaign
-from slipwise.errors import InputError, unknown_name
-
-if TYPE_CHECKING:
-    from slipwise.audit.verdict import Evidence
 
 
 @dataclass(frozen=True)
@@ -21,45 +18,48 @@ class Checks:
 
     Attributes:
         words: the answer in a sentence.
-        accused: whether a gauge is accused.
-        rows: findings, one a row: finding, size, interval, unit, relations that show it, what it could be mistaken for.
-        cannot: what could not be tested, and for want of what.
+        report: the audit itself, in numbers.
         seconds: that it took.
-        evidence: what stands behind the rows.
     """
 
     words: str
-    accused: bool = False
-    rows: tuple[Mapping[str, Any], ...] = ()
-    cannot: tuple[str, ...] = ()
-    seconds: float = 0.0
-    evidence: "tuple[Evidence, ...]" = ()
+    report: AuditReport
+    seconds: float
+
+    @property
+    def accused(self) -> bool:
+        """Whether a gauge is accused."""
+        return bool(self.report.findings)
+
+    @property
+    def rows(self) -> list[Mapping[str, Any]]:
+        """Findings in the units that people read, one a row."""
+        return [_row(finding) for finding in self.report.findings]
+
+    @property
+    def cannot(self) -> tuple[str, ...]:
+        """What could not be tested, and for want of what."""
+        return self.report.cannot
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What matters to nobody but should be known, and what the data say of the logger."""
+        logger = self.report.logger
+        return self.report.notes if logger is None else (_logger(logger), *self.report.notes)
 
 
 def check_instruments(campaign: Campaign) -> Checks:
     """Audit a campaign without any law of friction."""
-    from slipwise.audit.balances import relations
-    from slipwise.audit.judge import RATED_MASS, Case
-    from slipwise.audit.rows import hold, noise_of_channels, noise_of_runs
-    from slipwise.audit.verdict import judge
-
     began = time.perf_counter()
-    runs, band = hold(campaign)
-    possible, cannot = relations(runs[0].record, campaign.specimen)
-    balances = [r for r in possible if not r.name.startswith("rest_")]
-    if not balances:
-        words = "Not known: these channels allow no balance, so no gauge can be held against another."
-        return Checks(words, cannot=tuple(cannot), seconds=time.perf_counter() - began)
-    noise = noise_of_runs(runs, noise_of_channels(campaign, runs, band), band)
-    mass_error = 0.003 if "mass" in campaign.known else RATED_MASS
-    found = judge(Case(runs, possible, campaign.specimen, noise, mass_error))
-    rows = tuple(_row(e) for e in found.accepted)
-    if not rows:
-        words = f"Yes: {len(balances)} balances and kinematic relations agree, no gauge is accused."
+    report = audit(campaign)
+    held = [b for b in report.balances if not b.relation.startswith("rest_")]
+    if report.findings:
+        words = f"No: {'; '.join(f.words for f in report.findings)}. No law of friction was needed to see it."
+    elif held:
+        words = f"Yes: {len(held)} balances and kinematic relations agree, no gauge is accused."
     else:
-        named = "; ".join(f"{r['finding']} ({r['size']})" for r in rows)
-        words = f"No. The balances, in which there is no law of friction, accuse: {named}."
-    return Checks(words, bool(rows), rows, tuple(cannot), time.perf_counter() - began, found.accepted)
+        words = "Not known: these channels allow no balance, so no gauge can be held against another."
+    return Checks(words, report, time.perf_counter() - began)
 
 
 def corrected_campaign(campaign: Campaign, checks: Checks, names: Sequence[str]) -> Campaign:
@@ -72,48 +72,28 @@ def corrected_campaign(campaign: Campaign, checks: Checks, names: Sequence[str])
 
     Raises:
         UnknownNameError: the audit has no such finding.
-        InputError: the audit has no finding at all.
+        InputError: the audit has no finding at all, or one whose harm cannot be undone.
     """
-    known = {_name(e): e for e in checks.evidence}
-    for name in names:
-        if name not in known:
-            if not known:
-                raise InputError(f"--correct {name!r}: the audit accuses no gauge, there is nothing to correct")
-            raise unknown_name("finding", name, known, "`slipwise audit CAMPAIGN` lists them.")
-    for name in names:
-        found = known[name]
-        records = {run.name: found.suspect.mend(run.record, found.size) for run in campaign.runs}
-        note = f"corrected: {name} by {_size(found)}"
-        campaign = campaign.with_records(records, note)
-    return campaign
+    return correct(campaign, checks.report, names)[0]
 
 
-def _row(found: "Evidence") -> dict[str, Any]:
-    reach = 2.0 * found.error
-    rivals = [name for name, loss in found.rivals if loss < 10.0][:2]
-    scale, unit = _shown(found)
+def _row(finding: Finding) -> dict[str, Any]:
+    low, high = (shown(end, finding.unit, finding.what) for end in (finding.low, finding.high))
     return {
-        "finding": _name(found),
-        "channels": ", ".join(found.suspect.channels),
-        "size": _size(found),
-        "95 % interval": f"{scale * (found.size - reach):.3g} to {scale * (found.size + reach):.3g} {unit}".strip(),
-        "sure": f"{found.share:.0%} of what its balances show is explained",
-        "shown by": ", ".join(found.balances),
-        "could be mistaken for": ", ".join(rivals) or "nothing near",
-        "runs": ", ".join(f"{scale * one:.3g}" for one in found.runs),
+        "finding": finding.name,
+        "in words": finding.words,
+        "95 % interval": f"{low} to {high}",
+        "sure": f"{finding.probability:.0%}",
+        "could be mistaken for": ", ".join(finding.mistaken_for) or "nothing near",
+        "what would settle it": finding.settle_by,
     }
 
 
-def _name(found: "Evidence") -> str:
-    return f"{found.suspect.effect} {found.suspect.label}"
-
-
-def _shown(found: "Evidence") -> tuple[float, str]:
-    return {"1": (100.0, "%"), "s": (1e3, "ms"), "m": (1e3, "mm"), "m/s": (1e3, "mm/s")}.get(
-        found.suspect.unit, (1.0, found.suspect.unit)
+def _logger(found: LoggerEstimate) -> str:
+    if found.lowpass is None:
+        return f"the logger's filter is not known: {found.why}"
+    by = found.lowpass
+    return (
+        f"the logger's low-pass filter, which campaign.toml does not give: {by.frequency:.0f} Hz "
+        f"({found.low:.0f} to {found.high:.0f}), order {by.order}, phase {by.phase}, {found.why}"
     )
-
-
-def _size(found: "Evidence") -> str:
-    scale, unit = _shown(found)
-    return f"{scale * found.size:.3g} {unit}".strip()

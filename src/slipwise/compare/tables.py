@@ -85,7 +85,7 @@ def _rms(parts: list[np.ndarray]) -> float | None:
 
 
 _MAKERS = {
-    "audit": lambda found: [dict(row) for row in found.checks.rows],
+    "audit": lambda found: found.checks.report.rows(),
     "components": _components,
     "system": _system,
     "parameters": _parameters,
@@ -105,7 +105,7 @@ def as_json(found: Comparison) -> dict[str, Any]:
     model: [{effect, target, values}], as fitted
     components: {relation: {fit, holdout, repeats}}
     system: {channel: {fit, holdout}}
-    audit: {accused, words, findings: [...]}
+    audit: {accused, words, findings: [{what, channel, size, low, high, unit, probability, ...}]}
     worst: {relation, error}
     places: [{relation, words, error, elsewhere, share, part, kind, direction}], the worst first
     parameters: [{parameter, value, low, high, rated, unit, bound}], 95 % intervals

@@ -279,7 +279,9 @@ def _role_words(role: str) -> str:
 def _audit(found: Comparison) -> list[Any]:
     pieces: list[Any] = [paragraph(found.checks.words)]
     if found.checks.rows:
-        pieces.append(table(list(found.checks.rows)))
+        pieces.append(table(found.checks.rows))
+    if found.checks.notes:
+        pieces.append(details("Small things", [bullets(found.checks.notes)]))
     if found.checks.cannot:
         pieces.append(details("What could not be tested", [bullets(found.checks.cannot)]))
     return pieces
