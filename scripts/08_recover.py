@@ -4,8 +4,9 @@
 
 The rig is replayed in MuJoCo, in steps that leave no error of their own, under a sine and two earthquakes with vertical
 parts, and recorded as a laboratory would: through a low-pass filter that the campaign states, then at 500 Hz, every
-channel with white noise of 1 % of its standard deviation. The fit starts at half the planted strength. For each effect the page says
-whether the truth lies inside the 95 % interval, and how much of the effect the base parameters could hide.
+channel with white noise of 1 % of its standard deviation. The fit starts at half the planted strength. For each effect
+the page says whether the truth lies inside the 95 % interval, how much of the effect the base parameters could hide,
+and for an effect that was missed which base parameters moved to hide it.
 """
 
 import argparse

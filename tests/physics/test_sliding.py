@@ -155,7 +155,7 @@ def test_friction_turns_round_with_the_slip_to_a_few_steps(dt):
     """A finer step must be a better answer: a friction that let go early by a fixed time would never converge."""
     record = shaken(coulomb("bridge1"), sine(2.0, 4.0, 3.0, dt=dt), dt=dt).record
     late = record.time > 1.5
-    friction, speed = sum(record[f"pad_{p}_Fx"] for p in "ABCD")[late], record["slip_vx"][late]
+    friction, speed = record.stacked("pad_{}_Fx").sum(axis=1)[late], record["slip_vx"][late]
     turns = np.flatnonzero(np.signbit(speed[1:]) != np.signbit(speed[:-1]))
     changes = np.flatnonzero(np.signbit(friction[1:]) != np.signbit(friction[:-1]))
     assert len(turns) >= 5

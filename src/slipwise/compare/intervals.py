@@ -10,12 +10,13 @@ Source: White (1980), Newey and West (1987); blocks as clusters: Liang and Zeger
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import t as student
 
+from slipwise.compare.profile import is_strength, upper_limit
 from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Free
 
@@ -39,6 +40,8 @@ class Interval:
         rated: where the fit began.
         unit: SI unit.
         bound: "", or "lower" or "upper" when the fit ended there.
+        limit: "", or "upper" for a strength that may be absent: `high` is what it is at most, with 95 %, from the
+            profile of the likelihood, and `low` its lower bound.
     """
 
     key: str
@@ -48,6 +51,7 @@ class Interval:
     rated: float
     unit: str
     bound: str
+    limit: str = ""
 
 
 @dataclass(frozen=True)
@@ -91,7 +95,28 @@ def intervals(base: BaseFit) -> Intervals:
             of_sample = (np.arange(len(part)) * problem.runs[i].dt / length).astype(np.int64) + offsets[i]
             rows.append(np.repeat(of_sample, part.size // len(part)))
     left = solution.residuals.stacked(problem.fitted, problem.relations)
-    return of_fit(solution.free, solution.values, solution.jacobian, left, np.concatenate(rows))
+    block = np.concatenate(rows)
+    found = of_fit(solution.free, solution.values, solution.jacobian, left, block)
+    limited = [
+        _limited(base, found.entries, j, left, block)
+        if is_strength(base, f) and not found.entries[j].low > f.low
+        else e
+        for j, (f, e) in enumerate(zip(solution.free, found.entries, strict=True))
+    ]
+    return replace(found, entries=tuple(limited))
+
+
+def _limited(base: BaseFit, entries: Sequence[Interval], place: int, left: Array, block: NDArray[np.int64]) -> Interval:
+    """Give the one-sided interval of a strength whose two-sided one would reach below what can be."""
+    free, slopes = base.solution.free[place], base.solution.jacobian
+    inside = [k for k, e in enumerate(entries) if k == place or (not e.bound and np.any(slopes[:, k]))]
+    here = inside.index(place)
+    plain, robust, freedom = _variances(slopes[:, inside], left, block)
+    reach = float(student.ppf(COVERAGE, freedom))
+    inflation = float(robust[here, here] / plain[here, here]) if plain[here, here] > 0.0 else 1.0
+    guess = reach * float(np.sqrt(robust[here, here])) * free.scale or free.scale
+    high = upper_limit(base, free, guess, reach**2 * inflation)
+    return replace(entries[place], low=free.low, high=high, limit="upper")
 
 
 def of_fit(
@@ -110,15 +135,9 @@ def of_fit(
     inside = [j for j, end in enumerate(ends) if not end and np.any(jacobian[:, j])]
     scale = np.array([free[j].scale for j in inside])
     slopes = jacobian[:, inside]
-    counted = np.bincount(block, weights=(residual != 0.0).astype(float))
-    blocks = int(np.count_nonzero(counted))
-    scores = np.zeros((len(counted), len(inside)))
-    for j in range(len(inside)):
-        scores[:, j] = np.bincount(block, weights=slopes[:, j] * residual)
-    bread = np.linalg.pinv(slopes.T @ slopes, rcond=1e-12, hermitian=True)
-    # each fitted number takes one block's freedom
-    freedom = max(blocks - len(inside), 2)
-    covariance = bread @ (scores.T @ scores) @ bread * (blocks / freedom) * np.outer(scale, scale)
+    _, robust, freedom = _variances(slopes, residual, block)
+    covariance = robust * np.outer(scale, scale)
+    blocks = freedom + len(inside)
     deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0))
     reach = float(student.ppf(0.5 + COVERAGE / 2, freedom)) * deviation
     entries = []
@@ -130,6 +149,18 @@ def of_fit(
     outer = np.outer(deviation, deviation)
     correlation = np.divide(covariance, outer, out=np.zeros_like(covariance), where=outer > 0.0)
     return Intervals(tuple(entries), tuple(free[j].key for j in inside), covariance, correlation, blocks)
+
+
+def _variances(slopes: Array, residual: Array, block: NDArray[np.int64]) -> tuple[Array, Array, int]:
+    """Give the covariance (k, k) under white noise of unit size, the sandwich, and the degrees of freedom."""
+    counted = np.bincount(block, weights=(residual != 0.0).astype(float))
+    blocks, count = int(np.count_nonzero(counted)), slopes.shape[1]
+    scores = np.zeros((len(counted), count))
+    for j in range(count):
+        scores[:, j] = np.bincount(block, weights=slopes[:, j] * residual)
+    bread: Array = np.linalg.pinv(slopes.T @ slopes, rcond=1e-12, hermitian=True)
+    freedom = max(blocks - count, 2)  # each fitted number takes one block's freedom
+    return bread, bread @ (scores.T @ scores) @ bread * (blocks / freedom), freedom
 
 
 def _bound(free: Free, value: float) -> str:

@@ -1,0 +1,83 @@
+"""A strength that may be absent: its interval is one-sided, from the profile, and holds where the usual one cannot."""
+
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from slipwise.compare.intervals import intervals
+from slipwise.effects import find_effect
+from slipwise.fit.base import BaseFit
+from slipwise.fit.problem import Residuals
+from slipwise.fit.solve import jacobian, solve
+from slipwise.fit.terms import Free, Term
+
+DT, COUNT, SIGMA = 0.01, 4000, 1.0
+LEVEL = Free("rig.mass", 0.0, -9.0, 9.0, 0.1, "kg")
+TIME = DT * np.arange(COUNT)
+COLUMNS = np.stack([np.ones(COUNT), 1.0 + np.sin(1.7 * TIME) + 0.5 * np.sin(11.0 * TIME)], axis=1)
+
+
+@dataclass
+class Line:
+    """Noise on a level and a strength that cannot be negative; it bends when `bent`."""
+
+    measured: np.ndarray
+    term: Term
+    bent: float = 0.0
+    fitted: tuple[int, ...] = (0,)
+    relations: tuple[str, ...] = ("pads",)
+    runs: list[object] = field(default_factory=lambda: [SimpleNamespace(time=TIME, dt=DT)])
+
+    @property
+    def terms(self) -> tuple[Term, ...]:
+        return (self.term,)
+
+    def residuals(self, values, *, fitted_only=False):
+        strength = values["heating.share"]
+        said = COLUMNS @ [values["rig.mass"], strength + self.bent * strength**2]
+        return Residuals({"pads": [(self.measured - said)[:, None]]}, [])
+
+
+def fitted(rng: np.random.Generator, truth: float, bent: float = 0.0) -> BaseFit:
+    term = Term(find_effect("heating"))
+    strength = Free("heating.share", 0.1, 0.0, 2.0, 0.1, "1")
+    said = COLUMNS @ [0.3, truth + bent * truth**2]
+    line = Line(said + SIGMA * rng.standard_normal(COUNT), term, bent)
+    free = (LEVEL, strength)
+    found = solve(line, {"rig.mass": 0.0, "heating.share": 0.1}, free, enough=1e-6)
+    slopes = jacobian(line, found.values, free, found.residuals)
+    found = type(found)(found.values, free, found.residuals, slopes, found.cost, found.evaluations)
+    return BaseFit(None, None, line, free, found)
+
+
+def test_a_strength_far_from_zero_keeps_its_two_sided_interval() -> None:
+    entry = intervals(fitted(np.random.default_rng(1), 0.5)).entries[1]
+    assert entry.limit == ""
+    assert 0.0 < entry.low < 0.5 < entry.high
+
+
+@pytest.mark.parametrize("truth", [0.0, 0.02])
+def test_near_zero_the_limit_lies_above_the_truth_in_ninety_five_of_a_hundred(truth: float) -> None:
+    rng = np.random.default_rng(2)
+    found = [intervals(fitted(rng, truth)).entries[1] for _ in range(120)]
+    near = [e for e in found if e.limit == "upper"]
+    assert len(near) > 60
+    assert all(e.low == 0.0 for e in near)
+    assert np.mean([e.low <= truth <= e.high for e in found]) >= 0.92
+    assert np.median([e.high for e in near]) < truth + 0.1, "a limit that says nothing covers everything"
+
+
+def test_a_strength_that_ended_on_its_bound_is_told_how_large_it_may_be() -> None:
+    rng = np.random.default_rng(3)
+    on_bound = next(e for e in (intervals(fitted(rng, 0.0)).entries[1] for _ in range(20)) if e.bound == "lower")
+    assert on_bound.limit == "upper"
+    assert 0.0 < on_bound.high < 0.1
+
+
+def test_the_limit_follows_the_likelihood_where_the_strength_acts_more_than_in_proportion() -> None:
+    straight = intervals(fitted(np.random.default_rng(5), 0.0)).entries[1]
+    bent = intervals(fitted(np.random.default_rng(5), 0.0, bent=30.0)).entries[1]
+    assert straight.limit == bent.limit == "upper"
+    assert bent.high + 30.0 * bent.high**2 == pytest.approx(straight.high, rel=0.1)
