@@ -13,7 +13,7 @@ from slipwise.diagnose.search import MATERIAL, MOST_EFFECTS, Search, material, s
 
 #: A right family explains this share of what the base left, whatever its exact form [1]: 0.87 and more on trials, the
 #: best wrong one up to 0.69.
-RIGHT_FAMILY = 0.75
+RIGHT_FAMILY = 0.70
 #: Below this drop of the mean squared residual the share is itself uncertain, and half is enough [noise variance].
 _SURE_SHARE = 1.0
 #: An effect that explains less than half of little, and leaves nothing with structure, is no finding.
