@@ -158,7 +158,7 @@ def _variances(slopes: Array, residual: Array, block: NDArray[np.int64]) -> tupl
     scores = np.zeros((len(counted), count))
     for j in range(count):
         scores[:, j] = np.bincount(block, weights=slopes[:, j] * residual)
-    bread: Array = np.linalg.pinv(slopes.T @ slopes, rcond=1e-12, hermitian=True)
+    bread = np.asarray(np.linalg.pinv(slopes.T @ slopes, rcond=1e-12, hermitian=True), dtype=np.float64)
     freedom = max(blocks - count, 2)  # each fitted number takes one block's freedom
     return bread, bread @ (scores.T @ scores) @ bread * (blocks / freedom), freedom
 

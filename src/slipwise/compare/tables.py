@@ -37,7 +37,7 @@ def _system(found: Comparison) -> list[dict[str, Any]]:
 
 
 def _parameters(found: Comparison) -> list[dict[str, Any]]:
-    keys = ("value", "low", "high", "rated", "unit", "bound")
+    keys = ("value", "low", "high", "rated", "unit", "bound", "limit")
     return [{"parameter": e.key, **{k: getattr(e, k) for k in keys}} for e in found.intervals.entries]
 
 
@@ -94,6 +94,7 @@ _MAKERS = {
     "places": _places,
     "parity": _parity,
     "floor": _floor,
+    "noise": lambda found: found.floor.rows(),
 }
 
 
@@ -108,10 +109,11 @@ def as_json(found: Comparison) -> dict[str, Any]:
     audit: {accused, words, findings: [{what, channel, size, low, high, unit, probability, ...}]}
     worst: {relation, error}
     places: [{relation, words, error, elsewhere, share, part, kind, direction}], the worst first
-    parameters: [{parameter, value, low, high, rated, unit, bound}], 95 % intervals
+    parameters: [{parameter, value, low, high, rated, unit, bound, limit}], 95 % intervals
     correlations: [{parameter, other, correlation}], the strongest first
     surface: {pressure, speed, friction, deviation}, mu(P, V), or null
     floor: [{relation, floor, near_reversals, unit, repeated_runs}]
+    noise: {channels: [{channel, unit, level, stuck, near reversal, sliding, basis, correlation_time}], notes: in words}
     parity: [{relation, odd, even, plus, minus}]
     cells: [{relation, kind, label, low, high, error, samples, effective, chance, above}]
     runs: {components: [...], system: [...]}, error of every run
@@ -150,6 +152,7 @@ def as_json(found: Comparison) -> dict[str, Any]:
         "worst": {"relation": worst, "error": error},
         "surface": surface,
         **{name: found.rows(name) for name in ("places", "parameters", "correlations", "floor", "parity", "cells")},
+        "noise": {"channels": found.rows("noise"), "notes": list(found.floor.notes)},
         "runs": {"components": found.rows("components"), "system": found.rows("system")},
         "cannot": list(found.cannot),
         "notes": list(found.notes),

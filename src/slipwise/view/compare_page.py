@@ -8,6 +8,7 @@ from slipwise.compare.component import NAMES
 from slipwise.compare.words import UNITS
 from slipwise.units import parse_unit
 from slipwise.view import compare_figures as figures
+from slipwise.view.floor_rows import floor_rows
 from slipwise.view.html import Html, Section, Tone, bullets, callout, details, figure, page, paragraph, table, verdict
 
 #: Fitted numbers -> what they are called, unit in which they are shown.
@@ -304,7 +305,12 @@ def _floor(found: Comparison) -> list[Any]:
         "noise of the velocity, which turns friction round a little early or late. A repeated run tests it: what "
         "differs between two runs of one motion is noise."
     )
-    return [paragraph(words), table(rows)]
+    single = (
+        "The same for every channel by itself, one sample: stuck, near a reversal, and sliding. What two runs of one "
+        "motion differ by counts where there is a repeated run; quiet stretches are a lower bound."
+    )
+    pieces = [paragraph(words), table(rows), paragraph(single), table(floor_rows(found.floor))]
+    return [*pieces, bullets(found.floor.notes)] if found.floor.notes else pieces
 
 
 def _parameters(found: Comparison) -> list[Any]:
@@ -313,7 +319,9 @@ def _parameters(found: Comparison) -> list[Any]:
         called, unit = _called(entry.key, entry.unit)
         factor = parse_unit(unit, entry.unit, entry.key)
         row = {"number": called, "unit": unit, "value": f"{entry.value / factor:.5g}"}
-        if entry.bound:
+        if entry.limit:
+            row["95 % interval"] = f"below {entry.high / factor:.5g}; it may be absent"
+        elif entry.bound:
             marked.append(len(rows))
             row["95 % interval"] = f"ended on its {entry.bound} bound"
         else:

@@ -124,6 +124,8 @@ def _numbers(label: str, parameter: str, interval) -> dict[str, object]:  # noqa
     shown = known.shown_in or known.unit
     value, low, high = (convert(v, known.unit, shown) for v in (interval.value, interval.low, interval.high))
     out = {"value": f"{value:.4g}", "low": f"{low:.4g}", "high": f"{high:.4g}", "unit": "" if shown == "1" else shown}
+    if interval.limit:
+        out |= {"low": "may be absent"}
     return {**out, "meaning": known.meaning}
 
 
