@@ -19,6 +19,11 @@ _COMMAND: dict[str, str] = {
     "table_cross_axis": "the model is driven by the measured table motion; only the command could show it",
 }
 
+#: Loads are steady in each run when they differ between runs by this many times more than within one [1].
+_STEADY = 3.0
+#: Speeds of runs that differ by less count as the same [1].
+_SAME_SPEED = 0.15
+
 _EVEN = ("slide_tilt", "slide_curvature", "direction_asymmetry", "channel_offset", "load_crosstalk")
 
 
@@ -48,7 +53,21 @@ def candidates(base: BaseFit) -> tuple[list[Term], dict[str, str]]:
             terms += list(_aimed(effect, problem))
         else:
             terms.append(Term(effect))
-    return terms, cannot
+    return terms, cannot | _confounded(problem)
+
+
+def _confounded(problem: Problem) -> dict[str, str]:
+    """Say where a run of one load was also a run of one speed, so that what looks like one may be the other."""
+    runs = [r for r in problem.runs if r.sliding.any()]
+    loads = np.array([float(np.mean(r.load[r.sliding])) for r in runs])
+    within = np.array([float(np.std(r.load[r.sliding])) for r in runs])
+    speeds = np.array([float(np.sqrt(np.mean(r.velocity[r.sliding] ** 2))) for r in runs])
+    steady = len(runs) > 1 and float(np.ptp(loads)) > _STEADY * float(within.max())
+    if not steady or speeds.max() < (1.0 + _SAME_SPEED) * speeds.min():
+        return {}
+    span = f"{speeds.min():.3g} to {speeds.max():.3g} m/s"
+    reason = f"load changes only from run to run, and speed differs between these runs too ({span})"
+    return {"load against speed": reason}
 
 
 def _untestable(effect: Effect, problem: Problem) -> str:
