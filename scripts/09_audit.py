@@ -61,8 +61,8 @@ def score(fault: Any, report: AuditReport) -> dict[str, Any]:
     near = bool(own) and abs(size / fault.size - 1.0) <= NEAR
     return {
         "effect": fault.effect, "channel": channel_of(fault), "planted": fault.size, "form": fault.form,
-        "found": size if own else None, "right": near and len(report.findings) == 1,
-        "inside": bool(own) and own[0].low <= fault.size <= own[0].high,
+        "found": size if own else None, "right": bool(near and len(report.findings) == 1),
+        "inside": bool(own and own[0].low <= fault.size <= own[0].high),
         "accused": [f.words for f in report.findings],
         "notes": list(report.notes),
     }  # fmt: skip

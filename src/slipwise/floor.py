@@ -26,6 +26,8 @@ from slipwise.signals.noise import quantum
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 STATES: tuple[str, ...] = ("stuck", "near reversal", "sliding")
+#: What moves by less than this part of itself is a constant; taking a logger's lag out rounds [1].
+_CONSTANT = 1e-9
 #: Fewer samples than this are no basis.
 _ENOUGH = 60
 #: Two runs are of one motion when their tables' difference leaves this part of the motion unexplained, less noise [1].
@@ -173,7 +175,7 @@ def _channel(
     pairs: Sequence[tuple[States, States]],
     changes: dict[str, list[float]],
 ) -> ChannelFloor:
-    if all(np.ptp(s.record[name]) == 0.0 for s in states):
+    if all(np.ptp(s.record[name]) <= _CONSTANT * np.max(np.abs(s.record[name])) for s in states):
         words = "it is a constant of the campaign, not a measurement"
         return _unknown(name, words)
     dt = states[0].dt

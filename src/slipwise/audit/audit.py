@@ -164,6 +164,8 @@ def _rounded(campaign: Campaign) -> list[str]:
     found = []
     for name in campaign.runs[0].record.channels:
         values = campaign.runs[0].record[name]
+        if np.ptp(values) == 0.0:
+            continue
         step, noise = quantum(values), white_level(values)
         if step > _COARSE * noise > 0.0:
             found.append(f"{name} is rounded to steps of {step:.3g} {channel(name).unit}, more than its noise")

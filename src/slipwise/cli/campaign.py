@@ -104,11 +104,13 @@ def compare(
         print_json(content)
         return
     from slipwise.view.compare_page import one_minute
+    from slipwise.view.floor_rows import floor_rows
     from slipwise.view.terminal import print_table
 
     rows = [{"component": r, "fitted": found.error(r, held_out=False), "held out": found.error(r, held_out=True)}
             for r in found.relations]  # fmt: skip
     print_table("Error in multiples of the noise floor", rows)
+    print_table("Noise floor of one sample", floor_rows(found.floor))
     for question, answer in one_minute(found):
         OUT.print(f"{question} {answer}", markup=False, highlight=False, soft_wrap=True)
     for path in files:

@@ -21,6 +21,7 @@ from slipwise.compare.words import places
 from slipwise.errors import InputError
 from slipwise.fit.balances import BALANCES
 from slipwise.fit.base import BaseFit, fit_base
+from slipwise.floor import noise_floor
 from slipwise.model import Model
 
 #: Noise that the replay is fed with is the same in every comparison, so that two of them can be compared.
@@ -72,6 +73,8 @@ def compare(
     parities = {r: found for r, one in samples.items() if (found := parity(one)) is not None}
     patterns = tuple(pattern for one in samples.values() for pattern in patterns_of(one))
     errors = {r: float(np.sqrt(one.squared.mean())) for r, one in samples.items()}
+    states = {run.name: run.states for run in base.problem.runs}
+    floor = noise_floor(campaign, [states[run.name] for run in campaign.runs])
     found = intervals(base)
     tell("drawing the friction surface", 0.6)
     friction = surface(base, found)
@@ -92,6 +95,7 @@ def compare(
         model=base.problem.model(base.solution.values),
         base=base,
         checks=checks,
+        floor=floor,
         residuals=residuals,
         components=components,
         repeats=repeat_errors(base, residuals),

@@ -16,6 +16,7 @@ from slipwise.compare.system_level import SystemLevel, held_out_channels
 from slipwise.compare.words import Place
 from slipwise.errors import InputError, unknown_name
 from slipwise.fit.base import BaseFit
+from slipwise.floor import Floor
 from slipwise.model import Model
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
 TABLES: tuple[str, ...] = (
     "audit", "components", "system", "parameters", "correlations", "cells", "places", "parity", "floor",
+    "noise",
 )  # fmt: skip
 
 
@@ -35,6 +37,7 @@ class Comparison:
         model: fitted on the runs that may be fitted.
         base: the fit, with residuals of all runs.
         checks: of the instruments, before any fit.
+        floor: noise of every channel in every state of motion, or why it is unknown.
         residuals: relation -> per run residual in floors, zero where masked.
         components: error of every relation in every run.
         repeats: relation -> what a repeated run says of its floor: 1 where the floor is right.
@@ -54,6 +57,7 @@ class Comparison:
     model: Model
     base: BaseFit
     checks: Checks
+    floor: Floor
     residuals: Mapping[str, Sequence[Any]]
     components: tuple[ComponentError, ...]
     repeats: Mapping[str, float]
@@ -96,7 +100,8 @@ class Comparison:
         """Give one of the tables as rows, SI.
 
         Args:
-            table: audit, components, system, parameters, correlations, cells, places, parity or floor.
+            table: audit, components, system, parameters, correlations, cells, places, parity, floor (by relation) or
+                noise (floor by channel and state).
 
         Raises:
             UnknownNameError: no such table.

@@ -6,15 +6,21 @@ import json
 import numpy as np
 import pytest
 
-from bench import make_campaign
+from bench import build_campaign, make_campaign
+from bench.write import write_campaign
 from slipwise.compare import as_json, compare
 from slipwise.errors import InputError, UnknownNameError
 
 
 @pytest.fixture(scope="module")
-def complete(tmp_path_factory):
+def made():
+    return build_campaign(11, effects=[])
+
+
+@pytest.fixture(scope="module")
+def complete(made, tmp_path_factory):
     folder = tmp_path_factory.mktemp("complete")
-    make_campaign(folder, 11, effects=[])
+    write_campaign(folder, made.truth.rig, made.truth.logger, made.recorded)
     return compare(folder)
 
 
@@ -65,11 +71,21 @@ def test_a_hidden_breakaway_is_found_in_the_pads_and_not_in_the_girder(breaking_
     assert {p.relation for p in breaking_away.places} <= {"pads", "pitch"}
 
 
+def test_the_floor_of_a_channel_is_the_noise_of_its_gauge_in_every_state(made, complete):
+    noise = made.truth.logger.noise
+    rows = {row["channel"]: row for row in complete.rows("noise")}
+    for name, kind in (("slip_x", "slip"), ("girder_ax", "girder"), ("pad_C_N", "load"), ("pad_B_Fx", "force")):
+        assert rows[name]["basis"].startswith("repeat")
+        for state in ("stuck", "near reversal", "sliding"):
+            assert rows[name][state] == pytest.approx(noise[kind], rel=0.15), (name, state)
+
+
 def test_a_comparison_is_json_and_holds_what_the_tables_hold(complete):
     content = json.loads(json.dumps(as_json(complete), allow_nan=False))
     assert content["components"]["pads"]["holdout"] == pytest.approx(complete.error("pads", held_out=True))
     assert len(content["cells"]) == len(complete.rows("cells"))
     assert content["audit"]["accused"] is False
+    assert {row["channel"] for row in content["noise"]["channels"]} >= {"slip_x", "pad_A_Fx"}
 
 
 def test_tables_turn_into_pandas_frames(complete):
