@@ -1,0 +1,76 @@
+"""From what a search has tried to a verdict that is no stronger than its evidence."""
+
+from types import SimpleNamespace
+from typing import Any, cast
+
+import pytest
+
+from slipwise.diagnose.refit import Account, Hypothesis
+from slipwise.diagnose.samples import SampleFault
+from slipwise.diagnose.search import Search, material
+from slipwise.diagnose.verdict import judge, with_faults
+from slipwise.effects import catalogue
+from slipwise.fit.terms import Term
+
+COUNT = 10_000
+
+
+def _tried(names: tuple[str, ...], pads: float, girder: float = 1.0, at_bounds: tuple[str, ...] = ()) -> Hypothesis:
+    """A hypothesis with these mean squared residuals in fitted and held-out runs alike."""
+    levels = {"pads": pads * COUNT, "girder": girder * COUNT}
+    account = Account(levels, dict(levels), {name: (COUNT, COUNT) for name in levels})
+    terms = tuple(Term(catalogue()[name]) for name in names)
+    values = {f"{t.label}.{k}": v for t in terms for k, v in t.effect.typical().items()}
+    run = SimpleNamespace(states=SimpleNamespace(has_yaw=False))
+    problem = SimpleNamespace(held_out=[], runs=[run], relations=("pads", "girder"))
+    solution = SimpleNamespace(values=values, at_bounds=at_bounds)
+    return Hypothesis(terms, cast(Any, problem), cast(Any, solution), account)
+
+
+def _search(base: Hypothesis, *tried: Hypothesis) -> Search:
+    """A search that took the best of what it tried, where that is material."""
+    best = min((base, *tried), key=lambda h: h.account.total)
+    path = [base, best] if material(base.account, base.account, best.account) else [base]
+    return Search(cast(Any, None), [], {}, path, list(tried))
+
+
+def test_a_model_that_leaves_noise_is_complete():
+    assert judge(_search(_tried((), 1.0), _tried(("heating",), 0.99))).kind == "complete"
+
+
+def test_what_stands_far_above_the_noise_is_unknown_even_if_no_state_foretells_it():
+    assert judge(_search(_tried((), 12.0))).kind == "unknown"
+
+
+def test_an_effect_that_explains_all_is_named_with_confidence():
+    found = judge(_search(_tried((), 20.0), _tried(("heating",), 1.0), _tried(("run_in",), 12.0)))
+    assert (found.kind, found.effects) == ("named", ("heating",))
+    assert found.probability > 0.9
+
+
+def test_two_effects_that_explain_as_much_are_ambiguous():
+    found = judge(_search(_tried((), 20.0), _tried(("heating",), 1.0), _tried(("run_in",), 1.0)))
+    assert found.kind == "ambiguous"
+    assert set(found.effects) == {"heating", "run_in"}
+
+
+def test_damping_of_buffers_and_of_guides_are_one_thing_without_a_yaw_gauge():
+    found = judge(_search(_tried((), 1.0, girder=9.0), _tried(("guide_drag",), 1.0, girder=1.0)))
+    assert (found.kind, found.effects) == ("ambiguous", ("buffer_damping", "guide_drag"))
+
+
+def test_an_effect_that_explains_little_of_much_is_not_named():
+    assert judge(_search(_tried((), 30.0), _tried(("heating",), 18.0))).kind == "unknown"
+
+
+def test_a_gauge_is_an_instrument():
+    assert judge(_search(_tried((), 5.0), _tried(("channel_gain",), 1.0))).kind == "instrument"
+
+
+@pytest.mark.parametrize("left", [1.0, 12.0])
+def test_faults_of_samples_are_named_whatever_is_left_when_they_are_mended(left):
+    fault = SampleFault("dropped_samples", "pad_A_N", 0.01)
+    found = with_faults(judge(_search(_tried((), left))), [fault])
+    assert found.effects == ("dropped_samples",)
+    assert found.kind == "instrument"
+    assert (found.probability < 0.7) == (left > 2.0)
