@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.effects import Effect, catalogue
-from slipwise.kernel import Kernel, apply_rest, fill, kernel
+from slipwise.kernel import Kernel, apply_rest, engine_for, fill, kernel
 from slipwise.model import Model
 
 Array = NDArray[np.float64]
@@ -82,15 +82,16 @@ def _other_thread() -> ThreadPoolExecutor:
     return ThreadPoolExecutor(1)
 
 
-def predictor(model: Model, *, engine: str = "compiled", dt: float = 0.002) -> Predictor:
+def predictor(model: Model, *, engine: str | None = None, dt: float = 0.002) -> Predictor:
     """Make a model's laws ready for records.
 
     Args:
         model: specimen and effects.
-        engine: "compiled" or "python".
+        engine: "compiled" or "python"; the compiled one where a user's effects can be compiled, if not given.
         dt: only a default for laws that ask for it before a record says it [s].
     """
-    law = kernel(engine, user_effects(model))
+    own = user_effects(model)
+    law = kernel(engine or engine_for(own), own)
     return Predictor(model, law, fill(law.layout, model, dt))
 
 

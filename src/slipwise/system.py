@@ -19,7 +19,7 @@ from slipwise.motion.table_motion import TableMotion
 from slipwise.predict import Predictor, predictor
 from slipwise.record import Record
 from slipwise.replay import DT, Memory
-from slipwise.replay.windows import Windows, simulate_windows
+from slipwise.replay.windows import Windows, simulate_models
 from slipwise.signals import lowpass
 
 Array = NDArray[np.float64]
@@ -69,47 +69,70 @@ def replay_runs(
     dt: float = DT,
     threads: int = 2,
 ) -> list[SystemRun]:
+    """Replay the runs of a campaign with one model; arguments as `replay_models`."""
+    return replay_models([model], runs, window=window, dt=dt, threads=threads)[0]
+
+
+def replay_models(
+    models: Sequence[Model],
+    runs: Sequence[tuple[str, States, float]],
+    *,
+    window: float = WINDOW,
+    dt: float = DT,
+    threads: int = 2,
+) -> list[list[SystemRun]]:
     """Replay the runs of a campaign in windows, the memory of pads and buffers carried along.
 
     Args:
-        model: specimen and effects.
+        models: of one rig and the same effects, with values of their own; they are stepped side by side.
         runs: (name, measured states, pause before it [s]) in the order in which they were made.
         window: length of a window [s].
         dt: step of the simulation [s].
         threads: to step on.
 
+    Returns:
+        For each model its runs.
+
     Raises:
         InputError: a channel that the system level needs was not recorded.
     """
-    laws = predictor(model)
-    out = []
+    laws = [predictor(model) for model in models]
+    out: list[list[SystemRun]] = [[] for _ in models]
     for name, states, rest in runs:
-        laws.rest(rest)
-        out.append(_replay_run(model, laws, name, states, window, dt, threads))
+        for law in laws:
+            law.rest(rest)
+        for kept, run in zip(out, _replayed(laws, name, states, window, dt, threads), strict=True):
+            kept.append(run)
     return out
 
 
-def _replay_run(
-    model: Model, laws: Predictor, name: str, states: States, window: float, dt: float, threads: int
-) -> SystemRun:
+def _replayed(
+    laws: Sequence[Predictor], name: str, states: States, window: float, dt: float, threads: int
+) -> list[SystemRun]:
     step = states.dt
     every = max(1, round(step / dt))
     fine = resample(measured_motion(states), step / every).acceleration
     length = min(round((window + SETTLE + _END) / step), len(states.time))
     stride = max(1, length - round((SETTLE + _END) / step))
     starts = list(range(0, len(states.time) - length + 1, stride))
-    memory = _memories(laws, states, starts)
-    windows = Windows(
-        acceleration=np.stack([fine[s * every : s * every + length * every - every + 1] for s in starts]),
-        slip=states.slip[starts],
-        velocity=states.velocity[starts],
-        memory=memory,
-        start=states.time[starts],
-    )
-    answers = simulate_windows(model, windows, dt=step / every, every=every, threads=threads)
+    acceleration = np.stack([fine[s * every : s * every + length * every - every + 1] for s in starts])
+    windows = [
+        Windows(acceleration, states.slip[starts], states.velocity[starts], _memories(law, states, starts),
+                states.time[starts])
+        for law in laws
+    ]  # fmt: skip
+    models = [law.model for law in laws]
+    answers = simulate_models(models, windows, dt=step / every, every=every, threads=threads)
+    return [_seen(m, name, states, starts, length, a) for m, a in zip(models, answers, strict=True)]
+
+
+def _seen(
+    model: Model, name: str, states: States, starts: Sequence[int], length: int, answers: list[dict[str, Array]]
+) -> SystemRun:
+    """Put the windows of one run together and hold them against what was measured."""
     names = [n for n in answers[0] if n in states.record and not n.startswith("table_")]
     simulated = {n: np.full(len(states.time), np.nan) for n in names}
-    first, last = round(SETTLE / step), round(_END / step)
+    first, last = round(SETTLE / states.dt), round(_END / states.dt)
     for start, answer in zip(starts, answers, strict=True):
         seen = _as_logged(model, answer, states, states.time[start : start + length])
         for n in names:

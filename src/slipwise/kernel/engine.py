@@ -70,13 +70,21 @@ def engine_for(user_effects: Sequence[Effect]) -> str:
 
     The Python engine runs the same law some hundred times slower; a `SlipwiseWarning` says so, and why.
     """
+    if not user_effects:
+        return ENGINES[0]
+    return _engine_for(tuple(_fingerprint(effect) for effect in user_effects), _Hidden(tuple(user_effects)))
+
+
+@cache
+def _engine_for(files: tuple[str, ...], user: "_Hidden") -> str:
+    """Try once per file: a law that cannot be compiled takes as long to find out every time."""
     try:
-        kernel("compiled", user_effects)
+        _made(ENGINES[0], files, user)
     except SettingError as error:
-        names = ", ".join(effect.path.name for effect in user_effects)
-        warnings.warn(f"{names} runs on the Python engine, which is slow: {error}", SlipwiseWarning, stacklevel=2)
-        return "python"
-    return "compiled"
+        names = ", ".join(effect.path.name for effect in user.effects)
+        warnings.warn(f"{names} runs on the Python engine, which is slow: {error}", SlipwiseWarning, stacklevel=3)
+        return ENGINES[1]
+    return ENGINES[0]
 
 
 def _fingerprint(effect: Effect) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.errors import SettingError, SimulationError
-from slipwise.kernel import ENGINES, Kernel, apply_rest, kernel
+from slipwise.kernel import ENGINES, Kernel, apply_rest, engine_for, kernel
 from slipwise.kernel.layout import buffer_memories, pad_memories
 from slipwise.model import Model
 from slipwise.predict import user_effects
@@ -146,7 +146,7 @@ def simulate(
         acceleration: (n, 3) of the table at every step: x, y, z [m/s^2].
         dt: step [s].
         output_dt: step of the record [s], a multiple of dt.
-        engine: "compiled" or "python".
+        engine: "compiled" or "python"; a user's effect that cannot be compiled takes the second, with a warning.
         start: what pads and buffers remember from the run before; nothing when not given.
         rest: pause since that run [s].
         provenance: goes into the record as it is.
@@ -164,7 +164,9 @@ def simulate(
     control[:, :3] = acceleration
     for entry in model.with_hook("table"):
         control = entry.effect.hooks["table"](control, dt, **entry.values)
-    law = kernel(engine, user_effects(model))
+    own = user_effects(model)
+    engine = engine_for(own) if engine == ENGINES[0] else engine
+    law = kernel(engine, own)
     rig = build(model.built_specimen(), dt, law.layout.size)
     numbers = _remember(law, model, numbers_for(law, rig, model, dt), start, rest)
     collector = _Collector(rig, control, every)
