@@ -26,6 +26,11 @@ _SMALL = 0.3
 _NEAR = 0.01
 #: Most points of the grid over shape constants.
 _MOST_POINTS = 5
+#: Multiples of a constant's typical value that are tried: a fit that begins a decade off ends in a valley of its own.
+_NEARBY = (0.33, 1.0, 3.0)
+_FAR = (0.035, 0.2, 1.0, 5.0, 28.0)
+#: A constant whose bounds are this far apart may be far from typical [1].
+_WIDE = 100.0
 #: Frequencies at which a resonance is tried [Hz].
 _LEAST_HERTZ, _MOST_HERTZ, _RESONANCES = 5.0, 30.0, 14
 #: A resonance is tried with this many times its typical damping, so that it is seen from a neighbouring frequency.
@@ -219,7 +224,7 @@ def _residual(base: BaseFit, term: Term, values: Mapping[str, float]) -> Array |
 
 
 def shapes(effect: Effect) -> list[dict[str, float]]:
-    """Give a small grid over the constants that switch nothing: typical, and a third and three times of it."""
+    """Give a small grid over the constants that switch nothing: typical, and some multiples of it."""
     if effect.port == "gauge":  # the form of a gauge's fault hardly changes its column; the refit frees it
         return [{p.name: p.typical for p in effect.parameters if p.neutral is None}]
     axes = []
@@ -233,7 +238,8 @@ def shapes(effect: Effect) -> list[dict[str, float]]:
         elif p.low < 0.0 < p.high:
             points = [p.typical * f for f in (1.0, -1.0, 0.3, -0.3)]
         else:
-            points = sorted({float(np.clip(p.typical * f, p.low, p.high)) for f in (0.33, 1.0, 3.0)})
+            factors = _FAR if p.low > 0.0 and p.high > _WIDE * p.low else _NEARBY
+            points = sorted({float(np.clip(p.typical * f, p.low, p.high)) for f in factors})
         axes.append((p.name, points, p.typical))
     if not axes:
         return [{}]

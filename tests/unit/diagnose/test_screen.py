@@ -27,3 +27,8 @@ def test_shapes_stay_within_their_bounds() -> None:
         for shape in shapes(effect):
             for name, value in shape.items():
                 effect.parameter(name).check(value, effect.name)
+
+
+def test_a_constant_that_may_be_decades_off_is_tried_over_decades():
+    tried = [point["length"] for point in shapes(catalogue()["rate_and_state"])]
+    assert max(tried) / min(tried) > 300.0
