@@ -1,6 +1,9 @@
 """One file is all that an effect needs, wherever it lies; a file that breaks the contract is told how to mend it."""
 
+import json
 import shutil
+import subprocess
+import sys
 import textwrap
 import warnings
 from importlib.metadata import EntryPoint
@@ -17,6 +20,7 @@ from slipwise.kernel import engine_for
 from slipwise.model import base_model, use
 from slipwise.model_file import add_effect, draft_model, load_model
 from slipwise.predict import predictor
+from slipwise.replay.windows import Windows, simulate_windows
 from slipwise.view.effects import effect_rows
 
 MINE = '''
@@ -108,15 +112,48 @@ def test_model_toml_takes_a_file_of_ones_own(tmp_path: Path) -> None:
     assert model["washboard"].values["length"] == load_model(path)["washboard"].values["length"] == 0.02
 
 
+NOT_COMPILABLE = MINE.replace("return shear *", "return shear * {'one': 1.0, 2: 'two'}['one'] *")
+
+
 def test_an_effect_that_cannot_be_compiled_runs_on_the_python_engine_and_says_so(tmp_path: Path) -> None:
-    text = MINE.replace("return shear *", "return shear * {'one': 1.0, 2: 'two'}['one'] *")
-    effect = load_effect(written(tmp_path, text, "dictionary.py"))
-    with pytest.warns(SlipwiseWarning, match=r"dictionary\.py runs on the Python engine"):
-        engine = engine_for([effect])
-    assert engine == "python"
+    effect = load_effect(written(tmp_path, NOT_COMPILABLE, "dictionary.py"))
+    same = load_effect(written(tmp_path, MINE, "compilable.py"))
+    model, compiled = (base_model("bridge1").adding(use(e)) for e in (effect, same))
     moving = motion()
     states = [moving[key][:50] for key in ("time", "load", "velocity", "slip")]
-    assert np.isfinite(predictor(base_model("bridge1").adding(use(effect)), engine=engine).pads(*states).force).all()
+    with pytest.warns(SlipwiseWarning, match=r"dictionary\.py runs on the Python engine"):
+        ours = predictor(model).pads(*states).force
+    np.testing.assert_allclose(ours, predictor(compiled).pads(*states).force, rtol=1e-12)
+    shake = sine(2.0, 3.0, 0.1)
+    replayed = shaken(model, shake)
+    assert replayed.engine == "python"
+    np.testing.assert_allclose(replayed.record["slip_x"], shaken(compiled, shake).record["slip_x"], atol=1e-9)
+    windows = Windows(np.stack([sine(2.0, 4.0, 0.05)] * 2), np.zeros((2, 2)), np.full((2, 2), 0.1), None, np.zeros(2))
+    for slow, fast in zip(simulate_windows(model, windows), simulate_windows(compiled, windows), strict=True):
+        for name in ("slip_x", "slip_y", "pad_A_N", "pad_D_Fx"):
+            np.testing.assert_allclose(slow[name], fast[name], rtol=1e-7, atol=1e-7)
+
+
+def test_the_command_line_replays_it_and_says_so(tmp_path: Path) -> None:
+    path = written(tmp_path, NOT_COMPILABLE, "dictionary.py")
+    asked = [
+        "replay",
+        "sine:10Hz,0.4g,cycles=9",
+        "--end",
+        "0.1 s",
+        "--effect",
+        str(path),
+        "--out",
+        str(tmp_path / "out"),
+    ]
+    done = subprocess.run(
+        [sys.executable, "-c", "from slipwise.cli import main; main()", *asked, "--no-pictures", "--no-recording"],
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "Python engine" in done.stderr
+    assert json.loads((tmp_path / "out" / "summary.json").read_text())["engine"] == "python"
 
 
 def test_an_edited_file_is_not_answered_for_by_its_old_self(tmp_path: Path) -> None:
