@@ -10,6 +10,7 @@ from slipwise.campaign import Campaign, load_campaign
 from slipwise.compare.cells import cells_of, corrected, gather
 from slipwise.compare.checks import Checks, check_instruments
 from slipwise.compare.component import component_errors, in_floors, repeat_errors
+from slipwise.compare.foretold import foretold
 from slipwise.compare.intervals import intervals
 from slipwise.compare.motion_states import motion_states
 from slipwise.compare.parity import parity
@@ -102,6 +103,7 @@ def compare(
         system=level,
         intervals=found,
         surface=friction,
+        foretold=foretold(base),
         cells=cells,
         patterns=patterns,
         parities=parities,

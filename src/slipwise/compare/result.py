@@ -8,6 +8,7 @@ from slipwise.campaign import Campaign
 from slipwise.compare.cells import Cell
 from slipwise.compare.checks import Checks
 from slipwise.compare.component import ComponentError, pooled
+from slipwise.compare.foretold import Foretold
 from slipwise.compare.intervals import Intervals
 from slipwise.compare.parity import Parity
 from slipwise.compare.patterns import Pattern
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
 TABLES: tuple[str, ...] = (
     "audit", "components", "system", "parameters", "correlations", "cells", "places", "parity", "floor",
-    "noise",
+    "noise", "foretold",
 )  # fmt: skip
 
 
@@ -44,6 +45,7 @@ class Comparison:
         system: the replays; None where there are none, see `cannot`.
         intervals: of the fitted numbers.
         surface: mu(P, V) with its band; None where no load is known.
+        foretold: mean friction of every run, measured and said.
         cells: every part of the samples that was looked at.
         patterns: mean residual over every state of motion.
         parities: relation -> odd and even part.
@@ -64,6 +66,7 @@ class Comparison:
     system: SystemLevel | None
     intervals: Intervals
     surface: Surface | None
+    foretold: tuple[Foretold, ...]
     cells: tuple[Cell, ...]
     patterns: tuple[Pattern, ...]
     parities: Mapping[str, Parity]
@@ -100,8 +103,8 @@ class Comparison:
         """Give one of the tables as rows, SI.
 
         Args:
-            table: audit, components, system, parameters, correlations, cells, places, parity, floor (by relation) or
-                noise (floor by channel and state).
+            table: audit, components, system, parameters, correlations, cells, places, parity, floor (by relation),
+                noise (floor by channel and state) or foretold.
 
         Raises:
             UnknownNameError: no such table.

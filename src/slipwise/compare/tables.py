@@ -61,6 +61,11 @@ def _parity(found: Comparison) -> list[dict[str, Any]]:
     return [{k: getattr(p, k) for k in keys} for p in found.parities.values()]
 
 
+def _foretold(found: Comparison) -> list[dict[str, Any]]:
+    keys = ("run", "role", "measured", "said", "low", "high", "inside")
+    return [{k: getattr(f, k) for k in keys} for f in found.foretold]
+
+
 def _floor(found: Comparison) -> list[dict[str, Any]]:
     own = floors(found.base)
     runs = found.base.problem.runs
@@ -95,6 +100,7 @@ _MAKERS = {
     "parity": _parity,
     "floor": _floor,
     "noise": lambda found: found.floor.rows(),
+    "foretold": _foretold,
 }
 
 
@@ -113,6 +119,7 @@ def as_json(found: Comparison) -> dict[str, Any]:
     correlations: [{parameter, other, correlation}], the strongest first
     surface: {pressure, speed, friction, deviation}, mu(P, V), or null
     floor: [{relation, floor, near_reversals, unit, repeated_runs}]
+    foretold: [{run, role, measured, said, low, high, inside}], mean friction of one pad while sliding
     noise: {channels: [{channel, unit, level, stuck, near reversal, sliding, basis, correlation_time}], notes: in words}
     parity: [{relation, odd, even, plus, minus}]
     cells: [{relation, kind, label, low, high, error, samples, effective, chance, above}]
@@ -151,7 +158,10 @@ def as_json(found: Comparison) -> dict[str, Any]:
         "audit": {"accused": found.checks.accused, "words": found.checks.words, "findings": found.rows("audit")},
         "worst": {"relation": worst, "error": error},
         "surface": surface,
-        **{name: found.rows(name) for name in ("places", "parameters", "correlations", "floor", "parity", "cells")},
+        **{
+            name: found.rows(name)
+            for name in ("places", "parameters", "correlations", "floor", "parity", "cells", "foretold")
+        },
         "noise": {"channels": found.rows("noise"), "notes": list(found.floor.notes)},
         "runs": {"components": found.rows("components"), "system": found.rows("system")},
         "cannot": list(found.cannot),

@@ -6,28 +6,10 @@ from slipwise.compare import Comparison
 from slipwise.compare.cells import ALLOWANCE, Cell
 from slipwise.compare.component import NAMES
 from slipwise.compare.words import UNITS
-from slipwise.units import parse_unit
 from slipwise.view import compare_figures as figures
+from slipwise.view.fitted_numbers import fitted_numbers, foretold_runs
 from slipwise.view.floor_rows import floor_rows
 from slipwise.view.html import Html, Section, Tone, bullets, callout, details, figure, page, paragraph, table, verdict
-
-#: Fitted numbers -> what they are called, unit in which they are shown.
-_CALLED: dict[str, tuple[str, str]] = {
-    "rig.mass": ("mass of the girder", "t"),
-    "rig.centre_height": ("height of the centre of gravity", "m"),
-    "rig.buffer_stiffness": ("buffer stiffness, together", "kN/mm"),
-    "rig.pitch_frequency": ("pitch of the girder on its pads", "Hz"),
-    "rig.pitch_damping": ("its damping", "1"),
-    "rig.pitch_slip": ("slip at the gauge for pitch load", "mm/kN"),
-    "rig.stick_length": ("slip over which stick turns round", "um"),
-    "rig.shear_strength": ("shear strength s", "MPa"),
-    "rig.logger": ("logger's filter of the friction channels", "Hz"),
-    "shear_rate.strength": ("s' of eq. (5)", "MPa"),
-    "shear_rate.rate": ("n of eq. (5)", "s/m"),
-    "shear_rate.slow": ("alpha of eq. (5)", "1"),
-    "contact_area.saturation": ("k of eq. (3)", "1/MPa"),
-}
-_LATE = "rig.late_"
 
 
 def compare_page(found: Comparison) -> str:
@@ -40,7 +22,7 @@ def compare_page(found: Comparison) -> str:
         Section("Loops", _loops(found)),
         Section("Are the instruments telling the truth", _audit(found)),
         Section("Noise floor", _floor(found)),
-        Section("Fitted numbers", _parameters(found)),
+        Section("Fitted numbers", fitted_numbers(found)),
         Section("What was done, and what could not be", _about(found)),
     ]
     return page(f"{name}: the model against the measurement", sections, _summary(found))
@@ -164,6 +146,7 @@ def _errors(found: Comparison) -> list[Any]:
             }
         )
     pieces.append(details("Every component in every run", [table(rows)]))
+    pieces += foretold_runs(found)
     if found.system:
         own = [
             {
@@ -311,48 +294,6 @@ def _floor(found: Comparison) -> list[Any]:
     )
     pieces = [paragraph(words), table(rows), paragraph(single), table(floor_rows(found.floor))]
     return [*pieces, bullets(found.floor.notes)] if found.floor.notes else pieces
-
-
-def _parameters(found: Comparison) -> list[Any]:
-    rows, marked = [], []
-    for entry in found.intervals.entries:
-        called, unit = _called(entry.key, entry.unit)
-        factor = parse_unit(unit, entry.unit, entry.key)
-        row = {"number": called, "unit": unit, "value": f"{entry.value / factor:.5g}"}
-        if entry.limit:
-            row["95 % interval"] = f"below {entry.high / factor:.5g}; it may be absent"
-        elif entry.bound:
-            marked.append(len(rows))
-            row["95 % interval"] = f"ended on its {entry.bound} bound"
-        else:
-            row["95 % interval"] = f"{entry.low / factor:.5g} to {entry.high / factor:.5g}"
-        row["rated"] = f"{entry.rated / factor:.5g}"
-        rows.append(row)
-    words = (
-        f"Fitted on runs of role fit and repeat. Intervals hold for correlated noise: only {found.intervals.blocks} "
-        "stretches of time count as independent."
-    )
-    pieces: list[Any] = [paragraph(words), table(rows, marked=marked)]
-    strong = [(a, b, c) for a, b, c in found.intervals.strongest(8) if abs(c) > 0.7]
-    if strong:
-        pairs = [f"{_called(a, '')[0]} and {_called(b, '')[0]} ({c:+.2f})" for a, b, c in strong]
-        pieces.append(paragraph("Numbers that these runs hardly tell apart (correlation): " + "; ".join(pairs) + "."))
-    if found.surface:
-        pieces.append(
-            figure(
-                figures.surface_figure(found),
-                "Coefficient of friction that the fit means, where the campaign has been, with its 95 % band: numbers "
-                "trade off against each other, this surface does not.",
-                "Coefficient of friction over speed for some pressures",
-            )
-        )
-    return pieces
-
-
-def _called(key: str, unit: str) -> tuple[str, str]:
-    if key.startswith(_LATE):
-        return f"lag of the {key.removeprefix(_LATE)} channels", "us"
-    return _CALLED.get(key, (key, unit))
 
 
 def _about(found: Comparison) -> list[Any]:

@@ -1,0 +1,89 @@
+"""What the fit found, for the report: its numbers, the surface they mean, and whether unseen runs are foretold."""
+
+from typing import Any
+
+from slipwise.compare import Comparison
+from slipwise.units import parse_unit
+from slipwise.view.compare_figures import surface_figure
+from slipwise.view.html import figure, paragraph, table
+
+#: Fitted numbers -> what they are called, unit in which they are shown.
+_CALLED: dict[str, tuple[str, str]] = {
+    "rig.mass": ("mass of the girder", "t"),
+    "rig.centre_height": ("height of the centre of gravity", "m"),
+    "rig.buffer_stiffness": ("buffer stiffness, together", "kN/mm"),
+    "rig.pitch_frequency": ("pitch of the girder on its pads", "Hz"),
+    "rig.pitch_damping": ("its damping", "1"),
+    "rig.pitch_slip": ("slip at the gauge for pitch load", "mm/kN"),
+    "rig.stick_length": ("slip over which stick turns round", "um"),
+    "rig.shear_strength": ("shear strength s", "MPa"),
+    "rig.logger": ("logger's filter of the friction channels", "Hz"),
+    "shear_rate.strength": ("s' of eq. (5)", "MPa"),
+    "shear_rate.rate": ("n of eq. (5)", "s/m"),
+    "shear_rate.slow": ("alpha of eq. (5)", "1"),
+    "contact_area.saturation": ("k of eq. (3)", "1/MPa"),
+}
+_LATE = "rig.late_"
+
+
+def fitted_numbers(found: Comparison) -> list[Any]:
+    """Show every fitted number with its interval, what trades off, and the surface of friction that they mean."""
+    rows, marked = [], []
+    for entry in found.intervals.entries:
+        called, unit = _called(entry.key, entry.unit)
+        factor = parse_unit(unit, entry.unit, entry.key)
+        row = {"number": called, "unit": unit, "value": f"{entry.value / factor:.5g}"}
+        if entry.limit:
+            row["95 % interval"] = f"below {entry.high / factor:.5g}; it may be absent"
+        elif entry.bound:
+            marked.append(len(rows))
+            row["95 % interval"] = f"ended on its {entry.bound} bound"
+        else:
+            row["95 % interval"] = f"{entry.low / factor:.5g} to {entry.high / factor:.5g}"
+        row["rated"] = f"{entry.rated / factor:.5g}"
+        rows.append(row)
+    words = (
+        f"Fitted on runs of role fit and repeat. Intervals hold for correlated noise: only {found.intervals.blocks} "
+        "stretches of time count as independent."
+    )
+    pieces: list[Any] = [paragraph(words), table(rows, marked=marked)]
+    strong = [(a, b, c) for a, b, c in found.intervals.strongest(8) if abs(c) > 0.7]
+    if strong:
+        pairs = [f"{_called(a, '')[0]} and {_called(b, '')[0]} ({c:+.2f})" for a, b, c in strong]
+        pieces.append(paragraph("Numbers that these runs hardly tell apart (correlation): " + "; ".join(pairs) + "."))
+    if found.surface:
+        pieces.append(
+            figure(
+                surface_figure(found),
+                "Coefficient of friction that the fit means, where the campaign has been, with its 95 % band: numbers "
+                "trade off against each other, this surface does not.",
+                "Coefficient of friction over speed for some pressures",
+            )
+        )
+    return pieces
+
+
+def _called(key: str, unit: str) -> tuple[str, str]:
+    if key.startswith(_LATE):
+        return f"lag of the {key.removeprefix(_LATE)} channels", "us"
+    return _CALLED.get(key, (key, unit))
+
+
+def foretold_runs(found: Comparison) -> list[Any]:
+    """Show the mean friction of runs that no fit has seen beside what the law says; nothing without such runs."""
+    held = [f for f in found.foretold if f.inside is not None]
+    rows = [
+        {
+            "run": f.run,
+            "mean friction [N]": f"{f.measured:.4g}",
+            "the law says": f"{f.said:.4g}",
+            "95 % interval": f"{f.low:.4g} to {f.high:.4g}",
+            "inside": "yes" if f.inside else "no",
+        }
+        for f in held
+    ]
+    words = (
+        "Mean friction of one pad while it slides, in runs that the fit has not seen. The interval holds what the "
+        "fitted runs differ from the law by, one from another: with few or unlike runs it is wide."
+    )
+    return [paragraph(words), table(rows)] if rows else []
