@@ -156,7 +156,7 @@ def _named_probability(margin: float, explained: float, best: Hypothesis, left: 
     """Give the chance that these names are right; logistic in lead and share explained."""
     lead = np.clip(margin, 0.0, 0.5)
     odds = 0.6 + 5.0 * lead / 0.5 + 2.0 * (np.clip(explained, 0.4, 1.0) - 0.7) / 0.3
-    odds -= 1.2 * (len(best.terms) - 1) + (0.7 if left == "unknown" else 0.0)
+    odds -= 0.8 * (len(best.terms) - 1) + (0.7 if left == "unknown" else 0.0)
     return float(np.clip(1.0 / (1.0 + np.exp(-odds)), 0.3, 0.99))
 
 
