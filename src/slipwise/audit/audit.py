@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from slipwise.audit.balances import relations
+from slipwise.audit.evidence import Evidence
 from slipwise.audit.finding import AuditReport, Balance, Finding
 from slipwise.audit.judge import KNOWN_MASS, RATED_MASS, Case, Fit
 from slipwise.audit.logger import estimate_logger
@@ -12,7 +13,7 @@ from slipwise.audit.rows import hold, noise_of_channels, noise_of_runs
 from slipwise.audit.samples import RAILS, SampleFault, coarse, repaired, sample_faults
 from slipwise.audit.signs import turned_gauges
 from slipwise.audit.suspects import Suspect
-from slipwise.audit.verdict import Evidence, judge
+from slipwise.audit.verdict import judge
 from slipwise.audit.words import as_sentence, confusable, how_to_settle, nearest, sentence
 from slipwise.campaign import Campaign
 from slipwise.channels import channel
