@@ -18,11 +18,12 @@ from typing import Any
 import numpy as np
 
 from slipwise.campaign import Campaign, Logger, Run
-from slipwise.compare.intervals import intervals
+from slipwise.compare.intervals import Intervals, intervals
 from slipwise.diagnose.candidates import candidates
+from slipwise.diagnose.refit import account
 from slipwise.diagnose.screen import screen, strengths
 from slipwise.errors import SlipwiseError
-from slipwise.fit.base import fit_base
+from slipwise.fit.base import BaseFit, fit_base
 from slipwise.fit.terms import Term
 from slipwise.model import EffectUse, Model, base_model
 from slipwise.motion import load_motion
@@ -43,6 +44,8 @@ MOTIONS = {
 }
 #: What a laboratory would record; the rest of what a replay knows is left out.
 KEPT = ("table_a?", "girder_a?", "slip_x", "pad_?_N", "pad_?_Fx")
+#: A relation above this many floors is not described by the fit's law; numbers closer than this are tied [1].
+FAULTY, TIED = 1.5, 0.5
 QUICK = ("run_in", "buffer_damping", "load_crosstalk")
 
 
@@ -87,7 +90,8 @@ def recover(term: Term, rng: np.random.Generator) -> dict[str, Any]:
     start = {**values, **half}
     uses = [EffectUse(term.effect, start, target) for target in ((card,) if card else term.targets)]
     fitted = fit_base(campaign, base.adding(*uses))
-    found = {i.key: i for i in intervals(fitted).entries}
+    known = intervals(fitted)
+    found = {i.key: i for i in known.entries}
     plain = fit_base(campaign)
     hidden = next((s.absorbed for s in screen(plain, [term])), float("nan"))
     rows = {}
@@ -96,7 +100,33 @@ def recover(term: Term, rng: np.random.Generator) -> dict[str, Any]:
             i = found[key]
             rows[key] = {"planted": values[p.name], "found": i.value, "low": i.low, "high": i.high, "unit": p.unit,
                          "inside": bool(i.low <= values[p.name] <= i.high)}  # fmt: skip
-    return {"inside": all(r["inside"] for r in rows.values()), "hidden by base": hidden, "parameters": rows}
+    inside = all(r["inside"] for r in rows.values())
+    reason = [] if inside else [*_unexplained(fitted), *_absorbers(known, set(rows))]
+    return {"inside": inside, "hidden by base": hidden, "parameters": rows, "reason": reason}
+
+
+def _unexplained(fitted: BaseFit) -> list[str]:
+    """Say which relations keep far more than noise although the effect is in: there the fit's law is at fault."""
+    told = account(fitted.problem, fitted.solution)
+    levels = {r: told.level(r, held_out=False) ** 0.5 for r in told.fitted}
+    return [f"{r} is left at {level:.1f} floors with the effect in" for r, level in levels.items() if level > FAULTY]
+
+
+def _absorbers(known: Intervals, own: set[str]) -> list[str]:
+    """Say which other numbers the strengths are tied to, and how far those went from what was planted."""
+    entries = {i.key: i for i in known.entries}
+    out = []
+    for key in own & set(known.keys):
+        ties = known.correlation[known.keys.index(key)]
+        for j in np.argsort(-np.abs(ties)):
+            other = entries[known.keys[j]]
+            if other.key not in own and abs(ties[j]) > TIED and len(out) < 3:
+                away = other.value - other.rated
+                share = f"{100.0 * away / other.rated:+.1f} %" if other.rated else f"{away:+.3g} {other.unit}"
+                out.append(
+                    f"{key} goes with {other.key} (correlation {ties[j]:+.2f}), which went {share} from its start"
+                )
+    return out
 
 
 def _tell(name: str, result: dict[str, Any]) -> None:
@@ -105,6 +135,8 @@ def _tell(name: str, result: dict[str, Any]) -> None:
     for key, row in result["parameters"].items():
         found = f"found {row['found']:.4g} ({row['low']:.4g} to {row['high']:.4g}) {row['unit']}"
         print(f"    {key:44s} planted {row['planted']:.4g}, {found}", flush=True)
+    for words in result.get("reason", ()):
+        print(f"    because {words}", flush=True)
 
 
 def main() -> None:
