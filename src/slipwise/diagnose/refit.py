@@ -136,6 +136,15 @@ def polished(found: Hypothesis) -> Hypothesis:
     return Hypothesis(found.terms, found.problem, solution, account(found.problem, solution))
 
 
+def settled(found: Hypothesis) -> Hypothesis:
+    """Weigh anew and fit on, twice: what was weighed by the base's law is off near reversals where it was wrong."""
+    for _ in range(2):
+        problem = found.problem.weighed_anew(found.solution.values)
+        solution = solve(problem, found.solution.values, found.solution.free, most=3, enough=10.0)
+        found = Hypothesis(found.terms, problem, solution, account(problem, solution))
+    return found
+
+
 def _several_starts(
     problem: Problem, values: Mapping[str, float], free: Sequence[Free], terms: Sequence[Term]
 ) -> Solution:

@@ -55,7 +55,7 @@ def diagnose(
     part = 0.7 if system else 1.0
     state = search(base, lambda words, share: tell(words, part * share))
     verdict = with_faults(judge(state), faults)
-    final = as_fit(base, state.best)
+    final = as_fit(base, state.final)
     cannot = [f"{name}: {reason}" for name, reason in state.cannot.items()]
     replayed: dict[str, float] = {}
     if system:
@@ -101,7 +101,7 @@ def error_of(account: Account, relation: str) -> float:
 
 
 def _relations(state: Search) -> dict[str, tuple[float, float]]:
-    origin, best = state.path[0].account, state.best.account
+    origin, best = state.path[0].account, state.final.account
     return {r: (error_of(origin, r), error_of(best, r)) for r in origin.fitted}
 
 
@@ -132,14 +132,15 @@ def _candidates(state: Search, verdict: Verdict, final: BaseFit) -> tuple[Candid
     for h, probability in zip(listed, shares, strict=True):
         _, where = worth(origin.account, h.account)
         where = where or "pads"
+        shown = state.final if h is best else h
         out.append(
             Candidate(
                 effect=" + ".join(t.label for t in h.terms),
                 probability=probability,
                 holdout_before=error_of(origin.account, where),
-                holdout_after=error_of(h.account, where),
+                holdout_after=error_of(shown.account, where),
                 absorbed_by_base=max(absorbed.get(t.label, 0.0) for t in h.terms),
-                parameters=_parameters(h, ends if h is best else {}),
+                parameters=_parameters(shown, ends if h is best else {}),
             )
         )
     return tuple(out)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.diagnose.candidates import candidates
-from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, polished, refit
+from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, polished, refit, settled
 from slipwise.diagnose.screen import Screened, projector, screen, strengths
 from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Term
@@ -48,6 +48,8 @@ class Search:
         cannot: effects that the campaign cannot test, with the reason.
         path: base first, then the best hypothesis with one, two ... effects.
         tried: every hypothesis that was refitted.
+        settled: the one at which the search ended, weighed by its own law where the pads are above their noise; None
+            for the base.
     """
 
     base: BaseFit
@@ -55,6 +57,12 @@ class Search:
     cannot: dict[str, str]
     path: list[Hypothesis] = field(default_factory=list[Hypothesis])
     tried: list[Hypothesis] = field(default_factory=list[Hypothesis])
+    settled: Hypothesis | None = None
+
+    @property
+    def final(self) -> Hypothesis:
+        """The hypothesis as it is reported."""
+        return self.settled or self.best
 
     @property
     def best(self) -> Hypothesis:
@@ -127,6 +135,9 @@ def search(base: BaseFit, progress: Callable[[str, float], None] | None = None) 
         if not _further(state):
             break
     _prune(state)
+    if state.best.terms and state.best.account.level("pads", held_out=False) > 1.0 + MATERIAL:
+        tell("settling", 0.95)
+        state.settled = settled(state.best)
     tell("done", 1.0)
     return state
 

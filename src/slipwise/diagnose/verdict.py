@@ -60,7 +60,7 @@ def excess(of: Account) -> float:
 def judge(state: Search) -> Verdict:
     """Give the verdict of a search."""
     origin, best = state.path[0], state.best
-    surface = leftover(best)
+    surface = leftover(state.final)
     remains = structured(surface)
     explained = 1.0 - excess(best.account) / max(excess(origin.account), 1e-12)
     if not best.terms:
@@ -71,7 +71,7 @@ def judge(state: Search) -> Verdict:
     too_many = len(best.terms) >= MOST_EFFECTS
     drop = worth(origin.account, best.account)[0]
     family = explained >= (RIGHT_FAMILY if drop >= _SURE_SHARE else HALF) and not _strained(best)
-    if (remains and (not family or too_many)) or (_loud(best) and explained < HALF):
+    if (remains and (not family or too_many)) or (_loud(state.final) and explained < HALF):
         shown = surface if remains else None
         return Verdict("unknown", (), _unknown_probability(shown, explained), "unknown", explained, shown, ())
     if explained < HALF and not remains and drop < _FAINT:

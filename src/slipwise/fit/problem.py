@@ -121,6 +121,14 @@ class Problem:
         more._sort()
         return more
 
+    def weighed_anew(self, values: Mapping[str, float]) -> "Problem":
+        """Give the same problem with the noise, and what the filter took at reversals, as these numbers say."""
+        anew = copy(self)
+        anew._memo = {}
+        anew._sort()
+        anew.weigh(values)
+        return anew
+
     def model_has_stick(self, terms: Sequence[Term]) -> bool:
         """Tell whether the base or these terms decide how a pad sticks."""
         return any("stick" in t.effect.hooks for t in (*self.terms, *terms))
@@ -412,7 +420,9 @@ def _without(term: Term, values: Mapping[str, float], run: FitRun) -> FitRun:
             names = [n for n in channels_like(entry.target) if n in record]
             pulse = np.zeros(len(record))
             pulse[len(pulse) // 2] = 1.0
-            shown = _call(entry.effect, "gauge", record.replaced(**{n: pulse for n in names}), entry.target, entry.values)
+            shown = _call(
+                entry.effect, "gauge", record.replaced(**{n: pulse for n in names}), entry.target, entry.values
+            )
             for n in names:
                 seen = smoothed(record[n], run)
                 record = record.replaced(**{n: record[n] + _sharpened(seen, shown[n], run.dt) - seen})
