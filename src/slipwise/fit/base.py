@@ -14,8 +14,9 @@ from slipwise.fit.solve import Solution, solve
 from slipwise.fit.terms import Free, base_free, terms_of
 from slipwise.model import Model, base_model
 
-#: Noise near reversals depends on the fit and the fit on the noise: so often each is made anew.
-_ROUNDS = 2
+#: Noise near reversals depends on the fit and the fit on the noise: each is made anew, and every fit ends where a step
+#: promises less than this much of the squared residual. One halfwidth of an interval is worth four [1].
+_ENOUGH = (1.0, 0.1)
 #: A stick longer than this share of the stroke is no detail of the rig [1].
 _STICK_SHARE = 0.01
 #: Share of the pads' squared residual that yaw must take away [1].
@@ -74,13 +75,13 @@ def _fitted(campaign: Campaign, model: Model, problem: Problem) -> BaseFit:
     values = {f.key: f.start for f in free}
     problem.weigh(values)
     solution = solve(problem, values, free, most=6, enough=50.0)
-    for _ in range(_ROUNDS):
+    for enough in _ENOUGH:
         problem.weigh(solution.values)
-        solution = solve(problem, solution.values, free, most=8, enough=1.0)
+        solution = solve(problem, solution.values, free, most=8, enough=enough)
     if _turns(problem, solution):
         problem.yaw = True
         problem = problem.adding()
-        solution = solve(problem, solution.values, free, most=8, enough=1.0)
+        solution = solve(problem, solution.values, free, most=8, enough=_ENOUGH[-1])
     return BaseFit(campaign, model, problem, tuple(free), solution)
 
 

@@ -439,9 +439,9 @@ def _sharpened(values: Array, pulse: Array, dt: float) -> Array:
     passed, grid = np.fft.rfft(np.roll(pulse, -middle)), np.fft.rfftfreq(len(pulse), dt)
 
     def inverse(f: Array) -> NDArray[np.complex128]:
-        here = np.interp(f, grid, passed.real) + 1j * np.interp(f, grid, passed.imag)
+        here = np.asarray(np.interp(f, grid, passed.real) + 1j * np.interp(f, grid, passed.imag), dtype=np.complex128)
         size = np.maximum(np.abs(here), 1e-12)
-        return np.minimum(1.0 / size, _SHARPEST) * np.conj(here) / size
+        return np.asarray(np.minimum(1.0 / size, _SHARPEST) * np.conj(here) / size, dtype=np.complex128)
 
     return in_frequency(values, dt, inverse, min(middle, 256))
 

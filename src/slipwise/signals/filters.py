@@ -90,7 +90,7 @@ def lowpass(values: Array, dt: float, by: LowPass | None) -> Array:
 @lru_cache(maxsize=32)
 def _kept_response(by: LowPass, count: int, step: float) -> NDArray[np.complex128]:
     """Give the response at multiples of a frequency [Hz]; many channels pass the same filter one after another."""
-    return response(by, step * np.arange(count))
+    return response(by, step * np.arange(count, dtype=np.float64))
 
 
 def align(values: Array, dt: float, by: LowPass | None) -> tuple[Array, LowPass | None]:
