@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.diagnose.candidates import candidates
+from slipwise.diagnose.pairs import leading_pair
 from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, polished, refit, settled
 from slipwise.diagnose.screen import Screened, projector, screen, strengths
 from slipwise.fit.base import BaseFit
@@ -33,9 +34,6 @@ _POLISHED = 2
 _REFITTED_PHYSICS = 2
 #: Most effects that are added.
 MOST_EFFECTS = 3
-#: A pair that screens this much better than the best single's best partner is tried too.
-_PAIR_LEAD = 1.15
-_PAIR_POOL = 24
 
 
 @dataclass
@@ -151,7 +149,7 @@ def _first(state: Search) -> None:
     tried = _try_all(state, [([s.term], {s.term.label: s.values}) for s in chosen if s.gain > least])
     good = [h for h in tried if material(origin.account, origin.account, h.account)]
     best = max(good, key=lambda h: score(origin.account, h.account), default=None)
-    pair = _leading_pair(state, best)
+    pair = leading_pair(state.base, state.screened, best)
     if pair is not None:
         both = _try(state, [p.term for p in pair], {p.term.label: p.values for p in pair})
         if material(origin.account, origin.account, both.account) and _beats(origin, both, best):
@@ -243,44 +241,6 @@ def _various(found: list[Screened], count: int) -> list[Screened]:
         if len(out) == count:
             break
     return out
-
-
-def _leading_pair(state: Search, best: Hypothesis | None) -> tuple[Screened, Screened] | None:
-    """Give the pair that screens best, if the best single is not part of it or there is none."""
-    pool = state.screened[:_PAIR_POOL]
-    if len(pool) < 2:
-        return None
-    project = projector(state.base.solution.jacobian)
-    problem = state.base.problem
-    residual = project(state.base.solution.residuals.stacked(problem.fitted, problem.relations))
-    columns = np.stack([s.column for s in pool], axis=1)
-    gram, right = columns.T @ columns, -(columns.T @ residual)
-    gains: dict[tuple[int, int], float] = {}
-    for i in range(len(pool)):
-        for j in range(i):
-            if pool[i].term.effect.name == pool[j].term.effect.name or _both_stick(pool[i].term, pool[j].term):
-                continue
-            two = gram[np.ix_([i, j], [i, j])]
-            if abs(two[0, 1]) > 0.98:
-                continue
-            amounts = np.linalg.solve(two, right[[i, j]])
-            if (amounts > 0.0).all():
-                gains[(j, i)] = float(amounts @ right[[i, j]])
-    if not gains:
-        return None
-    top = max(gains, key=lambda k: gains[k])
-    leader = best.terms[0].label if best else pool[0].term.label
-    labels = {k: (pool[k[0]].term.label, pool[k[1]].term.label) for k in gains}
-    with_leader = max((g for k, g in gains.items() if leader in labels[k]), default=0.0)
-    if leader in labels[top] and best is not None:
-        return None
-    if gains[top] < _PAIR_LEAD * with_leader and best is not None:
-        return None
-    return pool[top[0]], pool[top[1]]
-
-
-def _both_stick(a: Term, b: Term) -> bool:
-    return "stick" in a.effect.hooks and "stick" in b.effect.hooks
 
 
 def _prune(state: Search) -> None:

@@ -12,16 +12,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.channels import channels_like
-from slipwise.effects import Effect
 from slipwise.fit.balances import available, buffer_forces, heave_noise, motion_residual, predicted
-from slipwise.fit.data import FitRun, refined, smoothed
+from slipwise.fit.data import FitRun, refined
+from slipwise.fit.faults import acts_on_force, faulted, noise_scale, without
 from slipwise.fit.pads import Instants, PadLaw, as_logged, force_along, instants, lost_velocity, stick_share
 from slipwise.fit.terms import Term, fitted_model
 from slipwise.fit.yaw import yaw_of
 from slipwise.model import Model
 from slipwise.predict import PadForces, Predictor, predictor
-from slipwise.record import Record
 from slipwise.rig import Specimen
 from slipwise.signals import LowPass
 from slipwise.signals.ends import in_frequency
@@ -41,8 +39,6 @@ _PAD_KEYS = (*_LAW_KEYS, *_SEEN_KEYS)
 #: Effects of the catalogue that turn the girder about the vertical.
 _TURNERS = ("buffer_mismatch", "mass_eccentricity")
 _PAD_PORTS = ("area", "shear", "stick", "pad")
-#: A fault without an inverse is taken out as far as it weakened a channel by no more than this [1].
-_SHARPEST = 3.0
 #: Results of this many recent sets of numbers are kept: a difference quotient comes back to its base.
 _KEPT = 4
 #: Where a model has its own memory of slip, or nothing is fitted yet [m].
@@ -97,8 +93,8 @@ class Problem:
     def _sort(self) -> None:
         """Sort the terms by what they touch."""
         self._gauges = [t for t in self.terms if t.effect.port == "gauge"]
-        self._on_force = [t for t in self._gauges if _acts_on_force(t)]
-        self._on_state = [t for t in self._gauges if not _acts_on_force(t)]
+        self._on_force = [t for t in self._gauges if acts_on_force(t)]
+        self._on_state = [t for t in self._gauges if not acts_on_force(t)]
         self._turners = [t for t in self.terms if t.effect.name in _TURNERS]
         measured = self.runs[0].states.has_yaw or len(self.relations) == 1
         self._yaws = (self.yaw or bool(self._turners)) and not measured
@@ -285,8 +281,8 @@ class Problem:
         def make() -> tuple[list[FitRun], dict[str, float]]:
             runs = self.runs
             for term in self._on_state:
-                runs = [_without(term, values, r) for r in runs]
-            return runs, _noise_scale(self._on_state, values, self.runs[0])
+                runs = [without(term, values, r) for r in runs]
+            return runs, noise_scale(self._on_state, values, self.runs[0])
 
         return self._remembered("corrected", self._values_of(self._on_state, values), make)
 
@@ -349,13 +345,13 @@ class Problem:
         names = [f"pad_{p}_Fx" for p in run.pads]
         mended = run
         for term in self._on_force:
-            mended = _without(term, values, mended)
+            mended = without(term, values, mended)
         # while a pad sticks the law does not say its force
         stuck = np.stack([mended.record[n] for n in names], axis=1)
         clean = np.where(run.sliding[:, None], force, stuck)
         record = run.record.replaced(**{n: clean[:, i] for i, n in enumerate(names)})
         record = record.replaced(**{f"pad_{p}_N": run.load[:, i] for i, p in enumerate(run.pads)})
-        faulty = _faulted(self._on_force, values, record)
+        faulty = faulted(self._on_force, values, record)
         offset = np.stack([faulty[n] for n in names], axis=1) - clean
         return run.force - offset, offset
 
@@ -390,85 +386,3 @@ def _with_hidden(part: Array, hidden: float) -> Array:
     """
     total = float(part @ part)
     return part * np.sqrt(1.0 + hidden * np.count_nonzero(part) / total) if total > 0.0 else part
-
-
-def _acts_on_force(term: Term) -> bool:
-    """Tell whether a gauge's fault shows on friction only: it then acts on the prediction."""
-    if term.effect.target:
-        return all(t.endswith(("_Fx", "_Fy")) for t in term.targets)
-    return "undo" not in term.effect.hooks or all("_F" in c for c in term.effect.moves)
-
-
-def _faulted(terms: Sequence[Term], values: Mapping[str, float], record: Record) -> Record:
-    for term in terms:
-        for entry in term.uses(values):
-            record = _call(entry.effect, "gauge", record, entry.target, entry.values)
-    return record
-
-
-def _call(effect: Effect, hook: str, record: Record, target: str, values: Mapping[str, float]) -> Record:
-    return effect.hooks[hook](record=record, target=target, **values)
-
-
-def _without(term: Term, values: Mapping[str, float], run: FitRun) -> FitRun:
-    """Take a fault out of a run: by its inverse, or by what it does to the smoothed channel."""
-    record = run.record
-    for entry in term.uses(values):
-        if "undo" in term.effect.hooks:
-            record = _call(entry.effect, "undo", record, entry.target, entry.values)
-        else:
-            names = [n for n in channels_like(entry.target) if n in record]
-            pulse = np.zeros(len(record))
-            pulse[len(pulse) // 2] = 1.0
-            shown = _call(
-                entry.effect, "gauge", record.replaced(**{n: pulse for n in names}), entry.target, entry.values
-            )
-            for n in names:
-                seen = smoothed(record[n], run)
-                record = record.replaced(**{n: record[n] + _sharpened(seen, shown[n], run.dt) - seen})
-    moved = any(record[n] is not run.record[n] for n in ("slip_x", "girder_ax", "table_ax") if n in record)
-    return run.with_record(record, moved=moved)
-
-
-def _sharpened(values: Array, pulse: Array, dt: float) -> Array:
-    """Take out of values (n,) what made a pulse in the middle of a record look like `pulse` (n,).
-
-    What came out weaker than a third stays as weak as that would be: its noise would be all there is.
-    """
-    middle = len(pulse) // 2
-    passed, grid = np.fft.rfft(np.roll(pulse, -middle)), np.fft.rfftfreq(len(pulse), dt)
-
-    def inverse(f: Array) -> NDArray[np.complex128]:
-        here = np.asarray(np.interp(f, grid, passed.real) + 1j * np.interp(f, grid, passed.imag), dtype=np.complex128)
-        size = np.maximum(np.abs(here), 1e-12)
-        return np.asarray(np.minimum(1.0 / size, _SHARPEST) * np.conj(here) / size, dtype=np.complex128)
-
-    return in_frequency(values, dt, inverse, min(middle, 256))
-
-
-def _noise_scale(terms: Sequence[Term], values: Mapping[str, float], run: FitRun) -> dict[str, float]:
-    """Tell by how much undoing the faults has scaled the noise of the balances' own channels."""
-    loads = [f"pad_{p}_N" for p in run.pads if f"pad_{p}_N" in run.record]
-    channels = {"girder": ["girder_ax"], "heave": ["girder_az"], "pitch": loads, "roll": loads, "warp": loads}
-    out: dict[str, float] = {}
-    for relation, names in channels.items():
-        touched = [n for n in names if n in run.record and any(n in t.targets for t in terms)]
-        if touched:
-            out[relation] = sum(_amplified(terms, values, run, n) if n in touched else 1.0 for n in names) / len(names)
-    touched = [n for n in loads if any(n in t.targets for t in terms)]
-    if touched:  # noise of heave is of both kinds
-        own = sum(_amplified(terms, values, run, n) if n in touched else 1.0 for n in loads) / len(loads)
-        out["heave"] = max(out.get("heave", 1.0), own) if own > 1.0 else min(out.get("heave", 1.0), own)
-    return out
-
-
-def _amplified(terms: Sequence[Term], values: Mapping[str, float], run: FitRun, name: str) -> float:
-    """Give the factor by which undoing the faults changes a small constant on a channel."""
-    base, moved = run.record, run.record.replaced(**{name: run.record[name] + 1.0})
-    for term in terms:
-        for entry in term.uses(values):
-            if "undo" in term.effect.hooks and entry.target == name:
-                base = _call(entry.effect, "undo", base, name, entry.values)
-                moved = _call(entry.effect, "undo", moved, name, entry.values)
-    middle = len(run.time) // 2
-    return float(abs(moved[name][middle] - base[name][middle])) or 1.0

@@ -1,0 +1,100 @@
+"""Faults of gauges inside a fit: put on what is predicted, or taken out of what was measured with its noise scaled."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.channels import channels_like
+from slipwise.effects import Effect
+from slipwise.fit.data import FitRun, smoothed
+from slipwise.fit.terms import Term
+from slipwise.record import Record
+from slipwise.signals.ends import in_frequency
+
+Array = NDArray[np.float64]
+#: A fault without an inverse is taken out as far as it weakened a channel by no more than this [1].
+_SHARPEST = 3.0
+
+
+def acts_on_force(term: Term) -> bool:
+    """Tell whether a gauge's fault shows on friction only: it then acts on the prediction."""
+    if term.effect.target:
+        return all(t.endswith(("_Fx", "_Fy")) for t in term.targets)
+    return "undo" not in term.effect.hooks or all("_F" in c for c in term.effect.moves)
+
+
+def faulted(terms: Sequence[Term], values: Mapping[str, float], record: Record) -> Record:
+    """Put the faults of gauges on a record."""
+    for term in terms:
+        for entry in term.uses(values):
+            record = _call(entry.effect, "gauge", record, entry.target, entry.values)
+    return record
+
+
+def _call(effect: Effect, hook: str, record: Record, target: str, values: Mapping[str, float]) -> Record:
+    return effect.hooks[hook](record=record, target=target, **values)
+
+
+def without(term: Term, values: Mapping[str, float], run: FitRun) -> FitRun:
+    """Take a fault out of a run: by its inverse, or by what it does to the smoothed channel."""
+    record = run.record
+    for entry in term.uses(values):
+        if "undo" in term.effect.hooks:
+            record = _call(entry.effect, "undo", record, entry.target, entry.values)
+        else:
+            names = [n for n in channels_like(entry.target) if n in record]
+            pulse = np.zeros(len(record))
+            pulse[len(pulse) // 2] = 1.0
+            shown = _call(
+                entry.effect, "gauge", record.replaced(**{n: pulse for n in names}), entry.target, entry.values
+            )
+            for n in names:
+                seen = smoothed(record[n], run)
+                record = record.replaced(**{n: record[n] + _sharpened(seen, shown[n], run.dt) - seen})
+    moved = any(record[n] is not run.record[n] for n in ("slip_x", "girder_ax", "table_ax") if n in record)
+    return run.with_record(record, moved=moved)
+
+
+def _sharpened(values: Array, pulse: Array, dt: float) -> Array:
+    """Take out of values (n,) what made a pulse in the middle of a record look like `pulse` (n,).
+
+    What came out weaker than a third stays as weak as that would be: its noise would be all there is.
+    """
+    middle = len(pulse) // 2
+    passed, grid = np.fft.rfft(np.roll(pulse, -middle)), np.fft.rfftfreq(len(pulse), dt)
+
+    def inverse(f: Array) -> NDArray[np.complex128]:
+        here = np.asarray(np.interp(f, grid, passed.real) + 1j * np.interp(f, grid, passed.imag), dtype=np.complex128)
+        size = np.maximum(np.abs(here), 1e-12)
+        return np.asarray(np.minimum(1.0 / size, _SHARPEST) * np.conj(here) / size, dtype=np.complex128)
+
+    return in_frequency(values, dt, inverse, min(middle, 256))
+
+
+def noise_scale(terms: Sequence[Term], values: Mapping[str, float], run: FitRun) -> dict[str, float]:
+    """Tell by how much undoing the faults has scaled the noise of the balances' own channels."""
+    loads = [f"pad_{p}_N" for p in run.pads if f"pad_{p}_N" in run.record]
+    channels = {"girder": ["girder_ax"], "heave": ["girder_az"], "pitch": loads, "roll": loads, "warp": loads}
+    out: dict[str, float] = {}
+    for relation, names in channels.items():
+        touched = [n for n in names if n in run.record and any(n in t.targets for t in terms)]
+        if touched:
+            out[relation] = sum(_amplified(terms, values, run, n) if n in touched else 1.0 for n in names) / len(names)
+    touched = [n for n in loads if any(n in t.targets for t in terms)]
+    if touched:  # noise of heave is of both kinds
+        own = sum(_amplified(terms, values, run, n) if n in touched else 1.0 for n in loads) / len(loads)
+        out["heave"] = max(out.get("heave", 1.0), own) if own > 1.0 else min(out.get("heave", 1.0), own)
+    return out
+
+
+def _amplified(terms: Sequence[Term], values: Mapping[str, float], run: FitRun, name: str) -> float:
+    """Give the factor by which undoing the faults changes a small constant on a channel."""
+    base, moved = run.record, run.record.replaced(**{name: run.record[name] + 1.0})
+    for term in terms:
+        for entry in term.uses(values):
+            if "undo" in term.effect.hooks and entry.target == name:
+                base = _call(entry.effect, "undo", base, name, entry.values)
+                moved = _call(entry.effect, "undo", moved, name, entry.values)
+    middle = len(run.time) // 2
+    return float(abs(moved[name][middle] - base[name][middle])) or 1.0
