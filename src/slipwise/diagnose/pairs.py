@@ -1,4 +1,4 @@
-"""Pairs: two effects that explain little alone but much together, as heating and run-in, each of which hides the other."""
+"""Pairs: two effects that explain little alone but much together, as heating and run-in that hide each other."""
 
 from collections.abc import Sequence
 
