@@ -24,7 +24,7 @@ from slipwise.signals import Fused, LowPass, derivative, fuse
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 #: Slower than this for `_STUCK_SAMPLES` samples is stuck, faster than `_FAST` is sliding [m/s].
-_STUCK = 2e-3
+_STUCK = 3e-3
 _STUCK_SAMPLES = 6
 _FAST = 2e-2
 #: For a slow slider the limits are these parts of its usual speed (95 % of samples are slower) [1].
@@ -53,7 +53,7 @@ class States:
         force: (n, p, 2) of the girder on the pads [N]; NaN where it was not measured.
         girder_acceleration: (n, 3) at the centre of gravity [m/s^2]; NaN where it was not measured.
         table_acceleration: (n, 3) [m/s^2]; NaN where it was not measured.
-        stuck: (n,) slower than 2 mm/s for 6 samples.
+        stuck: (n,) slower than 3 mm/s for 6 samples: a filter leaves 2 mm/s unsure where the slider hardly turns.
         near_reversal: (n,) not stuck, but slower than 2 cm/s, or within half a period of the logger's filter of a
             change of direction.
         uplift: (n,) a pad is near zero load, or was within 0.2 s.

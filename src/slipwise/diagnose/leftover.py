@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 _BINS_ONE, _BINS_TWO = 24, 10
 #: Fewer samples in a bin say nothing.
 _LEAST = 12
+#: Residuals beyond this many times their median size are cut [1]; noise has one in 20 000 there.
+_OUTLIER = 6.0
 #: Structure counts when a surface foretells this share of the held-out residual, and this much of it.
 SHARE, LEVEL = 0.10, 0.10
 WORDS: dict[str, str] = {
@@ -117,13 +119,16 @@ def states_of(run: FitRun) -> Mapping[str, Array]:
     }
     if np.isfinite(run.load).all() and float(np.std(run.load)) > 1e-6 * float(np.mean(run.load)):
         states["load"] = run.load
-        block = np.ones(9) / 9.0
-        slow = np.stack([np.convolve(run.load[:, i], block, mode="same") for i in range(run.load.shape[1])], axis=1)
+        slow = np.stack([_smooth(run.load[:, i]) for i in range(run.load.shape[1])], axis=1)
         states["load_rate"] = np.gradient(slow, run.dt, axis=0)
     vertical = run.states.girder_acceleration[:, 2]
     if np.isfinite(vertical).all():
-        states["vertical"] = vertical
+        states["vertical"] = _smooth(vertical)  # else the gauge's noise would foretell itself in the heave balance
     return states
+
+
+def _smooth(values: Array) -> Array:
+    return np.convolve(values, np.ones(9) / 9.0, mode="same")
 
 
 def _surfaces(found: Hypothesis, relation: str, samples: list[dict[str, Array]]) -> list[Surface]:
@@ -132,13 +137,18 @@ def _surfaces(found: Hypothesis, relation: str, samples: list[dict[str, Array]])
     names = [k for k in fitted if k not in ("left", "sigma")]
     ones = [_surface(relation, (n,), fitted, held) for n in names]
     ranked = sorted(ones, key=lambda s: -s.level)
-    pairs = [c for c in combinations([s.states[0] for s in ranked[:4]], 2)]
+    # load and vertical acceleration together are the heave balance itself, noise included
+    own = {"load", "vertical"} if relation == "heave" else set()
+    pairs = [c for c in combinations([s.states[0] for s in ranked[:4]], 2) if not own or not own >= set(c)]
     signed = [("velocity", n) for n in names if n != "velocity" and ("velocity", n) not in pairs]
     return [*ones, *(_surface(relation, p, fitted, held) for p in [*pairs, *signed])]
 
 
 def _joined(parts: list[dict[str, Array]]) -> dict[str, Array]:
-    return {k: np.concatenate([p[k] for p in parts]) for k in parts[0]}
+    """Join runs; a single reversal that came up early must not speak for a whole run, so outliers are cut."""
+    joined = {k: np.concatenate([p[k] for p in parts]) for k in parts[0]}
+    limit = _OUTLIER * float(np.median(np.abs(joined["left"])))
+    return {**joined, "left": np.clip(joined["left"], -limit, limit)}
 
 
 def _surface(relation: str, states: tuple[str, ...], fitted: dict[str, Array], held: dict[str, Array]) -> Surface:

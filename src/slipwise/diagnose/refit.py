@@ -132,7 +132,7 @@ def refit(
 
 def polished(found: Hypothesis) -> Hypothesis:
     """Fit on with slopes of its own: those of the base, taken without the effects, lead only near the end."""
-    solution = solve(found.problem, found.solution.values, found.solution.free, most=2, enough=10.0)
+    solution = solve(found.problem, found.solution.values, found.solution.free, most=6, enough=10.0)
     return Hypothesis(found.terms, found.problem, solution, account(found.problem, solution))
 
 

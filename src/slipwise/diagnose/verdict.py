@@ -14,6 +14,8 @@ from slipwise.diagnose.search import MATERIAL, MOST_EFFECTS, Search, material, s
 #: A right family explains this share of what the base left, whatever its exact form [1]: 0.87 and more on trials, the
 #: best wrong one up to 0.69.
 RIGHT_FAMILY = 0.70
+#: What it must explain when its strength has run against a bound: more of the same, not something else.
+STRAINED_FAMILY = 0.90
 #: Below this drop of the mean squared residual the share is itself uncertain, and half is enough [noise variance].
 _SURE_SHARE = 1.0
 #: An effect that explains less than half of little, and leaves nothing with structure, is no finding.
@@ -70,7 +72,8 @@ def judge(state: Search) -> Verdict:
         return Verdict("complete", (), _complete_probability(state), "none", 1.0, surface, ())
     too_many = len(best.terms) >= MOST_EFFECTS
     drop = worth(origin.account, best.account)[0]
-    family = explained >= (RIGHT_FAMILY if drop >= _SURE_SHARE else HALF) and not _strained(best)
+    share = STRAINED_FAMILY if _strained(best) else RIGHT_FAMILY if drop >= _SURE_SHARE else HALF
+    family = explained >= share
     if (remains and (not family or too_many)) or (_loud(state.final) and explained < HALF):
         shown = surface if remains else None
         return Verdict("unknown", (), _unknown_probability(shown, explained), "unknown", explained, shown, ())

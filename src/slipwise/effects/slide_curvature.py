@@ -23,7 +23,7 @@ EFFECT = Effect(
     component="pad friction",
     equation="F += N x/R",
     parameters=(
-        Parameter("curvature", "1/m", 0.05, -0.5, 0.5, 0.0, "R > 10 m for a flat plate, assumed", "1/R"),
+        Parameter("curvature", "1/m", 0.05, -1.0, 1.0, 0.0, "R > 10 m for a flat plate, assumed", "1/R"),
     ),
     moves=RESPONSE,
     signature="even in velocity, proportional to N x: loops of the pads lean",

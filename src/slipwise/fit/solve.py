@@ -13,6 +13,8 @@ Array = NDArray[np.float64]
 #: A fit is over when a step promises less than this much of the squared residual [1].
 _ENOUGH = 0.05
 _STEP = 1e-3
+#: A number whose bounds are this far apart changes at most by this factor in one step: slopes taken a decade away lie.
+_DECADES, _LEAP = 100.0, 3.0
 #: Slopes are used again while steps keep this share of what they promise [1].
 _KEPT_SLOPES = 0.8
 
@@ -92,6 +94,7 @@ def solve(
     values = dict(start)
     scale = np.array([f.scale for f in free])
     low, high = np.array([f.low for f in free]), np.array([f.high for f in free])
+    wide = (low > 0.0) & (high > _DECADES * low)
     now = problem.residuals(values, fitted_only=True)
     left = now.stacked(which, problem.relations)
     cost = float(left @ left)
@@ -108,8 +111,10 @@ def solve(
         here = np.array([values[f.key] for f in free])
         better = False
         for _ in range(8):
-            step = _bounded_step(normal, gradient, damping, here, low, high, scale)
-            end = np.clip(here + step * scale, low, high)
+            nearest, farthest = np.where(wide, here / _LEAP, low), np.where(wide, here * _LEAP, high)
+            nearest, farthest = np.maximum(nearest, low), np.minimum(farthest, high)
+            step = _bounded_step(normal, gradient, damping, here, nearest, farthest, scale)
+            end = np.clip(here + step * scale, nearest, farthest)
             trial = {**values, **{f.key: float(v) for f, v in zip(free, end, strict=True)}}
             moved = problem.residuals(trial, fitted_only=True)
             evaluations += 1
