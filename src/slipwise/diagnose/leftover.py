@@ -119,27 +119,23 @@ def states_of(run: FitRun) -> Mapping[str, Array]:
     }
     if np.isfinite(run.load).all() and float(np.std(run.load)) > 1e-6 * float(np.mean(run.load)):
         states["load"] = run.load
-        slow = np.stack([_smooth(run.load[:, i]) for i in range(run.load.shape[1])], axis=1)
+        block = np.ones(9) / 9.0
+        slow = np.stack([np.convolve(run.load[:, i], block, mode="same") for i in range(run.load.shape[1])], axis=1)
         states["load_rate"] = np.gradient(slow, run.dt, axis=0)
     vertical = run.states.girder_acceleration[:, 2]
     if np.isfinite(vertical).all():
-        states["vertical"] = _smooth(vertical)  # else the gauge's noise would foretell itself in the heave balance
+        states["vertical"] = vertical
     return states
-
-
-def _smooth(values: Array) -> Array:
-    return np.convolve(values, np.ones(9) / 9.0, mode="same")
 
 
 def _surfaces(found: Hypothesis, relation: str, samples: list[dict[str, Array]]) -> list[Surface]:
     fitted = _joined([samples[i] for i in found.problem.fitted])
     held = _joined([samples[i] for i in found.problem.held_out])
-    names = [k for k in fitted if k not in ("left", "sigma")]
+    # most of the heave balance's noise is that of the vertical accelerometer: it would foretell itself
+    names = [k for k in fitted if k not in ("left", "sigma") and (k, relation) != ("vertical", "heave")]
     ones = [_surface(relation, (n,), fitted, held) for n in names]
     ranked = sorted(ones, key=lambda s: -s.level)
-    # load and vertical acceleration together are the heave balance itself, noise included
-    own = {"load", "vertical"} if relation == "heave" else set()
-    pairs = [c for c in combinations([s.states[0] for s in ranked[:4]], 2) if not own or not own >= set(c)]
+    pairs = [c for c in combinations([s.states[0] for s in ranked[:4]], 2)]
     signed = [("velocity", n) for n in names if n != "velocity" and ("velocity", n) not in pairs]
     return [*ones, *(_surface(relation, p, fitted, held) for p in [*pairs, *signed])]
 
