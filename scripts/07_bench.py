@@ -93,9 +93,9 @@ def main() -> None:
         "--seed", type=int, default=20000, help="of the first campaign; thresholds were frozen on others"
     )
     parser.add_argument("--workers", type=int, default=2)
-    parser.add_argument("--quick", action="store_true", help="four campaigns only")
+    parser.add_argument("--quick", action="store_true", help="two campaigns only")
     chosen = parser.parse_args()
-    results = run(chosen.out, 4 if chosen.quick else chosen.count, chosen.seed, chosen.workers)
+    results = run(chosen.out, 2 if chosen.quick else chosen.count, chosen.seed, chosen.workers)
     from bench.score import calibration, confusion, rates  # pyright: ignore[reportMissingImports]
     from slipwise.record import write_json
 
