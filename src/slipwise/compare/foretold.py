@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import t as student
 
+from slipwise.compare.intervals import COVERAGE
 from slipwise.fit.base import BaseFit
 
 Array = NDArray[np.float64]
-COVERAGE = 0.95
 #: Fitted runs below which their scatter is unknown.
 _LEAST_RUNS = 2
 

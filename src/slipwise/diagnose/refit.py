@@ -90,7 +90,7 @@ def _samples(problem: Problem, relation: str, place: int) -> int:
 
 def base_hypothesis(base: BaseFit) -> Hypothesis:
     """Give the base model as a hypothesis without effects."""
-    return Hypothesis((), base.problem, base.solution, account(base.problem, base.solution))
+    return _hypothesis((), base.problem, base.solution)
 
 
 def refit(
@@ -112,7 +112,7 @@ def refit(
     """
     problem = base.problem.adding(*terms)
     values = dict((before.solution if before else base.solution).values)
-    free: list[Free] = [f for f in base.free if f.key != _STICK_LENGTH or not problem.model_has_stick(terms)]
+    free: list[Free] = [f for f in base.free if f.key != _STICK_LENGTH or not problem.has_stick]
     if any(t.effect.name == "shear_rate" for t in terms):
         free = [f for f in free if f.key != "rig.shear_strength"]
     for term in terms:
@@ -127,13 +127,17 @@ def refit(
     else:
         known = {f.key: base.solution.jacobian[:, j] for j, f in enumerate(base.free)}
         solution = solve(problem, values, free, most=most, enough=10.0, known=known)
+    return _hypothesis(terms, problem, solution)
+
+
+def _hypothesis(terms: Sequence[Term], problem: Problem, solution: Solution) -> Hypothesis:
     return Hypothesis(tuple(terms), problem, solution, account(problem, solution))
 
 
 def polished(found: Hypothesis) -> Hypothesis:
     """Fit on with slopes of its own: those of the base, taken without the effects, lead only near the end."""
     solution = solve(found.problem, found.solution.values, found.solution.free, most=6, enough=10.0)
-    return Hypothesis(found.terms, found.problem, solution, account(found.problem, solution))
+    return _hypothesis(found.terms, found.problem, solution)
 
 
 def settled(found: Hypothesis) -> Hypothesis:
@@ -141,7 +145,7 @@ def settled(found: Hypothesis) -> Hypothesis:
     for _ in range(2):
         problem = found.problem.weighed_anew(found.solution.values)
         solution = solve(problem, found.solution.values, found.solution.free, most=3, enough=10.0)
-        found = Hypothesis(found.terms, problem, solution, account(problem, solution))
+        found = _hypothesis(found.terms, problem, solution)
     return found
 
 

@@ -174,13 +174,13 @@ def _least(state: Search) -> dict[str, tuple[float, str]]:
     samples = min(n for n, _ in counts.values())
     out: dict[str, tuple[float, str]] = {}
     for s in state.screened:
-        if not strengths(s.term.effect):
+        own = strengths(s.term.effect)
+        if not own:
             continue
-        parameter = strengths(s.term.effect)[0]
         size = _size(s, samples)
         old = out.get(s.term.effect.name)
         if np.isfinite(size) and (old is None or size < old[0]):
-            out[s.term.effect.name] = (size, parameter.unit)
+            out[s.term.effect.name] = (size, own[0].unit)
     return dict(sorted(out.items()))
 
 

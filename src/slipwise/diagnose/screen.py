@@ -135,12 +135,18 @@ def _replacing(base: BaseFit, term: Term, residual: Array, project: Callable[[Ar
     rest = project(there)
     basis = np.linalg.qr(np.stack(columns, axis=1))[0]
     rest = rest - basis @ (basis.T @ rest)
-    step = rest - residual
+    return _scored(term, values, residual, rest - residual, 0.0)
+
+
+def _scored(term: Term, values: dict[str, float], residual: Array, step: Array, absorbed: float) -> Screened | None:
+    """Score what a step makes of the residual; None for no step at all."""
     length = float(np.sqrt(step @ step))
     if length == 0.0:
         return None
+    gain = float(residual @ residual - (residual + step) @ (residual + step))
+    # Hundreds of columns are kept: four bytes a number are enough to compare them.
     column: Any = (step / length).astype(np.float32)
-    return Screened(term, values, float(residual @ residual - rest @ rest), 0.0, column, length)
+    return Screened(term, values, gain, absorbed, column, length)
 
 
 def _best_mix(
@@ -159,19 +165,13 @@ def _best_mix(
     if not kept:
         return None
     step = matrix[:, kept] @ amounts
-    gain = float(residual @ residual - (residual + step) @ (residual + step))
     values = {**term.effect.neutral(), **shape}
     for k, amount in zip(kept, amounts, strict=True):
         p, start = starts[k]
         off = float(p.neutral or 0.0)
         values[p.name] = float(np.clip(off + amount * (start[p.name] - off), p.low, p.high))
-    length = float(np.sqrt(step @ step))
-    if length == 0.0:
-        return None
     clean = float(sum(c @ c for c in columns))
-    # Hundreds of columns are kept: four bytes a number are enough to compare them.
-    column: Any = (step / length).astype(np.float32)
-    return Screened(term, values, gain, 1.0 - clean / raw, column, length)
+    return _scored(term, values, residual, step, 1.0 - clean / raw)
 
 
 def _two_sided(p: Parameter) -> bool:

@@ -125,9 +125,10 @@ class Problem:
         anew.weigh(values)
         return anew
 
-    def model_has_stick(self, terms: Sequence[Term]) -> bool:
-        """Tell whether the base or these terms decide how a pad sticks."""
-        return any("stick" in t.effect.hooks for t in (*self.terms, *terms))
+    @property
+    def has_stick(self) -> bool:
+        """Whether an effect decides how a pad sticks."""
+        return any("stick" in t.effect.hooks for t in self.terms)
 
     def model(self, values: Mapping[str, float]) -> Model:
         """Give the model that these numbers describe."""
@@ -326,7 +327,7 @@ class Problem:
     def _along(self, values: Mapping[str, float], states: list[Instants], said: list[PadForces]) -> list[Array]:
         """Give the pads' forces along x at the instants, a list of (f, p) [N]."""
         length = values.get("rig.stick_length", _SHORT_STICK)
-        sharp = not self.model_has_stick(())
+        sharp = not self.has_stick
         shares = [stick_share(s, length) if sharp else None for s in states]
         return [force_along(*each) for each in zip(said, states, shares, strict=False)]
 
@@ -334,7 +335,7 @@ class Problem:
         self, values: Mapping[str, float], runs: list[FitRun], states: list[Instants], said: list[PadForces]
     ) -> list[Array]:
         """Give the pads' forces along x as measured, a list of (n, p) [N]."""
-        by, late, averaged = self._by(values), values.get("rig.late_force", 0.0), not self.model_has_stick(())
+        by, late, averaged = self._by(values), values.get("rig.late_force", 0.0), not self.has_stick
         forces = self._along(values, states[: len(said)], said)
         return [as_logged(f, r, by, averaged=averaged, late=late) for f, r in zip(forces, runs, strict=False)]
 
