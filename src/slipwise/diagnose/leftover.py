@@ -23,6 +23,8 @@ _LEAST = 12
 _OUTLIER = 6.0
 #: Structure counts when a surface foretells this share of the held-out residual, and this much of it.
 SHARE, LEVEL = 0.10, 0.10
+#: Most of a balance's noise is that of one accelerometer: a state made of it would foretell itself.
+_OWN_NOISE = frozenset({("vertical", "heave"), ("acceleration", "girder")})
 WORDS: dict[str, str] = {
     "velocity": "slip velocity [m/s]",
     "slip": "slip [m]",
@@ -131,8 +133,7 @@ def states_of(run: FitRun) -> Mapping[str, Array]:
 def _surfaces(found: Hypothesis, relation: str, samples: list[dict[str, Array]]) -> list[Surface]:
     fitted = _joined([samples[i] for i in found.problem.fitted])
     held = _joined([samples[i] for i in found.problem.held_out])
-    # most of the heave balance's noise is that of the vertical accelerometer: it would foretell itself
-    names = [k for k in fitted if k not in ("left", "sigma") and (k, relation) != ("vertical", "heave")]
+    names = [k for k in fitted if k not in ("left", "sigma") and (k, relation) not in _OWN_NOISE]
     ones = [_surface(relation, (n,), fitted, held) for n in names]
     ranked = sorted(ones, key=lambda s: -s.level)
     pairs = [c for c in combinations([s.states[0] for s in ranked[:4]], 2)]

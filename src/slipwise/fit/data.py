@@ -19,8 +19,8 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 #: Masked before and after a stuck stretch [s].
 _STUCK_MARGIN = 0.016
-#: Samples at rest that are enough to know a gauge's noise.
-_ENOUGH_QUIET = 60
+#: Samples at rest that are enough to know a gauge's noise, and the least of one run that count.
+_ENOUGH_QUIET, _LEAST_QUIET = 60, 24
 #: Instants per sample at which the laws are evaluated: a reversal between two samples must not wait for the second.
 FINE = 2
 
@@ -141,8 +141,11 @@ def fit_runs(campaign: Campaign, spoiled: Mapping[str, Mask] | None = None) -> l
         InputError: a run lacks slip, or a pad's friction.
     """
     runs = [_fit_run(run, campaign, (spoiled or {}).get(run.name)) for run in campaign.runs]
-    # a gauge is as noisy in every run; a run that starts at once has no rest to show it
-    levels = {c: float(np.median([r.noise[c] for r in runs if c in r.noise])) for r in runs for c in r.noise}
+    quiet = [_quiet(r.record) for r in runs]
+    channels = dict.fromkeys(c for r in runs for c in r.record.channels)
+    levels = {
+        c: _level([(r.record[c], q) for r, q in zip(runs, quiet, strict=True) if c in r.record]) for c in channels
+    }
     return [replace(r, noise=levels) for r in runs]
 
 
@@ -158,24 +161,33 @@ def _fit_run(run: Run, campaign: Campaign, spoiled: Mask | None) -> FitRun:
     if spoiled is not None and len(spoiled) == len(grounded):
         grounded = grounded & ~spoiled
     sliding = grounded & ~_widened(states.stuck, margin)
-    quiet = _quiet(states.record)
-    levels = {c: _level(v, quiet) for c, v in states.record.channels.items()}
     force = _stacked(states.record, pads, "Fx", states.load)
     filtered = states.lowpass.get(f"pad_{pads[0]}_Fx")
     rest = 0.0 if run.rest_before is None else run.rest_before
-    return FitRun(
-        run.name, run.role, rest, states, filtered, pads, load, force, sliding, grounded,
-        levels,
-    )  # fmt: skip
+    return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, sliding, grounded)
 
 
-def _level(values: Array, quiet: Mask | None) -> float:
-    """Give the noise of a channel: at rest where the run shows it, else from the top of the spectrum."""
-    if quiet is None or np.count_nonzero(quiet) < _ENOUGH_QUIET:
-        return noise(values).level
-    still = values[quiet]
-    place = np.arange(len(still))
-    return float(np.std(still - np.polynomial.Polynomial.fit(place, still, 1)(place), ddof=2))
+def _level(parts: list[tuple[Array, Mask | None]]) -> float:
+    """Give the noise of a channel from all runs: a gauge is as noisy in each, and many show too short a rest.
+
+    Where rest is too short in all of them together, the top of the spectrum must do, which noise that is not white
+    does not reach.
+
+    Args:
+        parts: of each run, its samples (n,) and which of them were at rest.
+    """
+    squares, count = 0.0, 0
+    for values, quiet in parts:
+        if quiet is None or np.count_nonzero(quiet) < _LEAST_QUIET:
+            continue
+        still = values[quiet]
+        place = np.arange(len(still))
+        left = still - np.polynomial.Polynomial.fit(place, still, 1)(place)
+        squares += float(left @ left)
+        count += len(still) - 2
+    if count < _ENOUGH_QUIET:
+        return float(np.median([noise(values).level for values, _ in parts]))
+    return float(np.sqrt(squares / count))
 
 
 def _measured(record: Record) -> list[str]:
