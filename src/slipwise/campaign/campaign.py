@@ -3,8 +3,10 @@
 import fnmatch
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 
+from slipwise.campaign.rests import Gauge, noise_of_gauges
 from slipwise.errors import SettingError
 from slipwise.record import Record
 from slipwise.rig import Specimen
@@ -83,6 +85,11 @@ class Campaign:
     folder: Path
     known: Mapping[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+
+    @cached_property
+    def gauges(self) -> Mapping[str, Gauge]:
+        """Noise of every channel, from the rests of all runs."""
+        return noise_of_gauges([run.record for run in self.runs])
 
     def with_role(self, *roles: str) -> tuple[Run, ...]:
         """Give the runs that have one of these roles."""

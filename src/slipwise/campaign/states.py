@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from slipwise.campaign.aligned import aligned_run, long_enough, spread
 from slipwise.campaign.campaign import Campaign, Run
+from slipwise.campaign.rests import Gauge
 from slipwise.channels import PAD_SIGNS, PADS
 from slipwise.errors import InputError
 from slipwise.loads import load_modes, vertical_acceleration
@@ -139,8 +140,8 @@ def measured_states(run: Run, campaign: Campaign) -> States:
     missing: list[str] = []
     pads = [pad for pad in PADS if any(f"pad_{pad}_{kind}" in record for kind in ("N", "P", "Fx"))]
     load = _loads(record, specimen, pads, run, missing)
-    along = _along(record, specimen, missing)
-    across = _across(record, missing)
+    along = _along(record, specimen, campaign.gauges, missing)
+    across = _across(record, campaign.gauges, missing)
     yaw = fuse(record.time, record["yaw"]) if "yaw" in record else None
     if yaw is None and specimen.free:
         missing.append("yaw: velocities of the pads are taken as equal")
@@ -222,18 +223,19 @@ def girder_pitch(record: Record, specimen: Specimen) -> Array | None:
     return (pitch - np.median(pitch)) / (len(PADS) * specimen.pad_stiffness * specimen.half_spacing[0])
 
 
-def _along(record: Record, specimen: Specimen, missing: list[str]) -> Fused:
+def _along(record: Record, specimen: Specimen, gauges: Mapping[str, Gauge], missing: list[str]) -> Fused:
     recorded = record["slip_vx"] if "slip_vx" in record else None
     if not record.has_all("girder_ax", "table_ax"):
         if specimen.free:
             missing.append("girder_ax and table_ax: velocity is made from the slip gauge alone")
         return fuse(record.time, record["slip_x"], velocity=recorded)
     relative = record["girder_ax"] - record["table_ax"]
+    levels = _levels(gauges, "x")
     pitch = girder_pitch(record, specimen)
     if pitch is None:
-        return fuse(record.time, record["slip_x"], relative, recorded)
+        return fuse(record.time, record["slip_x"], relative, recorded, levels)
     lean = specimen.centre_height * pitch
-    fused = fuse(record.time, record["slip_x"] + lean, relative, recorded)
+    fused = fuse(record.time, record["slip_x"] + lean, relative, recorded, levels)
     return Fused(
         position=fused.position - lean,
         velocity=fused.velocity - derivative(lean, record.dt),
@@ -245,13 +247,26 @@ def _along(record: Record, specimen: Specimen, missing: list[str]) -> Fused:
     )
 
 
-def _across(record: Record, missing: list[str]) -> Fused | None:
+def _across(record: Record, gauges: Mapping[str, Gauge], missing: list[str]) -> Fused | None:
     if "slip_y" not in record:
         missing.append("slip_y: motion across is taken as zero")
         return None
     recorded = record["slip_vy"] if "slip_vy" in record else None
     relative = record["girder_ay"] - record["table_ay"] if record.has_all("girder_ay", "table_ay") else None
-    return fuse(record.time, record["slip_y"], relative, recorded)
+    return fuse(record.time, record["slip_y"], relative, recorded, _levels(gauges, "y"))
+
+
+def _levels(gauges: Mapping[str, Gauge], axis: str) -> tuple[float, float] | None:
+    """Give the noise of slip gauge [m] and relative acceleration [m/s^2] where the rests have shown all three gauges.
+
+    What a gauge hums at rest it may hum less when it moves, but noise that is slow must be known: the likelihood of a
+    run takes it for motion, and a velocity then errs four times as much.
+    """
+    names = (f"slip_{axis}", f"girder_a{axis}", f"table_a{axis}")
+    if not all(n in gauges and gauges[n].rested and gauges[n].level > 0.0 for n in names):
+        return None
+    slip, girder, table = (gauges[n].slow_level for n in names)
+    return slip, float(np.hypot(girder, table))
 
 
 def _stuck(speed: Array) -> Mask:

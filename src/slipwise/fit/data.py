@@ -12,15 +12,13 @@ from slipwise.campaign.states import States, measured_states
 from slipwise.channels import PADS
 from slipwise.errors import InputError
 from slipwise.record import Record
-from slipwise.signals import LowPass, lowpass, noise
+from slipwise.signals import LowPass, lowpass
 from slipwise.signals.ends import in_frequency
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 #: Masked before and after a stuck stretch [s].
 _STUCK_MARGIN = 0.016
-#: Samples at rest that are enough to know a gauge's noise, and the least of one run that count.
-_ENOUGH_QUIET, _LEAST_QUIET = 60, 24
 #: Instants per sample at which the laws are evaluated: a reversal between two samples must not wait for the second.
 FINE = 2
 
@@ -141,11 +139,7 @@ def fit_runs(campaign: Campaign, spoiled: Mapping[str, Mask] | None = None) -> l
         InputError: a run lacks slip, or a pad's friction.
     """
     runs = [_fit_run(run, campaign, (spoiled or {}).get(run.name)) for run in campaign.runs]
-    quiet = [_quiet(r.record) for r in runs]
-    channels = dict.fromkeys(c for r in runs for c in r.record.channels)
-    levels = {
-        c: _level([(r.record[c], q) for r, q in zip(runs, quiet, strict=True) if c in r.record]) for c in channels
-    }
+    levels = {channel: gauge.level for channel, gauge in campaign.gauges.items()}
     return [replace(r, noise=levels) for r in runs]
 
 
@@ -167,29 +161,6 @@ def _fit_run(run: Run, campaign: Campaign, spoiled: Mask | None) -> FitRun:
     return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, sliding, grounded)
 
 
-def _level(parts: list[tuple[Array, Mask | None]]) -> float:
-    """Give the noise of a channel from all runs: a gauge is as noisy in each, and many show too short a rest.
-
-    Where rest is too short in all of them together, the top of the spectrum must do, which noise that is not white
-    does not reach.
-
-    Args:
-        parts: of each run, its samples (n,) and which of them were at rest.
-    """
-    squares, count = 0.0, 0
-    for values, quiet in parts:
-        if quiet is None or np.count_nonzero(quiet) < _LEAST_QUIET:
-            continue
-        still = values[quiet]
-        place = np.arange(len(still))
-        left = still - np.polynomial.Polynomial.fit(place, still, 1)(place)
-        squares += float(left @ left)
-        count += len(still) - 2
-    if count < _ENOUGH_QUIET:
-        return float(np.median([noise(values).level for values, _ in parts]))
-    return float(np.sqrt(squares / count))
-
-
 def _measured(record: Record) -> list[str]:
     return [p for p in PADS if any(f"pad_{p}_{kind}" in record for kind in ("N", "P", "Fx"))]
 
@@ -204,18 +175,6 @@ def _stacked(record: Record, pads: tuple[str, ...], kind: str, otherwise: Array)
 def _accelerations(record: Record, before: Array) -> Array:
     columns = [record[n] if (n := f"girder_a{a}") in record else before[:, i] for i, a in enumerate("xyz")]
     return np.stack(columns, axis=1)
-
-
-def _quiet(record: Record) -> Mask | None:
-    """Tell which samples at the start of a run are at rest: the table has not moved yet."""
-    if "table_ax" not in record:
-        return None
-    level = noise(record["table_ax"]).level
-    block = max(8, round(0.02 / record.dt))
-    smooth = np.convolve(np.abs(record["table_ax"] - np.median(record["table_ax"][:block])), np.ones(block) / block)
-    moving = smooth[: len(record)] > 3.0 * level
-    first = int(np.argmax(moving)) - block if moving.any() else len(record)
-    return np.arange(len(record)) < first
 
 
 def _widened(flags: Mask, reach: int) -> Mask:

@@ -58,17 +58,19 @@ def fuse(
     position: Array,
     acceleration: Array | None = None,
     velocity: Array | None = None,
+    levels: tuple[float, float] | None = None,
 ) -> Fused:
     """Fuse a displacement gauge with accelerometers, or smooth it alone.
 
-    Noise levels are those under which the smoother's own one-step predictions are most likely (maximum likelihood),
-    starting from the top of each channel's spectrum.
+    Noise levels that are not known are those under which the smoother's own one-step predictions are most likely
+    (maximum likelihood), starting from the top of each channel's spectrum.
 
     Args:
         time: (n,) strictly rising [s]; steps may differ.
         position: (n,) [m]; NaN where a sample is missing.
         acceleration: (n,) of the same motion [m/s^2], without NaN; None when there is none.
         velocity: (n,) recorded velocity [m/s], NaN where missing; None when there is none.
+        levels: noise of one sample of position [m] and acceleration [m/s^2], as if it were white; None: not known.
 
     Raises:
         InputError: fewer than 8 samples, or an acceleration with gaps.
@@ -84,8 +86,11 @@ def fuse(
     place[:, 0] -= centre
     dt = float(np.median(steps))
     first = _start_levels(place, acceleration, dt)
-    levels = _likeliest(steps, ramp, half, place, first, accelerometers=acceleration is not None)
-    variances = _variances(levels, dt, accelerometers=acceleration is not None)
+    if levels is not None and acceleration is not None and velocity is None:
+        found = np.array([levels[0], first[1], levels[1]])
+    else:
+        found = _likeliest(steps, ramp, half, place, first, accelerometers=acceleration is not None)
+    variances = _variances(found, dt, accelerometers=acceleration is not None)
     state, spread = _smooth(steps, ramp, half, place, *variances)
     with_bias = state[:, 2] if acceleration is not None else np.zeros(len(time))
     relative = -state[:, 2] if acceleration is None else acceleration - state[:, 2]
@@ -95,8 +100,8 @@ def fuse(
         acceleration=relative,
         bias=with_bias,
         velocity_error=float(np.sqrt(spread[len(time) // 2])),
-        position_noise=float(levels[0]),
-        acceleration_noise=float(levels[2]) if acceleration is not None else 0.0,
+        position_noise=float(found[0]),
+        acceleration_noise=float(found[2]) if acceleration is not None else 0.0,
     )
 
 

@@ -1,0 +1,98 @@
+"""What the rests before all runs tell of the gauges: how noisy each is, and how much of that is slow.
+
+A gauge is as noisy in every run, and many runs show too short a rest: their samples are put together. Noise that is
+not white puts more than its share into low frequencies, `colour` times as much, and a velocity is made of those.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.record import Record
+from slipwise.signals.noise import noise, quantum
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+#: Samples at rest that are enough to know a gauge's noise, and the least of one run that count.
+_ENOUGH, _LEAST = 60, 24
+#: Samples at rest that show how noise is coloured, and the longest lag that is looked at.
+_ENOUGH_FOR_COLOUR, _LAGS = 200, 12
+#: Correlations below this many of their own errors are none.
+_SURE = 3.0
+
+
+@dataclass(frozen=True)
+class Gauge:
+    """Noise of one channel.
+
+    Attributes:
+        level: standard deviation of one sample, in the channel's unit.
+        colour: spectral density at low frequency over that of white noise of the same level [1]; 1 where unknown.
+        rested: whether a rest has shown it.
+    """
+
+    level: float
+    colour: float = 1.0
+    rested: bool = False
+
+    @property
+    def slow_level(self) -> float:
+        """Level of the white noise that is as strong at low frequency."""
+        return float(np.sqrt(self.colour)) * self.level
+
+
+def noise_of_gauges(records: Sequence[Record]) -> dict[str, Gauge]:
+    """Give the noise of every channel of a campaign's runs."""
+    quiet = [_at_rest(r) for r in records]
+    channels = dict.fromkeys(c for r in records for c in r.channels)
+    return {c: _gauge([(r[c], q) for r, q in zip(records, quiet, strict=True) if c in r]) for c in channels}
+
+
+def _gauge(parts: list[tuple[Array, Mask | None]]) -> Gauge:
+    """Give the noise of a channel from its samples (n,) in all runs and which of them were at rest.
+
+    Where rest is too short in all runs together, the top of the spectrum must do, which noise that is not white does
+    not reach.
+    """
+    resolution = float(np.median([quantum(values) for values, _ in parts])) / np.sqrt(12.0)
+    still = [_detrended(v[q]) for v, q in parts if q is not None and np.count_nonzero(q) >= _LEAST]
+    freedom = sum(len(s) - 2 for s in still)
+    if freedom < _ENOUGH:
+        return Gauge(float(np.median([noise(values).level for values, _ in parts])))
+    level = float(np.sqrt(sum(float(s @ s) for s in still) / freedom))
+    # a coarse gauge may not even flicker at rest
+    return Gauge(max(level, resolution), _colour(still), rested=True)
+
+
+def _detrended(values: Array) -> Array:
+    place = np.arange(len(values))
+    return values - np.polynomial.Polynomial.fit(place, values, 1)(place)
+
+
+def _colour(still: list[Array]) -> float:
+    """Give 1 + 2 (r1 + r2 + ...) of the correlations up to the first that is not sure."""
+    count = sum(len(s) for s in still)
+    power = sum(float(s @ s) for s in still)
+    if count < _ENOUGH_FOR_COLOUR or power == 0.0:
+        return 1.0
+    total = 1.0
+    for lag in range(1, _LAGS + 1):
+        correlation = sum(float(s[lag:] @ s[:-lag]) for s in still) / power
+        if correlation < _SURE / np.sqrt(count):
+            break
+        total += 2.0 * correlation
+    return total
+
+
+def _at_rest(record: Record) -> Mask | None:
+    """Tell which samples at the start of a run are at rest (n,): the table has not moved yet."""
+    if "table_ax" not in record:
+        return None
+    level = noise(record["table_ax"]).level
+    block = max(8, round(0.02 / record.dt))
+    smooth = np.convolve(np.abs(record["table_ax"] - np.median(record["table_ax"][:block])), np.ones(block) / block)
+    moving = smooth[: len(record)] > 3.0 * level
+    first = int(np.argmax(moving)) - block if moving.any() else len(record)
+    return np.arange(len(record)) < first
