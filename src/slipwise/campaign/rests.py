@@ -19,6 +19,8 @@ Mask = NDArray[np.bool_]
 _ENOUGH, _LEAST = 60, 24
 #: Samples at rest that show how noise is coloured, and the longest lag that is looked at.
 _ENOUGH_FOR_COLOUR, _LAGS = 200, 12
+#: Samples whose mean shows that a channel has begun to move, and how many times their scatter it must have moved.
+_ONSET, _ONSET_SURE = 16, 4.0
 #: Correlations below this many of their own errors are none.
 _SURE = 3.0
 
@@ -57,13 +59,22 @@ def _gauge(parts: list[tuple[Array, Mask | None]]) -> Gauge:
     not reach.
     """
     resolution = float(np.median([quantum(values) for values, _ in parts])) / np.sqrt(12.0)
-    still = [_detrended(v[q]) for v, q in parts if q is not None and np.count_nonzero(q) >= _LEAST]
+    rests = [_before_onset(v[q]) for v, q in parts if q is not None and np.count_nonzero(q) >= _LEAST]
+    still = [_detrended(r) for r in rests if len(r) >= _LEAST]
     freedom = sum(len(s) - 2 for s in still)
     if freedom < _ENOUGH:
         return Gauge(float(np.median([noise(values).level for values, _ in parts])))
     level = float(np.sqrt(sum(float(s @ s) for s in still) / freedom))
     # a coarse gauge may not even flicker at rest
     return Gauge(max(level, resolution), _colour(still), rested=True)
+
+
+def _before_onset(rest: Array) -> Array:
+    """Cut a rest where a channel begins to move: a cell feels the girder before the table is seen to move."""
+    smooth = np.convolve(rest, np.ones(_ONSET) / _ONSET, mode="valid")
+    away = np.abs(smooth - np.median(smooth))
+    moved = away > _ONSET_SURE * 1.4826 * np.median(away)
+    return rest[: int(np.argmax(moved))] if moved.any() else rest
 
 
 def _detrended(values: Array) -> Array:
