@@ -225,8 +225,10 @@ def _residual(base: BaseFit, term: Term, values: Mapping[str, float]) -> Array |
 
 def shapes(effect: Effect) -> list[dict[str, float]]:
     """Give a small grid over the constants that switch nothing: typical, and some multiples of it."""
-    if effect.port == "gauge":  # the form of a gauge's fault hardly changes its column; the refit frees it
-        return [{p.name: p.typical for p in effect.parameters if p.neutral is None}]
+    if effect.port == "gauge":  # the form of a gauge's fault hardly changes its column, but for a sign; refits free it
+        typical = {p.name: p.typical for p in effect.parameters if p.neutral is None}
+        either = [p for p in effect.parameters if p.neutral is None and p.low < 0.0 < p.high and p.typical != 0.0]
+        return [typical, *({**typical, p.name: -p.typical} for p in either)]
     axes = []
     for p in effect.parameters:
         if p.neutral is not None:

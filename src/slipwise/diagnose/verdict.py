@@ -16,6 +16,8 @@ from slipwise.diagnose.search import MATERIAL, MOST_EFFECTS, Search, material, s
 RIGHT_FAMILY = 0.70
 #: What it must explain when its strength has run against a bound: more of the same, not something else.
 STRAINED_FAMILY = 0.90
+#: What effects must explain that have one form only, geometry's.
+EXACT_FAMILY = 0.95
 #: Below this drop of the mean squared residual the share is itself uncertain, and half is enough [noise variance].
 _SURE_SHARE = 1.0
 #: An effect that explains less than half of little, and leaves nothing with structure, is no finding.
@@ -72,8 +74,7 @@ def judge(state: Search) -> Verdict:
         return Verdict("complete", (), _complete_probability(state), "none", 1.0, surface, ())
     too_many = len(best.terms) >= MOST_EFFECTS
     drop = worth(origin.account, best.account)[0]
-    share = STRAINED_FAMILY if _strained(best) else RIGHT_FAMILY if drop >= _SURE_SHARE else HALF
-    family = explained >= share
+    family = explained >= _least_share(best, drop)
     if (remains and (not family or too_many)) or (_loud(state.final) and explained < HALF):
         shown = surface if remains else None
         return Verdict("unknown", (), _unknown_probability(shown, explained), "unknown", explained, shown, ())
@@ -93,6 +94,15 @@ def judge(state: Search) -> Verdict:
             return Verdict("ambiguous", tuple(sorted(pair)), probability, left, explained, surface, ())
     instruments = all(t.effect.component == "instrument" for t in best.terms)
     return Verdict("instrument" if instruments else "named", names, probability, left, explained, surface, ())
+
+
+def _least_share(found: Hypothesis, drop: float) -> float:
+    """Give the share of what the base left that a right family explains at least."""
+    if drop >= _SURE_SHARE and all(t.effect.exact for t in found.terms):
+        return EXACT_FAMILY
+    if _strained(found):
+        return STRAINED_FAMILY
+    return RIGHT_FAMILY if drop >= _SURE_SHARE else HALF
 
 
 def _strained(found: Hypothesis) -> bool:

@@ -138,6 +138,7 @@ class Effect:
         confused_with: other effects -> the test that tells them apart.
         memory: names of the numbers it remembers, per pad or per buffer and direction; they start at zero.
         target: "channel" where the effect must be told which channel it acts on, else "".
+        exact: whether geometry leaves no other form of it than this: what it does not explain is then something else.
         replaces: for a law that takes the place of a simpler one: which; such an effect has no neutral value.
         name: the file's name; set when the file is read.
         summary: first line of the file's docstring; set when the file is read.
@@ -155,6 +156,7 @@ class Effect:
     confused_with: Mapping[str, str]
     memory: tuple[str, ...] = ()
     target: str = ""
+    exact: bool = False
     replaces: str = ""
     name: str = ""
     summary: str = ""

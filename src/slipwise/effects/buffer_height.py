@@ -36,4 +36,5 @@ EFFECT = Effect(
         "mass_eccentricity": "that is there at rest",
         "table_pitch": "that goes with the table's acceleration, not with slip",
     },
+    exact=True,
 )  # fmt: skip

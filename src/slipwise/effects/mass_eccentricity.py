@@ -47,4 +47,5 @@ EFFECT = Effect(
         "buffer_mismatch": "its yaw goes with slip x, this one's with friction and acceleration",
         "channel_gain": "a gain of one cell moves heave and warp too",
     },
+    exact=True,
 )  # fmt: skip

@@ -31,4 +31,5 @@ EFFECT = Effect(
         "buffer_hardening": "that shows in the girder balance, this in the pads",
         "contact_area": "the rocking load leans the loops too, but not the load's product with x when friction is even",
     },
+    exact=True,
 )  # fmt: skip

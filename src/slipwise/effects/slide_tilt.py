@@ -32,4 +32,5 @@ EFFECT = Effect(
         "channel_offset": "an offset does not follow N",
         "direction_asymmetry": "that follows mu N, and is small where friction is low",
     },
+    exact=True,
 )  # fmt: skip

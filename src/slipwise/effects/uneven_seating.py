@@ -46,4 +46,5 @@ EFFECT = Effect(
         "channel_offset": "an offset of one cell moves heave too; zeros with the girder lifted tell",
         "mass_eccentricity": "that moves pitch and roll, never warp",
     },
+    exact=True,
 )  # fmt: skip

@@ -98,7 +98,8 @@ class FitRun:
         if moved:
             slip, velocity = self._moved(record)
             states = replace(states, slip=slip, velocity=velocity)
-        return replace(self, states=states, load=states.load)
+        force = _stacked(record, self.pads, "Fx", self.force)
+        return replace(self, states=states, load=states.load, force=force)
 
     def _moved(self, record: Record) -> tuple[Array, Array]:
         """Give slip and velocity of changed gauges, by what the smoother makes of the change far from its ends.

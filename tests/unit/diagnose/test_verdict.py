@@ -74,3 +74,13 @@ def test_faults_of_samples_are_named_whatever_is_left_when_they_are_mended(left)
     assert found.effects == ("dropped_samples",)
     assert found.kind == "instrument"
     assert (found.probability < 0.7) == (left > 2.0)
+
+
+def _structured(found: Hypothesis) -> Any:
+    return SimpleNamespace(relation="pads", explained=0.5, level=1.0)
+
+
+@pytest.mark.parametrize(("name", "kind"), [("slide_curvature", "unknown"), ("breakaway", "named")])
+def test_geometry_that_leaves_structure_is_not_geometry_but_a_law_may_have_another_form(monkeypatch, name, kind):
+    monkeypatch.setattr("slipwise.diagnose.verdict.leftover", _structured)
+    assert judge(_search(_tried((), 20.0), _tried((name,), 3.0))).kind == kind
