@@ -122,7 +122,7 @@ def refit(
             start = _inside(term, starts[term.label])
         values.update({f"{term.label}.{k}": v for k, v in start.items()})
         free += [f for f in term.free(start) if f.key.rsplit(".", 1)[1] not in _REFERENCES]
-    if len(problem.relations) == 1 and before is None:
+    if not problem.balanced and before is None:
         solution = _several_starts(problem, values, free, terms)
     else:
         known = {f.key: base.solution.jacobian[:, j] for j, f in enumerate(base.free)}

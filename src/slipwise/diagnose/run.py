@@ -13,8 +13,9 @@ from slipwise.compare.system_level import system_level
 from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis
 from slipwise.diagnose.result import Candidate, Diagnosis
 from slipwise.diagnose.samples import mended, sample_faults
-from slipwise.diagnose.screen import Screened, strengths
+from slipwise.diagnose.screen import Screened
 from slipwise.diagnose.search import MATERIAL, Search, score, search, worth
+from slipwise.diagnose.shapes import strengths
 from slipwise.diagnose.verdict import Verdict, judge, with_faults
 from slipwise.errors import InputError
 from slipwise.fit.base import BaseFit, fit_base

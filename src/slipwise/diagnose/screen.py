@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.diagnose.shapes import shapes, strengths
 from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
 from slipwise.fit.base import BaseFit
@@ -22,19 +23,13 @@ from slipwise.params import Parameter
 Array = NDArray[np.float64]
 #: Size at which a column is taken, as a share of the typical size.
 _SMALL = 0.3
+#: A column is taken anew where the strength that was found is this many times the one at which it was taken, so often,
+#: and where the candidate explains this share of the squared residual [1].
+_FAR_BEYOND, _ROUNDS, _WORTH_A_LOOK = 2.5, 2, 0.02
+#: Mean squared residual above which lags are tried at these multiples of their typical size too [1].
+_MUCH_AMISS, _LAGS = 3.0, (-4.0, -1.0, 1.0, 4.0)
 #: Step of a slope, as a share of the value.
 _NEAR = 0.01
-#: Most points of the grid over shape constants.
-_MOST_POINTS = 5
-#: Multiples of a constant's typical value that are tried: a fit that begins a decade off ends in a valley of its own.
-_NEARBY = (0.33, 1.0, 3.0)
-_FAR = (0.035, 0.2, 1.0, 5.0, 28.0)
-#: A constant whose bounds are this far apart may be far from typical [1].
-_WIDE = 100.0
-#: Frequencies at which a resonance is tried [Hz].
-_LEAST_HERTZ, _MOST_HERTZ, _RESONANCES = 5.0, 30.0, 14
-#: A resonance is tried with this many times its typical damping, so that it is seen from a neighbouring frequency.
-_BROAD = 3.0
 
 
 @dataclass(frozen=True)
@@ -56,11 +51,6 @@ class Screened:
     absorbed: float
     column: Array
     length: float
-
-
-def strengths(effect: Effect) -> list[Parameter]:
-    """Give the parameters that are zero when the effect is absent."""
-    return [p for p in effect.parameters if p.neutral is not None]
 
 
 def screen(base: BaseFit, terms: list[Term], progress: Callable[[float], None] | None = None) -> list[Screened]:
@@ -94,31 +84,74 @@ def projector(jacobian: Array) -> Callable[[Array], Array]:
 
 
 def _screened(
-    base: BaseFit, term: Term, left: Array, residual: Array, project: Callable[[Array], Array]
+    base: BaseFit, term: Term, left: Array | None, residual: Array, project: Callable[[Array], Array]
 ) -> Screened | None:
     if not strengths(term.effect):
         return _replacing(base, term, residual, project)
+    if base.problem.adding(term).yaws != base.problem.yaws:  # yaw that is made from measured forces is noise as well
+        left = _residual(base, term, term.effect.neutral())
     best: Screened | None = None
     for shape in shapes(term.effect):
-        columns, starts, raw = [], [], 0.0
-        for moved in strengths(term.effect):
-            start = _at(term.effect, shape, moved)
-            column = _column(base, term, moved, start, left)
-            if column is None:
-                continue
-            clean = project(column)
-            whole, rest = float(column @ column), float(clean @ clean)
-            if rest < 1e-9 * whole or whole == 0.0:
-                continue
-            columns.append(clean)
-            starts.append((moved, start))
-            raw += whole
-        if not columns:
-            continue
-        found = _best_mix(term, shape, columns, starts, residual, raw)
-        if found is not None and (best is None or found.gain > best.gain):
-            best = found
+        starts = [(p, _at(term.effect, shape, p)) for p in strengths(term.effect)]
+        found = _mixed(base, term, shape, starts, left, residual, project)
+        for _ in range(_ROUNDS):
+            if found is None or found.gain < _WORTH_A_LOOK * float(residual @ residual):
+                break
+            far = {p.name for p, start in starts if _is_far(p, start, found.values)}
+            if not far:
+                break
+            starts = [(p, {**v, p.name: found.values[p.name]} if p.name in far else v) for p, v in starts]
+            found = _mixed(base, term, shape, starts, left, residual, project)
+        found = _better(found, *_direct(base, term, shape, residual, project))
+        best = _better(best, found)
     return best
+
+
+def _better(*found: Screened | None) -> Screened | None:
+    """Give what explains most of these."""
+    return max((f for f in found if f is not None), key=lambda f: f.gain, default=None)
+
+
+def _direct(
+    base: BaseFit, term: Term, shape: Mapping[str, float], residual: Array, project: Callable[[Array], Array]
+) -> list[Screened | None]:
+    """Score lags of gauges at their full sizes where much is amiss: a straight line from a small one lies."""
+    lags = [p for p in strengths(term.effect) if p.unit == "s"] if term.effect.port == "gauge" else []
+    if not lags or float(residual @ residual) < _MUCH_AMISS * len(residual):
+        return []
+    out = []
+    for p, size in product(lags, _LAGS):
+        values = {**term.effect.neutral(), **shape, p.name: size * p.typical}
+        there = _residual(base, term, values) if p.low <= values[p.name] <= p.high else None
+        if there is not None:
+            out.append(_scored(term, values, residual, project(there) - residual, 0.0))
+    return out
+
+
+def _is_far(p: Parameter, start: Mapping[str, float], values: Mapping[str, float]) -> bool:
+    """Tell whether a strength that was found lies far beyond the one at which its column was taken."""
+    off = float(p.neutral or 0.0)
+    return abs(values[p.name] - off) > _FAR_BEYOND * abs(start[p.name] - off)
+
+
+def _mixed(
+    base: BaseFit, term: Term, shape: Mapping[str, float], starts: list[tuple[Parameter, dict[str, float]]],
+    left: Array | None, residual: Array, project: Callable[[Array], Array],
+) -> Screened | None:  # fmt: skip
+    """Score a candidate of one shape with the columns taken at these strengths."""
+    columns, kept, raw = [], [], 0.0
+    for moved, start in starts:
+        column = None if left is None else _column(base, term, moved, start, left)
+        if column is None:
+            continue
+        clean = project(column)
+        whole, rest = float(column @ column), float(clean @ clean)
+        if rest < 1e-9 * whole or whole == 0.0:
+            continue
+        columns.append(clean)
+        kept.append((moved, start))
+        raw += whole
+    return _best_mix(term, shape, columns, kept, residual, raw) if columns else None
 
 
 def _replacing(base: BaseFit, term: Term, residual: Array, project: Callable[[Array], Array]) -> Screened | None:
@@ -221,34 +254,3 @@ def _residual(base: BaseFit, term: Term, values: Mapping[str, float]) -> Array |
         return None
     stacked = found.stacked(problem.fitted, problem.relations)
     return stacked if np.isfinite(stacked).all() else None
-
-
-def shapes(effect: Effect) -> list[dict[str, float]]:
-    """Give a small grid over the constants that switch nothing: typical, and some multiples of it."""
-    if effect.port == "gauge":  # the form of a gauge's fault hardly changes its column, but for a sign; refits free it
-        typical = {p.name: p.typical for p in effect.parameters if p.neutral is None}
-        either = [p for p in effect.parameters if p.neutral is None and p.low < 0.0 < p.high and p.typical != 0.0]
-        return [typical, *({**typical, p.name: -p.typical} for p in either)]
-    axes = []
-    for p in effect.parameters:
-        if p.neutral is not None:
-            continue
-        if p.typical == 0.0:
-            points = [0.0]
-        elif p.unit == "Hz":  # a resonance is found only from nearby
-            points = [float(x) for x in np.geomspace(max(p.low, _LEAST_HERTZ), min(p.high, _MOST_HERTZ), _RESONANCES)]
-        elif p.low < 0.0 < p.high:
-            points = [p.typical * f for f in (1.0, -1.0, 0.3, -0.3)]
-        else:
-            factors = _FAR if p.low > 0.0 and p.high > _WIDE * p.low else _NEARBY
-            points = sorted({float(np.clip(p.typical * f, p.low, p.high)) for f in factors})
-        axes.append((p.name, points, p.typical))
-    if not axes:
-        return [{}]
-    whole = [dict(zip([a[0] for a in axes], c, strict=True)) for c in product(*(a[1] for a in axes))]
-    if len(whole) <= _MOST_POINTS:
-        return whole
-    broad = _BROAD if any(p.unit == "Hz" and p.neutral is None for p in effect.parameters) else 1.0
-    highest = {p.name: p.high for p in effect.parameters}
-    centre = {a[0]: min(broad * a[2], highest[a[0]]) if a[2] > 0.0 else a[2] for a in axes}
-    return [centre, *({**centre, name: x} for name, points, middle in axes for x in points if x != middle)]

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from slipwise.diagnose.candidates import candidates
 from slipwise.diagnose.pairs import leading_pair
 from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, polished, refit, settled
-from slipwise.diagnose.screen import Screened, projector, screen, strengths
+from slipwise.diagnose.screen import Screened, projector, screen
+from slipwise.diagnose.shapes import strengths
 from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Term
 
@@ -195,7 +196,7 @@ def rescreen(state: Search, before: Hypothesis) -> list[Screened]:
         effect = s.term.effect
         if s.term.label in taken or (effect.name in names and not effect.target):
             continue
-        if sticks and "stick" in effect.hooks:
+        if (sticks and "stick" in effect.hooks) or any(_on_one(s.term, t) for t in before.terms):
             continue
         column = project(s.column)
         length = float(column @ column)
@@ -204,6 +205,11 @@ def rescreen(state: Search, before: Hypothesis) -> list[Screened]:
         if amount > 0.0 or two_sided:
             out.append(_scaled(s, amount, amount**2 * length))
     return sorted(out, key=lambda s: -s.gain)
+
+
+def _on_one(a: Term, b: Term) -> bool:
+    """Tell whether two terms are one fault on one channel: a card's and one of its gauges' own."""
+    return a.effect.name == b.effect.name and bool(set(a.targets) & set(b.targets))
 
 
 def _scaled(found: Screened, amount: float, gain: float) -> Screened:

@@ -8,8 +8,8 @@ import numpy as np
 from slipwise.diagnose.leftover import Surface, leftover, structured
 from slipwise.diagnose.refit import Account, Hypothesis
 from slipwise.diagnose.samples import SampleFault
-from slipwise.diagnose.screen import strengths
 from slipwise.diagnose.search import MATERIAL, MOST_EFFECTS, Search, material, score, worth
+from slipwise.diagnose.shapes import strengths
 
 #: A right family explains this share of what the base left, whatever its exact form [1]: 0.87 and more on trials, the
 #: best wrong one up to 0.69.
@@ -24,8 +24,9 @@ _SURE_SHARE = 1.0
 HALF, _FAINT, _COIN = 0.5, 0.4, 0.6
 #: A mean squared residual above this is no perfect model's [noise variance], even where no state foretells it.
 LOUD = 1.5
-#: Rivals whose scores differ by less than this share, or by less than this much, cannot be told apart.
-_SAME_SHARE, _SAME_SCORE = 0.004, 60.0
+#: Rivals whose scores differ by less than this much cannot be told apart; nor can those that differ by less than this
+#: share of it, and of what the better one leaves: a law of not quite the right form leaves something as well.
+_SAME_SCORE, _SAME_SHARE, _SAME_EXCESS = 60.0, 0.004, 0.5
 #: One thing to a rig without a gauge that could part them.
 ONE_THING: tuple[frozenset[str], ...] = (frozenset({"buffer_damping", "guide_drag"}),)
 
@@ -139,6 +140,7 @@ def _rivals(state: Search, best: Hypothesis) -> tuple[Hypothesis, ...]:
     """Give other hypotheses of as many effects that explain as much."""
     origin = state.path[0]
     top = score(origin.account, best.account)
+    unexplained = _SAME_EXCESS * excess(best.account)
     out: dict[tuple[str, ...], Hypothesis] = {}
     for h in state.tried:
         if len(h.terms) != len(best.terms) or set(h.names) == set(best.names):
@@ -147,7 +149,7 @@ def _rivals(state: Search, best: Hypothesis) -> tuple[Hypothesis, ...]:
         shared = [score(origin.account, o.account) for o in state.tried if o.names and set(o.names) <= common]
         behind = top - score(origin.account, h.account)
         # only what is explained beyond the effects that both name can tell the two apart
-        near = max(_SAME_SCORE, _SAME_SHARE * (top - max(shared, default=0.0)))
+        near = max(_SAME_SCORE, min(_SAME_SHARE * (top - max(shared, default=0.0)), unexplained))
         if behind < near and material(origin.account, origin.account, h.account):
             out[h.names] = h
     return tuple(out.values())

@@ -58,7 +58,7 @@ def fit_base(
     model = model or base_model(campaign.specimen)
     runs = fit_runs(campaign, spoiled)
     found = _fitted(campaign, model, Problem(runs, model.specimen, terms_of(model)))
-    if campaign.logger.known or len(found.problem.relations) == 1:
+    if campaign.logger.known or not found.problem.balanced:
         return found
     kind = estimated_logger(campaign, model, found.solution)
     known = replace(campaign, logger=Logger(kind, known=True))
@@ -66,7 +66,7 @@ def fit_base(
 
 
 def _fitted(campaign: Campaign, model: Model, problem: Problem) -> BaseFit:
-    free = base_free(model, balances=len(problem.relations) > 1, logger_known=campaign.logger.known)
+    free = base_free(model, balances=problem.balanced, logger_known=campaign.logger.known)
     stroke = min(float(np.ptp(problem.runs[i].slip)) for i in problem.fitted)
     most = max(_STICK_SHARE * stroke, 1e-7)
     free = [
@@ -87,7 +87,7 @@ def _fitted(campaign: Campaign, model: Model, problem: Problem) -> BaseFit:
 
 def _turns(problem: Problem, solution: Solution) -> bool:
     """Tell whether yaw made from the measured forces earns its noise."""
-    if len(problem.relations) == 1 or problem.runs[0].states.has_yaw:
+    if not problem.balanced or problem.runs[0].states.has_yaw:
         return False
     turning = problem.adding()
     turning.yaw = True

@@ -36,6 +36,7 @@ class FitRun:
         pads: places of the measured pads among the rig's pads.
         load: (n, p) [N].
         force: (n, p) along x [N].
+        across: (n, p) along y [N]; empty (n, 0) where it was not measured.
         sliding: (n,) samples at which the law says the force of a pad.
         grounded: (n,) samples at which every pad carries load, ends left out.
         noise: channel -> standard deviation of one sample.
@@ -49,6 +50,7 @@ class FitRun:
     pads: tuple[str, ...]
     load: Array
     force: Array
+    across: Array
     sliding: Mask
     grounded: Mask
     noise: dict[str, float] = field(default_factory=dict[str, float])
@@ -99,7 +101,8 @@ class FitRun:
             slip, velocity = self._moved(record)
             states = replace(states, slip=slip, velocity=velocity)
         force = _stacked(record, self.pads, "Fx", self.force)
-        return replace(self, states=states, load=states.load, force=force)
+        across = _stacked(record, self.pads, "Fy", self.across)
+        return replace(self, states=states, load=states.load, force=force, across=across)
 
     def _moved(self, record: Record) -> tuple[Array, Array]:
         """Give slip and velocity of changed gauges, by what the smoother makes of the change far from its ends.
@@ -159,7 +162,9 @@ def _fit_run(run: Run, campaign: Campaign, spoiled: Mask | None) -> FitRun:
     force = _stacked(states.record, pads, "Fx", states.load)
     filtered = states.lowpass.get(f"pad_{pads[0]}_Fx")
     rest = 0.0 if run.rest_before is None else run.rest_before
-    return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, sliding, grounded)
+    sideways = states.has_y and states.record.has_all(*(f"pad_{p}_Fy" for p in pads))
+    across = _stacked(states.record, pads, "Fy", force) if sideways else np.empty((len(force), 0))
+    return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, across, sliding, grounded)
 
 
 def _measured(record: Record) -> list[str]:

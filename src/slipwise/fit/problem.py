@@ -1,4 +1,4 @@
-"""One stacked fit: pads, girder, heave, pitch, roll, warp and motion with one set of numbers.
+"""One stacked fit: pads, girder, heave, pitch, roll, warp, motion and friction across with one set of numbers.
 
 Residuals are (measured - predicted) / noise in measured units: a fault of a gauge is put on the prediction, or its
 inverse on the measurement with the noise scaled alike. Else a gain below one would shrink the noise and look good.
@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.fit.balances import available, buffer_forces, heave_noise, motion_residual, predicted
+from slipwise.fit.across import fast, logged_across, noise_across
+from slipwise.fit.balances import BALANCES, available, buffer_forces, heave_noise, motion_residual, predicted
 from slipwise.fit.data import FitRun, refined
 from slipwise.fit.faults import acts_on_force, faulted, noise_scale, without
 from slipwise.fit.pads import Instants, PadLaw, as_logged, force_along, instants, lost_velocity, stick_share
@@ -25,7 +26,7 @@ from slipwise.signals import LowPass
 from slipwise.signals.ends import in_frequency
 
 Array = NDArray[np.float64]
-RELATIONS: tuple[str, ...] = ("pads", "girder", "heave", "pitch", "roll", "warp", "motion")
+RELATIONS: tuple[str, ...] = ("pads", *BALANCES, "across")
 #: The pitch balance leaves this much more than noise even on a perfect rig: the pads' damping is not that of P(s).
 _PITCH_FLOOR = 1.2
 #: Timing of a reversal that nobody can vouch for: shear of pad and cell, cards of the logger [s].
@@ -37,7 +38,7 @@ _LAW_KEYS = (*_MOTION_KEYS, "rig.shear_strength")
 _SEEN_KEYS = ("rig.stick_length", "rig.late_force", "rig.logger")
 _PAD_KEYS = (*_LAW_KEYS, *_SEEN_KEYS)
 #: Effects of the catalogue that turn the girder about the vertical.
-_TURNERS = ("buffer_mismatch", "mass_eccentricity")
+_TURNERS = ("buffer_mismatch", "mass_eccentricity", "pad_spread", "position_patch")
 _PAD_PORTS = ("area", "shear", "stick", "pad")
 #: Results of this many recent sets of numbers are kept: a difference quotient comes back to its base.
 _KEPT = 4
@@ -72,6 +73,7 @@ class Problem:
         terms: effects of the base model, then those of the hypothesis.
         sigmas: relation -> per run noise, broadcastable to the residual; made by `weigh`.
         yaw: whether the girder's yaw is made from the measured forces even if no term turns it.
+        yaws: whether it is made from them, for whatever reason.
         lost: per run (f,) velocity that the logger's filter took at reversals [m/s]; made by `weigh`.
     """
 
@@ -84,11 +86,18 @@ class Problem:
 
     def __post_init__(self) -> None:
         """Make ready what never changes."""
-        self.relations = ("pads", *(r for r in RELATIONS if all(r in available(x, self.specimen) for x in self.runs)))
+        balances = (r for r in BALANCES if all(r in available(x, self.specimen) for x in self.runs))
+        across = ("across",) if all(r.across.size for r in self.runs) else ()
+        self.relations = ("pads", *balances, *across)
         self._memo: dict[str, dict[tuple[str | float, ...], Any]] = {}
         self._turning = [_pitch_rate(r) if len(r.pads) == 4 else np.zeros(len(r.time)) for r in self.runs]
         self._here = [self.specimen.pads.index(p) for p in self.runs[0].pads]
         self._sort()
+
+    @property
+    def balanced(self) -> bool:
+        """Whether the balances of a girder are there, not only sliders."""
+        return len(self.relations) > 1 + ("across" in self.relations)
 
     def _sort(self) -> None:
         """Sort the terms by what they touch."""
@@ -96,8 +105,8 @@ class Problem:
         self._on_force = [t for t in self._gauges if acts_on_force(t)]
         self._on_state = [t for t in self._gauges if not acts_on_force(t)]
         self._turners = [t for t in self.terms if t.effect.name in _TURNERS]
-        measured = self.runs[0].states.has_yaw or len(self.relations) == 1
-        self._yaws = (self.yaw or bool(self._turners)) and not measured
+        measured = self.runs[0].states.has_yaw or not self.balanced
+        self.yaws = (self.yaw or bool(self._turners)) and not measured
         self._law: PadLaw | None = None
 
     @property
@@ -145,15 +154,15 @@ class Problem:
         count = max(self.fitted) + 1 if fitted_only else len(self.runs)
         pad_key = (count, *self._pad_key(values))
         pads = self._remembered("pad parts", pad_key, lambda: self._pad_parts(model, values, count))
-        if len(self.relations) == 1:
-            return Residuals({"pads": pads[0]}, pads[1])
+        if not self.balanced:
+            return Residuals(pads[0], pads[1])
         key = (count, *self._balance_key(values), *(pad_key if self._on_force else ()))
         balances = self._remembered("balances", key, lambda: self._balance_parts(model, values, pads[2]))
-        return Residuals({"pads": pads[0], **balances}, pads[1])
+        return Residuals({**pads[0], **balances}, pads[1])
 
     def _pad_parts(
         self, model: Model, values: Mapping[str, float], count: int
-    ) -> tuple[list[Array], list[Array], list[Array]]:
+    ) -> tuple[dict[str, list[Array]], list[Array], list[Array]]:
         """Give residuals and predictions of the pads, and measured forces without their gauges' faults."""
         runs, _ = self._corrected(values)
         states = self._states(values, runs)
@@ -167,12 +176,16 @@ class Problem:
             outputs.append(force + offset)
             clean.append(seen)
             parts.append(self._over("pads", i, run.force - force - offset, run.sliding[:, None]))
-        return parts, outputs, clean
+        if "across" not in self.relations:
+            return {"pads": parts}, outputs, clean
+        sides = [r.across - logged_across(r, f, self._by(values)) for r, f in zip(runs, said, strict=False)]
+        across = [self._over("across", i, side, fast(runs[i])) for i, side in enumerate(sides)]
+        return {"pads": parts, "across": across}, outputs, clean
 
     def _balance_parts(self, model: Model, values: Mapping[str, float], forces: list[Array]) -> dict[str, list[Array]]:
         runs, scale = self._corrected(values)
         law = predictor(model)
-        parts: dict[str, list[Array]] = {r: [] for r in self.relations[1:]}
+        parts: dict[str, list[Array]] = {r: [] for r in self.relations if r in BALANCES}
         hidden = max(0.0, 1.0 - self._heave_scale(model, runs[0]) ** 2) if "heave" in parts else 0.0
         for i, (run, force) in enumerate(zip(runs, forces, strict=False)):
             law.rest(run.rest_before)
@@ -209,7 +222,8 @@ class Problem:
         self._memo.clear()
         states = self._states(values, self.runs)
         still = {**values, "rig.late_force": 0.0}
-        plain = self._logged(still, self.runs, states, law.at_instants(self.runs, states))
+        said = law.at_instants(self.runs, states)
+        plain = self._logged(still, self.runs, states, said)
         faster = [self._instants(r, i, values, more=r.states.velocity_error[0]) for i, r in enumerate(self.runs)]
         shifted = self._logged(still, self.runs, faster, law.at_instants(self.runs, faster))
         for forces in (plain, shifted):  # a late gauge shows its reversals, and their noise, later too
@@ -224,6 +238,8 @@ class Problem:
             spread = spread + (_TIMING * np.gradient(plain[i], run.dt, axis=0)) ** 2
             self.sigmas["pads"].append(np.sqrt(np.maximum(spread, 1e-24)))
             self._weigh_balances(model, run, gauge, loads)
+            if "across" in self.relations:
+                self.sigmas["across"].append(noise_across(run, states[i], said[i]))
 
     def _weigh_balances(self, model: Model, run: FitRun, gauge: Array, loads: Array) -> None:
         specimen = model.specimen
@@ -239,7 +255,7 @@ class Problem:
             "warp": total,
             "motion": 1.0,
         }
-        for name in self.relations[1:]:
+        for name in [r for r in self.relations if r in BALANCES]:
             self.sigmas[name].append(np.array(max(levels[name], 1e-12)))
 
     def _over(self, name: str, run: int, left: Array, kept: NDArray[np.bool_]) -> Array:
@@ -262,7 +278,7 @@ class Problem:
         """Give what the pads' residuals depend on; without the faults of friction gauges, what their law does."""
         own = [t for t in self.terms if t.effect.instant_hooks or "rig" in t.effect.hooks or t in self._on_state]
         own += self._on_force if faults else []
-        turned = ("yaw", values.get("rig.buffer_stiffness", 0.0)) if self._yaws else ()
+        turned = ("yaw", values.get("rig.buffer_stiffness", 0.0)) if self.yaws else ()
         keys = _PAD_KEYS if faults else _LAW_KEYS
         return (*self._values_of(own, values), *turned, *(values.get(k, 0.0) for k in keys))
 
@@ -289,7 +305,7 @@ class Problem:
 
     def _states(self, values: Mapping[str, float], runs: list[FitRun]) -> list[Instants]:
         key = (*self._values_of([*self._on_state, *self._turners], values), *(values.get(k, 0.0) for k in _MOTION_KEYS))
-        if self._yaws:
+        if self.yaws:
             key = (*key, "yaw", values["rig.buffer_stiffness"] if "rig.buffer_stiffness" in values else 0.0)
 
         def make() -> list[Instants]:
@@ -306,7 +322,7 @@ class Problem:
         velocity = run.states.pad_velocity[:, self._here].copy()
         velocity[:, :, 0] += (more + values.get("rig.pitch_slip", 0.0) * self._turning[place])[:, None]
         slip = run.states.pad_slip[:, self._here]
-        if self._yaws:
+        if self.yaws:
             angle, rate = self._turning_of(run, values)
             across = np.array(self.specimen.pad_places)[self._here]
             velocity = velocity + rate[:, None, None] * np.stack([-across[:, 1], across[:, 0]], axis=1)[None]

@@ -37,8 +37,8 @@ _LAGS: dict[str, str] = {
     "rig.late_slip": "slip_x",
 }
 _DELAY = "channel_delay"
-#: Slip over which a pad's friction turns round without any effect of its own [m]; beyond 20 um it is `presliding`.
-_STICK_LENGTH = (1e-6, 1e-8, 2e-5, 1e-6)
+#: Slip over which a pad's friction turns round without any effect of its own [m]; longer than that it is `presliding`.
+_STICK_LENGTH = (1e-6, 1e-8, 8e-6, 1e-6)
 #: The friction channels' filter where the campaign does not know it [Hz].
 _LOGGER = (100.0, 20.0, 240.0, 20.0)
 

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from slipwise.diagnose.screen import projector, shapes, strengths
+from slipwise.diagnose.screen import projector
+from slipwise.diagnose.shapes import shapes, strengths
 from slipwise.effects import catalogue
 
 

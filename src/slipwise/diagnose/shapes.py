@@ -1,0 +1,56 @@
+"""A small grid over the constants of a candidate that give it its shape but do not switch it on."""
+
+from itertools import product
+
+import numpy as np
+
+from slipwise.effects import Effect
+from slipwise.params import Parameter
+
+#: Most points of the grid over shape constants.
+_MOST_POINTS = 5
+#: Multiples of a constant's typical value that are tried: a fit that begins a decade off ends in a valley of its own.
+_NEARBY = (0.33, 1.0, 3.0)
+_FAR = (0.035, 0.2, 1.0, 5.0, 28.0)
+#: A constant whose bounds are this far apart may be far from typical [1].
+_WIDE = 100.0
+#: Frequencies at which a resonance is tried [Hz].
+_LEAST_HERTZ, _MOST_HERTZ, _RESONANCES = 5.0, 30.0, 14
+#: A resonance is tried with this many times its typical damping, so that it is seen from a neighbouring frequency.
+_BROAD = 3.0
+
+
+def strengths(effect: Effect) -> list[Parameter]:
+    """Give the parameters that are zero when the effect is absent."""
+    return [p for p in effect.parameters if p.neutral is not None]
+
+
+def shapes(effect: Effect) -> list[dict[str, float]]:
+    """Give a small grid over the constants that switch nothing: typical, and some multiples of it."""
+    if effect.port == "gauge":  # the form of a gauge's fault hardly changes its column, but for a sign; refits free it
+        typical = {p.name: p.typical for p in effect.parameters if p.neutral is None}
+        either = [p for p in effect.parameters if p.neutral is None and p.low < 0.0 < p.high and p.typical != 0.0]
+        return [typical, *({**typical, p.name: -p.typical} for p in either)]
+    axes = []
+    for p in effect.parameters:
+        if p.neutral is not None:
+            continue
+        if p.typical == 0.0:
+            points = [0.0]
+        elif p.unit == "Hz":  # a resonance is found only from nearby
+            points = [float(x) for x in np.geomspace(max(p.low, _LEAST_HERTZ), min(p.high, _MOST_HERTZ), _RESONANCES)]
+        elif p.low < 0.0 < p.high:
+            points = [p.typical * f for f in (1.0, -1.0, 0.3, -0.3)]
+        else:
+            factors = _FAR if p.low > 0.0 and p.high > _WIDE * p.low else _NEARBY
+            points = sorted({float(np.clip(p.typical * f, p.low, p.high)) for f in factors})
+        axes.append((p.name, points, p.typical))
+    if not axes:
+        return [{}]
+    whole = [dict(zip([a[0] for a in axes], c, strict=True)) for c in product(*(a[1] for a in axes))]
+    if len(whole) <= _MOST_POINTS:
+        return whole
+    broad = _BROAD if any(p.unit == "Hz" and p.neutral is None for p in effect.parameters) else 1.0
+    highest = {p.name: p.high for p in effect.parameters}
+    centre = {a[0]: min(broad * a[2], highest[a[0]]) if a[2] > 0.0 else a[2] for a in axes}
+    return [centre, *({**centre, name: x} for name, points, middle in axes for x in points if x != middle)]
