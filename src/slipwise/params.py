@@ -19,6 +19,7 @@ class Parameter:
         source: where the number comes from, or the word "assumed".
         meaning: what it is, in a few words.
         shown_in: unit in which people read it, e.g. "s/cm"; the SI unit when empty.
+        whole: whether only whole numbers make sense.
     """
 
     name: str
@@ -30,6 +31,7 @@ class Parameter:
     source: str
     meaning: str
     shown_in: str = ""
+    whole: bool = False
 
     def __post_init__(self) -> None:
         """Refuse a parameter that cannot be used.

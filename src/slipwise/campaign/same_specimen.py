@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from slipwise.campaign.campaign import Campaign, Run
 from slipwise.errors import InputError
@@ -16,6 +17,8 @@ _LEVER = 0.35
 _RATED = 0.30
 #: Pitch says nothing of the lever while the girder accelerates less than this (standard deviation) [m/s^2].
 _MOVING = 0.3
+#: Samples beyond this part of a channel's largest are left out: a clipped channel is a fault, not another rig [1].
+_PEAKS = 0.97
 
 
 def check_same_specimen(campaign: Campaign) -> tuple[str, ...]:
@@ -64,8 +67,15 @@ def _lever(record: Record) -> float | None:
     columns = np.stack(
         [record["girder_ax"] * weight / 9.80665, record["slip_x"] * weight, np.ones(len(record))], axis=1
     )
-    slope = np.linalg.lstsq(columns, modes.pitch, rcond=None)[0][0]
+    kept = np.all([_within(record[c]) for c in ("girder_ax", *(f"pad_{p}_N" for p in "ABCD"))], axis=0)
+    slope = np.linalg.lstsq(columns[kept], modes.pitch[kept], rcond=None)[0][0]
     return float(-slope / 2.0)
+
+
+def _within(values: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Tell which samples (n,) are not among the largest, where a channel may have been clipped."""
+    away = np.abs(values - np.median(values))
+    return away < _PEAKS * away.max()
 
 
 def _compare(values: Sequence[tuple[Run, float]], apart: float, words: str, unit: str, scale: float) -> None:

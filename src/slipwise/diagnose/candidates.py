@@ -119,7 +119,7 @@ def _aimed(effect: Effect, problem: Problem) -> Iterator[Term]:
     for group, targets in groups(problem).items():
         cell = group.startswith("pad_")
         if effect.name == "load_crosstalk":
-            if group.endswith("Fx"):
+            if cell and (free or group.endswith("Fx")):
                 yield Term(effect, targets, group)
         elif effect.name == "cell_inertia":
             if group in ("pad_*_N", "pad_A_N") and len(targets) == len(problem.runs[0].pads):

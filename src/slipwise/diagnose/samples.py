@@ -22,8 +22,9 @@ Mask = NDArray[np.bool_]
 _AGAINST = -0.3
 #: Equal samples at an extreme that make a rail; share of repeated samples above chance that means lost ones.
 _PLATEAU, _REPEATED = 4, 0.002
-#: Spoiled before and after a bad sample [samples].
-_REACH = 6
+#: Spoiled before and after a bad sample; more where the velocity is made of the channel [samples].
+_REACH, _REACH_OF_MOTION = 6, 40
+_MOTION = ("slip_x", "girder_ax", "table_ax")
 
 
 @dataclass(frozen=True)
@@ -53,11 +54,14 @@ def sample_faults(campaign: Campaign) -> tuple[SampleFault, ...]:
             continue  # rounding makes equal samples of its own
         rails = [_at_rail(r[name]) for r in runs]
         held = [_repeats(r[name]) for r in runs]
+        # a peak that is held looks like a rail, but then other samples are held as well
+        elsewhere = [_repeats(r[name][~rail]) for r, rail in zip(runs, rails, strict=True)]
+        lost = all(h > _REPEATED for h in held)
         total = sum(len(r) for r in runs)
         clipped = sum(int(np.count_nonzero(r)) for r in rails)
-        if sum(bool(r.any()) for r in rails) and clipped >= _PLATEAU:
+        if clipped >= _PLATEAU and not (lost and all(h > _REPEATED for h in elsewhere)):
             found.append(SampleFault("channel_clipping", name, clipped / total))
-        elif all(h > _REPEATED for h in held):
+        elif lost:
             found.append(SampleFault("dropped_samples", name, float(np.mean(held))))
     return tuple(found)
 
@@ -72,17 +76,19 @@ def mended(campaign: Campaign, faults: tuple[SampleFault, ...]) -> tuple[Campaig
     records: dict[str, Record] = {}
     spoiled: dict[str, Mask] = {}
     for run in campaign.runs:
-        record, bad = run.record, np.zeros(len(run.record), dtype=bool)
+        record, spoilt = run.record, np.zeros(len(run.record), dtype=bool)
         for fault in faults:
             values = record[fault.channel]
             if fault.effect == "channel_sign":
                 record = record.replaced(**{fault.channel: -values})
-            elif fault.effect == "channel_clipping":
-                bad |= _at_rail(values)
-            else:
+                continue
+            bad = _at_rail(values)
+            if fault.effect == "dropped_samples":
                 bad[1:] |= values[1:] == values[:-1]
+            reach = _REACH_OF_MOTION if fault.channel in _MOTION else _REACH
+            spoilt |= np.convolve(bad, np.ones(2 * reach + 1), mode="same") > 0.5
         records[run.name] = record
-        spoiled[run.name] = np.convolve(bad, np.ones(2 * _REACH + 1), mode="same") > 0.5
+        spoiled[run.name] = spoilt
     runs = tuple(replace(r, record=records[r.name]) for r in campaign.runs)
     return replace(campaign, runs=runs), spoiled
 

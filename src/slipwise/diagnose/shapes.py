@@ -27,10 +27,13 @@ def strengths(effect: Effect) -> list[Parameter]:
 
 def shapes(effect: Effect) -> list[dict[str, float]]:
     """Give a small grid over the constants that switch nothing: typical, and some multiples of it."""
-    if effect.port == "gauge":  # the form of a gauge's fault hardly changes its column, but for a sign; refits free it
-        typical = {p.name: p.typical for p in effect.parameters if p.neutral is None}
-        either = [p for p in effect.parameters if p.neutral is None and p.low < 0.0 < p.high and p.typical != 0.0]
-        return [typical, *({**typical, p.name: -p.typical} for p in either)]
+    if effect.port == "gauge":  # the form of a gauge's fault hardly changes its column, and the refit frees it
+        constants = [p for p in effect.parameters if p.neutral is None]
+        typical = {p.name: p.typical for p in constants}
+        # but a fit changes no sign, and no whole number
+        either = [(p, -p.typical) for p in constants if p.low < 0.0 < p.high and p.typical != 0.0]
+        either += [(p, x * p.typical) for p in constants for x in (0.5, 2.0) if p.whole]
+        return [typical, *({**typical, p.name: x} for p, x in either)]
     axes = []
     for p in effect.parameters:
         if p.neutral is not None:

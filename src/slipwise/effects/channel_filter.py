@@ -33,7 +33,7 @@ EFFECT = Effect(
     equation="y = x / (1 + s T + s^2 T^2/2)",
     parameters=(
         Parameter("lag", "s", 3e-3, 0.0, 0.05, 0.0, "f_c 20 to 50 Hz, assumed", "T: of slow signals", "ms"),
-        Parameter("order", "1", 2.0, 1.0, 8.0, None, "assumed", "of the filter, a whole number"),
+        Parameter("order", "1", 2.0, 1.0, 8.0, None, "assumed", "of the filter", whole=True),
     ),
     moves=("*",),
     signature="as a delay, with rounded reversals and lowered peaks",

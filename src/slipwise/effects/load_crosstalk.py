@@ -40,7 +40,7 @@ EFFECT = Effect(
     component="instrument",
     equation="F_read = F + c (N - z N_0)",
     parameters=(
-        Parameter("share", "1", 0.01, -0.1, 0.1, 0.0, "0.5 to 2 %, assumed", "c: of N in F", "%"),
+        Parameter("share", "1", 0.01, -0.3, 0.3, 0.0, "0.5 to 2 %, assumed", "c: of N in F", "%"),
         Parameter("zeroed", "1", 0.0, 0.0, 1.0, None, "assumed", "z: 1 if zeroed under load"),
     ),
     moves=("pad_*_F?", "pad_*_N"),
