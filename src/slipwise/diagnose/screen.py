@@ -27,7 +27,7 @@ _SMALL = 0.3
 #: and where the candidate explains this share of the squared residual [1].
 _FAR_BEYOND, _ROUNDS, _WORTH_A_LOOK = 2.5, 2, 0.02
 #: Mean squared residual above which lags are tried at these multiples of their typical size too [1].
-_MUCH_AMISS, _LAGS = 3.0, (-4.0, -1.0, 1.0, 4.0)
+_MUCH_AMISS, _LAGS = 30.0, (-4.0, -1.0, 1.0, 4.0)
 #: Step of a slope, as a share of the value.
 _NEAR = 0.01
 

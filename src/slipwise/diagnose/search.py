@@ -15,7 +15,7 @@ from slipwise.diagnose.candidates import candidates
 from slipwise.diagnose.pairs import leading_pair
 from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, polished, refit, settled
 from slipwise.diagnose.screen import Screened, projector, screen
-from slipwise.diagnose.shapes import strengths
+from slipwise.diagnose.shapes import strengths, variants
 from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Term
 
@@ -147,7 +147,7 @@ def _first(state: Search) -> None:
     physics = [s for s in state.screened if s.term.effect.component != "instrument"]
     chosen += [s for s in physics[:_REFITTED_PHYSICS] if all(s is not c for c in chosen)]
     least = 0.4 * MATERIAL * min(n for n, _ in origin.account.counts.values())
-    tried = _try_all(state, [([s.term], {s.term.label: s.values}) for s in chosen if s.gain > least])
+    tried = _try_all(state, _asked([s for s in chosen if s.gain > least]))
     good = [h for h in tried if material(origin.account, origin.account, h.account)]
     best = max(good, key=lambda h: score(origin.account, h.account), default=None)
     pair = leading_pair(state.base, state.screened, best)
@@ -175,7 +175,7 @@ def _further(state: Search) -> bool:
     least = 0.4 * MATERIAL_FURTHER * min(n for n, _ in account.counts.values())
     found = [s for s in rescreen(state, before) if s.gain > least]
     chosen = _various(found, _REFITTED_PAIRS + 1)
-    tried = _try_all(state, [([*before.terms, s.term], {s.term.label: s.values}) for s in chosen], before)
+    tried = _try_all(state, _asked(chosen, before.terms), before)
     good = [h for h in tried if material(origin.account, before.account, h.account)]
     if not good:
         return False
@@ -220,6 +220,11 @@ def _scaled(found: Screened, amount: float, gain: float) -> Screened:
         off = float(p.neutral or 0.0)
         values[p.name] = float(np.clip(off + ratio * (values[p.name] - off), p.low, p.high))
     return replace(found, values=values, gain=gain)
+
+
+def _asked(chosen: Sequence[Screened], beside: Sequence[Term] = ()) -> list[tuple[list[Term], dict]]:
+    """Give what a refit needs of candidates: terms and starting values."""
+    return [([*beside, s.term], {s.term.label: values}) for s in chosen for values in variants(s.term.effect, s.values)]
 
 
 def _try(state: Search, terms: Sequence[Term], starts: dict, before: Hypothesis | None = None) -> Hypothesis:

@@ -30,9 +30,8 @@ def shapes(effect: Effect) -> list[dict[str, float]]:
     if effect.port == "gauge":  # the form of a gauge's fault hardly changes its column, and the refit frees it
         constants = [p for p in effect.parameters if p.neutral is None]
         typical = {p.name: p.typical for p in constants}
-        # but a fit changes no sign, and no whole number
+        # but a fit changes no sign
         either = [(p, -p.typical) for p in constants if p.low < 0.0 < p.high and p.typical != 0.0]
-        either += [(p, x * p.typical) for p in constants for x in (0.5, 2.0) if p.whole]
         return [typical, *({**typical, p.name: x} for p, x in either)]
     axes = []
     for p in effect.parameters:
@@ -57,3 +56,9 @@ def shapes(effect: Effect) -> list[dict[str, float]]:
     highest = {p.name: p.high for p in effect.parameters}
     centre = {a[0]: min(broad * a[2], highest[a[0]]) if a[2] > 0.0 else a[2] for a in axes}
     return [centre, *({**centre, name: x} for name, points, middle in axes for x in points if x != middle)]
+
+
+def variants(effect: Effect, values: dict[str, float]) -> list[dict[str, float]]:
+    """Give the values again, and with other whole numbers, which no fit changes."""
+    others = [{**values, p.name: x * values[p.name]} for p in effect.parameters for x in (0.5, 2.0) if p.whole]
+    return [values, *others]

@@ -38,7 +38,7 @@ _LAW_KEYS = (*_MOTION_KEYS, "rig.shear_strength")
 _SEEN_KEYS = ("rig.stick_length", "rig.late_force", "rig.logger")
 _PAD_KEYS = (*_LAW_KEYS, *_SEEN_KEYS)
 #: Effects of the catalogue that turn the girder about the vertical.
-_TURNERS = ("buffer_mismatch", "mass_eccentricity", "pad_spread", "position_patch")
+_TURNERS = ("buffer_mismatch", "mass_eccentricity", "pad_spread")
 _PAD_PORTS = ("area", "shear", "stick", "pad")
 #: Results of this many recent sets of numbers are kept: a difference quotient comes back to its base.
 _KEPT = 4
