@@ -22,7 +22,8 @@ from slipwise.campaign import Campaign, Logger, Run
 from slipwise.compare.intervals import Intervals, intervals
 from slipwise.diagnose.candidates import candidates
 from slipwise.diagnose.refit import account
-from slipwise.diagnose.screen import screen, strengths
+from slipwise.diagnose.screen import screen
+from slipwise.diagnose.shapes import strengths
 from slipwise.errors import SlipwiseError
 from slipwise.fit.base import BaseFit, fit_base
 from slipwise.fit.terms import Term

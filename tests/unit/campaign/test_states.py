@@ -105,3 +105,11 @@ def test_runs_of_different_rigs_do_not_make_a_campaign(made, tmp_path):
     write_campaign(tmp_path / "mixed", "bridge1", made.truth.logger, recorded)
     with pytest.raises(InputError, match="runs of different rigs.*'quake2_hv'"):
         load_campaign(tmp_path / "mixed")
+
+
+def test_a_clipped_accelerometer_is_no_other_rig(made, tmp_path):
+    recorded = {name: dict(channels) for name, channels in made.recorded.items()}
+    clipped = recorded["sine_hv"]["girder_ax"]
+    recorded["sine_hv"]["girder_ax"] = np.clip(clipped, 0.4 * clipped.min(), 0.4 * clipped.max())
+    write_campaign(tmp_path / "clipped", "bridge1", made.truth.logger, recorded)
+    assert len(load_campaign(tmp_path / "clipped").runs) == 5

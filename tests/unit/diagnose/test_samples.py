@@ -65,3 +65,20 @@ def test_lost_samples_are_told_and_left_out() -> None:
     assert faults[0].share == pytest.approx(lost.size / load.size, rel=0.3)
     _, spoiled = mended(broken, faults)
     assert spoiled["only"][lost].all()
+
+
+def test_a_peak_that_is_held_is_no_rail_where_other_samples_are_held_too() -> None:
+    load = _campaign().runs[0].record["pad_C_N"].copy()
+    starts = [int(np.argmax(load)), *range(100, 2900, 90)]
+    for start in starts:
+        load[start : start + 5] = load[start]
+    assert [(f.effect, f.channel) for f in sample_faults(_campaign(pad_C_N=load))] == [("dropped_samples", "pad_C_N")]
+
+
+def test_what_a_clipped_accelerometer_does_to_the_velocity_is_left_out_widely() -> None:
+    campaign = _campaign(girder_ax=np.clip(_campaign().runs[0].record["girder_ax"], -1.5, 1.5))
+    faults = sample_faults(campaign)
+    assert [(f.effect, f.channel) for f in faults] == [("channel_clipping", "girder_ax")]
+    _, spoiled = mended(campaign, faults)
+    rail = np.abs(campaign.runs[0].record["girder_ax"]) == 1.5
+    assert spoiled["only"][np.convolve(rail, np.ones(61), mode="same") > 0.5].all()

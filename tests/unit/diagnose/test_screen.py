@@ -3,7 +3,7 @@
 import numpy as np
 
 from slipwise.diagnose.screen import projector
-from slipwise.diagnose.shapes import shapes, strengths
+from slipwise.diagnose.shapes import shapes, strengths, variants
 from slipwise.effects import catalogue
 
 
@@ -33,3 +33,10 @@ def test_shapes_stay_within_their_bounds() -> None:
 def test_a_constant_that_may_be_decades_off_is_tried_over_decades():
     tried = [point["length"] for point in shapes(catalogue()["rate_and_state"])]
     assert max(tried) / min(tried) > 300.0
+
+
+def test_shapes_that_no_fit_reaches_from_another_are_tried_one_by_one() -> None:
+    catalogued = catalogue()
+    assert {point["horizontal"] for point in shapes(catalogued["cell_inertia"])} == {-1.0, 1.0}
+    orders = [v["order"] for v in variants(catalogued["channel_filter"], {"lag": 3e-3, "order": 2.0})]
+    assert sorted(orders) == [1.0, 2.0, 4.0]
