@@ -1,4 +1,4 @@
-"""Noise of gauges from the rests of all runs: of coloured noise, of short rests, of cells that feel the girder early."""
+"""Noise of gauges from the rests of all runs: coloured noise, short rests, cells that feel the girder early."""
 
 import numpy as np
 import pytest
