@@ -13,11 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.fit.across import fast, logged_across, noise_across
-from slipwise.fit.balances import BALANCES, available, buffer_forces, heave_noise, motion_residual, predicted
+from slipwise.fit.balances import BALANCES, available, buffer_forces, motion_residual, predicted
 from slipwise.fit.data import FitRun, refined
 from slipwise.fit.faults import acts_on_force, faulted, noise_scale, without
 from slipwise.fit.pads import Instants, PadLaw, as_logged, force_along, instants, lost_velocity, stick_share
 from slipwise.fit.terms import Term, fitted_model
+from slipwise.fit.weights import balance_noise, heave_scale, pad_noise, with_hidden
 from slipwise.fit.yaw import yaw_of
 from slipwise.model import Model
 from slipwise.predict import PadForces, Predictor, predictor
@@ -27,10 +28,6 @@ from slipwise.signals.ends import in_frequency
 
 Array = NDArray[np.float64]
 RELATIONS: tuple[str, ...] = ("pads", *BALANCES, "across")
-#: The pitch balance leaves this much more than noise even on a perfect rig: the pads' damping is not that of P(s).
-_PITCH_FLOOR = 1.2
-#: Timing of a reversal that nobody can vouch for: shear of pad and cell, cards of the logger [s].
-_TIMING = 1e-4
 #: Numbers of the rig that change the pads' states.
 _MOTION_KEYS = ("rig.pitch_slip",)
 _LAW_KEYS = (*_MOTION_KEYS, "rig.shear_strength")
@@ -186,7 +183,7 @@ class Problem:
         runs, scale = self._corrected(values)
         law = predictor(model)
         parts: dict[str, list[Array]] = {r: [] for r in self.relations if r in BALANCES}
-        hidden = max(0.0, 1.0 - self._heave_scale(model, runs[0]) ** 2) if "heave" in parts else 0.0
+        hidden = max(0.0, 1.0 - heave_scale(model, runs[0]) ** 2) if "heave" in parts else 0.0
         for i, (run, force) in enumerate(zip(runs, forces, strict=False)):
             law.rest(run.rest_before)
             said, seen = predicted(model, run, force, self._buffers(law, run), values)
@@ -197,17 +194,8 @@ class Problem:
                     left = (seen[name] - said[name]) / scale.get(name, 1.0)
                 parts[name].append(self._over(name, i, left, run.grounded))
                 if name == "heave" and hidden > 0.0:
-                    parts[name][-1] = _with_hidden(parts[name][-1], hidden)
+                    parts[name][-1] = with_hidden(parts[name][-1], hidden)
         return parts
-
-    def _heave_scale(self, model: Model, run: FitRun) -> float:
-        """Give by how much the noise of the heave balance differs from what it was weighed with."""
-        factor = heave_noise(model, run)
-        if factor == 1.0:
-            return 1.0
-        loads = float(np.sqrt(sum(run.noise.get(f"pad_{p}_N", 0.0) ** 2 for p in run.pads)))
-        vertical = model.specimen.mass * run.noise.get("girder_az", 0.0)
-        return float(np.hypot(loads, factor * vertical) / np.hypot(loads, vertical))
 
     def weigh(self, values: Mapping[str, float]) -> None:
         """Set the noise of every relation, error of the velocity near reversals included, and what filters took."""
@@ -231,32 +219,12 @@ class Problem:
                 forces[i] = forces[i] + self._faulty_force(values, run, forces[i])[1]
         self.sigmas = {r: [] for r in self.relations}
         for i, run in enumerate(self.runs):
-            gauge = np.array([run.noise[f"pad_{p}_Fx"] for p in run.pads])
-            loads = np.array([run.noise.get(f"pad_{p}_N", 0.0) for p in run.pads])
-            friction = np.abs(plain[i]) / np.maximum(run.load, 0.05 * run.load.mean())
-            spread = gauge**2 + (0.6 * friction * loads) ** 2 + (shifted[i] - plain[i]) ** 2
-            spread = spread + (_TIMING * np.gradient(plain[i], run.dt, axis=0)) ** 2
-            self.sigmas["pads"].append(np.sqrt(np.maximum(spread, 1e-24)))
-            self._weigh_balances(model, run, gauge, loads)
+            self.sigmas["pads"].append(pad_noise(run, plain[i], shifted[i]))
+            for name, level in balance_noise(model.specimen, run).items():
+                if name in self.relations:
+                    self.sigmas[name].append(np.array(level))
             if "across" in self.relations:
                 self.sigmas["across"].append(noise_across(run, states[i], said[i]))
-
-    def _weigh_balances(self, model: Model, run: FitRun, gauge: Array, loads: Array) -> None:
-        specimen = model.specimen
-        total, force = float(np.sqrt(np.sum(loads**2))), float(np.sqrt(np.sum(gauge**2)))
-        stiffness = sum(specimen.buffer_stiffness)
-        beside = np.hypot(force, stiffness * 0.1 * run.noise["slip_x"]) / specimen.mass
-        lever = specimen.centre_height / specimen.half_spacing[0] if len(specimen.pads) == 4 else 0.0
-        levels = {
-            "girder": np.hypot(run.noise.get("girder_ax", 0.0), beside),
-            "heave": np.hypot(total, specimen.mass * run.noise.get("girder_az", 0.0)),
-            "pitch": _PITCH_FLOOR * np.hypot(total, lever * force),
-            "roll": total,
-            "warp": total,
-            "motion": 1.0,
-        }
-        for name in [r for r in self.relations if r in BALANCES]:
-            self.sigmas[name].append(np.array(max(levels[name], 1e-12)))
 
     def _over(self, name: str, run: int, left: Array, kept: NDArray[np.bool_]) -> Array:
         if not self.sigmas:
@@ -394,12 +362,3 @@ def _pitch_rate(run: FitRun) -> Array:
     pitch = run.load[:, 0] + run.load[:, 2] - run.load[:, 1] - run.load[:, 3]
     smooth = in_frequency(pitch, run.dt, lambda f: 1.0 / (1.0 + (f / 120.0) ** 8), 64)
     return np.gradient(smooth, run.dt)
-
-
-def _with_hidden(part: Array, hidden: float) -> Array:
-    """Count noise that an effect hides as if it were still there: the sum of squares grows by it, each sample alike.
-
-    Put on every sample by itself it would make residuals jump as they change sign, and slopes of that are noise.
-    """
-    total = float(part @ part)
-    return part * np.sqrt(1.0 + hidden * np.count_nonzero(part) / total) if total > 0.0 else part
