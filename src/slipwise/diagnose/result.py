@@ -127,11 +127,14 @@ def _candidate(found: Candidate) -> dict[str, Any]:
         "holdout_before": _number(found.holdout_before),
         "holdout_after": _number(found.holdout_after),
         "absorbed_by_base": _number(found.absorbed_by_base),
-        "parameters": {
-            k: {"value": _number(p.value), "low": _number(p.low), "high": _number(p.high), "unit": p.unit}
-            for k, p in found.parameters.items()
-        },
+        "parameters": {k: _interval(p) for k, p in found.parameters.items()},
     }
+
+
+def _interval(found: Interval) -> dict[str, Any]:
+    """Write a number with its interval; "limit" says that `high` is what it is at most, and that it may be absent."""
+    out = {"value": _number(found.value), "low": _number(found.low), "high": _number(found.high), "unit": found.unit}
+    return {**out, "limit": found.limit} if found.limit else out
 
 
 def _surface(found: Surface | None) -> dict[str, Any] | None:
