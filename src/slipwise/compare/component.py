@@ -18,6 +18,7 @@ NAMES: Mapping[str, tuple[str, str]] = {
     "roll": ("roll of the loads", "N"),
     "warp": ("warp of the loads", "N"),
     "motion": ("slip against accelerometers", "1"),
+    "across": ("pad friction across", "N"),
 }
 
 
@@ -105,6 +106,8 @@ def component_errors(base: BaseFit, residuals: Mapping[str, Sequence[Array]]) ->
 
 
 def _measured(relation: str, run, judged: NDArray[np.bool_]) -> Array | None:
+    if relation == "across":
+        return run.across[judged]
     if relation == "girder":
         return run.channel("girder_ax")[judged]
     if relation == "heave":

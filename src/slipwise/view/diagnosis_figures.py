@@ -14,7 +14,7 @@ from slipwise.view.style import EXPECTED, INK, MODEL_COLOURS, MUTED
 Array = NDArray[np.float64]
 _RELATIONS = {
     "pads": "pads\nF(N, v)", "girder": "girder\nbalance", "heave": "heave\nsum N", "pitch": "pitch", "roll": "roll",
-    "warp": "warp", "motion": "slip against\naccelerometers",
+    "warp": "warp", "motion": "slip against\naccelerometers", "across": "pads\nacross",
 }  # fmt: skip
 _BEFORE, _AFTER = MODEL_COLOURS[0], MODEL_COLOURS[5]
 
