@@ -34,13 +34,18 @@ def table(acceleration: Array, dt: float, compliance: float, frequency: float) -
 
 
 def balance(states: BalanceStates, compliance: float, frequency: float) -> dict[str, Array]:
-    """Give gravity along the face, and the moments of gravity and of the girder's inertia (n,) [N]."""
+    """Give gravity along the face and the moments of gravity and the girder's inertia (n,) [N], and what is no slip.
+
+    The centre of gravity, h above the slide, goes to and fro with the table's turning by h theta'' [m/s^2].
+    """
     push, dt, specimen = states.table_acceleration[:, 0], float(states.time[1] - states.time[0]), states.specimen
     angle = _turning(push, dt, compliance, frequency, 0)
-    inertia = specimen.inertia[1] * _turning(push, dt, compliance, frequency, 2)
+    turning = _turning(push, dt, compliance, frequency, 2)
+    inertia = specimen.inertia[1] * turning
     weight = states.load.sum(axis=1)
     moment = weight * specimen.centre_height * angle - inertia
-    return {"girder": -weight * angle, "pitch": moment / specimen.half_spacing[0]}
+    swing = specimen.centre_height * turning
+    return {"girder": -weight * angle, "pitch": moment / specimen.half_spacing[0], "motion": swing}
 
 
 EFFECT = Effect(

@@ -115,6 +115,10 @@ def predicted(
     seen = {"girder": run.channel("girder_ax"), "heave": heave, "pitch": modes.pitch, "roll": modes.roll}
     seen["warp"] = modes.warp
     for name, more in _hooks(model, run, specimen, force, buffers).items():
+        if name == "motion":
+            continue  # taken out of the states already
+        if name == "pitch":
+            more = through_pitch(more, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
         said[name] = said[name] + (-more / mass if name == "girder" else more)
     return said, seen
 
@@ -172,6 +176,12 @@ def _hooks(
     return out
 
 
+def no_slip(model: Model, run: FitRun) -> Array:
+    """Give the part of the girder's acceleration over the table that is no slip, by effects that turn both, (n,)."""
+    nothing = np.zeros((len(run.time), 1))
+    return _hooks(model, run, model.built_specimen(), run.force, nothing).get("motion", nothing[:, 0])
+
+
 def motion_residual(run: FitRun, late: float) -> Array:
     """Give a_x - a_x,table - d2(slip)/dt2, whitened by the noise of the three gauges: (n,) of unit variance.
 
@@ -185,7 +195,7 @@ def motion_residual(run: FitRun, late: float) -> Array:
     def white(f: Array) -> Array:
         return 1.0 / np.sqrt(level**2 + ((2.0 * np.pi * f) ** 2 * gauge) ** 2)
 
-    relative = run.record["girder_ax"] - run.record["table_ax"]
+    relative = run.record["girder_ax"] - run.record["table_ax"] - run.no_slip
     slip = shift(run.record["slip_x"], run.dt, -late)
     bend = in_frequency(slip - slip[0], run.dt, lambda f: (2.0 * np.pi * f) ** 2 * white(f), 256)
     return in_frequency(relative, run.dt, white, 256) + bend

@@ -40,6 +40,7 @@ class FitRun:
         sliding: (n,) samples at which the law says the force of a pad.
         grounded: (n,) samples at which every pad carries load, ends left out.
         noise: channel -> standard deviation of one sample.
+        no_slip: part of the girder's acceleration over the table that is no slip, (n,) or 0 [m/s^2].
     """
 
     name: str
@@ -54,6 +55,7 @@ class FitRun:
     sliding: Mask
     grounded: Mask
     noise: dict[str, float] = field(default_factory=dict[str, float])
+    no_slip: Array | float = 0.0
 
     @property
     def record(self) -> Record:
@@ -103,6 +105,11 @@ class FitRun:
         force = _stacked(record, self.pads, "Fx", self.force)
         across = _stacked(record, self.pads, "Fy", self.across)
         return replace(self, states=states, load=states.load, force=force, across=across)
+
+    def without_turning(self, no_slip: Array) -> "FitRun":
+        """Give the run with this part (n,) of the relative acceleration taken out of slip and velocity [m/s^2]."""
+        slip, velocity = self._moved(self.record.replaced(girder_ax=self.record["girder_ax"] - no_slip))
+        return replace(self, states=replace(self.states, slip=slip, velocity=velocity), no_slip=no_slip)
 
     def _moved(self, record: Record) -> tuple[Array, Array]:
         """Give slip and velocity of changed gauges, by what the smoother makes of the change far from its ends.

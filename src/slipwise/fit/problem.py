@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.fit.across import fast, logged_across, noise_across
-from slipwise.fit.balances import BALANCES, available, buffer_forces, motion_residual, predicted
+from slipwise.fit.balances import BALANCES, available, buffer_forces, motion_residual, no_slip, predicted
 from slipwise.fit.data import FitRun, refined
 from slipwise.fit.faults import acts_on_force, faulted, noise_scale, without
 from slipwise.fit.pads import Instants, PadLaw, as_logged, force_along, instants, lost_velocity, stick_share
@@ -101,6 +101,7 @@ class Problem:
         self._gauges = [t for t in self.terms if t.effect.port == "gauge"]
         self._on_force = [t for t in self._gauges if acts_on_force(t)]
         self._on_state = [t for t in self._gauges if not acts_on_force(t)]
+        self._rockers = [t for t in self.terms if t.effect.port == "table" and "balance" in t.effect.hooks]
         self._turners = [t for t in self.terms if t.effect.name in _TURNERS]
         measured = self.runs[0].states.has_yaw or not self.balanced
         self.yaws = (self.yaw or bool(self._turners)) and not measured
@@ -244,7 +245,11 @@ class Problem:
 
     def _pad_key(self, values: Mapping[str, float], *, faults: bool = True) -> tuple[str | float, ...]:
         """Give what the pads' residuals depend on; without the faults of friction gauges, what their law does."""
-        own = [t for t in self.terms if t.effect.instant_hooks or "rig" in t.effect.hooks or t in self._on_state]
+        own = [
+            t
+            for t in self.terms
+            if t.effect.instant_hooks or "rig" in t.effect.hooks or t in [*self._on_state, *self._rockers]
+        ]
         own += self._on_force if faults else []
         turned = ("yaw", values.get("rig.buffer_stiffness", 0.0)) if self.yaws else ()
         keys = _PAD_KEYS if faults else _LAW_KEYS
@@ -260,19 +265,28 @@ class Problem:
 
     def _corrected(self, values: Mapping[str, float]) -> tuple[list[FitRun], dict[str, float]]:
         """Take the faults of all gauges but those of friction out of the runs; noise scales with it."""
-        if not self._on_state:
+        if not self._on_state and not self._rockers:
             return self.runs, {}
 
         def make() -> tuple[list[FitRun], dict[str, float]]:
             runs = self.runs
             for term in self._on_state:
                 runs = [without(term, values, r) for r in runs]
+            if self._rockers:
+                model = self.model(values)
+                runs = [r.without_turning(no_slip(model, r)) for r in runs]
             return runs, noise_scale(self._on_state, values, self.runs[0])
 
-        return self._remembered("corrected", self._values_of(self._on_state, values), make)
+        return self._remembered("corrected", self._moving_key(values), make)
+
+    def _moving_key(self, values: Mapping[str, float]) -> tuple[str | float, ...]:
+        """Give what the runs depend on without the faults of their gauges and what is no slip."""
+        height = (values.get("rig.centre_height", 0.0),) if self._rockers else ()
+        return (*self._values_of([*self._on_state, *self._rockers], values), *height)
 
     def _states(self, values: Mapping[str, float], runs: list[FitRun]) -> list[Instants]:
-        key = (*self._values_of([*self._on_state, *self._turners], values), *(values.get(k, 0.0) for k in _MOTION_KEYS))
+        turned = self._values_of(self._turners, values)
+        key = (*self._moving_key(values), *turned, *(values.get(k, 0.0) for k in _MOTION_KEYS))
         if self.yaws:
             key = (*key, "yaw", values["rig.buffer_stiffness"] if "rig.buffer_stiffness" in values else 0.0)
 
@@ -353,7 +367,7 @@ class Problem:
 
     def _motion(self, place: int, run: FitRun, values: Mapping[str, float]) -> Array:
         late = values["rig.late_slip"]
-        key = (late, *self._values_of(self._on_state, values))
+        key = (late, *self._moving_key(values))
         return self._remembered(f"motion{place}", key, lambda: motion_residual(run, late))
 
 

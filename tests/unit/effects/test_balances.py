@@ -73,9 +73,14 @@ def open_balances(model: Model) -> tuple[dict[str, np.ndarray], dict[str, np.nda
         "warp": modes.warp,
         "girder": -(specimen.mass * acceleration[:, 0] + friction + key[:, 0]),
     }
+    lean = height * np.gradient(np.gradient(record["pitch"], DT), DT)
+    slipping = np.gradient(record["slip_vx"], DT)
+    left["motion"] = specimen.mass * (acceleration[:, 0] - record["table_ax"] - slipping - lean)
     said: dict[str, np.ndarray] = {}
     for entry in model.with_hook("balance"):
         said |= entry.effect.hooks["balance"](seen, **entry.values)
+    if "motion" in said:
+        said["motion"] = specimen.mass * said["motion"]
     return left, said
 
 
@@ -90,7 +95,7 @@ CLOSED = {
     "key_friction": {"heave": 0.02},
     "girder_bending": {"heave": 0.01},
     "guide_drag": {"girder": 0.02},
-    "table_pitch": {"pitch": 0.06, "girder": 0.03},
+    "table_pitch": {"pitch": 0.06, "girder": 0.03, "motion": 0.2},
 }
 
 
