@@ -30,6 +30,8 @@ _STUCK_SAMPLES = 6
 _FAST = 2e-2
 #: For a slow slider the limits are these parts of its usual speed (95 % of samples are slower) [1].
 _STUCK_PART, _FAST_PART = 0.05, 0.2
+#: Speeds below this many times the error of the velocity are none [1].
+_STUCK_ERRORS = 4.0
 #: A pad with less than this part of its share at rest is lifting [1], and rings this long after it [s].
 _LIFTED = 0.05
 _RINGING = 0.2
@@ -147,7 +149,7 @@ def measured_states(run: Run, campaign: Campaign) -> States:
         missing.append("yaw: velocities of the pads are taken as equal")
     velocity = np.stack([along.velocity, across.velocity if across else np.zeros(len(record))], axis=1)
     speed = np.hypot(velocity[:, 0], velocity[:, 1])
-    stuck = _stuck(speed)
+    stuck = _stuck(speed, along.velocity_error if specimen.free else 0.0)
     slowest = next((f for f in lowpass.values() if f is not None), None)
     nothing = np.zeros(len(record))
     return States(
@@ -269,8 +271,9 @@ def _levels(gauges: Mapping[str, Gauge], axis: str) -> tuple[float, float] | Non
     return slip, float(np.hypot(girder, table))
 
 
-def _stuck(speed: Array) -> Mask:
+def _stuck(speed: Array, error: float) -> Mask:
     limit = min(_STUCK, _STUCK_PART * float(np.quantile(speed, 0.95)))
+    limit = max(limit, _STUCK_ERRORS * error)  # a run that never slides is stuck throughout
     return long_enough(speed < limit, _STUCK_SAMPLES)
 
 

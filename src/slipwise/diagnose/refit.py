@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.diagnose.shapes import strengths
 from slipwise.fit.base import BaseFit
 from slipwise.fit.problem import Problem
 from slipwise.fit.solve import Solution, solve
@@ -187,3 +188,13 @@ def _inside(term: Term, start: Mapping[str, float]) -> dict[str, float]:
                 value = p.neutral + inward * 0.02 * width
         out[p.name] = float(np.clip(value, p.low, p.high))
     return out
+
+
+def strained(found: Hypothesis) -> bool:
+    """Tell whether a strength has run against a bound that is not its absence: a law asked for more than it can be."""
+    ends = set(found.solution.at_bounds)
+    return any(
+        f"{t.label}.{p.name}" in ends and found.values_of(t)[p.name] != p.neutral
+        for t in found.terms
+        for p in strengths(t.effect)
+    )

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from slipwise.diagnose.candidates import candidates
 from slipwise.diagnose.pairs import leading_pair
-from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, polished, refit, settled
+from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, polished, refit, settled, strained
 from slipwise.diagnose.screen import Screened, projector, screen
 from slipwise.diagnose.shapes import strengths, variants
 from slipwise.fit.base import BaseFit
@@ -176,7 +176,8 @@ def _further(state: Search) -> bool:
     found = [s for s in rescreen(state, before) if s.gain > least]
     chosen = _various(found, _REFITTED_PAIRS + 1)
     tried = _try_all(state, _asked(chosen, before.terms), before)
-    good = [h for h in tried if material(origin.account, before.account, h.account)]
+    sound = [h for h in tried if strained(before) or not strained(h)]
+    good = [h for h in sound if material(origin.account, before.account, h.account)]
     if not good:
         return False
     state.path.append(max(good, key=lambda h: score(before.account, h.account)))

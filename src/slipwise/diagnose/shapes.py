@@ -59,6 +59,6 @@ def shapes(effect: Effect) -> list[dict[str, float]]:
 
 
 def variants(effect: Effect, values: dict[str, float]) -> list[dict[str, float]]:
-    """Give the values again, and with other whole numbers, which no fit changes."""
-    others = [{**values, p.name: x * values[p.name]} for p in effect.parameters for x in (0.5, 2.0) if p.whole]
+    """Give the values again, and with a smaller whole number, which no fit changes."""
+    others = [{**values, p.name: 0.5 * values[p.name]} for p in effect.parameters if p.whole]
     return [values, *others]

@@ -6,10 +6,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from slipwise.diagnose.leftover import Surface, leftover, structured
-from slipwise.diagnose.refit import Account, Hypothesis
+from slipwise.diagnose.refit import Account, Hypothesis, strained
 from slipwise.diagnose.samples import SampleFault
 from slipwise.diagnose.search import MATERIAL, MOST_EFFECTS, Search, material, score, worth
-from slipwise.diagnose.shapes import strengths
 
 #: A right family explains this share of what the base left, whatever its exact form [1]: 0.87 and more on trials, the
 #: best wrong one up to 0.69.
@@ -101,19 +100,9 @@ def _least_share(found: Hypothesis, drop: float) -> float:
     """Give the share of what the base left that a right family explains at least."""
     if drop >= _SURE_SHARE and all(t.effect.exact for t in found.terms):
         return EXACT_FAMILY
-    if _strained(found):
+    if strained(found):
         return STRAINED_FAMILY
     return RIGHT_FAMILY if drop >= _SURE_SHARE else HALF
-
-
-def _strained(found: Hypothesis) -> bool:
-    """Tell whether a strength has run against a bound that is not its absence: a law asked for more than it can be."""
-    ends = set(found.solution.at_bounds)
-    return any(
-        f"{t.label}.{p.name}" in ends and found.values_of(t)[p.name] != p.neutral
-        for t in found.terms
-        for p in strengths(t.effect)
-    )
 
 
 def _loud(found: Hypothesis) -> bool:

@@ -187,7 +187,7 @@ class Problem:
         hidden = max(0.0, 1.0 - heave_scale(model, runs[0]) ** 2) if "heave" in parts else 0.0
         for i, (run, force) in enumerate(zip(runs, forces, strict=False)):
             law.rest(run.rest_before)
-            said, seen = predicted(model, run, force, self._buffers(law, run), values)
+            said, seen = predicted(model, run, force, self._buffers(law, run, *self._yaw(run, values)), values)
             for name in parts:
                 if name == "motion":
                     left = self._motion(i, run, values)
@@ -314,7 +314,12 @@ class Problem:
 
     def _turning_of(self, run: FitRun, values: Mapping[str, float]) -> tuple[Array, Array]:
         model = self.model(values)
-        return yaw_of(run, model.built_specimen(), run.force, self._buffers(predictor(model), run))
+        still = np.zeros(len(run.time))
+        return yaw_of(run, model.built_specimen(), run.force, self._buffers(predictor(model), run, still, still))
+
+    def _yaw(self, run: FitRun, values: Mapping[str, float]) -> tuple[Array, Array]:
+        """Give yaw [rad] and its rate [rad/s], (n,) each: measured, made from the forces, or none."""
+        return self._turning_of(run, values) if self.yaws else (run.states.yaw, run.states.yaw_rate)
 
     def _law_of(self, model: Model) -> PadLaw:
         if self._law is None:
@@ -354,15 +359,16 @@ class Problem:
         offset = np.stack([faulty[n] for n in names], axis=1) - clean
         return run.force - offset, offset
 
-    def _buffers(self, law: Predictor, run: FitRun) -> Array:
-        count = len(self.specimen.buffer_stiffness)
-        if count == 0:
+    def _buffers(self, law: Predictor, run: FitRun, yaw: Array, yaw_rate: Array) -> Array:
+        if not self.specimen.buffer_stiffness:
             return np.zeros((len(run.time), 1))
+        sides = np.array(self.specimen.buffer_places)[:, 1]
+        slip = run.slip[:, None] - sides * yaw[:, None]
         if not any(t.effect.port == "buffer" for t in self.terms):
-            return run.slip[:, None] * np.array(law.model.specimen.buffer_stiffness)
-        slip, velocity = refined(run.slip[:, None]), refined(run.velocity[:, None])
+            return slip * np.array(law.model.specimen.buffer_stiffness)
+        slip, velocity = refined(slip), refined(run.velocity[:, None] - sides * yaw_rate[:, None])
         time = np.linspace(run.time[0], run.time[-1], len(slip))
-        fine = buffer_forces(law, time, np.repeat(slip, count, axis=1), np.repeat(velocity, count, axis=1))
+        fine = buffer_forces(law, time, slip, velocity)
         return as_logged(fine, run, None, averaged=False)
 
     def _motion(self, place: int, run: FitRun, values: Mapping[str, float]) -> Array:

@@ -1,10 +1,11 @@
 """Yaw of the girder where no gauge shows it, from the friction that was measured on its pads.
 
-    I psi'' = sum (y_i - y_c) F_i + sum (y_j - y_c) B_j - K_psi psi - C psi',   C = sum |F_i| x_i^2 / |v|
+    I psi'' = sum (y_i - y_c) F_i + sum (y_j - y_c) B_j - K_psi psi - C psi',   C = sum |F_i| x_i^2 / |v - y_i psi'|
 
 Unequal buffers, an eccentric mass and unequal pads turn the girder, and pads at +y then slide at another speed than
-those at -y. Friction along y damps the turning: it is F_i times the share x_i psi'/|v| of the speed that points there.
-Forces are measured with noise, so with equal pads yaw only makes the velocities noisier: use it where it earns it.
+those at -y. Friction along y damps the turning: it is F_i times the share x_i psi'/|v - y_i psi'| of the speed that
+points there. Forces are measured with noise, so with equal pads yaw only makes the velocities noisier: use it where it
+earns it.
 """
 
 import numpy as np
@@ -20,7 +21,7 @@ _SLOW = 2e-3
 
 
 @njit(cache=True)
-def _turned(torque, damping, stiffness, inertia, held, dt, angle, rate):  # pragma: no cover - compiled
+def _turned(torque, force, velocity, places, slow, stiffness, inertia, held, dt, angle, rate):  # pragma: no cover
     """Step the yaw by the implicit rule, which no damping can upset."""
     psi = 0.0
     w = 0.0
@@ -28,7 +29,11 @@ def _turned(torque, damping, stiffness, inertia, held, dt, angle, rate):  # prag
         if held[i]:
             w = 0.0
         else:
-            w = (w + dt * (torque[i] - stiffness * psi) / inertia) / (1.0 + dt * damping[i] / inertia)
+            damping = 0.0
+            for p in range(force.shape[1]):
+                speed = max(abs(velocity[i] - places[p, 1] * w), slow)
+                damping += abs(force[i, p]) * places[p, 0] ** 2 / speed
+            w = (w + dt * (torque[i] - stiffness * psi) / inertia) / (1.0 + dt * damping / inertia)
         psi += dt * w
         angle[i] = psi
         rate[i] = w
@@ -50,8 +55,8 @@ def yaw_of(run: FitRun, specimen: Specimen, force: Array, buffers: Array) -> tup
         sides = np.array(specimen.buffer_places)[:, 1] - specimen.centre_y
         torque = torque + buffers @ sides
         stiffness = float(np.array(specimen.buffer_stiffness) @ sides**2)
-    speed = np.maximum(np.abs(run.velocity), _SLOW)
-    damping = np.abs(force) @ (pads[:, 0] - specimen.centre_x) ** 2 / speed
+    places = pads - np.array([specimen.centre_x, specimen.centre_y])
     angle, rate = np.zeros(len(torque)), np.zeros(len(torque))
-    _turned(torque, damping, stiffness, specimen.inertia[2], run.states.stuck, run.dt, angle, rate)
+    stuck, inertia = run.states.stuck, specimen.inertia[2]
+    _turned(torque, force, run.velocity, places, _SLOW, stiffness, inertia, stuck, run.dt, angle, rate)
     return angle, rate
