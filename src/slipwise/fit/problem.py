@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.fit.across import fast, logged_across, noise_across
+from slipwise.fit.across import fast, logged_across
 from slipwise.fit.balances import BALANCES, available, buffer_forces, motion_residual, no_slip, predicted
 from slipwise.fit.data import FitRun, refined
 from slipwise.fit.faults import acts_on_force, faulted, noise_scale, without
 from slipwise.fit.pads import Instants, PadLaw, as_logged, force_along, instants, lost_velocity, stick_share
 from slipwise.fit.terms import Term, fitted_model
-from slipwise.fit.weights import balance_noise, heave_scale, pad_noise, with_hidden
+from slipwise.fit.weights import balance_noise, heave_scale, noise_across, pad_noise, with_hidden
 from slipwise.fit.yaw import yaw_of
 from slipwise.model import Model
 from slipwise.predict import PadForces, Predictor, predictor

@@ -3,9 +3,12 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.fit.across import FAST
 from slipwise.fit.balances import heave_noise
-from slipwise.fit.data import FitRun
+from slipwise.fit.data import FINE, FitRun
+from slipwise.fit.pads import Instants
 from slipwise.model import Model
+from slipwise.predict import PadForces
 from slipwise.rig import Specimen
 
 Array = NDArray[np.float64]
@@ -28,6 +31,18 @@ def pad_noise(run: FitRun, plain: Array, shifted: Array) -> Array:
     spread = gauge**2 + (0.6 * friction * loads) ** 2 + (shifted - plain) ** 2
     spread = spread + (_TIMING * np.gradient(plain, run.dt, axis=0)) ** 2
     return np.sqrt(np.maximum(spread, 1e-24))
+
+
+def noise_across(run: FitRun, state: Instants, said: PadForces) -> Array:
+    """Give the noise of measured less predicted force along y (n, p) [N]: gauges, loads, direction, timing."""
+    gauge = np.array([run.noise[f"pad_{p}_Fy"] for p in run.pads])
+    loads = _gauges(run)[1]
+    force = said.force[::FINE, :, 1]
+    friction = np.abs(force) / np.maximum(run.load, 0.05 * run.load.mean())
+    speed = np.maximum(np.hypot(*np.moveaxis(state.velocity[::FINE], 2, 0)), FAST)
+    turned = said.bound[::FINE] * max(run.states.velocity_error) / speed
+    late = _TIMING * np.gradient(force, run.dt, axis=0)
+    return np.sqrt(gauge**2 + (0.6 * friction * loads) ** 2 + turned**2 + late**2)
 
 
 def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
