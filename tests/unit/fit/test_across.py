@@ -10,6 +10,8 @@ from measured import as_campaign
 from slipwise.compare.component import component_errors, in_floors
 from slipwise.effects import catalogue
 from slipwise.fit.base import fit_base
+from slipwise.fit.data import fit_runs
+from slipwise.fit.problem import Problem
 from slipwise.fit.terms import Term
 from slipwise.record import Record
 
@@ -39,4 +41,5 @@ def test_without_gauges_across_there_is_no_such_relation(campaign):
         return Record(record.time, {n: v for n, v in record.channels.items() if not n.endswith("_Fy")})
 
     runs = tuple(replace(r, record=without(r.record)) for r in campaign.runs)
-    assert "across" not in fit_base(replace(campaign, runs=runs)).problem.relations
+    plain = replace(campaign, runs=runs)
+    assert "across" not in Problem(fit_runs(plain), plain.specimen, ()).relations
