@@ -14,6 +14,8 @@ PADS: tuple[str, ...] = ("A", "B", "C", "D")
 #: Signs of the pads' places, in units of half the pad spacing: (x, y).
 PAD_SIGNS: tuple[tuple[int, int], ...] = ((1, 1), (-1, 1), (1, -1), (-1, -1))
 BUFFERS: tuple[str, ...] = ("1", "2")
+#: Gauges that the slip velocity is made of.
+VELOCITY_CHANNELS: tuple[str, ...] = ("slip_x", "girder_ax", "table_ax")
 
 
 @dataclass(frozen=True)

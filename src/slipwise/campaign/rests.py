@@ -4,11 +4,12 @@ A gauge is as noisy in every run, and many runs show too short a rest: their sam
 not white puts more than its share into low frequencies, `colour` times as much, and a velocity is made of those.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import detrend
 
 from slipwise.record import Record
 from slipwise.signals.noise import noise, quantum
@@ -52,19 +53,32 @@ def noise_of_gauges(records: Sequence[Record]) -> dict[str, Gauge]:
     return {c: _gauge([(r[c], q) for r, q in zip(records, quiet, strict=True) if c in r]) for c in channels}
 
 
+def noise_of_slip(gauges: Mapping[str, Gauge], axis: str) -> tuple[float, float] | None:
+    """Give the noise of slip gauge [m] and relative acceleration [m/s^2] where the rests have shown all three gauges.
+
+    What a gauge hums at rest it may hum less when it moves, but noise that is slow must be known: the likelihood of a
+    run takes it for motion, and a velocity then errs four times as much.
+    """
+    names = (f"slip_{axis}", f"girder_a{axis}", f"table_a{axis}")
+    if not all(n in gauges and gauges[n].rested and gauges[n].level > 0.0 for n in names):
+        return None
+    slip, girder, table = (gauges[n].slow_level for n in names)
+    return slip, float(np.hypot(girder, table))
+
+
 def _gauge(parts: list[tuple[Array, Mask | None]]) -> Gauge:
     """Give the noise of a channel from its samples (n,) in all runs and which of them were at rest.
 
     Where rest is too short in all runs together, the top of the spectrum must do, which noise that is not white does
     not reach.
     """
-    resolution = float(np.median([quantum(values) for values, _ in parts])) / np.sqrt(12.0)
     rests = [_before_onset(v[q]) for v, q in parts if q is not None and np.count_nonzero(q) >= _LEAST]
-    still = [_detrended(r) for r in rests if len(r) >= _LEAST]
+    still = [detrend(r) for r in rests if len(r) >= _LEAST]
     freedom = sum(len(s) - 2 for s in still)
     if freedom < _ENOUGH:
         return Gauge(float(np.median([noise(values).level for values, _ in parts])))
     level = float(np.sqrt(sum(float(s @ s) for s in still) / freedom))
+    resolution = float(np.median([quantum(values) for values, _ in parts])) / np.sqrt(12.0)
     # a coarse gauge may not even flicker at rest
     return Gauge(max(level, resolution), _colour(still), rested=True)
 
@@ -75,11 +89,6 @@ def _before_onset(rest: Array) -> Array:
     away = np.abs(smooth - np.median(smooth))
     moved = away > _ONSET_SURE * 1.4826 * np.median(away)
     return rest[: int(np.argmax(moved))] if moved.any() else rest
-
-
-def _detrended(values: Array) -> Array:
-    place = np.arange(len(values))
-    return values - np.polynomial.Polynomial.fit(place, values, 1)(place)
 
 
 def _colour(still: list[Array]) -> float:

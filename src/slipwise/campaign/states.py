@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from slipwise.campaign.aligned import aligned_run, long_enough, spread
 from slipwise.campaign.campaign import Campaign, Run
-from slipwise.campaign.rests import Gauge
+from slipwise.campaign.rests import Gauge, noise_of_slip
 from slipwise.channels import PAD_SIGNS, PADS
 from slipwise.errors import InputError
 from slipwise.loads import load_modes, vertical_acceleration
@@ -232,7 +232,7 @@ def _along(record: Record, specimen: Specimen, gauges: Mapping[str, Gauge], miss
             missing.append("girder_ax and table_ax: velocity is made from the slip gauge alone")
         return fuse(record.time, record["slip_x"], velocity=recorded)
     relative = record["girder_ax"] - record["table_ax"]
-    levels = _levels(gauges, "x")
+    levels = noise_of_slip(gauges, "x")
     pitch = girder_pitch(record, specimen)
     if pitch is None:
         return fuse(record.time, record["slip_x"], relative, recorded, levels)
@@ -255,20 +255,7 @@ def _across(record: Record, gauges: Mapping[str, Gauge], missing: list[str]) -> 
         return None
     recorded = record["slip_vy"] if "slip_vy" in record else None
     relative = record["girder_ay"] - record["table_ay"] if record.has_all("girder_ay", "table_ay") else None
-    return fuse(record.time, record["slip_y"], relative, recorded, _levels(gauges, "y"))
-
-
-def _levels(gauges: Mapping[str, Gauge], axis: str) -> tuple[float, float] | None:
-    """Give the noise of slip gauge [m] and relative acceleration [m/s^2] where the rests have shown all three gauges.
-
-    What a gauge hums at rest it may hum less when it moves, but noise that is slow must be known: the likelihood of a
-    run takes it for motion, and a velocity then errs four times as much.
-    """
-    names = (f"slip_{axis}", f"girder_a{axis}", f"table_a{axis}")
-    if not all(n in gauges and gauges[n].rested and gauges[n].level > 0.0 for n in names):
-        return None
-    slip, girder, table = (gauges[n].slow_level for n in names)
-    return slip, float(np.hypot(girder, table))
+    return fuse(record.time, record["slip_y"], relative, recorded, noise_of_slip(gauges, "y"))
 
 
 def _stuck(speed: Array, error: float) -> Mask:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.fit.base import BaseFit
+from slipwise.fit.weights import PITCH_FLOOR, balance_noise
 
 Array = NDArray[np.float64]
 #: Relation -> what it is called, unit of its residual.
@@ -56,13 +57,8 @@ def floors(base: BaseFit) -> dict[str, list[Array]]:
     out = dict(base.problem.sigmas)
     if "pitch" in out:
         specimen = base.problem.model(base.solution.values).specimen
-        lever = specimen.centre_height / specimen.half_spacing[0]
-        out["pitch"] = []
-        for run in base.problem.runs:
-            loads = [run.noise.get(f"pad_{p}_N", 0.0) for p in run.pads]
-            forces = [run.noise[f"pad_{p}_Fx"] for p in run.pads]
-            level = np.hypot(np.linalg.norm(loads), lever * np.linalg.norm(forces))
-            out["pitch"].append(np.array(max(float(level), 1e-12)))
+        levels = [balance_noise(specimen, run)["pitch"] / PITCH_FLOOR for run in base.problem.runs]
+        out["pitch"] = [np.array(level) for level in levels]
     return out
 
 

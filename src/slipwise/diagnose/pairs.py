@@ -35,7 +35,8 @@ def leading_pair(
     gains: dict[tuple[int, int], float] = {}
     for i in range(len(pool)):
         for j in range(i):
-            if pool[i].term.effect.name == pool[j].term.effect.name or _both_stick(pool[i].term, pool[j].term):
+            a, b = pool[i].term, pool[j].term
+            if a.effect.name == b.effect.name or at_odds(a, b):
                 continue
             two = gram[np.ix_([i, j], [i, j])]
             if abs(two[0, 1]) > 0.98:
@@ -56,5 +57,7 @@ def leading_pair(
     return pool[top[0]], pool[top[1]]
 
 
-def _both_stick(a: Term, b: Term) -> bool:
-    return "stick" in a.effect.hooks and "stick" in b.effect.hooks
+def at_odds(a: Term, b: Term) -> bool:
+    """Tell whether two terms cannot be in one hypothesis: both decide how a pad sticks, or are one on a channel."""
+    both_stick = "stick" in a.effect.hooks and "stick" in b.effect.hooks
+    return both_stick or (a.effect.name == b.effect.name and bool(set(a.targets) & set(b.targets)))

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign import Campaign
-from slipwise.channels import PADS
+from slipwise.channels import PADS, VELOCITY_CHANNELS
 from slipwise.record import Record
 from slipwise.signals import LowPass, lowpass, white_level
 from slipwise.signals.ends import in_frequency
@@ -24,7 +24,6 @@ _AGAINST = -0.3
 _PLATEAU, _REPEATED = 4, 0.002
 #: Spoiled before and after a bad sample; more where the velocity is made of the channel [samples].
 _REACH, _REACH_OF_MOTION = 6, 40
-_MOTION = ("slip_x", "girder_ax", "table_ax")
 
 
 @dataclass(frozen=True)
@@ -85,7 +84,7 @@ def mended(campaign: Campaign, faults: tuple[SampleFault, ...]) -> tuple[Campaig
             bad = _at_rail(values)
             if fault.effect == "dropped_samples":
                 bad[1:] |= values[1:] == values[:-1]
-            reach = _REACH_OF_MOTION if fault.channel in _MOTION else _REACH
+            reach = _REACH_OF_MOTION if fault.channel in VELOCITY_CHANNELS else _REACH
             spoilt |= np.convolve(bad, np.ones(2 * reach + 1), mode="same") > 0.5
         records[run.name] = record
         spoiled[run.name] = spoilt

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.diagnose.candidates import candidates
-from slipwise.diagnose.pairs import leading_pair
+from slipwise.diagnose.pairs import at_odds, leading_pair
 from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, polished, refit, settled, strained
 from slipwise.diagnose.screen import Screened, projector, screen
 from slipwise.diagnose.shapes import strengths, variants
@@ -186,18 +186,13 @@ def _further(state: Search) -> bool:
 
 def rescreen(state: Search, before: Hypothesis) -> list[Screened]:
     """Score the remaining candidates against what a hypothesis has left, by the columns that are there already."""
-    taken = {t.label for t in before.terms}
-    names = set(before.names)
-    sticks = any("stick" in t.effect.hooks for t in before.terms)
     problem, solution = before.problem, before.solution
     project = projector(solution.jacobian)
     residual = project(solution.residuals.stacked(problem.fitted, problem.relations))
     out = []
     for s in state.screened:
         effect = s.term.effect
-        if s.term.label in taken or (effect.name in names and not effect.target):
-            continue
-        if (sticks and "stick" in effect.hooks) or any(_on_one(s.term, t) for t in before.terms):
+        if any(at_odds(s.term, t) for t in before.terms):
             continue
         column = project(s.column)
         length = float(column @ column)
@@ -206,11 +201,6 @@ def rescreen(state: Search, before: Hypothesis) -> list[Screened]:
         if amount > 0.0 or two_sided:
             out.append(_scaled(s, amount, amount**2 * length))
     return sorted(out, key=lambda s: -s.gain)
-
-
-def _on_one(a: Term, b: Term) -> bool:
-    """Tell whether two terms are one fault on one channel: a card's and one of its gauges' own."""
-    return a.effect.name == b.effect.name and bool(set(a.targets) & set(b.targets))
 
 
 def _scaled(found: Screened, amount: float, gain: float) -> Screened:

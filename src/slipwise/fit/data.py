@@ -169,8 +169,8 @@ def _fit_run(run: Run, campaign: Campaign, spoiled: Mask | None) -> FitRun:
     force = _stacked(states.record, pads, "Fx", states.load)
     filtered = states.lowpass.get(f"pad_{pads[0]}_Fx")
     rest = 0.0 if run.rest_before is None else run.rest_before
-    sideways = states.has_y and states.record.has_all(*(f"pad_{p}_Fy" for p in pads))
-    across = _stacked(states.record, pads, "Fy", force) if sideways else np.empty((len(force), 0))
+    nothing = np.empty((len(force), 0))
+    across = _stacked(states.record, pads, "Fy", nothing) if states.has_y else nothing
     return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, across, sliding, grounded)
 
 

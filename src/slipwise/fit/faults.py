@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.channels import channels_like
+from slipwise.channels import VELOCITY_CHANNELS, channels_like
 from slipwise.effects import Effect
 from slipwise.fit.data import FitRun, smoothed
 from slipwise.fit.terms import Term
@@ -52,7 +52,7 @@ def without(term: Term, values: Mapping[str, float], run: FitRun) -> FitRun:
             for n in names:
                 seen = smoothed(record[n], run)
                 record = record.replaced(**{n: record[n] + _sharpened(seen, shown[n], run.dt) - seen})
-    moved = any(record[n] is not run.record[n] for n in ("slip_x", "girder_ax", "table_ax") if n in record)
+    moved = any(record[n] is not run.record[n] for n in VELOCITY_CHANNELS if n in record)
     return run.with_record(record, moved=moved)
 
 

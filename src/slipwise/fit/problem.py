@@ -102,6 +102,7 @@ class Problem:
         self._on_force = [t for t in self._gauges if acts_on_force(t)]
         self._on_state = [t for t in self._gauges if not acts_on_force(t)]
         self._rockers = [t for t in self.terms if t.effect.port == "table" and "balance" in t.effect.hooks]
+        self._moving = [*self._on_state, *self._rockers]
         self._turners = [t for t in self.terms if t.effect.name in _TURNERS]
         measured = self.runs[0].states.has_yaw or not self.balanced
         self.yaws = (self.yaw or bool(self._turners)) and not measured
@@ -200,26 +201,27 @@ class Problem:
 
     def weigh(self, values: Mapping[str, float]) -> None:
         """Set the noise of every relation, error of the velocity near reversals included, and what filters took."""
+        self._memo.clear()
         model = self.model(values)
         law = PadLaw(model)
+        runs, _ = self._corrected(values)
         if self.specimen.free:
-            states = [self._instants(r, i, values) for i, r in enumerate(self.runs)]
-            found = self._along(values, states, law.at_instants(self.runs, states))
+            states = [self._instants(r, i, values) for i, r in enumerate(runs)]
+            found = self._along(values, states, law.at_instants(runs, states))
             mass = model.specimen.mass
-            pairs = zip(found, self.runs, strict=True)
+            pairs = zip(found, runs, strict=True)
             self.lost = [lost_velocity(f.sum(axis=1), r, mass, self._by(values)) for f, r in pairs]
-        self._memo.clear()
-        states = self._states(values, self.runs)
+        states = self._states(values, runs)
         still = {**values, "rig.late_force": 0.0}
-        said = law.at_instants(self.runs, states)
-        plain = self._logged(still, self.runs, states, said)
-        faster = [self._instants(r, i, values, more=r.states.velocity_error[0]) for i, r in enumerate(self.runs)]
-        shifted = self._logged(still, self.runs, faster, law.at_instants(self.runs, faster))
+        said = law.at_instants(runs, states)
+        plain = self._logged(still, runs, states, said)
+        faster = [self._instants(r, i, values, more=r.states.velocity_error[0]) for i, r in enumerate(runs)]
+        shifted = self._logged(still, runs, faster, law.at_instants(runs, faster))
         for forces in (plain, shifted):  # a late gauge shows its reversals, and their noise, later too
-            for i, run in enumerate(self.runs):
+            for i, run in enumerate(runs):
                 forces[i] = forces[i] + self._faulty_force(values, run, forces[i])[1]
         self.sigmas = {r: [] for r in self.relations}
-        for i, run in enumerate(self.runs):
+        for i, run in enumerate(runs):
             self.sigmas["pads"].append(pad_noise(run, plain[i], shifted[i]))
             for name, level in balance_noise(model.specimen, run).items():
                 if name in self.relations:
@@ -245,11 +247,7 @@ class Problem:
 
     def _pad_key(self, values: Mapping[str, float], *, faults: bool = True) -> tuple[str | float, ...]:
         """Give what the pads' residuals depend on; without the faults of friction gauges, what their law does."""
-        own = [
-            t
-            for t in self.terms
-            if t.effect.instant_hooks or "rig" in t.effect.hooks or t in [*self._on_state, *self._rockers]
-        ]
+        own = [t for t in self.terms if t.effect.instant_hooks or "rig" in t.effect.hooks or t in self._moving]
         own += self._on_force if faults else []
         turned = ("yaw", values.get("rig.buffer_stiffness", 0.0)) if self.yaws else ()
         keys = _PAD_KEYS if faults else _LAW_KEYS
@@ -265,7 +263,7 @@ class Problem:
 
     def _corrected(self, values: Mapping[str, float]) -> tuple[list[FitRun], dict[str, float]]:
         """Take the faults of all gauges but those of friction out of the runs; noise scales with it."""
-        if not self._on_state and not self._rockers:
+        if not self._moving:
             return self.runs, {}
 
         def make() -> tuple[list[FitRun], dict[str, float]]:
@@ -282,7 +280,7 @@ class Problem:
     def _moving_key(self, values: Mapping[str, float]) -> tuple[str | float, ...]:
         """Give what the runs depend on without the faults of their gauges and what is no slip."""
         height = (values.get("rig.centre_height", 0.0),) if self._rockers else ()
-        return (*self._values_of([*self._on_state, *self._rockers], values), *height)
+        return (*self._values_of(self._moving, values), *height)
 
     def _states(self, values: Mapping[str, float], runs: list[FitRun]) -> list[Instants]:
         turned = self._values_of(self._turners, values)

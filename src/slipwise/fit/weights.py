@@ -13,7 +13,7 @@ from slipwise.rig import Specimen
 
 Array = NDArray[np.float64]
 #: The pitch balance leaves this much more than noise even on a perfect rig: the pads' damping is not that of P(s).
-_PITCH_FLOOR = 1.2
+PITCH_FLOOR = 1.2
 #: Timing of a reversal that nobody can vouch for: shear of pad and cell, cards of the logger [s].
 _TIMING = 1e-4
 
@@ -55,7 +55,7 @@ def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
     levels = {
         "girder": np.hypot(run.noise.get("girder_ax", 0.0), beside),
         "heave": np.hypot(total, specimen.mass * run.noise.get("girder_az", 0.0)),
-        "pitch": _PITCH_FLOOR * np.hypot(total, lever * force),
+        "pitch": PITCH_FLOOR * np.hypot(total, lever * force),
         "roll": total,
         "warp": total,
         "motion": 1.0,
@@ -74,7 +74,7 @@ def heave_scale(model: Model, run: FitRun) -> float:
     factor = heave_noise(model, run)
     if factor == 1.0:
         return 1.0
-    loads = float(np.sqrt(sum(run.noise.get(f"pad_{p}_N", 0.0) ** 2 for p in run.pads)))
+    loads = float(np.linalg.norm(_gauges(run)[1]))
     vertical = model.specimen.mass * run.noise.get("girder_az", 0.0)
     return float(np.hypot(loads, factor * vertical) / np.hypot(loads, vertical))
 

@@ -70,7 +70,8 @@ def fuse(
         position: (n,) [m]; NaN where a sample is missing.
         acceleration: (n,) of the same motion [m/s^2], without NaN; None when there is none.
         velocity: (n,) recorded velocity [m/s], NaN where missing; None when there is none.
-        levels: noise of one sample of position [m] and acceleration [m/s^2], as if it were white; None: not known.
+        levels: noise of one sample of position [m] and acceleration [m/s^2], as if it were white; None: not known. A
+            recorded velocity, or no acceleration, leaves more to be known, and they are not used.
 
     Raises:
         InputError: fewer than 8 samples, or an acceleration with gaps.
