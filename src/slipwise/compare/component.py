@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.fit.base import BaseFit
-from slipwise.fit.weights import PITCH_FLOOR, balance_noise
 
 Array = NDArray[np.float64]
 #: Relation -> what it is called, unit of its residual.
@@ -48,40 +47,16 @@ class ComponentError:
     samples: int
 
 
-def floors(base: BaseFit) -> dict[str, list[Array]]:
-    """Give the noise of every relation and run, broadcastable to its residual.
-
-    The fit raises the floor of the pitch balance because pads damp otherwise than it assumes; errors are told against
-    what the gauges' noise alone explains.
-    """
-    out = dict(base.problem.sigmas)
-    if "pitch" in out:
-        specimen = base.problem.model(base.solution.values).specimen
-        levels = [balance_noise(specimen, run)["pitch"] / PITCH_FLOOR for run in base.problem.runs]
-        out["pitch"] = [np.array(level) for level in levels]
-    return out
-
-
-def in_floors(base: BaseFit) -> dict[str, list[Array]]:
-    """Give the residuals of every relation and run, in multiples of the floor; zero where masked."""
-    own = floors(base)
-    parts = base.solution.residuals.parts
-    return {
-        relation: [r * (base.problem.sigmas[relation][i] / own[relation][i]) for i, r in enumerate(parts[relation])]
-        for relation in base.problem.relations
-    }
-
-
-def component_errors(base: BaseFit, residuals: Mapping[str, Sequence[Array]]) -> tuple[ComponentError, ...]:
+def component_errors(base: BaseFit) -> tuple[ComponentError, ...]:
     """Give the error of every relation in every run."""
-    own = floors(base)
     out = []
-    for relation, parts in residuals.items():
-        for i, (run, part) in enumerate(zip(base.problem.runs, parts, strict=True)):
+    for relation in base.problem.relations:
+        parts = zip(base.problem.runs, base.solution.residuals.parts[relation], strict=True)
+        for i, (run, part) in enumerate(parts):
             judged = part != 0.0
             if not judged.any():
                 continue
-            sigma = np.broadcast_to(own[relation][i], part.shape)[judged]
+            sigma = np.broadcast_to(base.problem.sigmas[relation][i], part.shape)[judged]
             left = part[judged] * sigma
             measured = run.force[judged] if relation == "pads" else _measured(relation, run, judged)
             size = float(np.sqrt(np.mean(measured**2))) if measured is not None else float("nan")

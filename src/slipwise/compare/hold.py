@@ -9,7 +9,7 @@ import numpy as np
 from slipwise.campaign import Campaign, load_campaign
 from slipwise.compare.cells import cells_of, corrected, gather
 from slipwise.compare.checks import Checks, check_instruments
-from slipwise.compare.component import component_errors, in_floors, repeat_errors
+from slipwise.compare.component import component_errors, repeat_errors
 from slipwise.compare.foretold import foretold
 from slipwise.compare.intervals import intervals
 from slipwise.compare.motion_states import motion_states
@@ -61,8 +61,8 @@ def compare(
     tell("fitting base parameters", 0.25)
     base = fit_base(campaign, model)
     tell("locating errors", 0.5)
-    residuals = in_floors(base)
-    components = component_errors(base, residuals)
+    residuals = {r: base.solution.residuals.parts[r] for r in base.problem.relations}
+    components = component_errors(base)
     motions = [motion_states(run) for run in base.problem.runs]
     area = base.problem.specimen.pad_area
     samples = {

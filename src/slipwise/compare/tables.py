@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from slipwise.compare.component import NAMES, floors
+from slipwise.compare.component import NAMES
 from slipwise.compare.result import Comparison
 
 
@@ -67,12 +67,11 @@ def _foretold(found: Comparison) -> list[dict[str, Any]]:
 
 
 def _floor(found: Comparison) -> list[dict[str, Any]]:
-    own = floors(found.base)
-    runs = found.base.problem.runs
+    problem = found.base.problem
     out = []
     for relation in found.relations:
         sliding, turning = [], []
-        for sigma, part, run in zip(own[relation], found.residuals[relation], runs, strict=True):
+        for sigma, part, run in zip(problem.sigmas[relation], found.residuals[relation], problem.runs, strict=True):
             wide = part if part.ndim == 2 else part[:, None]
             level = np.broadcast_to(sigma if np.ndim(sigma) != 1 else np.asarray(sigma)[:, None], wide.shape)
             turns = np.broadcast_to(run.states.near_reversal[:, None], wide.shape)

@@ -12,8 +12,6 @@ from slipwise.predict import PadForces
 from slipwise.rig import Specimen
 
 Array = NDArray[np.float64]
-#: The pitch balance leaves this much more than noise even on a perfect rig: the pads' damping is not that of P(s).
-PITCH_FLOOR = 1.2
 #: Timing of a reversal that nobody can vouch for: shear of pad and cell, cards of the logger [s].
 _TIMING = 1e-4
 
@@ -55,7 +53,7 @@ def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
     levels = {
         "girder": np.hypot(run.noise.get("girder_ax", 0.0), beside),
         "heave": np.hypot(total, specimen.mass * run.noise.get("girder_az", 0.0)),
-        "pitch": PITCH_FLOOR * np.hypot(total, lever * force),
+        "pitch": np.hypot(total, lever * force),
         "roll": total,
         "warp": total,
         "motion": 1.0,

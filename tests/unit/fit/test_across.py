@@ -7,7 +7,7 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign
-from slipwise.compare.component import component_errors, in_floors
+from slipwise.compare.component import component_errors
 from slipwise.effects import catalogue
 from slipwise.fit.base import fit_base
 from slipwise.fit.data import fit_runs
@@ -27,7 +27,7 @@ def test_a_complete_model_leaves_noise_and_anisotropy_shows_there_only(campaign)
     assert "across" in problem.relations
     left = [part[part != 0.0] for part in fit.solution.residuals.parts["across"]]
     assert np.mean(np.concatenate(left) ** 2) == pytest.approx(1.0, abs=0.15)
-    told = [e for e in component_errors(fit, in_floors(fit)) if e.relation == "across"]
+    told = [e for e in component_errors(fit) if e.relation == "across"]
     assert len(told) == 5 and all(0.9 < e.error < 1.1 and e.share < 0.1 for e in told)
     term = Term(catalogue()["anisotropy"])
     moved = problem.adding(term).residuals({**fit.solution.values, f"{term.label}.ratio": 1.1})
