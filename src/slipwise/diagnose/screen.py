@@ -88,7 +88,9 @@ def _screened(
 ) -> Screened | None:
     if not strengths(term.effect):
         return _replacing(base, term, residual, project)
-    if base.problem.adding(term).yaws != base.problem.yaws:  # yaw that is made from measured forces is noise as well
+    problem = base.problem
+    # yaw that is made from measured forces is noise as well
+    if problem.adding(term).kinematics.turns != problem.kinematics.turns:
         left = _residual(base, term, term.effect.neutral())
     best: Screened | None = None
     for shape in shapes(term.effect):

@@ -18,7 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.effects import BalanceStates
-from slipwise.fit.data import FitRun
+from slipwise.fit.data import FitRun, refined
+from slipwise.fit.pads import as_logged
 from slipwise.loads import load_modes
 from slipwise.model import Model
 from slipwise.predict import Predictor
@@ -56,18 +57,27 @@ def through_pitch(values: Array, dt: float, frequency: float, damping: float) ->
     return in_frequency(values, dt, gain, int(3.0 / (dt * frequency * max(damping, 0.01))) + 8)
 
 
-def buffer_forces(law: Predictor, time: Array, slip: Array, velocity: Array) -> Array:
+def buffers_along(law: Predictor, run: FitRun, yaw: Array, yaw_rate: Array) -> Array:
     """Give the force of the girder on each buffer along x, (n, n_buffers) [N]; yaw moves the buffers apart.
 
     Args:
         law: the model's laws with their memory.
-        time: (n,) [s].
-        slip: (n, n_buffers) deflection [m].
-        velocity: (n, n_buffers) its rate [m/s].
+        run: its slip.
+        yaw: of the girder over the table (n,) [rad].
+        yaw_rate: (n,) [rad/s].
     """
+    specimen = law.model.specimen
+    if not specimen.buffer_stiffness:
+        return np.zeros((len(run.time), 1))
+    sides = np.array(specimen.buffer_places)[:, 1]
+    slip = run.slip[:, None] - sides * yaw[:, None]
+    if not any(u.effect.port == "buffer" for u in law.model.uses):
+        return slip * np.array(specimen.buffer_stiffness)
+    slip, velocity = refined(slip), refined(run.velocity[:, None] - sides * yaw_rate[:, None])
+    time = np.linspace(run.time[0], run.time[-1], len(slip))
     deflection = np.stack([slip, np.zeros_like(slip)], axis=2)
     rate = np.stack([velocity, np.zeros_like(velocity)], axis=2)
-    return law.buffers(time, deflection, rate)[:, :, 0]
+    return as_logged(law.buffers(time, deflection, rate)[:, :, 0], run, None, averaged=False)
 
 
 def heave_rate(run: FitRun, specimen: Specimen) -> Array:

@@ -79,19 +79,15 @@ def _fitted(campaign: Campaign, model: Model, problem: Problem) -> BaseFit:
         problem.weigh(solution.values)
         solution = solve(problem, solution.values, free, most=8, enough=enough)
     if _turns(problem, solution):
-        problem.yaw = True
-        problem = problem.adding()
+        problem = problem.turning()
         solution = solve(problem, solution.values, free, most=8, enough=_ENOUGH[-1])
     return BaseFit(campaign, model, problem, tuple(free), solution)
 
 
 def _turns(problem: Problem, solution: Solution) -> bool:
     """Tell whether yaw made from the measured forces earns its noise."""
-    if not problem.balanced or problem.runs[0].states.has_yaw:
+    if not problem.kinematics.can_turn:
         return False
-    turning = problem.adding()
-    turning.yaw = True
-    turning = turning.adding()
-    left = turning.residuals(solution.values, fitted_only=True).stacked(problem.fitted, ("pads",))
+    left = problem.turning().residuals(solution.values, fitted_only=True).stacked(problem.fitted, ("pads",))
     before = solution.residuals.stacked(problem.fitted, ("pads",))
     return float(left @ left) < (1.0 - _EARNED) * float(before @ before)

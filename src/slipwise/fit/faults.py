@@ -32,6 +32,31 @@ def faulted(terms: Sequence[Term], values: Mapping[str, float], record: Record) 
     return record
 
 
+def on_force(terms: Sequence[Term], values: Mapping[str, float], run: FitRun, force: Array) -> tuple[Array, Array]:
+    """Give the measured friction without its gauges' faults, and what they add to the predicted one, (n, p) each [N].
+
+    Args:
+        terms: faults of the gauges of friction.
+        values: of their parameters.
+        run: other faults taken out.
+        force: (n, p) that the law says [N].
+    """
+    if not terms:
+        return run.force, np.zeros_like(force)
+    names = [f"pad_{p}_Fx" for p in run.pads]
+    mended = run
+    for term in terms:
+        mended = without(term, values, mended)
+    # while a pad sticks the law does not say its force
+    stuck = np.stack([mended.record[n] for n in names], axis=1)
+    clean = np.where(run.sliding[:, None], force, stuck)
+    record = run.record.replaced(**{n: clean[:, i] for i, n in enumerate(names)})
+    record = record.replaced(**{f"pad_{p}_N": run.load[:, i] for i, p in enumerate(run.pads)})
+    faulty = faulted(terms, values, record)
+    offset = np.stack([faulty[n] for n in names], axis=1) - clean
+    return run.force - offset, offset
+
+
 def _call(effect: Effect, hook: str, record: Record, target: str, values: Mapping[str, float]) -> Record:
     return effect.hooks[hook](record=record, target=target, **values)
 

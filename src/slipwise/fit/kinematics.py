@@ -1,0 +1,154 @@
+"""What moved: the runs without their gauges' faults, the girder's yaw, and the states of every pad."""
+
+from collections.abc import Mapping, Sequence
+from copy import copy
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.fit.balances import buffers_along, no_slip
+from slipwise.fit.data import FitRun
+from slipwise.fit.faults import acts_on_force, noise_scale, without
+from slipwise.fit.pads import Instants, instants
+from slipwise.fit.recent import Key, Recent
+from slipwise.fit.terms import Term, fitted_model
+from slipwise.fit.yaw import yaw_of
+from slipwise.predict import predictor
+from slipwise.rig import Specimen
+from slipwise.signals.ends import in_frequency
+
+Array = NDArray[np.float64]
+#: Effects of the catalogue that turn the girder about the vertical.
+_TURNERS = ("buffer_mismatch", "mass_eccentricity", "pad_spread")
+#: Numbers of the rig on which yaw depends.
+_TURNING = ("rig.mass", "rig.buffer_stiffness")
+
+
+@dataclass
+class Kinematics:
+    """The measured motion of a campaign's runs, as the terms of a hypothesis understand it.
+
+    Attributes:
+        runs: as measured.
+        specimen: rated values.
+        terms: of the hypothesis.
+        yaw: whether the girder's yaw is made from the measured forces even if no term turns it.
+        can_turn: whether the forces say how the girder turns, and no gauge does.
+        recent: results, shared with others that look at the same runs.
+        lost: per run (f,) velocity that the logger's filter took at reversals [m/s].
+    """
+
+    runs: list[FitRun]
+    specimen: Specimen
+    terms: tuple[Term, ...]
+    yaw: bool
+    can_turn: bool
+    recent: Recent
+    lost: list[Array] = field(default_factory=list[Array])
+
+    def __post_init__(self) -> None:
+        """Make ready what never changes."""
+        self._pitching = [_pitch_rate(r) if len(r.pads) == 4 else np.zeros(len(r.time)) for r in self.runs]
+        self._here = [self.specimen.pads.index(p) for p in self.runs[0].pads]
+        self._sort()
+
+    def of(self, terms: tuple[Term, ...], *, yaw: bool) -> "Kinematics":
+        """Give the same motion as other terms understand it."""
+        other = copy(self)
+        other.terms, other.yaw = terms, yaw
+        other._sort()
+        return other
+
+    def _sort(self) -> None:
+        self._faults = [t for t in self.terms if t.effect.port == "gauge" and not acts_on_force(t)]
+        self._rockers = [t for t in self.terms if t.effect.port == "table" and "balance" in t.effect.hooks]
+        turners = [t for t in self.terms if t.effect.name in _TURNERS]
+        self.turns = (self.yaw or bool(turners)) and self.can_turn
+        self._buffers = [t for t in self.terms if t.effect.port == "buffer" or t in turners]
+
+    def fault_key(self, values: Mapping[str, float]) -> Key:
+        """Give what the runs without their gauges' faults depend on."""
+        height = (values.get("rig.centre_height", 0.0),) if self._rockers else ()
+        return (*values_of([*self._faults, *self._rockers], values), *height)
+
+    def key(self, values: Mapping[str, float]) -> Key:
+        """Give what the states of the pads depend on."""
+        return (*self.fault_key(values), values.get("rig.pitch_slip", 0.0), *self.turning_key(values))
+
+    def turning_key(self, values: Mapping[str, float]) -> Key:
+        """Give what the girder's yaw depends on but for faults; nothing where no yaw is made."""
+        if not self.turns:
+            return ()
+        return ("yaw", *values_of(self._buffers, values), *(values.get(k, 0.0) for k in _TURNING))
+
+    def corrected(self, values: Mapping[str, float]) -> tuple[list[FitRun], dict[str, float]]:
+        """Take the faults of all gauges but those of friction out of the runs; noise scales with it.
+
+        Returns:
+            runs, and relation -> by how much the noise of its channels has grown, where it has.
+        """
+        if not self._faults and not self._rockers:
+            return self.runs, {}
+
+        def make() -> tuple[list[FitRun], dict[str, float]]:
+            runs = self.runs
+            for term in self._faults:
+                runs = [without(term, values, r) for r in runs]
+            if self._rockers:
+                model = fitted_model(self.specimen, self.terms, values)
+                runs = [r.without_turning(no_slip(model, r)) for r in runs]
+            return runs, noise_scale(self._faults, values, self.runs[0])
+
+        return self.recent.get("corrected", self.fault_key(values), make)
+
+    def turning(self, values: Mapping[str, float]) -> list[tuple[Array, Array]]:
+        """Give yaw [rad] and its rate [rad/s] of every run, (n,) each: measured, made from the forces, or none."""
+        runs, _ = self.corrected(values)
+        if not self.turns:
+            return [(r.states.yaw, r.states.yaw_rate) for r in runs]
+
+        def make() -> list[tuple[Array, Array]]:
+            model = fitted_model(self.specimen, self.terms, values)
+            specimen, law = model.built_specimen(), predictor(model)
+            found = []
+            for run in runs:
+                law.rest(run.rest_before)
+                still = np.zeros(len(run.time))
+                found.append(yaw_of(run, specimen, run.force, buffers_along(law, run, still, still)))
+            return found
+
+        return self.recent.get("yaw", self.key(values), make)
+
+    def states(self, values: Mapping[str, float]) -> list[Instants]:
+        """Give the states of every pad in every run."""
+        return self.recent.get("states", self.key(values), lambda: self.faster(values, [0.0] * len(self.runs)))
+
+    def faster(self, values: Mapping[str, float], by: Sequence[float]) -> list[Instants]:
+        """Give the states of every pad with the velocity of each run raised by so much [m/s]."""
+        return [self._instants(place, values, more) for place, more in enumerate(by)]
+
+    def _instants(self, place: int, values: Mapping[str, float], more: float) -> Instants:
+        run = self.corrected(values)[0][place]
+        velocity = run.states.pad_velocity[:, self._here].copy()
+        velocity[:, :, 0] += (more + values.get("rig.pitch_slip", 0.0) * self._pitching[place])[:, None]
+        slip = run.states.pad_slip[:, self._here]
+        if self.turns:
+            angle, rate = self.turning(values)[place]
+            pads = np.array(self.specimen.pad_places)[self._here]
+            round_about = np.stack([-pads[:, 1], pads[:, 0]], axis=1)[None]
+            velocity = velocity + rate[:, None, None] * round_about
+            slip = slip + angle[:, None, None] * round_about
+        return instants(run, velocity, slip, self.lost[place] if self.lost else None)
+
+
+def values_of(terms: Sequence[Term], values: Mapping[str, float]) -> Key:
+    """Give the terms' labels and the values of their parameters."""
+    return tuple(x for t in terms for n in t.effect.parameter_names for x in (t.label, values[f"{t.label}.{n}"]))
+
+
+def _pitch_rate(run: FitRun) -> Array:
+    """Give the rate of the pitch load (n,) [N/s], by which the sliding plane moves against the gauge."""
+    pitch = run.load[:, 0] + run.load[:, 2] - run.load[:, 1] - run.load[:, 3]
+    smooth = in_frequency(pitch, run.dt, lambda f: 1.0 / (1.0 + (f / 120.0) ** 8), 64)
+    return np.gradient(smooth, run.dt)
