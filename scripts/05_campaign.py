@@ -16,7 +16,8 @@ from bench import make_campaign  # noqa: E402  # pyright: ignore[reportMissingIm
 from slipwise.campaign import load_campaign  # noqa: E402
 from slipwise.compare import as_json, check_instruments, compare, refine  # noqa: E402
 from slipwise.record import write_json, write_text  # noqa: E402
-from slipwise.view.compare_page import compare_page, one_minute  # noqa: E402
+from slipwise.view.compare_answers import one_minute  # noqa: E402
+from slipwise.view.compare_page import compare_page  # noqa: E402
 from slipwise.view.compare_recording import write_compare_recording  # noqa: E402
 from slipwise.view.terminal import print_table  # noqa: E402
 

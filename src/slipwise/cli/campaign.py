@@ -103,7 +103,7 @@ def compare(
     if json:
         print_json(content)
         return
-    from slipwise.view.compare_page import one_minute
+    from slipwise.view.compare_answers import one_minute
     from slipwise.view.floor_rows import floor_rows
     from slipwise.view.terminal import print_table
 

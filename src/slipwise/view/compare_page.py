@@ -7,9 +7,11 @@ from slipwise.compare.cells import ALLOWANCE, Cell
 from slipwise.compare.component import NAMES
 from slipwise.compare.words import UNITS
 from slipwise.view import compare_figures as figures
+from slipwise.view import error_maps
+from slipwise.view.compare_answers import capital, headline, one_minute, place_words, roles, size, tones
 from slipwise.view.fitted_numbers import fitted_numbers, foretold_runs
 from slipwise.view.floor_rows import floor_rows
-from slipwise.view.html import Html, Section, Tone, bullets, callout, details, figure, page, paragraph, table, verdict
+from slipwise.view.html import Html, Section, bullets, callout, details, figure, page, paragraph, table, verdict
 
 
 def compare_page(found: Comparison) -> str:
@@ -28,20 +30,6 @@ def compare_page(found: Comparison) -> str:
     return page(f"{name}: the model against the measurement", sections, _summary(found))
 
 
-def headline(found: Comparison) -> tuple[str, str, Tone]:
-    """Give the answer in a few words, in a sentence, and its tone."""
-    relation, error = found.worst
-    where = "on the held-out runs" if found.base.problem.held_out else "on the fitted runs (none is held out)"
-    if not found.places:
-        return (
-            "Nothing above the noise floor is left",
-            f"The largest error of any component is {error:.2f} floors {where} ({NAMES[relation][0]}).",
-            "good",
-        )
-    words = f"{_capital(NAMES[relation][0])} errs by {error:.3g} times the noise floor {where}."
-    return f"The model fails in {NAMES[found.places[0].relation][0]}", words, "bad" if error > 3.0 else "warn"
-
-
 def _summary(found: Comparison) -> list[Any]:
     title, words, tone = headline(found)
     facts = {}
@@ -52,76 +40,14 @@ def _summary(found: Comparison) -> list[Any]:
     slip = found.system_errors.get("slip_x")
     if slip is not None:
         facts["slip of the replay"] = f"{slip:.3g} floors"
-    facts["runs"] = _roles(found)
+    facts["runs"] = roles(found)
     # a grid, so that the four answers are seen at once on a desk and one below the other on a phone
     columns = "display:grid;gap:0 1.2rem;grid-template-columns:repeat(auto-fit,minmax(min(100%,24rem),1fr))"
     boxes = "".join(
         callout(question, answer, own).text
-        for (question, answer), own in zip(one_minute(found), _tones(found), strict=True)
+        for (question, answer), own in zip(one_minute(found), tones(found), strict=True)
     )
     return [verdict(title, words, tone, facts), Html(f'<div style="{columns}">{boxes}</div>')]
-
-
-def one_minute(found: Comparison) -> list[tuple[str, str]]:
-    """Give the four questions that everybody asks first, with their answers."""
-    return [
-        ("Are the instruments telling the truth?", found.checks.words),
-        ("What is the noise floor?", _floor_words(found)),
-        ("How well does the model do?", _error_words(found)),
-        ("Exactly where does it fail?", _place_words(found)),
-    ]
-
-
-def _tones(found: Comparison) -> tuple[Tone, ...]:
-    tone = headline(found)[2]
-    checked: Tone = "bad" if found.checks.accused else "good" if found.checks.words.startswith("Yes") else "warn"
-    return checked, "plain", tone, tone
-
-
-def _roles(found: Comparison) -> str:
-    roles = [run.role for run in found.campaign.runs]
-    named = {"fit": "fitted", "repeat": "repeated", "holdout": "held out"}
-    return ", ".join(f"{roles.count(r)} {w}" for r, w in named.items() if r in roles)
-
-
-def _floor_words(found: Comparison) -> str:
-    row = next(r for r in found.rows("floor") if r["relation"] == "pads")
-    words = "unknown while sliding" if row["floor"] is None else f"{_size(row['floor'], 'N')} while sliding"
-    if row["near_reversals"] is not None:
-        words += f" and {_size(row['near_reversals'], 'N')} near reversals"
-    words = f"On the friction of one pad {words}, from the noise of gauges and velocity"
-    again = row["repeated_runs"]
-    if again is None:
-        return words + "; no repeated run confirms it."
-    return words + f"; a repeated run shows {again:.2f} times that."
-
-
-def _error_words(found: Comparison) -> str:
-    held = bool(found.base.problem.held_out)
-    errors = {r: found.error(r, held_out=held) for r in found.relations}
-    known = {r: e for r, e in errors.items() if e is not None}
-    good = [r for r, e in known.items() if e <= ALLOWANCE]
-    bad = sorted((r for r in known if r not in good), key=lambda r: -known[r])
-    words = f"{len(good)} of {len(known)} components are at the floor"
-    if bad:
-        words += "; above it: " + ", ".join(f"{NAMES[r][0]} {known[r]:.3g}" for r in bad)
-    if found.system:
-        channels = found.system_errors
-        worst = max(channels, key=lambda c: channels[c])
-        words += f". Replayed from the table motion, slip errs by {channels['slip_x']:.3g} floors"
-        words += f", the worst channel ({worst}) by {channels[worst]:.3g}"
-    share = [e.share for e in found.components if e.relation == "pads" and (e.role == "holdout") == held]
-    if share:
-        words += f". Friction of the pads errs by {max(share):.2%} of its rms"
-    return words + "."
-
-
-def _place_words(found: Comparison) -> str:
-    if not found.places:
-        return "Nowhere: no state of motion, pad, speed, pressure or run stands above the floor."
-    first = found.places[0].words
-    more = len(found.places) - 1
-    return _capital(first) + (f". And {more} more component{'s' if more > 1 else ''}, below." if more else ".")
 
 
 def _errors(found: Comparison) -> list[Any]:
@@ -172,24 +98,24 @@ def _errors(found: Comparison) -> list[Any]:
 def _places(found: Comparison) -> list[Any]:
     pieces: list[Any] = []
     if found.places:
-        pieces.append(bullets([_capital(p.words) + "." for p in found.places]))
+        pieces.append(bullets([capital(p.words) + "." for p in found.places]))
     else:
-        pieces.append(paragraph(_place_words(found)))
+        pieces.append(paragraph(place_words(found)))
     pieces.append(
         figure(
-            figures.map_figure(found),
+            error_maps.map_figure(found),
             f"Error by component and state of motion, in floors. Bold: above the floor beyond doubt (more than "
             f"{ALLOWANCE:g} floors, corrected for the {len(found.cells)} cells looked at).",
             "Table of error over floor by component and state of motion",
         )
     )
-    for relation in figures.shown_relations(found):
+    for relation in error_maps.shown_relations(found):
         called = NAMES[relation][0]
         if any(p.relation == relation for p in found.patterns):
             pieces.append(
                 figure(
-                    figures.patterns_figure(found, relation),
-                    f"{_capital(called)}: mean residual (measured less predicted) over every state, both directions "
+                    error_maps.patterns_figure(found, relation),
+                    f"{capital(called)}: mean residual (measured less predicted) over every state, both directions "
                     "of sliding apart, with two standard errors. Mirrored curves are friction, equal curves a constant "
                     "pull.",
                     f"Mean residual of {called} over states of motion",
@@ -197,8 +123,8 @@ def _places(found: Comparison) -> list[Any]:
             )
         pieces.append(
             figure(
-                figures.plane_figure(found, relation),
-                f"{_capital(called)}: error over slip and velocity, all runs.",
+                error_maps.plane_figure(found, relation),
+                f"{capital(called)}: error over slip and velocity, all runs.",
                 f"Map of the error of {called} over slip and velocity",
             )
         )
@@ -278,8 +204,8 @@ def _floor(found: Comparison) -> list[Any]:
         rows.append(
             {
                 "component": NAMES[row["relation"]][0],
-                "while sliding": _size(row["floor"], row["unit"]),
-                "near reversals": _size(row["near_reversals"], row["unit"]),
+                "while sliding": size(row["floor"], row["unit"]),
+                "near reversals": size(row["near_reversals"], row["unit"]),
                 "a repeated run shows": "" if again is None else f"{again:.2f} floors",
             }
         )
@@ -315,15 +241,3 @@ def _about(found: Comparison) -> list[Any]:
         for r in found.campaign.runs
     ]
     return [*pieces, table(runs)]
-
-
-def _size(value: float | None, unit: str) -> str:
-    if value is None:
-        return "unknown"
-    shown = {"N": ("kN", 1e-3) if value >= 1000.0 else ("N", 1.0), "m/s^2": ("m/s²", 1.0), "1": ("", 1.0)}
-    name, factor = shown.get(unit, (unit, 1.0))
-    return f"{value * factor:.3g} {name}".strip()
-
-
-def _capital(words: str) -> str:
-    return words[:1].upper() + words[1:]

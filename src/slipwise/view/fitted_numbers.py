@@ -4,7 +4,7 @@ from typing import Any
 
 from slipwise.compare import Comparison
 from slipwise.units import parse_unit
-from slipwise.view.compare_figures import surface_figure
+from slipwise.view.error_maps import surface_figure
 from slipwise.view.html import figure, paragraph, table
 
 #: Fitted numbers -> what they are called, unit in which they are shown.
