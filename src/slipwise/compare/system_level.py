@@ -158,7 +158,7 @@ def pad_springs(base: BaseFit, model: Model) -> tuple[float, float] | None:
                 return spring / (mass * turn**2 + spring) * np.exp(-_LAG * scaled[1] * turn)
 
             said = in_frequency(run.record["table_az"], run.dt, answer, 256)
-            out.append((run.record["girder_az"] - said)[run.grounded] / run.noise["girder_az"])
+            out.append((run.record["girder_az"] - said)[run.judged["heave"]] / run.noise["girder_az"])
         return np.concatenate(out)
 
     found = least_squares(left, np.array([1.0, 0.0]), bounds=([0.2, -1.0], [5.0, 1.0]), loss="soft_l1")

@@ -100,11 +100,10 @@ def _samples(found: Hypothesis, relation: str, place: int) -> dict[str, Array]:
     part = found.solution.residuals.parts[relation][place]
     sigma = np.broadcast_to(found.problem.sigmas[relation][place], part.shape)
     states = states_of(run)
-    if relation == "pads":
-        kept = np.repeat(run.sliding[:, None], part.shape[1], axis=1)
+    kept = run.judged[relation]
+    if kept.ndim == 2:
         wide = {k: np.broadcast_to(v if v.ndim == 2 else v[:, None], part.shape)[kept] for k, v in states.items()}
         return {"left": part[kept], "sigma": sigma[kept], **wide}
-    kept = run.grounded
     flat = {k: (v.mean(axis=1) if v.ndim == 2 else v)[kept] for k, v in states.items()}
     return {"left": part[kept], "sigma": sigma[kept], **flat}
 

@@ -75,18 +75,12 @@ def account(problem: Problem, solution: Solution) -> Account:
     parts = solution.residuals.parts
     fitted, held_out, counts = {}, {}, {}
     for name in problem.relations:
-        of = [(float(np.sum(parts[name][i] ** 2)), _samples(problem, name, i)) for i in range(len(problem.runs))]
+        samples = [int(np.count_nonzero(run.judged[name])) for run in problem.runs]
+        of = [(float(np.sum(part**2)), count) for part, count in zip(parts[name], samples, strict=True)]
         fitted[name] = sum(of[i][0] for i in problem.fitted)
         held_out[name] = sum(of[i][0] for i in problem.held_out)
         counts[name] = (sum(of[i][1] for i in problem.fitted), sum(of[i][1] for i in problem.held_out))
     return Account(fitted, held_out, counts)
-
-
-def _samples(problem: Problem, relation: str, place: int) -> int:
-    run = problem.runs[place]
-    if relation == "pads":
-        return int(np.count_nonzero(run.sliding)) * len(run.pads)
-    return int(np.count_nonzero(run.grounded))
 
 
 def base_hypothesis(base: BaseFit) -> Hypothesis:
@@ -192,9 +186,15 @@ def _inside(term: Term, start: Mapping[str, float]) -> dict[str, float]:
 
 def strained(found: Hypothesis) -> bool:
     """Tell whether a strength has run against a bound that is not its absence: a law asked for more than it can be."""
-    ends = set(found.solution.at_bounds)
-    return any(
-        f"{t.label}.{p.name}" in ends and found.values_of(t)[p.name] != p.neutral
-        for t in found.terms
-        for p in strengths(t.effect)
-    )
+    return any(p.name in _ends(found, t) for t in found.terms for p in strengths(t.effect))
+
+
+def cornered(found: Hypothesis) -> bool:
+    """Tell whether any constant of its laws has run against a bound: a patch wider than the stroke is no patch."""
+    return any(_ends(found, t) for t in found.terms)
+
+
+def _ends(found: Hypothesis, term: Term) -> set[str]:
+    """Give the parameters of a term that ended on a bound other than their absence."""
+    ends, values = set(found.solution.at_bounds), found.values_of(term)
+    return {p.name for p in term.effect.parameters if f"{term.label}.{p.name}" in ends and values[p.name] != p.neutral}

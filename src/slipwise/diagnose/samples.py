@@ -65,17 +65,17 @@ def sample_faults(campaign: Campaign) -> tuple[SampleFault, ...]:
     return tuple(found)
 
 
-def mended(campaign: Campaign, faults: tuple[SampleFault, ...]) -> tuple[Campaign, dict[str, Mask]]:
-    """Turn wrong signs round, and tell which samples of each run must not be judged.
+def mended(campaign: Campaign, faults: tuple[SampleFault, ...]) -> tuple[Campaign, dict[str, dict[str, Mask]]]:
+    """Turn wrong signs round, and tell which samples of each run and channel must not be judged.
 
     Args:
         campaign: as measured.
         faults: found in it.
     """
     records: dict[str, Record] = {}
-    spoiled: dict[str, Mask] = {}
+    spoiled: dict[str, dict[str, Mask]] = {}
     for run in campaign.runs:
-        record, spoilt = run.record, np.zeros(len(run.record), dtype=bool)
+        record, spoilt = run.record, dict[str, Mask]()
         for fault in faults:
             values = record[fault.channel]
             if fault.effect == "channel_sign":
@@ -85,7 +85,7 @@ def mended(campaign: Campaign, faults: tuple[SampleFault, ...]) -> tuple[Campaig
             if fault.effect == "dropped_samples":
                 bad[1:] |= values[1:] == values[:-1]
             reach = _REACH_OF_MOTION if fault.channel in VELOCITY_CHANNELS else _REACH
-            spoilt |= np.convolve(bad, np.ones(2 * reach + 1), mode="same") > 0.5
+            spoilt[fault.channel] = np.convolve(bad, np.ones(2 * reach + 1), mode="same") > 0.5
         records[run.name] = record
         spoiled[run.name] = spoilt
     runs = tuple(replace(r, record=records[r.name]) for r in campaign.runs)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from slipwise.diagnose.leftover import Surface, leftover, structured
-from slipwise.diagnose.refit import Account, Hypothesis, strained
+from slipwise.diagnose.refit import Account, Hypothesis, cornered, strained
 from slipwise.diagnose.samples import SampleFault
 from slipwise.diagnose.search import MATERIAL, MOST_EFFECTS, Search, material, score, worth
 
@@ -133,6 +133,8 @@ def _rivals(state: Search, best: Hypothesis) -> tuple[Hypothesis, ...]:
     out: dict[tuple[str, ...], Hypothesis] = {}
     for h in state.tried:
         if len(h.terms) != len(best.terms) or set(h.names) == set(best.names):
+            continue
+        if cornered(h) and not cornered(best):
             continue
         common = set(h.names) & set(best.names)
         shared = [score(origin.account, o.account) for o in state.tried if o.names and set(o.names) <= common]

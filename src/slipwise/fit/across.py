@@ -14,14 +14,6 @@ from slipwise.predict import PadForces
 from slipwise.signals import LowPass
 
 Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
-#: Slower pads point nowhere [m/s].
-FAST = 0.01
-
-
-def fast(run: FitRun) -> Mask:
-    """Tell at which samples the direction of slip is known, (n, 1)."""
-    return (run.sliding & (np.hypot(*run.states.velocity.T) > FAST))[:, None]
 
 
 def logged_across(run: FitRun, said: PadForces, by: LowPass | None) -> Array:

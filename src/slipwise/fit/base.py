@@ -1,13 +1,11 @@
 """The base fit: the user's model with its own parameters and the rig's numbers, nothing missing added."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slipwise.campaign import Campaign, Logger
-from slipwise.fit.data import fit_runs
+from slipwise.fit.data import Spoiled, fit_runs
 from slipwise.fit.logger import estimated_logger
 from slipwise.fit.problem import Problem
 from slipwise.fit.solve import Solution, solve
@@ -42,15 +40,13 @@ class BaseFit:
     solution: Solution
 
 
-def fit_base(
-    campaign: Campaign, model: Model | None = None, spoiled: Mapping[str, NDArray[np.bool_]] | None = None
-) -> BaseFit:
+def fit_base(campaign: Campaign, model: Model | None = None, spoiled: Spoiled | None = None) -> BaseFit:
     """Fit a campaign's base parameters on its runs of role fit and repeat.
 
     Args:
         campaign: with at least one run that is not held out.
         model: the user's current model; the paper's law on the campaign's rig when not given.
-        spoiled: run -> samples (n,) that must not be judged.
+        spoiled: run -> channel -> samples (n,) at which its gauge does not tell the truth.
 
     Raises:
         InputError: a run lacks what every fit needs.

@@ -11,14 +11,19 @@ from slipwise.campaign import Campaign, Run
 from slipwise.campaign.states import States, measured_states
 from slipwise.channels import PADS
 from slipwise.errors import InputError
+from slipwise.fit.judged import judged
 from slipwise.record import Record
 from slipwise.signals import LowPass, lowpass
 from slipwise.signals.ends import in_frequency
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+#: Run -> channel -> samples (n,) at which its gauge does not tell the truth.
+Spoiled = Mapping[str, Mapping[str, Mask]]
 #: Masked before and after a stuck stretch [s].
 _STUCK_MARGIN = 0.016
+#: Slower pads point nowhere [m/s].
+FAST = 0.01
 #: Instants per sample at which the laws are evaluated: a reversal between two samples must not wait for the second.
 FINE = 2
 
@@ -38,7 +43,8 @@ class FitRun:
         force: (n, p) along x [N].
         across: (n, p) along y [N]; empty (n, 0) where it was not measured.
         sliding: (n,) samples at which the law says the force of a pad.
-        grounded: (n,) samples at which every pad carries load, ends left out.
+        judged: relation -> samples by which it is judged, see `judged`.
+        spoiled: channel -> samples (n,) at which its gauge does not tell the truth.
         noise: channel -> standard deviation of one sample.
         no_slip: part of the girder's acceleration over the table that is no slip, (n,) or 0 [m/s^2].
     """
@@ -53,7 +59,8 @@ class FitRun:
     force: Array
     across: Array
     sliding: Mask
-    grounded: Mask
+    judged: Mapping[str, Mask]
+    spoiled: Mapping[str, Mask] = field(default_factory=dict[str, Mask])
     noise: dict[str, float] = field(default_factory=dict[str, float])
     no_slip: Array | float = 0.0
 
@@ -139,22 +146,22 @@ class FitRun:
         return change("slip_x"), change("girder_ax") - change("table_ax")
 
 
-def fit_runs(campaign: Campaign, spoiled: Mapping[str, Mask] | None = None) -> list[FitRun]:
+def fit_runs(campaign: Campaign, spoiled: Spoiled | None = None) -> list[FitRun]:
     """Prepare every run of a campaign.
 
     Args:
         campaign: the runs.
-        spoiled: run -> samples (n,) that must not be judged.
+        spoiled: run -> channel -> samples (n,) at which its gauge does not tell the truth.
 
     Raises:
         InputError: a run lacks slip, or a pad's friction.
     """
-    runs = [_fit_run(run, campaign, (spoiled or {}).get(run.name)) for run in campaign.runs]
+    runs = [_fit_run(run, campaign, (spoiled or {}).get(run.name, {})) for run in campaign.runs]
     levels = {channel: gauge.level for channel, gauge in campaign.gauges.items()}
     return [replace(r, noise=levels) for r in runs]
 
 
-def _fit_run(run: Run, campaign: Campaign, spoiled: Mask | None) -> FitRun:
+def _fit_run(run: Run, campaign: Campaign, spoiled: Mapping[str, Mask]) -> FitRun:
     states = measured_states(run, campaign)
     pads = tuple(p for p in PADS if f"pad_{p}_Fx" in states.record)
     if not pads:
@@ -163,15 +170,15 @@ def _fit_run(run: Run, campaign: Campaign, spoiled: Mask | None) -> FitRun:
     load = states.load[:, here]
     margin = max(2, round(_STUCK_MARGIN / states.dt))
     grounded = states.usable & np.isfinite(load).all(axis=1)
-    if spoiled is not None and len(spoiled) == len(grounded):
-        grounded = grounded & ~spoiled
     sliding = grounded & ~_widened(states.stuck, margin)
     force = _stacked(states.record, pads, "Fx", states.load)
     filtered = states.lowpass.get(f"pad_{pads[0]}_Fx")
     rest = 0.0 if run.rest_before is None else run.rest_before
     nothing = np.empty((len(force), 0))
     across = _stacked(states.record, pads, "Fy", nothing) if states.has_y else nothing
-    return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, across, sliding, grounded)
+    fast = np.hypot(*states.velocity.T) > FAST
+    kept = judged(grounded, sliding, fast, pads, spoiled)
+    return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, across, sliding, kept, spoiled)
 
 
 def _measured(record: Record) -> list[str]:

@@ -115,7 +115,8 @@ class Kinematics:
             for run in runs:
                 law.rest(run.rest_before)
                 still = np.zeros(len(run.time))
-                found.append(yaw_of(run, specimen, run.force, buffers_along(law, run, still, still)))
+                buffers = buffers_along(law, run, still, still)
+                found.append(yaw_of(run, specimen, _whole(run, specimen.mass, buffers), buffers))
             return found
 
         return self.recent.get("yaw", self.key(values), make)
@@ -145,6 +146,18 @@ class Kinematics:
 def values_of(terms: Sequence[Term], values: Mapping[str, float]) -> Key:
     """Give the terms' labels and the values of their parameters."""
     return tuple(x for t in terms for n in t.effect.parameter_names for x in (t.label, values[f"{t.label}.{n}"]))
+
+
+def _whole(run: FitRun, mass: float, buffers: Array) -> Array:
+    """Give the pads' forces (n, p) [N]; where one gauge lies, what the girder's balance leaves it."""
+    force = run.force
+    bad = np.stack([run.spoiled.get(f"pad_{p}_Fx", np.zeros(len(force), dtype=bool)) for p in run.pads], axis=1)
+    alone = bad & (bad.sum(axis=1, keepdims=True) == 1)
+    if not alone.any():
+        return force
+    others = np.where(bad, 0.0, force).sum(axis=1)
+    rest = -mass * run.channel("girder_ax") - buffers.sum(axis=1) - others
+    return np.where(alone, rest[:, None], force)
 
 
 def _pitch_rate(run: FitRun) -> Array:

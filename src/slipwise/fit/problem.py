@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.fit.across import fast, logged_across
+from slipwise.fit.across import logged_across
 from slipwise.fit.balances import BALANCES, available, buffers_along, motion_residual, predicted
 from slipwise.fit.data import FitRun
 from slipwise.fit.faults import acts_on_force, on_force
@@ -162,11 +162,11 @@ class Problem:
             seen, offset = on_force(self._on_force, values, run, force)
             outputs.append(force + offset)
             clean.append(seen)
-            parts.append(self._over("pads", i, run.force - force - offset, run.sliding[:, None]))
+            parts.append(self._over("pads", i, run.force - force - offset, run.judged["pads"]))
         if "across" not in self.relations:
             return {"pads": parts}, outputs, clean
         sides = [r.across - logged_across(r, f, self._by(values)) for r, f in zip(runs, said, strict=False)]
-        across = [self._over("across", i, side, fast(runs[i])) for i, side in enumerate(sides)]
+        across = [self._over("across", i, side, runs[i].judged["across"]) for i, side in enumerate(sides)]
         return {"pads": parts, "across": across}, outputs, clean
 
     def _balance_parts(self, model: Model, values: Mapping[str, float], forces: list[Array]) -> dict[str, list[Array]]:
@@ -183,7 +183,7 @@ class Problem:
                     left = self._motion(i, run, values)
                 else:
                     left = (seen[name] - said[name]) / scale.get(name, 1.0)
-                parts[name].append(self._over(name, i, left, run.grounded))
+                parts[name].append(self._over(name, i, left, run.judged[name]))
                 if name == "heave" and hidden > 0.0:
                     parts[name][-1] = with_hidden(parts[name][-1], hidden)
         return parts

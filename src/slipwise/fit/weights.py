@@ -3,9 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.fit.across import FAST
 from slipwise.fit.balances import heave_noise
-from slipwise.fit.data import FINE, FitRun
+from slipwise.fit.data import FAST, FINE, FitRun
 from slipwise.fit.pads import Instants
 from slipwise.model import Model
 from slipwise.predict import PadForces

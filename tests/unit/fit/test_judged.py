@@ -1,0 +1,53 @@
+"""A gauge that lies spoils what is made of it, and nothing else."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bench import build_campaign
+from measured import as_campaign
+from slipwise.diagnose import diagnose
+from slipwise.diagnose.samples import mended, sample_faults
+from slipwise.fit.data import fit_runs
+from slipwise.fit.judged import judged
+
+COUNT = 6
+ALL = np.ones(COUNT, dtype=bool)
+LATE = np.arange(COUNT) > 3
+
+
+def test_a_clipped_friction_gauge_leaves_the_other_pads_and_the_loads() -> None:
+    kept = judged(ALL, ALL, ALL, ("A", "B"), {"pad_B_Fx": LATE})
+    assert kept["pads"][:, 0].all() and np.array_equal(kept["pads"][:, 1], ~LATE)
+    assert kept["heave"].all() and kept["roll"].all() and kept["motion"].all() and kept["across"].all()
+    assert np.array_equal(kept["girder"], ~LATE) and np.array_equal(kept["pitch"], ~LATE)
+
+
+@pytest.mark.parametrize("name", ["slip_x", "girder_ax", "table_ax"])
+def test_a_gauge_of_motion_spoils_every_pad(name: str) -> None:
+    kept = judged(ALL, ALL, ALL, ("A", "B"), {name: LATE})
+    assert all(np.array_equal(kept["pads"][:, i], ~LATE) for i in range(2))
+    assert kept["heave"].all()
+
+
+def test_no_relation_is_judged_off_the_ground_or_stuck() -> None:
+    kept = judged(LATE, LATE & (np.arange(COUNT) > 4), ALL, ("A",), {})
+    assert all(np.array_equal(kept[r], LATE) for r in ("girder", "heave", "pitch", "roll", "warp", "motion"))
+    assert kept["pads"][:, 0].sum() == 1
+
+
+def test_unequal_pads_are_named_though_one_of_their_gauges_is_clipped() -> None:
+    """The yaw of the girder is made of all pads' forces: the clipped one is what the girder's balance leaves it."""
+    campaign = as_campaign(build_campaign(35110, effects=("pad_spread",), size="large"))
+    runs = []
+    for run in campaign.runs:
+        force = run.record["pad_C_Fx"]
+        rail = 0.5 * float(np.abs(force).max())
+        runs.append(replace(run, record=run.record.replaced(pad_C_Fx=np.clip(force, -rail, rail))))
+    clipped = replace(campaign, runs=tuple(runs))
+    whole, spoiled = mended(clipped, sample_faults(clipped))
+    ready = fit_runs(whole, spoiled)
+    assert all(r.judged["pads"][:, 0].sum() > 1.5 * r.judged["pads"][:, 2].sum() for r in ready)
+    said = diagnose(clipped, system=False).verdict
+    assert set(said.effects) == {"pad_spread", "channel_clipping"}
