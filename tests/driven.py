@@ -93,7 +93,7 @@ def answers(model: Model, engine: str = "compiled", moving: dict[str, np.ndarray
     for entry in model.uses:
         hooks = entry.effect.hooks
         if "table" in hooks:
-            four = hooks["table"](four, dt, **entry.values)
+            four = hooks["table"](four, dt, moving["table"][:, 0], **entry.values)
         if "gauge" in hooks:
             seen = hooks["gauge"](seen, entry.target, **entry.values)
         if "balance" in hooks:

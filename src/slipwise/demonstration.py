@@ -10,7 +10,7 @@ from slipwise.channels import PADS
 from slipwise.effects import BalanceStates, Effect
 from slipwise.loads import LoadModes, pad_loads
 from slipwise.model import Model, base_model, use
-from slipwise.predict import Predictor, predictor
+from slipwise.predict import Predictor, predictor, shaking
 from slipwise.record import Record
 from slipwise.rig import Specimen
 
@@ -153,9 +153,7 @@ def _table(model: Model) -> Demonstration:
     m = _motion()
     given = np.zeros((len(m.time), 4))
     given[:, 0] = 4.0 * _ramp(m.time) * np.sin(2.0 * np.pi * _ALONG[1] * m.time)
-    changed = given
-    for entry in model.with_hook("table"):
-        changed = entry.effect.hooks["table"](changed, _DT, **entry.values)
+    changed = shaking(model, given[:, :3], given[:, 0], _DT)
     axis = int(np.abs(changed - given).max(axis=0).argmax())
     words = ("along", "across", "up", "in pitch")[axis]
     return _over(

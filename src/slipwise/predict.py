@@ -99,3 +99,19 @@ def user_effects(model: Model) -> tuple[Effect, ...]:
     """Give the effects of a model that the catalogue does not hold."""
     known = catalogue()
     return tuple(u.effect for u in model.uses if known.get(u.effect.name) is not u.effect)
+
+
+def shaking(model: Model, acceleration: Array, girder: Array, dt: float) -> Array:
+    """Give what the table does when it is told to move so, (n, 4): x, y, z [m/s^2], pitch [rad/s^2].
+
+    Args:
+        model: whose effects of the table act.
+        acceleration: (n, 3) of the table as commanded or measured [m/s^2].
+        girder: (n,) acceleration of the girder along x, which pushes the table back [m/s^2].
+        dt: step [s].
+    """
+    out = np.zeros((len(acceleration), 4))
+    out[:, :3] = acceleration
+    for entry in model.with_hook("table"):
+        out = entry.effect.hooks["table"](out, dt, girder, **entry.values)
+    return out

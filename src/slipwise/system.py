@@ -116,9 +116,12 @@ def _replayed(
     stride = max(1, length - round((SETTLE + _END) / step))
     starts = list(range(0, len(states.time) - length + 1, stride))
     acceleration = np.stack([fine[s * every : s * every + length * every - every + 1] for s in starts])
+    instants = np.linspace(states.time[0], states.time[-1], len(fine))
+    pushed = np.interp(instants, states.time, np.nan_to_num(states.girder_acceleration[:, 0]))
+    girder = np.stack([pushed[s * every : s * every + acceleration.shape[1]] for s in starts])
     windows = [
         Windows(acceleration, states.slip[starts], states.velocity[starts], _memories(law, states, starts),
-                states.time[starts])
+                states.time[starts], girder)
         for law in laws
     ]  # fmt: skip
     models = [law.model for law in laws]

@@ -99,7 +99,7 @@ HOOKS: dict[str, Hook] = {
     "lift": _hook(GIRDER_INPUTS, "force_x", "force_y"),
     "drag": _hook(GIRDER_INPUTS),
     "rig": _hook({}, "specimen", instant=False),
-    "table": _hook({}, "acceleration", "dt", instant=False),
+    "table": _hook({}, "acceleration", "dt", "girder", instant=False),
     "gauge": _hook({}, "record", "target", instant=False),
     "undo": _hook({}, "record", "target", instant=False),
     "balance": _hook({}, "states", instant=False),

@@ -54,4 +54,5 @@ EFFECT = Effect(
         "channel_gain": "a gain of a cell is in step with its own reading",
     },
     target="channel",
+    exact=True,
 )  # fmt: skip

@@ -1,10 +1,10 @@
 """The table rocks while it shakes.
 
-    theta'' + 2 z w theta' + w^2 theta = w^2 c a_x
+    theta'' + 2 z w theta' + w^2 theta = w^2 (c a_x + c_g a_g)
 
-The overturning moment of table and specimen bends the vertical actuators: the table pitches by c a_x, through its own
-oil-column resonance w. Gravity then pulls along the face (g theta, 0.017 m/s2 for 0.1 degree), and the pads feel the
-turning. c > 0: nose down at +x when pushed towards +x.
+The overturning moments of the table (c, with its acceleration a_x) and of the girder on it (c_g, with a_g) bend the
+vertical actuators, and the table pitches through its own oil-column resonance w. Gravity then pulls along the face
+(g theta, 0.017 m/s2 for 0.1 degree), and the pads feel the turning. c > 0: nose down at +x when pushed towards +x.
 
 Valid: 0.01 to 0.1 degree; small angles.
 Source: table-specimen interaction, 0.01 to 0.1 degree at 5 m/s2 assumed; resonance 10 to 30 Hz and its damping assumed.
@@ -21,44 +21,48 @@ from slipwise.params import Parameter
 Array = NDArray[np.float64]
 
 
-def _turning(push: Array, dt: float, compliance: float, frequency: float, damping: float, derivative: int) -> Array:
-    return oscillator(compliance * (2.0 * np.pi * frequency) ** 2 * push, dt, frequency, damping, derivative)
+def _turning(angle: Array, dt: float, frequency: float, damping: float, derivative: int) -> Array:
+    """Give the table's pitch (n,), or its derivative, from the angle at which it would come to rest (n,) [rad]."""
+    return oscillator((2.0 * np.pi * frequency) ** 2 * angle, dt, frequency, damping, derivative)
 
 
-def table(acceleration: Array, dt: float, compliance: float, frequency: float, damping: float) -> Array:
+def table(
+    acceleration: Array, girder: Array, dt: float, compliance: float, specimen: float, frequency: float, damping: float
+) -> Array:
     """Add the pitch acceleration to the table's motion (n, 4)."""
     out = acceleration.copy()
-    out[:, 3] += _turning(acceleration[:, 0], dt, compliance, frequency, damping, 2)
+    out[:, 3] += _turning(compliance * acceleration[:, 0] + specimen * girder, dt, frequency, damping, 2)
     return out
 
 
-def balance(states: BalanceStates, compliance: float, frequency: float, damping: float) -> dict[str, Array]:
+def balance(
+    states: BalanceStates, compliance: float, specimen: float, frequency: float, damping: float
+) -> dict[str, Array]:
     """Give gravity along the face and the moments of gravity and the girder's inertia (n,) [N], and what is no slip.
 
     The centre of gravity, h above the slide, goes to and fro with the table's turning by h theta'' [m/s^2].
     """
-    push, dt, specimen = states.table_acceleration[:, 0], float(states.time[1] - states.time[0]), states.specimen
-    angle = _turning(push, dt, compliance, frequency, damping, 0)
-    turning = _turning(push, dt, compliance, frequency, damping, 2)
-    inertia = specimen.inertia[1] * turning
+    dt, rig = float(states.time[1] - states.time[0]), states.specimen
+    pushed = compliance * states.table_acceleration[:, 0] + specimen * states.girder_acceleration[:, 0]
+    angle, turning = (_turning(pushed, dt, frequency, damping, order) for order in (0, 2))
     weight = states.load.sum(axis=1)
-    moment = weight * specimen.centre_height * angle - inertia
-    swing = specimen.centre_height * turning
-    return {"girder": -weight * angle, "pitch": moment / specimen.half_spacing[0], "motion": swing}
+    moment = weight * rig.centre_height * angle - rig.inertia[1] * turning
+    return {"girder": -weight * angle, "pitch": moment / rig.half_spacing[0], "motion": rig.centre_height * turning}
 
 
 EFFECT = Effect(
     port="table",
     component="table",
-    equation="theta ~ c a_x:  a_x += g theta,  pitch of the loads -= I theta''/b_x",
+    equation="theta ~ c a_x + c_g a_g:  a_x += g theta,  pitch of the loads -= I theta''/b_x",
     parameters=(
         Parameter(
             "compliance", "rad*s^2/m", 2e-4, -2e-3, 2e-3, 0.0, "0.06 degree at 5 m/s2, assumed", "c: nose down per a_x"
         ),
+        Parameter("specimen", "rad*s^2/m", 0.0, -2e-3, 2e-3, 0.0, "assumed", "c_g: nose down per a_g"),
         Parameter("frequency", "Hz", 20.0, 5.0, 50.0, None, "oil column 10 to 30 Hz, assumed", "of the table's pitch"),
         Parameter("damping", "1", 0.3, 0.05, 0.8, None, "oil column and its servo, assumed", "z of that resonance"),
     ),
     moves=("table_*", *RESPONSE),
-    signature="pitch of the loads and an even force, both in step with the table's acceleration",
+    signature="pitch of the loads and an even force, both in step with the table's or the girder's acceleration",
     confused_with={"buffer_height": "that goes with slip", "cell_inertia": "that moves heave with a_z as well"},
 )  # fmt: skip

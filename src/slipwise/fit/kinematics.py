@@ -20,7 +20,7 @@ from slipwise.signals.ends import in_frequency
 
 Array = NDArray[np.float64]
 #: Effects of the catalogue that turn the girder about the vertical.
-_TURNERS = ("buffer_mismatch", "mass_eccentricity", "pad_spread")
+_TURNERS = ("buffer_mismatch", "mass_eccentricity", "pad_spread", "position_patch")
 #: Numbers of the rig on which yaw depends.
 _TURNING = ("rig.mass", "rig.buffer_stiffness")
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from slipwise.kernel import Kernel, engine_for, installed, kernel
 from slipwise.kernel.layout import buffer_memories, pad_memories
 from slipwise.model import Model
-from slipwise.predict import user_effects
+from slipwise.predict import shaking, user_effects
 from slipwise.replay.channels import to_channels
 from slipwise.replay.run import DT, Memory
 from slipwise.replay.steps import numbers_for, start_state, without_springs
@@ -37,6 +37,7 @@ class Windows:
         velocity: (w, 2) at the start [m/s].
         memory: what pads and buffers remember at the start, one per window; None: nothing.
         start: (w,) time of the run at which each window starts [s].
+        girder: (w, n) measured acceleration of the girder along x, where the table feels it [m/s^2]; None: it does not.
     """
 
     acceleration: Array
@@ -44,6 +45,7 @@ class Windows:
     velocity: Array
     memory: tuple[Memory, ...] | None
     start: Array
+    girder: Array | None = None
 
 
 def simulate_windows(
@@ -98,11 +100,8 @@ def _rigs(models: Sequence[Model], dt: float, size: int) -> list[Rig]:
 
 
 def _control(model: Model, windows: Windows, dt: float) -> Array:
-    control = np.zeros((*windows.acceleration.shape[:2], 4))
-    control[:, :, :3] = windows.acceleration
-    for entry in model.with_hook("table"):
-        control = np.stack([entry.effect.hooks["table"](one, dt, **entry.values) for one in control])
-    return control
+    girder = np.zeros(windows.acceleration.shape[:2]) if windows.girder is None else windows.girder
+    return np.stack([shaking(model, *of, dt) for of in zip(windows.acceleration, girder, strict=True)])
 
 
 def _numbers(law: Kernel, rig: Rig, model: Model, windows: Windows, dt: float) -> Array:

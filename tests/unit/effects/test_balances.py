@@ -8,6 +8,7 @@ from scipy.integrate import solve_ivp
 
 from shaking import coulomb, shaken
 from slipwise.effects import BalanceStates
+from slipwise.effects._oscillator import oscillator
 from slipwise.loads import load_modes
 from slipwise.model import Model, base_model, use
 from slipwise.record import Record
@@ -156,3 +157,16 @@ def test_the_bending_girder_is_two_masses_on_springs() -> None:
     ours = record.stacked("pad_{}_N").sum(axis=1)
     assert rms(load - mass * G) > 3e3, "it must ring"
     assert rms(ours - load) < 0.01 * rms(load - mass * G)
+
+
+def test_a_girder_may_push_the_table_over() -> None:
+    rocking = use("table_pitch", compliance=0.0, specimen=1.5e-4, frequency=14.0, damping=0.35)
+    model = base_model("bridge1").adding(rocking)
+    record = shaken(model, shaking(), dt=DT).record
+    left, said = open_balances(model)
+    turned = _through_pitch(said["pitch"], model)
+    assert rms(left["pitch"] - turned) < 0.1 * rms(left["pitch"]) > 10.0
+    w = 2.0 * np.pi * 14.0
+    angle = oscillator(1.5e-4 * w**2 * record["girder_ax"], float(record.time[1] - record.time[0]), 14.0, 0.35, 0)
+    assert rms(angle) > 2e-4, "it must be seen at all"
+    assert rms(record["table_pitch"] - angle) < 0.02 * rms(angle)
