@@ -65,6 +65,7 @@ class States:
         has_yaw: whether yaw was measured.
         lowpass: channel -> filter that a prediction of it must go through to be comparable; None: not known, or none.
         velocity_error: (2,) expected standard deviation of the velocity [m/s].
+        yaw_rate_error: the same of the yaw rate [rad/s]; 0 where yaw was not measured.
         record: all channels of the run on the same axis, lag taken out, not smoothed.
         missing: what could not be made for want of a channel, in words.
     """
@@ -87,6 +88,7 @@ class States:
     has_yaw: bool
     lowpass: Mapping[str, LowPass | None]
     velocity_error: tuple[float, float]
+    yaw_rate_error: float
     record: Record
     missing: tuple[str, ...]
 
@@ -109,6 +111,11 @@ class States:
     def pad_velocity(self) -> Array:
         """Velocity of the girder over each pad (n, p, 2) [m/s]: yaw moves pads apart from the middle."""
         return self.velocity[:, None, :] + self.yaw_rate[:, None, None] * self._across
+
+    @property
+    def pad_velocity_error(self) -> Array:
+        """Expected standard deviation of the velocity over each pad (p, 2) [m/s]: that of yaw comes on top."""
+        return np.hypot(self.velocity_error, self.yaw_rate_error * self._across[0])
 
     @property
     def pad_slip(self) -> Array:
@@ -171,6 +178,7 @@ def measured_states(run: Run, campaign: Campaign) -> States:
         has_yaw=yaw is not None,
         lowpass=lowpass,
         velocity_error=(along.velocity_error, across.velocity_error if across else 0.0),
+        yaw_rate_error=yaw.velocity_error if yaw else 0.0,
         record=record,
         missing=tuple(missing),
     )

@@ -168,7 +168,7 @@ def _named_probability(margin: float, explained: float, best: Hypothesis, left: 
 
 def _unknown_probability(surface: Surface | None, explained: float) -> float:
     share = surface.explained if surface is not None else 0.0
-    odds = 0.3 + 3.0 * np.clip(share, 0.0, 0.6) + 2.5 * (0.75 - np.clip(explained, 0.0, 0.75))
+    odds = -0.5 + 3.0 * np.clip(share, 0.0, 0.6) + 2.5 * (0.75 - np.clip(explained, 0.0, 0.75))
     return float(np.clip(1.0 / (1.0 + np.exp(-odds)), 0.3, 0.98))
 
 

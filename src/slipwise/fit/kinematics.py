@@ -123,16 +123,17 @@ class Kinematics:
 
     def states(self, values: Mapping[str, float]) -> list[Instants]:
         """Give the states of every pad in every run."""
-        return self.recent.get("states", self.key(values), lambda: self.faster(values, [0.0] * len(self.runs)))
+        return self.recent.get("states", self.key(values), lambda: self.faster(values))
 
-    def faster(self, values: Mapping[str, float], by: Sequence[float]) -> list[Instants]:
-        """Give the states of every pad with the velocity of each run raised by so much [m/s]."""
-        return [self._instants(place, values, more) for place, more in enumerate(by)]
+    def faster(self, values: Mapping[str, float], by: float = 0.0) -> list[Instants]:
+        """Give the states of every pad, their velocities raised by so many times their expected errors."""
+        return [self._instants(place, values, by) for place in range(len(self.runs))]
 
-    def _instants(self, place: int, values: Mapping[str, float], more: float) -> Instants:
+    def _instants(self, place: int, values: Mapping[str, float], by: float) -> Instants:
         run = self.corrected(values)[0][place]
         velocity = run.states.pad_velocity[:, self._here].copy()
-        velocity[:, :, 0] += (more + values.get("rig.pitch_slip", 0.0) * self._pitching[place])[:, None]
+        velocity[:, :, 0] += values.get("rig.pitch_slip", 0.0) * self._pitching[place][:, None]
+        velocity[:, :, 0] += by * run.states.pad_velocity_error[self._here, 0]
         slip = run.states.pad_slip[:, self._here]
         if self.turns:
             angle, rate = self.turning(values)[place]

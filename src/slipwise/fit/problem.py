@@ -195,7 +195,7 @@ class Problem:
         law = PadLaw(model)
         runs, _ = self.kinematics.corrected(values)
         if self.specimen.free:
-            states = self.kinematics.faster(values, [0.0] * len(runs))
+            states = self.kinematics.faster(values)
             found = self._along(values, states, law.at_instants(runs, states))
             pairs = zip(found, runs, strict=True)
             self.kinematics.lost = [
@@ -203,7 +203,7 @@ class Problem:
             ]
         states = self.kinematics.states(values)
         said = law.at_instants(runs, states)
-        faster = self.kinematics.faster(values, [r.states.velocity_error[0] for r in runs])
+        faster = self.kinematics.faster(values, 1.0)
         still = {**values, "rig.late_force": 0.0}
         plain = self._logged(still, runs, states, said)
         shifted = self._logged(still, runs, faster, law.at_instants(runs, faster))

@@ -37,7 +37,7 @@ def noise_across(run: FitRun, state: Instants, said: PadForces) -> Array:
     force = said.force[::FINE, :, 1]
     friction = np.abs(force) / np.maximum(run.load, 0.05 * run.load.mean())
     speed = np.maximum(np.hypot(*np.moveaxis(state.velocity[::FINE], 2, 0)), FAST)
-    turned = said.bound[::FINE] * max(run.states.velocity_error) / speed
+    turned = said.bound[::FINE] * run.states.pad_velocity_error.max() / speed
     late = _TIMING * np.gradient(force, run.dt, axis=0)
     return np.sqrt(gauge**2 + (0.6 * friction * loads) ** 2 + turned**2 + late**2)
 

@@ -113,3 +113,12 @@ def test_a_clipped_accelerometer_is_no_other_rig(made, tmp_path):
     recorded["sine_hv"]["girder_ax"] = np.clip(clipped, 0.4 * clipped.min(), 0.4 * clipped.max())
     write_campaign(tmp_path / "clipped", "bridge1", made.truth.logger, recorded)
     assert len(load_campaign(tmp_path / "clipped").runs) == 5
+
+
+def test_a_noisy_yaw_gauge_makes_the_velocities_of_the_pads_less_sure() -> None:
+    campaign = as_campaign(build_campaign(35002, effects=(), rich=True))
+    states = measured_states(campaign.runs[0], campaign)
+    places = np.abs(np.array(campaign.specimen.pad_places))
+    assert states.yaw_rate_error > 0.0
+    expected = np.hypot(states.velocity_error, states.yaw_rate_error * places[:, ::-1])
+    assert states.pad_velocity_error == pytest.approx(expected)
