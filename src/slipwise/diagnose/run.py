@@ -18,7 +18,7 @@ from slipwise.diagnose.search import MATERIAL, Search, score, search, worth
 from slipwise.diagnose.shapes import strengths
 from slipwise.diagnose.verdict import Verdict, judge, with_faults
 from slipwise.errors import InputError
-from slipwise.fit.base import BaseFit, fit_base
+from slipwise.fit.base import BaseFit, fit_base, restarted
 from slipwise.fit.solve import jacobian
 from slipwise.model import Model
 
@@ -55,6 +55,11 @@ def diagnose(
     base = fit_base(whole, model, spoiled)
     part = 0.7 if system else 1.0
     state = search(base, lambda words, share: tell(words, part * share))
+    # what an effect seems to explain may be a valley that the base fit has missed
+    better = restarted(base, state.best.solution.values) if state.best.terms else None
+    if better is not None:
+        base = better
+        state = search(base, lambda words, share: tell(words, part * share))
     verdict = with_faults(judge(state), faults)
     final = as_fit(base, state.final)
     cannot = [f"{name}: {reason}" for name, reason in state.cannot.items()]

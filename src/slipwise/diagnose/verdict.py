@@ -78,7 +78,7 @@ def judge(state: Search) -> Verdict:
     if (remains and (not family or too_many)) or (_loud(state.final) and explained < HALF):
         shown = surface if remains else None
         return Verdict("unknown", (), _unknown_probability(shown, explained), "unknown", explained, shown, ())
-    if explained < HALF and not remains and drop < _FAINT:
+    if explained < HALF and not remains and drop < _FAINT and _worst(origin.account) < LOUD:
         return Verdict("complete", (), _COIN, "none", explained, surface, ())
     rivals = _rivals(state, best)
     names = best.names
@@ -111,6 +111,11 @@ def _loud(found: Hypothesis) -> bool:
     told = [r for r in ("pads", "girder", "heave") if r in levels.fitted]
     both = [[levels.level(r, held_out=h) for h in (False, True) if levels.counts[r][h]] for r in told]
     return any(min(of) > LOUD for of in both if of)
+
+
+def _worst(of: Account) -> float:
+    """Give the largest mean squared residual of any relation, on fitted or held-out runs [noise variance]."""
+    return max(of.level(r, held_out=h) for r, counts in of.counts.items() for h in (False, True) if counts[h])
 
 
 def with_faults(found: Verdict, faults: Sequence[SampleFault]) -> Verdict:

@@ -1,5 +1,6 @@
 """The base fit: the user's model with its own parameters and the rig's numbers, nothing missing added."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,6 +18,8 @@ from slipwise.model import Model, base_model
 _ENOUGH = (1.0, 0.1)
 #: A stick longer than this share of the stroke is no detail of the rig [1].
 _STICK_SHARE = 0.01
+#: A fit from elsewhere is another one if it leaves this share less of the squared residual [1].
+_BETTER = 0.01
 #: Share of the pads' squared residual that yaw must take away [1].
 _EARNED = 0.03
 
@@ -78,6 +81,22 @@ def _fitted(campaign: Campaign, model: Model, problem: Problem) -> BaseFit:
         problem = problem.turning()
         solution = solve(problem, solution.values, free, most=8, enough=_ENOUGH[-1])
     return BaseFit(campaign, model, problem, tuple(free), solution)
+
+
+def restarted(base: BaseFit, values: Mapping[str, float]) -> BaseFit | None:
+    """Fit the base once more from where a hypothesis has led its parameters; None where that is no better.
+
+    Args:
+        base: the base fit.
+        values: key -> value of the hypothesis.
+    """
+    start = {**base.solution.values, **{f.key: values[f.key] for f in base.free if f.key in values}}
+    solution = solve(base.problem, start, base.free, most=8, enough=_ENOUGH[-1])
+    if solution.cost > (1.0 - _BETTER) * base.solution.cost:
+        return None
+    problem = base.problem.weighed_anew(solution.values)
+    again = solve(problem, solution.values, base.free, most=8, enough=_ENOUGH[-1])
+    return replace(base, problem=problem, solution=again)
 
 
 def _turns(problem: Problem, solution: Solution) -> bool:
