@@ -76,8 +76,7 @@ class Problem:
         across = ("across",) if all(r.across.size for r in self.runs) else ()
         self.relations = ("pads", *balances, *across)
         can_turn = self.balanced and not self.runs[0].states.has_yaw
-        self._recent = Recent()
-        self.kinematics = Kinematics(self.runs, self.specimen, self.terms, False, can_turn, self._recent)
+        self.kinematics = Kinematics(self.runs, self.specimen, self.terms, False, can_turn, Recent())
         self._sort()
 
     @property
@@ -117,7 +116,7 @@ class Problem:
     def weighed_anew(self, values: Mapping[str, float]) -> "Problem":
         """Give the same problem with the noise, and what the filter took at reversals, as these numbers say."""
         anew = self._with(self.terms, self.kinematics.yaw)
-        anew._recent = anew.kinematics.recent = Recent()
+        anew.kinematics.recent = Recent()
         anew.weigh(values)
         return anew
 
@@ -140,11 +139,11 @@ class Problem:
         model = self.model(values)
         count = max(self.fitted) + 1 if fitted_only else len(self.runs)
         pad_key = (count, *self._pad_key(values))
-        pads = self._recent.get("pad parts", pad_key, lambda: self._pad_parts(model, values, count))
+        pads = self.kinematics.recent.get("pad parts", pad_key, lambda: self._pad_parts(model, values, count))
         if not self.balanced:
             return Residuals(pads[0], pads[1])
         key = (count, *self._balance_key(values), *(pad_key if self._on_force else ()))
-        balances = self._recent.get("balances", key, lambda: self._balance_parts(model, values, pads[2]))
+        balances = self.kinematics.recent.get("balances", key, lambda: self._balance_parts(model, values, pads[2]))
         return Residuals({**pads[0], **balances}, pads[1])
 
     def _pad_parts(
@@ -154,9 +153,11 @@ class Problem:
         runs, _ = self.kinematics.corrected(values)
         states = self.kinematics.states(values)
         key = (count, *self._pad_key(values, faults=False))
-        said = self._recent.get("law", key, lambda: self._law_of(model).at_instants(runs[:count], states[:count]))
+        said = self.kinematics.recent.get(
+            "law", key, lambda: self._law_of(model).at_instants(runs[:count], states[:count])
+        )
         key = (*key, *(values.get(k, 0.0) for k in _SEEN_KEYS))
-        forces = self._recent.get("forces", key, lambda: self._logged(values, runs, states, said))
+        forces = self.kinematics.recent.get("forces", key, lambda: self._logged(values, runs, states, said))
         parts, outputs, clean = [], [], []
         for i, (run, force) in enumerate(zip(runs, forces, strict=False)):
             seen, offset = on_force(self._on_force, values, run, force)
@@ -190,7 +191,7 @@ class Problem:
 
     def weigh(self, values: Mapping[str, float]) -> None:
         """Set the noise of every relation, error of the velocity near reversals included, and what filters took."""
-        self._recent.forget()
+        self.kinematics.recent.forget()
         model = self.model(values)
         law = PadLaw(model)
         runs, _ = self.kinematics.corrected(values)
@@ -265,4 +266,4 @@ class Problem:
     def _motion(self, place: int, run: FitRun, values: Mapping[str, float]) -> Array:
         late = values["rig.late_slip"]
         key = (late, *self.kinematics.fault_key(values))
-        return self._recent.get(f"motion{place}", key, lambda: motion_residual(run, late))
+        return self.kinematics.recent.get(f"motion{place}", key, lambda: motion_residual(run, late))
