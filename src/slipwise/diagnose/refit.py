@@ -15,6 +15,9 @@ from slipwise.fit.terms import Free, Term
 Array = NDArray[np.float64]
 #: Constants that only say at which value a law is neutral: free, they would be one with its strength.
 _REFERENCES: frozenset[str] = frozenset({"rated"})
+#: A fit is over when a step lowers the squared residual by less than this, and by less than this share of what is left
+#: above the noise [1].
+_ENOUGH, _ROUGH = 10.0, 5e-4
 #: Slip over which a pad turns round belongs to the stick of the base model only.
 _STICK_LENGTH = "rig.stick_length"
 
@@ -121,7 +124,7 @@ def refit(
         solution = _several_starts(problem, values, free, terms)
     else:
         known = {f.key: base.solution.jacobian[:, j] for j, f in enumerate(base.free)}
-        solution = solve(problem, values, free, most=most, enough=10.0, known=known)
+        solution = solve(problem, values, free, most=most, enough=_ENOUGH, rough=_ROUGH, known=known)
     return _hypothesis(terms, problem, solution)
 
 
@@ -131,7 +134,7 @@ def _hypothesis(terms: Sequence[Term], problem: Problem, solution: Solution) -> 
 
 def polished(found: Hypothesis) -> Hypothesis:
     """Fit on with slopes of its own: those of the base, taken without the effects, lead only near the end."""
-    solution = solve(found.problem, found.solution.values, found.solution.free, most=6, enough=10.0)
+    solution = solve(found.problem, found.solution.values, found.solution.free, most=6, enough=_ENOUGH, rough=_ROUGH)
     return _hypothesis(found.terms, found.problem, solution)
 
 
@@ -139,7 +142,7 @@ def settled(found: Hypothesis) -> Hypothesis:
     """Weigh anew and fit on, twice: what was weighed by the base's law is off near reversals where it was wrong."""
     for _ in range(2):
         problem = found.problem.weighed_anew(found.solution.values)
-        solution = solve(problem, found.solution.values, found.solution.free, most=3, enough=10.0)
+        solution = solve(problem, found.solution.values, found.solution.free, most=3, enough=_ENOUGH)
         found = _hypothesis(found.terms, problem, solution)
     return found
 
@@ -167,7 +170,7 @@ def _several_starts(
         start.update({k: float(np.clip(v, bounds[k].low, bounds[k].high)) for k, v in start.items() if k in bounds})
     tries = [solve(problem, s, free, most=6, enough=100.0) for s in starts]
     best = min(tries, key=lambda s: s.cost)
-    return solve(problem, best.values, free, most=12, enough=10.0)
+    return solve(problem, best.values, free, most=12, enough=_ENOUGH)
 
 
 def _inside(term: Term, start: Mapping[str, float]) -> dict[str, float]:

@@ -229,7 +229,8 @@ def _try_all(
     origin = state.path[0].account
     found = [refit(state.base, terms, starts, before) for terms, starts in asked]
     found.sort(key=lambda h: -score(origin, h.account))
-    found = [polished(h) if i < _POLISHED else h for i, h in enumerate(found)]
+    best = list({h.names: i for i, h in reversed(list(enumerate(found)))}.values())
+    found = [polished(h) if i in sorted(best)[:_POLISHED] else h for i, h in enumerate(found)]
     state.tried += found
     return found
 

@@ -14,8 +14,8 @@ _NEARBY = (0.33, 1.0, 3.0)
 _FAR = (0.035, 0.2, 1.0, 5.0, 28.0)
 #: A constant whose bounds are this far apart may be far from typical [1].
 _WIDE = 100.0
-#: Frequencies at which a resonance is tried [Hz].
-_LEAST_HERTZ, _MOST_HERTZ, _RESONANCES = 5.0, 30.0, 14
+#: Frequencies at which a resonance is tried [Hz], and how many of them at least and at most.
+_LEAST_HERTZ, _MOST_HERTZ, _RESONANCES = 5.0, 30.0, (5, 14)
 #: A resonance is tried with this many times its typical damping, so that it is seen from a neighbouring frequency.
 _BROAD = 3.0
 
@@ -40,7 +40,7 @@ def shapes(effect: Effect) -> list[dict[str, float]]:
         if p.typical == 0.0:
             points = [0.0]
         elif p.unit == "Hz":  # a resonance is found only from nearby
-            points = [float(x) for x in np.geomspace(max(p.low, _LEAST_HERTZ), min(p.high, _MOST_HERTZ), _RESONANCES)]
+            points = _resonances(effect, p)
         elif p.low < 0.0 < p.high:
             points = [p.typical * f for f in (1.0, -1.0, 0.3, -0.3)]
         else:
@@ -56,6 +56,14 @@ def shapes(effect: Effect) -> list[dict[str, float]]:
     highest = {p.name: p.high for p in effect.parameters}
     centre = {a[0]: min(broad * a[2], highest[a[0]]) if a[2] > 0.0 else a[2] for a in axes}
     return [centre, *({**centre, name: x} for name, points, middle in axes for x in points if x != middle)]
+
+
+def _resonances(effect: Effect, frequency: Parameter) -> list[float]:
+    """Give frequencies as far apart as the resonance is wide where it is tried [Hz]."""
+    low, high = max(frequency.low, _LEAST_HERTZ), min(frequency.high, _MOST_HERTZ)
+    width = 2.0 * _BROAD * min((p.typical for p in effect.parameters if p.name == "damping"), default=0.0)
+    count = int(np.clip(np.log(high / low) / max(width, 1e-3), *_RESONANCES))
+    return [float(x) for x in np.geomspace(low, high, count)]
 
 
 def variants(effect: Effect, values: dict[str, float]) -> list[dict[str, float]]:

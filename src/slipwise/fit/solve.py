@@ -78,6 +78,7 @@ def solve(
     *,
     most: int = 12,
     enough: float = _ENOUGH,
+    rough: float = 0.0,
     known: Mapping[str, Array] | None = None,
 ) -> Solution:
     """Fit the free numbers to the runs that may be fitted.
@@ -88,6 +89,7 @@ def solve(
         free: what may change.
         most: Jacobians at most.
         enough: drop of the squared residual below which a further step is not worth it.
+        rough: that drop also as a share of what is left above the noise: a law that is wrong needs no fine fit [1].
         known: columns of the Jacobian that a fit nearby has found, by key; they are used as they are.
     """
     which = problem.fitted
@@ -134,7 +136,7 @@ def solve(
         stale = gained < _KEPT_SLOPES * 2.0 * promised
         values, now, left, cost = trial, moved, trial_left, trial_cost
         damping = max(damping / 10.0, 1e-6)
-        if gained < enough:
+        if gained < enough + rough * max(cost - len(left), 0.0):
             break
     return Solution(values, tuple(free), problem.residuals(values), slopes, cost, evaluations)
 

@@ -51,25 +51,27 @@ def test_breakaway_adds_its_share_of_the_load_at_low_speed_only() -> None:
     assert extra == pytest.approx(0.05 * np.exp(-1.0), rel=1e-9)
 
 
-def test_a_rested_contact_breaks_away_higher_by_a_logarithm() -> None:
-    law = predictor(base().adding(use("breakaway", rise=0.05, ageing=0.1)))
+def test_a_rested_contact_breaks_away_higher_up_to_an_end() -> None:
+    law = predictor(base().adding(use("breakaway", rise=0.05, ageing=0.8, time=2.0)))
     fresh = drive(law, 1e-9).force[0, 0, 0]
-    law.reset()
-    law.rest(1000.0)
-    aged = drive(law, 1e-9).force[0, 0, 0]
-    assert (aged - fresh) / LOAD == pytest.approx(0.05 * 0.1 * np.log10(1.0 + 1000.0 / 0.01), rel=1e-6)
+    for rest, grown in ((1.0, 1.0 - np.exp(-0.5)), (1e6, 1.0)):
+        law.reset()
+        law.rest(rest)
+        aged = drive(law, 1e-9).force[0, 0, 0]
+        assert (aged - fresh) / LOAD == pytest.approx(0.05 * 0.8 * grown, rel=1e-6)
 
 
 def test_slip_uses_the_age_of_a_contact_up() -> None:
-    """dt_rest/dt = 1 - V t_rest / L, from 100 s old, sliding at 1 mm/s."""
-    law = predictor(base().adding(use("breakaway", ageing=0.1, decay=0.05, shape=1.0)))
+    """dz/dt = (1 - z)/t_r - V z/L, from rest, sliding at 1 mm/s."""
+    law = predictor(base().adding(use("breakaway", ageing=0.1, decay=0.05, shape=1.0, time=0.2, length=1e-4)))
     law.rest(100.0)
     without = drive(base(), 1e-3, count=100).force[:, 0, 0]
     extra = (drive(law, 1e-3, count=100).force[:, 0, 0] - without) / LOAD / (0.05 * np.exp(-1e-3 / 0.05))
-    age = 0.01 * (10.0 ** ((extra - 1.0) / 0.1) - 1.0)
     time = DT * np.arange(100)
-    exact = solve_ivp(lambda t, a: 1.0 - 1e-3 * a / 1e-4, (0.0, time[-1]), [100.0], "DOP853", time, rtol=1e-12).y[0]
-    np.testing.assert_allclose(age, exact, rtol=1e-6)
+    exact = solve_ivp(
+        lambda t, z: (1.0 - z) / 0.2 - 1e-3 * z / 1e-4, (0.0, time[-1]), [1.0], "DOP853", time, rtol=1e-12
+    )
+    np.testing.assert_allclose((extra - 1.0) / 0.1, exact.y[0], rtol=1e-6)
 
 
 @pytest.mark.parametrize("tail", [0.0, 0.5, 1.0])
