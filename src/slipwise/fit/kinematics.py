@@ -12,7 +12,7 @@ from slipwise.fit.data import FitRun
 from slipwise.fit.faults import acts_on_force, noise_scale, without
 from slipwise.fit.pads import Instants, instants
 from slipwise.fit.recent import Key, Recent
-from slipwise.fit.terms import Term, fitted_model
+from slipwise.fit.terms import YAW_INERTIA, Term, fitted_model
 from slipwise.fit.yaw import yaw_of
 from slipwise.predict import predictor
 from slipwise.rig import Specimen
@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 #: Effects of the catalogue that turn the girder about the vertical.
 _TURNERS = ("buffer_mismatch", "mass_eccentricity", "pad_spread", "position_patch")
 #: Numbers of the rig on which yaw depends.
-_TURNING = ("rig.mass", "rig.buffer_stiffness")
+_TURNING = ("rig.mass", "rig.buffer_stiffness", YAW_INERTIA)
 
 
 @dataclass
@@ -36,7 +36,7 @@ class Kinematics:
         yaw: whether the girder's yaw is made from the measured forces even if no term turns it.
         can_turn: whether the forces say how the girder turns, and no gauge does.
         recent: results, shared with others that look at the same runs.
-        lost: per run (f,) velocity that the logger's filter took at reversals [m/s].
+        lost: per run (f, p) velocity that the logger's filter took at reversals [m/s].
     """
 
     runs: list[FitRun]
@@ -120,6 +120,13 @@ class Kinematics:
             return found
 
         return self.recent.get("yaw", self.key(values), make)
+
+    def compliance(self, specimen: Specimen) -> Array:
+        """Give the acceleration of pad i for a force along x on pad j, (p, p) [1/kg]; it turns where yaw is known."""
+        places = np.array(specimen.pad_places)[self._here, 1] - specimen.centre_y
+        turning = np.outer(places, places) / specimen.inertia[2]
+        knows = self.turns or self.runs[0].states.has_yaw
+        return 1.0 / specimen.mass + (turning if knows else np.zeros_like(turning))
 
     def states(self, values: Mapping[str, float]) -> list[Instants]:
         """Give the states of every pad in every run."""

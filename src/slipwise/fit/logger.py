@@ -4,6 +4,7 @@ At a reversal friction turns round within a fraction of a millisecond. What the 
 filter's own step response, ringing and lag included, so kind, order and frequency can be read from it.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +13,7 @@ from slipwise.campaign import Campaign, Logger
 from slipwise.fit.data import fit_runs
 from slipwise.fit.problem import Problem
 from slipwise.fit.solve import Solution, solve
-from slipwise.fit.terms import base_free, terms_of
+from slipwise.fit.terms import YAW_INERTIA, Term, base_free, terms_of
 from slipwise.model import Model
 from slipwise.signals import LowPass
 
@@ -26,7 +27,7 @@ _WIDE, _NARROW = 1.2, 1.02
 _OF_REVERSALS = ("rig.stick_length", "rig.late_force", "rig.pitch_slip", "rig.shear_strength")
 
 
-def estimated_logger(campaign: Campaign, model: Model, first: Solution) -> LowPass:
+def estimated_logger(campaign: Campaign, model: Model, first: Solution, terms: Sequence[Term] = ()) -> LowPass:
     """Give the filter under which the law of friction, fitted anew for each, explains one run's pads best.
 
     A law that was fitted under a wrong filter has bent itself to it and speaks for a filter like that one.
@@ -35,6 +36,7 @@ def estimated_logger(campaign: Campaign, model: Model, first: Solution) -> LowPa
         campaign: of unknown logger.
         model: its base model.
         first: a fit with a guessed filter; a start.
+        terms: effects that this fit has added to the model: what they do at reversals is not the filter's doing.
     """
     fastest = max(campaign.with_role("fit", "repeat"), key=lambda r: float(np.ptp(r.record["slip_x"])))
     limit = 0.48 / fastest.record.dt
@@ -42,12 +44,14 @@ def estimated_logger(campaign: Campaign, model: Model, first: Solution) -> LowPa
     start = {k: v for k, v in first.values.items() if k != "rig.logger"}
     start |= {"rig.stick_length": 1e-6, "rig.late_force": 0.0}
     own = [f for f in base_free(model, balances=True) if not f.key.startswith("rig.") or f.key in _OF_REVERSALS]
+    added = tuple(f"{t.label}." for t in terms)
+    own += [f for f in first.free if f.key.startswith(added) or f.key == YAW_INERTIA] if terms else []
     tried: dict[LowPass, float] = {}
 
     def error(kind: LowPass) -> float:
         if kind not in tried:
             runs = fit_runs(replace(alone, logger=Logger(kind, known=True)))
-            problem = Problem(runs, model.specimen, terms_of(model))
+            problem = Problem(runs, model.specimen, (*terms_of(model), *terms))
             problem.relations = ("pads",)
             problem.weigh(start)
             values = solve(problem, start, own, most=3, enough=20.0).values

@@ -68,12 +68,12 @@ def instants(run: FitRun, velocity: Array, slip: Array, lost: Array | None = Non
         run: its loads and times.
         velocity: (n, p, 2) of each pad [m/s].
         slip: (n, p, 2) of each pad [m].
-        lost: (f,) what the logger's filter took from the velocity, see `lost_velocity` [m/s].
+        lost: (f, p) what the logger's filter took from the velocity, see `lost_velocity` [m/s].
     """
     time = np.linspace(run.time[0], run.time[-1], FINE * (len(run.time) - 1) + 1)
     fine = refined(velocity)
     if lost is not None:
-        fine[:, :, 0] += lost[:, None]
+        fine[:, :, 0] += lost
     return Instants(time, np.maximum(refined(run.load), 0.0), fine, refined(slip))
 
 
@@ -137,28 +137,30 @@ def force_along(found: PadForces, state: Instants, share: Array | None) -> Array
     return force + found.bound * (share * turned - sharp)
 
 
-def lost_velocity(force: Array, run: FitRun, mass: float, by: LowPass | None) -> Array:
-    """Give what the logger's filter takes from the girder's velocity where friction turns round, (f,) [m/s].
+def lost_velocity(force: Array, run: FitRun, compliance: Array, by: LowPass | None) -> Array:
+    """Give what the logger's filter takes from the pads' velocity where friction turns round, (f, p) [m/s].
 
-    m dv/dt = -F + (what has no kinks), so the kinks of v that the filter H rounds off are those of F's integral:
-    v - H v = -(1 - H) F / (m i w). Without them a reversal seems to come up to half a millisecond off.
+    dv_i/dt = -sum_j C_ij F_j + (what has no kinks), so the kinks of v that the filter H rounds off are those of F's
+    integral: v - H v = -(1 - H) C F / (i w). Without them a reversal seems to come up to half a millisecond off.
 
     Args:
-        force: (f,) sum over the pads at the instants [N].
+        force: (f, p) at the instants [N].
         run: whose filter.
-        mass: of the girder [kg].
+        compliance: C (p, p), acceleration of pad i for a force on pad j: 1/m, and y_i y_j / I where the girder turns.
         by: the filter where the campaign does not know it.
     """
     filtered = run.filtered or by
     if filtered is None:
-        return np.zeros(len(force))
+        return np.zeros(force.shape)
+    push = force @ compliance.T
     step = run.dt / FINE
-    size = int(next_fast_len(len(force) + 2 * _BEYOND) or 0)
-    padded = np.concatenate([np.repeat(force[:1], _BEYOND), force, np.repeat(force[-1:], size - len(force) - _BEYOND)])
+    size = int(next_fast_len(len(push) + 2 * _BEYOND) or 0)
+    before, after = np.repeat(push[:1], _BEYOND, axis=0), np.repeat(push[-1:], size - len(push) - _BEYOND, axis=0)
     frequency = rfftfreq(size, step)
     missing = 1.0 - np.abs(response(filtered, np.asarray(frequency, dtype=np.float64)))
     turn = 2j * np.pi * np.where(frequency > 0.0, frequency, 1.0)
-    return -irfft(rfft(padded) * (missing / turn), size)[_BEYOND : _BEYOND + len(force)] / mass
+    spectrum = rfft(np.concatenate([before, push, after]), axis=0) * (missing / turn)[:, None]
+    return -irfft(spectrum, size, axis=0)[_BEYOND : _BEYOND + len(push)]
 
 
 _GAINS: dict[tuple[int, float, LowPass, bool], Array] = {}

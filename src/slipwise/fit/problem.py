@@ -198,10 +198,9 @@ class Problem:
         if self.specimen.free:
             states = self.kinematics.faster(values)
             found = self._along(values, states, law.at_instants(runs, states))
+            soft = self.kinematics.compliance(model.built_specimen())
             pairs = zip(found, runs, strict=True)
-            self.kinematics.lost = [
-                lost_velocity(f.sum(axis=1), r, model.specimen.mass, self._by(values)) for f, r in pairs
-            ]
+            self.kinematics.lost = [lost_velocity(f, r, soft, self._by(values)) for f, r in pairs]
         states = self.kinematics.states(values)
         said = law.at_instants(runs, states)
         faster = self.kinematics.faster(values, 1.0)
