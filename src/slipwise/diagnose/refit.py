@@ -10,7 +10,7 @@ from slipwise.diagnose.shapes import strengths
 from slipwise.fit.base import BaseFit
 from slipwise.fit.problem import Problem
 from slipwise.fit.solve import Solution, solve
-from slipwise.fit.terms import YAW_INERTIA, Free, Term, yaw_free
+from slipwise.fit.terms import Free, Term, inertia_free
 
 Array = NDArray[np.float64]
 #: Constants that only say at which value a law is neutral: free, they would be one with its strength.
@@ -120,9 +120,9 @@ def refit(
             start = _inside(term, starts[term.label])
         values.update({f"{term.label}.{k}": v for k, v in start.items()})
         free += [f for f in term.free(start) if f.key.rsplit(".", 1)[1] not in _REFERENCES]
-    if problem.kinematics.turns and all(f.key != YAW_INERTIA for f in free):
-        free.append(yaw_free(problem.specimen))
-        values.setdefault(YAW_INERTIA, free[-1].start)
+    for key in set(problem.kinematics.inertias) - {f.key for f in free}:
+        free.append(inertia_free(problem.specimen, key))
+        values.setdefault(key, free[-1].start)
     if not problem.balanced and before is None:
         solution = _several_starts(problem, values, free, terms)
     else:

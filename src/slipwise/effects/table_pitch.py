@@ -6,6 +6,9 @@ The overturning moments of the table (c, with its acceleration a_x) and of the g
 vertical actuators, and the table pitches through its own oil-column resonance w. Gravity then pulls along the face
 (g theta, 0.017 m/s2 for 0.1 degree), and the pads feel the turning. c > 0: nose down at +x when pushed towards +x.
 
+What the gauges make of it is theirs: an accelerometer fixed to the girder feels nothing of gravity along the face
+(g_s = 0), one that gives the motion alone all of it (g_s = 1).
+
 Valid: 0.01 to 0.1 degree; small angles.
 Source: table-specimen interaction, 0.01 to 0.1 degree at 5 m/s2 assumed; resonance 10 to 30 Hz and its damping assumed.
 """
@@ -36,7 +39,7 @@ def table(
 
 
 def balance(
-    states: BalanceStates, compliance: float, specimen: float, frequency: float, damping: float
+    states: BalanceStates, compliance: float, specimen: float, frequency: float, damping: float, gravity: float
 ) -> dict[str, Array]:
     """Give gravity along the face and the moments of gravity and the girder's inertia (n,) [N], and what is no slip.
 
@@ -45,9 +48,9 @@ def balance(
     dt, rig = float(states.time[1] - states.time[0]), states.specimen
     pushed = compliance * states.table_acceleration[:, 0] + specimen * states.girder_acceleration[:, 0]
     angle, turning = (_turning(pushed, dt, frequency, damping, order) for order in (0, 2))
-    weight = states.load.sum(axis=1)
-    moment = weight * rig.centre_height * angle - rig.inertia[1] * turning
-    return {"girder": -weight * angle, "pitch": moment / rig.half_spacing[0], "motion": rig.centre_height * turning}
+    pull = gravity * states.load.sum(axis=1) * angle
+    moment = rig.centre_height * pull - rig.inertia[1] * turning
+    return {"girder": -pull, "pitch": moment / rig.half_spacing[0], "motion": rig.centre_height * turning}
 
 
 EFFECT = Effect(
@@ -61,6 +64,7 @@ EFFECT = Effect(
         Parameter("specimen", "rad*s^2/m", 0.0, -2e-3, 2e-3, 0.0, "assumed", "c_g: nose down per a_g"),
         Parameter("frequency", "Hz", 20.0, 5.0, 50.0, None, "oil column 10 to 30 Hz, assumed", "of the table's pitch"),
         Parameter("damping", "1", 0.3, 0.05, 0.8, None, "oil column and its servo, assumed", "z of that resonance"),
+        Parameter("gravity", "1", 1.0, 0.0, 1.0, None, "motion alone; 0: fixed to the girder", "g_s: in girder_ax"),
     ),
     moves=("table_*", *RESPONSE),
     signature="pitch of the loads and an even force, both in step with the table's or the girder's acceleration",

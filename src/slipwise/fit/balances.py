@@ -133,6 +133,27 @@ def predicted(
     return said, seen
 
 
+def pitch_noise(model: Model, run: FitRun, values: Mapping[str, float]) -> tuple[Array, Array]:
+    """Give what accelerometers' noise adds to the predicted pitch load through effects that are driven by it.
+
+    A table that rocks is told to by a measured acceleration, and turns the harder the higher the frequency: its noise
+    may be several times that of the load cells.
+
+    Returns:
+        frequencies (m,) [Hz] and the spectrum of the noise, as the variance of white noise of that height (m,) [N^2].
+    """
+    nothing = np.zeros((len(run.time), 1))
+    power: Array = np.zeros(len(run.time) // 2 + 1)
+    for place, channel in enumerate(("girder_ax", "table_ax")):
+        struck = np.zeros((2, len(run.time), 3))
+        struck[place, len(run.time) // 2, 0] = 1.0
+        answer = _hooks(model, run, model.built_specimen(), run.force, nothing, struck[0], struck[1]).get("pitch")
+        if answer is not None:
+            heard = through_pitch(answer, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
+            power = power + (run.noise.get(channel, 0.0) * np.abs(np.fft.rfft(heard))) ** 2
+    return np.asarray(np.fft.rfftfreq(len(run.time), run.dt), dtype=np.float64), power
+
+
 def heave_noise(model: Model, run: FitRun) -> float:
     """Tell by which factor effects change the accelerometer's noise in the heave balance.
 
@@ -159,8 +180,9 @@ def _late(values: Array, dt: float, lag: float) -> Array:
 
 
 def _hooks(
-    model: Model, run: FitRun, specimen: Specimen, force: Array, buffers: Array, acceleration: Array | None = None
-) -> dict[str, Array]:
+    model: Model, run: FitRun, specimen: Specimen, force: Array, buffers: Array,
+    acceleration: Array | None = None, table: Array | None = None,
+) -> dict[str, Array]:  # fmt: skip
     uses = model.with_hook("balance")
     if not uses:
         return {}
@@ -174,7 +196,7 @@ def _hooks(
         load=run.load,
         pad_force=np.stack([force, across], axis=2),
         girder_acceleration=np.nan_to_num(run.states.girder_acceleration) if acceleration is None else acceleration,
-        table_acceleration=np.nan_to_num(run.states.table_acceleration),
+        table_acceleration=np.nan_to_num(run.states.table_acceleration) if table is None else table,
         buffer_force=np.stack([buffers.sum(axis=1), zero], axis=1),
         buffer_size=np.stack([np.abs(buffers).sum(axis=1), zero], axis=1),
         heave_rate=heave_rate(run, specimen),

@@ -10,7 +10,7 @@ from slipwise.fit.data import Spoiled, fit_runs
 from slipwise.fit.logger import estimated_logger
 from slipwise.fit.problem import Problem
 from slipwise.fit.solve import Solution, solve
-from slipwise.fit.terms import Free, base_free, terms_of, yaw_free
+from slipwise.fit.terms import YAW_INERTIA, Free, base_free, inertia_free, terms_of
 from slipwise.model import Model, base_model
 
 #: Noise near reversals depends on the fit and the fit on the noise: each is made anew, and every fit ends where a step
@@ -79,7 +79,7 @@ def _fitted(campaign: Campaign, model: Model, problem: Problem) -> BaseFit:
         solution = solve(problem, solution.values, free, most=8, enough=enough)
     if _turns(problem, solution):
         problem = problem.turning()
-        free.append(yaw_free(model.specimen))
+        free.append(inertia_free(model.specimen, YAW_INERTIA))
         start = {**solution.values, free[-1].key: free[-1].start}
         solution = solve(problem, start, free, most=8, enough=_ENOUGH[-1])
     return BaseFit(campaign, model, problem, tuple(free), solution)

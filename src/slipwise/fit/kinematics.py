@@ -12,7 +12,7 @@ from slipwise.fit.data import FitRun
 from slipwise.fit.faults import acts_on_force, noise_scale, without
 from slipwise.fit.pads import Instants, instants
 from slipwise.fit.recent import Key, Recent
-from slipwise.fit.terms import YAW_INERTIA, Term, fitted_model
+from slipwise.fit.terms import PITCH_INERTIA, YAW_INERTIA, Term, fitted_model
 from slipwise.fit.yaw import yaw_of
 from slipwise.predict import predictor
 from slipwise.rig import Specimen
@@ -66,6 +66,11 @@ class Kinematics:
         turners = [t for t in self.terms if t.effect.name in _TURNERS]
         self.turns = (self.yaw or bool(turners)) and self.can_turn
         self._buffers = [t for t in self.terms if t.effect.port == "buffer" or t in turners]
+
+    @property
+    def inertias(self) -> tuple[str, ...]:
+        """Keys of the inertias of the girder that these terms speak of."""
+        return (YAW_INERTIA,) * self.turns + (PITCH_INERTIA,) * bool(self._rockers)
 
     def fault_key(self, values: Mapping[str, float]) -> Key:
         """Give what the runs without their gauges' faults depend on."""

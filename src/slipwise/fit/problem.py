@@ -18,8 +18,8 @@ from slipwise.fit.faults import acts_on_force, on_force
 from slipwise.fit.kinematics import Kinematics, values_of
 from slipwise.fit.pads import Instants, PadLaw, as_logged, force_along, lost_velocity, stick_share
 from slipwise.fit.recent import Key, Recent
-from slipwise.fit.terms import Term, fitted_model
-from slipwise.fit.weights import balance_noise, heave_scale, noise_across, pad_noise, with_hidden
+from slipwise.fit.terms import PITCH_INERTIA, Term, fitted_model
+from slipwise.fit.weights import balance_noise, heave_scale, noise_across, pad_noise, pitch_whitened, with_hidden
 from slipwise.model import Model
 from slipwise.predict import PadForces, predictor
 from slipwise.rig import Specimen
@@ -184,6 +184,8 @@ class Problem:
                     left = self._motion(i, run, values)
                 else:
                     left = (seen[name] - said[name]) / scale.get(name, 1.0)
+                if name == "pitch" and self.sigmas and PITCH_INERTIA in self.kinematics.inertias:
+                    left = pitch_whitened(left, model, run, float(self.sigmas[name][i]), values)
                 parts[name].append(self._over(name, i, left, run.judged[name]))
                 if name == "heave" and hidden > 0.0:
                     parts[name][-1] = with_hidden(parts[name][-1], hidden)

@@ -37,9 +37,10 @@ _LAGS: dict[str, str] = {
     "rig.late_slip": "slip_x",
 }
 _DELAY = "channel_delay"
-#: A girder with weights on it is seldom rated for how hard it is to turn: 8 % more of it left three floors in the pads.
-YAW_INERTIA = "rig.yaw_inertia"
-_YAW_SHARES = (0.6, 1.7)
+#: A girder with weights on it is seldom rated for how hard it is to turn: 8 % more than rated left three floors in the
+#: pads where it yaws. Axis, and the shares of the rated value between which it may be.
+YAW_INERTIA, PITCH_INERTIA = "rig.yaw_inertia", "rig.pitch_inertia"
+_INERTIAS: dict[str, tuple[int, tuple[float, float]]] = {YAW_INERTIA: (2, (0.6, 1.7)), PITCH_INERTIA: (1, (0.4, 3.0))}
 #: Slip over which a pad's friction turns round without any effect of its own [m]; longer than that it is `presliding`.
 _STICK_LENGTH = (1e-6, 1e-8, 8e-6, 1e-6)
 #: The friction channels' filter where the campaign does not know it [Hz].
@@ -140,9 +141,10 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True) -> lis
     return [f for f in out if _LAGS.get(f.key) not in delayed]
 
 
-def yaw_free(specimen: Specimen) -> Free:
-    """Give the girder's inertia about the vertical: free where its yaw is made from the forces."""
-    return _around(YAW_INERTIA, specimen.inertia[2], *_YAW_SHARES, "kg*m^2")
+def inertia_free(specimen: Specimen, key: str) -> Free:
+    """Give an inertia of the girder: free where the motion that it resists is made from what was measured."""
+    axis, shares = _INERTIAS[key]
+    return _around(key, specimen.inertia[axis], *shares, "kg*m^2")
 
 
 def _around(key: str, value: float, low: float, high: float, unit: str) -> Free:
@@ -160,8 +162,10 @@ def fitted_specimen(specimen: Specimen, values: Mapping[str, float]) -> Specimen
     if "rig.buffer_stiffness" in values:
         share = values["rig.buffer_stiffness"] / sum(specimen.buffer_stiffness)
         changes["buffer_stiffness"] = tuple(share * k for k in specimen.buffer_stiffness)
-    if YAW_INERTIA in values:
-        changes["inertia"] = (*specimen.inertia[:2], values[YAW_INERTIA])
+    turning = list(specimen.inertia)
+    for key, (axis, _) in _INERTIAS.items():
+        turning[axis] = values.get(key, turning[axis])
+    changes["inertia"] = tuple(turning)
     return replace(specimen, **changes)  # type: ignore[arg-type]
 
 

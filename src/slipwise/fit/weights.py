@@ -1,14 +1,17 @@
 """How far measured and predicted may differ by noise alone, relation by relation."""
 
+from collections.abc import Mapping
+
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.fit.balances import heave_noise
+from slipwise.fit.balances import heave_noise, pitch_noise
 from slipwise.fit.data import FAST, FINE, FitRun
 from slipwise.fit.pads import Instants
 from slipwise.model import Model
 from slipwise.predict import PadForces
 from slipwise.rig import Specimen
+from slipwise.signals.ends import in_frequency
 
 Array = NDArray[np.float64]
 #: Timing of a reversal that nobody can vouch for: shear of pad and cell, cards of the logger [s].
@@ -74,6 +77,22 @@ def heave_scale(model: Model, run: FitRun) -> float:
     loads = float(np.linalg.norm(_gauges(run)[1]))
     vertical = model.specimen.mass * run.noise.get("girder_az", 0.0)
     return float(np.hypot(loads, factor * vertical) / np.hypot(loads, vertical))
+
+
+def pitch_whitened(left: Array, model: Model, run: FitRun, level: float, values: Mapping[str, float]) -> Array:
+    """Bring the pitch residual (n,) to the noise it was weighed with, at every frequency.
+
+    Args:
+        left: measured less predicted [N].
+        model: whose effects may add noise of accelerometers.
+        run: its gauges.
+        level: noise of the balance by its load cells [N].
+        values: of the fit.
+    """
+    frequency, power = pitch_noise(model, run, values)
+    gain = 1.0 / np.sqrt(1.0 + power / level**2)
+    white = in_frequency(left, run.dt, lambda f: np.interp(f, frequency, gain), 256)
+    return with_hidden(white, float(1.0 - np.mean(gain**2)))
 
 
 def with_hidden(part: Array, hidden: float) -> Array:
