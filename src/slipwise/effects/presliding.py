@@ -1,6 +1,6 @@
 """Pre-sliding: before it slips a contact gives way like a spring.
 
-    F = F_b z / u,        dz/ds = (1 - z/u)^i along the motion,        |z| <= u
+    F = F_b (z + t_d dz/dt) / u,        dz/ds = (1 - z/u)^i along the motion,        |z| <= u = u_0 (F_b / F_0)^q
 
 The asperities of a contact bend, as bristles z, before they let go. After every reversal friction therefore needs a
 certain *distance*, a few u, to turn round. A delay of the gauge, which needs a certain *time*, looks alike in one run.
@@ -9,8 +9,12 @@ The exponent i is the contact's character: 1 is Dahl's law (approach without end
 and then slips (elastic-plastic). Motion across relaxes the bristle by exp(-i s/u), and what exceeds u is taken back
 towards the middle: the bound is a circle. The update is exact over any step: w = 1 - z/u, w^(1-i) falls by (1-i) s/u.
 
+A length of its own (q = 0) belongs to the surface; a spring of its own, F_0 / u_0 (q = 1), to what is in series with it,
+a rubber layer or the cell; a round contact that slips from its rim inwards is between them (q = 2/3). F_0 = 2.77 kN.
+
 Valid: u 0.02 to 0.5 mm for bare sheet, 1 to 5 mm with a rubber layer in series.
-Source: Dahl (1968), with his exponent; LuGre's viscous bristle is left out. Sizes assumed.
+Source: Dahl (1968), with his exponent; Mindlin (1949) for q = 2/3; Canudas de Wit et al. (1995), LuGre, for a bristle
+that is damped, with |F| <= F_b. Sizes assumed.
 """
 
 from math import exp, sqrt
@@ -20,16 +24,22 @@ import numpy as np
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
 
+RATED = 2770.0
+LEAST = 1e-3
+
 
 def stick(
     bound: float, slip_x: float, slip_y: float, time: float, dt: float, memory: np.ndarray,
-    length: float, exponent: float,
+    length: float, exponent: float, growth: float, damping: float,
 ) -> tuple[float, float]:  # fmt: skip
     """Bend the bristle by the slip since the instant before; give its force [N]."""
+    if growth > 0.0:
+        length *= max(bound / RATED, LEAST) ** growth
     way_x, way_y = slip_x - memory[2], slip_y - memory[3]
     if abs(time - memory[4] - dt) > 0.5 * dt:  # a new run: its gauge may stand anywhere
         way_x, way_y = 0.0, 0.0
     memory[2], memory[3], memory[4] = slip_x, slip_y, time
+    before_x, before_y = memory[0], memory[1]
     way = sqrt(way_x * way_x + way_y * way_y)
     if way > 0.0:
         x, y = way_x / way, way_y / way
@@ -44,7 +54,10 @@ def stick(
             along = length * (1.0 - (power_left ** (1.0 / power) if power_left > 0.0 else power_left / power))
         shrink = min(1.0, length / max(sqrt(along * along + across * across), 1e-30))
         memory[0], memory[1] = (along * x - across * y) * shrink, (along * y + across * x) * shrink
-    return bound * memory[0] / length, bound * memory[1] / length
+    bent_x = memory[0] + damping * (memory[0] - before_x) / dt
+    bent_y = memory[1] + damping * (memory[1] - before_y) / dt
+    stiffness = bound / max(sqrt(bent_x * bent_x + bent_y * bent_y), length)
+    return stiffness * bent_x, stiffness * bent_y
 
 
 EFFECT = Effect(
@@ -54,6 +67,8 @@ EFFECT = Effect(
     parameters=(
         Parameter("length", "m", 0.3e-3, 0.0, 5e-3, 0.0, "0.02 to 0.5 mm bare sheet, assumed", "u: bristle", "mm"),
         Parameter("exponent", "1", 1.0, 0.0, 1.0, None, "Dahl (1968): 1", "i: 1 Dahl, 0 elastic-plastic"),
+        Parameter("growth", "1", 0.0, 0.0, 1.0, None, "a length of the surface: 0", "q: 1 a spring in series"),
+        Parameter("damping", "s", 0.0, 0.0, 0.02, None, "Dahl (1968): none", "t_d: of the bristle", "ms"),
     ),
     moves=RESPONSE,
     signature="after each reversal force lags by a constant distance; small cycles never develop full friction",

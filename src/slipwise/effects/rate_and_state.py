@@ -4,7 +4,7 @@
 
 A jump of speed raises friction at once by a ln(V2/V1) (the direct effect); then, while the contacts of the old speed
 are replaced over the distance D_c, it falls by b ln(V2/V1). Steady sliding gives a straight line (a - b) ln(V/V_0).
-V_0 = 0.1 m/s is where the steady law changes nothing; below V_c = 0.1 mm/s the direct effect levels off.
+V_0 = 0.1 m/s is where the steady law changes nothing; below V_c the direct effect levels off.
 
 Valid: a, b up to 0.02 for polymers; D_c 1 to 100 um. Logarithms hold over decades, not at zero speed.
 Source: Dieterich (1979), Ruina (1983), ageing law; Tapia et al. (2024) fit 11 polymers on steel in log V from 1 to
@@ -19,12 +19,13 @@ from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
 
 REFERENCE = 0.1
-CUTOFF = 1e-4
 
 
-def shear(shear: float, true_pressure: float, speed: float, memory: np.ndarray, direct: float, state: float) -> float:
+def shear(
+    shear: float, true_pressure: float, speed: float, memory: np.ndarray, direct: float, state: float, cutoff: float
+) -> float:
     """Add the two logarithms' share of the real pressure to the shear strength [Pa]."""
-    return shear + (direct * log((speed + CUTOFF) / REFERENCE) + state * memory[0]) * true_pressure
+    return shear + (direct * log((speed + cutoff) / REFERENCE) + state * memory[0]) * true_pressure
 
 
 def advance(speed: float, dt: float, memory: np.ndarray, length: float) -> None:
@@ -51,6 +52,7 @@ EFFECT = Effect(
         Parameter("direct", "1", 0.01, -0.03, 0.03, 0.0, "0.005 to 0.02, assumed for PTFE", "a: direct effect"),
         Parameter("state", "1", 0.005, -0.03, 0.03, 0.0, "0.005 to 0.02, assumed for PTFE", "b: of the age"),
         Parameter("length", "m", 20e-6, 1e-6, 1e-3, None, "1 to 100 um, assumed", "D_c: of renewal", "um"),
+        Parameter("cutoff", "m/s", 1e-4, 1e-6, 1e-2, None, "assumed", "V_c: end of the direct effect", "mm/s"),
     ),
     moves=RESPONSE,
     signature="odd; F/N is a straight line over log V; an overshoot at each jump of speed",
