@@ -9,8 +9,8 @@ The exponent i is the contact's character: 1 is Dahl's law (approach without end
 and then slips (elastic-plastic). Motion across relaxes the bristle by exp(-i s/u), and what exceeds u is taken back
 towards the middle: the bound is a circle. The update is exact over any step: w = 1 - z/u, w^(1-i) falls by (1-i) s/u.
 
-A length of its own (q = 0) belongs to the surface; a spring of its own, F_0 / u_0 (q = 1), to what is in series with it,
-a rubber layer or the cell; a round contact that slips from its rim inwards is between them (q = 2/3). F_0 = 2.77 kN.
+A length of its own (q = 0) belongs to the surface; a spring of its own, F_0 / u_0 (q = 1), to what is in series with
+it, a rubber layer or the cell; a round contact that slips from its rim inwards is between (q = 2/3). F_0 = 2.77 kN.
 
 Valid: u 0.02 to 0.5 mm for bare sheet, 1 to 5 mm with a rubber layer in series.
 Source: Dahl (1968), with his exponent; Mindlin (1949) for q = 2/3; Canudas de Wit et al. (1995), LuGre, for a bristle
