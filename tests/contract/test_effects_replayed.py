@@ -8,7 +8,7 @@ import pytest
 from driven import with_effect
 from shaking import shaken
 from slipwise.effects import Effect, catalogue, moved_channels
-from slipwise.model import base_model
+from slipwise.model import base_model, use
 from slipwise.record import Record
 from slipwise.replay import Replay
 
@@ -86,7 +86,7 @@ def test_presliding_becomes_the_rigid_stick_as_its_length_vanishes() -> None:
     rigid = base()["slip_x"]
     for length, error in ((1e-4, 0.05), (1e-5, 0.005), (1e-6, 1e-3)):
         for exponent in (0.0, 1.0):
-            model = with_effect(catalogue()["presliding"], {"length": length, "exponent": exponent})
+            model = base_model("bridge1").adding(use("presliding", length=length, exponent=exponent))
             slip = shaken(model, shaking()).record["slip_x"]
             assert np.abs(slip - rigid).max() < error * np.ptp(rigid)
 
