@@ -18,23 +18,32 @@ from slipwise.rig import Specimen
 Array = NDArray[np.float64]
 #: Below this speed friction holds the girder from turning as well [m/s].
 _SLOW = 2e-3
+#: Steps per sample: at a reversal friction lets the girder turn for some milliseconds only.
+_STEPS = 4
 
 
 @njit(cache=True)
 def _turned(torque, force, velocity, places, slow, stiffness, inertia, held, dt, angle, rate):  # pragma: no cover
-    """Step the yaw by the implicit rule, which no damping can upset."""
+    """Step the yaw by the implicit rule, which no damping can upset, between samples along straight lines."""
     psi = 0.0
     w = 0.0
+    step = dt / _STEPS
     for i in range(len(torque)):
+        before = max(i - 1, 0)
         if held[i]:
             w = 0.0
         else:
-            damping = 0.0
-            for p in range(force.shape[1]):
-                speed = max(abs(velocity[i] - places[p, 1] * w), slow)
-                damping += abs(force[i, p]) * places[p, 0] ** 2 / speed
-            w = (w + dt * (torque[i] - stiffness * psi) / inertia) / (1.0 + dt * damping / inertia)
-        psi += dt * w
+            for part in range(1, _STEPS + 1):
+                now = part / _STEPS
+                then = 1.0 - now
+                along = now * velocity[i] + then * velocity[before]
+                turning = now * torque[i] + then * torque[before] - stiffness * psi
+                damping = 0.0
+                for p in range(force.shape[1]):
+                    friction = abs(now * force[i, p] + then * force[before, p])
+                    damping += friction * places[p, 0] ** 2 / max(abs(along - places[p, 1] * w), slow)
+                w = (w + step * turning / inertia) / (1.0 + step * damping / inertia)
+                psi += step * w
         angle[i] = psi
         rate[i] = w
 

@@ -109,6 +109,16 @@ def test_the_blow_of_a_key_never_pulls() -> None:
     assert area(x, found) > 0.0
 
 
+def test_a_key_that_springs_back_freely_is_damped_on_its_way_in_only() -> None:
+    time, x, v = sine(2.0)
+    elastic = force(bridge("key_clearance", clearance=2e-3), time, x, v)[:, 0]
+    found = force(bridge("key_clearance", clearance=2e-3, impact=5e5, release=0.0), time, x, v)[:, 0]
+    out, closed = x * v < 0.0, np.abs(x) > 2e-3
+    np.testing.assert_allclose(found[out], elastic[out], rtol=1e-12, atol=1e-9)
+    blow = 5e5 * np.sqrt(np.abs(x) - 2e-3, where=closed, out=np.zeros_like(x)) * v
+    np.testing.assert_allclose((found - elastic)[closed & ~out], blow[closed & ~out], rtol=1e-9, atol=1e-6)
+
+
 def test_a_girder_behind_a_gap_moves_as_the_piecewise_linear_equation_says() -> None:
     """m x'' = -m a - k dz(x, c), without friction: an integrator that stops at every edge of the gap."""
     clearance, dt = 2e-3, 2.5e-4

@@ -97,3 +97,26 @@ def test_a_gauge_that_does_not_start_at_zero_bends_no_bristle() -> None:
     assert np.all(_share(np.full(5, 0.01)) == 0.0)
     shifted = _share(0.01 + np.linspace(0.0, U, 20))
     np.testing.assert_allclose(shifted, _share(np.linspace(0.0, U, 20)), atol=1e-12)
+
+
+@pytest.mark.parametrize("load", [6e3, 24.5e3])
+def test_a_spring_in_series_is_as_stiff_under_any_load(load: float) -> None:
+    """q = 1: dF/dx = F_0 / u_0 from the first step on, however much friction there is."""
+    model = base_model("bridge1", [use("presliding", length=U, exponent=0.0, growth=1.0)])
+    slip = np.zeros((20, 4, 2))
+    slip[:, :, 0] = np.linspace(0.0, 0.1 * U, 20)[:, None]
+    found = predictor(model).pads(0.002 * np.arange(20), np.full((20, 4), load), np.gradient(slip, 0.002, axis=0), slip)
+    np.testing.assert_allclose(found.force[:, 0, 0], 2770.0 * slip[:, 0, 0] / U, rtol=1e-9)
+
+
+def test_a_damped_bristle_pushes_back_while_it_bends_and_no_longer() -> None:
+    """F/F_b = (z + t_d dz/dt)/u, never more than one."""
+    model = base_model("bridge1", [use("presliding", length=U, exponent=0.0, damping=4e-3)])
+    time = 0.002 * np.arange(60)
+    slip = np.zeros((60, 4, 2))
+    slip[:, :, 0] = (0.05 * U * np.arange(60))[:, None]
+    found = predictor(model).pads(time, np.full((60, 4), LOAD), np.gradient(slip, time, axis=0), slip)
+    share = (found.force[:, 0] / found.bound[:, :1])[:, 0]
+    bending = slip[1:, 0, 0] < 0.85 * U
+    np.testing.assert_allclose(share[1:][bending], slip[1:, 0, 0][bending] / U + 4e-3 * 0.05 / 0.002, rtol=1e-9)
+    assert share[-1] == pytest.approx(1.0, abs=1e-12) and share.max() <= 1.0 + 1e-12

@@ -57,6 +57,16 @@ def test_most_of_a_kink_that_the_filter_took_from_the_velocity_is_given_back() -
     assert np.abs(given_back - sharp)[near].max() < np.abs(seen - sharp)[near].max() / 3.0
 
 
+def test_a_force_on_one_side_kicks_the_other_by_what_the_girder_turns() -> None:
+    run = _run(LowPass(80.0))
+    fine = np.linspace(run.time[0], run.time[-1], FINE * (len(run.time) - 1) + 1)
+    force = np.stack([5e3 * np.sign(fine - 2.0), np.zeros_like(fine)], axis=1)
+    compliance = 1e-4 + 2.5**2 / 3e4 * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    lost = lost_velocity(force, run, compliance, None)  # type: ignore[arg-type]
+    np.testing.assert_allclose(lost[:, 1], lost[:, 0] * compliance[1, 0] / compliance[0, 0], atol=1e-12)
+    assert np.abs(lost[:, 0]).max() > 1e-3, "it must be seen at all"
+
+
 def test_instants_pass_through_the_samples_and_reproduce_a_cubic() -> None:
     place = np.arange(50.0)
     values = 0.01 * place**3 - place
