@@ -5,7 +5,8 @@
 Filled rubber rubs inside: chains slide past carbon black. The loop is equally wide at any frequency. H is its half
 height, u the deflection in which it turns round after a reversal; the first slope H/u adds to the spring's. The form is
 Dahl's, the Bouc-Wen model with gamma = 0 and n = 1, and is updated exactly (see `presliding`); i = 0 is
-elastic-plastic.
+elastic-plastic. In a pause the chains creep back within a minute or so, and the loop's force with them; the girder may
+be set anew, so that the next run begins without any way behind it.
 
 Valid: strains for which the backbone is still a straight line; u 1 to 5 mm.
 Source: Bouc (1967), Wen (1976), Dahl (1968); sizes assumed.
@@ -18,12 +19,15 @@ import numpy as np
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
 
+CREEP = 60.0
+ANYWHERE = 1e9
+
 
 def spring(
     force: float, deflection: float, memory: np.ndarray, strength: float, length: float, exponent: float
 ) -> float:
     """Add the loop's force [N]; its memory follows the deflection."""
-    way = deflection - memory[1]
+    way = deflection - memory[1] if memory[1] < ANYWHERE else 0.0
     sign = 1.0 if way > 0.0 else -1.0
     left, moved = max(1.0 - sign * memory[0], 0.0), abs(way) / length
     if exponent > 0.999:
@@ -32,6 +36,12 @@ def spring(
         left = max(left ** (1.0 - exponent) - (1.0 - exponent) * moved, 0.0) ** (1.0 / (1.0 - exponent))
     memory[0], memory[1] = sign * (1.0 - left), deflection
     return force + strength * memory[0]
+
+
+def rest(memory: np.ndarray, seconds: float) -> None:
+    """Let the chains creep back through a pause, after which the girder may stand anywhere."""
+    memory[0] *= exp(-seconds / CREEP)
+    memory[1] = ANYWHERE
 
 
 EFFECT = Effect(

@@ -82,6 +82,18 @@ def test_softening_is_spent_by_the_largest_stroke_so_far() -> None:
     np.testing.assert_allclose(found, STIFFNESS * x * (1.0 + 0.2 * np.exp(-largest / 0.015)), rtol=1e-12)
 
 
+def test_a_loop_is_forgotten_in_a_long_pause_wherever_the_girder_is_set_then() -> None:
+    time, x, v = sine()
+    law = predictor(bridge("buffer_hysteresis", strength=2e3, length=2e-3))
+    states = [np.repeat(np.stack([a, 0.0 * a], axis=1)[:, None], 2, axis=1) for a in (x, v)]
+    first = law.buffers(time, *states)
+    law.rest(1800.0)
+    np.testing.assert_allclose(law.buffers(time, *states), first, rtol=1e-9, atol=1e-6)
+    law.rest(1800.0)
+    moved = law.buffers(time, states[0] + 5e-3, states[1]) - first
+    np.testing.assert_allclose(moved[:, :, 0], STIFFNESS * 5e-3, rtol=1e-9)
+
+
 def test_a_mismatch_moves_force_from_one_buffer_to_the_other() -> None:
     time, x, v = sine()
     found, plain = (
