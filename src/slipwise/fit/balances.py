@@ -12,7 +12,7 @@ leaves 2.5 times the noise. Effects add to each by their `balance`, `spring`, `d
 Source: physics.md 1.2, 1.7; Harris' Shock and Vibration Handbook, base-excited oscillator.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -133,25 +133,40 @@ def predicted(
     return said, seen
 
 
-def pitch_noise(model: Model, run: FitRun, values: Mapping[str, float]) -> tuple[Array, Array]:
+def force_noise_in_pitch(run: FitRun, specimen: Specimen, values: Mapping[str, float]) -> Array:
+    """Give what the friction gauges' noise adds to the predicted pitch load: the girder's pitch rings with it.
+
+    Returns:
+        spectrum (m,) at the frequencies of a real transform, as the variance of white noise of that height [N^2].
+    """
+    struck = np.zeros(len(run.time))
+    struck[len(struck) // 2] = specimen.centre_height / specimen.half_spacing[0]
+    heard = through_pitch(struck, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
+    return sum(run.noise[f"pad_{p}_Fx"] ** 2 for p in run.pads) * np.abs(np.fft.rfft(heard)) ** 2
+
+
+def driven_noise_in_pitch(model: Model, runs: Sequence[FitRun], values: Mapping[str, float]) -> list[Array]:
     """Give what accelerometers' noise adds to the predicted pitch load through effects that are driven by it.
 
     A table that rocks is told to by a measured acceleration, and turns the harder the higher the frequency: its noise
     may be several times that of the load cells.
 
     Returns:
-        frequencies (m,) [Hz] and the spectrum of the noise, as the variance of white noise of that height (m,) [N^2].
+        per run spectrum (m,) as `force_noise_in_pitch` gives it [N^2].
     """
-    nothing = np.zeros((len(run.time), 1))
-    power: Array = np.zeros(len(run.time) // 2 + 1)
+    run = min(runs, key=lambda r: len(r.time))
+    nothing, at = np.zeros((len(run.time), 1)), np.fft.rfftfreq(len(run.time), run.dt)
+    power = [np.zeros(len(r.time) // 2 + 1) for r in runs]
     for place, channel in enumerate(("girder_ax", "table_ax")):
         struck = np.zeros((2, len(run.time), 3))
         struck[place, len(run.time) // 2, 0] = 1.0
         answer = _hooks(model, run, model.built_specimen(), run.force, nothing, struck[0], struck[1]).get("pitch")
-        if answer is not None:
+        if answer is not None and answer.any():
             heard = through_pitch(answer, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
-            power = power + (run.noise.get(channel, 0.0) * np.abs(np.fft.rfft(heard))) ** 2
-    return np.asarray(np.fft.rfftfreq(len(run.time), run.dt), dtype=np.float64), power
+            size = np.abs(np.fft.rfft(heard)) ** 2
+            for of, r in zip(power, runs, strict=True):
+                of += r.noise.get(channel, 0.0) ** 2 * np.interp(np.fft.rfftfreq(len(r.time), r.dt), at, size)
+    return power
 
 
 def heave_noise(model: Model, run: FitRun) -> float:

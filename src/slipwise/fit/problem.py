@@ -12,7 +12,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.fit.across import logged_across
-from slipwise.fit.balances import BALANCES, available, buffers_along, motion_residual, predicted
+from slipwise.fit.balances import (
+    BALANCES,
+    available,
+    buffers_along,
+    driven_noise_in_pitch,
+    force_noise_in_pitch,
+    motion_residual,
+    predicted,
+)
 from slipwise.fit.data import FitRun
 from slipwise.fit.faults import acts_on_force, on_force
 from slipwise.fit.kinematics import Kinematics, values_of
@@ -62,6 +70,7 @@ class Problem:
         specimen: rated values.
         terms: effects of the base model, then those of the hypothesis.
         sigmas: relation -> per run noise, broadcastable to the residual; made by `weigh`.
+        heard: per run spectrum (m,) of the friction gauges' noise in the pitch balance [N^2]; made by `weigh`.
         kinematics: what moved, as the terms understand it.
     """
 
@@ -69,6 +78,7 @@ class Problem:
     specimen: Specimen
     terms: tuple[Term, ...]
     sigmas: dict[str, list[Array]] = field(default_factory=dict[str, list[Array]])
+    heard: list[Array] = field(default_factory=list[Array])
 
     def __post_init__(self) -> None:
         """Make ready what never changes."""
@@ -176,6 +186,9 @@ class Problem:
         law = predictor(model)
         parts: dict[str, list[Array]] = {r: [] for r in self.relations if r in BALANCES}
         hidden = max(0.0, 1.0 - heave_scale(model, runs[0]) ** 2) if "heave" in parts else 0.0
+        driven: list[Array | None] = [None] * len(runs)
+        if self.sigmas and PITCH_INERTIA in self.kinematics.inertias:
+            driven = [*driven_noise_in_pitch(model, runs, values)]
         for i, (run, force) in enumerate(zip(runs, forces, strict=False)):
             law.rest(run.rest_before)
             said, seen = predicted(model, run, force, buffers_along(law, run, *turning[i]), values)
@@ -184,8 +197,8 @@ class Problem:
                     left = self._motion(i, run, values)
                 else:
                     left = (seen[name] - said[name]) / scale.get(name, 1.0)
-                if name == "pitch" and self.sigmas and PITCH_INERTIA in self.kinematics.inertias:
-                    left = pitch_whitened(left, model, run, float(self.sigmas[name][i]), values)
+                if name == "pitch" and self.sigmas:
+                    left = pitch_whitened(left, run, float(self.sigmas[name][i]), self.heard[i], driven[i])
                 parts[name].append(self._over(name, i, left, run.judged[name]))
                 if name == "heave" and hidden > 0.0:
                     parts[name][-1] = with_hidden(parts[name][-1], hidden)
@@ -213,6 +226,8 @@ class Problem:
             for i, run in enumerate(runs):
                 forces[i] = forces[i] + on_force(self._on_force, values, run, forces[i])[1]
         self.sigmas = {r: [] for r in self.relations}
+        if "pitch" in self.relations:
+            self.heard = [force_noise_in_pitch(r, model.specimen, values) for r in runs]
         for i, run in enumerate(runs):
             self.sigmas["pads"].append(pad_noise(run, plain[i], shifted[i]))
             for name, level in balance_noise(model.specimen, run).items():

@@ -1,11 +1,9 @@
 """How far measured and predicted may differ by noise alone, relation by relation."""
 
-from collections.abc import Mapping
-
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.fit.balances import heave_noise, pitch_noise
+from slipwise.fit.balances import heave_noise
 from slipwise.fit.data import FAST, FINE, FitRun
 from slipwise.fit.pads import Instants
 from slipwise.model import Model
@@ -51,11 +49,10 @@ def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
     total, force = float(np.sqrt(np.sum(loads**2))), float(np.sqrt(np.sum(gauge**2)))
     stiffness = sum(specimen.buffer_stiffness)
     beside = np.hypot(force, stiffness * 0.1 * run.noise["slip_x"]) / specimen.mass
-    lever = specimen.centre_height / specimen.half_spacing[0] if len(specimen.pads) == 4 else 0.0
     levels = {
         "girder": np.hypot(run.noise.get("girder_ax", 0.0), beside),
         "heave": np.hypot(total, specimen.mass * run.noise.get("girder_az", 0.0)),
-        "pitch": np.hypot(total, lever * force),
+        "pitch": total,  # and what the friction gauges make of it, see `pitch_whitened`
         "roll": total,
         "warp": total,
         "motion": 1.0,
@@ -79,20 +76,21 @@ def heave_scale(model: Model, run: FitRun) -> float:
     return float(np.hypot(loads, factor * vertical) / np.hypot(loads, vertical))
 
 
-def pitch_whitened(left: Array, model: Model, run: FitRun, level: float, values: Mapping[str, float]) -> Array:
-    """Bring the pitch residual (n,) to the noise it was weighed with, at every frequency.
+def pitch_whitened(left: Array, run: FitRun, level: float, heard: Array, driven: Array | None) -> Array:
+    """Bring the pitch residual (n,) to white noise of the load cells' level, at every frequency.
 
     Args:
         left: measured less predicted [N].
-        model: whose effects may add noise of accelerometers.
-        run: its gauges.
-        level: noise of the balance by its load cells [N].
-        values: of the fit.
+        run: its times.
+        level: noise of the load cells together [N].
+        heard: (m,) spectrum of the friction gauges' noise in it, fixed when the fit was weighed [N^2].
+        driven: (m,) spectrum of noise that a hypothesis adds, which hides what was there before [N^2].
     """
-    frequency, power = pitch_noise(model, run, values)
-    gain = 1.0 / np.sqrt(1.0 + power / level**2)
-    white = in_frequency(left, run.dt, lambda f: np.interp(f, frequency, gain), 256)
-    return with_hidden(white, float(1.0 - np.mean(gain**2)))
+    before = 1.0 / (1.0 + heard / level**2)
+    now = before if driven is None else 1.0 / (1.0 + (heard + driven) / level**2)
+    frequency = np.fft.rfftfreq(len(left), run.dt)
+    white = in_frequency(left, run.dt, lambda f: np.sqrt(np.interp(f, frequency, now)), 256)
+    return white if driven is None else with_hidden(white, float(1.0 - np.mean(now / before)))
 
 
 def with_hidden(part: Array, hidden: float) -> Array:

@@ -11,7 +11,7 @@ from slipwise.campaign import Logger
 from slipwise.diagnose.refit import polished, refit, settled
 from slipwise.effects import catalogue
 from slipwise.effects._oscillator import oscillator
-from slipwise.fit.balances import pitch_noise, through_pitch
+from slipwise.fit.balances import driven_noise_in_pitch, through_pitch
 from slipwise.fit.base import fit_base
 from slipwise.fit.data import fit_runs
 from slipwise.fit.terms import PITCH_INERTIA, YAW_INERTIA, Term
@@ -48,7 +48,7 @@ def test_the_noise_that_drives_a_rocking_table_is_counted() -> None:
     rocking = use("table_pitch", compliance=3e-4, frequency=13.0, damping=0.35, gravity=0.0)
     model = base_model("bridge1").adding(rocking)
     values = {"rig.pitch_frequency": 70.0, "rig.pitch_damping": 0.1}
-    _, power = pitch_noise(model, run, values)
+    power = driven_noise_in_pitch(model, [run], values)[0]
     heard = np.random.default_rng(3).normal(0.0, run.noise["table_ax"], len(run.time))
     turning = oscillator((2.0 * np.pi * 13.0) ** 2 * 3e-4 * heard, run.dt, 13.0, 0.35, 2)
     load = through_pitch(-model.specimen.inertia[1] * turning / model.specimen.half_spacing[0], run.dt, 70.0, 0.1)
