@@ -28,6 +28,8 @@ _SMALL = 0.3
 _FAR_BEYOND, _ROUNDS, _WORTH_A_LOOK = 2.5, 2, 0.02
 #: Mean squared residual above which lags are tried at these multiples of their typical size too [1].
 _MUCH_AMISS, _LAGS = 30.0, (-4.0, -1.0, 1.0, 4.0)
+#: Ports of effects that move measured noise about.
+_MOVES_NOISE = ("gauge", "table")
 #: Step of a slope, as a share of the value.
 _NEAR = 0.01
 
@@ -233,15 +235,16 @@ def _like_others(effect: Effect, moved: Parameter) -> float:
 def _column(base: BaseFit, term: Term, moved: Parameter, values: dict[str, float], left: Array) -> Array | None:
     """Give the change of the residual.
 
-    Undoing a fault moves noise about, and half way between moved and unmoved noise there is less of it: a column that
-    looked one way only would find a false gain. Both ways together do not.
+    Undoing a fault moves noise about, and half way between moved and unmoved noise there is less of it, as there is of
+    noise that drives a table and is whitened: a column that looked one way only would find a false gain. Both ways
+    together do not.
     """
     there = _residual(base, term, values)
     if there is None:
         return None
     off = float(moved.neutral or 0.0)
     back = 2.0 * off - values[moved.name]
-    if term.effect.port == "gauge" and moved.low <= back <= moved.high:
+    if term.effect.port in _MOVES_NOISE and moved.low <= back <= moved.high:
         other = _residual(base, term, {**values, moved.name: back})
         return None if other is None else 0.5 * (there - other)
     return there - left
