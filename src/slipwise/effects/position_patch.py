@@ -1,12 +1,12 @@
 """A patch on the plate: friction differs at one place.
 
-    mu *= 1 + c exp(-[(x - x_p) / l]^2),        c of each pad
+    mu *= 1 + c exp(-|(x - x_p) / l|^q),        c of each pad
 
 A scratch, a spot of grease, a stain of glue: the residual locks to the slip x at which the pad meets it, whichever way
-and however fast the pad comes. Mostly one pad has it.
+and however fast the pad comes. Mostly one pad has it. q is the patch's edge: 2 a stain that fades, 8 a plate let in.
 
 Valid: patches wider than a few mm; a patch narrower than the pad acts through the share of the pad that it covers.
-Source: lubricated pads 0.1 to 0.4 of the friction, dirty ones 1.1 to 1.5; Gaussian shape assumed.
+Source: lubricated pads 0.1 to 0.4 of the friction, dirty ones 1.1 to 1.5; shape assumed.
 """
 
 from math import exp
@@ -17,12 +17,12 @@ from slipwise.params import Parameter
 
 def shear(
     shear: float, slip_x: float, side_x: float, side_y: float,
-    pad_a: float, pad_b: float, pad_c: float, pad_d: float, place: float, width: float,
+    pad_a: float, pad_b: float, pad_c: float, pad_d: float, place: float, width: float, edge: float,
 ) -> float:  # fmt: skip
     """Scale the shear strength [Pa] where this pad stands on its patch."""
     ahead, behind = (pad_a, pad_b) if side_y > 0.0 else (pad_c, pad_d)
-    off = (slip_x - place) / width
-    return shear * (1.0 + (ahead if side_x > 0.0 else behind) * exp(-off * off))
+    off = abs(slip_x - place) / width
+    return shear * (1.0 + (ahead if side_x > 0.0 else behind) * exp(-(off**edge)))
 
 
 def _height(pad: str, typical: float) -> Parameter:
@@ -32,7 +32,7 @@ def _height(pad: str, typical: float) -> Parameter:
 EFFECT = Effect(
     port="shear",
     component="pad friction",
-    equation="mu *= 1 + c exp(-[(x - x_p)/l]^2)",
+    equation="mu *= 1 + c exp(-|(x - x_p)/l|^q)",
     parameters=(
         _height("a", 0.2),
         _height("b", 0.0),
@@ -40,6 +40,7 @@ EFFECT = Effect(
         _height("d", 0.0),
         Parameter("place", "m", 0.01, -0.1, 0.1, None, "assumed", "x_p: slip at which the pad meets it", "mm"),
         Parameter("width", "m", 5e-3, 1e-3, 0.05, None, "assumed", "l: half width of the patch", "mm"),
+        Parameter("edge", "1", 2.0, 1.0, 12.0, None, "assumed: 2 is Gaussian", "q: sharpness of its edge"),
     ),
     moves=RESPONSE,
     signature="odd, at one place of the stroke, mostly in one pad",
