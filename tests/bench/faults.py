@@ -94,7 +94,10 @@ def _inertia(fault: Fault, channels: dict[str, Array], true: dict[str, Array]) -
         if name.endswith("_N"):
             channels[name] = channels[name] + fault.size * true["table_az"]
         else:
-            channels[name] = channels[name] + sign * fault.size * true["table_a" + name[-1]]
+            for axis in "xy":  # gauges along y are recorded by some campaigns only
+                gauge = name[:-1] + axis
+                if gauge in channels:
+                    channels[gauge] = channels[gauge] + sign * fault.size * true["table_a" + axis]
 
 
 def late_by(faults: list[Fault], name: str, time: Array) -> Array | float:

@@ -93,6 +93,7 @@ def pad_forces(p, g, w, a, time, step, mem, heat_rates, heat_weights, row, total
             for j in range(heat_rates.size):
                 m[8 + j] += step * (work / p.pad_area - m[8 + j] * heat_rates[j])
         fx += load * (p.tilt + p.curvature * place)
+        fy += load * p.curvature * (g[1] + p.height * g[3] + rx * g[5])
         at = MIDDLE + PER_PAD * i
         row[at] = load
         row[at + 1] = fx

@@ -57,16 +57,20 @@ def diagnose(
     whole, spoiled = mended(found, faults) if faults else (found, {})
     base = fit_base(whole, model, spoiled)
     part = 0.7 if system else 1.0
-    state = search(base, lambda words, share: tell(words, part * share))
+
+    def searched(start: BaseFit) -> Search:
+        return search(start, lambda words, share: tell(words, part * share))
+
+    state = searched(base)
     # what an effect seems to explain may be a valley that the base fit has missed
     better = restarted(base, state.best.solution.values) if state.best.terms else None
     if better is not None:
         base = better
-        state = search(base, lambda words, share: tell(words, part * share))
+        state = searched(base)
     heard = _heard_anew(whole, base, state)
     if heard is not None:
         base = fit_base(heard, model, spoiled)
-        state = search(base, lambda words, share: tell(words, part * share))
+        state = searched(base)
     verdict = with_faults(judge(state), faults)
     final = as_fit(base, state.final)
     cannot = [f"{name}: {reason}" for name, reason in state.cannot.items()]

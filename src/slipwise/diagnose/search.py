@@ -33,6 +33,8 @@ _REFITTED_PAIRS = 2
 _POLISHED = 2
 #: The best physics is refitted even where faults of gauges screen better, and far from its best shape.
 _REFITTED_PHYSICS = 2
+#: Relations whose noise hangs on the law: it is weighed again by what was found.
+_WEIGHED = ("pads", "heave")
 #: Most effects that are added.
 MOST_EFFECTS = 3
 
@@ -47,8 +49,8 @@ class Search:
         cannot: effects that the campaign cannot test, with the reason.
         path: base first, then the best hypothesis with one, two ... effects.
         tried: every hypothesis that was refitted.
-        settled: the one at which the search ended, weighed by its own law where the pads are above their noise; None
-            for the base.
+        settled: the one at which the search ended, weighed by its own law where what hangs on that is above its noise;
+            None for the base.
     """
 
     base: BaseFit
@@ -134,7 +136,11 @@ def search(base: BaseFit, progress: Callable[[str, float], None] | None = None) 
         if not _further(state):
             break
     _prune(state)
-    if state.best.terms and state.best.account.level("pads", held_out=False) > 1.0 + MATERIAL:
+    if state.best.terms and any(
+        state.best.account.level(r, held_out=False) > 1.0 + MATERIAL
+        for r in _WEIGHED
+        if r in state.best.account.fitted
+    ):
         tell("settling", 0.95)
         state.settled = settled(state.best)
     tell("done", 1.0)
@@ -229,10 +235,15 @@ def _try_all(
     origin = state.path[0].account
     found = [refit(state.base, terms, starts, before) for terms, starts in asked]
     found.sort(key=lambda h: -score(origin, h.account))
-    best = list({h.names: i for i, h in reversed(list(enumerate(found)))}.values())
-    found = [polished(h) if i in sorted(best)[:_POLISHED] else h for i, h in enumerate(found)]
-    state.tried += found
-    return found
+    done: list[Hypothesis] = []
+    ended: set[tuple[str, ...]] = set()
+    for h in found:
+        if h.names not in ended and len(ended) < _POLISHED:
+            ended.add(h.names)
+            h = polished(h)
+        done.append(h)
+    state.tried += done
+    return done
 
 
 def _various(found: list[Screened], count: int) -> list[Screened]:

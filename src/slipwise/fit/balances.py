@@ -57,6 +57,10 @@ def through_pitch(values: Array, dt: float, frequency: float, damping: float) ->
     return in_frequency(values, dt, gain, int(3.0 / (dt * frequency * max(damping, 0.01))) + 8)
 
 
+def _pitched(load: Array, run: FitRun, values: Mapping[str, float]) -> Array:
+    return through_pitch(load, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
+
+
 def buffers_along(law: Predictor, run: FitRun, yaw: Array, yaw_rate: Array) -> Array:
     """Give the force of the girder on each buffer along x, (n, n_buffers) [N]; yaw moves the buffers apart.
 
@@ -112,7 +116,7 @@ def predicted(
     turning = height * total + (height - specimen.buffer_height) * fb
     heave = run.load.sum(axis=1)
     swing = run.slip * heave if specimen.pads_on == "table" else 0.0
-    pitch = through_pitch((turning + swing) / half, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
+    pitch = _pitched((turning + swing) / half, run, values)
     modes = load_modes(run.load)
     mass, gravity = specimen.mass, specimen.gravity
     said = {
@@ -128,7 +132,7 @@ def predicted(
         if name == "motion":
             continue  # taken out of the states already
         if name == "pitch":
-            more = through_pitch(more, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
+            more = _pitched(more, run, values)
         said[name] = said[name] + (-more / mass if name == "girder" else more)
     return said, seen
 
@@ -141,7 +145,7 @@ def force_noise_in_pitch(run: FitRun, specimen: Specimen, values: Mapping[str, f
     """
     struck = np.zeros(len(run.time))
     struck[len(struck) // 2] = specimen.centre_height / specimen.half_spacing[0]
-    heard = through_pitch(struck, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
+    heard = _pitched(struck, run, values)
     return sum(run.noise[f"pad_{p}_Fx"] ** 2 for p in run.pads) * np.abs(np.fft.rfft(heard)) ** 2
 
 
@@ -162,11 +166,29 @@ def driven_noise_in_pitch(model: Model, runs: Sequence[FitRun], values: Mapping[
         struck[place, len(run.time) // 2, 0] = 1.0
         answer = _hooks(model, run, model.built_specimen(), run.force, nothing, struck[0], struck[1]).get("pitch")
         if answer is not None and answer.any():
-            heard = through_pitch(answer, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
-            size = np.abs(np.fft.rfft(heard)) ** 2
+            size = np.abs(np.fft.rfft(_pitched(answer, run, values))) ** 2
             for of, r in zip(power, runs, strict=True):
                 of += r.noise.get(channel, 0.0) ** 2 * np.interp(np.fft.rfftfreq(len(r.time), r.dt), at, size)
     return power
+
+
+def bent_noise_in_heave(model: Model, run: FitRun) -> Array:
+    """Give what the accelerometer's noise adds to the predicted load where effects ring with it.
+
+    A girder that bends multiplies the noise at its own frequency by up to 1/(2 z).
+
+    Returns:
+        spectrum (m,) as `force_noise_in_pitch` gives it, nowhere below zero [N^2].
+    """
+    struck = np.zeros((2, len(run.time), 3))
+    struck[1, len(run.time) // 2, 2] = 1.0
+    nothing = np.zeros((len(run.time), 1))
+    quiet, loud = (_hooks(model, run, model.built_specimen(), run.force, nothing, a).get("heave") for a in struck)
+    if quiet is None or loud is None:
+        return np.zeros(len(run.time) // 2 + 1)
+    mass = model.specimen.mass
+    passed = np.abs(np.fft.rfft(mass * struck[1, :, 2] + loud - quiet)) ** 2
+    return run.noise.get("girder_az", 0.0) ** 2 * np.maximum(passed - mass**2, 0.0)
 
 
 def heave_noise(model: Model, run: FitRun) -> float:

@@ -44,8 +44,9 @@ def estimated_logger(campaign: Campaign, model: Model, first: Solution, terms: S
     start = {k: v for k, v in first.values.items() if k != "rig.logger"}
     start |= {"rig.stick_length": 1e-6, "rig.late_force": 0.0}
     own = [f for f in base_free(model, balances=True) if not f.key.startswith("rig.") or f.key in _OF_REVERSALS]
-    added = tuple(f"{t.label}." for t in terms)
-    own += [f for f in first.free if f.key.startswith(added) or f.key == YAW_INERTIA] if terms else []
+    if terms:
+        beside = tuple(f"{t.label}." for t in terms)
+        own += [f for f in first.free if f.key.startswith(beside) or f.key == YAW_INERTIA]
     tried: dict[LowPass, float] = {}
 
     def error(kind: LowPass) -> float:

@@ -15,6 +15,7 @@ from slipwise.fit.across import logged_across
 from slipwise.fit.balances import (
     BALANCES,
     available,
+    bent_noise_in_heave,
     buffers_along,
     driven_noise_in_pitch,
     force_noise_in_pitch,
@@ -27,7 +28,7 @@ from slipwise.fit.kinematics import Kinematics, values_of
 from slipwise.fit.pads import Instants, PadLaw, as_logged, force_along, lost_velocity, stick_share
 from slipwise.fit.recent import Key, Recent
 from slipwise.fit.terms import PITCH_INERTIA, Term, fitted_model
-from slipwise.fit.weights import balance_noise, heave_scale, noise_across, pad_noise, pitch_whitened, with_hidden
+from slipwise.fit.weights import balance_noise, heave_scale, noise_across, pad_noise, whitened, with_hidden
 from slipwise.model import Model
 from slipwise.predict import PadForces, predictor
 from slipwise.rig import Specimen
@@ -70,7 +71,7 @@ class Problem:
         specimen: rated values.
         terms: effects of the base model, then those of the hypothesis.
         sigmas: relation -> per run noise, broadcastable to the residual; made by `weigh`.
-        heard: per run spectrum (m,) of the friction gauges' noise in the pitch balance [N^2]; made by `weigh`.
+        heard: relation -> per run spectrum (m,) of gauges' noise that rings in it [N^2]; made by `weigh`.
         kinematics: what moved, as the terms understand it.
     """
 
@@ -78,7 +79,7 @@ class Problem:
     specimen: Specimen
     terms: tuple[Term, ...]
     sigmas: dict[str, list[Array]] = field(default_factory=dict[str, list[Array]])
-    heard: list[Array] = field(default_factory=list[Array])
+    heard: dict[str, list[Array]] = field(default_factory=dict[str, list[Array]])
 
     def __post_init__(self) -> None:
         """Make ready what never changes."""
@@ -197,8 +198,9 @@ class Problem:
                     left = self._motion(i, run, values)
                 else:
                     left = (seen[name] - said[name]) / scale.get(name, 1.0)
-                if name == "pitch" and self.sigmas:
-                    left = pitch_whitened(left, run, float(self.sigmas[name][i]), self.heard[i], driven[i])
+                if name in self.heard:
+                    more = driven[i] if name == "pitch" else None
+                    left = whitened(left, run, float(self.sigmas[name][i]), self.heard[name][i], more)
                 parts[name].append(self._over(name, i, left, run.judged[name]))
                 if name == "heave" and hidden > 0.0:
                     parts[name][-1] = with_hidden(parts[name][-1], hidden)
@@ -226,8 +228,11 @@ class Problem:
             for i, run in enumerate(runs):
                 forces[i] = forces[i] + on_force(self._on_force, values, run, forces[i])[1]
         self.sigmas = {r: [] for r in self.relations}
+        self.heard = {}
         if "pitch" in self.relations:
-            self.heard = [force_noise_in_pitch(r, model.specimen, values) for r in runs]
+            self.heard["pitch"] = [force_noise_in_pitch(r, model.specimen, values) for r in runs]
+        if "heave" in self.relations and model.with_hook("balance"):
+            self.heard["heave"] = [bent_noise_in_heave(model, r) for r in runs]
         for i, run in enumerate(runs):
             self.sigmas["pads"].append(pad_noise(run, plain[i], shifted[i]))
             for name, level in balance_noise(model.specimen, run).items():

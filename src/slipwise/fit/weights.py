@@ -52,7 +52,7 @@ def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
     levels = {
         "girder": np.hypot(run.noise.get("girder_ax", 0.0), beside),
         "heave": np.hypot(total, specimen.mass * run.noise.get("girder_az", 0.0)),
-        "pitch": total,  # and what the friction gauges make of it, see `pitch_whitened`
+        "pitch": total,  # and what the friction gauges make of it, see `whitened`
         "roll": total,
         "warp": total,
         "motion": 1.0,
@@ -76,14 +76,14 @@ def heave_scale(model: Model, run: FitRun) -> float:
     return float(np.hypot(loads, factor * vertical) / np.hypot(loads, vertical))
 
 
-def pitch_whitened(left: Array, run: FitRun, level: float, heard: Array, driven: Array | None) -> Array:
-    """Bring the pitch residual (n,) to white noise of the load cells' level, at every frequency.
+def whitened(left: Array, run: FitRun, level: float, heard: Array, driven: Array | None = None) -> Array:
+    """Bring the residual (n,) of a balance to white noise of its gauges' own level, at every frequency.
 
     Args:
         left: measured less predicted [N].
         run: its times.
-        level: noise of the load cells together [N].
-        heard: (m,) spectrum of the friction gauges' noise in it, fixed when the fit was weighed [N^2].
+        level: noise of the gauges themselves [N].
+        heard: (m,) spectrum of what rings with gauges' noise in it, fixed when the fit was weighed [N^2].
         driven: (m,) spectrum of noise that a hypothesis adds, which hides what was there before [N^2].
     """
     before = 1.0 / (1.0 + heard / level**2)

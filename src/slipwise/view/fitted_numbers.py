@@ -14,6 +14,8 @@ _CALLED: dict[str, tuple[str, str]] = {
     "rig.buffer_stiffness": ("buffer stiffness, together", "kN/mm"),
     "rig.pitch_frequency": ("pitch of the girder on its pads", "Hz"),
     "rig.pitch_damping": ("its damping", "1"),
+    "rig.yaw_inertia": ("inertia of the girder about the vertical", "t*m^2"),
+    "rig.pitch_inertia": ("inertia of the girder in pitch", "t*m^2"),
     "rig.pitch_slip": ("slip at the gauge for pitch load", "mm/kN"),
     "rig.stick_length": ("slip over which stick turns round", "um"),
     "rig.shear_strength": ("shear strength s", "MPa"),
