@@ -137,9 +137,7 @@ def search(base: BaseFit, progress: Callable[[str, float], None] | None = None) 
             break
     _prune(state)
     if state.best.terms and any(
-        state.best.account.level(r, held_out=False) > 1.0 + MATERIAL
-        for r in _WEIGHED
-        if r in state.best.account.fitted
+        state.best.account.level(r, held_out=False) > 1.0 + MATERIAL for r in _WEIGHED if r in state.best.account.fitted
     ):
         tell("settling", 0.95)
         state.settled = settled(state.best)
