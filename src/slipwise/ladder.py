@@ -15,7 +15,7 @@ from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, polish
 from slipwise.diagnose.run import as_fit
 from slipwise.diagnose.screen import Screened, screen
 from slipwise.diagnose.search import Search, search
-from slipwise.effects import find_effect
+from slipwise.effects import Effect, find_effect
 from slipwise.errors import InputError, SettingError
 from slipwise.fit.base import BaseFit, fit_base
 from slipwise.model import Model
@@ -98,7 +98,7 @@ def ladder(
 
     Args:
         campaign: or its folder.
-        add: names of effects to add in this order instead of searching.
+        add: effects to add in this order instead of searching: names, or paths of a user's files ("./mine.py").
         model: where the ladder stands; the paper's law on the campaign's rig when not given.
         system: replay every rung as well.
         progress: called with what is being done and the share done.
@@ -109,14 +109,13 @@ def ladder(
     """
     began = time.perf_counter()
     tell = progress or (lambda words, share: None)
-    for name in add:
-        find_effect(name)
+    asked = [find_effect(name) for name in add]
     found = campaign if isinstance(campaign, Campaign) else load_campaign(campaign)
     tell("fitting base parameters", 0.02)
     base = fit_base(found, model)
     part = 0.6 if system else 1.0
-    if add:
-        path, counts, stopped = _asked(base, add, lambda share: tell("refitting", part * share))
+    if asked:
+        path, counts, stopped = _asked(base, asked, lambda share: tell("refitting", part * share))
     else:
         state = search(base, lambda words, share: tell(words, part * share))
         path, counts, stopped = state.path, (len(state.screened), len(state.tried)), _why(state)
@@ -147,21 +146,21 @@ def ladder_of(search: Search, replayed: Mapping[str, float] | None = None) -> La
 
 
 def _asked(
-    base: BaseFit, add: Sequence[str], tell: Callable[[float], None]
+    base: BaseFit, add: Sequence[Effect], tell: Callable[[float], None]
 ) -> tuple[list[Hypothesis], tuple[int, int], str]:
     """Add effects in the order asked for; a gauge's fault goes to the channel where it explains most."""
-    terms, cannot = candidates(base)
+    terms, cannot = candidates(base, add)
     path = [base_hypothesis(base)]
     screened = 0
-    for i, name in enumerate(add):
-        own = [t for t in terms if t.effect.name == name]
+    for i, effect in enumerate(add):
+        own = [t for t in terms if t.effect.name == effect.name]
         if not own:
-            reason = cannot.get(name, "it is part of the model already")
-            raise SettingError(f"{name} cannot be added here: {reason}")
+            reason = cannot.get(effect.name, "it is part of the model already")
+            raise SettingError(f"{effect.name} cannot be added here: {reason}")
         found: list[Screened] = screen(base, own)
         screened += len(found)
         if not found:
-            raise SettingError(f"{name} changes nothing in this campaign, so it cannot be fitted")
+            raise SettingError(f"{effect.name} changes nothing in this campaign, so it cannot be fitted")
         best = found[0]
         before = path[-1]
         path.append(polished(refit(base, [*before.terms, best.term], {best.term.label: best.values}, before)))

@@ -59,6 +59,11 @@ class EffectUse:
 def use(effect: Effect | str, target: str = "", **values: float) -> EffectUse:
     """Make an effect ready for a model; parameters that are not given take their typical values.
 
+    Args:
+        effect: itself, its name, or the path of a user's file ("./mine.py").
+        target: the channel, for effects that need one.
+        values: parameter -> value [SI].
+
     Raises:
         UnknownNameError: no such effect or parameter.
         SettingError: a value out of bounds.

@@ -29,7 +29,7 @@ import tomlkit
 from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT, Item, Table
 
-from slipwise.effects import Effect, find_effect, load_effect
+from slipwise.effects import Effect, catalogue, find_effect, load_effect
 from slipwise.errors import InputError, SettingError, unknown_name
 from slipwise.model import BASE_EFFECTS, EffectUse, Model, use
 from slipwise.params import Parameter
@@ -113,7 +113,7 @@ def add_effect(path: Path, name: str, target: str = "", values: Mapping[str, str
         SettingError: the model holds it already, a value is out of bounds, or it needs a target.
     """
     document = _read(path)
-    effect = load_effect(Path(name)) if name.endswith(".py") else find_effect(name)
+    effect = find_effect(name)
     _append(document, _made(effect, target, values or {}, name), _file_of(effect, path))
     model = _model(document, path)
     write_text(path, tomlkit.dumps(document))
@@ -210,7 +210,7 @@ def _same(value: float, other: float) -> bool:
 
 def _file_of(effect: Effect, path: Path) -> str:
     """Give a user's effect file as seen from the model file; nothing for an effect of the catalogue."""
-    if effect.path.parent == Path(__file__).parent / "effects":
+    if effect.name in catalogue():
         return ""
     inside = effect.path.is_relative_to(path.parent.resolve())
     return (effect.path.relative_to(path.parent.resolve()) if inside else effect.path).as_posix()

@@ -29,11 +29,16 @@ def right(truth: dict[str, Any], said: dict[str, Any]) -> bool:
         return not missing or truth["size_after_fit"] < SMALLEST
     if missing == ["unknown"]:
         return verdict == "unknown"
-    if verdict == "ambiguous" and any(names <= pair and set(missing) & pair for pair in SAME):
+    if verdict == "ambiguous" and any(_but_for(pair, names, set(missing)) for pair in SAME):
         return True
     if verdict == "instrument" and not set(missing) & INSTRUMENT:
         return False
     return verdict in ("named", "instrument") and names == set(missing)
+
+
+def _but_for(pair: set[str], names: set[str], missing: set[str]) -> bool:
+    """Tell whether two lists of names differ by no more than which of a pair that cannot be parted is meant."""
+    return bool(names & pair) and bool(missing & pair) and names - pair == missing - pair
 
 
 def kind(truth: dict[str, Any]) -> str:

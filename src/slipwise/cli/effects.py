@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from slipwise.cli.console import OUT, print_json
-from slipwise.effects import find_effect, load_effect
+from slipwise.effects import find_effect
 
 
 def effects(
@@ -30,7 +30,7 @@ def effects(
         else:
             print_effects(console=OUT)
         return
-    effect = load_effect(Path(name)) if name.endswith(".py") else find_effect(name)
+    effect = find_effect(name)
     if json:
         print_json(effect_rows([effect])[0])
     elif source:

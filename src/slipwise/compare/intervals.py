@@ -6,6 +6,11 @@ Residuals of pads and balances at one instant share gauges, and neighbours share
 all relations over a stretch of time, and only blocks are taken as independent. The usual formula, one variance for all
 rows, covers the truth in 15 to 40 % of the cases when residuals are correlated.
 
+What a whole run shares is no block's scatter: pads and cards that turn round some hundredths of a millisecond early or
+late. Each pad's timing in each run is a nuisance of known size, and what it could do to a number is added:
+
+    C += sum of g g',    g = A^-1 J' (timing * dF/dt / sigma)
+
 Source: White (1980), Newey and West (1987); blocks as clusters: Liang and Zeger (1986); methods.md D9.
 """
 
@@ -19,6 +24,7 @@ from scipy.stats import t as student
 from slipwise.compare.profile import is_strength, upper_limit
 from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Free
+from slipwise.fit.weights import TIMING
 
 Array = NDArray[np.float64]
 #: Length of a block [s]: some cycles of whatever the model lacks.
@@ -26,6 +32,8 @@ BLOCK = 0.5
 #: Fewer blocks than this many for each free number are no basis; blocks are then made shorter [1].
 _BLOCKS_EACH = 3
 COVERAGE = 0.95
+#: Standard deviation of the timing that a pad and its cards share over a run: anywhere within +-`TIMING` [s].
+_SHARED_TIMING = TIMING / np.sqrt(3.0)
 
 
 @dataclass(frozen=True)
@@ -96,9 +104,10 @@ def intervals(base: BaseFit) -> Intervals:
             rows.append(np.repeat(of_sample, part.size // len(part)))
     left = solution.residuals.stacked(problem.fitted, problem.relations)
     block = np.concatenate(rows)
-    found = of_fit(solution.free, solution.values, solution.jacobian, left, block)
+    shared = _shared(base, len(left))
+    found = of_fit(solution.free, solution.values, solution.jacobian, left, block, shared)
     limited = [
-        _limited(base, found.entries, j, left, block)
+        _limited(base, found.entries, j, left, block, shared)
         if is_strength(base, f) and not found.entries[j].low > f.low
         else e
         for j, (f, e) in enumerate(zip(solution.free, found.entries, strict=True))
@@ -106,12 +115,31 @@ def intervals(base: BaseFit) -> Intervals:
     return replace(found, entries=tuple(limited))
 
 
-def _limited(base: BaseFit, entries: Sequence[Interval], place: int, left: Array, block: NDArray[np.int64]) -> Interval:
+def _shared(base: BaseFit, count: int) -> Array:
+    """Give what a run's and pad's own timing would do to the residuals, (count, runs x pads); pads come first."""
+    problem, forces = base.problem, base.solution.residuals.pad_forces
+    columns: list[Array] = []
+    start = 0
+    for i in problem.fitted:
+        run = problem.runs[i]
+        rate = np.gradient(forces[i], run.dt, axis=0) / problem.sigmas["pads"][i]
+        moved = _SHARED_TIMING * np.where(run.judged["pads"], rate, 0.0)
+        for pad in range(moved.shape[1]):
+            column = np.zeros(count)
+            column[start + pad : start + moved.size : moved.shape[1]] = moved[:, pad]
+            columns.append(column)
+        start += moved.size
+    return np.stack(columns, axis=1)
+
+
+def _limited(
+    base: BaseFit, entries: Sequence[Interval], place: int, left: Array, block: NDArray[np.int64], shared: Array
+) -> Interval:
     """Give the one-sided interval of a strength whose two-sided one would reach below what can be."""
     free, slopes = base.solution.free[place], base.solution.jacobian
     inside = [k for k, e in enumerate(entries) if k == place or (not e.bound and np.any(slopes[:, k]))]
     here = inside.index(place)
-    plain, robust, freedom = _variances(slopes[:, inside], left, block)
+    plain, robust, freedom = _variances(slopes[:, inside], left, block, shared)
     reach = float(student.ppf(COVERAGE, freedom))
     inflation = float(robust[here, here] / plain[here, here]) if plain[here, here] > 0.0 else 1.0
     guess = reach * float(np.sqrt(robust[here, here])) * free.scale or free.scale
@@ -120,7 +148,12 @@ def _limited(base: BaseFit, entries: Sequence[Interval], place: int, left: Array
 
 
 def of_fit(
-    free: Sequence[Free], values: Mapping[str, float], jacobian: Array, residual: Array, block: NDArray[np.int64]
+    free: Sequence[Free],
+    values: Mapping[str, float],
+    jacobian: Array,
+    residual: Array,
+    block: NDArray[np.int64],
+    shared: Array | None = None,
 ) -> Intervals:
     """Give the intervals of a least-squares fit.
 
@@ -130,12 +163,13 @@ def of_fit(
         jacobian: (m, k) of the residuals, per unit of each number's scale.
         residual: (m,) in units of the noise; rows that were masked are zero.
         block: (m,) number of the block of time that each row belongs to.
+        shared: (m, q) what q nuisances of unit size would do to the residuals.
     """
     ends = [_bound(f, values[f.key]) for f in free]
     inside = [j for j, end in enumerate(ends) if not end and np.any(jacobian[:, j])]
     scale = np.array([free[j].scale for j in inside])
     slopes = jacobian[:, inside]
-    _, robust, freedom = _variances(slopes, residual, block)
+    _, robust, freedom = _variances(slopes, residual, block, shared)
     covariance = robust * np.outer(scale, scale)
     blocks = freedom + len(inside)
     deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0))
@@ -151,7 +185,9 @@ def of_fit(
     return Intervals(tuple(entries), tuple(free[j].key for j in inside), covariance, correlation, blocks)
 
 
-def _variances(slopes: Array, residual: Array, block: NDArray[np.int64]) -> tuple[Array, Array, int]:
+def _variances(
+    slopes: Array, residual: Array, block: NDArray[np.int64], shared: Array | None
+) -> tuple[Array, Array, int]:
     """Give the covariance (k, k) under white noise of unit size, the sandwich, and the degrees of freedom."""
     counted = np.bincount(block, weights=(residual != 0.0).astype(float))
     blocks, count = int(np.count_nonzero(counted)), slopes.shape[1]
@@ -160,7 +196,11 @@ def _variances(slopes: Array, residual: Array, block: NDArray[np.int64]) -> tupl
         scores[:, j] = np.bincount(block, weights=slopes[:, j] * residual)
     bread = np.asarray(np.linalg.pinv(slopes.T @ slopes, rcond=1e-12, hermitian=True), dtype=np.float64)
     freedom = max(blocks - count, 2)  # each fitted number takes one block's freedom
-    return bread, bread @ (scores.T @ scores) @ bread * (blocks / freedom), freedom
+    meat = scores.T @ scores * (blocks / freedom)
+    if shared is not None:
+        pulled = slopes.T @ shared
+        meat = meat + pulled @ pulled.T
+    return bread, bread @ meat @ bread, freedom
 
 
 def _bound(free: Free, value: float) -> str:

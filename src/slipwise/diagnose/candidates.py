@@ -1,6 +1,6 @@
 """What may be missing: every effect of the catalogue that this campaign could show, instruments on equal terms."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -27,16 +27,17 @@ _SAME_SPEED = 0.15
 _EVEN = ("slide_tilt", "slide_curvature", "direction_asymmetry", "channel_offset", "load_crosstalk")
 
 
-def candidates(base: BaseFit) -> tuple[list[Term], dict[str, str]]:
+def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], dict[str, str]]:
     """Give the candidates, and the effects that this campaign cannot test with the reason.
 
     Args:
         base: the base fit.
+        own: effects beside those of the catalogue.
     """
     problem, model = base.problem, base.model
     terms: list[Term] = []
     cannot: dict[str, str] = {}
-    for name, effect in catalogue().items():
+    for name, effect in (catalogue() | {e.name: e for e in own}).items():
         if name in BASE_PARTS or name in SAMPLE_FAULTS or (name in model and not effect.target):
             continue
         if name in _COMMAND:

@@ -71,12 +71,16 @@ def load_effect(path: Path) -> Effect:
 
 
 def find_effect(name: str) -> Effect:
-    """Look an effect of the catalogue up.
+    """Look an effect up: of the catalogue by its name, a user's own by the path of its file ("./mine.py").
 
     Raises:
         UnknownNameError: no such effect.
+        InputError: no such file, or Python cannot import it.
+        SettingError: the file breaks the contract.
     """
+    if name.endswith(".py"):
+        return load_effect(Path(name))
     known = catalogue()
     if name not in known:
-        raise unknown_name("effect", name, known, "`slipwise effects` lists them.")
+        raise unknown_name("effect", name, known, "`slipwise effects` lists them; your own is given as ./mine.py.")
     return known[name]

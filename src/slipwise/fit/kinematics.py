@@ -37,6 +37,7 @@ class Kinematics:
         can_turn: whether the forces say how the girder turns, and no gauge does.
         recent: results, shared with others that look at the same runs.
         lost: per run (f, p) velocity that the logger's filter took at reversals [m/s].
+        bounds: per run (n, p) friction of the pads whichever way they slide [N]; what was measured until it is known.
     """
 
     runs: list[FitRun]
@@ -46,6 +47,7 @@ class Kinematics:
     can_turn: bool
     recent: Recent
     lost: list[Array] = field(default_factory=list[Array])
+    bounds: list[Array] = field(default_factory=list[Array])
 
     def __post_init__(self) -> None:
         """Make ready what never changes."""
@@ -117,11 +119,13 @@ class Kinematics:
             model = fitted_model(self.specimen, self.terms, values)
             specimen, law = model.built_specimen(), predictor(model)
             found = []
-            for run in runs:
+            for i, run in enumerate(runs):
                 law.rest(run.rest_before)
                 still = np.zeros(len(run.time))
                 buffers = buffers_along(law, run, still, still)
-                found.append(yaw_of(run, specimen, _whole(run, specimen.mass, buffers), buffers))
+                force = _whole(run, specimen.mass, buffers)
+                bound = self.bounds[i] if self.bounds else np.abs(force)
+                found.append(yaw_of(run, specimen, force, bound, buffers))
             return found
 
         return self.recent.get("yaw", self.key(values), make)

@@ -22,7 +22,7 @@ from slipwise.fit.balances import (
     motion_residual,
     predicted,
 )
-from slipwise.fit.data import FitRun
+from slipwise.fit.data import FINE, FitRun
 from slipwise.fit.faults import acts_on_force, on_force
 from slipwise.fit.kinematics import Kinematics, values_of
 from slipwise.fit.pads import Instants, PadLaw, as_logged, force_along, lost_velocity, stick_share
@@ -214,10 +214,13 @@ class Problem:
         runs, _ = self.kinematics.corrected(values)
         if self.specimen.free:
             states = self.kinematics.faster(values)
-            found = self._along(values, states, law.at_instants(runs, states))
+            said = law.at_instants(runs, states)
+            found = self._along(values, states, said)
             soft = self.kinematics.compliance(model.built_specimen())
             pairs = zip(found, runs, strict=True)
             self.kinematics.lost = [lost_velocity(f, r, soft, self._by(values)) for f, r in pairs]
+            self.kinematics.bounds = [s.bound[::FINE] for s in said]
+            self.kinematics.recent.forget()
         states = self.kinematics.states(values)
         said = law.at_instants(runs, states)
         faster = self.kinematics.faster(values, 1.0)

@@ -13,7 +13,7 @@ from slipwise.signals.ends import in_frequency
 
 Array = NDArray[np.float64]
 #: Timing of a reversal that nobody can vouch for: shear of pad and cell, cards of the logger [s].
-_TIMING = 1e-4
+TIMING = 1e-4
 
 
 def pad_noise(run: FitRun, plain: Array, shifted: Array) -> Array:
@@ -27,7 +27,7 @@ def pad_noise(run: FitRun, plain: Array, shifted: Array) -> Array:
     gauge, loads = _gauges(run)
     friction = np.abs(plain) / np.maximum(run.load, 0.05 * run.load.mean())
     spread = gauge**2 + (0.6 * friction * loads) ** 2 + (shifted - plain) ** 2
-    spread = spread + (_TIMING * np.gradient(plain, run.dt, axis=0)) ** 2
+    spread = spread + (TIMING * np.gradient(plain, run.dt, axis=0)) ** 2
     return np.sqrt(np.maximum(spread, 1e-24))
 
 
@@ -39,7 +39,7 @@ def noise_across(run: FitRun, state: Instants, said: PadForces) -> Array:
     friction = np.abs(force) / np.maximum(run.load, 0.05 * run.load.mean())
     speed = np.maximum(np.hypot(*np.moveaxis(state.velocity[::FINE], 2, 0)), FAST)
     turned = said.bound[::FINE] * run.states.pad_velocity_error.max() / speed
-    late = _TIMING * np.gradient(force, run.dt, axis=0)
+    late = TIMING * np.gradient(force, run.dt, axis=0)
     return np.sqrt(gauge**2 + (0.6 * friction * loads) ** 2 + turned**2 + late**2)
 
 

@@ -19,7 +19,7 @@ def pads_over_record(u, time, load, velocity, slip, force, bounds, first, last):
         side_x = u[{at["side"]} + 2 * pad]
         side_y = u[{at["side"]} + 2 * pad + 1]
         for i in range(len(time)):
-            dt = time[i] - time[i - 1] if i > 0 else time[1] - time[0]
+            dt = time[i] - time[i - 1] if i > 0 else (time[1] - time[0] if len(time) > 1 else u[{at["dt"]}])
             velocity_x = velocity[i, pad, 0]
             velocity_y = velocity[i, pad, 1]
             slip_x = slip[i, pad, 0]
@@ -54,7 +54,7 @@ def buffers_over_record(u, time, deflection, rate, force):
         for axis in range(2):
             z = {at["buffer_memory"]} + (2 * buffer + axis) * {layout.buffer_block}
             for i in range(len(time)):
-                dt = time[i] - time[i - 1] if i > 0 else time[1] - time[0]
+                dt = time[i] - time[i - 1] if i > 0 else (time[1] - time[0] if len(time) > 1 else u[{at["dt"]}])
                 force[i, buffer, axis] = buffer_spring(
                     u, z, deflection[i, buffer, axis], rate[i, buffer, axis], stiffness, side, time[i], dt
                 )

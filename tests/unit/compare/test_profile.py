@@ -16,6 +16,7 @@ from slipwise.fit.terms import Free, Term
 DT, COUNT, SIGMA = 0.01, 4000, 1.0
 LEVEL = Free("rig.mass", 0.0, -9.0, 9.0, 0.1, "kg")
 TIME = DT * np.arange(COUNT)
+ALL = np.ones((COUNT, 1), dtype=bool)
 COLUMNS = np.stack([np.ones(COUNT), 1.0 + np.sin(1.7 * TIME) + 0.5 * np.sin(11.0 * TIME)], axis=1)
 
 
@@ -28,7 +29,8 @@ class Line:
     bent: float = 0.0
     fitted: tuple[int, ...] = (0,)
     relations: tuple[str, ...] = ("pads",)
-    runs: list[object] = field(default_factory=lambda: [SimpleNamespace(time=TIME, dt=DT)])
+    runs: list[object] = field(default_factory=lambda: [SimpleNamespace(time=TIME, dt=DT, judged={"pads": ALL})])
+    sigmas: dict[str, list[np.ndarray]] = field(default_factory=lambda: {"pads": [np.ones((COUNT, 1))]})
 
     @property
     def terms(self) -> tuple[Term, ...]:
@@ -37,7 +39,8 @@ class Line:
     def residuals(self, values, *, fitted_only=False):
         strength = values["heating.share"]
         said = COLUMNS @ [values["rig.mass"], strength + self.bent * strength**2]
-        return Residuals({"pads": [(self.measured - said)[:, None]]}, [])
+        steady = np.zeros((COUNT, 1))  # a force that does not change knows no timing
+        return Residuals({"pads": [(self.measured - said)[:, None]]}, [steady])
 
 
 def fitted(rng: np.random.Generator, truth: float, bent: float = 0.0) -> BaseFit:
