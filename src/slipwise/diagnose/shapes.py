@@ -30,8 +30,9 @@ def shapes(effect: Effect) -> list[dict[str, float]]:
     if effect.port == "gauge":  # the form of a gauge's fault hardly changes its column, and the refit frees it
         constants = [p for p in effect.parameters if p.neutral is None]
         typical = {p.name: p.typical for p in constants}
-        # but a fit changes no sign
+        # but a fit changes no sign, and a gauge that was zeroed shows another column than one that was not
         either = [(p, -p.typical) for p in constants if p.low < 0.0 < p.high and p.typical != 0.0]
+        either += [(p, p.low + p.high - p.typical) for p in constants if _is_either(p)]
         return [typical, *({**typical, p.name: x} for p, x in either)]
     axes = []
     for p in effect.parameters:
@@ -56,6 +57,11 @@ def shapes(effect: Effect) -> list[dict[str, float]]:
     highest = {p.name: p.high for p in effect.parameters}
     centre = {a[0]: min(broad * a[2], highest[a[0]]) if a[2] > 0.0 else a[2] for a in axes}
     return [centre, *({**centre, name: x} for name, points, middle in axes for x in points if x != middle)]
+
+
+def _is_either(constant: Parameter) -> bool:
+    """Tell whether a constant is usually none of something and may be all of it."""
+    return (constant.low, constant.high) == (0.0, 1.0) and constant.typical in (0.0, 1.0)
 
 
 def _resonances(effect: Effect, frequency: Parameter) -> list[float]:
