@@ -84,13 +84,28 @@ def buffers_along(law: Predictor, run: FitRun, yaw: Array, yaw_rate: Array) -> A
     return as_logged(law.buffers(time, deflection, rate)[:, :, 0], run, None, averaged=False)
 
 
-def heave_rate(run: FitRun, specimen: Specimen) -> Array:
-    """Give the girder's vertical rate over the table (n,) [m/s]: the pads' shortening under the measured loads."""
-    total = run.load.sum(axis=1)
+def heave_rate(total: Array, dt: float, specimen: Specimen) -> Array:
+    """Give the girder's vertical rate over the table (n,) [m/s]: the pads' shortening under their measured load [N]."""
     stiffness = len(specimen.pads) * specimen.pad_stiffness
     lag = specimen.pad_damping / specimen.pad_stiffness  # a pad's damper carries load before its spring has given way
-    smooth = in_frequency(total, run.dt, lambda f: 1.0 / (1.0 + (f / 100.0) ** 8) / (1.0 + 2j * np.pi * f * lag), 64)
-    return -np.gradient(smooth, run.dt) / stiffness
+    smooth = in_frequency(total, dt, lambda f: 1.0 / (1.0 + (f / 100.0) ** 8) / (1.0 + 2j * np.pi * f * lag), 64)
+    return -np.gradient(smooth, dt) / stiffness
+
+
+def rubbing_noise(model: Model, run: FitRun, buffers: Array) -> Array:
+    """Give what noise of the loads makes of what rubs against heave, by the rate that is made from them, (n,) [N].
+
+    Args:
+        model: with the numbers of the fit.
+        run: its channels.
+        buffers: (n, n_buffers) [N].
+    """
+    struck = np.zeros(len(run.time))
+    struck[len(struck) // 2] = np.linalg.norm([run.noise.get(f"pad_{p}_N", 0.0) for p in run.pads])
+    wrong = float(np.linalg.norm(heave_rate(struck, run.dt, model.specimen)))
+    specimen = model.built_specimen()
+    up, down = (_hooks(model, run, specimen, run.force, buffers, rising=w).get("heave") for w in (wrong, -wrong))
+    return np.zeros(len(struck)) if up is None or down is None else 0.5 * np.abs(up - down)
 
 
 def predicted(
@@ -218,7 +233,7 @@ def _late(values: Array, dt: float, lag: float) -> Array:
 
 def _hooks(
     model: Model, run: FitRun, specimen: Specimen, force: Array, buffers: Array,
-    acceleration: Array | None = None, table: Array | None = None,
+    acceleration: Array | None = None, table: Array | None = None, rising: float = 0.0,
 ) -> dict[str, Array]:  # fmt: skip
     uses = model.with_hook("balance")
     if not uses:
@@ -236,7 +251,7 @@ def _hooks(
         table_acceleration=np.nan_to_num(run.states.table_acceleration) if table is None else table,
         buffer_force=np.stack([buffers.sum(axis=1), zero], axis=1),
         buffer_size=np.stack([np.abs(buffers).sum(axis=1), zero], axis=1),
-        heave_rate=heave_rate(run, specimen),
+        heave_rate=heave_rate(run.load.sum(axis=1), run.dt, specimen) + rising,
     )
     out: dict[str, Array] = {}
     for entry in uses:

@@ -21,6 +21,7 @@ from slipwise.fit.balances import (
     force_noise_in_pitch,
     motion_residual,
     predicted,
+    rubbing_noise,
 )
 from slipwise.fit.data import FINE, FitRun
 from slipwise.fit.faults import acts_on_force, on_force
@@ -200,7 +201,7 @@ class Problem:
                     left = (seen[name] - said[name]) / scale.get(name, 1.0)
                 if name in self.heard:
                     more = driven[i] if name == "pitch" else None
-                    left = whitened(left, run, float(self.sigmas[name][i]), self.heard[name][i], more)
+                    left = whitened(left, run, float(np.min(self.sigmas[name][i])), self.heard[name][i], more)
                 parts[name].append(self._over(name, i, left, run.judged[name]))
                 if name == "heave" and hidden > 0.0:
                     parts[name][-1] = with_hidden(parts[name][-1], hidden)
@@ -234,6 +235,7 @@ class Problem:
         self.heard = {}
         if "pitch" in self.relations:
             self.heard["pitch"] = [force_noise_in_pitch(r, model.specimen, values) for r in runs]
+        springs = predictor(model)
         if "heave" in self.relations and model.with_hook("balance"):
             self.heard["heave"] = [bent_noise_in_heave(model, r) for r in runs]
         for i, run in enumerate(runs):
@@ -241,6 +243,9 @@ class Problem:
             for name, level in balance_noise(model.specimen, run).items():
                 if name in self.relations:
                     self.sigmas[name].append(np.array(level))
+            if "heave" in self.heard:
+                buffers = buffers_along(springs, run, *np.zeros((2, len(run.time))))
+                self.sigmas["heave"][i] = np.hypot(self.sigmas["heave"][i], rubbing_noise(model, run, buffers))
             if "across" in self.relations:
                 self.sigmas["across"].append(noise_across(run, states[i], said[i]))
 
