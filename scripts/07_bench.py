@@ -97,19 +97,19 @@ def main() -> None:
     chosen = parser.parse_args()
     results = run(chosen.out, 2 if chosen.quick else chosen.count, chosen.seed, chosen.workers)
     from bench.score import calibration, confusion, rates  # pyright: ignore[reportMissingImports]
+    from bench.sizes import sizes  # pyright: ignore[reportMissingImports]
     from slipwise.record import write_json
 
     scored = rates(results)
     for name, (good, total) in scored["exactly right"].items():
         print(f"exactly right, {name:32s} {good:4d} of {total}")
-    for name in (
-        "complete models accused",
-        "outside the catalogue, called by a catalogue name",
-        "instruments taken for physics",
-    ):
-        print(f"{name:55s} {scored[name][0]:4d} of {scored[name][1]}")
+    held = sizes(results)
+    scored["size inside its 95 % interval"] = [sum(row["inside"] for row in held), len(held)]
+    for name, (count, total) in ((n, v) for n, v in scored.items() if n != "exactly right"):
+        print(f"{name:55s} {count:4d} of {total}")
     table = {hidden: dict(said) for hidden, said in confusion(results).items()}
-    write_json(chosen.out / "bench.json", {**scored, "confusion": table, "calibration": calibration(results)})
+    content = {**scored, "confusion": table, "calibration": calibration(results), "sizes": held}
+    write_json(chosen.out / "bench.json", content)
     draw(results, chosen.out / "calibration.png")
 
 

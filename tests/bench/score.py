@@ -19,6 +19,8 @@ INSTRUMENT = {
 }  # fmt: skip
 #: Below this size in floors, after what the base parameters absorb, "complete" counts as right.
 SMALLEST = 1.2
+#: Error left by a right name that counts as down to the floor [floors].
+DOWN = 1.15
 
 
 def right(truth: dict[str, Any], said: dict[str, Any]) -> bool:
@@ -57,6 +59,7 @@ def rates(results: Sequence[dict[str, Any]]) -> dict[str, Any]:
     """Give the shares that the targets speak of; each result holds name, truth and said."""
     groups: dict[str, list[bool]] = defaultdict(list)
     accused = called = physics = 0
+    left: list[bool] = []
     totals: Counter[str] = Counter()
     for result in results:
         truth, said = result["truth"], result["said"]
@@ -68,6 +71,8 @@ def rates(results: Sequence[dict[str, Any]]) -> dict[str, Any]:
             groups["3 floors or more" if large else "below 3 floors"].append(good)
             if group in ("single", "instrument") and large:
                 groups["singles of 3 floors or more"].append(good)
+        if good and said["verdict"] in ("named", "instrument"):
+            left.append(said["final_error"] <= DOWN)
         accused += group == "complete" and said.get("verdict") != "complete"
         called += group == "unknown" and said.get("verdict") in ("named", "instrument")
         physics += group == "instrument" and said.get("verdict") == "named" and not set(said["effects"]) & INSTRUMENT
@@ -76,6 +81,7 @@ def rates(results: Sequence[dict[str, Any]]) -> dict[str, Any]:
         "complete models accused": [accused, totals["complete"]],
         "outside the catalogue, called by a catalogue name": [called, totals["unknown"]],
         "instruments taken for physics": [physics, totals["instrument"]],
+        f"rightly named, final error at most {DOWN} floors": [sum(left), len(left)],
     }
 
 

@@ -156,6 +156,23 @@ def test_the_command_line_replays_it_and_says_so(tmp_path: Path) -> None:
     assert json.loads((tmp_path / "out" / "summary.json").read_text())["engine"] == "python"
 
 
+@pytest.mark.parametrize("engine", ["compiled", "python"])
+def test_a_single_instant_is_answered_on_either_engine(engine: str) -> None:
+    moving = motion()
+    states = [moving[key][200:201] for key in ("time", "load", "velocity", "slip")]
+    law = predictor(base_model("bridge1"), engine=engine)
+    bound = law.pads(*states).bound
+    assert bound.shape == (1, 4)
+    assert 0.0 < bound.min() <= bound.max() < states[1].max()
+
+
+def test_an_effect_is_found_by_the_path_of_its_file_wherever_a_name_is_asked_for(tmp_path: Path) -> None:
+    path = written(tmp_path)
+    assert find_effect(str(path)).name == use(str(path)).effect.name == "washboard"
+    with pytest.raises(InputError, match="no such effect file"):
+        find_effect(str(tmp_path / "nowhere.py"))
+
+
 def test_an_edited_file_is_not_answered_for_by_its_old_self(tmp_path: Path) -> None:
     moving = motion()
     states = [moving[key][:100] for key in ("time", "load", "velocity", "slip")]

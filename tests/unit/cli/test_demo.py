@@ -45,9 +45,21 @@ def test_add_and_remove_edit_the_model_and_print_the_error_before_and_after(slip
     assert "run_in" not in load_model(campaign / "model.toml")
 
 
+def test_a_file_of_ones_own_is_added_fitted_and_written_to_the_model(slipwise, tmp_path):
+    campaign, own = tmp_path / "campaign", tmp_path / "my_run_in.py"
+    shutil.copytree(Path(str(files("slipwise"))) / "demo_data", campaign)
+    shutil.copy(Path(str(files("slipwise"))) / "effects" / "run_in.py", own)
+    code, out, _ = slipwise("add", own, "--campaign", campaign)
+    assert code == 0
+    pads = next(line for line in out.splitlines() if line.strip().startswith("pads")).split()
+    assert float(pads[1]) > 3.0 > 1.2 > float(pads[2])
+    assert abs(load_model(campaign / "model.toml")["my_run_in"].values["rise"]) > 0.1
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
+        (("add", "nowhere.py", "--campaign", "."), "campaign.toml"),
         (("add", "run_inn", "--campaign", "."), "campaign.toml"),
         (("diagnose", "nowhere"), "nowhere"),
         (("ladder", "nowhere"), "nowhere"),

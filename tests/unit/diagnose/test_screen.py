@@ -38,5 +38,6 @@ def test_a_constant_that_may_be_decades_off_is_tried_over_decades():
 def test_shapes_that_no_fit_reaches_from_another_are_tried_one_by_one() -> None:
     catalogued = catalogue()
     assert {point["horizontal"] for point in shapes(catalogued["cell_inertia"])} == {-1.0, 1.0}
+    assert {point["zeroed"] for point in shapes(catalogued["load_crosstalk"])} == {0.0, 1.0}
     orders = [v["order"] for v in variants(catalogued["channel_filter"], {"lag": 3e-3, "order": 2.0})]
     assert sorted(orders) == [1.0, 2.0]

@@ -1,9 +1,22 @@
-"""Noise that an effect hides is counted as if it were still there, without jumps that a slope would take for signal."""
+"""Noise that effects hide, ring with or pass on is counted for what it is."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from slipwise.fit.weights import with_hidden
+from bench import build_campaign
+from measured import as_campaign
+from slipwise.effects._oscillator import oscillator
+from slipwise.fit.balances import bent_noise_in_heave, heave_rate, rubbing_noise
+from slipwise.fit.data import FitRun, fit_runs
+from slipwise.fit.weights import whitened, with_hidden
+from slipwise.model import base_model, use
+
+
+@pytest.fixture(scope="module")
+def run() -> FitRun:
+    return fit_runs(as_campaign(build_campaign(36206, effects=(), rig="bridge1")))[0]
 
 
 def test_each_sample_carries_its_part_of_what_is_hidden() -> None:
@@ -19,3 +32,35 @@ def test_a_residual_that_changes_sign_does_not_jump() -> None:
     shifted = part - (part[7] + 1e-6)
     moved = with_hidden(shifted + 2e-6, 0.3) - with_hidden(shifted, 0.3)
     assert np.abs(moved).max() < 1e-5
+
+
+def test_a_girder_that_bends_rings_with_the_noise_of_its_accelerometer(run: FitRun) -> None:
+    model = base_model("bridge1").adding(use("girder_bending", share=0.4, frequency=13.0, damping=0.01))
+    mass, level = model.specimen.mass, run.noise["girder_az"]
+    more, own = bent_noise_in_heave(model, run), float(np.hypot(80.0, mass * level))
+    rng, frequency = np.random.default_rng(4), np.fft.rfftfreq(len(run.time), run.dt)
+    near = np.abs(frequency - 13.0) < 1.0
+
+    def power(values: np.ndarray) -> float:
+        return float(np.mean(np.abs(np.fft.rfft(values)[near]) ** 2) / len(values))
+
+    before, after = [], []
+    for _ in range(20):
+        heard = rng.normal(0.0, level, len(run.time))
+        # q'' of q'' + 2 z w q' + w^2 q = -a
+        carried = mass * heard + 0.4 * mass * oscillator(-heard, run.dt, 13.0, 0.01, 2)
+        left = carried + rng.normal(0.0, 80.0, len(heard))
+        before.append(power(left))
+        after.append(power(whitened(left, run, own, more)))
+    assert np.mean(before) > 5.0 * own**2
+    assert np.mean(after) == pytest.approx(own**2, rel=0.2)
+
+
+def test_what_rubs_against_heave_passes_on_the_noise_of_the_loads(run: FitRun) -> None:
+    model = base_model("bridge1").adding(use("key_friction", friction=0.3, slow=5e-4))
+    buffers = np.full((len(run.time), 2), 4e3)
+    rng, levels = np.random.default_rng(6), [run.noise[f"pad_{p}_N"] for p in run.pads]
+    noisy = replace(run, load=run.load + rng.standard_normal(run.load.shape) * levels)
+    quiet, loud = (np.tanh(heave_rate(r.load.sum(axis=1), r.dt, model.specimen) / 5e-4) for r in (run, noisy))
+    made = 0.3 * 8e3 * (loud - quiet)
+    assert np.sqrt(np.mean(rubbing_noise(model, run, buffers) ** 2)) == pytest.approx(np.std(made), rel=0.2)

@@ -1,0 +1,28 @@
+"""Yaw that is made from measured forces is the yaw that the girder did."""
+
+import numpy as np
+import pytest
+
+from bench import build_campaign
+from measured import as_campaign
+from slipwise.fit.base import fit_base
+from slipwise.fit.terms import YAW_INERTIA
+from slipwise.model import base_model, use
+
+
+@pytest.mark.parametrize("seed", [5001, 5003])
+def test_unequal_buffers_turn_the_made_girder_as_far_as_the_true_one(seed: int) -> None:
+    made = build_campaign(seed, effects=("buffer_mismatch",), size="medium")
+    campaign, true = as_campaign(made), made.truth.base
+    difference = made.truth.as_dict()["details"]["buffer_mismatch"]["mismatch"]
+    model = base_model(campaign.specimen).adding(use("buffer_mismatch", difference=difference))
+    base = fit_base(campaign, model)
+    values = {**base.solution.values, "buffer_mismatch.difference": difference, YAW_INERTIA: true.inertia_yaw}
+    values |= {"rig.buffer_stiffness": true.buffer_stiffness, "rig.mass": true.mass}
+    for name, (angle, rate) in zip(made.true, base.problem.kinematics.turning(values), strict=True):
+        there = made.at_samples(name)["yaw"]
+        there = there - there[0]
+        np.testing.assert_allclose(angle @ there / (there @ there), 1.0, atol=0.015)
+        assert np.std(angle - there) < 0.04 * np.std(there)
+        turning = np.gradient(there, campaign.runs[0].record.dt)
+        assert np.std(rate - turning) < 0.03 * np.std(turning)
