@@ -36,7 +36,7 @@ _SAME_FORM: dict[str, tuple[tuple[str, ...], Callable[[Details], dict[str, float
     "buffer_damping": (("linear",), lambda d: {"damping": d["buffer_damping"]}),
     "buffer_hardening": ((), lambda d: {"gain": d["hardening"] * _HARDENING ** d["hardening_power"]}),
     "buffer_height": ((), lambda d: {"height": d["buffer_height"]}),
-    "buffer_hysteresis": (("Bouc-Wen, exponent 1",), lambda d: {"strength": d["hysteresis_force"]}),
+    "buffer_hysteresis": (("Bouc-Wen, exponent 1",), lambda d: {"strength": 0.5 * d["hysteresis_force"]}),
     "buffer_mismatch": ((), lambda d: {"difference": d["mismatch"]}),
     "buffer_softening": (("exponential in the largest excursion",), lambda d: {"rise": d["softening"]}),
     "cell_inertia": ((), lambda d: {"mass": d["size"]}),

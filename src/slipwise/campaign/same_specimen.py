@@ -21,6 +21,8 @@ _SLOW = LowPass(2.5, 4, "aligned")
 _RATED = 0.30
 #: Pitch says nothing of the lever while the girder accelerates less than this (standard deviation) [m/s^2].
 _MOVING = 0.3
+#: A channel that stands at its largest or smallest value for more than this share of its samples is clipped [1].
+_AT_RAIL = 0.005
 #: Samples beyond this part of a channel's largest are left out: a clipped channel is a fault, not another rig [1].
 _PEAKS = 0.97
 
@@ -66,14 +68,23 @@ def _lever(record: Record) -> float | None:
     """Height of the centre of gravity over pad spacing, from the pitch of the loads; None where it cannot be seen."""
     if not record.has_all("girder_ax", "slip_x") or record["girder_ax"].std() < _MOVING:
         return None
+    told = ("girder_ax", *(f"pad_{p}_N" for p in "ABCD"))
+    if any(_clipped(record[name]) for name in told):
+        return None  # the filter would carry what is cut off into the samples beside it
     modes = load_modes(record.stacked("pad_{}_N"))
     weight = float(np.median(modes.heave))
     signals = (record["girder_ax"] * weight / 9.80665, record["slip_x"] * weight, modes.pitch)
     pushed, slid, pitch = (lowpass(values, record.dt, _SLOW) for values in signals)
     columns = np.stack([pushed, slid, np.ones(len(record))], axis=1)
-    kept = np.all([_within(record[c]) for c in ("girder_ax", *(f"pad_{p}_N" for p in "ABCD"))], axis=0)
+    kept = np.all([_within(record[name]) for name in told], axis=0)
     slope = np.linalg.lstsq(columns[kept], pitch[kept], rcond=None)[0][0]
     return float(-slope / 2.0)
+
+
+def _clipped(values: NDArray[np.float64]) -> bool:
+    """Tell whether a channel (n,) stands at a rail; rounding alone seldom repeats an extreme so often."""
+    often = max(np.count_nonzero(values == values.max()), np.count_nonzero(values == values.min()))
+    return bool(often > _AT_RAIL * len(values))
 
 
 def _within(values: NDArray[np.float64]) -> NDArray[np.bool_]:

@@ -29,6 +29,8 @@ FURTHER = 0.025
 #: Candidates that are refitted at each step.
 _REFITTED = 4
 _REFITTED_PAIRS = 2
+#: Candidates that are tried in the place of an effect.
+_SWAPPED = 2
 #: Those of them that are fitted to the end.
 _POLISHED = 2
 #: The best physics is refitted even where faults of gauges screen better, and far from its best shape.
@@ -136,6 +138,8 @@ def search(base: BaseFit, progress: Callable[[str, float], None] | None = None) 
         if not _further(state):
             break
     _prune(state)
+    if _swap(state):
+        _prune(state)
     if state.best.terms and any(
         state.best.account.level(r, held_out=False) > 1.0 + MATERIAL for r in _WEIGHED if r in state.best.account.fitted
     ):
@@ -174,8 +178,8 @@ def _further(state: Search) -> bool:
     """Add the effect that helps most beside those found; false when none is worth it."""
     before, origin = state.best, state.path[0]
     account = before.account
-    if all(account.level(r, held_out=h) < 1.0 + MATERIAL for r in account.fitted for h in (False, True)):
-        return False  # nothing is left that could be worth a name
+    if _down(account):
+        return False
     least = 0.4 * MATERIAL_FURTHER * min(n for n, _ in account.counts.values())
     found = [s for s in rescreen(state, before) if s.gain > least]
     chosen = _various(found, _REFITTED_PAIRS + 1)
@@ -253,6 +257,36 @@ def _various(found: list[Screened], count: int) -> list[Screened]:
         if len(out) == count:
             break
     return out
+
+
+def _swap(state: Search) -> bool:
+    """Exchange an effect, and its likes on other gauges, for one that helps more beside the rest; tell if any was.
+
+    What was best alone may only have stood for two others: two gauges that read less for pads that differ.
+    """
+    best, origin = state.best, state.path[0].account
+    if len(best.names) < 2 or _down(best.account):
+        return False
+    top = score(origin, best.account)
+    for name in best.names:
+        rest = [t for t in best.terms if t.effect.name != name]
+        kept = _tried_before(state, rest) or _try(state, rest, {}, best)
+        chosen = [s for s in rescreen(state, kept) if s.term.effect.name not in best.names][:_SWAPPED]
+        better = [h for h in _try_all(state, _asked(chosen, rest), kept) if score(origin, h.account) > top]
+        if better:
+            state.path.append(max(better, key=lambda h: score(origin, h.account)))
+            return True
+    return False
+
+
+def _down(account: Account) -> bool:
+    """Tell whether nothing is left that could be worth a name."""
+    return all(account.level(r, held_out=h) < 1.0 + MATERIAL for r in account.fitted for h in (False, True))
+
+
+def _tried_before(state: Search, terms: Sequence[Term]) -> Hypothesis | None:
+    labels = {t.label for t in terms}
+    return next((h for h in state.tried if {t.label for t in h.terms} == labels), None)
 
 
 def _prune(state: Search) -> None:

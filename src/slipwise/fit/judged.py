@@ -9,11 +9,12 @@ from numpy.typing import NDArray
 from slipwise.channels import VELOCITY_CHANNELS
 
 Mask = NDArray[np.bool_]
-#: Channels that the balances are made of; pads and friction across take their own pad's besides the velocity's.
+#: Channels that the balances are made of, slip by all that it is fused from; pads and friction across take their own
+#: pad's besides the velocity's.
 _USES: dict[str, tuple[str, ...]] = {
-    "girder": ("pad_?_Fx", "girder_ax", "slip_x"),
+    "girder": ("pad_?_Fx", *VELOCITY_CHANNELS),
     "heave": ("pad_?_N", "girder_az"),
-    "pitch": ("pad_?_N", "pad_?_Fx", "slip_x"),
+    "pitch": ("pad_?_N", "pad_?_Fx", *VELOCITY_CHANNELS),
     "roll": ("pad_?_N",),
     "warp": ("pad_?_N",),
     "motion": VELOCITY_CHANNELS,
