@@ -12,6 +12,8 @@ _MOST_POINTS = 5
 #: Multiples of a constant's typical value that are tried: a fit that begins a decade off ends in a valley of its own.
 _NEARBY = (0.33, 1.0, 3.0)
 _FAR = (0.035, 0.2, 1.0, 5.0, 28.0)
+#: A constant that is usually absent is tried at this share of its largest value too [1].
+_SOME = 0.1
 #: A constant whose bounds are this far apart may be far from typical [1].
 _WIDE = 100.0
 #: Frequencies at which a resonance is tried [Hz], and how many of them at least and at most.
@@ -38,8 +40,8 @@ def shapes(effect: Effect) -> list[dict[str, float]]:
     for p in effect.parameters:
         if p.neutral is not None:
             continue
-        if p.typical == 0.0:
-            points = [0.0]
+        if p.typical == 0.0:  # usually absent
+            points = [0.0, _SOME * p.high] if p.low == 0.0 else [0.0]
         elif p.unit == "Hz":  # a resonance is found only from nearby
             points = _resonances(effect, p)
         elif p.low < 0.0 < p.high:

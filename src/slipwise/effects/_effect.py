@@ -96,7 +96,7 @@ HOOKS: dict[str, Hook] = {
     "deflection": _hook(BUFFER_INPUTS, "deflection", memory="buffer"),
     "spring": _hook(BUFFER_INPUTS, "force", memory="buffer"),
     "settle": _hook({**BUFFER_INPUTS, "force": ""}, memory="buffer"),
-    "lift": _hook(GIRDER_INPUTS, "force_x", "force_y"),
+    "lift": _hook(GIRDER_INPUTS, "force_x", "force_y", memory="buffer"),
     "drag": _hook(GIRDER_INPUTS),
     "rig": _hook({}, "specimen", instant=False),
     "table": _hook({}, "acceleration", "dt", "girder", instant=False),

@@ -125,7 +125,11 @@ def girder_drag(u, {", ".join(_GIRDER_ARGUMENTS)}):
 
 
 def girder_lift(u, force_x, force_y, {", ".join(_GIRDER_ARGUMENTS)}):
-    """Vertical force on the girder at the shear keys, whose horizontal force is given [N]."""
+    """Vertical force on the girder at the shear keys, whose horizontal force is given [N]; their memory goes on by dt.
+
+    All keys rise together: their memory is that of the first buffer.
+    """
+    z = {at["buffer_memory"]}
     force_z = 0.0
 {_chain(layout, "lift", "force_z += {call}")}    return force_z
 ''',
