@@ -75,7 +75,9 @@ def _lever(record: Record) -> float | None:
     weight = float(np.median(modes.heave))
     signals = (record["girder_ax"] * weight / 9.80665, record["slip_x"] * weight, modes.pitch)
     pushed, slid, pitch = (lowpass(values, record.dt, _SLOW) for values in signals)
-    columns = np.stack([pushed, slid, np.ones(len(record))], axis=1)
+    # cells behind a slow filter of their own are late: a fault again, and no other rig
+    late = [np.gradient(values, record.dt) for values in (pushed, slid)]
+    columns = np.stack([pushed, slid, *late, np.ones(len(record))], axis=1)
     kept = np.all([_within(record[name]) for name in told], axis=0)
     slope = np.linalg.lstsq(columns[kept], pitch[kept], rcond=None)[0][0]
     return float(-slope / 2.0)

@@ -9,6 +9,7 @@ from bench import build_campaign
 from bench.write import write_campaign
 from measured import as_campaign
 from slipwise.campaign import load_campaign, measured_states
+from slipwise.campaign.same_specimen import check_same_specimen
 from slipwise.errors import InputError
 from slipwise.record import Record
 from unit.campaign.slider import HEADER, slider, text
@@ -113,6 +114,13 @@ def test_a_clipped_accelerometer_is_no_other_rig(made, tmp_path):
     recorded["sine_hv"]["girder_ax"] = np.clip(clipped, 0.4 * clipped.min(), 0.4 * clipped.max())
     write_campaign(tmp_path / "clipped", "bridge1", made.truth.logger, recorded)
     assert len(load_campaign(tmp_path / "clipped").runs) == 5
+
+
+@pytest.mark.parametrize("seed", [39037, 39104])
+def test_gauges_at_a_rail_or_behind_a_slow_filter_are_no_other_rig(seed: int) -> None:
+    effect = {39037: "channel_clipping", 39104: "channel_filter"}[seed]
+    campaign = as_campaign(build_campaign(seed, effects=(effect,), size="large"))
+    assert check_same_specimen(campaign) == ()
 
 
 def test_a_noisy_yaw_gauge_makes_the_velocities_of_the_pads_less_sure() -> None:
