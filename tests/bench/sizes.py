@@ -91,8 +91,8 @@ def sizes(results: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
         given = said["candidates"][0]["parameters"] if said["candidates"] else {}  # a wrong sign has no size
         found = {_plain(key): i for key, i in given.items()}
         for name, value in planted(truth).items():
-            if name in found:
-                i = found[name]
+            i = found.get(name)
+            if i is not None and not (i["low"] is None and i["value"] == 0.0):  # such a one no channel shows
                 inside = i["low"] is not None and bool(i["low"] <= value <= i["high"])
                 row = {"campaign": result["name"], "size": name, "planted": value, "found": i["value"]}
                 rows.append({**row, "low": i["low"], "high": i["high"], "inside": inside})

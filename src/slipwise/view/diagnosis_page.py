@@ -1,5 +1,7 @@
 """The page of a diagnosis: the verdict in a sentence, the evidence, the rivals, and what would change our mind."""
 
+from math import isfinite
+
 from slipwise.diagnose import Diagnosis
 from slipwise.effects import catalogue
 from slipwise.ladder import Ladder
@@ -67,13 +69,17 @@ def _evidence(found: Diagnosis) -> Section:
     )
 
 
+def _floors(error: float) -> float | str:
+    return round(error, 2) if isfinite(error) else "-"
+
+
 def _falling(ladder: Ladder) -> Section:
     rows = [
         {
             "model": " + ".join(("base", *rung.effects)),
-            "fitted runs": round(rung.fit_error, 2),
-            "held-out runs": round(rung.holdout_error, 2),
-            "held-out, replay": round(rung.system_holdout_error, 2),
+            "fitted runs": _floors(rung.fit_error),
+            "held-out runs": _floors(rung.holdout_error),
+            "held-out, replay": _floors(rung.system_holdout_error),
         }
         for rung in ladder.rungs
     ]
