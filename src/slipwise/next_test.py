@@ -14,7 +14,7 @@ import numpy as np
 from slipwise.campaign import Campaign, Run
 from slipwise.diagnose import Diagnosis
 from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis
-from slipwise.diagnose.search import MATERIAL
+from slipwise.diagnose.worth import MATERIAL
 from slipwise.errors import SimulationError, SlipwiseError
 from slipwise.fit.base import fit_base
 from slipwise.model import Model

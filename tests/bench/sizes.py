@@ -29,7 +29,7 @@ def _filter(d: Details) -> dict[str, float]:
     return {"lag": (1.0 if first else np.sqrt(2.0)) / (2.0 * np.pi * d["size"])}
 
 
-#: effect -> (forms that the catalogue writes in the same way, "" for all; planted details -> its strengths).
+#: effect -> (forms that the catalogue writes in the same way, () for all; planted details -> its strengths).
 _SAME_FORM: dict[str, tuple[tuple[str, ...], Callable[[Details], dict[str, float]]]] = {
     "anisotropy": ((), lambda d: {"ratio": 1.0 + d["anisotropy"]}),
     "breakaway": (("Gaussian in speed", "exponential in speed"), lambda d: {"rise": d["breakaway"]}),
@@ -68,12 +68,13 @@ def planted(truth: Mapping[str, Any]) -> dict[str, float]:
     """Give "effect.strength" -> planted value of a campaign's answer, where the laws are the same."""
     out: dict[str, float] = {}
     for effect, details in truth["details"].items():
-        forms, values = _SAME_FORM.get(effect, (("none",), dict))
         if effect == "uneven_seating":
             stiffness = truth["settings"]["pad_stiffness"]
             out["uneven_seating.warp"] = details["seating"][0] * stiffness / _RATED_PAD
-        elif not forms or details["form"] in forms:
-            out |= {f"{effect}.{name}": float(value) for name, value in values(details).items() if value != 0.0}
+        elif effect in _SAME_FORM:
+            forms, values = _SAME_FORM[effect]
+            if not forms or details["form"] in forms:
+                out |= {f"{effect}.{name}": float(value) for name, value in values(details).items() if value != 0.0}
     return out
 
 

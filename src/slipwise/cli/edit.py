@@ -17,10 +17,7 @@ Folder = Annotated[Path, typer.Option("--campaign", help="Folder with campaign.t
 
 
 def add(
-    name: Annotated[
-        str,
-        typer.Argument(help="An effect of `slipwise effects`, or a file of your own: ./mine.py."),
-    ],
+    name: Annotated[str, typer.Argument(help="An effect of `slipwise effects`, or a file of your own: ./mine.py.")],
     campaign: Folder = Path(),
 ) -> None:
     """Add an effect to model.toml, refit everything, and print the error before and after.

@@ -27,6 +27,7 @@ from slipwise.fit.terms import Free
 from slipwise.fit.weights import TIMING
 
 Array = NDArray[np.float64]
+Shared = tuple[Array, NDArray[np.int64]]
 #: Length of a block [s]: some cycles of whatever the model lacks.
 BLOCK = 0.5
 #: Fewer blocks than this many for each free number are no basis; blocks are then made shorter [1].
@@ -115,25 +116,23 @@ def intervals(base: BaseFit) -> Intervals:
     return replace(found, entries=tuple(limited))
 
 
-def _shared(base: BaseFit, count: int) -> Array:
-    """Give what a run's and pad's own timing would do to the residuals, (count, runs x pads); pads come first."""
+def _shared(base: BaseFit, count: int) -> Shared:
+    """Give what a run's and pad's own timing would do to the residuals; pads come first."""
     problem, forces = base.problem, base.solution.residuals.pad_forces
-    columns: list[Array] = []
+    moved, whose = np.zeros(count), np.zeros(count, dtype=np.int64)
     start = 0
-    for i in problem.fitted:
+    for place, i in enumerate(problem.fitted):
         run = problem.runs[i]
         rate = np.gradient(forces[i], run.dt, axis=0) / problem.sigmas["pads"][i]
-        moved = _SHARED_TIMING * np.where(run.judged["pads"], rate, 0.0)
-        for pad in range(moved.shape[1]):
-            column = np.zeros(count)
-            column[start + pad : start + moved.size : moved.shape[1]] = moved[:, pad]
-            columns.append(column)
-        start += moved.size
-    return np.stack(columns, axis=1)
+        rows, pads = slice(start, start + rate.size), rate.shape[1]
+        moved[rows] = (_SHARED_TIMING * np.where(run.judged["pads"], rate, 0.0)).ravel()
+        whose[rows] = np.tile(place * pads + np.arange(pads), len(rate))
+        start += rate.size
+    return moved, whose
 
 
 def _limited(
-    base: BaseFit, entries: Sequence[Interval], place: int, left: Array, block: NDArray[np.int64], shared: Array
+    base: BaseFit, entries: Sequence[Interval], place: int, left: Array, block: NDArray[np.int64], shared: Shared
 ) -> Interval:
     """Give the one-sided interval of a strength whose two-sided one would reach below what can be."""
     free, slopes = base.solution.free[place], base.solution.jacobian
@@ -153,7 +152,7 @@ def of_fit(
     jacobian: Array,
     residual: Array,
     block: NDArray[np.int64],
-    shared: Array | None = None,
+    shared: Shared | None = None,
 ) -> Intervals:
     """Give the intervals of a least-squares fit.
 
@@ -163,7 +162,7 @@ def of_fit(
         jacobian: (m, k) of the residuals, per unit of each number's scale.
         residual: (m,) in units of the noise; rows that were masked are zero.
         block: (m,) number of the block of time that each row belongs to.
-        shared: (m, q) what q nuisances of unit size would do to the residuals.
+        shared: (m,) what nuisances of unit size would do to the residuals, and (m,) which of them each row belongs to.
     """
     ends = [_bound(f, values[f.key]) for f in free]
     inside = [j for j, end in enumerate(ends) if not end and np.any(jacobian[:, j])]
@@ -186,21 +185,26 @@ def of_fit(
 
 
 def _variances(
-    slopes: Array, residual: Array, block: NDArray[np.int64], shared: Array | None
+    slopes: Array, residual: Array, block: NDArray[np.int64], shared: Shared | None
 ) -> tuple[Array, Array, int]:
     """Give the covariance (k, k) under white noise of unit size, the sandwich, and the degrees of freedom."""
     counted = np.bincount(block, weights=(residual != 0.0).astype(float))
     blocks, count = int(np.count_nonzero(counted)), slopes.shape[1]
-    scores = np.zeros((len(counted), count))
-    for j in range(count):
-        scores[:, j] = np.bincount(block, weights=slopes[:, j] * residual)
+    scores = _sums(slopes, residual, block)
     bread = np.asarray(np.linalg.pinv(slopes.T @ slopes, rcond=1e-12, hermitian=True), dtype=np.float64)
     freedom = max(blocks - count, 2)  # each fitted number takes one block's freedom
     meat = scores.T @ scores * (blocks / freedom)
     if shared is not None:
-        pulled = slopes.T @ shared
-        meat = meat + pulled @ pulled.T
+        pulled = _sums(slopes, *shared)
+        meat = meat + pulled.T @ pulled
     return bread, bread @ meat @ bread, freedom
+
+
+def _sums(slopes: Array, values: Array, label: NDArray[np.int64]) -> Array:
+    """Add up slopes (m, k) times values (m,) over the rows of each label, (labels, k)."""
+    out = np.zeros((int(label.max(initial=-1)) + 1, slopes.shape[1]))
+    np.add.at(out, label, slopes * values[:, None])
+    return out
 
 
 def _bound(free: Free, value: float) -> str:

@@ -122,10 +122,11 @@ def refit(
             start = _inside(term, starts[term.label])
         values.update({f"{term.label}.{k}": v for k, v in start.items()})
         free += [f for f in term.free(start) if f.key.rsplit(".", 1)[1] not in _REFERENCES]
-    known_keys = {f.key for f in free}
-    for inertia in (inertia_free(problem.specimen, k) for k in problem.kinematics.inertias if k not in known_keys):
-        free.append(inertia)
-        values.setdefault(inertia.key, inertia.start)
+    present = {f.key for f in free}
+    for key in problem.kinematics.inertias:
+        if key not in present:
+            free.append(inertia_free(problem.specimen, key))
+            values.setdefault(key, free[-1].start)
     if not problem.balanced and before is None:
         solution = _several_starts(problem, values, free, terms)
     else:

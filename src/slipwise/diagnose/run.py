@@ -14,9 +14,10 @@ from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis
 from slipwise.diagnose.result import Candidate, Diagnosis
 from slipwise.diagnose.samples import mended, sample_faults
 from slipwise.diagnose.screen import Screened
-from slipwise.diagnose.search import MATERIAL, Search, score, search, worth
+from slipwise.diagnose.search import Search, search
 from slipwise.diagnose.shapes import strengths
 from slipwise.diagnose.verdict import Verdict, judge, with_faults
+from slipwise.diagnose.worth import MATERIAL, score, worth
 from slipwise.errors import InputError
 from slipwise.fit.base import BaseFit, fit_base, restarted
 from slipwise.fit.logger import estimated_logger

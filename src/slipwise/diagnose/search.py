@@ -1,9 +1,4 @@
-"""The search for what is missing: one effect after another, pairs one step ahead, and back again.
-
-An effect counts when it lowers the mean squared residual of some relation by `MATERIAL` noise variances on the fitted
-runs and by half of that on held-out runs: significance alone is no rule, for a modeller's own small errors are
-significant too.
-"""
+"""The search for what is missing: one effect after another, pairs one step ahead, and back again."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
@@ -13,26 +8,21 @@ from numpy.typing import NDArray
 
 from slipwise.diagnose.candidates import candidates
 from slipwise.diagnose.pairs import at_odds, leading_pair
-from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, polished, refit, settled, strained
+from slipwise.diagnose.refit import Hypothesis, base_hypothesis, polished, refit, settled, strained
 from slipwise.diagnose.screen import Screened, projector, screen
 from slipwise.diagnose.shapes import strengths, variants
+from slipwise.diagnose.worth import MATERIAL, MATERIAL_FURTHER, all_down, material, score
 from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Term
 
 Array = NDArray[np.float64]
-#: Least drop of a relation's mean squared residual that is worth a name [noise variance].
-MATERIAL = 0.10
-#: A further effect must lower a relation by more, and by this share of what the base left in it: what the first effect
-#: does not quite describe is not a second effect.
-MATERIAL_FURTHER = 0.20
-FURTHER = 0.025
 #: Candidates that are refitted at each step.
 _REFITTED = 4
 _REFITTED_PAIRS = 2
-#: Candidates that are tried in the place of an effect.
-_SWAPPED = 2
 #: Those of them that are fitted to the end.
 _POLISHED = 2
+#: Candidates that are tried in the place of an effect.
+_SWAPPED = 2
 #: The best physics is refitted even where faults of gauges screen better, and far from its best shape.
 _REFITTED_PHYSICS = 2
 #: Relations whose noise hangs on the law: it is weighed again by what was found.
@@ -71,53 +61,6 @@ class Search:
     def best(self) -> Hypothesis:
         """The hypothesis at which the search ended."""
         return self.path[-1]
-
-
-def worth(before: Account, after: Account) -> tuple[float, str]:
-    """Give the largest material drop of a relation's mean squared residual, and the relation.
-
-    The drop on held-out runs counts double, so that it may be half of that on fitted runs but not less; a campaign
-    without held-out runs is judged by its fitted ones.
-    """
-    best, where = 0.0, ""
-    for name in before.fitted:
-        fitted = before.level(name, held_out=False) - after.level(name, held_out=False)
-        if before.counts[name][1]:
-            held = before.level(name, held_out=True) - after.level(name, held_out=True)
-            fitted = min(fitted, 2.0 * held)
-        if fitted > best:
-            best, where = fitted, name
-    return best, where
-
-
-def material(base: Account, before: Account, after: Account) -> bool:
-    """Tell whether a step is worth a name.
-
-    Args:
-        base: of the base model.
-        before: without the effect.
-        after: with it.
-    """
-    if before is base:
-        return worth(before, after)[0] >= MATERIAL
-    for name in base.fitted:
-        # an effect that only repairs what the one before has spoilt explains nothing of the rig
-        least = {h: min(base.level(name, held_out=h), before.level(name, held_out=h)) for h in (False, True)}
-        drop = least[False] - after.level(name, held_out=False)
-        if base.counts[name][1]:
-            drop = min(drop, 2.0 * (least[True] - after.level(name, held_out=True)))
-        excess = max(base.level(name, held_out=False) - 1.0, 0.0)
-        if drop >= MATERIAL_FURTHER and drop > FURTHER * excess:
-            return True
-    return False
-
-
-def score(before: Account, after: Account) -> float:
-    """Give the drop of all squared residuals, held-out runs included; below zero where those get worse."""
-    held = sum(before.held_out.values()) - sum(after.held_out.values())
-    if held < 0.0:
-        return held
-    return before.total - after.total
 
 
 def search(base: BaseFit, progress: Callable[[str, float], None] | None = None) -> Search:
@@ -178,7 +121,7 @@ def _further(state: Search) -> bool:
     """Add the effect that helps most beside those found; false when none is worth it."""
     before, origin = state.best, state.path[0]
     account = before.account
-    if _down(account):
+    if all_down(account):
         return False
     least = 0.4 * MATERIAL_FURTHER * min(n for n, _ in account.counts.values())
     found = [s for s in rescreen(state, before) if s.gain > least]
@@ -265,12 +208,12 @@ def _swap(state: Search) -> bool:
     What was best alone may only have stood for two others: two gauges that read less for pads that differ.
     """
     best, origin = state.best, state.path[0].account
-    if len(best.names) < 2 or _down(best.account):
+    if len(best.names) < 2 or all_down(best.account):
         return False
     top = score(origin, best.account)
     for name in best.names:
         rest = [t for t in best.terms if t.effect.name != name]
-        kept = _tried_before(state, rest) or _try(state, rest, {}, best)
+        kept = next(iter(_tried_before(state, rest)), None) or _try(state, rest, {}, best)
         chosen = [s for s in rescreen(state, kept) if s.term.effect.name not in best.names][:_SWAPPED]
         better = [h for h in _try_all(state, _asked(chosen, rest), kept) if score(origin, h.account) > top]
         if better:
@@ -279,14 +222,9 @@ def _swap(state: Search) -> bool:
     return False
 
 
-def _down(account: Account) -> bool:
-    """Tell whether nothing is left that could be worth a name."""
-    return all(account.level(r, held_out=h) < 1.0 + MATERIAL for r in account.fitted for h in (False, True))
-
-
-def _tried_before(state: Search, terms: Sequence[Term]) -> Hypothesis | None:
+def _tried_before(state: Search, terms: Sequence[Term]) -> list[Hypothesis]:
     labels = {t.label for t in terms}
-    return next((h for h in state.tried if {t.label for t in h.terms} == labels), None)
+    return [h for h in state.tried if {t.label for t in h.terms} == labels]
 
 
 def _prune(state: Search) -> None:
@@ -296,9 +234,8 @@ def _prune(state: Search) -> None:
         whole = state.best
         for term in whole.terms:
             rest = [t for t in whole.terms if t.label != term.label]
-            labels = {t.label for t in rest}
             # what was fitted before may do; only if not is it fitted again, from where the whole ended
-            known = [h for h in state.tried if {t.label for t in h.terms} == labels]
+            known = _tried_before(state, rest)
             spare = next((h for h in known if not material(origin.account, h.account, whole.account)), None)
             fewer = spare or _try(state, rest, {}, whole)
             if not material(origin.account, fewer.account, whole.account):

@@ -8,7 +8,8 @@ import numpy as np
 from slipwise.diagnose.leftover import Surface, leftover, structured
 from slipwise.diagnose.refit import Account, Hypothesis, cornered, strained
 from slipwise.diagnose.samples import SampleFault
-from slipwise.diagnose.search import MATERIAL, MOST_EFFECTS, Search, material, score, worth
+from slipwise.diagnose.search import MOST_EFFECTS, Search
+from slipwise.diagnose.worth import MATERIAL, material, score, worth
 
 #: A right family explains this share of what the base left, whatever its exact form [1]: 0.87 and more on trials, the
 #: best wrong one up to 0.69.

@@ -195,14 +195,13 @@ def bent_noise_in_heave(model: Model, run: FitRun) -> Array:
     Returns:
         spectrum (m,) as `force_noise_in_pitch` gives it, nowhere below zero [N^2].
     """
-    struck = np.zeros((2, len(run.time), 3))
-    struck[1, len(run.time) // 2, 2] = 1.0
-    nothing = np.zeros((len(run.time), 1))
-    quiet, loud = (_hooks(model, run, model.built_specimen(), run.force, nothing, a).get("heave") for a in struck)
-    if quiet is None or loud is None:
-        return np.zeros(len(run.time) // 2 + 1)
+    struck = np.zeros(len(run.time))
+    struck[len(struck) // 2] = 1.0
+    more = _more_heave(model, run, struck)
+    if more is None:
+        return np.zeros(len(struck) // 2 + 1)
     mass = model.specimen.mass
-    passed = np.abs(np.fft.rfft(mass * struck[1, :, 2] + loud - quiet)) ** 2
+    passed = np.abs(np.fft.rfft(mass * struck + more)) ** 2
     return run.noise.get("girder_az", 0.0) ** 2 * np.maximum(passed - mass**2, 0.0)
 
 
@@ -216,14 +215,17 @@ def heave_noise(model: Model, run: FitRun) -> float:
     if not uses or not np.isfinite(run.states.girder_acceleration[:, 2]).all():
         return 1.0
     shaken = np.random.default_rng(0).normal(size=len(run.time))
-    acceleration = np.zeros((len(run.time), 3))
-    quiet = _hooks(model, run, model.specimen, run.force, np.zeros((len(run.time), 1)), acceleration)
-    acceleration = acceleration + np.array([0.0, 0.0, 1.0]) * shaken[:, None]
-    noisy = _hooks(model, run, model.specimen, run.force, np.zeros((len(run.time), 1)), acceleration)
-    if "heave" not in noisy:
-        return 1.0
-    more = (noisy["heave"] - quiet["heave"]) / model.specimen.mass
-    return float(np.std(shaken + more) / np.std(shaken))
+    more = _more_heave(model, run, shaken)
+    return 1.0 if more is None else float(np.std(shaken + more / model.specimen.mass) / np.std(shaken))
+
+
+def _more_heave(model: Model, run: FitRun, upward: Array) -> Array | None:
+    """Give what effects add to the load for an acceleration (n,) upward alone, (n,) [N]; None where none adds any."""
+    acceleration = np.zeros((2, len(run.time), 3))
+    acceleration[1, :, 2] = upward
+    nothing = np.zeros((len(run.time), 1))
+    quiet, loud = (_hooks(model, run, model.specimen, run.force, nothing, a).get("heave") for a in acceleration)
+    return None if quiet is None or loud is None else loud - quiet
 
 
 def _late(values: Array, dt: float, lag: float) -> Array:

@@ -235,7 +235,6 @@ class Problem:
         self.heard = {}
         if "pitch" in self.relations:
             self.heard["pitch"] = [force_noise_in_pitch(r, model.specimen, values) for r in runs]
-        springs = predictor(model)
         if "heave" in self.relations and model.with_hook("balance"):
             self.heard["heave"] = [bent_noise_in_heave(model, r) for r in runs]
         for i, run in enumerate(runs):
@@ -243,11 +242,14 @@ class Problem:
             for name, level in balance_noise(model.specimen, run).items():
                 if name in self.relations:
                     self.sigmas[name].append(np.array(level))
-            if "heave" in self.heard:
-                buffers = buffers_along(springs, run, *np.zeros((2, len(run.time))))
-                self.sigmas["heave"][i] = np.hypot(self.sigmas["heave"][i], rubbing_noise(model, run, buffers))
             if "across" in self.relations:
                 self.sigmas["across"].append(noise_across(run, states[i], said[i]))
+
+        if "heave" in self.heard:
+            springs = predictor(model)
+            for i, run in enumerate(runs):
+                buffers = buffers_along(springs, run, *np.zeros((2, len(run.time))))
+                self.sigmas["heave"][i] = np.hypot(self.sigmas["heave"][i], rubbing_noise(model, run, buffers))
 
     def _over(self, name: str, run: int, left: Array, kept: NDArray[np.bool_]) -> Array:
         if not self.sigmas:

@@ -14,12 +14,13 @@ def pads_over_record(u, time, load, velocity, slip, force, bounds, first, last):
     pad sticks without a bristle, the law gives only the bound: force is then the bound along the motion.
     """
     bristle = u[{at["stick"]}] > 0.0
+    first_dt = time[1] - time[0] if len(time) > 1 else u[{at["dt"]}]
     for pad in range(first, last):
         z = {at["pad_memory"]} + pad * {layout.pad_block}
         side_x = u[{at["side"]} + 2 * pad]
         side_y = u[{at["side"]} + 2 * pad + 1]
         for i in range(len(time)):
-            dt = time[i] - time[i - 1] if i > 0 else (time[1] - time[0] if len(time) > 1 else u[{at["dt"]}])
+            dt = time[i] - time[i - 1] if i > 0 else first_dt
             velocity_x = velocity[i, pad, 0]
             velocity_y = velocity[i, pad, 1]
             slip_x = slip[i, pad, 0]
@@ -48,13 +49,14 @@ def pads_over_record(u, time, load, velocity, slip, force, bounds, first, last):
 
 def buffers_over_record(u, time, deflection, rate, force):
     """Drive every buffer's law with measured deflection and rate (n, b, 2); fills force (n, b, 2)."""
+    first_dt = time[1] - time[0] if len(time) > 1 else u[{at["dt"]}]
     for buffer in range(deflection.shape[1]):
         stiffness = u[{at["buffer_stiffness"]} + buffer]
         side = 1.0 - 2.0 * buffer
         for axis in range(2):
             z = {at["buffer_memory"]} + (2 * buffer + axis) * {layout.buffer_block}
             for i in range(len(time)):
-                dt = time[i] - time[i - 1] if i > 0 else (time[1] - time[0] if len(time) > 1 else u[{at["dt"]}])
+                dt = time[i] - time[i - 1] if i > 0 else first_dt
                 force[i, buffer, axis] = buffer_spring(
                     u, z, deflection[i, buffer, axis], rate[i, buffer, axis], stiffness, side, time[i], dt
                 )

@@ -1,0 +1,67 @@
+"""What a step is worth: when an effect has earned a name.
+
+An effect counts when it lowers the mean squared residual of some relation by `MATERIAL` noise variances on the fitted
+runs and by half of that on held-out runs: significance alone is no rule, for a modeller's own small errors are
+significant too.
+"""
+
+from slipwise.diagnose.refit import Account
+
+#: Least drop of a relation's mean squared residual that is worth a name [noise variance].
+MATERIAL = 0.10
+#: A further effect must lower a relation by more, and by this share of what the base left in it: what the first effect
+#: does not quite describe is not a second effect.
+MATERIAL_FURTHER = 0.20
+FURTHER = 0.025
+
+
+def worth(before: Account, after: Account) -> tuple[float, str]:
+    """Give the largest material drop of a relation's mean squared residual, and the relation.
+
+    The drop on held-out runs counts double, so that it may be half of that on fitted runs but not less; a campaign
+    without held-out runs is judged by its fitted ones.
+    """
+    best, where = 0.0, ""
+    for name in before.fitted:
+        fitted = before.level(name, held_out=False) - after.level(name, held_out=False)
+        if before.counts[name][1]:
+            held = before.level(name, held_out=True) - after.level(name, held_out=True)
+            fitted = min(fitted, 2.0 * held)
+        if fitted > best:
+            best, where = fitted, name
+    return best, where
+
+
+def material(base: Account, before: Account, after: Account) -> bool:
+    """Tell whether a step is worth a name.
+
+    Args:
+        base: of the base model.
+        before: without the effect.
+        after: with it.
+    """
+    if before is base:
+        return worth(before, after)[0] >= MATERIAL
+    for name in base.fitted:
+        # an effect that only repairs what the one before has spoilt explains nothing of the rig
+        least = {h: min(base.level(name, held_out=h), before.level(name, held_out=h)) for h in (False, True)}
+        drop = least[False] - after.level(name, held_out=False)
+        if base.counts[name][1]:
+            drop = min(drop, 2.0 * (least[True] - after.level(name, held_out=True)))
+        excess = max(base.level(name, held_out=False) - 1.0, 0.0)
+        if drop >= MATERIAL_FURTHER and drop > FURTHER * excess:
+            return True
+    return False
+
+
+def score(before: Account, after: Account) -> float:
+    """Give the drop of all squared residuals, held-out runs included; below zero where those get worse."""
+    held = sum(before.held_out.values()) - sum(after.held_out.values())
+    if held < 0.0:
+        return held
+    return before.total - after.total
+
+
+def all_down(account: Account) -> bool:
+    """Tell whether nothing is left that could be worth a name."""
+    return all(account.level(r, held_out=h) < 1.0 + MATERIAL for r in account.fitted for h in (False, True))
