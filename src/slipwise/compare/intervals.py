@@ -7,9 +7,10 @@ all relations over a stretch of time, and only blocks are taken as independent. 
 rows, covers the truth in 15 to 40 % of the cases when residuals are correlated.
 
 What a whole run shares is no block's scatter: pads and cards that turn round some hundredths of a millisecond early or
-late. Each pad's timing in each run is a nuisance of known size, and what it could do to a number is added:
+late, or more gently than the law says. Both, of each pad in each run, are nuisances of known size, and what they could
+do to a number is added:
 
-    C += sum of g g',    g = A^-1 J' (timing * dF/dt / sigma)
+    C += sum of g g',    g = A^-1 J' (timing * dF/dt / sigma),    and with |dF/dt| along F in place of dF/dt
 
 Source: White (1980), Newey and West (1987); blocks as clusters: Liang and Zeger (1986); methods.md D9.
 """
@@ -117,15 +118,17 @@ def intervals(base: BaseFit) -> Intervals:
 
 
 def _shared(base: BaseFit, count: int) -> Shared:
-    """Give what a run's and pad's own timing would do to the residuals; pads come first."""
+    """Give what a run's and pad's own way to turn round would do to the residuals; pads come first."""
     problem, forces = base.problem, base.solution.residuals.pad_forces
-    moved, whose = np.zeros(count), np.zeros(count, dtype=np.int64)
+    moved, whose = np.zeros((2, count)), np.zeros(count, dtype=np.int64)
     start = 0
     for place, i in enumerate(problem.fitted):
         run = problem.runs[i]
         rate = np.gradient(forces[i], run.dt, axis=0) / problem.sigmas["pads"][i]
+        rate = _SHARED_TIMING * np.where(run.judged["pads"], rate, 0.0)
         rows, pads = slice(start, start + rate.size), rate.shape[1]
-        moved[rows] = (_SHARED_TIMING * np.where(run.judged["pads"], rate, 0.0)).ravel()
+        moved[0, rows] = rate.ravel()
+        moved[1, rows] = (np.abs(rate) * np.sign(forces[i])).ravel()
         whose[rows] = np.tile(place * pads + np.arange(pads), len(rate))
         start += rate.size
     return moved, whose
@@ -162,7 +165,8 @@ def of_fit(
         jacobian: (m, k) of the residuals, per unit of each number's scale.
         residual: (m,) in units of the noise; rows that were masked are zero.
         block: (m,) number of the block of time that each row belongs to.
-        shared: (m,) what nuisances of unit size would do to the residuals, and (m,) which of them each row belongs to.
+        shared: (q, m) what q kinds of nuisances of unit size would do to the residuals, and (m,) which nuisance of each
+            kind a row belongs to.
     """
     ends = [_bound(f, values[f.key]) for f in free]
     inside = [j for j, end in enumerate(ends) if not end and np.any(jacobian[:, j])]
@@ -195,7 +199,7 @@ def _variances(
     freedom = max(blocks - count, 2)  # each fitted number takes one block's freedom
     meat = scores.T @ scores * (blocks / freedom)
     if shared is not None:
-        pulled = _sums(slopes, *shared)
+        pulled = np.concatenate([_sums(slopes, kind, shared[1]) for kind in shared[0]])
         meat = meat + pulled.T @ pulled
     return bread, bread @ meat @ bread, freedom
 

@@ -25,8 +25,6 @@ _POLISHED = 2
 _SWAPPED = 2
 #: The best physics is refitted even where faults of gauges screen better, and far from its best shape.
 _REFITTED_PHYSICS = 2
-#: Relations whose noise hangs on the law: it is weighed again by what was found.
-_WEIGHED = ("pads", "heave")
 #: Most effects that are added.
 MOST_EFFECTS = 3
 
@@ -41,8 +39,7 @@ class Search:
         cannot: effects that the campaign cannot test, with the reason.
         path: base first, then the best hypothesis with one, two ... effects.
         tried: every hypothesis that was refitted.
-        settled: the one at which the search ended, weighed by its own law where what hangs on that is above its noise;
-            None for the base.
+        settled: the one at which the search ended, weighed by its own law; None for the base.
     """
 
     base: BaseFit
@@ -83,9 +80,7 @@ def search(base: BaseFit, progress: Callable[[str, float], None] | None = None) 
     _prune(state)
     if _swap(state):
         _prune(state)
-    if state.best.terms and any(
-        state.best.account.level(r, held_out=False) > 1.0 + MATERIAL for r in _WEIGHED if r in state.best.account.fitted
-    ):
+    if state.best.terms:
         tell("settling", 0.95)
         state.settled = settled(state.best)
     tell("done", 1.0)

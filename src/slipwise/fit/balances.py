@@ -158,10 +158,15 @@ def force_noise_in_pitch(run: FitRun, specimen: Specimen, values: Mapping[str, f
     Returns:
         spectrum (m,) at the frequencies of a real transform, as the variance of white noise of that height [N^2].
     """
-    struck = np.zeros(len(run.time))
-    struck[len(struck) // 2] = specimen.centre_height / specimen.half_spacing[0]
-    heard = _pitched(struck, run, values)
+    heard = specimen.centre_height / specimen.half_spacing[0] * struck_pitch(run, values)
     return sum(run.noise[f"pad_{p}_Fx"] ** 2 for p in run.pads) * np.abs(np.fft.rfft(heard)) ** 2
+
+
+def struck_pitch(run: FitRun, values: Mapping[str, float]) -> Array:
+    """Give what the girder's pitch makes of a pulse in the middle of a run, (n,) [1]."""
+    struck = np.zeros(len(run.time))
+    struck[len(struck) // 2] = 1.0
+    return _pitched(struck, run, values)
 
 
 def driven_noise_in_pitch(model: Model, runs: Sequence[FitRun], values: Mapping[str, float]) -> list[Array]:

@@ -57,6 +57,18 @@ def on_force(terms: Sequence[Term], values: Mapping[str, float], run: FitRun, fo
     return run.force - offset, offset
 
 
+def changed_by(terms: Sequence[Term], values: Mapping[str, float], run: FitRun) -> Array:
+    """Give by how much faults change a pulse of friction, (p,) [1]: 0 without faults, 0.03 for a gain of 1.03."""
+    names = [f"pad_{p}_Fx" for p in run.pads]
+    nothing = run.record.replaced(**{n: np.zeros(len(run.record)) for n in run.record.channels})
+    pulse = np.zeros(len(run.record))
+    pulse[len(pulse) // 2] = 1.0
+    without_pulse, with_pulse = (
+        faulted(terms, values, r) for r in (nothing, nothing.replaced(**{n: pulse for n in names}))
+    )
+    return np.array([float(np.linalg.norm(with_pulse[n] - without_pulse[n] - pulse)) for n in names])
+
+
 def _call(effect: Effect, hook: str, record: Record, target: str, values: Mapping[str, float]) -> Record:
     return effect.hooks[hook](record=record, target=target, **values)
 

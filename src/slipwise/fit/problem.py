@@ -22,14 +22,24 @@ from slipwise.fit.balances import (
     motion_residual,
     predicted,
     rubbing_noise,
+    struck_pitch,
 )
 from slipwise.fit.data import FINE, FitRun
-from slipwise.fit.faults import acts_on_force, on_force
+from slipwise.fit.faults import acts_on_force, changed_by, on_force
 from slipwise.fit.kinematics import Kinematics, values_of
 from slipwise.fit.pads import Instants, PadLaw, as_logged, force_along, lost_velocity, stick_share
 from slipwise.fit.recent import Key, Recent
 from slipwise.fit.terms import PITCH_INERTIA, Term, fitted_model
-from slipwise.fit.weights import balance_noise, heave_scale, noise_across, pad_noise, whitened, with_hidden
+from slipwise.fit.weights import (
+    balance_noise,
+    heave_scale,
+    noise_across,
+    noise_of_mending,
+    pad_noise,
+    reversal_noise,
+    whitened,
+    with_hidden,
+)
 from slipwise.model import Model
 from slipwise.predict import PadForces, predictor
 from slipwise.rig import Specimen
@@ -238,10 +248,16 @@ class Problem:
         if "heave" in self.relations and model.with_hook("balance"):
             self.heard["heave"] = [bent_noise_in_heave(model, r) for r in runs]
         for i, run in enumerate(runs):
-            self.sigmas["pads"].append(pad_noise(run, plain[i], shifted[i]))
+            turning = reversal_noise(run, plain[i], shifted[i])
+            self.sigmas["pads"].append(pad_noise(run, plain[i], turning))
             for name, level in balance_noise(model.specimen, run).items():
                 if name in self.relations:
                     self.sigmas[name].append(np.array(level))
+            if self._on_force and self.balanced:
+                changed = changed_by(self._on_force, values, run)
+                more = noise_of_mending(model.specimen, turning, changed, struck_pitch(run, values))
+                for name in more.keys() & set(self.relations):
+                    self.sigmas[name][i] = np.hypot(self.sigmas[name][i], more[name])
             if "across" in self.relations:
                 self.sigmas["across"].append(noise_across(run, states[i], said[i]))
 

@@ -2,6 +2,8 @@
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import maximum_filter1d
+from scipy.signal import fftconvolve
 
 from slipwise.fit.balances import heave_noise
 from slipwise.fit.data import FAST, FINE, FitRun
@@ -14,21 +16,37 @@ from slipwise.signals.ends import in_frequency
 Array = NDArray[np.float64]
 #: Timing of a reversal that nobody can vouch for: shear of pad and cell, cards of the logger [s].
 TIMING = 1e-4
+#: Periods of the logger's filter over which it spreads what it makes of a reversal, before and after [1].
+_SPREAD = 0.5
 
 
-def pad_noise(run: FitRun, plain: Array, shifted: Array) -> Array:
-    """Give the noise of measured less predicted friction (n, p) [N]: of gauges, loads, velocity and timing.
+def reversal_noise(run: FitRun, plain: Array, shifted: Array) -> Array:
+    """Give what nobody can vouch for where pads turn round (n, p) [N]: errors of velocity and timing.
+
+    Args:
+        run: its step and filter.
+        plain: (n, p) what the law says [N].
+        shifted: (n, p) what it says of velocities that err by as much as they may [N].
+    """
+    squared = (shifted - plain) ** 2 + (TIMING * np.gradient(plain, run.dt, axis=0)) ** 2
+    if run.filtered is not None:
+        reach = int(np.ceil(_SPREAD / (run.filtered.frequency * run.dt)))
+        # a few newtons beside a reversal, the same at every reversal, are below one sample's noise but bend the fit
+        squared = maximum_filter1d(squared, 2 * reach + 1, axis=0)
+    return np.sqrt(squared)
+
+
+def pad_noise(run: FitRun, plain: Array, turning: Array) -> Array:
+    """Give the noise of measured less predicted friction (n, p) [N]: of gauges, loads and reversals.
 
     Args:
         run: its gauges.
         plain: (n, p) what the law says [N].
-        shifted: (n, p) what it says of velocities that err by as much as they may [N].
+        turning: (n, p) of `reversal_noise` [N].
     """
     gauge, loads = _gauges(run)
     friction = np.abs(plain) / np.maximum(run.load, 0.05 * run.load.mean())
-    spread = gauge**2 + (0.6 * friction * loads) ** 2 + (shifted - plain) ** 2
-    spread = spread + (TIMING * np.gradient(plain, run.dt, axis=0)) ** 2
-    return np.sqrt(np.maximum(spread, 1e-24))
+    return np.sqrt(np.maximum(gauge**2 + (0.6 * friction * loads) ** 2 + turning**2, 1e-24))
 
 
 def noise_across(run: FitRun, state: Instants, said: PadForces) -> Array:
@@ -58,6 +76,24 @@ def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
         "motion": 1.0,
     }
     return {name: max(float(level), 1e-12) for name, level in levels.items()}
+
+
+def noise_of_mending(specimen: Specimen, turning: Array, changed: Array, ringing: Array) -> dict[str, Array]:
+    """Give the noise that balances get where the law must say what a faulty gauge of friction did not show.
+
+    Args:
+        specimen: its mass, and the lever of friction in pitch.
+        turning: (n, p) of `reversal_noise` [N].
+        changed: (p,) share of such an error that the fault lets through [1].
+        ringing: (n,) what the girder's pitch makes of a pulse in the middle [1].
+
+    Returns:
+        "girder" (n,) [m/s^2] and "pitch" (n,) [N].
+    """
+    squared = np.sum((turning * changed) ** 2, axis=1)
+    pitch = np.maximum(fftconvolve(squared, ringing**2, mode="same"), 0.0)
+    lever = specimen.centre_height / specimen.half_spacing[0]
+    return {"girder": np.sqrt(squared) / specimen.mass, "pitch": lever * np.sqrt(pitch)}
 
 
 def _gauges(run: FitRun) -> tuple[Array, Array]:

@@ -38,7 +38,7 @@ def test_a_table_that_rocks_tells_the_inertia_of_pitch() -> None:
     kind = "compliance" if hidden["pitch_form"] == 1 else "specimen"
     start = {**term.effect.neutral(), **{"damping": 0.3, "gravity": 1.0, "frequency": hidden["pitch_frequency"]}}
     start[kind] = hidden["pitch_per_acceleration"]
-    found = polished(polished(refit(base, [term], {term.label: start})))
+    found = settled(polished(polished(refit(base, [term], {term.label: start}))))
     assert found.solution.values[PITCH_INERTIA] == pytest.approx(made.truth.base.inertia_pitch, rel=0.05)
     assert found.account.level("pitch", held_out=True) < 1.5**2
 
