@@ -21,7 +21,7 @@ _ENOUGH, _ROUGH = 10.0, 5e-4
 #: A polish that lowers the squared residual by more than this share is followed by another, so often at most.
 _FALLS, _POLISHES = 0.05, 3
 #: Slip over which a pad turns round belongs to the stick of the base model only.
-_STICK_LENGTH = "rig.stick_length"
+STICK_LENGTH = "rig.stick_length"
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ def refit(
     """
     problem = base.problem.adding(*terms)
     values = dict((before.solution if before else base.solution).values)
-    free: list[Free] = [f for f in base.free if f.key != _STICK_LENGTH or not problem.has_stick]
+    free: list[Free] = [f for f in base.free if f.key != STICK_LENGTH or not problem.has_stick]
     if any(t.effect.name == "shear_rate" for t in terms):
         free = [f for f in free if f.key != "rig.shear_strength"]
     for term in terms:
@@ -132,6 +132,9 @@ def refit(
     else:
         known = {f.key: base.solution.jacobian[:, j] for j, f in enumerate(base.free)}
         solution = solve(problem, values, free, most=most, enough=_ENOUGH, rough=_ROUGH, known=known)
+        if solution.cost > (before or base).solution.cost:
+            # worse than what it contains: the base has moved too far for its slopes of before
+            solution = solve(problem, solution.values, free, most=most, enough=_ENOUGH, rough=_ROUGH)
     return _hypothesis(terms, problem, solution)
 
 

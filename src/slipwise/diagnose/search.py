@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from slipwise.diagnose.candidates import candidates
 from slipwise.diagnose.pairs import at_odds, leading_pair
-from slipwise.diagnose.refit import Hypothesis, base_hypothesis, polished, refit, settled, strained
+from slipwise.diagnose.refit import STICK_LENGTH, Hypothesis, base_hypothesis, polished, refit, settled, strained
 from slipwise.diagnose.screen import Screened, projector, screen
 from slipwise.diagnose.shapes import strengths, variants
 from slipwise.diagnose.worth import MATERIAL, MATERIAL_FURTHER, all_down, material, score
@@ -21,6 +21,8 @@ _REFITTED = 4
 _REFITTED_PAIRS = 2
 #: Those of them that are fitted to the end.
 _POLISHED = 2
+#: A longer stick is tried at this many times the longest of the base [1].
+_LONGER = 4.0
 #: Candidates that are tried in the place of an effect.
 _SWAPPED = 2
 #: The best physics is refitted even where faults of gauges screen better, and far from its best shape.
@@ -93,23 +95,42 @@ def _first(state: Search) -> None:
     physics = [s for s in state.screened if s.term.effect.component != "instrument"]
     chosen += [s for s in physics[:_REFITTED_PHYSICS] if all(s is not c for c in chosen)]
     least = 0.4 * MATERIAL * min(n for n, _ in origin.account.counts.values())
-    tried = _try_all(state, _asked([s for s in chosen if s.gain > least]))
-    good = [h for h in tried if material(origin.account, origin.account, h.account)]
-    best = max(good, key=lambda h: score(origin.account, h.account), default=None)
+    asked = _asked([s for s in chosen if s.gain > least]) + _longer_stick(state, origin)
+    best = _best(origin, _try_all(state, asked))
     pair = leading_pair(state.base, state.screened, best)
     if pair is not None:
         both = _try(state, [p.term for p in pair], {p.term.label: p.values for p in pair})
-        if material(origin.account, origin.account, both.account) and _beats(origin, both, best):
+        if material(origin.account, origin.account, both.account):
+            # a fit hides an effect behind the base less than a screen does: one of the two may do alone
+            alone = [_try(state, [p.term], {}, both) for p in pair if not _tried_before(state, [p.term])]
+            best = _best(origin, [*alone, *([best] if best else [])])
             single = best or origin
-            if material(origin.account, single.account, both.account):
+            if score(origin.account, both.account) > score(origin.account, single.account) and material(
+                origin.account, single.account, both.account
+            ):
                 state.path.append(both)
                 return
     if best is not None:
         state.path.append(best)
 
 
-def _beats(origin: Hypothesis, both: Hypothesis, single: Hypothesis | None) -> bool:
-    return single is None or score(origin.account, both.account) > score(origin.account, single.account)
+def _longer_stick(state: Search, before: Hypothesis) -> list[tuple[list[Term], dict]]:
+    """Ask for a law of sticking where the base would stick over more than it may: no screen sees past its bound."""
+    most = next((f.high for f in before.solution.free if f.key == STICK_LENGTH), np.inf)
+    if before.solution.values.get(STICK_LENGTH, 0.0) < (1.0 - 1e-6) * most:
+        return []
+    out = []
+    for s in state.screened:
+        lengths = [p.name for p in strengths(s.term.effect) if "stick" in s.term.effect.hooks and p.unit == "m"]
+        if lengths:
+            longer = {**s.term.effect.typical(), **dict.fromkeys(lengths, _LONGER * most)}
+            out.append(([*before.terms, s.term], {s.term.label: longer}))
+    return out
+
+
+def _best(origin: Hypothesis, tried: Sequence[Hypothesis]) -> Hypothesis | None:
+    good = [h for h in tried if material(origin.account, origin.account, h.account)]
+    return max(good, key=lambda h: score(origin.account, h.account), default=None)
 
 
 def _further(state: Search) -> bool:
@@ -121,7 +142,7 @@ def _further(state: Search) -> bool:
     least = 0.4 * MATERIAL_FURTHER * min(n for n, _ in account.counts.values())
     found = [s for s in rescreen(state, before) if s.gain > least]
     chosen = _various(found, _REFITTED_PAIRS + 1)
-    tried = _try_all(state, _asked(chosen, before.terms), before)
+    tried = _try_all(state, _asked(chosen, before.terms) + _longer_stick(state, before), before)
     sound = [h for h in tried if strained(before) or not strained(h)]
     good = [h for h in sound if material(origin.account, before.account, h.account)]
     if not good:

@@ -29,8 +29,8 @@ EFFECT = Effect(
     component="pad friction",
     equation="mu *= exp[a ln(P/P_0) + c ln^2(P/P_0)]",
     parameters=(
-        Parameter("slope", "1", -0.1, -1.0, 1.0, 0.0, "Kumar et al. (2015) at 17 MPa: -0.12", "a: exponent at P_0"),
-        Parameter("bend", "1", 0.0, -0.3, 0.3, 0.0, "assumed", "c: change of the exponent with ln P"),
+        Parameter("slope", "1", -0.1, -3.0, 3.0, 0.0, "Kumar et al. (2015) at 17 MPa: -0.12", "a: exponent at P_0"),
+        Parameter("bend", "1", 0.0, -2.0, 2.0, 0.0, "assumed", "c: change of the exponent with ln P"),
         Parameter("rated", "Pa", 16.882e6, 1e6, 100e6, None, "paper: 16.9 MPa at rest", "P_0: changes nothing", "MPa"),
     ),
     moves=RESPONSE,

@@ -6,9 +6,12 @@ A jump of speed raises friction at once by a ln(V2/V1) (the direct effect); then
 are replaced over the distance D_c, it falls by b ln(V2/V1). Steady sliding gives a straight line (a - b) ln(V/V_0).
 V_0 = 0.1 m/s is where the steady law changes nothing; below V_c the direct effect levels off.
 
+`slip` blends in Ruina's slip law, dphi/dt = -(V/D_c) (phi + ln(V/V_0)): contacts then age only as they slide. Both
+laws are one near steady sliding; after a jump of many times the speed the slip law forgets over D_c, whichever way.
+
 Valid: a, b up to 0.02 for polymers; D_c 1 to 100 um. Logarithms hold over decades, not at zero speed.
-Source: Dieterich (1979), Ruina (1983), ageing law; Tapia et al. (2024) fit 11 polymers on steel in log V from 1 to
-300 mm/s; values for PTFE assumed.
+Source: Dieterich (1979), ageing law; Ruina (1983), slip law; Tapia et al. (2024) fit 11 polymers on steel in log V
+from 1 to 300 mm/s; values for PTFE assumed.
 """
 
 from math import exp, log
@@ -28,20 +31,21 @@ def shear(
     return shear + (direct * log((speed + cutoff) / REFERENCE) + state * memory[0]) * true_pressure
 
 
-def advance(speed: float, dt: float, memory: np.ndarray, length: float) -> None:
-    """Let the contacts age and be replaced; exact while the speed is constant."""
-    ratio, used = exp(memory[0]), speed * dt / length
+def advance(speed: float, dt: float, memory: np.ndarray, length: float, slip: float) -> None:
+    """Let the contacts age and be replaced; each law is exact while the speed is constant."""
+    ageing, used = (1.0 - slip) * dt, speed * dt / length
+    ratio = exp(memory[0])
     if used < 1e-9:
-        ratio += REFERENCE * dt / length
-    else:
-        steady = REFERENCE / speed
-        ratio = steady + (ratio - steady) * exp(-used)
-    memory[0] = log(ratio)
+        memory[0] = log(ratio + REFERENCE * ageing / length)
+        return
+    steady = REFERENCE / speed
+    memory[0] = log(steady + (ratio - steady) * exp(-(1.0 - slip) * used))
+    memory[0] = log(steady) + (memory[0] - log(steady)) * exp(-slip * used)
 
 
-def rest(memory: np.ndarray, seconds: float, length: float) -> None:
+def rest(memory: np.ndarray, seconds: float, length: float, slip: float) -> None:
     """Let the contacts age through a pause."""
-    memory[0] = log(exp(memory[0]) + REFERENCE * seconds / length)
+    memory[0] = log(exp(memory[0]) + (1.0 - slip) * REFERENCE * seconds / length)
 
 
 EFFECT = Effect(
@@ -52,6 +56,7 @@ EFFECT = Effect(
         Parameter("direct", "1", 0.01, -0.03, 0.03, 0.0, "0.005 to 0.02, assumed for PTFE", "a: direct effect"),
         Parameter("state", "1", 0.005, -0.03, 0.03, 0.0, "0.005 to 0.02, assumed for PTFE", "b: of the age"),
         Parameter("length", "m", 20e-6, 1e-6, 1e-3, None, "1 to 100 um, assumed", "D_c: of renewal", "um"),
+        Parameter("slip", "1", 0.0, 0.0, 1.0, None, "Dieterich's ageing law", "0 ageing law, 1 slip law"),
         Parameter("cutoff", "m/s", 1e-4, 1e-6, 1e-2, None, "assumed", "V_c: end of the direct effect", "mm/s"),
     ),
     moves=RESPONSE,

@@ -12,7 +12,7 @@ leaves 2.5 times the noise. Effects add to each by their `balance`, `spring`, `d
 Source: physics.md 1.2, 1.7; Harris' Shock and Vibration Handbook, base-excited oscillator.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -92,22 +92,6 @@ def heave_rate(total: Array, dt: float, specimen: Specimen) -> Array:
     return -np.gradient(smooth, dt) / stiffness
 
 
-def rubbing_noise(model: Model, run: FitRun, buffers: Array) -> Array:
-    """Give what noise of the loads makes of what rubs against heave, by the rate that is made from them, (n,) [N].
-
-    Args:
-        model: with the numbers of the fit.
-        run: its channels.
-        buffers: (n, n_buffers) [N].
-    """
-    struck = np.zeros(len(run.time))
-    struck[len(struck) // 2] = np.linalg.norm([run.noise.get(f"pad_{p}_N", 0.0) for p in run.pads])
-    wrong = float(np.linalg.norm(heave_rate(struck, run.dt, model.specimen)))
-    specimen = model.built_specimen()
-    up, down = (_hooks(model, run, specimen, run.force, buffers, rising=w).get("heave") for w in (wrong, -wrong))
-    return np.zeros(len(struck)) if up is None or down is None else 0.5 * np.abs(up - down)
-
-
 def predicted(
     model: Model,
     run: FitRun,
@@ -143,7 +127,7 @@ def predicted(
     }
     seen = {"girder": run.channel("girder_ax"), "heave": heave, "pitch": modes.pitch, "roll": modes.roll}
     seen["warp"] = modes.warp
-    for name, more in _hooks(model, run, specimen, force, buffers).items():
+    for name, more in effects_in(model, run, specimen, force, buffers).items():
         if name == "motion":
             continue  # taken out of the states already
         if name == "pitch":
@@ -152,96 +136,27 @@ def predicted(
     return said, seen
 
 
-def force_noise_in_pitch(run: FitRun, specimen: Specimen, values: Mapping[str, float]) -> Array:
-    """Give what the friction gauges' noise adds to the predicted pitch load: the girder's pitch rings with it.
-
-    Returns:
-        spectrum (m,) at the frequencies of a real transform, as the variance of white noise of that height [N^2].
-    """
-    heard = specimen.centre_height / specimen.half_spacing[0] * struck_pitch(run, values)
-    return sum(run.noise[f"pad_{p}_Fx"] ** 2 for p in run.pads) * np.abs(np.fft.rfft(heard)) ** 2
-
-
-def struck_pitch(run: FitRun, values: Mapping[str, float]) -> Array:
-    """Give what the girder's pitch makes of a pulse in the middle of a run, (n,) [1]."""
-    struck = np.zeros(len(run.time))
-    struck[len(struck) // 2] = 1.0
-    return _pitched(struck, run, values)
-
-
-def driven_noise_in_pitch(model: Model, runs: Sequence[FitRun], values: Mapping[str, float]) -> list[Array]:
-    """Give what accelerometers' noise adds to the predicted pitch load through effects that are driven by it.
-
-    A table that rocks is told to by a measured acceleration, and turns the harder the higher the frequency: its noise
-    may be several times that of the load cells.
-
-    Returns:
-        per run spectrum (m,) as `force_noise_in_pitch` gives it [N^2].
-    """
-    run = min(runs, key=lambda r: len(r.time))
-    nothing, at = np.zeros((len(run.time), 1)), np.fft.rfftfreq(len(run.time), run.dt)
-    power = [np.zeros(len(r.time) // 2 + 1) for r in runs]
-    for place, channel in enumerate(("girder_ax", "table_ax")):
-        struck = np.zeros((2, len(run.time), 3))
-        struck[place, len(run.time) // 2, 0] = 1.0
-        answer = _hooks(model, run, model.built_specimen(), run.force, nothing, struck[0], struck[1]).get("pitch")
-        if answer is not None and answer.any():
-            size = np.abs(np.fft.rfft(_pitched(answer, run, values))) ** 2
-            for of, r in zip(power, runs, strict=True):
-                of += r.noise.get(channel, 0.0) ** 2 * np.interp(np.fft.rfftfreq(len(r.time), r.dt), at, size)
-    return power
-
-
-def bent_noise_in_heave(model: Model, run: FitRun) -> Array:
-    """Give what the accelerometer's noise adds to the predicted load where effects ring with it.
-
-    A girder that bends multiplies the noise at its own frequency by up to 1/(2 z).
-
-    Returns:
-        spectrum (m,) as `force_noise_in_pitch` gives it, nowhere below zero [N^2].
-    """
-    struck = np.zeros(len(run.time))
-    struck[len(struck) // 2] = 1.0
-    more = _more_heave(model, run, struck)
-    if more is None:
-        return np.zeros(len(struck) // 2 + 1)
-    mass = model.specimen.mass
-    passed = np.abs(np.fft.rfft(mass * struck + more)) ** 2
-    return run.noise.get("girder_az", 0.0) ** 2 * np.maximum(passed - mass**2, 0.0)
-
-
-def heave_noise(model: Model, run: FitRun) -> float:
-    """Tell by which factor effects change the accelerometer's noise in the heave balance.
-
-    A girder that bends hides part of a_z at high frequency, noise included: without this factor every such effect
-    would seem to explain something.
-    """
-    uses = model.with_hook("balance")
-    if not uses or not np.isfinite(run.states.girder_acceleration[:, 2]).all():
-        return 1.0
-    shaken = np.random.default_rng(0).normal(size=len(run.time))
-    more = _more_heave(model, run, shaken)
-    return 1.0 if more is None else float(np.std(shaken + more / model.specimen.mass) / np.std(shaken))
-
-
-def _more_heave(model: Model, run: FitRun, upward: Array) -> Array | None:
-    """Give what effects add to the load for an acceleration (n,) upward alone, (n,) [N]; None where none adds any."""
-    acceleration = np.zeros((2, len(run.time), 3))
-    acceleration[1, :, 2] = upward
-    nothing = np.zeros((len(run.time), 1))
-    quiet, loud = (_hooks(model, run, model.specimen, run.force, nothing, a).get("heave") for a in acceleration)
-    return None if quiet is None or loud is None else loud - quiet
-
-
 def _late(values: Array, dt: float, lag: float) -> Array:
     """Shift a smooth signal by a lag far below the sampling step."""
     return values - lag * np.gradient(values, dt)
 
 
-def _hooks(
+def effects_in(
     model: Model, run: FitRun, specimen: Specimen, force: Array, buffers: Array,
     acceleration: Array | None = None, table: Array | None = None, rising: float = 0.0,
 ) -> dict[str, Array]:  # fmt: skip
+    """Give what effects add to the balances by their `balance` hooks, relation -> (n,) [N]; "motion" in m/s^2.
+
+    Args:
+        model: whose effects.
+        run: its channels.
+        specimen: as built.
+        force: (n, p) of the pads along x [N].
+        buffers: (n, n_buffers) along x [N].
+        acceleration: (n, 3) of the girder in place of the measured one [m/s^2].
+        table: (n, 3) of the table in place of the measured one [m/s^2].
+        rising: added to the heave rate [m/s].
+    """
     uses = model.with_hook("balance")
     if not uses:
         return {}
@@ -270,7 +185,7 @@ def _hooks(
 def no_slip(model: Model, run: FitRun) -> Array:
     """Give the part of the girder's acceleration over the table that is no slip, by effects that turn both, (n,)."""
     nothing = np.zeros((len(run.time), 1))
-    return _hooks(model, run, model.built_specimen(), run.force, nothing).get("motion", nothing[:, 0])
+    return effects_in(model, run, model.built_specimen(), run.force, nothing).get("motion", nothing[:, 0])
 
 
 def motion_residual(run: FitRun, late: float) -> Array:

@@ -89,6 +89,12 @@ class FitRun:
         """Slip rate along x (n,) [m/s]."""
         return self.states.velocity[:, 0]
 
+    @cached_property
+    def gauge_noise(self) -> tuple[Array, Array]:
+        """Noise of the pads' gauges of friction and load, (p,) each [N]."""
+        friction = np.array([self.noise[f"pad_{p}_Fx"] for p in self.pads])
+        return friction, np.array([self.noise.get(f"pad_{p}_N", 0.0) for p in self.pads])
+
     def channel(self, name: str) -> Array:
         """Give a channel (n,), zero where it was not measured."""
         return self.record[name] if name in self.record else np.zeros(len(self.record))

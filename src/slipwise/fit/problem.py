@@ -12,34 +12,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.fit.across import logged_across
-from slipwise.fit.balances import (
-    BALANCES,
-    available,
-    bent_noise_in_heave,
-    buffers_along,
+from slipwise.fit.balance_noise import (
+    balance_noise,
     driven_noise_in_pitch,
-    force_noise_in_pitch,
-    motion_residual,
-    predicted,
+    heard_in_balances,
+    heave_scale,
+    noise_of_mending,
     rubbing_noise,
     struck_pitch,
 )
+from slipwise.fit.balances import BALANCES, available, buffers_along, motion_residual, predicted
 from slipwise.fit.data import FINE, FitRun
 from slipwise.fit.faults import acts_on_force, changed_by, on_force
 from slipwise.fit.kinematics import Kinematics, values_of
 from slipwise.fit.pads import Instants, PadLaw, as_logged, force_along, lost_velocity, stick_share
 from slipwise.fit.recent import Key, Recent
 from slipwise.fit.terms import PITCH_INERTIA, Term, fitted_model
-from slipwise.fit.weights import (
-    balance_noise,
-    heave_scale,
-    noise_across,
-    noise_of_mending,
-    pad_noise,
-    reversal_noise,
-    whitened,
-    with_hidden,
-)
+from slipwise.fit.weights import noise_across, pad_noise, reversal_noise, whitened, with_hidden
 from slipwise.model import Model
 from slipwise.predict import PadForces, predictor
 from slipwise.rig import Specimen
@@ -241,31 +230,32 @@ class Problem:
         for forces in (plain, shifted):  # a late gauge shows its reversals, and their noise, later too
             for i, run in enumerate(runs):
                 forces[i] = forces[i] + on_force(self._on_force, values, run, forces[i])[1]
-        self.sigmas = {r: [] for r in self.relations}
+        turning = [reversal_noise(*each) for each in zip(runs, plain, shifted, strict=True)]
+        self.sigmas = {"pads": [pad_noise(*each) for each in zip(runs, plain, turning, strict=True)]}
         self.heard = {}
-        if "pitch" in self.relations:
-            self.heard["pitch"] = [force_noise_in_pitch(r, model.specimen, values) for r in runs]
-        if "heave" in self.relations and model.with_hook("balance"):
-            self.heard["heave"] = [bent_noise_in_heave(model, r) for r in runs]
-        for i, run in enumerate(runs):
-            turning = reversal_noise(run, plain[i], shifted[i])
-            self.sigmas["pads"].append(pad_noise(run, plain[i], turning))
-            for name, level in balance_noise(model.specimen, run).items():
-                if name in self.relations:
-                    self.sigmas[name].append(np.array(level))
-            if self._on_force and self.balanced:
-                changed = changed_by(self._on_force, values, run)
-                more = noise_of_mending(model.specimen, turning, changed, struck_pitch(run, values))
-                for name in more.keys() & set(self.relations):
-                    self.sigmas[name][i] = np.hypot(self.sigmas[name][i], more[name])
-            if "across" in self.relations:
-                self.sigmas["across"].append(noise_across(run, states[i], said[i]))
+        if self.balanced:
+            self._weigh_balances(model, runs, values, turning)
+        if "across" in self.relations:
+            self.sigmas["across"] = [noise_across(*each) for each in zip(runs, states, said, strict=True)]
 
-        if "heave" in self.heard:
-            springs = predictor(model)
-            for i, run in enumerate(runs):
+    def _weigh_balances(
+        self, model: Model, runs: list[FitRun], values: Mapping[str, float], turning: list[Array]
+    ) -> None:
+        heard = heard_in_balances(model, runs, values)
+        self.heard = {name: spectra for name, spectra in heard.items() if name in self.relations}
+        springs = predictor(model)
+        for i, run in enumerate(runs):
+            levels = {name: np.array(level) for name, level in balance_noise(model.specimen, run).items()}
+            if self._on_force:
+                changed = changed_by(self._on_force, values, run)
+                more = noise_of_mending(model.specimen, turning[i], changed, struck_pitch(run, values))
+                levels |= {name: np.hypot(levels[name], noise) for name, noise in more.items()}
+            if "heave" in self.heard:
                 buffers = buffers_along(springs, run, *np.zeros((2, len(run.time))))
-                self.sigmas["heave"][i] = np.hypot(self.sigmas["heave"][i], rubbing_noise(model, run, buffers))
+                levels["heave"] = np.hypot(levels["heave"], rubbing_noise(model, run, buffers))
+            for name in self.relations:
+                if name in levels:
+                    self.sigmas.setdefault(name, []).append(levels[name])
 
     def _over(self, name: str, run: int, left: Array, kept: NDArray[np.bool_]) -> Array:
         if not self.sigmas:

@@ -1,16 +1,12 @@
-"""How far measured and predicted may differ by noise alone, relation by relation."""
+"""How far measured and predicted friction may differ by noise alone, and noise that is not white brought to white."""
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d
-from scipy.signal import fftconvolve
 
-from slipwise.fit.balances import heave_noise
 from slipwise.fit.data import FAST, FINE, FitRun
 from slipwise.fit.pads import Instants
-from slipwise.model import Model
 from slipwise.predict import PadForces
-from slipwise.rig import Specimen
 from slipwise.signals.ends import in_frequency
 
 Array = NDArray[np.float64]
@@ -44,7 +40,7 @@ def pad_noise(run: FitRun, plain: Array, turning: Array) -> Array:
         plain: (n, p) what the law says [N].
         turning: (n, p) of `reversal_noise` [N].
     """
-    gauge, loads = _gauges(run)
+    gauge, loads = run.gauge_noise
     friction = np.abs(plain) / np.maximum(run.load, 0.05 * run.load.mean())
     return np.sqrt(np.maximum(gauge**2 + (0.6 * friction * loads) ** 2 + turning**2, 1e-24))
 
@@ -52,64 +48,13 @@ def pad_noise(run: FitRun, plain: Array, turning: Array) -> Array:
 def noise_across(run: FitRun, state: Instants, said: PadForces) -> Array:
     """Give the noise of measured less predicted force along y (n, p) [N]: gauges, loads, direction, timing."""
     gauge = np.array([run.noise[f"pad_{p}_Fy"] for p in run.pads])
-    loads = _gauges(run)[1]
+    loads = run.gauge_noise[1]
     force = said.force[::FINE, :, 1]
     friction = np.abs(force) / np.maximum(run.load, 0.05 * run.load.mean())
     speed = np.maximum(np.hypot(*np.moveaxis(state.velocity[::FINE], 2, 0)), FAST)
     turned = said.bound[::FINE] * run.states.pad_velocity_error.max() / speed
     late = TIMING * np.gradient(force, run.dt, axis=0)
     return np.sqrt(gauge**2 + (0.6 * friction * loads) ** 2 + turned**2 + late**2)
-
-
-def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
-    """Give the noise of every balance of a girder, in its own unit."""
-    gauge, loads = _gauges(run)
-    total, force = float(np.sqrt(np.sum(loads**2))), float(np.sqrt(np.sum(gauge**2)))
-    stiffness = sum(specimen.buffer_stiffness)
-    beside = np.hypot(force, stiffness * 0.1 * run.noise["slip_x"]) / specimen.mass
-    levels = {
-        "girder": np.hypot(run.noise.get("girder_ax", 0.0), beside),
-        "heave": np.hypot(total, specimen.mass * run.noise.get("girder_az", 0.0)),
-        "pitch": total,  # and what the friction gauges make of it, see `whitened`
-        "roll": total,
-        "warp": total,
-        "motion": 1.0,
-    }
-    return {name: max(float(level), 1e-12) for name, level in levels.items()}
-
-
-def noise_of_mending(specimen: Specimen, turning: Array, changed: Array, ringing: Array) -> dict[str, Array]:
-    """Give the noise that balances get where the law must say what a faulty gauge of friction did not show.
-
-    Args:
-        specimen: its mass, and the lever of friction in pitch.
-        turning: (n, p) of `reversal_noise` [N].
-        changed: (p,) share of such an error that the fault lets through [1].
-        ringing: (n,) what the girder's pitch makes of a pulse in the middle [1].
-
-    Returns:
-        "girder" (n,) [m/s^2] and "pitch" (n,) [N].
-    """
-    squared = np.sum((turning * changed) ** 2, axis=1)
-    pitch = np.maximum(fftconvolve(squared, ringing**2, mode="same"), 0.0)
-    lever = specimen.centre_height / specimen.half_spacing[0]
-    return {"girder": np.sqrt(squared) / specimen.mass, "pitch": lever * np.sqrt(pitch)}
-
-
-def _gauges(run: FitRun) -> tuple[Array, Array]:
-    """Give the noise of the pads' gauges of friction and load, (p,) each [N]."""
-    gauge = np.array([run.noise[f"pad_{p}_Fx"] for p in run.pads])
-    return gauge, np.array([run.noise.get(f"pad_{p}_N", 0.0) for p in run.pads])
-
-
-def heave_scale(model: Model, run: FitRun) -> float:
-    """Give by how much effects change the noise of the heave balance from what it was weighed with [1]."""
-    factor = heave_noise(model, run)
-    if factor == 1.0:
-        return 1.0
-    loads = float(np.linalg.norm(_gauges(run)[1]))
-    vertical = model.specimen.mass * run.noise.get("girder_az", 0.0)
-    return float(np.hypot(loads, factor * vertical) / np.hypot(loads, vertical))
 
 
 def whitened(left: Array, run: FitRun, level: float, heard: Array, driven: Array | None = None) -> Array:

@@ -11,7 +11,8 @@ from slipwise.campaign import Logger
 from slipwise.diagnose.refit import polished, refit, settled
 from slipwise.effects import catalogue
 from slipwise.effects._oscillator import oscillator
-from slipwise.fit.balances import driven_noise_in_pitch, through_pitch
+from slipwise.fit.balance_noise import driven_noise_in_pitch
+from slipwise.fit.balances import through_pitch
 from slipwise.fit.base import fit_base
 from slipwise.fit.data import fit_runs
 from slipwise.fit.terms import PITCH_INERTIA, YAW_INERTIA, Term
