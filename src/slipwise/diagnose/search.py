@@ -41,6 +41,7 @@ class Search:
         cannot: effects that the campaign cannot test, with the reason.
         path: base first, then the best hypothesis with one, two ... effects.
         tried: every hypothesis that was refitted.
+        terms: every candidate, those that screening sees nothing in included.
         settled: the one at which the search ended, weighed by its own law; None for the base.
     """
 
@@ -49,6 +50,7 @@ class Search:
     cannot: dict[str, str]
     path: list[Hypothesis] = field(default_factory=list[Hypothesis])
     tried: list[Hypothesis] = field(default_factory=list[Hypothesis])
+    terms: list[Term] = field(default_factory=list[Term])
     settled: Hypothesis | None = None
 
     @property
@@ -72,7 +74,7 @@ def search(base: BaseFit, progress: Callable[[str, float], None] | None = None) 
     terms, cannot = candidates(base)
     tell = progress or (lambda what, share: None)
     found = screen(base, terms, lambda share: tell("screening", 0.15 + 0.45 * share))
-    state = Search(base, found, cannot, [base_hypothesis(base)])
+    state = Search(base, found, cannot, [base_hypothesis(base)], terms=terms)
     tell("refitting", 0.6)
     _first(state)
     while len(state.path) - 1 and len(state.best.terms) < MOST_EFFECTS:
@@ -95,7 +97,7 @@ def _first(state: Search) -> None:
     physics = [s for s in state.screened if s.term.effect.component != "instrument"]
     chosen += [s for s in physics[:_REFITTED_PHYSICS] if all(s is not c for c in chosen)]
     least = 0.4 * MATERIAL * min(n for n, _ in origin.account.counts.values())
-    asked = _asked([s for s in chosen if s.gain > least]) + _longer_stick(state, origin)
+    asked = _asked([s for s in chosen if s.gain > least]) + longer_stick(state, origin)
     best = _best(origin, _try_all(state, asked))
     pair = leading_pair(state.base, state.screened, best)
     if pair is not None:
@@ -114,17 +116,16 @@ def _first(state: Search) -> None:
         state.path.append(best)
 
 
-def _longer_stick(state: Search, before: Hypothesis) -> list[tuple[list[Term], dict]]:
+def longer_stick(state: Search, before: Hypothesis) -> list[tuple[list[Term], dict]]:
     """Ask for a law of sticking where the base would stick over more than it may: no screen sees past its bound."""
     most = next((f.high for f in before.solution.free if f.key == STICK_LENGTH), np.inf)
     if before.solution.values.get(STICK_LENGTH, 0.0) < (1.0 - 1e-6) * most:
         return []
     out = []
-    for s in state.screened:
-        lengths = [p.name for p in strengths(s.term.effect) if "stick" in s.term.effect.hooks and p.unit == "m"]
-        if lengths:
-            longer = {**s.term.effect.typical(), **dict.fromkeys(lengths, _LONGER * most)}
-            out.append(([*before.terms, s.term], {s.term.label: longer}))
+    for term in (t for t in state.terms if "stick" in t.effect.hooks):
+        lengths = [p.name for p in strengths(term.effect) if p.unit == "m"]
+        longer = {**term.effect.typical(), **dict.fromkeys(lengths, _LONGER * most)}
+        out.append(([*before.terms, term], {term.label: longer}))
     return out
 
 
@@ -142,7 +143,7 @@ def _further(state: Search) -> bool:
     least = 0.4 * MATERIAL_FURTHER * min(n for n, _ in account.counts.values())
     found = [s for s in rescreen(state, before) if s.gain > least]
     chosen = _various(found, _REFITTED_PAIRS + 1)
-    tried = _try_all(state, _asked(chosen, before.terms) + _longer_stick(state, before), before)
+    tried = _try_all(state, _asked(chosen, before.terms) + longer_stick(state, before), before)
     sound = [h for h in tried if strained(before) or not strained(h)]
     good = [h for h in sound if material(origin.account, before.account, h.account)]
     if not good:

@@ -66,3 +66,16 @@ def test_two_numbers_that_do_the_same_are_reported_as_correlated():
     a, b, correlation = got.strongest(1)[0]
     assert {a, b} == {"a", "b"}
     assert correlation < -0.9
+
+
+def test_what_a_whole_run_shares_widens_the_interval_by_what_it_could_do():
+    column = np.sin(np.arange(400) / 9.0)[:, None]
+    free = [Free("a", 0.0, -9.0, 9.0, 1.0, "1")]
+    left, blocks = np.random.default_rng(1).standard_normal(400), np.arange(400) // 20
+    whose = np.arange(400) // 200
+    pulled = [float(np.sum(column[whose == w, 0] ** 2) / np.sum(column**2)) for w in (0, 1)]
+    plain = of_fit(free, {"a": 0.3}, -column, left, blocks).covariance[0, 0]
+    for kinds in (1, 2):
+        shared = (np.tile(0.2 * column[:, 0], (kinds, 1)), whose)
+        wider = of_fit(free, {"a": 0.3}, -column, left, blocks, shared).covariance[0, 0]
+        assert np.isclose(wider - plain, kinds * 0.2**2 * np.sum(np.square(pulled)))

@@ -109,6 +109,16 @@ def test_a_jump_of_speed_acts_at_once_and_is_then_taken_back_over_the_contact_le
     np.testing.assert_allclose(extra, exact, atol=1e-8)
 
 
+def test_the_slip_law_forgets_a_jump_over_the_contact_length_and_does_not_age_at_rest() -> None:
+    law = base().adding(use("rate_and_state", direct=0.01, state=0.015, length=1e-3, slip=1.0))
+    speed = np.concatenate([np.full(2000, 0.02), np.zeros(500), np.full(300, 0.1)])
+    both = drive(law, speed).force[:, 0, 0] - drive(base(), speed).force[:, 0, 0]
+    slid = 0.1 * DT * np.arange(300)
+    left = np.log(0.1 / 0.02) * np.exp(-slid / 1e-3)
+    exact = 0.01 * np.log((0.1 + 1e-4) / 0.1) + 0.015 * left
+    np.testing.assert_allclose(both[2500:] / LOAD, exact, atol=1e-8)
+
+
 def test_the_pressure_law_touches_published_ones_about_the_rated_pressure() -> None:
     """0.7^((P - P_0)/50 MPa) of Kumar et al. (2015): within 0.3 % from 10 to 25 MPa."""
     law = base().adding(use("pressure_law", slope=-0.1204, bend=-0.0602))

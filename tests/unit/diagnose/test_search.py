@@ -1,0 +1,40 @@
+"""What the search asks to be fitted, and that no fit ends worse than what it contains."""
+
+from dataclasses import replace
+
+import pytest
+
+from bench import build_campaign
+from measured import as_campaign
+from slipwise.diagnose.candidates import candidates
+from slipwise.diagnose.refit import STICK_LENGTH, base_hypothesis, refit
+from slipwise.diagnose.search import Search, longer_stick
+from slipwise.effects import catalogue
+from slipwise.fit.base import BaseFit, fit_base
+from slipwise.fit.terms import Term
+
+
+@pytest.fixture(scope="module")
+def base() -> BaseFit:
+    return fit_base(as_campaign(build_campaign(41041, effects=("pressure_law",), size="medium", rig="bridge1")))
+
+
+def test_a_fit_never_ends_worse_than_what_it_contains(base: BaseFit) -> None:
+    """The base hides nearly all of another dependence on pressure, and must move far when it is added."""
+    term = Term(catalogue()["pressure_law"])
+    for slope in (-0.4, -0.2, 0.2, 0.4):
+        start = {**term.effect.typical(), "slope": slope, "bend": 0.05}
+        assert refit(base, [term], {term.label: start}).solution.cost < base.solution.cost
+
+
+def test_a_longer_stick_is_asked_for_where_that_of_the_base_is_at_its_bound(base: BaseFit) -> None:
+    found = base_hypothesis(base)
+    state = Search(base, [], {}, [found], terms=candidates(base)[0])
+    most = next(f.high for f in base.free if f.key == STICK_LENGTH)
+    for share, asked in ((0.5, 0), (1.0, 1)):
+        values = {**found.solution.values, STICK_LENGTH: share * most}
+        longer = longer_stick(state, replace(found, solution=replace(found.solution, values=values)))
+        assert len(longer) == asked
+        for those, starts in longer:
+            assert [t.effect.name for t in those] == ["presliding"]
+            assert starts["presliding"]["length"] == pytest.approx(4.0 * most)
