@@ -33,7 +33,7 @@ def _filter(d: Details) -> dict[str, float]:
 _SAME_FORM: dict[str, tuple[tuple[str, ...], Callable[[Details], dict[str, float]]]] = {
     "anisotropy": ((), lambda d: {"ratio": 1.0 + d["anisotropy"]}),
     "breakaway": (("Gaussian in speed", "exponential in speed"), lambda d: {"rise": d["breakaway"]}),
-    "buffer_damping": (("linear",), lambda d: {"damping": d["buffer_damping"]}),
+    "buffer_damping": (("linear",), lambda d: {"damping": 0.5 * d["buffer_damping"]}),
     "buffer_hardening": ((), lambda d: {"gain": d["hardening"] * _HARDENING ** d["hardening_power"]}),
     "buffer_height": ((), lambda d: {"height": d["buffer_height"]}),
     "buffer_hysteresis": (("Bouc-Wen, exponent 1",), lambda d: {"strength": 0.5 * d["hysteresis_force"]}),
