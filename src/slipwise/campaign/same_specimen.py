@@ -101,7 +101,8 @@ def _compare(values: Sequence[tuple[Run, float]], apart: float, words: str, unit
         return
     middle = float(np.median([value for _, value in values]))
     for run, value in values:
-        if not 1.0 / (1.0 + apart) <= value / middle <= 1.0 + apart:
+        smaller, larger = sorted((abs(value), abs(middle)))
+        if value * middle < 0.0 or larger > (1.0 + apart) * smaller:
             raise InputError(
                 f"runs of different rigs in one campaign: in {run.name!r} {words} {value / scale:.3g} {unit}, in the "
                 f"others {middle / scale:.3g}; put them into campaigns of their own, or correct the units of {run.file}"

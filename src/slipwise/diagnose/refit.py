@@ -132,8 +132,9 @@ def refit(
     else:
         known = {f.key: base.solution.jacobian[:, j] for j, f in enumerate(base.free)}
         solution = solve(problem, values, free, most=most, enough=_ENOUGH, rough=_ROUGH, known=known)
-        if solution.cost > (before or base).solution.cost:
-            # worse than what it contains: the base has moved too far for its slopes of before
+        labels = {t.label for t in terms}
+        contained = before if before is not None and all(t.label in labels for t in before.terms) else base
+        if solution.cost > contained.solution.cost:  # the base has moved too far for its slopes of before
             solution = solve(problem, solution.values, free, most=most, enough=_ENOUGH, rough=_ROUGH)
     return _hypothesis(terms, problem, solution)
 

@@ -230,7 +230,7 @@ def _swap(state: Search) -> bool:
     top = score(origin, best.account)
     for name in best.names:
         rest = [t for t in best.terms if t.effect.name != name]
-        kept = next(iter(_tried_before(state, rest)), None) or _try(state, rest, {}, best)
+        kept = (_tried_before(state, rest) or [_try(state, rest, {}, best)])[0]
         chosen = [s for s in rescreen(state, kept) if s.term.effect.name not in best.names][:_SWAPPED]
         better = [h for h in _try_all(state, _asked(chosen, rest), kept) if score(origin, h.account) > top]
         if better:

@@ -33,14 +33,13 @@ def shear(
 
 def advance(speed: float, dt: float, memory: np.ndarray, length: float, slip: float) -> None:
     """Let the contacts age and be replaced; each law is exact while the speed is constant."""
-    ageing, used = (1.0 - slip) * dt, speed * dt / length
-    ratio = exp(memory[0])
+    ratio, used = exp(memory[0]), speed * dt / length
     if used < 1e-9:
-        memory[0] = log(ratio + REFERENCE * ageing / length)
+        memory[0] = log(ratio + (1.0 - slip) * REFERENCE * dt / length)
         return
     steady = REFERENCE / speed
-    memory[0] = log(steady + (ratio - steady) * exp(-(1.0 - slip) * used))
-    memory[0] = log(steady) + (memory[0] - log(steady)) * exp(-slip * used)
+    aged, line = log(steady + (ratio - steady) * exp(-(1.0 - slip) * used)), log(steady)
+    memory[0] = line + (aged - line) * exp(-slip * used)
 
 
 def rest(memory: np.ndarray, seconds: float, length: float, slip: float) -> None:

@@ -6,9 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import fftconvolve
 
-from slipwise.fit.balances import effects_in, heave_rate, through_pitch
+from slipwise.fit.balances import buffers_along, effects_in, heave_rate, through_pitch
 from slipwise.fit.data import FitRun
 from slipwise.model import Model
+from slipwise.predict import predictor
 from slipwise.rig import Specimen
 
 Array = NDArray[np.float64]
@@ -29,6 +30,33 @@ def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
         "motion": 1.0,
     }
     return {name: max(float(level), 1e-12) for name, level in levels.items()}
+
+
+def weighed_balances(
+    model: Model, runs: Sequence[FitRun], values: Mapping[str, float], turning: Sequence[Array],
+    changed: Sequence[Array],
+) -> dict[str, list[Array]]:  # fmt: skip
+    """Give the noise of every balance in its own unit, relation -> per run a number or (n,).
+
+    Args:
+        model: with the numbers of the fit.
+        runs: their gauges.
+        values: of the fit, for the girder's pitch.
+        turning: per run (n, p) of `reversal_noise` [N].
+        changed: per run (p,) of `changed_by` [1]; empty without faults of the gauges of friction.
+    """
+    springs = predictor(model) if model.with_hook("balance") else None
+    out: dict[str, list[Array]] = {}
+    for i, run in enumerate(runs):
+        levels = {name: np.array(level) for name, level in balance_noise(model.specimen, run).items()}
+        more: dict[str, Array] = {}
+        if changed:
+            more = noise_of_mending(model.specimen, turning[i], changed[i], struck_pitch(run, values))
+        if springs is not None:
+            more["heave"] = rubbing_noise(model, run, buffers_along(springs, run, *np.zeros((2, len(run.time)))))
+        for name, level in levels.items():
+            out.setdefault(name, []).append(np.hypot(level, more[name]) if name in more else level)
+    return out
 
 
 def heave_scale(model: Model, run: FitRun) -> float:

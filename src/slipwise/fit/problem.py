@@ -12,15 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.fit.across import logged_across
-from slipwise.fit.balance_noise import (
-    balance_noise,
-    driven_noise_in_pitch,
-    heard_in_balances,
-    heave_scale,
-    noise_of_mending,
-    rubbing_noise,
-    struck_pitch,
-)
+from slipwise.fit.balance_noise import driven_noise_in_pitch, heard_in_balances, heave_scale, weighed_balances
 from slipwise.fit.balances import BALANCES, available, buffers_along, motion_residual, predicted
 from slipwise.fit.data import FINE, FitRun
 from slipwise.fit.faults import acts_on_force, changed_by, on_force
@@ -234,28 +226,13 @@ class Problem:
         self.sigmas = {"pads": [pad_noise(*each) for each in zip(runs, plain, turning, strict=True)]}
         self.heard = {}
         if self.balanced:
-            self._weigh_balances(model, runs, values, turning)
+            changed = [changed_by(self._on_force, values, r) for r in runs] if self._on_force else []
+            levels = weighed_balances(model, runs, values, turning, changed)
+            heard = heard_in_balances(model, runs, values)
+            self.sigmas |= {name: levels[name] for name in self.relations if name in levels}
+            self.heard = {name: heard[name] for name in self.relations if name in heard}
         if "across" in self.relations:
             self.sigmas["across"] = [noise_across(*each) for each in zip(runs, states, said, strict=True)]
-
-    def _weigh_balances(
-        self, model: Model, runs: list[FitRun], values: Mapping[str, float], turning: list[Array]
-    ) -> None:
-        heard = heard_in_balances(model, runs, values)
-        self.heard = {name: spectra for name, spectra in heard.items() if name in self.relations}
-        springs = predictor(model)
-        for i, run in enumerate(runs):
-            levels = {name: np.array(level) for name, level in balance_noise(model.specimen, run).items()}
-            if self._on_force:
-                changed = changed_by(self._on_force, values, run)
-                more = noise_of_mending(model.specimen, turning[i], changed, struck_pitch(run, values))
-                levels |= {name: np.hypot(levels[name], noise) for name, noise in more.items()}
-            if "heave" in self.heard:
-                buffers = buffers_along(springs, run, *np.zeros((2, len(run.time))))
-                levels["heave"] = np.hypot(levels["heave"], rubbing_noise(model, run, buffers))
-            for name in self.relations:
-                if name in levels:
-                    self.sigmas.setdefault(name, []).append(levels[name])
 
     def _over(self, name: str, run: int, left: Array, kept: NDArray[np.bool_]) -> Array:
         if not self.sigmas:

@@ -108,6 +108,16 @@ def test_runs_of_different_rigs_do_not_make_a_campaign(made, tmp_path):
         load_campaign(tmp_path / "mixed")
 
 
+def test_load_cells_that_are_all_dead_are_no_other_rig(made):
+    campaign = as_campaign(made)
+    runs = []
+    for run in campaign.runs:
+        dead = {name: np.zeros(len(run.record)) for name in run.record.channels if name.endswith("_N")}
+        runs.append(replace(run, record=run.record.replaced(**dead)))
+    notes = check_same_specimen(replace(campaign, runs=tuple(runs)))
+    assert any("carry 0 kN together" in note for note in notes)
+
+
 def test_a_clipped_accelerometer_is_no_other_rig(made, tmp_path):
     recorded = {name: dict(channels) for name, channels in made.recorded.items()}
     clipped = recorded["sine_hv"]["girder_ax"]
