@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from bench.faults import Fault, with_rails
 from bench.floors import sizes_in_floors
-from bench.gauges import RICH, USUAL, draw_logger, measure
-from bench.hidden import SIZES, Case, draw, hide
+from bench.gauges import RICH, USUAL, Logger, draw_logger, measure
+from bench.hidden import SIZES, Case, Hidden, draw, hide
 from bench.motions import Motion, draw_quake, draw_sine
 from bench.rig_ode import Memory, simulate
 from bench.settings import GRAVITY, PADS, Settings, random_rig
@@ -87,6 +87,14 @@ def _too_wild(runs: dict[str, Run]) -> bool:
     return not (slip < MOST_SLIP and load > LEAST_LOAD)
 
 
+def _floors(
+    base: Settings, runs: dict[str, Run], hidden: Hidden, logger: Logger, names: Sequence[str]
+) -> dict[str, dict[str, float]]:
+    in_step = replace(logger, late={})
+    clean = [measure(true, names, in_step, hidden.faults, None, number) for number, true in enumerate(runs.values())]
+    return sizes_in_floors(base, list(runs.values()), clean, in_step)
+
+
 def build_campaign(
     seed: int,
     *,
@@ -123,16 +131,17 @@ def build_campaign(
         motions = {run: motion.scaled(0.85, 0.92) for run, motion in motions.items()}
         runs = shake(settings, motions, clock)
     logger = draw_logger(rngs[4], rich)
-    in_step = replace(logger, late={})
     names = RICH if rich else USUAL
     faults = [with_rails(f, list(runs.values())) if f.effect == "channel_clipping" else f for f in hidden.faults]
-    recorded, clean = {}, []
-    for number, (run, true) in enumerate(runs.items()):
-        recorded[run] = measure(true, names, logger, faults, rngs[5], number)
-        clean.append(measure(true, names, in_step, faults, None, number))
-    floors = sizes_in_floors(base, list(runs.values()), clean, in_step)
     hidden = replace(hidden, faults=tuple(faults))
-    truth = Truth(name, seed, rig, rich, size if hidden.missing else "", hidden, base, logger, floors)
+    recorded = {run: measure(true, names, logger, faults, rngs[5], i) for i, (run, true) in enumerate(runs.items())}
+    floors = _floors(base, runs, hidden, logger, names)
+    alone = {}
+    for member in hidden.missing if len(hidden.missing) > 1 else ():
+        part = hidden.only(member)
+        shaken = shake(base.changed(yaw_known=rich, **part.settings), motions, clock)
+        alone[member] = max(_floors(base, shaken, part, logger, names)["after_fit"].values())
+    truth = Truth(name, seed, rig, rich, size if hidden.missing else "", hidden, base, logger, floors, alone)
     return Campaign(truth, runs, recorded)
 
 

@@ -48,6 +48,12 @@ class Hidden:
     faults: tuple[Fault, ...] = ()
     details: dict[str, dict[str, Any]] = field(default_factory=dict)
 
+    def only(self, name: str) -> "Hidden":
+        """Give one member of a pair alone."""
+        settings = {key: value for key, value in self.settings.items() if key in self.details[name]}
+        faults = tuple(fault for fault in self.faults if fault.effect == name)
+        return Hidden((name,), settings, faults, {name: self.details[name]})
+
 
 def hide(effects: Sequence[str], size: str, base: Settings, rng: np.random.Generator) -> Hidden:
     """Draw laws and sizes of the named effects.

@@ -17,7 +17,8 @@ INSTRUMENT = {
     "channel_delay", "channel_gain", "channel_sign", "channel_offset", "channel_drift", "channel_filter",
     "channel_clipping", "dropped_samples", "clock_skew", "load_crosstalk", "cell_inertia",
 }  # fmt: skip
-#: Below this size in floors, after what the base parameters absorb, "complete" counts as right.
+#: Below this size in floors, after what the base parameters absorb, "complete" counts as right; a member of a pair that
+#: alone is below it need not be named.
 SMALLEST = 1.2
 #: Error left by a right name that counts as down to the floor [floors].
 DOWN = 1.15
@@ -35,7 +36,8 @@ def right(truth: dict[str, Any], said: dict[str, Any]) -> bool:
         return True
     if verdict == "instrument" and not set(missing) & INSTRUMENT:
         return False
-    return verdict in ("named", "instrument") and names == set(missing)
+    seen = {name for name in missing if truth.get("alone", {}).get(name, SMALLEST) >= SMALLEST}
+    return verdict in ("named", "instrument") and bool(names) and seen <= names <= set(missing)
 
 
 def _but_for(pair: set[str], names: set[str], missing: set[str]) -> bool:

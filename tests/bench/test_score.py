@@ -33,6 +33,16 @@ def test_a_model_that_lacks_less_than_noise_may_be_called_complete():
     assert not right(_truth("heating", size=1.3), _said("complete"))
 
 
+def test_a_member_of_a_pair_that_alone_drowns_in_noise_need_not_be_named():
+    truth = {**_truth("pressure_law", "clock_skew"), "alone": {"pressure_law": 1.1, "clock_skew": 5.0}}
+    assert right(truth, _said("instrument", "clock_skew"))
+    assert right(truth, _said("instrument", "clock_skew", "pressure_law"))
+    assert not right(truth, _said("named", "pressure_law"))
+    assert not right(truth, _said("instrument", "clock_skew", "heating"))
+    both = {**truth, "alone": {"pressure_law": 1.3, "clock_skew": 5.0}}
+    assert not right(both, _said("instrument", "clock_skew"))
+
+
 def test_a_planted_size_is_told_in_the_numbers_of_the_catalogue():
     hardening = {"hardening": 0.1, "hardening_power": 2.0, "form": "power of the excursion"}
     assert planted(_truth(details={"buffer_hardening": hardening})) == {

@@ -22,6 +22,7 @@ class Truth:
         base: true base parameters.
         logger: what the chain did.
         floors: {"raw" or "after_fit": {balance: size in floors}}; see `bench.floors`.
+        alone: member of a pair -> its largest balance after the fit when it is hidden alone [floors].
     """
 
     name: str
@@ -33,6 +34,7 @@ class Truth:
     base: Settings
     logger: Logger
     floors: dict[str, dict[str, float]]
+    alone: dict[str, float]
 
     @property
     def missing(self) -> tuple[str, ...]:
@@ -67,6 +69,7 @@ class Truth:
             "size_in_floors": self.size_in_floors,
             "size_after_fit": self.size_after_fit,
             "floors": self.floors,
+            "alone": self.alone,
             "seed": self.seed,
             "rig": self.rig,
             "rich": self.rich,
