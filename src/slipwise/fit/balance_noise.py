@@ -59,14 +59,15 @@ def weighed_balances(
     return out
 
 
-def heave_scale(model: Model, run: FitRun) -> float:
-    """Give by how much effects change the noise of the heave balance from what it was weighed with [1]."""
-    factor = heave_noise(model, run)
-    if factor == 1.0:
-        return 1.0
+def heave_level(model: Model, run: FitRun) -> float:
+    """Give the noise of the heave balance as the model's mass and effects pass it on [N].
+
+    Less mass multiplies the accelerometer's noise by less: without this the fit would buy a smaller residual with mass,
+    and pay for the load with whatever else adds to it. What effects let ring is counted by `bent_noise_in_heave`.
+    """
     loads = float(np.linalg.norm(run.gauge_noise[1]))
     vertical = model.specimen.mass * run.noise.get("girder_az", 0.0)
-    return float(np.hypot(loads, factor * vertical) / np.hypot(loads, vertical))
+    return float(np.hypot(loads, min(1.0, heave_noise(model, run)) * vertical))
 
 
 def heave_noise(model: Model, run: FitRun) -> float:

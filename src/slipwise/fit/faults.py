@@ -13,6 +13,8 @@ from slipwise.record import Record
 from slipwise.signals.ends import in_frequency
 
 Array = NDArray[np.float64]
+#: Effects that move a channel in time, and its noise with it.
+_SHIFTING = ("channel_delay", "clock_skew")
 #: A fault without an inverse is taken out as far as it weakened a channel by no more than this [1].
 _SHARPEST = 3.0
 
@@ -32,7 +34,18 @@ def faulted(terms: Sequence[Term], values: Mapping[str, float], record: Record) 
     return record
 
 
-def on_force(terms: Sequence[Term], values: Mapping[str, float], run: FitRun, force: Array) -> tuple[Array, Array]:
+def shifts(terms: Sequence[Term]) -> bool:
+    """Tell whether any of these faults moves noise in time: see `without`."""
+    return any(t.effect.name in _SHIFTING for t in terms)
+
+
+def on_force(
+    terms: Sequence[Term],
+    values: Mapping[str, float],
+    run: FitRun,
+    force: Array,
+    around: Mapping[str, float] | None = None,
+) -> tuple[Array, Array]:
     """Give the measured friction without its gauges' faults, and what they add to the predicted one, (n, p) each [N].
 
     Args:
@@ -40,13 +53,14 @@ def on_force(terms: Sequence[Term], values: Mapping[str, float], run: FitRun, fo
         values: of their parameters.
         run: other faults taken out.
         force: (n, p) that the law says [N].
+        around: see `without`.
     """
     if not terms:
         return run.force, np.zeros_like(force)
     names = [f"pad_{p}_Fx" for p in run.pads]
     mended = run
     for term in terms:
-        mended = without(term, values, mended)
+        mended = without(term, values, mended, around)
     # while a pad sticks the law does not say its force
     stuck = np.stack([mended.record[n] for n in names], axis=1)
     clean = np.where(run.sliding[:, None], force, stuck)
@@ -73,14 +87,29 @@ def _call(effect: Effect, hook: str, record: Record, target: str, values: Mappin
     return effect.hooks[hook](record=record, target=target, **values)
 
 
-def without(term: Term, values: Mapping[str, float], run: FitRun) -> FitRun:
-    """Take a fault out of a run: by its inverse, or by what it does to the smoothed channel."""
+def without(term: Term, values: Mapping[str, float], run: FitRun, around: Mapping[str, float] | None = None) -> FitRun:
+    """Take a fault out of a run: by its inverse, or by what it does to the smoothed channel.
+
+    Args:
+        term: the fault.
+        values: of its parameters.
+        run: as measured.
+        around: values from which slopes are taken. A channel's noise is moved as these say and what `values` add moves
+            the smoothed channel only: slopes of moving noise would be those of the signal and more, fits with them
+            would creep and their intervals be too narrow.
+    """
     record = run.record
-    for entry in term.uses(values):
+    for entry, start in zip(term.uses(values), term.uses(around or values), strict=True):
+        names = [n for n in channels_like(entry.target) if n in record]
         if "undo" in term.effect.hooks:
-            record = _call(entry.effect, "undo", record, entry.target, entry.values)
+            moves = entry.values != start.values and shifts([term])
+            seen = record.replaced(**{n: smoothed(record[n], run) for n in names}) if moves else record
+            here = start if moves else entry
+            record = _call(entry.effect, "undo", record, entry.target, here.values)
+            if moves:
+                there, back = (_call(entry.effect, "undo", seen, entry.target, e.values) for e in (entry, start))
+                record = record.replaced(**{n: record[n] + there[n] - back[n] for n in names})
         else:
-            names = [n for n in channels_like(entry.target) if n in record]
             pulse = np.zeros(len(record))
             pulse[len(pulse) // 2] = 1.0
             shown = _call(

@@ -38,6 +38,7 @@ class Kinematics:
         recent: results, shared with others that look at the same runs.
         lost: per run (f, p) velocity that the logger's filter took at reversals [m/s].
         bounds: per run (n, p) friction of the pads whichever way they slide [N]; what was measured until it is known.
+        around: values from which slopes are taken, where faults move noise in time; see `fit.faults.without`.
     """
 
     runs: list[FitRun]
@@ -48,6 +49,7 @@ class Kinematics:
     recent: Recent
     lost: list[Array] = field(default_factory=list[Array])
     bounds: list[Array] = field(default_factory=list[Array])
+    around: Mapping[str, float] | None = None
 
     def __post_init__(self) -> None:
         """Make ready what never changes."""
@@ -60,6 +62,12 @@ class Kinematics:
         other = copy(self)
         other.terms, other.yaw = terms, yaw
         other._sort()
+        return other
+
+    def near(self, values: Mapping[str, float]) -> "Kinematics":
+        """Give the same motion for slopes at these values."""
+        other = copy(self)
+        other.around, other.recent = values, Recent()
         return other
 
     def _sort(self) -> None:
@@ -101,7 +109,7 @@ class Kinematics:
         def make() -> tuple[list[FitRun], dict[str, float]]:
             runs = self.runs
             for term in self._faults:
-                runs = [without(term, values, r) for r in runs]
+                runs = [without(term, values, r, self.around) for r in runs]
             if self._rockers:
                 model = fitted_model(self.specimen, self.terms, values)
                 runs = [r.without_turning(no_slip(model, r)) for r in runs]

@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.fit.across import logged_across
-from slipwise.fit.balance_noise import driven_noise_in_pitch, heard_in_balances, heave_scale, weighed_balances
+from slipwise.fit.balance_noise import driven_noise_in_pitch, heard_in_balances, heave_level, weighed_balances
 from slipwise.fit.balances import BALANCES, available, buffers_along, motion_residual, predicted
 from slipwise.fit.data import FINE, FitRun
-from slipwise.fit.faults import acts_on_force, changed_by, on_force
+from slipwise.fit.faults import acts_on_force, changed_by, on_force, shifts
 from slipwise.fit.kinematics import Kinematics, values_of
 from slipwise.fit.pads import Instants, PadLaw, as_logged, force_along, lost_velocity, stick_share
 from slipwise.fit.recent import Key, Recent
@@ -116,6 +116,14 @@ class Problem:
         other._sort()
         return other
 
+    def near(self, values: Mapping[str, float]) -> "Problem":
+        """Give the problem of which slopes at these values are to be taken."""
+        if not shifts(self.terms):
+            return self
+        other = self._with(self.terms, self.kinematics.yaw)
+        other.kinematics = self.kinematics.near(values)
+        return other
+
     def weighed_anew(self, values: Mapping[str, float]) -> "Problem":
         """Give the same problem with the noise, and what the filter took at reversals, as these numbers say."""
         anew = self._with(self.terms, self.kinematics.yaw)
@@ -163,7 +171,7 @@ class Problem:
         forces = self.kinematics.recent.get("forces", key, lambda: self._logged(values, runs, states, said))
         parts, outputs, clean = [], [], []
         for i, (run, force) in enumerate(zip(runs, forces, strict=False)):
-            seen, offset = on_force(self._on_force, values, run, force)
+            seen, offset = on_force(self._on_force, values, run, force, self.kinematics.around)
             outputs.append(force + offset)
             clean.append(seen)
             parts.append(self._over("pads", i, run.force - force - offset, run.judged["pads"]))
@@ -178,7 +186,9 @@ class Problem:
         turning = self.kinematics.turning(values)
         law = predictor(model)
         parts: dict[str, list[Array]] = {r: [] for r in self.relations if r in BALANCES}
-        hidden = max(0.0, 1.0 - heave_scale(model, runs[0]) ** 2) if "heave" in parts else 0.0
+        hidden = 0.0
+        if "heave" in parts and self.sigmas:
+            hidden = 1.0 - (heave_level(model, runs[0]) / float(np.min(self.sigmas["heave"][0]))) ** 2
         driven: list[Array | None] = [None] * len(runs)
         if self.sigmas and PITCH_INERTIA in self.kinematics.inertias:
             driven = [*driven_noise_in_pitch(model, runs, values)]
@@ -194,7 +204,7 @@ class Problem:
                     more = driven[i] if name == "pitch" else None
                     left = whitened(left, run, float(np.min(self.sigmas[name][i])), self.heard[name][i], more)
                 parts[name].append(self._over(name, i, left, run.judged[name]))
-                if name == "heave" and hidden > 0.0:
+                if name == "heave":
                     parts[name][-1] = with_hidden(parts[name][-1], hidden)
         return parts
 

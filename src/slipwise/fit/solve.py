@@ -57,6 +57,7 @@ def jacobian(
     """Give d(residual)/d(value / scale) of the fitted runs, (m, k), by one-sided differences into the bounds."""
     which = problem.fitted
     base = now.stacked(which, problem.relations)
+    nearby = problem.near(values)
     out = np.empty((len(free), len(base))).T  # column by column
     for j, f in enumerate(free):
         if known is not None and f.key in known:
@@ -65,7 +66,7 @@ def jacobian(
         step = _STEP * f.scale
         if values[f.key] + step > f.high:
             step = -step
-        there = problem.residuals({**values, f.key: values[f.key] + step}, fitted_only=True)
+        there = nearby.residuals({**values, f.key: values[f.key] + step}, fitted_only=True)
         moved = there.stacked(which, problem.relations)
         out[:, j] = (moved - base) * (f.scale / step)
     return out
