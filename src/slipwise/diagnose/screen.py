@@ -13,23 +13,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.diagnose.columns import column_of, residual_with, small
 from slipwise.diagnose.shapes import shapes, strengths
-from slipwise.effects import Effect
-from slipwise.errors import SlipwiseError
 from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Term
 from slipwise.params import Parameter
 
 Array = NDArray[np.float64]
-#: Size at which a column is taken, as a share of the typical size.
-_SMALL = 0.3
 #: A column is taken anew where the strength that was found is this many times the one at which it was taken, so often,
 #: and where the candidate explains this share of the squared residual [1].
 _FAR_BEYOND, _ROUNDS, _WORTH_A_LOOK = 2.5, 2, 0.02
 #: Mean squared residual above which lags are tried at these multiples of their typical size too [1].
 _MUCH_AMISS, _LAGS = 30.0, (-4.0, -1.0, 1.0, 4.0)
-#: Ports of effects that move measured noise about.
-_MOVES_NOISE = ("gauge", "table")
 #: Step of a slope, as a share of the value.
 _NEAR = 0.01
 
@@ -85,18 +80,38 @@ def projector(jacobian: Array) -> Callable[[Array], Array]:
     return lambda v: v - basis @ (basis.T @ v)
 
 
+def screen_shapes(base: BaseFit, term: Term, most: int) -> list[Screened]:
+    """Screen one candidate at every point of a grid over its shape constants; best first.
+
+    Args:
+        base: a fit without the candidate.
+        term: the candidate.
+        most: points of the grid.
+    """
+    project = projector(base.solution.jacobian)
+    left = base.solution.residuals.stacked(base.problem.fitted, base.problem.relations)
+    residual = project(left)
+    found = (_screened(base, term, left, residual, project, [shape]) for shape in shapes(term.effect, most))
+    return sorted((s for s in found if s is not None), key=lambda s: -s.gain)
+
+
 def _screened(
-    base: BaseFit, term: Term, left: Array | None, residual: Array, project: Callable[[Array], Array]
+    base: BaseFit,
+    term: Term,
+    left: Array | None,
+    residual: Array,
+    project: Callable[[Array], Array],
+    grid: list[dict[str, float]] | None = None,
 ) -> Screened | None:
     if not strengths(term.effect):
         return _replacing(base, term, residual, project)
     problem = base.problem
     # yaw that is made from measured forces is noise as well
     if problem.adding(term).kinematics.turns != problem.kinematics.turns:
-        left = _residual(base, term, term.effect.neutral())
+        left = residual_with(base, term, term.effect.neutral())
     best: Screened | None = None
-    for shape in shapes(term.effect):
-        starts = [(p, _at(term.effect, shape, p)) for p in strengths(term.effect)]
+    for shape in grid or shapes(term.effect):
+        starts = [(p, small(term.effect, shape, p)) for p in strengths(term.effect)]
         found = _mixed(base, term, shape, starts, left, residual, project)
         for _ in range(_ROUNDS):
             if found is None or found.gain < _WORTH_A_LOOK * float(residual @ residual):
@@ -126,7 +141,7 @@ def _direct(
     out = []
     for p, size in product(lags, _LAGS):
         values = {**term.effect.neutral(), **shape, p.name: size * p.typical}
-        there = _residual(base, term, values) if p.low <= values[p.name] <= p.high else None
+        there = residual_with(base, term, values) if p.low <= values[p.name] <= p.high else None
         if there is not None:
             out.append(_scored(term, values, residual, project(there) - residual, 0.0))
     return out
@@ -145,7 +160,7 @@ def _mixed(
     """Score a candidate of one shape with the columns taken at these strengths."""
     columns, kept, raw = [], [], 0.0
     for moved, start in starts:
-        column = None if left is None else _column(base, term, moved, start, left)
+        column = None if left is None else column_of(base, term, moved, start, left)
         if column is None:
             continue
         clean = project(column)
@@ -161,12 +176,12 @@ def _mixed(
 def _replacing(base: BaseFit, term: Term, residual: Array, project: Callable[[Array], Array]) -> Screened | None:
     """Score a law that takes another's place: it is never absent, so a step of a fit from typical values tells."""
     values = term.effect.typical()
-    there = _residual(base, term, values)
+    there = residual_with(base, term, values)
     if there is None:
         return None
     columns = []
     for p in term.effect.parameters:
-        moved = _residual(base, term, {**values, p.name: values[p.name] * (1.0 + _NEAR)})
+        moved = residual_with(base, term, {**values, p.name: values[p.name] * (1.0 + _NEAR)})
         if moved is not None:
             columns.append(project(moved - there))
     rest = project(there)
@@ -213,49 +228,3 @@ def _best_mix(
 
 def _two_sided(p: Parameter) -> bool:
     return p.low < float(p.neutral or 0.0) < p.high
-
-
-def _at(effect: Effect, shape: Mapping[str, float], moved: Parameter) -> dict[str, float]:
-    """Give an effect's values with one strength at a small size, the others absent."""
-    values = {**effect.neutral(), **shape}
-    off = float(moved.neutral or 0.0)
-    typical = moved.typical if moved.typical != off else _like_others(effect, moved)
-    values[moved.name] = float(np.clip(off + _SMALL * (typical - off), moved.low, moved.high))
-    return values
-
-
-def _like_others(effect: Effect, moved: Parameter) -> float:
-    """Give a typical size for a strength that is usually absent: that of its siblings of the same unit."""
-    for p in strengths(effect):
-        if p.unit == moved.unit and p.typical != p.neutral:
-            return p.typical
-    return float(moved.neutral or 0.0) + 0.2 * (moved.high - float(moved.neutral or 0.0))
-
-
-def _column(base: BaseFit, term: Term, moved: Parameter, values: dict[str, float], left: Array) -> Array | None:
-    """Give the change of the residual.
-
-    Undoing a fault moves noise about, and half way between moved and unmoved noise there is less of it, as there is of
-    noise that drives a table and is whitened: a column that looked one way only would find a false gain. Both ways
-    together do not.
-    """
-    there = _residual(base, term, values)
-    if there is None:
-        return None
-    off = float(moved.neutral or 0.0)
-    back = 2.0 * off - values[moved.name]
-    if term.effect.port in _MOVES_NOISE and moved.low <= back <= moved.high:
-        other = _residual(base, term, {**values, moved.name: back})
-        return None if other is None else 0.5 * (there - other)
-    return there - left
-
-
-def _residual(base: BaseFit, term: Term, values: Mapping[str, float]) -> Array | None:
-    problem = base.problem.adding(term)
-    keyed = {f"{term.label}.{k}": v for k, v in values.items()}
-    try:
-        found = problem.residuals({**base.solution.values, **keyed}, fitted_only=True)
-    except SlipwiseError:
-        return None
-    stacked = found.stacked(problem.fitted, problem.relations)
-    return stacked if np.isfinite(stacked).all() else None

@@ -7,10 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.diagnose.candidates import candidates
-from slipwise.diagnose.pairs import at_odds, leading_pair
+from slipwise.diagnose.pairs import leading_pair
 from slipwise.diagnose.refit import STICK_LENGTH, Hypothesis, base_hypothesis, polished, refit, settled, strained
-from slipwise.diagnose.screen import Screened, projector, screen
-from slipwise.diagnose.shapes import strengths, variants
+from slipwise.diagnose.rescreen import rescreen
+from slipwise.diagnose.screen import Screened, screen, screen_shapes
+from slipwise.diagnose.shapes import MOST_POINTS_AGAIN, shapes, strengths, variants
 from slipwise.diagnose.worth import MATERIAL, MATERIAL_FURTHER, all_down, material, score
 from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Term
@@ -21,6 +22,8 @@ _REFITTED = 4
 _REFITTED_PAIRS = 2
 #: Those of them that are fitted to the end.
 _POLISHED = 2
+#: Starts from which a law that leaves something is fitted again.
+_RESHAPED = 3
 #: A longer stick is tried at this many times the longest of the base [1].
 _LONGER = 4.0
 #: Candidates that are tried in the place of an effect.
@@ -77,6 +80,7 @@ def search(base: BaseFit, progress: Callable[[str, float], None] | None = None) 
     state = Search(base, found, cannot, [base_hypothesis(base)], terms=terms)
     tell("refitting", 0.6)
     _first(state)
+    _reshape(state)
     while len(state.path) - 1 and len(state.best.terms) < MOST_EFFECTS:
         tell("refitting", 0.7 + 0.1 * len(state.best.terms))
         if not _further(state):
@@ -116,6 +120,28 @@ def _first(state: Search) -> None:
         state.path.append(best)
 
 
+def _reshape(state: Search) -> None:
+    """Begin a law anew from the whole grid of its constants where it leaves something.
+
+    Its fit may be in another valley: a patch that was begun at the wrong place became a wide dip beside the narrow rise
+    that was there.
+    """
+    best, origin = state.best, state.path[0]
+    if not best.terms or all_down(best.account):
+        return
+    for term in best.terms:
+        if term.effect.port == "gauge" or len(shapes(term.effect, MOST_POINTS_AGAIN)) <= len(shapes(term.effect)):
+            continue
+        rest = [t for t in best.terms if t.label != term.label]
+        before = (_tried_before(state, rest) or [_try(state, rest, {}, best)])[0] if rest else origin
+        fitted = replace(state.base, problem=before.problem, free=before.solution.free, solution=before.solution)
+        found = screen_shapes(fitted, term, MOST_POINTS_AGAIN)[:_RESHAPED]
+        again = _try_all(state, [([*rest, term], {term.label: s.values}) for s in found], before if rest else None)
+        better = [h for h in again if score(origin.account, h.account) > score(origin.account, state.best.account)]
+        if better:
+            state.path[-1] = better[0]
+
+
 def longer_stick(state: Search, before: Hypothesis) -> list[tuple[list[Term], dict]]:
     """Ask for a law of sticking where the base would stick over more than it may: no screen sees past its bound."""
     most = next((f.high for f in before.solution.free if f.key == STICK_LENGTH), np.inf)
@@ -141,7 +167,7 @@ def _further(state: Search) -> bool:
     if all_down(account):
         return False
     least = 0.4 * MATERIAL_FURTHER * min(n for n, _ in account.counts.values())
-    found = [s for s in rescreen(state, before) if s.gain > least]
+    found = [s for s in rescreen(state.screened, before) if s.gain > least]
     chosen = _various(found, _REFITTED_PAIRS + 1)
     tried = _try_all(state, _asked(chosen, before.terms) + longer_stick(state, before), before)
     sound = [h for h in tried if strained(before) or not strained(h)]
@@ -150,35 +176,6 @@ def _further(state: Search) -> bool:
         return False
     state.path.append(max(good, key=lambda h: score(before.account, h.account)))
     return True
-
-
-def rescreen(state: Search, before: Hypothesis) -> list[Screened]:
-    """Score the remaining candidates against what a hypothesis has left, by the columns that are there already."""
-    problem, solution = before.problem, before.solution
-    project = projector(solution.jacobian)
-    residual = project(solution.residuals.stacked(problem.fitted, problem.relations))
-    out = []
-    for s in state.screened:
-        effect = s.term.effect
-        if any(at_odds(s.term, t) for t in before.terms):
-            continue
-        column = project(s.column)
-        length = float(column @ column)
-        amount = -float(column @ residual) / length if length > 1e-6 else 0.0
-        two_sided = all(p.low < float(p.neutral or 0.0) < p.high for p in strengths(effect))
-        if amount > 0.0 or two_sided:
-            out.append(_scaled(s, amount, amount**2 * length))
-    return sorted(out, key=lambda s: -s.gain)
-
-
-def _scaled(found: Screened, amount: float, gain: float) -> Screened:
-    """Give a candidate with the strength that fits the residual at hand."""
-    ratio = amount / found.length if found.length else 0.0
-    values = dict(found.values)
-    for p in strengths(found.term.effect):
-        off = float(p.neutral or 0.0)
-        values[p.name] = float(np.clip(off + ratio * (values[p.name] - off), p.low, p.high))
-    return replace(found, values=values, gain=gain)
 
 
 def _asked(chosen: Sequence[Screened], beside: Sequence[Term] = ()) -> list[tuple[list[Term], dict]]:
@@ -231,7 +228,7 @@ def _swap(state: Search) -> bool:
     for name in best.names:
         rest = [t for t in best.terms if t.effect.name != name]
         kept = (_tried_before(state, rest) or [_try(state, rest, {}, best)])[0]
-        chosen = [s for s in rescreen(state, kept) if s.term.effect.name not in best.names][:_SWAPPED]
+        chosen = [s for s in rescreen(state.screened, kept) if s.term.effect.name not in best.names][:_SWAPPED]
         better = [h for h in _try_all(state, _asked(chosen, rest), kept) if score(origin, h.account) > top]
         if better:
             state.path.append(max(better, key=lambda h: score(origin, h.account)))

@@ -7,8 +7,8 @@ import numpy as np
 from slipwise.effects import Effect
 from slipwise.params import Parameter
 
-#: Most points of the grid over shape constants.
-_MOST_POINTS = 5
+#: Most points of the grid over shape constants, and of the one that is looked at where the best fit leaves something.
+_MOST_POINTS, MOST_POINTS_AGAIN = 5, 60
 #: Multiples of a constant's typical value that are tried: a fit that begins a decade off ends in a valley of its own.
 _NEARBY = (0.33, 1.0, 3.0)
 _FAR = (0.035, 0.2, 1.0, 5.0, 28.0)
@@ -27,8 +27,13 @@ def strengths(effect: Effect) -> list[Parameter]:
     return [p for p in effect.parameters if p.neutral is not None]
 
 
-def shapes(effect: Effect) -> list[dict[str, float]]:
-    """Give a small grid over the constants that switch nothing: typical, and some multiples of it."""
+def shapes(effect: Effect, most: int = _MOST_POINTS) -> list[dict[str, float]]:
+    """Give a small grid over the constants that switch nothing: typical, and some multiples of it.
+
+    Args:
+        effect: of the catalogue.
+        most: points that may be tried; above, one constant after the other is moved from its typical value.
+    """
     if effect.port == "gauge":  # the form of a gauge's fault hardly changes its column, and the refit frees it
         constants = [p for p in effect.parameters if p.neutral is None]
         typical = {p.name: p.typical for p in constants}
@@ -53,7 +58,7 @@ def shapes(effect: Effect) -> list[dict[str, float]]:
     if not axes:
         return [{}]
     whole = [dict(zip([a[0] for a in axes], c, strict=True)) for c in product(*(a[1] for a in axes))]
-    if len(whole) <= _MOST_POINTS:
+    if len(whole) <= most:
         return whole
     broad = _BROAD if any(p.unit == "Hz" and p.neutral is None for p in effect.parameters) else 1.0
     highest = {p.name: p.high for p in effect.parameters}

@@ -1,17 +1,20 @@
 """Frictional heating: the sliding face gets hot and slippery.
 
-    q = F V / A while |x| < sqrt(A)/2,    T = 20 C + g int q(t - u) K(u) du / (e sqrt(pi)),    K(u) = 1 / sqrt(u)
+    q = F V / A, less c of it while |x| > sqrt(A)/2
+    T = 20 C + g int q(t - u) K(u) du / (e sqrt(pi)),    K(u) = exp(-u/t_c) / sqrt(u)
     mu *= [0.7^(T/50) + 0.4] / [0.7^(20/50) + 0.4]                                                  (T in degC)
 
 All friction work becomes heat. Most of it enters the steel, a half-space whose surface warms as sqrt(t) under a
-constant flux and forgets a burst as 1/sqrt(t): fast at first, then for very long. A point of the plate is heated only
-while the pad covers it. e = k_s / sqrt(D) is the effusivity of stainless steel, g the share of heat that matters.
+constant flux and forgets a burst as 1/sqrt(t): fast at first, then for very long. The middle of the plate is heated
+only while the pad covers it (c = 1), the pad's own face always (c = 0). e = k_s / sqrt(D) is the effusivity of
+stainless steel, g the share of heat that matters.
 
 1/sqrt(u) = (1/sqrt(pi)) int e^(y/2) exp(-u e^y) dy is summed by the trapezoidal rule over eight relaxation times from
-20 ms to 4.6 h, which is within 1 % for 10 ms to 50 min; what is faster acts at once, what is slower joins the last.
+20 ms to 4.6 h, which is within 1 % for 10 ms to 50 min; what is faster acts at once, what is slower joins the last. No
+plate is endless: `cooling` is the time in which it loses its heat to what holds it.
 
-`lump` blends in a body of one temperature with time constant `cooling`, K = 3.16 exp(-u/t_c) / sqrt(t_c): the pad
-itself, which is always covered. Both give the same rise after t_c of constant flux.
+`lump` blends in a body of one temperature, K = 3.16 exp(-u/t_c) / sqrt(t_c): the pad itself, which is always covered.
+A half-space without losses would give the same rise after t_c of constant flux.
 
 Valid: up to about 250 degC (PTFE melts at 327 degC).
 Source: Kumar, Whittaker, Constantinou (2015) and OpenSees FPBearingPTV for the law of T, the gate and D = 4.44e-6 m2/s,
@@ -39,15 +42,16 @@ def shear(shear: float, memory: np.ndarray) -> float:
 
 def advance(
     friction: float, speed: float, apparent_area: float, slip_x: float, slip_y: float, dt: float,
-    memory: np.ndarray, share: float, lump: float, cooling: float,
+    memory: np.ndarray, share: float, lump: float, cooling: float, cover: float,
 ) -> None:  # fmt: skip
     """Let heat flow in and away; exact while the flux is constant."""
     work = friction * speed / apparent_area
-    flux = work if slip_x * slip_x + slip_y * slip_y < 0.25 * apparent_area else 0.0
+    flux = work if slip_x * slip_x + slip_y * slip_y < 0.25 * apparent_area else work * (1.0 - cover)
     time, rise = FIRST, DENSITY * sqrt(FIRST / RATIO) * TAIL * flux
     for i in range(TERMS):
-        kept = exp(-dt / time)
-        memory[i] = memory[i] * kept + flux * time * (1.0 - kept)
+        lasting = 1.0 / (1.0 / time + 1.0 / cooling)
+        kept = exp(-dt / lasting)
+        memory[i] = memory[i] * kept + flux * lasting * (1.0 - kept)
         rise += DENSITY / sqrt(time) * memory[i] * (TAIL if i == TERMS - 1 else 1.0)
         time *= RATIO
     kept = exp(-dt / cooling)
@@ -55,9 +59,9 @@ def advance(
     memory[9] = share * PER_FLUX * ((1.0 - lump) * rise + lump * LUMP / sqrt(cooling) * memory[8])
 
 
-def rest(memory: np.ndarray, seconds: float, share: float, lump: float, cooling: float) -> None:
+def rest(memory: np.ndarray, seconds: float, share: float, lump: float, cooling: float, cover: float) -> None:
     """Cool down through a pause."""
-    advance(0.0, 0.0, 1.0, 0.0, 0.0, seconds, memory, share, lump, cooling)
+    advance(0.0, 0.0, 1.0, 0.0, 0.0, seconds, memory, share, lump, cooling, cover)
 
 
 EFFECT = Effect(
@@ -67,7 +71,8 @@ EFFECT = Effect(
     parameters=(
         Parameter("share", "1", 1.0, 0.0, 4.0, 0.0, "OpenSees FPBearingPTV: all heat into the steel", "g: of the heat"),
         Parameter("lump", "1", 0.0, 0.0, 1.0, None, "Kumar et al. (2015): half-space", "0 half-space, 1 one body"),
-        Parameter("cooling", "s", 60.0, 1.0, 3600.0, None, "assumed", "t_c: time constant of the one body"),
+        Parameter("cooling", "s", 600.0, 1.0, 3600.0, None, "assumed", "t_c: time in which heat is lost"),
+        Parameter("cover", "1", 1.0, 0.0, 1.0, None, "OpenSees FPBearingPTV: 1", "c: flux lacking where uncovered"),
     ),
     moves=RESPONSE,
     signature="odd; grows with dissipated energy, fades in a pause as 1/sqrt(t); the most loaded pad is hottest",

@@ -15,7 +15,7 @@ from slipwise.fit.across import logged_across
 from slipwise.fit.balance_noise import driven_noise_in_pitch, heard_in_balances, heave_level, weighed_balances
 from slipwise.fit.balances import BALANCES, available, buffers_along, motion_residual, predicted
 from slipwise.fit.data import FINE, FitRun
-from slipwise.fit.faults import acts_on_force, changed_by, on_force, shifts
+from slipwise.fit.faults import acts_on_force, changed_by, faulted, on_force, shifts
 from slipwise.fit.kinematics import Kinematics, values_of
 from slipwise.fit.pads import Instants, PadLaw, as_logged, force_along, lost_velocity, stick_share
 from slipwise.fit.recent import Key, Recent
@@ -90,6 +90,7 @@ class Problem:
     def _sort(self) -> None:
         """Sort the terms by what they touch."""
         self._on_force = [t for t in self.terms if t.effect.port == "gauge" and acts_on_force(t)]
+        self._on_girder = [t for t in self.terms if t.effect.port == "gauge" and "girder_ax" in t.targets]
         self._law: PadLaw | None = None
 
     @property
@@ -198,6 +199,9 @@ class Problem:
             for name in parts:
                 if name == "motion":
                     left = self._motion(i, run, values)
+                elif name == "girder" and self._on_girder:  # put on what is predicted: a filter has no inverse
+                    shown = run.record.replaced(girder_ax=said[name])
+                    left = self.runs[i].channel("girder_ax") - faulted(self._on_girder, values, shown)["girder_ax"]
                 else:
                     left = (seen[name] - said[name]) / scale.get(name, 1.0)
                 if name in self.heard:

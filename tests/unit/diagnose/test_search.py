@@ -8,7 +8,9 @@ from bench import build_campaign
 from measured import as_campaign
 from slipwise.diagnose.candidates import candidates
 from slipwise.diagnose.refit import STICK_LENGTH, base_hypothesis, refit
+from slipwise.diagnose.screen import screen_shapes
 from slipwise.diagnose.search import Search, longer_stick
+from slipwise.diagnose.shapes import MOST_POINTS_AGAIN
 from slipwise.effects import catalogue
 from slipwise.fit.base import BaseFit, fit_base
 from slipwise.fit.terms import Term
@@ -38,3 +40,13 @@ def test_a_longer_stick_is_asked_for_where_that_of_the_base_is_at_its_bound(base
         for those, starts in longer:
             assert [t.effect.name for t in those] == ["presliding"]
             assert starts["presliding"]["length"] == pytest.approx(4.0 * most)
+
+
+def test_a_patch_is_found_at_its_place_where_the_small_grid_takes_another() -> None:
+    made = build_campaign(41161, effects=("position_patch",), size="small", rig="bridge2")
+    base = fit_base(as_campaign(made))
+    place = made.truth.hidden.settings["patch_place"]
+    term = next(t for t in candidates(base)[0] if t.effect.name == "position_patch")
+    small, whole = (screen_shapes(base, term, most)[0] for most in (5, MOST_POINTS_AGAIN))
+    assert abs(small.values["place"] - place) > 8e-3
+    assert abs(whole.values["place"] - place) < 4e-3 and whole.gain > small.gain

@@ -4,6 +4,7 @@ import gzip
 
 import numpy as np
 import pytest
+from scipy.special import erf
 
 from shaking import needs_shared
 from slipwise.kernel.layout import pad_memories
@@ -43,14 +44,16 @@ def test_the_rise_does_not_depend_on_the_sampling() -> None:
 
 
 @pytest.mark.parametrize("pause", [1.0, 30.0, 600.0, 1800.0])
-def test_a_burst_of_heat_is_forgotten_as_one_over_root_of_time(pause: float) -> None:
-    """Heated for t1, at rest for t: dT = 2 q sqrt(D/pi)/k_s (sqrt(t1 + t) - sqrt(t))."""
-    law = predictor(base_model("bridge1").adding(use("heating")))
+@pytest.mark.parametrize("cooling", [100.0, 3600.0])
+def test_a_burst_of_heat_is_forgotten_as_one_over_root_of_time_and_lost(pause: float, cooling: float) -> None:
+    """Heated for t1, at rest for t: dT = q sqrt(D/pi)/k_s sqrt(pi t_c) [erf(sqrt(u/t_c))] from t to t + t1."""
+    law = predictor(base_model("bridge1").adding(use("heating", cooling=cooling)))
     _flux(law, 2e5, 5.0, 0.005)
     law.rest(pause)
     left = pad_memories(law.law.layout, law.numbers)[0][law.law.layout.pad_memory["heating"] + 9]
-    exact = 2.0 * 2e5 * np.sqrt(4.44e-6 / np.pi) / 18.0 * (np.sqrt(5.0 + pause) - np.sqrt(pause))
-    assert left == pytest.approx(exact, rel=0.03)
+    lasting = erf(np.sqrt((5.0 + pause) / cooling)) - erf(np.sqrt(pause / cooling))
+    exact = 2e5 * np.sqrt(4.44e-6 / np.pi) / 18.0 * np.sqrt(np.pi * cooling) * lasting
+    assert left == pytest.approx(exact, rel=0.03, abs=1e-3)
 
 
 def test_a_point_that_the_pad_has_left_is_not_heated() -> None:
@@ -58,6 +61,12 @@ def test_a_point_that_the_pad_has_left_is_not_heated() -> None:
     model = base_model("bridge1").adding(use("heating"))
     assert _flux(predictor(model), 2e5, 0.1, 0.002, slip=0.0190)[-1] > 1.0
     assert _flux(predictor(model), 2e5, 0.1, 0.002, slip=0.0191)[-1] == 0.0
+
+
+def test_the_face_of_the_pad_itself_is_heated_wherever_it_is() -> None:
+    model = base_model("bridge1").adding(use("heating", cover=0.0))
+    here, there = (_flux(predictor(model), 2e5, 0.1, 0.002, slip=slip)[-1] for slip in (0.0, 0.03))
+    assert here == there > 1.0
 
 
 def test_one_body_warms_towards_a_limit_and_cools_with_its_time_constant() -> None:

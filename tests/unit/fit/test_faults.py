@@ -24,3 +24,25 @@ def test_the_inertia_of_a_plate_is_taken_out_of_load_and_friction(run):
     vertical, along = run.record["table_az"], run.record["table_ax"]
     assert mended.load - run.load == pytest.approx(np.repeat(-40.0 * vertical[:, None], 4, axis=1))
     assert mended.force - run.force == pytest.approx(np.repeat(40.0 * along[:, None], 4, axis=1))
+
+
+@pytest.mark.parametrize(("name", "value"), [("channel_delay", 2e-3), ("clock_skew", 2e-4)])
+def test_slopes_of_a_delay_are_those_of_the_signal_not_of_its_noise(run, name: str, value: float) -> None:
+    """Noise of 5 % and little of it in the signal's band: moved with the signal it would be most of the slope."""
+    signal = np.sin(2.0 * np.pi * 2.0 * run.time)
+    noisy = signal + 0.05 * np.random.default_rng(3).normal(size=len(signal))
+    term = Term(catalogue()[name], ("girder_ax",), "girder_ax")
+    own = term.effect.parameters[0].name
+    here, near = ({f"{term.label}.{own}": share * value} for share in (1.0, 1.01))
+
+    def slope(values: np.ndarray, around: dict[str, float] | None) -> np.ndarray:
+        of = run.with_record(run.record.replaced(girder_ax=values), moved=False)
+        first, second = (without(term, v, of, around).record["girder_ax"] for v in (here, near))
+        return (second - first)[100:-100]
+
+    clean, true, plain = slope(signal, None), slope(noisy, here), slope(noisy, None)
+    assert np.linalg.norm(plain) > 2.0 * np.linalg.norm(clean)
+    assert np.linalg.norm(true - clean) < 0.5 * np.linalg.norm(plain - clean)
+    alike = without(term, here, run.with_record(run.record.replaced(girder_ax=noisy), moved=False))
+    again = without(term, here, run.with_record(run.record.replaced(girder_ax=noisy), moved=False), here)
+    np.testing.assert_array_equal(alike.record["girder_ax"], again.record["girder_ax"])

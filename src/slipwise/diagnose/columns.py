@@ -1,0 +1,66 @@
+"""Columns of a screen: what a candidate of some size changes in the residual of the base fit."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.diagnose.shapes import strengths
+from slipwise.effects import Effect
+from slipwise.errors import SlipwiseError
+from slipwise.fit.base import BaseFit
+from slipwise.fit.terms import Term
+from slipwise.params import Parameter
+
+Array = NDArray[np.float64]
+#: Size at which a column is taken, as a share of the typical size.
+_SMALL = 0.3
+#: Ports of effects that move measured noise about.
+_MOVES_NOISE = ("gauge", "table")
+
+
+def small(effect: Effect, shape: Mapping[str, float], moved: Parameter) -> dict[str, float]:
+    """Give an effect's values with one strength at a small size, the others absent."""
+    values = {**effect.neutral(), **shape}
+    off = float(moved.neutral or 0.0)
+    typical = moved.typical if moved.typical != off else _like_others(effect, moved)
+    values[moved.name] = float(np.clip(off + _SMALL * (typical - off), moved.low, moved.high))
+    return values
+
+
+def _like_others(effect: Effect, moved: Parameter) -> float:
+    """Give a typical size for a strength that is usually absent: that of its siblings of the same unit."""
+    for p in strengths(effect):
+        if p.unit == moved.unit and p.typical != p.neutral:
+            return p.typical
+    return float(moved.neutral or 0.0) + 0.2 * (moved.high - float(moved.neutral or 0.0))
+
+
+def column_of(base: BaseFit, term: Term, moved: Parameter, values: dict[str, float], left: Array) -> Array | None:
+    """Give the change of the residual.
+
+    Undoing a fault moves noise about, and half way between moved and unmoved noise there is less of it, as there is of
+    noise that drives a table and is whitened: a column that looked one way only would find a false gain. Both ways
+    together do not.
+    """
+    there = residual_with(base, term, values)
+    if there is None:
+        return None
+    off = float(moved.neutral or 0.0)
+    back = 2.0 * off - values[moved.name]
+    if term.effect.port in _MOVES_NOISE and moved.low <= back <= moved.high:
+        other = residual_with(base, term, {**values, moved.name: back})
+        return None if other is None else 0.5 * (there - other)
+    return there - left
+
+
+def residual_with(base: BaseFit, term: Term, values: Mapping[str, float]) -> Array | None:
+    """Give the residual of the fitted runs beside the base fit; None where the candidate cannot be evaluated."""
+    problem = base.problem.adding(term)
+    keyed = {f"{term.label}.{k}": v for k, v in values.items()}
+    try:
+        found = problem.residuals({**base.solution.values, **keyed}, fitted_only=True)
+    except SlipwiseError:
+        return None
+    stacked = found.stacked(problem.fitted, problem.relations)
+    return stacked if np.isfinite(stacked).all() else None

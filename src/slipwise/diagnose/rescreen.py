@@ -1,0 +1,45 @@
+"""Screening again: what the remaining candidates could explain of what a hypothesis has left."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from slipwise.diagnose.pairs import at_odds
+from slipwise.diagnose.refit import Hypothesis
+from slipwise.diagnose.screen import Screened, projector
+from slipwise.diagnose.shapes import strengths
+
+
+def rescreen(screened: Sequence[Screened], before: Hypothesis) -> list[Screened]:
+    """Score the remaining candidates against what a hypothesis has left, by the columns that are there already.
+
+    Args:
+        screened: candidates against the base.
+        before: the hypothesis; its own effects and what is at odds with them are left out.
+    """
+    problem, solution = before.problem, before.solution
+    project = projector(solution.jacobian)
+    residual = project(solution.residuals.stacked(problem.fitted, problem.relations))
+    out = []
+    for s in screened:
+        effect = s.term.effect
+        if any(at_odds(s.term, t) for t in before.terms):
+            continue
+        column = project(s.column)
+        length = float(column @ column)
+        amount = -float(column @ residual) / length if length > 1e-6 else 0.0
+        two_sided = all(p.low < float(p.neutral or 0.0) < p.high for p in strengths(effect))
+        if amount > 0.0 or two_sided:
+            out.append(_scaled(s, amount, amount**2 * length))
+    return sorted(out, key=lambda s: -s.gain)
+
+
+def _scaled(found: Screened, amount: float, gain: float) -> Screened:
+    """Give a candidate with the strength that fits the residual at hand."""
+    ratio = amount / found.length if found.length else 0.0
+    values = dict(found.values)
+    for p in strengths(found.term.effect):
+        off = float(p.neutral or 0.0)
+        values[p.name] = float(np.clip(off + ratio * (values[p.name] - off), p.low, p.high))
+    return replace(found, values=values, gain=gain)
