@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.diagnose.candidates import candidates
+from slipwise.diagnose.choose import best_of, various
 from slipwise.diagnose.pairs import leading_pair
 from slipwise.diagnose.refit import STICK_LENGTH, Hypothesis, base_hypothesis, polished, refit, settled, strained
 from slipwise.diagnose.rescreen import rescreen
@@ -97,19 +98,19 @@ def search(base: BaseFit, progress: Callable[[str, float], None] | None = None) 
 
 def _first(state: Search) -> None:
     origin = state.path[0]
-    chosen = _various(state.screened, _REFITTED)
+    chosen = various(state.screened, _REFITTED)
     physics = [s for s in state.screened if s.term.effect.component != "instrument"]
     chosen += [s for s in physics[:_REFITTED_PHYSICS] if all(s is not c for c in chosen)]
     least = 0.4 * MATERIAL * min(n for n, _ in origin.account.counts.values())
     asked = _asked([s for s in chosen if s.gain > least]) + longer_stick(state, origin)
-    best = _best(origin, _try_all(state, asked))
+    best = best_of(origin, _try_all(state, asked))
     pair = leading_pair(state.base, state.screened, best)
     if pair is not None:
         both = _try(state, [p.term for p in pair], {p.term.label: p.values for p in pair})
         if material(origin.account, origin.account, both.account):
             # a fit hides an effect behind the base less than a screen does: one of the two may do alone
             alone = [_try(state, [p.term], {}, both) for p in pair if not _tried_before(state, [p.term])]
-            best = _best(origin, [*alone, *([best] if best else [])])
+            best = best_of(origin, [*alone, *([best] if best else [])])
             single = best or origin
             if score(origin.account, both.account) > score(origin.account, single.account) and material(
                 origin.account, single.account, both.account
@@ -155,11 +156,6 @@ def longer_stick(state: Search, before: Hypothesis) -> list[tuple[list[Term], di
     return out
 
 
-def _best(origin: Hypothesis, tried: Sequence[Hypothesis]) -> Hypothesis | None:
-    good = [h for h in tried if material(origin.account, origin.account, h.account)]
-    return max(good, key=lambda h: score(origin.account, h.account), default=None)
-
-
 def _further(state: Search) -> bool:
     """Add the effect that helps most beside those found; false when none is worth it."""
     before, origin = state.best, state.path[0]
@@ -168,7 +164,7 @@ def _further(state: Search) -> bool:
         return False
     least = 0.4 * MATERIAL_FURTHER * min(n for n, _ in account.counts.values())
     found = [s for s in rescreen(state.screened, before) if s.gain > least]
-    chosen = _various(found, _REFITTED_PAIRS + 1)
+    chosen = various(found, _REFITTED_PAIRS + 1)
     tried = _try_all(state, _asked(chosen, before.terms) + longer_stick(state, before), before)
     sound = [h for h in tried if strained(before) or not strained(h)]
     good = [h for h in sound if material(origin.account, before.account, h.account)]
@@ -203,17 +199,6 @@ def _try_all(
         done.append(h)
     state.tried += done
     return done
-
-
-def _various(found: list[Screened], count: int) -> list[Screened]:
-    """Give the best candidates, each effect at most twice: a card and a single gauge."""
-    out: list[Screened] = []
-    for s in found:
-        if sum(o.term.effect.name == s.term.effect.name for o in out) < 2:
-            out.append(s)
-        if len(out) == count:
-            break
-    return out
 
 
 def _swap(state: Search) -> bool:

@@ -59,15 +59,20 @@ def weighed_balances(
     return out
 
 
-def heave_level(model: Model, run: FitRun) -> float:
+def heave_level(model: Model, run: FitRun, scale: Mapping[str, float]) -> float:
     """Give the noise of the heave balance as the model's mass and effects pass it on [N].
 
     Less mass multiplies the accelerometer's noise by less: without this the fit would buy a smaller residual with mass,
     and pay for the load with whatever else adds to it. What effects let ring is counted by `bent_noise_in_heave`.
+
+    Args:
+        model: with the numbers of the fit.
+        run: its gauges.
+        scale: of `fit.faults.noise_scale`, by which the balance is divided.
     """
-    loads = float(np.linalg.norm(run.gauge_noise[1]))
-    vertical = model.specimen.mass * run.noise.get("girder_az", 0.0)
-    return float(np.hypot(loads, min(1.0, heave_noise(model, run)) * vertical))
+    loads = float(np.linalg.norm(run.gauge_noise[1])) * scale.get("loads", 1.0)
+    vertical = model.specimen.mass * run.noise.get("girder_az", 0.0) * scale.get("girder_az", 1.0)
+    return float(np.hypot(loads, min(1.0, heave_noise(model, run)) * vertical)) / scale.get("heave", 1.0)
 
 
 def heave_noise(model: Model, run: FitRun) -> float:

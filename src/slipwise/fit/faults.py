@@ -139,7 +139,11 @@ def _sharpened(values: Array, pulse: Array, dt: float) -> Array:
 
 
 def noise_scale(terms: Sequence[Term], values: Mapping[str, float], run: FitRun) -> dict[str, float]:
-    """Tell by how much undoing the faults has scaled the noise of the balances' own channels."""
+    """Tell by how much undoing the faults has scaled the noise of the balances' own channels.
+
+    Returns:
+        relation -> factor, and of the gauges of heave "loads" -> factor and "girder_az" -> factor, where it is not 1.
+    """
     loads = [f"pad_{p}_N" for p in run.pads if f"pad_{p}_N" in run.record]
     channels = {"girder": ["girder_ax"], "heave": ["girder_az"], "pitch": loads, "roll": loads, "warp": loads}
     out: dict[str, float] = {}
@@ -150,7 +154,12 @@ def noise_scale(terms: Sequence[Term], values: Mapping[str, float], run: FitRun)
     touched = [n for n in loads if any(n in t.targets for t in terms)]
     if touched:  # noise of heave is of both kinds
         own = sum(_amplified(terms, values, run, n) if n in touched else 1.0 for n in loads) / len(loads)
+        if "heave" in out:
+            out["girder_az"] = out["heave"]
         out["heave"] = max(out.get("heave", 1.0), own) if own > 1.0 else min(out.get("heave", 1.0), own)
+        out["loads"] = own
+    elif "heave" in out:
+        out["girder_az"] = out["heave"]
     return out
 
 

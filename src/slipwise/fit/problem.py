@@ -189,7 +189,7 @@ class Problem:
         parts: dict[str, list[Array]] = {r: [] for r in self.relations if r in BALANCES}
         hidden = 0.0
         if "heave" in parts and self.sigmas:
-            hidden = 1.0 - (heave_level(model, runs[0]) / float(np.min(self.sigmas["heave"][0]))) ** 2
+            hidden = 1.0 - (heave_level(model, runs[0], scale) / float(np.min(self.sigmas["heave"][0]))) ** 2
         driven: list[Array | None] = [None] * len(runs)
         if self.sigmas and PITCH_INERTIA in self.kinematics.inertias:
             driven = [*driven_noise_in_pitch(model, runs, values)]
