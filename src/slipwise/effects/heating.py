@@ -2,7 +2,7 @@
 
     q = F V / A, less c of it while |x| > sqrt(A)/2
     T = 20 C + g int q(t - u) K(u) du / (e sqrt(pi)),    K(u) = exp(-u/t_c) / sqrt(u)
-    mu *= [0.7^(T/50) + 0.4] / [0.7^(20/50) + 0.4]                                                  (T in degC)
+    mu *= [0.7^(T/50) + b] / [0.7^(20/50) + b],    b = 0.4                                          (T in degC)
 
 All friction work becomes heat. Most of it enters the steel, a half-space whose surface warms as sqrt(t) under a
 constant flux and forgets a burst as 1/sqrt(t): fast at first, then for very long. The middle of the plate is heated
@@ -18,7 +18,7 @@ A half-space without losses would give the same rise after t_c of constant flux.
 
 Valid: up to about 250 degC (PTFE melts at 327 degC).
 Source: Kumar, Whittaker, Constantinou (2015) and OpenSees FPBearingPTV for the law of T, the gate and D = 4.44e-6 m2/s,
-k_s = 18 W/(m K); Carslaw & Jaeger for the kernel: constant q gives 2 q sqrt(D t/pi)/k_s; `lump` assumed.
+k_s = 18 W/(m K); Carslaw & Jaeger for the kernel: constant q gives 2 q sqrt(D t/pi)/k_s; `lump` and `cooling` assumed.
 """
 
 from math import exp, log, pi, sqrt
@@ -35,14 +35,14 @@ PER_FLUX = sqrt(4.44e-6 / pi) / 18.0
 LUMP = 2.0 / (1.0 - exp(-1.0))
 
 
-def shear(shear: float, memory: np.ndarray) -> float:
+def shear(shear: float, memory: np.ndarray, remains: float) -> float:
     """Lower the shear strength [Pa] by what the temperature does."""
-    return shear * ((0.7 ** ((20.0 + memory[9]) / 50.0) + 0.4) / (0.7 ** (20.0 / 50.0) + 0.4))
+    return shear * ((0.7 ** ((20.0 + memory[9]) / 50.0) + remains) / (0.7 ** (20.0 / 50.0) + remains))
 
 
 def advance(
     friction: float, speed: float, apparent_area: float, slip_x: float, slip_y: float, dt: float,
-    memory: np.ndarray, share: float, lump: float, cooling: float, cover: float,
+    memory: np.ndarray, share: float, lump: float, cooling: float, cover: float, remains: float,
 ) -> None:  # fmt: skip
     """Let heat flow in and away; exact while the flux is constant."""
     work = friction * speed / apparent_area
@@ -59,9 +59,11 @@ def advance(
     memory[9] = share * PER_FLUX * ((1.0 - lump) * rise + lump * LUMP / sqrt(cooling) * memory[8])
 
 
-def rest(memory: np.ndarray, seconds: float, share: float, lump: float, cooling: float, cover: float) -> None:
+def rest(
+    memory: np.ndarray, seconds: float, share: float, lump: float, cooling: float, cover: float, remains: float
+) -> None:
     """Cool down through a pause."""
-    advance(0.0, 0.0, 1.0, 0.0, 0.0, seconds, memory, share, lump, cooling, cover)
+    advance(0.0, 0.0, 1.0, 0.0, 0.0, seconds, memory, share, lump, cooling, cover, remains)
 
 
 EFFECT = Effect(
@@ -73,6 +75,7 @@ EFFECT = Effect(
         Parameter("lump", "1", 0.0, 0.0, 1.0, None, "Kumar et al. (2015): half-space", "0 half-space, 1 one body"),
         Parameter("cooling", "s", 600.0, 1.0, 3600.0, None, "assumed", "t_c: time in which heat is lost"),
         Parameter("cover", "1", 1.0, 0.0, 1.0, None, "OpenSees FPBearingPTV: 1", "c: flux lacking where uncovered"),
+        Parameter("remains", "1", 0.4, 0.0, 2.0, None, "Kumar et al. (2015)", "b: what stays however hot it gets"),
     ),
     moves=RESPONSE,
     signature="odd; grows with dissipated energy, fades in a pause as 1/sqrt(t); the most loaded pad is hottest",

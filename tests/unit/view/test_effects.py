@@ -22,7 +22,7 @@ def test_rows_hold_all_that_a_program_may_ask_for() -> None:
     heating = next(row for row in rows if row["name"] == "heating")
     assert heating["valid"].startswith("up to about 250 degC") and "Source" not in heating["valid"]
     assert heating["source"].startswith("Kumar") and "\n" not in heating["source"]
-    assert [p["name"] for p in heating["parameters"]] == ["share", "lump", "cooling", "cover"]
+    assert [p["name"] for p in heating["parameters"]] == ["share", "lump", "cooling", "cover", "remains"]
 
 
 def test_numbers_are_in_the_unit_that_stands_beside_them() -> None:
