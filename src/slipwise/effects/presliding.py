@@ -14,7 +14,7 @@ it, a rubber layer or the cell; a round contact that slips from its rim inwards 
 
 Valid: u 0.02 to 0.5 mm for bare sheet, 1 to 5 mm with a rubber layer in series.
 Source: Dahl (1968), with his exponent; Mindlin (1949) for q = 2/3; Canudas de Wit et al. (1995), LuGre, for a bristle
-that is damped, with |F| <= F_b. Sizes assumed.
+that is damped, with F = F_b while it slips. Sizes assumed.
 """
 
 from math import exp, sqrt
@@ -54,6 +54,8 @@ def stick(
             along = length * (1.0 - (power_left ** (1.0 / power) if power_left > 0.0 else power_left / power))
         shrink = min(1.0, length / max(sqrt(along * along + across * across), 1e-30))
         memory[0], memory[1] = (along * x - across * y) * shrink, (along * y + across * x) * shrink
+        if shrink < 1.0:  # it slips: a bound that falls meanwhile lets the bristle go, and the damper with it
+            before_x, before_y = memory[0], memory[1]
     bent_x = memory[0] + damping * (memory[0] - before_x) / dt
     bent_y = memory[1] + damping * (memory[1] - before_y) / dt
     stiffness = bound / max(sqrt(bent_x * bent_x + bent_y * bent_y), length)

@@ -120,3 +120,15 @@ def test_a_damped_bristle_pushes_back_while_it_bends_and_no_longer() -> None:
     bending = slip[1:, 0, 0] < 0.85 * U
     np.testing.assert_allclose(share[1:][bending], slip[1:, 0, 0][bending] / U + 4e-3 * 0.05 / 0.002, rtol=1e-9)
     assert share[-1] == pytest.approx(1.0, abs=1e-12) and share.max() <= 1.0 + 1e-12
+
+
+def test_a_contact_that_slips_has_its_whole_friction_while_that_falls() -> None:
+    """A damper that followed the shrinking bristle took a third of the friction just before a reversal."""
+    model = base_model("bridge1", [use("presliding", length=U, exponent=0.0, growth=1.0, damping=2e-3)])
+    time = 0.0005 * np.arange(200)
+    slip = np.zeros((200, 4, 2))
+    slip[:, :, 0] = (10.0 * U * time / time[-1])[:, None]
+    load = np.linspace(LOAD, 0.4 * LOAD, 200)[:, None] * np.ones((1, 4))
+    found = predictor(model).pads(time, load, np.gradient(slip, time, axis=0), slip)
+    share = (found.force[:, 0] / found.bound[:, :1])[:, 0]
+    np.testing.assert_allclose(share[slip[:, 0, 0] > 2.0 * U], 1.0, rtol=1e-12)
