@@ -116,8 +116,8 @@ class Diagnosis:
         }
 
 
-def _number(value: float) -> float | None:
-    return float(f"{value:.4g}") if np.isfinite(value) else None
+def _number(value: float, figures: int = 4) -> float | None:
+    return float(f"{value:.{figures}g}") if np.isfinite(value) else None
 
 
 def _candidate(found: Candidate) -> dict[str, Any]:
@@ -127,13 +127,19 @@ def _candidate(found: Candidate) -> dict[str, Any]:
         "holdout_before": _number(found.holdout_before),
         "holdout_after": _number(found.holdout_after),
         "absorbed_by_base": _number(found.absorbed_by_base),
-        "parameters": {k: _interval(p) for k, p in found.parameters.items()},
+        "parameters": {k: written(p) for k, p in found.parameters.items()},
     }
 
 
-def _interval(found: Interval) -> dict[str, Any]:
-    """Write a number with its interval; "limit" says that `high` is what it is at most, and that it may be absent."""
-    out = {"value": _number(found.value), "low": _number(found.low), "high": _number(found.high), "unit": found.unit}
+def written(found: Interval) -> dict[str, Any]:
+    """Write a number with its interval; "limit" says that `high` is what it is at most, and that it may be absent.
+
+    A narrow interval gets the figures that its half width needs two of: with four it could shrink to nothing.
+    """
+    half, size = 0.5 * (found.high - found.low), max(abs(found.low), abs(found.high))
+    figures = max(4, int(np.ceil(np.log10(size / half))) + 2) if np.isfinite(half) and half > 0.0 else 4
+    numbers = {"value": found.value, "low": found.low, "high": found.high}
+    out = {**{k: _number(v, figures) for k, v in numbers.items()}, "unit": found.unit}
     return {**out, "limit": found.limit} if found.limit else out
 
 

@@ -188,15 +188,16 @@ def no_slip(model: Model, run: FitRun) -> Array:
     return effects_in(model, run, model.built_specimen(), run.force, nothing).get("motion", nothing[:, 0])
 
 
-def motion_residual(run: FitRun, late: float) -> Array:
+def motion_residual(run: FitRun, late: float, scale: Mapping[str, float]) -> Array:
     """Give a_x - a_x,table - d2(slip)/dt2, whitened by the noise of the three gauges: (n,) of unit variance.
 
     Args:
         run: its channels.
         late: by which the slip gauge lags behind the accelerometers [s].
+        scale: channel -> by how much undoing faults has scaled its noise: else a gain would shrink it and look good.
     """
-    level = np.hypot(run.noise["girder_ax"], run.noise["table_ax"])
-    gauge = run.noise["slip_x"]
+    girder, table, gauge = (run.noise[n] * scale.get(n, 1.0) for n in ("girder_ax", "table_ax", "slip_x"))
+    level = np.hypot(girder, table)
 
     def white(f: Array) -> Array:
         return 1.0 / np.sqrt(level**2 + ((2.0 * np.pi * f) ** 2 * gauge) ** 2)

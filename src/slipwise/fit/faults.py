@@ -139,27 +139,28 @@ def _sharpened(values: Array, pulse: Array, dt: float) -> Array:
 
 
 def noise_scale(terms: Sequence[Term], values: Mapping[str, float], run: FitRun) -> dict[str, float]:
-    """Tell by how much undoing the faults has scaled the noise of the balances' own channels.
+    """Tell by how much undoing the faults has scaled the noise of the balances and of their gauges.
 
     Returns:
-        relation -> factor, and of the gauges of heave "loads" -> factor and "girder_az" -> factor, where it is not 1.
+        relation -> factor by which its residual is to be divided, and channel (or "loads" for all cells) -> factor of
+        its noise; what no fault touches is left out.
     """
-    loads = [f"pad_{p}_N" for p in run.pads if f"pad_{p}_N" in run.record]
-    channels = {"girder": ["girder_ax"], "heave": ["girder_az"], "pitch": loads, "roll": loads, "warp": loads}
-    out: dict[str, float] = {}
-    for relation, names in channels.items():
-        touched = [n for n in names if n in run.record and any(n in t.targets for t in terms)]
-        if touched:
-            out[relation] = sum(_amplified(terms, values, run, n) if n in touched else 1.0 for n in names) / len(names)
-    touched = [n for n in loads if any(n in t.targets for t in terms)]
-    if touched:  # noise of heave is of both kinds
-        own = sum(_amplified(terms, values, run, n) if n in touched else 1.0 for n in loads) / len(loads)
-        if "heave" in out:
-            out["girder_az"] = out["heave"]
-        out["heave"] = max(out.get("heave", 1.0), own) if own > 1.0 else min(out.get("heave", 1.0), own)
-        out["loads"] = own
-    elif "heave" in out:
-        out["girder_az"] = out["heave"]
+    loads = [f"pad_{p}_N" for p in run.pads]
+    gauges = {
+        name: _amplified(terms, values, run, name)
+        for name in ("girder_ax", "girder_az", "table_ax", "slip_x", *loads)
+        if name in run.record and any(name in t.targets for t in terms)
+    }
+    out = {name: factor for name, factor in gauges.items() if name not in loads}
+    if "girder_ax" in out:
+        out["girder"] = out["girder_ax"]
+    if "girder_az" in out:
+        out["heave"] = out["girder_az"]
+    if any(name in gauges for name in loads):
+        own = sum(gauges.get(name, 1.0) for name in loads) / len(loads)
+        out |= dict.fromkeys(("loads", "pitch", "roll", "warp"), own)
+        either = max if own > 1.0 else min  # noise of heave is of both kinds
+        out["heave"] = either(out.get("heave", 1.0), own)
     return out
 
 

@@ -198,7 +198,7 @@ class Problem:
             said, seen = predicted(model, run, force, buffers_along(law, run, *turning[i]), values)
             for name in parts:
                 if name == "motion":
-                    left = self._motion(i, run, values)
+                    left = self._motion(i, run, values, scale)
                 elif name == "girder" and self._on_girder:  # put on what is predicted: a filter has no inverse
                     shown = run.record.replaced(girder_ax=said[name])
                     left = self.runs[i].channel("girder_ax") - faulted(self._on_girder, values, shown)["girder_ax"]
@@ -291,7 +291,7 @@ class Problem:
         forces = self._along(values, states[: len(said)], said)
         return [as_logged(f, r, by, averaged=averaged, late=late) for f, r in zip(forces, runs, strict=False)]
 
-    def _motion(self, place: int, run: FitRun, values: Mapping[str, float]) -> Array:
+    def _motion(self, place: int, run: FitRun, values: Mapping[str, float], scale: Mapping[str, float]) -> Array:
         late = values["rig.late_slip"]
         key = (late, *self.kinematics.fault_key(values))
-        return self.kinematics.recent.get(f"motion{place}", key, lambda: motion_residual(run, late))
+        return self.kinematics.recent.get(f"motion{place}", key, lambda: motion_residual(run, late, scale))
