@@ -63,6 +63,12 @@ class Interval:
     bound: str
     limit: str = ""
 
+    @property
+    def figures(self) -> int:
+        """Figures to write it with: four, or so many that its half width keeps two and does not shrink to nothing."""
+        half, size = 0.5 * (self.high - self.low), max(abs(self.low), abs(self.high))
+        return max(4, int(np.ceil(np.log10(size / half))) + 2) if np.isfinite(half) and half > 0.0 else 4
+
 
 @dataclass(frozen=True)
 class Intervals:

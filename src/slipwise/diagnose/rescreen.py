@@ -8,7 +8,7 @@ import numpy as np
 from slipwise.diagnose.pairs import at_odds
 from slipwise.diagnose.refit import Hypothesis
 from slipwise.diagnose.screen import Screened, projector
-from slipwise.diagnose.shapes import strengths
+from slipwise.diagnose.shapes import strengths, two_sided
 
 
 def rescreen(screened: Sequence[Screened], before: Hypothesis) -> list[Screened]:
@@ -23,14 +23,12 @@ def rescreen(screened: Sequence[Screened], before: Hypothesis) -> list[Screened]
     residual = project(solution.residuals.stacked(problem.fitted, problem.relations))
     out = []
     for s in screened:
-        effect = s.term.effect
         if any(at_odds(s.term, t) for t in before.terms):
             continue
         column = project(s.column)
         length = float(column @ column)
         amount = -float(column @ residual) / length if length > 1e-6 else 0.0
-        two_sided = all(p.low < float(p.neutral or 0.0) < p.high for p in strengths(effect))
-        if amount > 0.0 or two_sided:
+        if amount > 0.0 or all(two_sided(p) for p in strengths(s.term.effect)):
             out.append(_scaled(s, amount, amount**2 * length))
     return sorted(out, key=lambda s: -s.gain)
 

@@ -132,14 +132,9 @@ def _candidate(found: Candidate) -> dict[str, Any]:
 
 
 def written(found: Interval) -> dict[str, Any]:
-    """Write a number with its interval; "limit" says that `high` is what it is at most, and that it may be absent.
-
-    A narrow interval gets the figures that its half width needs two of: with four it could shrink to nothing.
-    """
-    half, size = 0.5 * (found.high - found.low), max(abs(found.low), abs(found.high))
-    figures = max(4, int(np.ceil(np.log10(size / half))) + 2) if np.isfinite(half) and half > 0.0 else 4
+    """Write a number with its interval; "limit" says that `high` is what it is at most, and that it may be absent."""
     numbers = {"value": found.value, "low": found.low, "high": found.high}
-    out = {**{k: _number(v, figures) for k, v in numbers.items()}, "unit": found.unit}
+    out = {**{k: _number(v, found.figures) for k, v in numbers.items()}, "unit": found.unit}
     return {**out, "limit": found.limit} if found.limit else out
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.diagnose.columns import column_of, residual_with, small
-from slipwise.diagnose.shapes import shapes, strengths
+from slipwise.diagnose.shapes import shapes, strengths, two_sided
 from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Term
 from slipwise.params import Parameter
@@ -91,26 +91,29 @@ def screen_shapes(base: BaseFit, term: Term, most: int) -> list[Screened]:
     project = projector(base.solution.jacobian)
     left = base.solution.residuals.stacked(base.problem.fitted, base.problem.relations)
     residual = project(left)
-    found = (_screened(base, term, left, residual, project, [shape]) for shape in shapes(term.effect, most))
-    return sorted((s for s in found if s is not None), key=lambda s: -s.gain)
+    found = _at_shapes(base, term, shapes(term.effect, most), left, residual, project)
+    return sorted(found, key=lambda s: -s.gain)
 
 
 def _screened(
-    base: BaseFit,
-    term: Term,
-    left: Array | None,
-    residual: Array,
-    project: Callable[[Array], Array],
-    grid: list[dict[str, float]] | None = None,
+    base: BaseFit, term: Term, left: Array, residual: Array, project: Callable[[Array], Array]
 ) -> Screened | None:
     if not strengths(term.effect):
         return _replacing(base, term, residual, project)
+    return _better(*_at_shapes(base, term, shapes(term.effect), left, residual, project))
+
+
+def _at_shapes(
+    base: BaseFit, term: Term, grid: list[dict[str, float]], left: Array | None, residual: Array,
+    project: Callable[[Array], Array],
+) -> list[Screened]:  # fmt: skip
+    """Give what a candidate could explain at every point of a grid where it can be evaluated."""
     problem = base.problem
     # yaw that is made from measured forces is noise as well
     if problem.adding(term).kinematics.turns != problem.kinematics.turns:
         left = residual_with(base, term, term.effect.neutral())
-    best: Screened | None = None
-    for shape in grid or shapes(term.effect):
+    out: list[Screened] = []
+    for shape in grid:
         starts = [(p, small(term.effect, shape, p)) for p in strengths(term.effect)]
         found = _mixed(base, term, shape, starts, left, residual, project)
         for _ in range(_ROUNDS):
@@ -121,9 +124,9 @@ def _screened(
                 break
             starts = [(p, {**v, p.name: found.values[p.name]} if p.name in far else v) for p, v in starts]
             found = _mixed(base, term, shape, starts, left, residual, project)
-        found = _better(found, *_direct(base, term, shape, residual, project))
-        best = _better(best, found)
-    return best
+        best = _better(found, *_direct(base, term, shape, residual, project))
+        out += [best] if best else []
+    return out
 
 
 def _better(*found: Screened | None) -> Screened | None:
@@ -210,7 +213,7 @@ def _best_mix(
     while kept:
         part = matrix[:, kept]
         amounts = -np.linalg.lstsq(part.T @ part, part.T @ residual, rcond=1e-10)[0]
-        bad = [k for k, a in zip(kept, amounts, strict=True) if a < 0.0 and not _two_sided(starts[k][0])]
+        bad = [k for k, a in zip(kept, amounts, strict=True) if a < 0.0 and not two_sided(starts[k][0])]
         if not bad:
             break
         kept = [k for k in kept if k not in bad]
@@ -224,7 +227,3 @@ def _best_mix(
         values[p.name] = float(np.clip(off + amount * (start[p.name] - off), p.low, p.high))
     clean = float(sum(c @ c for c in columns))
     return _scored(term, values, residual, step, 1.0 - clean / raw)
-
-
-def _two_sided(p: Parameter) -> bool:
-    return p.low < float(p.neutral or 0.0) < p.high

@@ -134,7 +134,7 @@ def _reshape(state: Search) -> None:
         if term.effect.port == "gauge" or len(shapes(term.effect, MOST_POINTS_AGAIN)) <= len(shapes(term.effect)):
             continue
         rest = [t for t in best.terms if t.label != term.label]
-        before = (_tried_before(state, rest) or [_try(state, rest, {}, best)])[0] if rest else origin
+        before = _left_with(state, rest, best) if rest else origin
         fitted = replace(state.base, problem=before.problem, free=before.solution.free, solution=before.solution)
         found = screen_shapes(fitted, term, MOST_POINTS_AGAIN)[:_RESHAPED]
         again = _try_all(state, [([*rest, term], {term.label: s.values}) for s in found], before if rest else None)
@@ -212,13 +212,18 @@ def _swap(state: Search) -> bool:
     top = score(origin, best.account)
     for name in best.names:
         rest = [t for t in best.terms if t.effect.name != name]
-        kept = (_tried_before(state, rest) or [_try(state, rest, {}, best)])[0]
+        kept = _left_with(state, rest, best)
         chosen = [s for s in rescreen(state.screened, kept) if s.term.effect.name not in best.names][:_SWAPPED]
         better = [h for h in _try_all(state, _asked(chosen, rest), kept) if score(origin, h.account) > top]
         if better:
             state.path.append(max(better, key=lambda h: score(origin, h.account)))
             return True
     return False
+
+
+def _left_with(state: Search, rest: Sequence[Term], whole: Hypothesis) -> Hypothesis:
+    """Give the hypothesis of the rest of a whole: as it was fitted before, or from where the whole ended."""
+    return (_tried_before(state, rest) or [_try(state, rest, {}, whole)])[0]
 
 
 def _tried_before(state: Search, terms: Sequence[Term]) -> list[Hypothesis]:

@@ -27,6 +27,11 @@ def strengths(effect: Effect) -> list[Parameter]:
     return [p for p in effect.parameters if p.neutral is not None]
 
 
+def two_sided(strength: Parameter) -> bool:
+    """Tell whether a strength may lie on either side of its absence."""
+    return strength.low < float(strength.neutral or 0.0) < strength.high
+
+
 def shapes(effect: Effect, most: int = _MOST_POINTS) -> list[dict[str, float]]:
     """Give a small grid over the constants that switch nothing: typical, and some multiples of it.
 

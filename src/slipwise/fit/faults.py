@@ -99,14 +99,14 @@ def without(term: Term, values: Mapping[str, float], run: FitRun, around: Mappin
             would creep and their intervals be too narrow.
     """
     record = run.record
-    for entry, start in zip(term.uses(values), term.uses(around or values), strict=True):
+    begin = around if around is not None and shifts([term]) else values
+    for entry, start in zip(term.uses(values), term.uses(begin), strict=True):
         names = [n for n in channels_like(entry.target) if n in record]
         if "undo" in term.effect.hooks:
-            moves = entry.values != start.values and shifts([term])
-            seen = record.replaced(**{n: smoothed(record[n], run) for n in names}) if moves else record
-            here = start if moves else entry
-            record = _call(entry.effect, "undo", record, entry.target, here.values)
-            if moves:
+            shown = record
+            record = _call(entry.effect, "undo", shown, entry.target, start.values)
+            if entry.values != start.values:
+                seen = shown.replaced(**{n: smoothed(shown[n], run) for n in names})
                 there, back = (_call(entry.effect, "undo", seen, entry.target, e.values) for e in (entry, start))
                 record = record.replaced(**{n: record[n] + there[n] - back[n] for n in names})
         else:

@@ -128,8 +128,9 @@ def _what_it_is(found: Diagnosis) -> Section:
 def _numbers(label: str, parameter: str, interval) -> dict[str, object]:  # noqa: ANN001 - an Interval
     known = catalogue()[label.partition("[")[0]].parameter(parameter)
     shown = known.shown_in or known.unit
-    value, low, high = (convert(v, known.unit, shown) for v in (interval.value, interval.low, interval.high))
-    out = {"value": f"{value:.4g}", "low": f"{low:.4g}", "high": f"{high:.4g}", "unit": "" if shown == "1" else shown}
+    ends = {"value": interval.value, "low": interval.low, "high": interval.high}
+    out = {k: f"{convert(v, known.unit, shown):.{interval.figures}g}" for k, v in ends.items()}
+    out["unit"] = "" if shown == "1" else shown
     if interval.limit:
         out |= {"low": "may be absent"}
     return {**out, "meaning": known.meaning}
