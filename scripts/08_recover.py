@@ -25,7 +25,7 @@ from slipwise.diagnose.refit import account
 from slipwise.diagnose.screen import screen
 from slipwise.diagnose.shapes import strengths
 from slipwise.errors import SlipwiseError
-from slipwise.fit.base import BaseFit, fit_base
+from slipwise.fit.base import BaseFit, fit_base, fit_finely
 from slipwise.fit.terms import Term
 from slipwise.model import EffectUse, Model, base_model
 from slipwise.motion import load_motion
@@ -37,8 +37,9 @@ NOISE = 0.01
 #: Without it reversals, which take a fraction of a millisecond, would alias.
 LOGGER = LowPass(100.0)
 SAMPLE_DT = 0.002
-#: In steps of 0.5 ms friction turns round up to a millisecond off, which a law would have to make up for.
-DT = 5e-5
+#: Friction is that of the velocity half a step before and the load one before: 30 us late in steps of 50 us, which a
+#: gauge's filter and a logarithm of speed would have to make up for.
+DT, KEPT_DT = 1e-5, 5e-5
 MOTIONS = {
     "sine": "sine:1.6Hz,0.25g,cycles=12,vertical=5Hz,0.2g",
     "quake": "quake:seed=3,peak=0.6g,f=4Hz,strong=4s,vertical=0.3g",
@@ -55,13 +56,13 @@ def measured(model: Model, rng: np.random.Generator) -> Campaign:
     """Replay a model and measure it with noise."""
     runs, memory = [], None
     for name, text in MOTIONS.items():
-        answer = replay(model, load_motion(text), dt=DT, output_dt=DT, start=memory, rest=1800.0)
+        answer = replay(model, load_motion(text), dt=DT, output_dt=KEPT_DT, start=memory, rest=1800.0)
         memory = answer.memory
-        every = round(SAMPLE_DT / DT)
+        every = round(SAMPLE_DT / KEPT_DT)
         channels = {}
         for channel, values in answer.record.channels.items():
             if any(fnmatchcase(channel, kept) for kept in KEPT):
-                seen = lowpass(values, DT, LOGGER)[::every]
+                seen = lowpass(values, KEPT_DT, LOGGER)[::every]
                 channels[channel] = seen + NOISE * np.std(seen) * rng.standard_normal(len(seen))
         digest = hashlib.sha256(name.encode()).hexdigest()
         runs.append(Run(name, "fit", Record(answer.record.time[::every], channels), 1800.0, None, name, digest))
@@ -91,7 +92,7 @@ def recover(term: Term, rng: np.random.Generator) -> dict[str, Any]:
     half = {p.name: 0.5 * (values[p.name] + float(p.neutral or 0.0)) for p in strengths(term.effect)}
     start = {**values, **half}
     uses = [EffectUse(term.effect, start, target) for target in ((card,) if card else term.targets)]
-    fitted = fit_base(campaign, base.adding(*uses))
+    fitted = fit_finely(campaign, base.adding(*uses))
     known = intervals(fitted)
     found = {i.key: i for i in known.entries}
     plain = fit_base(campaign)

@@ -158,7 +158,8 @@ def test_one_instant_after_another_answers_as_the_whole_record(effect: Effect, e
             force = np.array(step["explicit"](u, z, bound, load, *state))
         friction = float(np.hypot(*force))
         more = step["further"](u, z, bound, friction, load, *state)
-        step["advance"](u, z, bound, friction, load, *state)
+        mean = 0.5 * (moving["velocity"][i, 2] + moving["velocity"][i + 1, 2])
+        step["advance"](u, z, bound, friction, load, *mean, *state[2:-1], moving["time"][i + 1] - moving["time"][i])
         np.testing.assert_allclose(force + more, whole.force[i, 2], rtol=1e-9, atol=1e-9)
         np.testing.assert_allclose(bound, whole.bound[i, 2], rtol=1e-12, atol=1e-12)
 

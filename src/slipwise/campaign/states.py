@@ -49,7 +49,7 @@ class States:
         specimen: of the campaign.
         time: (n,) [s].
         slip: (n, 2) girder minus table at the sliding plane, smoothed [m]; y is 0 where it was not measured.
-        velocity: (n, 2) of the slip [m/s].
+        velocity: (n, 2) of the slip [m/s]; zero where it is stuck and no more than noise.
         yaw: (n,) girder minus table [rad]; 0 where it was not measured.
         yaw_rate: (n,) [rad/s].
         load: (n, p) compression [N].
@@ -156,7 +156,9 @@ def measured_states(run: Run, campaign: Campaign) -> States:
         missing.append("yaw: velocities of the pads are taken as equal")
     velocity = np.stack([along.velocity, across.velocity if across else np.zeros(len(record))], axis=1)
     speed = np.hypot(velocity[:, 0], velocity[:, 1])
-    stuck = _stuck(speed, along.velocity_error if specimen.free else 0.0)
+    error = along.velocity_error if specimen.free else 0.0
+    stuck = _stuck(speed, error)
+    velocity[stuck & _at_rest(velocity[:, 0], speed, error)] = 0.0
     slowest = next((f for f in lowpass.values() if f is not None), None)
     nothing = np.zeros(len(record))
     return States(
@@ -270,6 +272,19 @@ def _stuck(speed: Array, error: float) -> Mask:
     limit = min(_STUCK, _STUCK_PART * float(np.quantile(speed, 0.95)))
     limit = max(limit, _STUCK_ERRORS * error)  # a run that never slides is stuck throughout
     return long_enough(speed < limit, _STUCK_SAMPLES)
+
+
+def _at_rest(along: Array, speed: Array, error: float) -> Mask:
+    """Tell where a velocity is no more than noise, (n,).
+
+    Noise of a girder at rest adds up to a tenth of a millimetre in a second, and its contacts would seem worn out. What
+    leads into a slip or out of one, in its direction, is slip down to one standard deviation.
+    """
+    moving = speed >= _STUCK_ERRORS * error
+    way = np.where(speed > error, np.sign(along), 0.0)
+    piece = np.cumsum(np.diff(way, prepend=way[:1]) != 0.0)
+    slides = np.bincount(piece, weights=moving) > 0.0
+    return ~moving & ~(slides[piece] & (way != 0.0))
 
 
 def _slow(speed: Array, velocity: Array, dt: float, lowpass: LowPass | None) -> Mask:

@@ -8,7 +8,7 @@ import typer
 from slipwise.campaign import load_campaign
 from slipwise.cli.console import OUT
 from slipwise.cli.diagnose import start_model, steps
-from slipwise.fit.base import BaseFit, fit_base
+from slipwise.fit.base import BaseFit, fit_finely
 from slipwise.model import Model, base_model
 from slipwise.model_file import save_model
 from slipwise.view.terminal import print_table
@@ -49,9 +49,9 @@ def remove(
     after = before.without(name)
     with steps() as tell:
         tell("fitting with it", 0.0)
-        old = fit_base(measured, before)
+        old = fit_finely(measured, before)
         tell("fitting without it", 0.5)
-        new = fit_base(measured, after)
+        new = fit_finely(measured, after)
     errors = []
     for fit in (old, new):
         account = base_hypothesis(fit).account

@@ -21,7 +21,7 @@ from slipwise.compare.system_level import SystemLevel, system_level
 from slipwise.compare.words import places
 from slipwise.errors import InputError
 from slipwise.fit.balances import BALANCES
-from slipwise.fit.base import BaseFit, fit_base
+from slipwise.fit.base import BaseFit, fit_finely
 from slipwise.floor import noise_floor
 from slipwise.model import Model
 
@@ -59,7 +59,7 @@ def compare(
     tell("auditing the instruments", 0.05)
     checks = checks or check_instruments(campaign)
     tell("fitting base parameters", 0.25)
-    base = fit_base(campaign, model)
+    base = fit_finely(campaign, model)
     tell("locating errors", 0.5)
     residuals = {r: base.solution.residuals.parts[r] for r in base.problem.relations}
     components = component_errors(base)

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.diagnose.shapes import strengths
-from slipwise.fit.base import BaseFit
+from slipwise.fit.base import BaseFit, settled
 from slipwise.fit.problem import Problem
 from slipwise.fit.solve import Solution, solve
 from slipwise.fit.terms import Free, Term, inertia_free
@@ -157,13 +157,9 @@ def polished(found: Hypothesis) -> Hypothesis:
     return _hypothesis(found.terms, found.problem, solution)
 
 
-def settled(found: Hypothesis) -> Hypothesis:
-    """Weigh anew and fit on, twice: what was weighed by the base's law is off near reversals where it was wrong."""
-    for _ in range(2):
-        problem = found.problem.weighed_anew(found.solution.values)
-        solution = solve(problem, found.solution.values, found.solution.free, most=3, enough=_ENOUGH)
-        found = _hypothesis(found.terms, problem, solution)
-    return found
+def as_reported(found: Hypothesis) -> Hypothesis:
+    """Fit on, weighed by its own law and finer, as what is reported of it should be."""
+    return _hypothesis(found.terms, *settled(found.problem, found.solution))
 
 
 def _several_starts(

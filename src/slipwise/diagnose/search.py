@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from slipwise.diagnose.candidates import candidates
 from slipwise.diagnose.choose import best_of, various
 from slipwise.diagnose.pairs import leading_pair
-from slipwise.diagnose.refit import STICK_LENGTH, Hypothesis, base_hypothesis, polished, refit, settled, strained
+from slipwise.diagnose.refit import STICK_LENGTH, Hypothesis, as_reported, base_hypothesis, polished, refit, strained
 from slipwise.diagnose.rescreen import rescreen
 from slipwise.diagnose.screen import Screened, screen, screen_shapes
 from slipwise.diagnose.shapes import MOST_POINTS_AGAIN, shapes, strengths, variants
@@ -91,7 +91,7 @@ def search(base: BaseFit, progress: Callable[[str, float], None] | None = None) 
         _prune(state)
     if state.best.terms:
         tell("settling", 0.95)
-        state.settled = settled(state.best)
+        state.settled = as_reported(state.best)
     tell("done", 1.0)
     return state
 

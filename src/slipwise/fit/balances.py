@@ -77,7 +77,8 @@ def buffers_along(law: Predictor, run: FitRun, yaw: Array, yaw_rate: Array) -> A
     slip = run.slip[:, None] - sides * yaw[:, None]
     if not any(u.effect.port == "buffer" for u in law.model.uses):
         return slip * np.array(specimen.buffer_stiffness)
-    slip, velocity = refined(slip), refined(run.velocity[:, None] - sides * yaw_rate[:, None])
+    slip = refined(slip, run.fine)
+    velocity = refined(run.velocity[:, None] - sides * yaw_rate[:, None], run.fine)
     time = np.linspace(run.time[0], run.time[-1], len(slip))
     deflection = np.stack([slip, np.zeros_like(slip)], axis=2)
     rate = np.stack([velocity, np.zeros_like(velocity)], axis=2)

@@ -16,6 +16,8 @@ from slipwise.model import Model, base_model
 #: Noise near reversals depends on the fit and the fit on the noise: each is made anew, and every fit ends where a step
 #: promises less than this much of the squared residual. One halfwidth of an interval is worth four [1].
 _ENOUGH = (1.0, 0.1)
+#: Where a fit that is reported ends [1].
+_SETTLED = 0.1
 #: A stick longer than this share of the stroke is no detail of the rig [1].
 _STICK_SHARE = 0.01
 #: A fit from elsewhere is another one if it leaves this share less of the squared residual [1].
@@ -83,6 +85,24 @@ def _fitted(campaign: Campaign, model: Model, problem: Problem) -> BaseFit:
         start = {**solution.values, free[-1].key: free[-1].start}
         solution = solve(problem, start, free, most=8, enough=_ENOUGH[-1])
     return BaseFit(campaign, model, problem, tuple(free), solution)
+
+
+def settled(problem: Problem, solution: Solution) -> tuple[Problem, Solution]:
+    """Fit on with the laws evaluated at twice the instants, weighed anew twice.
+
+    What was weighed by another law is off near reversals, where that law was wrong.
+    """
+    for _ in range(2):
+        problem = problem.weighed_anew(solution.values, finer=True)
+        solution = solve(problem, solution.values, solution.free, most=3, enough=_SETTLED)
+    return problem, solution
+
+
+def fit_finely(campaign: Campaign, model: Model | None = None) -> BaseFit:
+    """Fit a campaign's base parameters for their own sake; arguments and errors as `fit_base`."""
+    base = fit_base(campaign, model)
+    problem, solution = settled(base.problem, base.solution)
+    return replace(base, problem=problem, solution=solution)
 
 
 def restarted(base: BaseFit, values: Mapping[str, float]) -> BaseFit | None:

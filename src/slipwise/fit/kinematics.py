@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from slipwise.fit.balances import buffers_along, no_slip
 from slipwise.fit.data import FitRun
 from slipwise.fit.faults import acts_on_force, noise_scale, without
-from slipwise.fit.pads import Instants, instants
+from slipwise.fit.instants import Instants, instants
 from slipwise.fit.recent import Key, Recent
 from slipwise.fit.terms import PITCH_INERTIA, YAW_INERTIA, Term, fitted_model
 from slipwise.fit.yaw import yaw_of

@@ -8,7 +8,8 @@ from numpy.fft import irfft, rfft, rfftfreq
 from numpy.typing import NDArray
 from scipy.fft import next_fast_len
 
-from slipwise.fit.data import FINE, FitRun, refined
+from slipwise.fit.data import FitRun
+from slipwise.fit.instants import Instants
 from slipwise.model import Model
 from slipwise.predict import PadForces, predictor
 from slipwise.signals import LowPass, response
@@ -20,23 +21,6 @@ _BEYOND = 64
 
 #: Steps per instant in which the stick of the pads is followed.
 _STICK_STEPS = 6
-
-
-@dataclass(frozen=True)
-class Instants:
-    """States of one run at the instants at which the laws are evaluated (n f, with f = 2 n - 1).
-
-    Attributes:
-        time: (f,) [s].
-        load: (f, p) [N].
-        velocity: (f, p, 2) [m/s].
-        slip: (f, p, 2) [m].
-    """
-
-    time: Array
-    load: Array
-    velocity: Array
-    slip: Array
 
 
 @njit(cache=True)
@@ -59,22 +43,6 @@ def _stick(along, step, length, parts, share):  # pragma: no cover - compiled
                 z = min(max(z + speed * step / parts, -length), length)
                 total += 0.5 * (old + z)
             share[i, pad] = total / (parts * length)
-
-
-def instants(run: FitRun, velocity: Array, slip: Array, lost: Array | None = None) -> Instants:
-    """Refine the states of a run.
-
-    Args:
-        run: its loads and times.
-        velocity: (n, p, 2) of each pad [m/s].
-        slip: (n, p, 2) of each pad [m].
-        lost: (f, p) what the logger's filter took from the velocity, see `lost_velocity` [m/s].
-    """
-    time = np.linspace(run.time[0], run.time[-1], FINE * (len(run.time) - 1) + 1)
-    fine = refined(velocity)
-    if lost is not None:
-        fine[:, :, 0] += lost
-    return Instants(time, np.maximum(refined(run.load), 0.0), fine, refined(slip))
 
 
 def stick_share(state: Instants, stick_length: float) -> Array:
@@ -153,7 +121,7 @@ def lost_velocity(force: Array, run: FitRun, compliance: Array, by: LowPass | No
     if filtered is None:
         return np.zeros(force.shape)
     push = force @ compliance.T
-    step = run.dt / FINE
+    step = run.dt / run.fine
     size = int(next_fast_len(len(push) + 2 * _BEYOND) or 0)
     before, after = np.repeat(push[:1], _BEYOND, axis=0), np.repeat(push[-1:], size - len(push) - _BEYOND, axis=0)
     frequency = rfftfreq(size, step)
@@ -181,15 +149,15 @@ def as_logged(force: Array, run: FitRun, by: LowPass | None, *, averaged: bool, 
     """
     filtered = run.filtered or by
     if filtered is None and late == 0.0:
-        return force[::FINE]
+        return force[:: run.fine]
     size = int(next_fast_len(len(force) + 2 * _BEYOND) or 0)
-    step = run.dt / FINE
+    step = run.dt / run.fine
     gain = _gain(size, step, filtered, averaged) if filtered else np.ones(size // 2 + 1)
     if late != 0.0:
         gain = gain * np.exp(-2j * np.pi * late * rfftfreq(size, step))
     before, after = np.repeat(force[:1], _BEYOND, axis=0), np.repeat(force[-1:], size - len(force) - _BEYOND, axis=0)
     spectrum = rfft(np.concatenate([before, force, after]), axis=0) * gain[:, None]
-    return irfft(spectrum, size, axis=0)[_BEYOND : _BEYOND + len(force) : FINE]
+    return irfft(spectrum, size, axis=0)[_BEYOND : _BEYOND + len(force) : run.fine]
 
 
 def _gain(size: int, step: float, by: LowPass, averaged: bool) -> Array:

@@ -6,7 +6,7 @@ inverse on the measurement with the noise scaled alike. Else a gain below one wo
 
 from collections.abc import Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 from slipwise.fit.across import logged_across
 from slipwise.fit.balance_noise import driven_noise_in_pitch, heard_in_balances, heave_level, weighed_balances
 from slipwise.fit.balances import BALANCES, available, buffers_along, motion_residual, predicted
-from slipwise.fit.data import FINE, FitRun
+from slipwise.fit.data import FINER, FitRun
 from slipwise.fit.faults import acts_on_force, changed_by, faulted, on_force, shifts
+from slipwise.fit.instants import Instants
 from slipwise.fit.kinematics import Kinematics, values_of
-from slipwise.fit.pads import Instants, PadLaw, as_logged, force_along, lost_velocity, stick_share
+from slipwise.fit.pads import PadLaw, as_logged, force_along, lost_velocity, stick_share
 from slipwise.fit.recent import Key, Recent
 from slipwise.fit.terms import PITCH_INERTIA, Term, fitted_model
 from slipwise.fit.weights import noise_across, pad_noise, reversal_noise, whitened, with_hidden
@@ -125,10 +126,18 @@ class Problem:
         other.kinematics = self.kinematics.near(values)
         return other
 
-    def weighed_anew(self, values: Mapping[str, float]) -> "Problem":
-        """Give the same problem with the noise, and what the filter took at reversals, as these numbers say."""
+    def weighed_anew(self, values: Mapping[str, float], *, finer: bool = False) -> "Problem":
+        """Give the same problem with the noise, and what the filter took at reversals, as these numbers say.
+
+        Args:
+            values: key -> value of everything.
+            finer: evaluate the laws at twice the instants from now on.
+        """
         anew = self._with(self.terms, self.kinematics.yaw)
         anew.kinematics.recent = Recent()
+        if finer and self.runs[0].fine < FINER:
+            anew.runs = anew.kinematics.runs = [replace(r, fine=FINER) for r in self.runs]
+            anew.kinematics.lost = []
         anew.weigh(values)
         return anew
 
@@ -225,7 +234,7 @@ class Problem:
             soft = self.kinematics.compliance(model.built_specimen())
             pairs = zip(found, runs, strict=True)
             self.kinematics.lost = [lost_velocity(f, r, soft, self._by(values)) for f, r in pairs]
-            self.kinematics.bounds = [s.bound[::FINE] for s in said]
+            self.kinematics.bounds = [s.bound[:: r.fine] for s, r in zip(said, runs, strict=True)]
             self.kinematics.recent.forget()
         states = self.kinematics.states(values)
         said = law.at_instants(runs, states)

@@ -4,8 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d
 
-from slipwise.fit.data import FAST, FINE, FitRun
-from slipwise.fit.pads import Instants
+from slipwise.fit.data import FAST, FitRun
+from slipwise.fit.instants import Instants
 from slipwise.predict import PadForces
 from slipwise.signals.ends import in_frequency
 
@@ -49,10 +49,10 @@ def noise_across(run: FitRun, state: Instants, said: PadForces) -> Array:
     """Give the noise of measured less predicted force along y (n, p) [N]: gauges, loads, direction, timing."""
     gauge = np.array([run.noise[f"pad_{p}_Fy"] for p in run.pads])
     loads = run.gauge_noise[1]
-    force = said.force[::FINE, :, 1]
+    force = said.force[:: run.fine, :, 1]
     friction = np.abs(force) / np.maximum(run.load, 0.05 * run.load.mean())
-    speed = np.maximum(np.hypot(*np.moveaxis(state.velocity[::FINE], 2, 0)), FAST)
-    turned = said.bound[::FINE] * run.states.pad_velocity_error.max() / speed
+    speed = np.maximum(np.hypot(*np.moveaxis(state.velocity[:: run.fine], 2, 0)), FAST)
+    turned = said.bound[:: run.fine] * run.states.pad_velocity_error.max() / speed
     late = TIMING * np.gradient(force, run.dt, axis=0)
     return np.sqrt(gauge**2 + (0.6 * friction * loads) ** 2 + turned**2 + late**2)
 

@@ -38,9 +38,13 @@ def pads_over_record(u, time, load, velocity, slip, force, bounds, first, last):
             more_x, more_y = pad_further(
                 u, z, bound, friction, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time[i], dt
             )
-            pad_advance(
-                u, z, bound, friction, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time[i], dt
-            )
+            if i + 1 < len(time):
+                # Half a step of speed makes an old contact look young: it is worn out over some micrometres.
+                pad_advance(
+                    u, z, bound, friction, load[i, pad], 0.5 * (velocity_x + velocity[i + 1, pad, 0]),
+                    0.5 * (velocity_y + velocity[i + 1, pad, 1]), slip_x, slip_y, side_x, side_y, time[i],
+                    time[i + 1] - time[i],
+                )
             force[i, pad, 0] = force_x + more_x
             force[i, pad, 1] = force_y + more_y
             bounds[i, pad] = bound

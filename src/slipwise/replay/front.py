@@ -28,7 +28,7 @@ def replay(
         output_dt: step of the record [s], a multiple of dt.
         engine: "compiled" or "python" (the same law, to step through with a debugger).
         start: what pads and buffers remember from the run before.
-        rest: pause since that run [s].
+        rest: pause since that run, or since the girder was put on its pads [s].
         progress: called with the fraction done.
 
     Raises:

@@ -150,7 +150,7 @@ def simulate(
         output_dt: step of the record [s], a multiple of dt.
         engine: "compiled" or "python"; a user's effect that cannot be compiled takes the second, with a warning.
         start: what pads and buffers remember from the run before; nothing when not given.
-        rest: pause since that run [s].
+        rest: pause since that run, or since the girder was put on its pads [s].
         provenance: goes into the record as it is.
         progress: called with the fraction done.
 
@@ -210,8 +210,8 @@ def _remember(law: Kernel, model: Model, numbers: Array, start: Memory | None, r
     if start is not None:
         pad_memories(law.layout, numbers)[:] = start.pads
         buffer_memories(law.layout, numbers)[:] = start.buffers
-        if rest > 0.0:
-            apply_rest(law.layout, numbers, model, rest)
+    if rest > 0.0:
+        apply_rest(law.layout, numbers, model, rest)
     return numbers
 
 

@@ -8,7 +8,7 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.campaign import Logger
-from slipwise.diagnose.refit import polished, refit, settled
+from slipwise.diagnose.refit import as_reported, polished, refit
 from slipwise.effects import catalogue
 from slipwise.effects._oscillator import oscillator
 from slipwise.fit.balance_noise import driven_noise_in_pitch
@@ -26,7 +26,7 @@ def test_yaw_made_from_forces_tells_the_inertia_about_the_vertical() -> None:
     stated = Logger(LowPass(chain.lowpass, chain.order, chain.phase), known=True)
     base = fit_base(replace(as_campaign(made), logger=stated))
     term = Term(catalogue()["buffer_mismatch"])
-    found = settled(polished(refit(base, [term], {term.label: term.effect.typical()})))
+    found = as_reported(polished(refit(base, [term], {term.label: term.effect.typical()})))
     assert found.solution.values[YAW_INERTIA] == pytest.approx(made.truth.base.inertia_yaw, rel=0.03)
     assert found.account.level("pads", held_out=True) < 1.5**2
 
@@ -39,7 +39,7 @@ def test_a_table_that_rocks_tells_the_inertia_of_pitch() -> None:
     kind = "compliance" if hidden["pitch_form"] == 1 else "specimen"
     start = {**term.effect.neutral(), **{"damping": 0.3, "gravity": 1.0, "frequency": hidden["pitch_frequency"]}}
     start[kind] = hidden["pitch_per_acceleration"]
-    found = settled(polished(polished(refit(base, [term], {term.label: start}))))
+    found = as_reported(polished(polished(refit(base, [term], {term.label: start}))))
     assert found.solution.values[PITCH_INERTIA] == pytest.approx(made.truth.base.inertia_pitch, rel=0.05)
     assert found.account.level("pitch", held_out=True) < 1.5**2
 

@@ -15,6 +15,7 @@ class _Run:
     time: np.ndarray
     dt: float
     filtered: LowPass | None
+    fine: int = FINE
 
 
 def _run(by: LowPass | None) -> _Run:
@@ -70,7 +71,7 @@ def test_a_force_on_one_side_kicks_the_other_by_what_the_girder_turns() -> None:
 def test_instants_pass_through_the_samples_and_reproduce_a_cubic() -> None:
     place = np.arange(50.0)
     values = 0.01 * place**3 - place
-    fine = refined(values)
+    fine = refined(values, FINE)
     assert np.array_equal(fine[::FINE], values)
     between = np.linspace(0.0, 49.0, FINE * 49 + 1)
     assert np.allclose(fine[FINE:-FINE], (0.01 * between**3 - between)[FINE:-FINE])
