@@ -113,13 +113,13 @@ class Model:
         )
 
     def on_port(self, *ports: str) -> tuple[EffectUse, ...]:
-        """Give the effects on these ports: by port, then as listed, but a law that replaces another one first.
+        """Give the effects on these ports: by port; then what replaces, what adds, what scales; then as listed.
 
-        Listed behind others it would wipe out what they did.
+        Listed behind others a law that replaces would wipe out what they did, and one that adds would escape them.
         """
         chosen = [u for port in PORTS if port in ports for u in self.uses if u.effect.port == port]
         order = list(PORTS)
-        return tuple(sorted(chosen, key=lambda u: (order.index(u.effect.port), not u.effect.replaces)))
+        return tuple(sorted(chosen, key=lambda u: (order.index(u.effect.port), not u.effect.replaces, not u.effect.adds)))
 
     def with_hook(self, hook: str) -> tuple[EffectUse, ...]:
         """Give the effects that have a hook, in the order of `on_port`."""

@@ -223,6 +223,15 @@ def test_any_order_of_listing_keeps_the_paper_law_at_the_bottom() -> None:
     assert np.array_equal(arrays(answers(late))["pads"], arrays(answers(early))["pads"])
 
 
+@pytest.mark.parametrize("adding", ["breakaway", "rate_and_state"])
+def test_what_scales_friction_scales_every_share_of_it_whichever_was_listed_first(adding: str) -> None:
+    share, patch = (EffectUse(catalogue()[n], catalogue()[n].typical()) for n in (adding, "position_patch"))
+    early, late = bridge().adding(share, patch), bridge().adding(patch, share)
+    assert np.array_equal(arrays(answers(late))["pads"], arrays(answers(early))["pads"])
+    alone = arrays(answers(bridge().adding(share)))["pads"]
+    assert not np.array_equal(arrays(answers(early))["pads"], alone), "the patch must act"
+
+
 def test_all_effects_of_one_instant_act_together() -> None:
     model = bridge()
     for effect in OPTIONAL:

@@ -140,6 +140,8 @@ class Effect:
         target: "channel" where the effect must be told which channel it acts on, else "".
         exact: whether geometry leaves no other form of it than this: what it does not explain is then something else.
         replaces: for a law that takes the place of a simpler one: which; such an effect has no neutral value.
+        adds: for a law that brings a share of its own: what scales friction as a whole, heat or wear or a patch of the
+            plate, scales that share too, whichever was listed first.
         name: the file's name; set when the file is read.
         summary: first line of the file's docstring; set when the file is read.
         text: the whole docstring; set when the file is read.
@@ -158,6 +160,7 @@ class Effect:
     target: str = ""
     exact: bool = False
     replaces: str = ""
+    adds: bool = False
     name: str = ""
     summary: str = ""
     text: str = ""

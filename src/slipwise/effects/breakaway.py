@@ -61,5 +61,6 @@ EFFECT = Effect(
         "run_in": "repeat at once: run-in stays gone, breakaway is back at every reversal",
         "key_clearance": "spikes of the key sit at a place, those of breakaway at zero speed",
     },
+    adds=True,
     memory=("age",),
 )  # fmt: skip

@@ -64,5 +64,6 @@ EFFECT = Effect(
         "shear_rate": "constant speeds over three decades: an exponential saturates, a logarithm does not",
         "breakaway": "breakaway is nothing above 3 v_s; rate and state goes on",
     },
+    adds=True,
     memory=("log_age",),
 )  # fmt: skip
