@@ -118,8 +118,11 @@ class Model:
         Listed behind others a law that replaces would wipe out what they did, and one that adds would escape them.
         """
         chosen = [u for port in PORTS if port in ports for u in self.uses if u.effect.port == port]
-        order = list(PORTS)
-        return tuple(sorted(chosen, key=lambda u: (order.index(u.effect.port), not u.effect.replaces, not u.effect.adds)))
+
+        def place(use: EffectUse) -> tuple[int, bool, bool]:
+            return list(PORTS).index(use.effect.port), not use.effect.replaces, not use.effect.adds
+
+        return tuple(sorted(chosen, key=place))
 
     def with_hook(self, hook: str) -> tuple[EffectUse, ...]:
         """Give the effects that have a hook, in the order of `on_port`."""
