@@ -10,7 +10,7 @@ from slipwise.fit.data import Spoiled, fit_runs
 from slipwise.fit.logger import estimated_logger
 from slipwise.fit.problem import Problem
 from slipwise.fit.solve import Solution, solve
-from slipwise.fit.terms import YAW_INERTIA, Free, base_free, inertia_free, terms_of
+from slipwise.fit.terms import DAMPED_STICK, STICK_DAMPING, YAW_INERTIA, Free, base_free, inertia_free, terms_of
 from slipwise.model import Model, base_model
 
 #: Noise near reversals depends on the fit and the fit on the noise: each is made anew, and every fit ends where a step
@@ -88,13 +88,20 @@ def _fitted(campaign: Campaign, model: Model, problem: Problem) -> BaseFit:
 
 
 def settled(problem: Problem, solution: Solution) -> tuple[Problem, Solution]:
-    """Fit on with the laws evaluated at twice the instants, weighed anew twice.
+    """Fit on with the laws evaluated at twice the instants, weighed anew twice, and a stick that may be damped.
 
     What was weighed by another law is off near reversals, where that law was wrong.
     """
+    free = list(solution.free)
+    starts = [solution.values]
+    if any(f.key in DAMPED_STICK for f in free):
+        free.append(Free("rig.stick_damping", *STICK_DAMPING, "s"))
+        starts = [{**solution.values, "rig.stick_damping": 0.0}, {**solution.values, **DAMPED_STICK}]
     for _ in range(2):
         problem = problem.weighed_anew(solution.values, finer=True)
-        solution = solve(problem, solution.values, solution.free, most=3, enough=_SETTLED)
+        tries = [solve(problem, start, free, most=4, enough=_SETTLED) for start in starts]
+        solution = min(tries, key=lambda s: s.cost)
+        starts = [solution.values]
     return problem, solution
 
 
@@ -102,7 +109,7 @@ def fit_finely(campaign: Campaign, model: Model | None = None) -> BaseFit:
     """Fit a campaign's base parameters for their own sake; arguments and errors as `fit_base`."""
     base = fit_base(campaign, model)
     problem, solution = settled(base.problem, base.solution)
-    return replace(base, problem=problem, solution=solution)
+    return replace(base, problem=problem, free=solution.free, solution=solution)
 
 
 def restarted(base: BaseFit, values: Mapping[str, float]) -> BaseFit | None:

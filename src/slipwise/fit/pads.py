@@ -24,8 +24,8 @@ _STICK_STEPS = 6
 
 
 @njit(cache=True)
-def _stick(along, step, length, parts, share):  # pragma: no cover - compiled
-    """Follow an elastic-plastic stick of some micrometres; fills the mean of z/length around each instant."""
+def _stick(along, step, length, lag, parts, share):  # pragma: no cover - compiled
+    """Follow an elastic-plastic stick of some micrometres; fills the mean of its share around each instant."""
     count, pads = along.shape
     for pad in range(pads):
         z = 0.0
@@ -41,21 +41,24 @@ def _stick(along, step, length, parts, share):  # pragma: no cover - compiled
                     speed = along[i, pad] + (after - along[i, pad]) * (2.0 * at - 1.0)
                 old = z
                 z = min(max(z + speed * step / parts, -length), length)
-                total += 0.5 * (old + z)
+                total += min(max(0.5 * (old + z) + lag * speed, -length), length)
             share[i, pad] = total / (parts * length)
 
 
-def stick_share(state: Instants, stick_length: float) -> Array:
+def stick_share(state: Instants, stick_length: float, stick_damping: float) -> Array:
     """Give the mean share of the bound that acts along x, half an instant before to half an instant after, (f, p) [1].
+
+    A spring and a damper side by side, (z + t_d dz/dt) / u, and no more than the bound.
 
     Args:
         state: of the pads.
-        stick_length: slip over which a pad's friction turns round [m]: micrometres, the shear of pad and cell.
+        stick_length: u, slip over which a pad's friction turns round [m]: micrometres, the shear of pad and cell.
+        stick_damping: t_d [s].
     """
     along = np.ascontiguousarray(state.velocity[:, :, 0])
     followed = along[:, :1].copy() if bool(np.all(along == along[:, :1])) else along
     share = np.zeros_like(followed)
-    _stick(followed, state.time[1] - state.time[0], stick_length, _STICK_STEPS, share)
+    _stick(followed, state.time[1] - state.time[0], stick_length, stick_damping, _STICK_STEPS, share)
     return np.broadcast_to(share, along.shape)
 
 

@@ -30,7 +30,7 @@ from slipwise.signals import LowPass
 Array = NDArray[np.float64]
 RELATIONS: tuple[str, ...] = ("pads", *BALANCES, "across")
 #: Numbers that change what is seen of the pads' forces, not what their law says.
-_SEEN_KEYS = ("rig.stick_length", "rig.late_force", "rig.logger")
+_SEEN_KEYS = ("rig.stick_length", "rig.stick_damping", "rig.late_force", "rig.logger")
 #: Numbers that no balance knows of.
 _PAD_KEYS = ("rig.pitch_slip", "rig.shear_strength", *_SEEN_KEYS)
 _PAD_PORTS = ("area", "shear", "stick", "pad")
@@ -287,9 +287,9 @@ class Problem:
 
     def _along(self, values: Mapping[str, float], states: list[Instants], said: list[PadForces]) -> list[Array]:
         """Give the pads' forces along x at the instants, a list of (f, p) [N]."""
-        length = values.get("rig.stick_length", _SHORT_STICK)
+        length, damping = values.get("rig.stick_length", _SHORT_STICK), values.get("rig.stick_damping", 0.0)
         sharp = not self.has_stick
-        shares = [stick_share(s, length) if sharp else None for s in states]
+        shares = [stick_share(s, length, damping) if sharp else None for s in states]
         return [force_along(*each) for each in zip(said, states, shares, strict=False)]
 
     def _logged(

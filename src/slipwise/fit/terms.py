@@ -44,6 +44,8 @@ YAW_INERTIA, PITCH_INERTIA = "rig.yaw_inertia", "rig.pitch_inertia"
 _INERTIAS: dict[str, tuple[int, tuple[float, float]]] = {YAW_INERTIA: (2, (0.6, 1.7)), PITCH_INERTIA: (1, (0.4, 3.0))}
 #: Slip over which a pad's friction turns round without any effect of its own [m]; longer than that it is `presliding`.
 _STICK_LENGTH = (1e-6, 1e-8, 8e-6, 1e-6)
+#: How that is damped [s], and the stick from which a damped one is looked for: one that turns at once has no slopes.
+STICK_DAMPING, DAMPED_STICK = (0.0, 0.0, 0.02, 2e-4), {"rig.stick_length": 5e-6, "rig.stick_damping": 3e-3}
 #: The friction channels' filter where the campaign does not know it [Hz].
 _LOGGER = (100.0, 20.0, 240.0, 20.0)
 

@@ -18,6 +18,7 @@ _CALLED: dict[str, tuple[str, str]] = {
     "rig.pitch_inertia": ("inertia of the girder in pitch", "t*m^2"),
     "rig.pitch_slip": ("slip at the gauge for pitch load", "mm/kN"),
     "rig.stick_length": ("slip over which stick turns round", "um"),
+    "rig.stick_damping": ("time by which its damper leads", "ms"),
     "rig.shear_strength": ("shear strength s", "MPa"),
     "rig.logger": ("logger's filter of the friction channels", "Hz"),
     "shear_rate.strength": ("s' of eq. (5)", "MPa"),
