@@ -15,6 +15,7 @@ from slipwise.fit.judged import judged
 from slipwise.record import Record
 from slipwise.signals import LowPass, lowpass
 from slipwise.signals.ends import in_frequency
+from slipwise.signals.shift import shift
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -127,6 +128,15 @@ class FitRun:
         slip, velocity = self._moved(self.record.replaced(girder_ax=self.record["girder_ax"] - no_slip))
         return replace(self, states=replace(self.states, slip=slip, velocity=velocity), no_slip=no_slip)
 
+    def without_late_slip(self, late: float) -> "FitRun":
+        """Give the run with slip and velocity as from a gauge that does not lag behind the accelerometers [s].
+
+        A tenth of a millisecond is half a millimetre a second, more than all noise.
+        """
+        in_step = shift(self.record["slip_x"], self.dt, -late)
+        slip, velocity = self._moved(self.record.replaced(slip_x=in_step))
+        return replace(self, states=replace(self.states, slip=slip, velocity=velocity))
+
     def _moved(self, record: Record) -> tuple[Array, Array]:
         """Give slip and velocity of changed gauges, by what the smoother makes of the change far from its ends.
 
@@ -146,6 +156,7 @@ class FitRun:
                 slip[:, 0] += in_frequency(change, self.dt, lambda f, i=place: weights(f)[i], 128)
                 rate = in_frequency(change, self.dt, lambda f, i=place: 2j * np.pi * f * weights(f)[i], 128)
                 velocity[:, 0] += rate
+        velocity[np.asarray(self.states.velocity == 0.0).all(axis=1)] = 0.0  # what is at rest stays so
         return slip, velocity
 
     def _changes(self, record: Record) -> tuple[Array, Array]:

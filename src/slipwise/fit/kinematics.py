@@ -38,6 +38,7 @@ class Kinematics:
         recent: results, shared with others that look at the same runs.
         lost: per run (f, p) velocity that the logger's filter took at reversals [m/s].
         bounds: per run (n, p) friction of the pads whichever way they slide [N]; what was measured until it is known.
+        late: by which the slip gauge lags behind the accelerometers, as the fit was weighed [s].
         around: values from which slopes are taken, where faults move noise in time; see `fit.faults.without`.
     """
 
@@ -49,6 +50,7 @@ class Kinematics:
     recent: Recent
     lost: list[Array] = field(default_factory=list[Array])
     bounds: list[Array] = field(default_factory=list[Array])
+    late: float = 0.0
     around: Mapping[str, float] | None = None
 
     def __post_init__(self) -> None:
@@ -103,11 +105,11 @@ class Kinematics:
         Returns:
             runs, and relation -> by how much the noise of its channels has grown, where it has.
         """
-        if not self._faults and not self._rockers:
+        if not self._faults and not self._rockers and self.late == 0.0:
             return self.runs, {}
 
         def make() -> tuple[list[FitRun], dict[str, float]]:
-            runs = self.runs
+            runs = [r.without_late_slip(self.late) if self.late != 0.0 else r for r in self.runs]
             for term in self._faults:
                 runs = [without(term, values, r, self.around) for r in runs]
             if self._rockers:

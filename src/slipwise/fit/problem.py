@@ -20,7 +20,7 @@ from slipwise.fit.instants import Instants
 from slipwise.fit.kinematics import Kinematics, values_of
 from slipwise.fit.pads import PadLaw, as_logged, force_along, lost_velocity, stick_share
 from slipwise.fit.recent import Key, Recent
-from slipwise.fit.terms import PITCH_INERTIA, Term, fitted_model
+from slipwise.fit.terms import LATE, PITCH_INERTIA, Term, fitted_model
 from slipwise.fit.weights import noise_across, pad_noise, reversal_noise, whitened, with_hidden
 from slipwise.model import Model
 from slipwise.predict import PadForces, predictor
@@ -34,6 +34,8 @@ _SEEN_KEYS = ("rig.stick_length", "rig.stick_damping", "rig.late_force", "rig.lo
 #: Numbers that no balance knows of.
 _PAD_KEYS = ("rig.pitch_slip", "rig.shear_strength", *_SEEN_KEYS)
 _PAD_PORTS = ("area", "shear", "stick", "pad")
+#: A gauge that lags further is no card's, and left to `channel_delay` [s].
+_LATE_AT_MOST = 0.9 * LATE
 #: Where a model has its own memory of slip, or nothing is fitted yet [m].
 _SHORT_STICK = 1e-6
 
@@ -224,6 +226,8 @@ class Problem:
     def weigh(self, values: Mapping[str, float]) -> None:
         """Set the noise of every relation, error of the velocity near reversals included, and what filters took."""
         self.kinematics.recent.forget()
+        late = values.get("rig.late_slip", 0.0)
+        self.kinematics.late = late if abs(late) < _LATE_AT_MOST else 0.0
         model = self.model(values)
         law = PadLaw(model)
         runs, _ = self.kinematics.corrected(values)
