@@ -12,6 +12,8 @@ do to a number is added:
 
     C += sum of g g',    g = A^-1 J' (timing * dF/dt / sigma),    and with |dF/dt| along F in place of dF/dt
 
+A gauge that lags, by a delay or a filter, stands on a card that may lag by itself: its timing is added too.
+
 Source: White (1980), Newey and West (1987); blocks as clusters: Liang and Zeger (1986); methods.md D9.
 """
 
@@ -24,7 +26,7 @@ from scipy.stats import t as student
 
 from slipwise.compare.profile import is_strength, upper_limit
 from slipwise.fit.base import BaseFit
-from slipwise.fit.terms import Free
+from slipwise.fit.terms import LAGGING, Free
 from slipwise.fit.weights import TIMING
 
 Array = NDArray[np.float64]
@@ -114,6 +116,8 @@ def intervals(base: BaseFit) -> Intervals:
     block = np.concatenate(rows)
     shared = _shared(base, len(left))
     found = of_fit(solution.free, solution.values, solution.jacobian, left, block, shared)
+    own_lag = {f"{t.label}.{p.name}" for t in problem.terms if t.effect.name in LAGGING for p in t.effect.parameters}
+    found = replace(found, entries=tuple(_of_a_card(e) if e.key in own_lag else e for e in found.entries))
     limited = [
         _limited(base, found.entries, j, left, block, shared)
         if is_strength(base, f) and not found.entries[j].low > f.low
@@ -138,6 +142,14 @@ def _shared(base: BaseFit, count: int) -> Shared:
         whose[rows] = np.tile(place * pads + np.arange(pads), len(rate))
         start += rate.size
     return moved, whose
+
+
+def _of_a_card(entry: Interval) -> Interval:
+    """Widen a gauge's lag by that of its card: beside the effect the two are one number."""
+    if entry.unit != "s":
+        return entry
+    half = float(np.hypot(0.5 * (entry.high - entry.low), student.ppf(0.5 + COVERAGE / 2, np.inf) * _SHARED_TIMING))
+    return replace(entry, low=entry.value - half, high=entry.value + half)
 
 
 def _limited(

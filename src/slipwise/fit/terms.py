@@ -28,7 +28,7 @@ _SMALL: dict[str, tuple[float, float, float, float, str]] = {
     "rig.late_pitch": (0.0, -LATE, LATE, 5e-5, "s"),
     "rig.late_slip": (0.0, -LATE, LATE, 5e-5, "s"),
 }
-#: The lag of these channels is the number; an effect of `_LAGGING` on them takes its place.
+#: The lag of these channels is the number; an effect of `LAGGING` on them takes its place.
 _LAGS: dict[str, str] = {
     "rig.late_force": "pad_*_Fx",
     "rig.late_load": "pad_*_N",
@@ -37,7 +37,7 @@ _LAGS: dict[str, str] = {
     "rig.late_slip": "slip_x",
 }
 #: Effects that lag slow signals: beside one of them on a card the card's own lag is the same number.
-_LAGGING = ("channel_delay", "channel_filter")
+LAGGING = ("channel_delay", "channel_filter")
 #: A girder with weights on it is seldom rated for how hard it is to turn: 8 % more than rated left three floors in the
 #: pads where it yaws. Axis, and the shares of the rated value between which it may be.
 YAW_INERTIA, PITCH_INERTIA = "rig.yaw_inertia", "rig.pitch_inertia"
@@ -140,7 +140,7 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True) -> lis
         out.append(Free("rig.late_force", 0.0, -late, late, 5e-5, "s"))
         if not logger_known:
             out.append(Free("rig.logger", *_LOGGER, "Hz"))
-    delayed = {entry.target for entry in model.uses if entry.effect.name in _LAGGING}
+    delayed = {entry.target for entry in model.uses if entry.effect.name in LAGGING}
     return [f for f in out if _LAGS.get(f.key) not in delayed]
 
 
