@@ -92,17 +92,14 @@ def settled(problem: Problem, solution: Solution) -> tuple[Problem, Solution]:
 
     What was weighed by another law is off near reversals, where that law was wrong.
     """
-    free = list(solution.free)
-    starts = [solution.values]
+    problem, free, start = problem.weighed_anew(solution.values, finer=True), list(solution.free), solution.values
     if any(f.key in DAMPED_STICK for f in free):
         free.append(Free("rig.stick_damping", *STICK_DAMPING, "s"))
-        starts = [{**solution.values, "rig.stick_damping": 0.0}, {**solution.values, **DAMPED_STICK}]
-    for _ in range(2):
-        problem = problem.weighed_anew(solution.values, finer=True)
-        tries = [solve(problem, start, free, most=4, enough=_SETTLED) for start in starts]
-        solution = min(tries, key=lambda s: s.cost)
-        starts = [solution.values]
-    return problem, solution
+        starts = ({**start, "rig.stick_damping": 0.0}, {**start, **DAMPED_STICK})
+        start = min(starts, key=lambda values: _cost(problem, values))
+    solution = solve(problem, start, free, most=4, enough=_SETTLED)
+    problem = problem.weighed_anew(solution.values)
+    return problem, solve(problem, solution.values, free, most=4, enough=_SETTLED)
 
 
 def fit_finely(campaign: Campaign, model: Model | None = None) -> BaseFit:
@@ -126,6 +123,11 @@ def restarted(base: BaseFit, values: Mapping[str, float]) -> BaseFit | None:
     problem = base.problem.weighed_anew(solution.values)
     again = solve(problem, solution.values, base.free, most=8, enough=_ENOUGH[-1])
     return replace(base, problem=problem, solution=again)
+
+
+def _cost(problem: Problem, values: Mapping[str, float]) -> float:
+    left = problem.residuals(values, fitted_only=True).stacked(problem.fitted, problem.relations)
+    return float(left @ left)
 
 
 def _turns(problem: Problem, solution: Solution) -> bool:

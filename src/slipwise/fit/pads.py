@@ -4,9 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numba import njit
-from numpy.fft import irfft, rfft, rfftfreq
 from numpy.typing import NDArray
-from scipy.fft import next_fast_len
+from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 
 from slipwise.fit.data import FitRun
 from slipwise.fit.instants import Instants
@@ -130,8 +129,8 @@ def lost_velocity(force: Array, run: FitRun, compliance: Array, by: LowPass | No
     frequency = rfftfreq(size, step)
     missing = 1.0 - np.abs(response(filtered, np.asarray(frequency, dtype=np.float64)))
     turn = 2j * np.pi * np.where(frequency > 0.0, frequency, 1.0)
-    spectrum = rfft(np.concatenate([before, push, after]), axis=0) * (missing / turn)[:, None]
-    return -irfft(spectrum, size, axis=0)[_BEYOND : _BEYOND + len(push)]
+    spectrum = np.asarray(rfft(np.concatenate([before, push, after]), axis=0)) * (missing / turn)[:, None]
+    return -np.asarray(irfft(spectrum, size, axis=0))[_BEYOND : _BEYOND + len(push)]
 
 
 _GAINS: dict[tuple[int, float, LowPass, bool], Array] = {}
@@ -159,8 +158,8 @@ def as_logged(force: Array, run: FitRun, by: LowPass | None, *, averaged: bool, 
     if late != 0.0:
         gain = gain * np.exp(-2j * np.pi * late * rfftfreq(size, step))
     before, after = np.repeat(force[:1], _BEYOND, axis=0), np.repeat(force[-1:], size - len(force) - _BEYOND, axis=0)
-    spectrum = rfft(np.concatenate([before, force, after]), axis=0) * gain[:, None]
-    return irfft(spectrum, size, axis=0)[_BEYOND : _BEYOND + len(force) : run.fine]
+    spectrum = np.asarray(rfft(np.concatenate([before, force, after]), axis=0)) * gain[:, None]
+    return np.asarray(irfft(spectrum, size, axis=0))[_BEYOND : _BEYOND + len(force) : run.fine]
 
 
 def _gain(size: int, step: float, by: LowPass, averaged: bool) -> Array:
