@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from slipwise.fit.data import FINE, refined
-from slipwise.fit.pads import as_logged, lost_velocity
+from slipwise.fit.instants import Instants
+from slipwise.fit.pads import as_logged, lost_velocity, stick_share
 from slipwise.signals import LowPass, lowpass
 
 
@@ -75,3 +76,20 @@ def test_instants_pass_through_the_samples_and_reproduce_a_cubic() -> None:
     assert np.array_equal(fine[::FINE], values)
     between = np.linspace(0.0, 49.0, FINE * 49 + 1)
     assert np.allclose(fine[FINE:-FINE], (0.01 * between**3 - between)[FINE:-FINE])
+
+
+def _share(speed: np.ndarray, length: float, damping: float) -> np.ndarray:
+    velocity = np.zeros((len(speed), 1, 2))
+    velocity[:, 0, 0] = speed
+    state = Instants(1e-3 * np.arange(len(speed)), np.ones((len(speed), 1)), velocity, np.zeros_like(velocity))
+    return stick_share(state, length, damping)[:, 0]
+
+
+def test_a_spring_turns_friction_round_over_a_slip_and_a_damper_at_once() -> None:
+    """From rest at 1 mm/s: 10 um fill in 10 ms; a damper that leads by 4 ms is there 4 um earlier, 6 ms long."""
+    speed = np.where(np.arange(40) >= 10, 1e-3, 0.0)
+    spring, damped = _share(speed, 1e-5, 0.0), _share(speed, 1e-5, 4e-3)
+    since = np.arange(40)[12:] - 9.5  # ms of slip, the velocity rising between two instants
+    np.testing.assert_allclose(spring[12:], np.minimum(0.1 * since, 1.0), atol=0.03)
+    np.testing.assert_allclose(damped[12:], np.minimum(0.1 * since + 0.4, 1.0), atol=0.03)
+    assert np.all(spring[:9] == 0.0) and np.all(damped[:9] == 0.0)
