@@ -13,7 +13,7 @@ from slipwise.diagnose.refit import STICK_LENGTH, Hypothesis, as_reported, base_
 from slipwise.diagnose.rescreen import rescreen
 from slipwise.diagnose.screen import Screened, screen, screen_shapes
 from slipwise.diagnose.shapes import MOST_POINTS_AGAIN, shapes, strengths, variants
-from slipwise.diagnose.worth import MATERIAL, MATERIAL_FURTHER, all_down, material, score
+from slipwise.diagnose.worth import MATERIAL, MATERIAL_FURTHER, all_down, material, needless, score
 from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Term
 
@@ -90,6 +90,7 @@ def search(base: BaseFit, progress: Callable[[str, float], None] | None = None) 
     if _swap(state):
         _prune(state)
     if state.best.terms:
+        _simplify(state)
         tell("settling", 0.95)
         state.settled = as_reported(state.best)
     tell("done", 1.0)
@@ -219,6 +220,15 @@ def _swap(state: Search) -> bool:
             state.path.append(max(better, key=lambda h: score(origin, h.account)))
             return True
     return False
+
+
+def _simplify(state: Search) -> None:
+    """Take a law of far fewer constants where it does as well."""
+    origin, best = state.path[0].account, state.best
+    alike = [h for h in state.tried if len(h.terms) == len(best.terms) and set(h.names) != set(best.names)]
+    plain = [h for h in alike if needless(h, best, origin)]
+    if plain:
+        state.path.append(max(plain, key=lambda h: score(origin, h.account)))
 
 
 def _left_with(state: Search, rest: Sequence[Term], whole: Hypothesis) -> Hypothesis:

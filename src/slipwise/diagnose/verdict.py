@@ -9,7 +9,7 @@ from slipwise.diagnose.leftover import Surface, leftover, structured
 from slipwise.diagnose.refit import Account, Hypothesis, cornered, strained
 from slipwise.diagnose.samples import SampleFault
 from slipwise.diagnose.search import MOST_EFFECTS, Search
-from slipwise.diagnose.worth import MATERIAL, material, score, worth
+from slipwise.diagnose.worth import MATERIAL, material, needless, score, worth
 
 #: A right family explains this share of what the base left, whatever its exact form [1]: 0.87 and more on trials, the
 #: best wrong one up to 0.69.
@@ -141,6 +141,8 @@ def _rivals(state: Search, best: Hypothesis) -> tuple[Hypothesis, ...]:
         if len(h.terms) != len(best.terms) or set(h.names) == set(best.names):
             continue
         if cornered(h) and not cornered(best):
+            continue
+        if needless(best, h, origin.account):
             continue
         common = set(h.names) & set(best.names)
         shared = [score(origin.account, o.account) for o in state.tried if o.names and set(o.names) <= common]

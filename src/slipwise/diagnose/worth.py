@@ -5,7 +5,7 @@ runs and by half of that on held-out runs: significance alone is no rule, for a 
 significant too.
 """
 
-from slipwise.diagnose.refit import Account
+from slipwise.diagnose.refit import Account, Hypothesis
 
 #: Least drop of a relation's mean squared residual that is worth a name [noise variance].
 MATERIAL = 0.10
@@ -13,6 +13,10 @@ MATERIAL = 0.10
 #: does not quite describe is not a second effect.
 MATERIAL_FURTHER = 0.20
 FURTHER = 0.025
+#: What a constant of a law must be worth: the logarithm of some hundred thousand samples (Schwarz 1978).
+_PER_CONSTANT = 12.0
+#: A law with one constant more is no other kind of law: a filter's order, beside a delay.
+_FAR_MORE = 2
 
 
 def worth(before: Account, after: Account) -> tuple[float, str]:
@@ -60,6 +64,13 @@ def score(before: Account, after: Account) -> float:
     if held < 0.0:
         return held
     return before.total - after.total
+
+
+def needless(plain: Hypothesis, rich: Hypothesis, base: Account) -> bool:
+    """Tell whether far more constants say no more: a patch as wide as the stroke is pads that differ."""
+    more = len(rich.solution.free) - len(plain.solution.free)
+    gain = score(base, rich.account) - score(base, plain.account)
+    return more >= _FAR_MORE and gain < _PER_CONSTANT * more
 
 
 def all_down(account: Account) -> bool:

@@ -9,13 +9,16 @@ from slipwise.diagnose.refit import Account, Hypothesis
 from slipwise.diagnose.samples import SampleFault
 from slipwise.diagnose.search import Search, material
 from slipwise.diagnose.verdict import judge, with_faults
+from slipwise.diagnose.worth import needless
 from slipwise.effects import catalogue
 from slipwise.fit.terms import Term
 
 COUNT = 10_000
 
 
-def _tried(names: tuple[str, ...], pads: float, girder: float = 1.0, at_bounds: tuple[str, ...] = ()) -> Hypothesis:
+def _tried(
+    names: tuple[str, ...], pads: float, girder: float = 1.0, at_bounds: tuple[str, ...] = (), constants: int = 3
+) -> Hypothesis:
     """A hypothesis with these mean squared residuals in fitted and held-out runs alike."""
     levels = {"pads": pads * COUNT, "girder": girder * COUNT}
     account = Account(levels, dict(levels), {name: (COUNT, COUNT) for name in levels})
@@ -23,7 +26,7 @@ def _tried(names: tuple[str, ...], pads: float, girder: float = 1.0, at_bounds: 
     values = {f"{t.label}.{k}": v for t in terms for k, v in t.effect.typical().items()}
     run = SimpleNamespace(states=SimpleNamespace(has_yaw=False))
     problem = SimpleNamespace(held_out=[], runs=[run], relations=("pads", "girder"))
-    solution = SimpleNamespace(values=values, at_bounds=at_bounds)
+    solution = SimpleNamespace(values=values, at_bounds=at_bounds, free=(None,) * constants)
     return Hypothesis(terms, cast(Any, problem), cast(Any, solution), account)
 
 
@@ -40,6 +43,21 @@ def test_a_model_that_leaves_noise_is_complete():
 
 def test_what_stands_far_above_the_noise_is_unknown_even_if_no_state_foretells_it():
     assert judge(_search(_tried((), 12.0))).kind == "unknown"
+
+
+@pytest.mark.parametrize(("constants", "kind"), [(3, "ambiguous"), (4, "ambiguous"), (7, "named")])
+def test_a_law_of_far_more_constants_that_says_no_more_is_no_rival(constants: int, kind: str) -> None:
+    """A filter has an order more than a delay and stays its rival; a patch as wide as the stroke has four more."""
+    rich = _tried(("position_patch",), 1.0005, constants=constants)
+    found = judge(_search(_tried((), 20.0), _tried(("pad_spread",), 1.0), rich))
+    assert found.kind == kind
+
+
+def test_a_law_of_far_more_constants_gives_way_to_one_that_does_as_well() -> None:
+    base, plain = _tried((), 20.0), _tried(("pad_spread",), 1.0005)
+    assert needless(plain, _tried(("position_patch",), 1.0, constants=7), base.account)
+    assert not needless(plain, _tried(("position_patch",), 1.0, constants=4), base.account)
+    assert not needless(plain, _tried(("position_patch",), 0.99, constants=7), base.account), "it says more"
 
 
 def test_an_effect_that_explains_all_is_named_with_confidence():
