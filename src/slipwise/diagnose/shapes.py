@@ -50,7 +50,9 @@ def shapes(effect: Effect, most: int = _MOST_POINTS) -> list[dict[str, float]]:
     for p in effect.parameters:
         if p.neutral is not None:
             continue
-        if p.typical == 0.0:  # usually absent
+        if p.whole:
+            points = sorted({p.low, p.typical, p.high})
+        elif p.typical == 0.0:  # usually absent
             points = [0.0, _SOME * p.high] if p.low == 0.0 else [0.0]
         elif p.unit == "Hz":  # a resonance is found only from nearby
             points = _resonances(effect, p)
@@ -86,5 +88,6 @@ def _resonances(effect: Effect, frequency: Parameter) -> list[float]:
 
 def variants(effect: Effect, values: dict[str, float]) -> list[dict[str, float]]:
     """Give the values again, and with a smaller whole number, which no fit changes."""
-    others = [{**values, p.name: 0.5 * values[p.name]} for p in effect.parameters if p.whole]
+    smaller = {p.name: float(values[p.name] // 2) for p in effect.parameters if p.whole and values[p.name] > p.low}
+    others = [{**values, name: value} for name, value in smaller.items()]
     return [values, *others]

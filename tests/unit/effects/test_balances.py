@@ -159,6 +159,24 @@ def test_the_bending_girder_is_two_masses_on_springs() -> None:
     assert rms(ours - load) < 0.01 * rms(load - mass * G)
 
 
+def test_a_gauge_in_the_middle_of_a_bending_girder_is_read_as_such() -> None:
+    """It reads a_z + (4/pi) q''; from that the balance must find the same load as a gauge over the pads does."""
+    share, frequency, damping = 0.4, 12.0, 0.03
+    model = base_model("bridge1").adding(use("girder_bending", share=share, frequency=frequency, damping=damping))
+    record = shaken(model, shaking(), dt=DT).record
+    swing = oscillator(-record["girder_az"], DT, frequency, damping, 2)
+    total = record.stacked("pad_{}_N").sum(axis=1)
+    middle = record.replaced(girder_az=record["girder_az"] + 4.0 / np.pi * swing)
+    left = {}
+    for midspan in (0.0, 1.0):
+        seen = states(model, middle)
+        values = {"share": share, "frequency": frequency, "damping": damping, "midspan": midspan}
+        more = model["girder_bending"].effect.hooks["balance"](states=seen, **values)["heave"]
+        left[midspan] = rms(total - model.specimen.mass * (G + middle["girder_az"]) - more)
+    assert left[0.0] > 1e3, "it must matter"
+    assert left[1.0] < 0.02 * left[0.0]
+
+
 def test_a_girder_may_push_the_table_over() -> None:
     rocking = use("table_pitch", compliance=0.0, specimen=1.5e-4, frequency=14.0, damping=0.35)
     model = base_model("bridge1").adding(rocking)
