@@ -172,9 +172,10 @@ def _memories(laws: Predictor, states: States, starts: Sequence[int]) -> tuple[M
     kept = []
     for start, end in zip(bounds[:-1], bounds[1:], strict=True):
         kept.append(Memory(pad_memories(layout, laws.numbers).copy(), buffer_memories(layout, laws.numbers).copy()))
-        part = slice(start, end + 1)  # up to the first sample of the next one: memory goes on between samples
         if end - start > 1:
-            laws.pads(states.time[part], states.load[part], states.pad_velocity[part], states.pad_slip[part])
+            till = slice(start, end + 1)  # pads' memory goes on between samples, that of buffers at each
+            laws.pads(states.time[till], states.load[till], states.pad_velocity[till], states.pad_slip[till])
             if laws.model.specimen.buffer_stiffness:
-                laws.buffers(states.time[part], buffers[part], rates[part])
+                here = slice(start, end)
+                laws.buffers(states.time[here], buffers[here], rates[here])
     return tuple(kept)

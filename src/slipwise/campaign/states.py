@@ -12,10 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.campaign.aligned import aligned_run, long_enough, spread
+from slipwise.campaign.aligned import aligned_run
 from slipwise.campaign.campaign import Campaign, Run
+from slipwise.campaign.phases import is_at_rest, is_inside, is_lifted, is_slow, is_stuck
 from slipwise.campaign.rests import Gauge, noise_of_slip
-from slipwise.channels import PAD_SIGNS, PADS
+from slipwise.channels import PADS
 from slipwise.errors import InputError
 from slipwise.loads import load_modes, vertical_acceleration
 from slipwise.record import Record
@@ -24,19 +25,6 @@ from slipwise.signals import Fused, LowPass, derivative, fuse
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-#: Slower than this for `_STUCK_SAMPLES` samples is stuck, faster than `_FAST` is sliding [m/s].
-_STUCK = 3e-3
-_STUCK_SAMPLES = 6
-_FAST = 2e-2
-#: For a slow slider the limits are these parts of its usual speed (95 % of samples are slower) [1].
-_STUCK_PART, _FAST_PART = 0.05, 0.2
-#: Speeds below this many times the error of the velocity are none [1].
-_STUCK_ERRORS = 4.0
-#: A pad with less than this part of its share at rest is lifting [1], and rings this long after it [s].
-_LIFTED = 0.05
-_RINGING = 0.2
-#: Samples at the ends where filters and smoother see one side only.
-_ENDS = 8
 
 
 @dataclass(frozen=True)
@@ -108,6 +96,11 @@ class States:
         return self.valid & ~self.uplift
 
     @property
+    def at_rest(self) -> Mask:
+        """Samples at which the girder does not move over the table (n,)."""
+        return ~np.any(self.velocity, axis=1)
+
+    @property
     def pad_velocity(self) -> Array:
         """Velocity of the girder over each pad (n, p, 2) [m/s]: yaw moves pads apart from the middle."""
         return self.velocity[:, None, :] + self.yaw_rate[:, None, None] * self._across
@@ -157,8 +150,8 @@ def measured_states(run: Run, campaign: Campaign) -> States:
     velocity = np.stack([along.velocity, across.velocity if across else np.zeros(len(record))], axis=1)
     speed = np.hypot(velocity[:, 0], velocity[:, 1])
     error = along.velocity_error if specimen.free else 0.0
-    stuck = _stuck(speed, error)
-    velocity[stuck & _at_rest(velocity[:, 0], speed, error)] = 0.0
+    stuck = is_stuck(speed, error)
+    velocity[stuck & is_at_rest(velocity[:, 0], speed, error)] = 0.0
     slowest = next((f for f in lowpass.values() if f is not None), None)
     nothing = np.zeros(len(record))
     return States(
@@ -173,9 +166,9 @@ def measured_states(run: Run, campaign: Campaign) -> States:
         girder_acceleration=_accelerations(record, "girder"),
         table_acceleration=_accelerations(record, "table"),
         stuck=stuck,
-        near_reversal=~stuck & _slow(speed, velocity[:, 0], record.dt, slowest),
-        uplift=_uplift(load, record.dt, pads),
-        valid=aligned.measured & _inside(len(record)),
+        near_reversal=~stuck & is_slow(speed, velocity[:, 0], record.dt, slowest),
+        uplift=is_lifted(load, record.dt, pads),
+        valid=aligned.measured & is_inside(len(record)),
         has_y=across is not None,
         has_yaw=yaw is not None,
         lowpass=lowpass,
@@ -266,46 +259,3 @@ def _across(record: Record, gauges: Mapping[str, Gauge], missing: list[str]) -> 
     recorded = record["slip_vy"] if "slip_vy" in record else None
     relative = record["girder_ay"] - record["table_ay"] if record.has_all("girder_ay", "table_ay") else None
     return fuse(record.time, record["slip_y"], relative, recorded, noise_of_slip(gauges, "y"))
-
-
-def _stuck(speed: Array, error: float) -> Mask:
-    limit = min(_STUCK, _STUCK_PART * float(np.quantile(speed, 0.95)))
-    limit = max(limit, _STUCK_ERRORS * error)  # a run that never slides is stuck throughout
-    return long_enough(speed < limit, _STUCK_SAMPLES)
-
-
-def _at_rest(along: Array, speed: Array, error: float) -> Mask:
-    """Tell where a velocity is no more than noise, (n,).
-
-    Noise of a girder at rest adds up to a tenth of a millimetre in a second, and its contacts would seem worn out. What
-    leads into a slip or out of one, in its direction, is slip down to one standard deviation.
-    """
-    moving = speed >= _STUCK_ERRORS * error
-    way = np.where(speed > error, np.sign(along), 0.0)
-    piece = np.cumsum(np.diff(way, prepend=way[:1]) != 0.0)
-    slides = np.bincount(piece, weights=moving) > 0.0
-    return ~moving & ~(slides[piece] & (way != 0.0))
-
-
-def _slow(speed: Array, velocity: Array, dt: float, lowpass: LowPass | None) -> Mask:
-    """Tell where the slider is slow or has just turned, (n,)."""
-    slow = speed < min(_FAST, _FAST_PART * float(np.quantile(speed, 0.95)))
-    turns = np.zeros(len(speed), dtype=bool)
-    turns[1:] = np.signbit(velocity[1:]) != np.signbit(velocity[:-1])
-    reach = int(np.ceil(0.5 / (lowpass.frequency * dt))) if lowpass else 2
-    return slow | spread(turns, reach, reach)
-
-
-def _uplift(load: Array, dt: float, pads: list[str]) -> Mask:
-    """Tell where a pad is lifting or still rings from it (naming: pitch is then 700 times its floor)."""
-    if len(pads) < len(PAD_SIGNS) or not np.isfinite(load).all():
-        return np.zeros(len(load), dtype=bool)
-    lifted = np.any(load < _LIFTED * np.median(load, axis=0), axis=1)
-    return spread(np.asarray(lifted), 1, int(np.ceil(_RINGING / dt)))
-
-
-def _inside(count: int) -> Mask:
-    inside = np.ones(count, dtype=bool)
-    inside[:_ENDS] = False
-    inside[-_ENDS:] = False
-    return inside

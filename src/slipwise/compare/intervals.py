@@ -116,8 +116,11 @@ def intervals(base: BaseFit) -> Intervals:
     block = np.concatenate(rows)
     shared = _shared(base, len(left))
     found = of_fit(solution.free, solution.values, solution.jacobian, left, block, shared)
-    own_lag = {f"{t.label}.{p.name}" for t in problem.terms if t.effect.name in LAGGING for p in t.effect.parameters}
-    found = replace(found, entries=tuple(_of_a_card(e) if e.key in own_lag else e for e in found.entries))
+    lagging = [t for t in problem.terms if t.effect.name in LAGGING]
+    own_lag = {f"{t.label}.{p.name}" for t in lagging for p in t.effect.parameters if p.unit == "s"}
+    ends = {f.key: (f.low, f.high) for f in solution.free}
+    entries = (_of_a_card(e, *ends[e.key]) if e.key in own_lag else e for e in found.entries)
+    found = replace(found, entries=tuple(entries))
     limited = [
         _limited(base, found.entries, j, left, block, shared)
         if is_strength(base, f) and not found.entries[j].low > f.low
@@ -144,12 +147,10 @@ def _shared(base: BaseFit, count: int) -> Shared:
     return moved, whose
 
 
-def _of_a_card(entry: Interval) -> Interval:
+def _of_a_card(entry: Interval, lowest: float, highest: float) -> Interval:
     """Widen a gauge's lag by that of its card: beside the effect the two are one number."""
-    if entry.unit != "s":
-        return entry
     half = float(np.hypot(0.5 * (entry.high - entry.low), student.ppf(0.5 + COVERAGE / 2, np.inf) * _SHARED_TIMING))
-    return replace(entry, low=entry.value - half, high=entry.value + half)
+    return replace(entry, low=max(entry.value - half, lowest), high=min(entry.value + half, highest))
 
 
 def _limited(

@@ -26,7 +26,7 @@ _STUCK_MARGIN = 0.016
 #: Slower pads point nowhere [m/s].
 FAST = 0.01
 #: Instants per sample at which the laws are evaluated: a reversal between two samples must not wait for the second.
-#: With two, a law that changes over 5 mm/s loses a sixth of its size; four are for what is reported.
+#: With two, a law that changes over 5 mm/s loses a fifth to a third of its size; four are for what is reported.
 FINE, FINER = 2, 4
 
 
@@ -156,7 +156,7 @@ class FitRun:
                 slip[:, 0] += in_frequency(change, self.dt, lambda f, i=place: weights(f)[i], 128)
                 rate = in_frequency(change, self.dt, lambda f, i=place: 2j * np.pi * f * weights(f)[i], 128)
                 velocity[:, 0] += rate
-        velocity[np.asarray(self.states.velocity == 0.0).all(axis=1)] = 0.0  # what is at rest stays so
+        velocity[self.states.at_rest] = 0.0  # what is at rest stays so
         return slip, velocity
 
     def _changes(self, record: Record) -> tuple[Array, Array]:

@@ -152,8 +152,6 @@ def noise_scale(terms: Sequence[Term], values: Mapping[str, float], run: FitRun)
         if name in run.record and any(name in t.targets for t in terms)
     }
     out = {name: factor for name, factor in gauges.items() if name not in loads}
-    if "girder_ax" in out:
-        out["girder"] = out["girder_ax"]
     if "girder_az" in out:
         out["heave"] = out["girder_az"]
     if any(name in gauges for name in loads):

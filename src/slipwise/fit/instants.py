@@ -40,7 +40,6 @@ def instants(run: FitRun, velocity: Array, slip: Array, lost: Array | None = Non
     fine = refined(velocity, run.fine)
     if lost is not None:
         fine[:, :, 0] += lost
-    at_rest = np.asarray(run.states.velocity == 0.0).all(axis=1)
-    still = np.repeat(at_rest, run.fine)[: len(time)]
+    still = np.repeat(run.states.at_rest, run.fine)[: len(time)]
     fine[still & np.roll(still, 1 - run.fine)] = 0.0
     return Instants(time, np.maximum(refined(run.load, run.fine), 0.0), fine, refined(slip, run.fine))

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,6 +72,12 @@ class Kinematics:
         other.around, other.recent = values, Recent()
         return other
 
+    def refine(self, fine: int) -> None:
+        """Let the laws be evaluated at so many instants per sample, if they are not yet."""
+        if self.runs[0].fine < fine:
+            self.runs = [replace(r, fine=fine) for r in self.runs]
+            self.lost = []
+
     def _sort(self) -> None:
         self._faults = [t for t in self.terms if t.effect.port == "gauge" and not acts_on_force(t)]
         self._rockers = [t for t in self.terms if t.effect.port == "table" and "balance" in t.effect.hooks]
@@ -109,7 +115,7 @@ class Kinematics:
             return self.runs, {}
 
         def make() -> tuple[list[FitRun], dict[str, float]]:
-            runs = [r.without_late_slip(self.late) if self.late != 0.0 else r for r in self.runs]
+            runs = self._in_step()
             for term in self._faults:
                 runs = [without(term, values, r, self.around) for r in runs]
             if self._rockers:
@@ -118,6 +124,12 @@ class Kinematics:
             return runs, noise_scale(self._faults, values, self.runs[0])
 
         return self.recent.get("corrected", self.fault_key(values), make)
+
+    def _in_step(self) -> list[FitRun]:
+        """Give the runs with slip and accelerations in step."""
+        if self.late == 0.0:
+            return self.runs
+        return self.recent.get("in step", (self.late,), lambda: [r.without_late_slip(self.late) for r in self.runs])
 
     def turning(self, values: Mapping[str, float]) -> list[tuple[Array, Array]]:
         """Give yaw [rad] and its rate [rad/s] of every run, (n,) each: measured, made from the forces, or none."""

@@ -4,9 +4,9 @@ Residuals are (measured - predicted) / noise in measured units: a fault of a gau
 inverse on the measurement with the noise scaled alike. Else a gain below one would shrink the noise and look good.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from copy import copy
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ from slipwise.fit.instants import Instants
 from slipwise.fit.kinematics import Kinematics, values_of
 from slipwise.fit.pads import PadLaw, as_logged, force_along, lost_velocity, stick_share
 from slipwise.fit.recent import Key, Recent
+from slipwise.fit.residuals import Residuals
 from slipwise.fit.terms import LATE, PITCH_INERTIA, Term, fitted_model
 from slipwise.fit.weights import noise_across, pad_noise, reversal_noise, whitened, with_hidden
 from slipwise.model import Model
@@ -28,7 +29,6 @@ from slipwise.rig import Specimen
 from slipwise.signals import LowPass
 
 Array = NDArray[np.float64]
-RELATIONS: tuple[str, ...] = ("pads", *BALANCES, "across")
 #: Numbers that change what is seen of the pads' forces, not what their law says.
 _SEEN_KEYS = ("rig.stick_length", "rig.stick_damping", "rig.late_force", "rig.logger")
 #: Numbers that no balance knows of.
@@ -38,23 +38,6 @@ _PAD_PORTS = ("area", "shear", "stick", "pad")
 _LATE_AT_MOST = 0.9 * LATE
 #: Where a model has its own memory of slip, or nothing is fitted yet [m].
 _SHORT_STICK = 1e-6
-
-
-@dataclass(frozen=True)
-class Residuals:
-    """Residuals of every relation, in units of the noise, per run.
-
-    Attributes:
-        parts: relation -> per run (n,), or (n, p) for pads; zero where masked.
-        pad_forces: per run (n, p) predicted [N].
-    """
-
-    parts: dict[str, list[Array]]
-    pad_forces: list[Array]
-
-    def stacked(self, which: Sequence[int], relations: Sequence[str] = RELATIONS) -> Array:
-        """Give all residuals of these runs in one vector."""
-        return np.concatenate([self.parts[r][i].ravel() for r in relations if r in self.parts for i in which])
 
 
 @dataclass
@@ -137,9 +120,9 @@ class Problem:
         """
         anew = self._with(self.terms, self.kinematics.yaw)
         anew.kinematics.recent = Recent()
-        if finer and self.runs[0].fine < FINER:
-            anew.runs = anew.kinematics.runs = [replace(r, fine=FINER) for r in self.runs]
-            anew.kinematics.lost = []
+        if finer:
+            anew.kinematics.refine(FINER)
+            anew.runs = anew.kinematics.runs
         anew.weigh(values)
         return anew
 

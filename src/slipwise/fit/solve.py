@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.fit.problem import Problem, Residuals
+from slipwise.fit.problem import Problem
+from slipwise.fit.residuals import Residuals
 from slipwise.fit.terms import Free
 
 Array = NDArray[np.float64]

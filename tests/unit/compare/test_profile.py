@@ -9,7 +9,7 @@ import pytest
 from slipwise.compare.intervals import intervals
 from slipwise.effects import find_effect
 from slipwise.fit.base import BaseFit
-from slipwise.fit.problem import Residuals
+from slipwise.fit.residuals import Residuals
 from slipwise.fit.solve import jacobian, solve
 from slipwise.fit.terms import Free, Term
 
