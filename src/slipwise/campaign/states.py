@@ -8,6 +8,7 @@ mm/s after each reversal.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -100,17 +101,17 @@ class States:
         """Samples at which the girder does not move over the table (n,)."""
         return ~np.any(self.velocity, axis=1)
 
-    @property
+    @cached_property
     def pad_velocity(self) -> Array:
         """Velocity of the girder over each pad (n, p, 2) [m/s]: yaw moves pads apart from the middle."""
         return self.velocity[:, None, :] + self.yaw_rate[:, None, None] * self._across
 
-    @property
+    @cached_property
     def pad_velocity_error(self) -> Array:
         """Expected standard deviation of the velocity over each pad (p, 2) [m/s]: that of yaw comes on top."""
         return np.hypot(self.velocity_error, self.yaw_rate_error * self._across[0])
 
-    @property
+    @cached_property
     def pad_slip(self) -> Array:
         """Slip of the girder over each pad (n, p, 2) [m]."""
         return self.slip[:, None, :] + self.yaw[:, None, None] * self._across

@@ -1,5 +1,6 @@
 """A mass on a spring and a damper, pushed by a sampled signal."""
 
+from functools import lru_cache
 from typing import Any, cast
 
 import numpy as np
@@ -28,10 +29,16 @@ def oscillator(push: Array, dt: float, frequency: float, damping: float, derivat
     curved[1:-1] -= (push[2:] - 2.0 * push[1:-1] + push[:-2]) / 12.0
 
     def solved(order: int) -> Array:
-        system = ([1.0] + [0.0] * order, [1.0, 2.0 * damping * w, w * w])
-        numerator, denominator, _ = cast(Any, cont2discrete(system, dt, method="foh"))
-        return cast(Array, lfilter(numerator.ravel(), denominator, curved))
+        return cast(Array, lfilter(*_discrete(order, dt, w, damping), curved))
 
     if derivative < 2:
         return solved(derivative)
     return push - 2.0 * damping * w * solved(1) - w * w * solved(0)
+
+
+@lru_cache(maxsize=64)
+def _discrete(order: int, dt: float, w: float, damping: float) -> tuple[Array, Array]:
+    """Give numerator and denominator of q's derivative of this order, for a push that is straight between samples."""
+    system = ([1.0] + [0.0] * order, [1.0, 2.0 * damping * w, w * w])
+    numerator, denominator, _ = cast(Any, cont2discrete(system, dt, method="foh"))
+    return numerator.ravel(), denominator

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from slipwise.campaign import Campaign, Run
@@ -98,6 +99,11 @@ class FitRun:
         """Noise of the pads' gauges of friction and load, (p,) each [N]."""
         friction = np.array([self.noise[f"pad_{p}_Fx"] for p in self.pads])
         return friction, np.array([self.noise.get(f"pad_{p}_N", 0.0) for p in self.pads])
+
+    @cached_property
+    def fine_load(self) -> Array:
+        """Load at the instants at which the laws are evaluated, (f, p) [N]."""
+        return np.maximum(refined(self.load, self.fine), 0.0)
 
     def channel(self, name: str) -> Array:
         """Give a channel (n,), zero where it was not measured."""
@@ -228,14 +234,29 @@ def _widened(flags: Mask, reach: int) -> Mask:
 def refined(values: Array, fine: int) -> Array:
     """Give the values (n, ...) at the instants, (fine (n - 1) + 1, ...), by cubics through four neighbours."""
     out = np.empty((fine * (len(values) - 1) + 1, *values.shape[1:]))
-    out[::fine] = values
-    earlier, later = np.concatenate([values[:1], values[:-2]]), np.concatenate([values[2:], values[-1:]])
-    for j in range(1, fine):
-        t = j / fine
-        weights = (-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2)
-        last = (t + 1) * t * (t - 1) / 6
-        out[j::fine] = weights[0] * earlier + weights[1] * values[:-1] + weights[2] * values[1:] + last * later
+    flat = np.ascontiguousarray(values).reshape(len(values), -1)
+    _cubics(flat, fine, out.reshape(len(out), -1))
     return out
+
+
+@njit(cache=True)
+def _cubics(values, fine, out):  # pragma: no cover - compiled
+    """Fill the instants between samples; at the ends the last sample stands for the one that is not there."""
+    count, width = values.shape
+    for i in range(count - 1):
+        before, after = max(i - 1, 0), min(i + 2, count - 1)
+        for k in range(width):
+            out[i * fine, k] = values[i, k]
+        for j in range(1, fine):
+            t = j / fine
+            w0, w1 = -t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2
+            w2, w3 = -(t + 1) * t * (t - 2) / 2, (t + 1) * t * (t - 1) / 6
+            for k in range(width):
+                out[i * fine + j, k] = (
+                    w0 * values[before, k] + w1 * values[i, k] + w2 * values[i + 1, k] + w3 * values[after, k]
+                )
+    for k in range(width):
+        out[(count - 1) * fine, k] = values[count - 1, k]
 
 
 def smoothed(values: Array, run: FitRun) -> Array:

@@ -32,9 +32,9 @@ def instants(run: FitRun, velocity: Array, slip: Array, lost: Array | None = Non
 
     Args:
         run: its loads and times, and where it is at rest.
-        velocity: (n, p, 2) of each pad [m/s].
-        slip: (n, p, 2) of each pad [m].
-        lost: (f, p) what the logger's filter took from the velocity, see `lost_velocity` [m/s].
+        velocity: (n, p, 2) of each pad, or (n, 1, 2) where all move alike [m/s].
+        slip: (n, p, 2) of each pad, or (n, 1, 2) [m].
+        lost: (f, p) or (f, 1) what the logger's filter took from the velocity, see `lost_velocity` [m/s].
     """
     time = np.linspace(run.time[0], run.time[-1], run.fine * (len(run.time) - 1) + 1)
     fine = refined(velocity, run.fine)
@@ -42,4 +42,5 @@ def instants(run: FitRun, velocity: Array, slip: Array, lost: Array | None = Non
         fine[:, :, 0] += lost
     still = np.repeat(run.states.at_rest, run.fine)[: len(time)]
     fine[still & np.roll(still, 1 - run.fine)] = 0.0
-    return Instants(time, np.maximum(refined(run.load, run.fine), 0.0), fine, refined(slip, run.fine))
+    every = (*run.fine_load.shape, 2)
+    return Instants(time, run.fine_load, np.broadcast_to(fine, every), np.broadcast_to(refined(slip, run.fine), every))

@@ -105,17 +105,21 @@ class Kinematics:
             return ()
         return ("yaw", *values_of(self._buffers, values), *(values.get(k, 0.0) for k in _TURNING))
 
-    def corrected(self, values: Mapping[str, float]) -> tuple[list[FitRun], dict[str, float]]:
+    def corrected(self, values: Mapping[str, float], count: int | None = None) -> tuple[list[FitRun], dict[str, float]]:
         """Take the faults of all gauges but those of friction out of the runs; noise scales with it.
+
+        Args:
+            values: key -> value of everything.
+            count: of runs from the first on; all, if not given.
 
         Returns:
             runs, and relation -> by how much the noise of its channels has grown, where it has.
         """
         if not self._faults and not self._rockers and self.late == 0.0:
-            return self.runs, {}
+            return self.runs[:count], {}
 
         def make() -> tuple[list[FitRun], dict[str, float]]:
-            runs = self._in_step()
+            runs = self._in_step()[:count]
             for term in self._faults:
                 runs = [without(term, values, r, self.around) for r in runs]
             if self._rockers:
@@ -123,7 +127,7 @@ class Kinematics:
                 runs = [r.without_turning(no_slip(model, r)) for r in runs]
             return runs, noise_scale(self._faults, values, self.runs[0])
 
-        return self.recent.get("corrected", self.fault_key(values), make)
+        return self.recent.get("corrected", (len(self.runs[:count]), *self.fault_key(values)), make)
 
     def _in_step(self) -> list[FitRun]:
         """Give the runs with slip and accelerations in step."""
@@ -131,9 +135,9 @@ class Kinematics:
             return self.runs
         return self.recent.get("in step", (self.late,), lambda: [r.without_late_slip(self.late) for r in self.runs])
 
-    def turning(self, values: Mapping[str, float]) -> list[tuple[Array, Array]]:
-        """Give yaw [rad] and its rate [rad/s] of every run, (n,) each: measured, made from the forces, or none."""
-        runs, _ = self.corrected(values)
+    def turning(self, values: Mapping[str, float], count: int | None = None) -> list[tuple[Array, Array]]:
+        """Give yaw [rad] and its rate [rad/s] of the runs, (n,) each: measured, made from the forces, or none."""
+        runs, _ = self.corrected(values, count)
         if not self.turns:
             return [(r.states.yaw, r.states.yaw_rate) for r in runs]
 
@@ -150,7 +154,7 @@ class Kinematics:
                 found.append(yaw_of(run, specimen, force, bound, buffers))
             return found
 
-        return self.recent.get("yaw", self.key(values), make)
+        return self.recent.get("yaw", (len(self.runs[:count]), *self.key(values)), make)
 
     def compliance(self, specimen: Specimen) -> Array:
         """Give the acceleration of pad i for a force along x on pad j, (p, p) [1/kg]; it turns where yaw is known."""
@@ -159,27 +163,31 @@ class Kinematics:
         knows = self.turns or self.runs[0].states.has_yaw
         return 1.0 / specimen.mass + (turning if knows else np.zeros_like(turning))
 
-    def states(self, values: Mapping[str, float]) -> list[Instants]:
-        """Give the states of every pad in every run."""
-        return self.recent.get("states", self.key(values), lambda: self.faster(values))
+    def states(self, values: Mapping[str, float], count: int | None = None) -> list[Instants]:
+        """Give the states of every pad in the runs, as many of them as asked for."""
+        key = (len(self.runs[:count]), *self.key(values))
+        return self.recent.get("states", key, lambda: self.faster(values, count=count))
 
-    def faster(self, values: Mapping[str, float], by: float = 0.0) -> list[Instants]:
+    def faster(self, values: Mapping[str, float], by: float = 0.0, count: int | None = None) -> list[Instants]:
         """Give the states of every pad, their velocities raised by so many times their expected errors."""
-        return [self._instants(place, values, by) for place in range(len(self.runs))]
-
-    def _instants(self, place: int, values: Mapping[str, float], by: float) -> Instants:
-        run = self.corrected(values)[0][place]
-        velocity = run.states.pad_velocity[:, self._here].copy()
-        velocity[:, :, 0] += values.get("rig.pitch_slip", 0.0) * self._pitching[place][:, None]
-        velocity[:, :, 0] += by * run.states.pad_velocity_error[self._here, 0]
-        slip = run.states.pad_slip[:, self._here]
-        if self.turns:
-            angle, rate = self.turning(values)[place]
-            pads = np.array(self.specimen.pad_places)[self._here]
-            round_about = np.stack([-pads[:, 1], pads[:, 0]], axis=1)[None]
-            velocity = velocity + rate[:, None, None] * round_about
-            slip = slip + angle[:, None, None] * round_about
-        return instants(run, velocity, slip, self.lost[place] if self.lost else None)
+        runs, _ = self.corrected(values, count)
+        pads = np.array(self.specimen.pad_places)[self._here]
+        round_about = np.stack([-pads[:, 1], pads[:, 0]], axis=1)[None]
+        alike = not (self.turns or runs[0].states.has_yaw)
+        here = self._here[:1] if alike else self._here  # a girder that does not turn moves over every pad alike
+        out = []
+        for place, run in enumerate(runs):
+            velocity = run.states.pad_velocity[:, here].copy()
+            velocity[:, :, 0] += values.get("rig.pitch_slip", 0.0) * self._pitching[place][:, None]
+            velocity[:, :, 0] += by * run.states.pad_velocity_error[here, 0]
+            slip = run.states.pad_slip[:, here]
+            if self.turns:
+                angle, rate = self.turning(values, count)[place]
+                velocity = velocity + rate[:, None, None] * round_about
+                slip = slip + angle[:, None, None] * round_about
+            lost = self.lost[place][:, : len(here)] if self.lost else None
+            out.append(instants(run, velocity, slip, lost))
+        return out
 
 
 def values_of(terms: Sequence[Term], values: Mapping[str, float]) -> Key:

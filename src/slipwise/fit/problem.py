@@ -21,7 +21,7 @@ from slipwise.fit.kinematics import Kinematics, values_of
 from slipwise.fit.pads import PadLaw, as_logged, force_along, lost_velocity, stick_share
 from slipwise.fit.recent import Key, Recent
 from slipwise.fit.residuals import Residuals
-from slipwise.fit.terms import LATE, PITCH_INERTIA, Term, fitted_model
+from slipwise.fit.terms import PITCH_INERTIA, Term, fitted_model
 from slipwise.fit.weights import noise_across, pad_noise, reversal_noise, whitened, with_hidden
 from slipwise.model import Model
 from slipwise.predict import PadForces, predictor
@@ -34,8 +34,6 @@ _SEEN_KEYS = ("rig.stick_length", "rig.stick_damping", "rig.late_force", "rig.lo
 #: Numbers that no balance knows of.
 _PAD_KEYS = ("rig.pitch_slip", "rig.shear_strength", *_SEEN_KEYS)
 _PAD_PORTS = ("area", "shear", "stick", "pad")
-#: A gauge that lags further is no card's, and left to `channel_delay` [s].
-_LATE_AT_MOST = 0.9 * LATE
 #: Where a model has its own memory of slip, or nothing is fitted yet [m].
 _SHORT_STICK = 1e-6
 
@@ -156,29 +154,27 @@ class Problem:
         self, model: Model, values: Mapping[str, float], count: int
     ) -> tuple[dict[str, list[Array]], list[Array], list[Array]]:
         """Give residuals and predictions of the pads, and measured forces without their gauges' faults."""
-        runs, _ = self.kinematics.corrected(values)
-        states = self.kinematics.states(values)
+        runs, _ = self.kinematics.corrected(values, count)
+        states = self.kinematics.states(values, count)
         key = (count, *self._pad_key(values, faults=False))
-        said = self.kinematics.recent.get(
-            "law", key, lambda: self._law_of(model).at_instants(runs[:count], states[:count])
-        )
+        said = self.kinematics.recent.get("law", key, lambda: self._law_of(model).at_instants(runs, states))
         key = (*key, *(values.get(k, 0.0) for k in _SEEN_KEYS))
         forces = self.kinematics.recent.get("forces", key, lambda: self._logged(values, runs, states, said))
         parts, outputs, clean = [], [], []
-        for i, (run, force) in enumerate(zip(runs, forces, strict=False)):
+        for i, (run, force) in enumerate(zip(runs, forces, strict=True)):
             seen, offset = on_force(self._on_force, values, run, force, self.kinematics.around)
             outputs.append(force + offset)
             clean.append(seen)
             parts.append(self._over("pads", i, run.force - force - offset, run.judged["pads"]))
         if "across" not in self.relations:
             return {"pads": parts}, outputs, clean
-        sides = [r.across - logged_across(r, f, self._by(values)) for r, f in zip(runs, said, strict=False)]
+        sides = [r.across - logged_across(r, f, self._by(values)) for r, f in zip(runs, said, strict=True)]
         across = [self._over("across", i, side, runs[i].judged["across"]) for i, side in enumerate(sides)]
         return {"pads": parts, "across": across}, outputs, clean
 
     def _balance_parts(self, model: Model, values: Mapping[str, float], forces: list[Array]) -> dict[str, list[Array]]:
-        runs, scale = self.kinematics.corrected(values)
-        turning = self.kinematics.turning(values)
+        runs, scale = self.kinematics.corrected(values, len(forces))
+        turning = self.kinematics.turning(values, len(forces))
         law = predictor(model)
         parts: dict[str, list[Array]] = {r: [] for r in self.relations if r in BALANCES}
         hidden = 0.0
@@ -187,7 +183,7 @@ class Problem:
         driven: list[Array | None] = [None] * len(runs)
         if self.sigmas and PITCH_INERTIA in self.kinematics.inertias:
             driven = [*driven_noise_in_pitch(model, runs, values)]
-        for i, (run, force) in enumerate(zip(runs, forces, strict=False)):
+        for i, (run, force) in enumerate(zip(runs, forces, strict=True)):
             law.rest(run.rest_before)
             said, seen = predicted(model, run, force, buffers_along(law, run, *turning[i]), values)
             for name in parts:
@@ -209,8 +205,7 @@ class Problem:
     def weigh(self, values: Mapping[str, float]) -> None:
         """Set the noise of every relation, error of the velocity near reversals included, and what filters took."""
         self.kinematics.recent.forget()
-        late = values.get("rig.late_slip", 0.0)
-        self.kinematics.late = late if abs(late) < _LATE_AT_MOST else 0.0
+        self.kinematics.late = values.get("rig.late_slip", 0.0)
         model = self.model(values)
         law = PadLaw(model)
         runs, _ = self.kinematics.corrected(values)
