@@ -32,6 +32,17 @@ def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
     return {name: max(float(level), 1e-12) for name, level in levels.items()}
 
 
+def shares_of_noise(specimen: Specimen, run: FitRun) -> dict[str, dict[str, float]]:
+    """Give the share of single channels in the variance of the balances of loads: relation -> channel -> share [1]."""
+    loads = {f"pad_{p}_N": float(level**2) for p, level in zip(run.pads, run.gauge_noise[1], strict=True)}
+    heave = {**loads, "girder_az": (specimen.mass * run.noise.get("girder_az", 0.0)) ** 2}
+    powers = {"heave": heave, "pitch": loads, "roll": loads, "warp": loads}
+    return {
+        name: {channel: power / max(sum(of.values()), 1e-24) for channel, power in of.items()}
+        for name, of in powers.items()
+    }
+
+
 def weighed_balances(
     model: Model, runs: Sequence[FitRun], values: Mapping[str, float], turning: Sequence[Array],
     changed: Sequence[Array],

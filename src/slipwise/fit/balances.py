@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from slipwise.effects import BalanceStates
 from slipwise.fit.data import FitRun, refined
 from slipwise.fit.pads import as_logged
+from slipwise.fit.sharpened import Spectrum
 from slipwise.loads import load_modes
 from slipwise.model import Model
 from slipwise.predict import Predictor
@@ -189,19 +190,23 @@ def no_slip(model: Model, run: FitRun) -> Array:
     return effects_in(model, run, model.built_specimen(), run.force, nothing).get("motion", nothing[:, 0])
 
 
-def motion_residual(run: FitRun, late: float, scale: Mapping[str, float]) -> Array:
+def motion_residual(run: FitRun, late: float, scale: Mapping[str, float], raised: Mapping[str, Spectrum]) -> Array:
     """Give a_x - a_x,table - d2(slip)/dt2, whitened by the noise of the three gauges: (n,) of unit variance.
 
     Args:
         run: its channels.
         late: by which the slip gauge lags behind the accelerometers [s].
         scale: channel -> by how much undoing faults has scaled its noise: else a gain would shrink it and look good.
+        raised: channel -> by how much taking a filter out has raised the power of its noise.
     """
-    girder, table, gauge = (run.noise[n] * scale.get(n, 1.0) for n in ("girder_ax", "table_ax", "slip_x"))
-    level = np.hypot(girder, table)
+
+    def power(name: str, f: Array) -> Array:
+        factor = np.interp(f, *raised[name]) if name in raised else 1.0
+        return np.asarray((run.noise[name] * scale.get(name, 1.0)) ** 2 * factor)
 
     def white(f: Array) -> Array:
-        return 1.0 / np.sqrt(level**2 + ((2.0 * np.pi * f) ** 2 * gauge) ** 2)
+        slip = (2.0 * np.pi * f) ** 4 * power("slip_x", f)
+        return 1.0 / np.sqrt(power("girder_ax", f) + power("table_ax", f) + slip)
 
     relative = run.record["girder_ax"] - run.record["table_ax"] - run.no_slip
     slip = shift(run.record["slip_x"], run.dt, -late)

@@ -8,15 +8,14 @@ from numpy.typing import NDArray
 from slipwise.channels import VELOCITY_CHANNELS, channels_like
 from slipwise.effects import Effect
 from slipwise.fit.data import FitRun, smoothed
+from slipwise.fit.sharpened import Spectrum, spectrum_without_filter, without_filter
 from slipwise.fit.terms import Term
+from slipwise.model import EffectUse
 from slipwise.record import Record
-from slipwise.signals.ends import in_frequency
 
 Array = NDArray[np.float64]
 #: Effects that move a channel in time, and its noise with it.
 _SHIFTING = ("channel_delay", "clock_skew")
-#: A fault without an inverse is taken out as far as it weakened a channel by no more than this [1].
-_SHARPEST = 3.0
 
 
 def acts_on_force(term: Term) -> bool:
@@ -110,32 +109,35 @@ def without(term: Term, values: Mapping[str, float], run: FitRun, around: Mappin
                 there, back = (_call(entry.effect, "undo", seen, entry.target, e.values) for e in (entry, start))
                 record = record.replaced(**{n: record[n] + there[n] - back[n] for n in names})
         else:
-            pulse = np.zeros(len(record))
-            pulse[len(pulse) // 2] = 1.0
-            shown = _call(
-                entry.effect, "gauge", record.replaced(**{n: pulse for n in names}), entry.target, entry.values
-            )
+            shown = _struck(term, entry, record, names)
             for n in names:
-                seen = smoothed(record[n], run)
-                record = record.replaced(**{n: record[n] + _sharpened(seen, shown[n], run.dt) - seen})
+                record = record.replaced(**{n: without_filter(record[n], shown[n], run)})
     moved = any(record[n] is not run.record[n] for n in VELOCITY_CHANNELS if n in record)
     return run.with_record(record, moved=moved)
 
 
-def _sharpened(values: Array, pulse: Array, dt: float) -> Array:
-    """Take out of values (n,) what made a pulse in the middle of a record look like `pulse` (n,).
+def _struck(term: Term, entry: EffectUse, record: Record, names: Sequence[str]) -> Record:
+    """Give what a fault makes of a pulse in the middle of each of these channels."""
+    pulse = np.zeros(len(record))
+    pulse[len(pulse) // 2] = 1.0
+    return _call(term.effect, "gauge", record.replaced(**{n: pulse for n in names}), entry.target, entry.values)
 
-    What came out weaker than a third stays as weak as that would be: its noise would be all there is.
+
+def raised_noise(terms: Sequence[Term], values: Mapping[str, float], run: FitRun) -> dict[str, Spectrum]:
+    """Tell by how much taking out faults that have no inverse raises the power of their channels' noise.
+
+    Returns:
+        channel -> frequencies (m,) [Hz] and factors (m,) [1].
     """
-    middle = len(pulse) // 2
-    passed, grid = np.fft.rfft(np.roll(pulse, -middle)), np.fft.rfftfreq(len(pulse), dt)
-
-    def inverse(f: Array) -> NDArray[np.complex128]:
-        here = np.asarray(np.interp(f, grid, passed.real) + 1j * np.interp(f, grid, passed.imag), dtype=np.complex128)
-        size = np.maximum(np.abs(here), 1e-12)
-        return np.asarray(np.minimum(1.0 / size, _SHARPEST) * np.conj(here) / size, dtype=np.complex128)
-
-    return in_frequency(values, dt, inverse, min(middle, 256))
+    out: dict[str, Spectrum] = {}
+    for term in (t for t in terms if "undo" not in t.effect.hooks):
+        for entry in term.uses(values):
+            names = [n for n in channels_like(entry.target) if n in run.record]
+            shown = _struck(term, entry, run.record, names)
+            for n in names:
+                at, factor = spectrum_without_filter(shown[n], run)
+                out[n] = (at, factor * out[n][1] if n in out else factor)
+    return out
 
 
 def noise_scale(terms: Sequence[Term], values: Mapping[str, float], run: FitRun) -> dict[str, float]:

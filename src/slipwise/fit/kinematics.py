@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 
 from slipwise.fit.balances import buffers_along, no_slip
 from slipwise.fit.data import FitRun
-from slipwise.fit.faults import acts_on_force, noise_scale, without
+from slipwise.fit.faults import acts_on_force, noise_scale, raised_noise, without
 from slipwise.fit.instants import Instants, instants
 from slipwise.fit.recent import Key, Recent
+from slipwise.fit.sharpened import Spectrum
 from slipwise.fit.terms import PITCH_INERTIA, YAW_INERTIA, Term, fitted_model
 from slipwise.fit.yaw import yaw_of
 from slipwise.predict import predictor
@@ -128,6 +129,13 @@ class Kinematics:
             return runs, noise_scale(self._faults, values, self.runs[0])
 
         return self.recent.get("corrected", (len(self.runs[:count]), *self.fault_key(values)), make)
+
+    def raised(self, values: Mapping[str, float]) -> dict[str, Spectrum]:
+        """Give the channels whose noise is raised by taking their faults out, and by how much: see `raised_noise`."""
+        if all("undo" in t.effect.hooks for t in self._faults):
+            return {}
+        key = self.fault_key(values)
+        return self.recent.get("raised", key, lambda: raised_noise(self._faults, values, self.runs[0]))
 
     def _in_step(self) -> list[FitRun]:
         """Give the runs with slip and accelerations in step."""

@@ -12,7 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.fit.across import logged_across
-from slipwise.fit.balance_noise import driven_noise_in_pitch, heard_in_balances, heave_level, weighed_balances
+from slipwise.fit.balance_noise import (
+    driven_noise_in_pitch,
+    heard_in_balances,
+    heave_level,
+    shares_of_noise,
+    weighed_balances,
+)
 from slipwise.fit.balances import BALANCES, available, buffers_along, motion_residual, predicted
 from slipwise.fit.data import FINER, FitRun
 from slipwise.fit.faults import acts_on_force, changed_by, faulted, on_force, shifts
@@ -21,6 +27,7 @@ from slipwise.fit.kinematics import Kinematics, values_of
 from slipwise.fit.pads import PadLaw, as_logged, force_along, lost_velocity, stick_share
 from slipwise.fit.recent import Key, Recent
 from slipwise.fit.residuals import Residuals
+from slipwise.fit.sharpened import evened
 from slipwise.fit.terms import PITCH_INERTIA, Term, fitted_model
 from slipwise.fit.weights import noise_across, pad_noise, reversal_noise, whitened, with_hidden
 from slipwise.model import Model
@@ -175,6 +182,7 @@ class Problem:
     def _balance_parts(self, model: Model, values: Mapping[str, float], forces: list[Array]) -> dict[str, list[Array]]:
         runs, scale = self.kinematics.corrected(values, len(forces))
         turning = self.kinematics.turning(values, len(forces))
+        raised, shares = self.kinematics.raised(values), shares_of_noise(self.specimen, runs[0])
         law = predictor(model)
         parts: dict[str, list[Array]] = {r: [] for r in self.relations if r in BALANCES}
         hidden = 0.0
@@ -194,6 +202,7 @@ class Problem:
                     left = self.runs[i].channel("girder_ax") - faulted(self._on_girder, values, shown)["girder_ax"]
                 else:
                     left = (seen[name] - said[name]) / scale.get(name, 1.0)
+                    left = evened(left, run, raised, shares.get(name, {}))
                 if name in self.heard:
                     more = driven[i] if name == "pitch" else None
                     left = whitened(left, run, float(np.min(self.sigmas[name][i])), self.heard[name][i], more)
@@ -284,5 +293,5 @@ class Problem:
 
     def _motion(self, place: int, run: FitRun, values: Mapping[str, float], scale: Mapping[str, float]) -> Array:
         late = values["rig.late_slip"]
-        key = (late, *self.kinematics.fault_key(values))
-        return self.kinematics.recent.get(f"motion{place}", key, lambda: motion_residual(run, late, scale))
+        key, raised = (late, *self.kinematics.fault_key(values)), self.kinematics.raised(values)
+        return self.kinematics.recent.get(f"motion{place}", key, lambda: motion_residual(run, late, scale, raised))
