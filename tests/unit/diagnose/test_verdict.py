@@ -102,3 +102,11 @@ def _structured(found: Hypothesis) -> Any:
 def test_geometry_that_leaves_structure_is_not_geometry_but_a_law_may_have_another_form(monkeypatch, name, kind):
     monkeypatch.setattr("slipwise.diagnose.verdict.leftover", _structured)
     assert judge(_search(_tried((), 20.0), _tried((name,), 3.0))).kind == kind
+
+
+@pytest.mark.parametrize(("left", "worthy"), [(1.02, True), (6.0, False)])
+def test_a_second_law_beside_a_huge_one_must_explain_nearly_all_that_is_left(left: float, worthy: bool) -> None:
+    """Cross-talk of 20 floors leaves 4.4: half of that may be its own wrong form, all of it is another effect."""
+    base, first = _tried((), 400.0), _tried(("load_crosstalk",), 8.0)
+    both = _tried(("load_crosstalk", "rate_and_state"), left)
+    assert material(base.account, first.account, both.account) == worthy
