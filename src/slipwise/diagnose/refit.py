@@ -213,6 +213,7 @@ def cornered(found: Hypothesis) -> bool:
 
 
 def _ends(found: Hypothesis, term: Term) -> set[str]:
-    """Give the parameters of a term that ended on a bound other than their absence."""
+    """Give the parameters of a term that ended on a bound other than their absence; whole numbers are not fitted."""
     ends, values = set(found.solution.at_bounds), found.values_of(term)
-    return {p.name for p in term.effect.parameters if f"{term.label}.{p.name}" in ends and values[p.name] != p.neutral}
+    fitted = [p for p in term.effect.parameters if not p.whole]
+    return {p.name for p in fitted if f"{term.label}.{p.name}" in ends and values[p.name] != p.neutral}
