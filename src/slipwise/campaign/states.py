@@ -32,10 +32,11 @@ Mask = NDArray[np.bool_]
 class States:
     """Measured states of one run on a uniform time axis, lag of a causal logger taken out.
 
-    p is the number of pads with a force or a load, in the order A to D; pads that were not measured hold NaN.
+    p is the number of pads with a force or a load, in the order A to D.
 
     Attributes:
         specimen: of the campaign.
+        pads: names of the pads that were measured.
         time: (n,) [s].
         slip: (n, 2) girder minus table at the sliding plane, smoothed [m]; y is 0 where it was not measured.
         velocity: (n, 2) of the slip [m/s]; zero where it is stuck and no more than noise.
@@ -60,6 +61,7 @@ class States:
     """
 
     specimen: Specimen
+    pads: tuple[str, ...]
     time: Array
     slip: Array
     velocity: Array
@@ -119,7 +121,8 @@ class States:
     @property
     def _across(self) -> Array:
         """What a unit of yaw adds to each pad's slip (1, p, 2) [m]: -y, +x."""
-        places = np.array(self.specimen.pad_places[: self.load.shape[1]], dtype=float)
+        measured = [self.specimen.pad_places[self.specimen.pads.index(p)] for p in self.pads]
+        places = np.array(measured, dtype=float)
         return np.stack([-places[:, 1], places[:, 0]], axis=1)[None]
 
 
@@ -157,6 +160,7 @@ def measured_states(run: Run, campaign: Campaign) -> States:
     nothing = np.zeros(len(record))
     return States(
         specimen=specimen,
+        pads=tuple(pads),
         time=record.time,
         slip=np.stack([along.position, across.position if across else nothing], axis=1),
         velocity=velocity,
@@ -241,7 +245,8 @@ def _along(record: Record, specimen: Specimen, gauges: Mapping[str, Gauge], miss
     if pitch is None:
         return fuse(record.time, record["slip_x"], relative, recorded, levels)
     lean = specimen.centre_height * pitch
-    fused = fuse(record.time, record["slip_x"] + lean, relative, recorded, levels)
+    raised = None if recorded is None else recorded + derivative(lean, record.dt)
+    fused = fuse(record.time, record["slip_x"] + lean, relative, raised, levels)
     return Fused(
         position=fused.position - lean,
         velocity=fused.velocity - derivative(lean, record.dt),

@@ -111,12 +111,16 @@ def refit(
         most: Jacobians at most.
     """
     problem = base.problem.adding(*terms)
-    values = dict((before.solution if before else base.solution).values)
+    values = dict(base.solution.values)
+    if before is not None:  # numbers of effects that are no longer there would act, or be begun from
+        kept = values.keys() | set(problem.kinematics.inertias)
+        values |= {k: v for k, v in before.solution.values.items() if k in kept}
+    labels = {t.label for t in before.terms} if before is not None else set[str]()
     free: list[Free] = [f for f in base.free if f.key != STICK_LENGTH or not problem.has_stick]
     if any(t.effect.name == "shear_rate" for t in terms):
         free = [f for f in free if f.key != "rig.shear_strength"]
     for term in terms:
-        if before is not None and f"{term.label}.{term.effect.parameter_names[0]}" in before.solution.values:
+        if before is not None and term.label in labels:
             start = before.values_of(term)
         else:
             start = _inside(term, starts[term.label])
@@ -132,8 +136,7 @@ def refit(
     else:
         known = {f.key: base.solution.jacobian[:, j] for j, f in enumerate(base.free)}
         solution = solve(problem, values, free, most=most, enough=_ENOUGH, rough=_ROUGH, known=known)
-        labels = {t.label for t in terms}
-        contained = before if before is not None and all(t.label in labels for t in before.terms) else base
+        contained = before if before is not None and labels <= {t.label for t in terms} else base
         if solution.cost > contained.solution.cost:  # the base has moved too far for its slopes of before
             solution = solve(problem, solution.values, free, most=most, enough=_ENOUGH, rough=_ROUGH)
     return _hypothesis(terms, problem, solution)

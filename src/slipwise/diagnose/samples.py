@@ -76,7 +76,7 @@ def mended(campaign: Campaign, faults: tuple[SampleFault, ...]) -> tuple[Campaig
     spoiled: dict[str, dict[str, Mask]] = {}
     for run in campaign.runs:
         record, spoilt = run.record, dict[str, Mask]()
-        for fault in faults:
+        for fault in (f for f in faults if f.channel in record):
             values = record[fault.channel]
             if fault.effect == "channel_sign":
                 record = record.replaced(**{fault.channel: -values})

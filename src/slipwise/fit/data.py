@@ -119,7 +119,7 @@ class FitRun:
         states = replace(
             self.states,
             record=record,
-            load=_stacked(record, self.pads, "N", self.states.load),
+            load=_stacked(record, self.pads, "N", self.load),
             girder_acceleration=_accelerations(record, self.states.girder_acceleration),
         )
         if moved:
@@ -192,8 +192,9 @@ def _fit_run(run: Run, campaign: Campaign, spoiled: Mapping[str, Mask]) -> FitRu
     pads = tuple(p for p in PADS if f"pad_{p}_Fx" in states.record)
     if not pads:
         raise InputError(f"{run.file}: no pad_*_Fx was measured, so no law of friction can be fitted")
-    here = [i for i, p in enumerate(_measured(states.record)) if p in pads]
+    here = [states.pads.index(p) for p in pads]
     load = states.load[:, here]
+    states = replace(states, pads=pads, load=load, force=states.force[:, here])
     margin = max(2, round(_STUCK_MARGIN / states.dt))
     grounded = states.usable & np.isfinite(load).all(axis=1)
     sliding = grounded & ~_widened(states.stuck, margin)
@@ -203,12 +204,10 @@ def _fit_run(run: Run, campaign: Campaign, spoiled: Mapping[str, Mask]) -> FitRu
     nothing = np.empty((len(force), 0))
     across = _stacked(states.record, pads, "Fy", nothing) if states.has_y else nothing
     fast = np.hypot(*states.velocity.T) > FAST
-    kept = judged(grounded, sliding, fast, pads, spoiled)
-    return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, across, sliding, kept, spoiled)
-
-
-def _measured(record: Record) -> list[str]:
-    return [p for p in PADS if any(f"pad_{p}_{kind}" in record for kind in ("N", "P", "Fx"))]
+    # samples were looked at as recorded; a gap of theirs is filled on the axis of the states
+    bad = {c: np.interp(states.time, run.record.time, m.astype(float)) > 0.0 for c, m in spoiled.items()}
+    kept = judged(grounded, sliding, fast, pads, bad)
+    return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, across, sliding, kept, bad)
 
 
 def _stacked(record: Record, pads: tuple[str, ...], kind: str, otherwise: Array) -> Array:

@@ -182,7 +182,7 @@ class Kinematics:
         pads = np.array(self.specimen.pad_places)[self._here]
         round_about = np.stack([-pads[:, 1], pads[:, 0]], axis=1)[None]
         alike = not (self.turns or runs[0].states.has_yaw)
-        here = self._here[:1] if alike else self._here  # a girder that does not turn moves over every pad alike
+        here = slice(1 if alike else None)  # a girder that does not turn moves over every pad alike
         out = []
         for place, run in enumerate(runs):
             velocity = run.states.pad_velocity[:, here].copy()
@@ -193,7 +193,7 @@ class Kinematics:
                 angle, rate = self.turning(values, count)[place]
                 velocity = velocity + rate[:, None, None] * round_about
                 slip = slip + angle[:, None, None] * round_about
-            lost = self.lost[place][:, : len(here)] if self.lost else None
+            lost = self.lost[place][:, here] if self.lost else None
             out.append(instants(run, velocity, slip, lost))
         return out
 

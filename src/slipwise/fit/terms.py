@@ -141,7 +141,12 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True) -> lis
         if not logger_known:
             out.append(Free("rig.logger", *_LOGGER, "Hz"))
     delayed = {entry.target for entry in model.uses if entry.effect.name in LAGGING}
-    return [f for f in out if _LAGS.get(f.key) not in delayed]
+    return [f for f in out if f.key not in _LAGS or not _covered(_LAGS[f.key], delayed, specimen)]
+
+
+def _covered(channels: str, delayed: set[str], specimen: Specimen) -> bool:
+    """Tell whether a card lags by effects of its own: as one, or each of its channels."""
+    return channels in delayed or {channels.replace("*", pad) for pad in specimen.pads} <= delayed
 
 
 def inertia_free(specimen: Specimen, key: str) -> Free:

@@ -140,3 +140,27 @@ def test_a_noisy_yaw_gauge_makes_the_velocities_of_the_pads_less_sure() -> None:
     assert states.yaw_rate_error > 0.0
     expected = np.hypot(states.velocity_error, states.yaw_rate_error * places[:, ::-1])
     assert states.pad_velocity_error == pytest.approx(expected)
+
+
+def test_a_recorded_velocity_is_that_of_the_sliding_plane(made):
+    """The pads' pitch moves the accelerometer, not the gauge: beside its rate a perfect gauge must not get worse."""
+    campaign = as_campaign(made)
+    run = campaign.run("quake_hv")
+    true = made.at_samples("quake_hv")["slip_vx"]
+    recorded = replace(run, record=run.record.replaced(slip_vx=true))
+    with_gauge = measured_states(recorded, campaign)
+    error = (with_gauge.velocity[:, 0] - true)[with_gauge.sliding & with_gauge.valid]
+    plain = measured_states(run, campaign)
+    assert np.std(error) < 0.5 * np.std((plain.velocity[:, 0] - true)[plain.sliding & plain.valid])
+
+
+def test_pads_are_known_by_their_names_where_only_some_were_measured(made):
+    campaign = as_campaign(made)
+    gone = [f"pad_{p}_{kind}" for p in "ABD" for kind in ("N", "Fx")]
+    run = without(campaign, *gone).run("quake_hv")
+    turned = replace(run, record=run.record.replaced(yaw=0.01 * np.sin(3.0 * run.record.time)))
+    states = measured_states(turned, campaign)
+    place = campaign.specimen.pad_places[campaign.specimen.pads.index("C")]
+    assert states.pads == ("C",)
+    expected = states.velocity[:, 0] - place[1] * states.yaw_rate
+    np.testing.assert_allclose(states.pad_velocity[:, 0, 0], expected)
