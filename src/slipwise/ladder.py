@@ -1,7 +1,7 @@
 """The ladder: effects added one by one, the error falling rung by rung, on runs the fit has not seen."""
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,17 +10,20 @@ import numpy as np
 
 from slipwise.campaign import Campaign, load_campaign
 from slipwise.compare.system_level import system_level
-from slipwise.diagnose.candidates import candidates
+from slipwise.diagnose.candidates import SAMPLE_FAULTS, candidates
+from slipwise.diagnose.explore import explore, prepared
 from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, polished, refit
-from slipwise.diagnose.run import as_fit
+from slipwise.diagnose.run import as_fit, error_of
 from slipwise.diagnose.screen import Screened, screen
-from slipwise.diagnose.search import Search, search
+from slipwise.diagnose.search import MOST_EFFECTS, Search
 from slipwise.effects import Effect, find_effect
 from slipwise.errors import InputError, SettingError
 from slipwise.fit.base import BaseFit, fit_base
 from slipwise.model import Model
 
 _SEED = 1
+#: An error below this is down to the floor [floors].
+_DOWN = 1.15
 
 
 @dataclass(frozen=True)
@@ -33,7 +36,7 @@ class Rung:
         holdout_error: the same on held-out runs; NaN where none is held out.
         system_holdout_error: held-out error of the replay, in floors; NaN where it was not asked for or cannot be.
         floor: 1 by definition of the errors.
-        relations: relation -> held-out error in floors.
+        relations: relation -> held-out error in floors; that of the fitted runs where none is held out.
     """
 
     effects: tuple[str, ...]
@@ -53,7 +56,7 @@ class Ladder:
         rungs: base first.
         tried: number of candidates that were screened, and of hypotheses that were refitted.
         stopped: why no further rung was climbed.
-        fits: the fit of each rung, for pictures and model.toml.
+        fits: the fit of each rung, for model.toml; none where a diagnosis has climbed already.
         seconds: it took.
     """
 
@@ -91,6 +94,7 @@ def ladder(
     add: Sequence[str] = (),
     model: Model | None = None,
     *,
+    own: Iterable[Effect] = (),
     system: bool = False,
     progress: Callable[[str, float], None] | None = None,
 ) -> Ladder:
@@ -100,6 +104,7 @@ def ladder(
         campaign: or its folder.
         add: effects to add in this order instead of searching: names, or paths of a user's files ("./mine.py").
         model: where the ladder stands; the paper's law on the campaign's rig when not given.
+        own: effects that are searched beside those of the catalogue.
         system: replay every rung as well.
         progress: called with what is being done and the share done.
 
@@ -112,13 +117,15 @@ def ladder(
     asked = [find_effect(name) for name in add]
     found = campaign if isinstance(campaign, Campaign) else load_campaign(campaign)
     tell("fitting base parameters", 0.02)
-    base = fit_base(found, model)
     part = 0.6 if system else 1.0
     if asked:
+        whole, spoiled, _ = prepared(found)
+        base = fit_base(whole, model, spoiled)
         path, counts, stopped = _asked(base, asked, lambda share: tell("refitting", part * share))
     else:
-        state = search(base, lambda words, share: tell(words, part * share))
-        path, counts, stopped = state.path, (len(state.screened), len(state.tried)), _why(state)
+        explored = explore(found, model, own, lambda words, share: tell(words, part * share))
+        base, state = explored.base, explored.search
+        path, counts, stopped = _climbed(state), (len(state.screened), len(state.tried)), _why(state)
     fits = tuple(as_fit(base, h) for h in path)
     rungs = []
     for i, (h, fit) in enumerate(zip(path, fits, strict=True)):
@@ -137,12 +144,17 @@ def ladder_of(search: Search, replayed: Mapping[str, float] | None = None) -> La
         replayed: {"base", "final"} held-out error of the replay in floors, where it is known.
     """
     known = replayed or {}
-    last = len(search.path) - 1
+    path = _climbed(search)
+    last = len(path) - 1
     ends = {0: known.get("base", np.nan), last: known.get("final", np.nan)}
-    rungs = [_rung(h, float(ends.get(i, np.nan))) for i, h in enumerate(search.path)]
-    fits = tuple(as_fit(search.base, h) for h in search.path)
+    rungs = [_rung(h, float(ends.get(i, np.nan))) for i, h in enumerate(path)]
     counts = (len(search.screened), len(search.tried))
-    return Ladder(search.base.campaign.name, tuple(rungs), counts, _why(search), fits, 0.0)
+    return Ladder(search.base.campaign.name, tuple(rungs), counts, _why(search), (), 0.0)
+
+
+def _climbed(state: Search) -> list[Hypothesis]:
+    """Give the hypotheses of a search rung by rung, the last one as it is reported."""
+    return [*state.path[:-1], state.final]
 
 
 def _asked(
@@ -155,14 +167,16 @@ def _asked(
     for i, effect in enumerate(add):
         own = [t for t in terms if t.effect.name == effect.name]
         if not own:
-            reason = cannot.get(effect.name, "it is part of the model already")
+            faults = "a fault of samples is found by looking at them: `slipwise diagnose` says whether there is one"
+            known = faults if effect.name in SAMPLE_FAULTS else "it is part of the model already"
+            reason = cannot.get(effect.name, known)
             raise SettingError(f"{effect.name} cannot be added here: {reason}")
-        found: list[Screened] = screen(base, own)
+        before = path[-1]
+        found: list[Screened] = screen(as_fit(base, before), own)
         screened += len(found)
         if not found:
             raise SettingError(f"{effect.name} changes nothing in this campaign, so it cannot be fitted")
         best = found[0]
-        before = path[-1]
         path.append(polished(refit(base, [*before.terms, best.term], {best.term.label: best.values}, before)))
         tell((i + 1) / len(add))
     return path, (screened, len(add)), "these effects were asked for"
@@ -171,10 +185,13 @@ def _asked(
 def _why(state: Search) -> str:
     if not state.screened:
         return "no effect of the catalogue can be tested here"
-    worst = max(_errors(state.best.account, held_out=True).values(), default=float("nan"))
-    if np.isfinite(worst) and worst < 1.15:
+    account = state.final.account
+    worst = max(error_of(account, relation) for relation in account.fitted)
+    if worst < _DOWN:
         return "nothing above the noise floor is left"
-    return "no further effect of the catalogue is worth a rung"
+    if len(state.best.terms) >= MOST_EFFECTS:
+        return f"{MOST_EFFECTS} effects are the most that are added; {worst:.2g} floors are left"
+    return f"no further effect of the catalogue is worth a rung; {worst:.2g} floors are left"
 
 
 def _rung(found: Hypothesis, replayed: float) -> Rung:
@@ -186,7 +203,7 @@ def _rung(found: Hypothesis, replayed: float) -> Rung:
         holdout_error=max(held.values(), default=float("nan")),
         system_holdout_error=replayed,
         floor=1.0,
-        relations=held,
+        relations={r: error_of(found.account, r) for r in found.account.fitted},
     )
 
 

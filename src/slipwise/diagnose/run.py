@@ -1,40 +1,39 @@
 """The verb: diagnose a campaign."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from slipwise.campaign import Campaign, Logger, load_campaign
+from slipwise.campaign import Campaign, load_campaign
 from slipwise.compare.intervals import Interval, intervals
 from slipwise.compare.system_level import system_level
-from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis
+from slipwise.diagnose.explore import explore
+from slipwise.diagnose.refit import Account, Hypothesis
 from slipwise.diagnose.result import Candidate, Diagnosis
-from slipwise.diagnose.samples import mended, sample_faults
 from slipwise.diagnose.screen import Screened
-from slipwise.diagnose.search import Search, search
+from slipwise.diagnose.search import Search
 from slipwise.diagnose.shapes import strengths
 from slipwise.diagnose.verdict import Verdict, judge, with_faults
 from slipwise.diagnose.worth import MATERIAL, score, worth
+from slipwise.effects import Effect
 from slipwise.errors import InputError
-from slipwise.fit.base import BaseFit, fit_base, restarted
-from slipwise.fit.logger import estimated_logger
+from slipwise.fit.base import BaseFit
 from slipwise.fit.solve import jacobian
 from slipwise.model import Model
 
 #: Hypotheses that are listed.
 _LISTED = 6
 _SEED = 1
-#: A filter is another one if its frequency is this far off [1].
-_OTHER_FILTER = 0.05
 
 
 def diagnose(
     campaign: Campaign | Path | str,
     model: Model | None = None,
     *,
+    own: Iterable[Effect] = (),
     system: bool = False,
     progress: Callable[[str, float], None] | None = None,
 ) -> Diagnosis:
@@ -43,6 +42,7 @@ def diagnose(
     Args:
         campaign: or its folder.
         model: the user's current model; the paper's law on the campaign's rig when not given.
+        own: effects beside those of the catalogue, as `slipwise.effects.find_effect` gives them.
         system: replay base and final model as well.
         progress: called with what is being done and the share done.
 
@@ -54,25 +54,10 @@ def diagnose(
     tell("reading", 0.0)
     found = campaign if isinstance(campaign, Campaign) else load_campaign(campaign)
     tell("fitting base parameters", 0.02)
-    faults = sample_faults(found)
-    whole, spoiled = mended(found, faults) if faults else (found, {})
-    base = fit_base(whole, model, spoiled)
     part = 0.7 if system else 1.0
-
-    def searched(start: BaseFit) -> Search:
-        return search(start, lambda words, share: tell(words, part * share))
-
-    state = searched(base)
-    # what an effect seems to explain may be a valley that the base fit has missed
-    better = restarted(base, state.best.solution.values) if state.best.terms else None
-    if better is not None:
-        base = better
-        state = searched(base)
-    heard = _heard_anew(whole, base, state)
-    if heard is not None:
-        base = fit_base(heard, model, spoiled)
-        state = searched(base)
-    verdict = with_faults(judge(state), faults)
+    explored = explore(found, model, own, lambda words, share: tell(words, part * share))
+    base, state = explored.base, explored.search
+    verdict = with_faults(judge(state), explored.faults)
     final = as_fit(base, state.final)
     cannot = [f"{name}: {reason}" for name, reason in state.cannot.items()]
     replayed: dict[str, float] = {}
@@ -83,8 +68,7 @@ def diagnose(
         except InputError as error:
             cannot.append(f"system level: {error}")
     relations = _relations(state)
-    unmended = base_hypothesis(fit_base(found, model)).account if faults else state.path[0].account
-    before = max(error_of(unmended, r) for r in unmended.fitted)
+    before = max(error_of(explored.unmended, r) for r in explored.unmended.fitted)
     tell("done", 1.0)
     return Diagnosis(
         campaign=found.name,
@@ -101,21 +85,6 @@ def diagnose(
         final=final,
         seconds=time.perf_counter() - began,
     )
-
-
-def _heard_anew(campaign: Campaign, base: BaseFit, state: Search) -> Campaign | None:
-    """Give the campaign with its logger's filter as it sounds beside what was found; None where that is no other.
-
-    A filter that nobody knew was read from reversals by a law that lacked an effect, and has bent itself to it.
-    """
-    found = state.final
-    if campaign.logger.known or not found.terms or found.account.level("pads", held_out=False) < 1.0 + MATERIAL:
-        return None
-    before, now = base.campaign.logger.every, estimated_logger(campaign, base.model, found.solution, found.terms)
-    if before and (now.order, now.phase) == (before.order, before.phase):
-        if abs(now.frequency - before.frequency) < _OTHER_FILTER * before.frequency:
-            return None
-    return replace(campaign, logger=Logger(now, known=True))
 
 
 def as_fit(base: BaseFit, found: Hypothesis) -> BaseFit:

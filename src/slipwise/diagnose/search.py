@@ -1,6 +1,6 @@
 """The search for what is missing: one effect after another, pairs one step ahead, and back again."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -14,6 +14,7 @@ from slipwise.diagnose.rescreen import rescreen
 from slipwise.diagnose.screen import Screened, screen, screen_shapes
 from slipwise.diagnose.shapes import MOST_POINTS_AGAIN, shapes, strengths, variants
 from slipwise.diagnose.worth import MATERIAL, MATERIAL_FURTHER, all_down, material, needless, score
+from slipwise.effects import Effect
 from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Term
 
@@ -68,14 +69,15 @@ class Search:
         return self.path[-1]
 
 
-def search(base: BaseFit, progress: Callable[[str, float], None] | None = None) -> Search:
+def search(base: BaseFit, own: Iterable[Effect] = (), progress: Callable[[str, float], None] | None = None) -> Search:
     """Find what the base model lacks.
 
     Args:
         base: the base fit.
+        own: effects beside those of the catalogue.
         progress: called with what is being done and the share done.
     """
-    terms, cannot = candidates(base)
+    terms, cannot = candidates(base, own)
     tell = progress or (lambda what, share: None)
     found = screen(base, terms, lambda share: tell("screening", 0.15 + 0.45 * share))
     state = Search(base, found, cannot, [base_hypothesis(base)], terms=terms)

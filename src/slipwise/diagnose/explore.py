@@ -1,0 +1,90 @@
+"""From a campaign to a finished search: samples mended, base fitted, and both done anew where the search says so."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+
+from slipwise.campaign import Campaign, Logger
+from slipwise.diagnose.refit import Account, base_hypothesis
+from slipwise.diagnose.samples import SampleFault, mended, sample_faults
+from slipwise.diagnose.search import Search, search
+from slipwise.diagnose.worth import MATERIAL
+from slipwise.effects import Effect
+from slipwise.fit.base import BaseFit, fit_base, restarted
+from slipwise.fit.data import Spoiled
+from slipwise.fit.logger import estimated_logger
+from slipwise.model import Model
+
+#: A filter is another one if its frequency is this far off [1].
+_OTHER_FILTER = 0.05
+
+
+@dataclass(frozen=True)
+class Explored:
+    """A campaign that was searched.
+
+    Attributes:
+        base: the base fit.
+        search: what was looked at.
+        faults: of samples, which were mended or left out before.
+        unmended: residuals of the base fit of the campaign as it was recorded.
+    """
+
+    base: BaseFit
+    search: Search
+    faults: tuple[SampleFault, ...]
+    unmended: Account
+
+
+def prepared(campaign: Campaign) -> tuple[Campaign, Spoiled, tuple[SampleFault, ...]]:
+    """Give a campaign with wrong signs turned round, the samples that must not be judged, and the faults found."""
+    faults = sample_faults(campaign)
+    return (*mended(campaign, faults), faults) if faults else (campaign, {}, ())
+
+
+def explore(
+    campaign: Campaign,
+    model: Model | None = None,
+    own: Iterable[Effect] = (),
+    progress: Callable[[str, float], None] | None = None,
+) -> Explored:
+    """Search what a model lacks.
+
+    Args:
+        campaign: the runs.
+        model: where to start; the paper's law on the campaign's rig when not given.
+        own: effects beside those of the catalogue.
+        progress: called with what is being done and the share done.
+
+    Raises:
+        InputError: the campaign lacks what every fit needs.
+    """
+    own = tuple(own)
+    whole, spoiled, faults = prepared(campaign)
+    base = fit_base(whole, model, spoiled)
+    state = search(base, own, progress)
+    # what an effect seems to explain may be a valley that the base fit has missed
+    better = restarted(base, state.best.solution.values) if state.best.terms else None
+    if better is not None:
+        base = better
+        state = search(base, own, progress)
+    heard = _heard_anew(whole, base, state)
+    if heard is not None:
+        base = fit_base(heard, model, spoiled)
+        state = search(base, own, progress)
+    unmended = base_hypothesis(fit_base(campaign, model)).account if faults else state.path[0].account
+    return Explored(base, state, faults, unmended)
+
+
+def _heard_anew(campaign: Campaign, base: BaseFit, state: Search) -> Campaign | None:
+    """Give the campaign with its logger's filter as it sounds beside what was found; None where that is no other.
+
+    A filter that nobody knew was read from reversals by a law that lacked an effect, and has bent itself to it.
+    """
+    found = state.final
+    if campaign.logger.known or not found.terms or found.account.level("pads", held_out=False) < 1.0 + MATERIAL:
+        return None
+    before, now = base.campaign.logger.every, estimated_logger(campaign, base.model, found.solution, found.terms)
+    if before and (now.order, now.phase) == (before.order, before.phase):
+        if abs(now.frequency - before.frequency) < _OTHER_FILTER * before.frequency:
+            return None
+    return replace(campaign, logger=Logger(now, known=True))
