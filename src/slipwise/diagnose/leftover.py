@@ -29,11 +29,12 @@ WORDS: dict[str, str] = {
     "velocity": "slip velocity [m/s]",
     "slip": "slip [m]",
     "load": "load [N]",
-    "distance": "slid distance [m]",
+    "distance": "distance slid in the run [m]",
     "time": "time [s]",
     "acceleration": "slip acceleration [m/s^2]",
     "load_rate": "rate of the load [N/s]",
     "vertical": "vertical acceleration of the girder [m/s^2]",
+    "temperature": "temperature of the sliding face [K]",
 }
 
 
@@ -76,7 +77,7 @@ def leftover(found: Hypothesis, relations: tuple[str, ...] | None = None) -> Sur
         relations: which to look at; pads, girder and heave when not given.
     """
     problem = found.problem
-    if not problem.held_out:
+    if not problem.held_out and not problem.fitted:
         return None
     best: Surface | None = None
     for name in relations or tuple(r for r in ("pads", "girder", "heave") if r in problem.relations):
@@ -123,6 +124,8 @@ def states_of(run: FitRun) -> Mapping[str, Array]:
         block = np.ones(9) / 9.0
         slow = np.stack([np.convolve(run.load[:, i], block, mode="same") for i in range(run.load.shape[1])], axis=1)
         states["load_rate"] = np.gradient(slow, run.dt, axis=0)
+    if run.record.has_all(*(f"pad_{p}_T" for p in run.pads)):
+        states["temperature"] = np.stack([run.record[f"pad_{p}_T"] for p in run.pads], axis=1)
     vertical = run.states.girder_acceleration[:, 2]
     if np.isfinite(vertical).all():
         states["vertical"] = vertical
@@ -130,14 +133,25 @@ def states_of(run: FitRun) -> Mapping[str, Array]:
 
 
 def _surfaces(found: Hypothesis, relation: str, samples: list[dict[str, Array]]) -> list[Surface]:
-    fitted = _joined([samples[i] for i in found.problem.fitted])
-    held = _joined([samples[i] for i in found.problem.held_out])
+    fitted, held = _parted(found, samples)
     names = [k for k in fitted if k not in ("left", "sigma") and (k, relation) not in _OWN_NOISE]
     ones = [_surface(relation, (n,), fitted, held) for n in names]
     ranked = sorted(ones, key=lambda s: -s.level)
     pairs = [c for c in combinations([s.states[0] for s in ranked[:4]], 2)]
     signed = [("velocity", n) for n in names if n != "velocity" and ("velocity", n) not in pairs]
     return [*ones, *(_surface(relation, p, fitted, held) for p in [*pairs, *signed])]
+
+
+def _parted(found: Hypothesis, samples: list[dict[str, Array]]) -> tuple[dict[str, Array], dict[str, Array]]:
+    """Give the samples that make a surface, and those that it must foretell.
+
+    Where no run is held out, seconds make it and must be foretold by turns.
+    """
+    fitted = _joined([samples[i] for i in found.problem.fitted])
+    if found.problem.held_out:
+        return fitted, _joined([samples[i] for i in found.problem.held_out])
+    odd = fitted["time"] % 2.0 >= 1.0
+    return {k: v[~odd] for k, v in fitted.items()}, {k: v[odd] for k, v in fitted.items()}
 
 
 def _joined(parts: list[dict[str, Array]]) -> dict[str, Array]:

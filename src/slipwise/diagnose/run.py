@@ -10,14 +10,14 @@ import numpy as np
 from slipwise.campaign import Campaign, load_campaign
 from slipwise.compare.intervals import Interval, intervals
 from slipwise.compare.system_level import system_level
-from slipwise.diagnose.explore import explore
+from slipwise.diagnose.explore import Explored, explore
+from slipwise.diagnose.least import least_sizes
 from slipwise.diagnose.refit import Account, Hypothesis
 from slipwise.diagnose.result import Candidate, Diagnosis
-from slipwise.diagnose.screen import Screened
 from slipwise.diagnose.search import Search
-from slipwise.diagnose.shapes import strengths
+from slipwise.diagnose.untold import untold
 from slipwise.diagnose.verdict import Verdict, judge, with_faults
-from slipwise.diagnose.worth import MATERIAL, score, worth
+from slipwise.diagnose.worth import score, worth
 from slipwise.effects import Effect
 from slipwise.errors import InputError
 from slipwise.fit.base import BaseFit
@@ -57,9 +57,11 @@ def diagnose(
     part = 0.7 if system else 1.0
     explored = explore(found, model, own, lambda words, share: tell(words, part * share))
     base, state = explored.base, explored.search
-    verdict = with_faults(judge(state), explored.faults)
-    final = as_fit(base, state.final)
-    cannot = [f"{name}: {reason}" for name, reason in state.cannot.items()]
+    judged = judge(state)
+    shown = state.final if judged.effects else state.path[0]
+    verdict = with_faults(judged, explored.faults)
+    final = as_fit(base, shown)
+    cannot = [f"{name}: {reason}" for name, reason in [*state.cannot.items(), *untold(state, final)]]
     replayed: dict[str, float] = {}
     if system:
         tell("replaying", 0.7)
@@ -67,7 +69,7 @@ def diagnose(
             replayed = {"base": _replayed(base), "final": _replayed(final)}
         except InputError as error:
             cannot.append(f"system level: {error}")
-    relations = _relations(state)
+    relations = _relations(state, shown)
     before = max(error_of(explored.unmended, r) for r in explored.unmended.fitted)
     tell("done", 1.0)
     return Diagnosis(
@@ -78,8 +80,8 @@ def diagnose(
         final_error=max(b for _, b in relations.values()),
         relations=relations,
         system=replayed,
-        candidates=_candidates(state, verdict, final),
-        least=_least(state),
+        candidates=_listed(explored, judged, verdict, final),
+        least=least_sizes(state.screened, state.path[0]),
         cannot_tell=tuple(cannot),
         search=state,
         final=final,
@@ -102,8 +104,8 @@ def error_of(account: Account, relation: str) -> float:
     return float(np.sqrt(account.level(relation, held_out=held)))
 
 
-def _relations(state: Search) -> dict[str, tuple[float, float]]:
-    origin, best = state.path[0].account, state.final.account
+def _relations(state: Search, shown: Hypothesis) -> dict[str, tuple[float, float]]:
+    origin, best = state.path[0].account, shown.account
     return {r: (error_of(origin, r), error_of(best, r)) for r in origin.fitted}
 
 
@@ -118,6 +120,17 @@ def _component(state: Search, verdict: Verdict) -> str:
     return {"pads": "pad friction", "girder": "girder", "heave": "pad load"}.get(relation, "pad load")
 
 
+def _listed(explored: Explored, judged: Verdict, verdict: Verdict, final: BaseFit) -> tuple[Candidate, ...]:
+    """Give hypotheses, and faults of samples: before them where they alone are what is missing."""
+    hypotheses = _candidates(explored.search, judged, final)
+    recorded, kept = explored.unmended, explored.search.path[0].account
+    where = max(recorded.fitted, key=lambda relation: error_of(recorded, relation))
+    before, after = error_of(recorded, where), error_of(kept, where)
+    labels = dict.fromkeys(f"{f.effect}[{f.channel}]" for f in explored.faults)
+    faults = tuple(Candidate(label, verdict.probability, before, after, 0.0, {}) for label in labels)
+    return (*hypotheses, *faults) if judged.effects else (*faults, *hypotheses)
+
+
 def _candidates(state: Search, verdict: Verdict, final: BaseFit) -> tuple[Candidate, ...]:
     origin = state.path[0]
     unique: dict[tuple[str, ...], Hypothesis] = {}
@@ -125,11 +138,12 @@ def _candidates(state: Search, verdict: Verdict, final: BaseFit) -> tuple[Candid
         if h.terms and score(origin.account, h.account) > 0.0:
             unique.setdefault(h.names, h)
     best = state.best
+    unique |= {h.names: h for h in verdict.rivals}
     order = [best, *(h for n, h in unique.items() if n != best.names)] if best.terms else list(unique.values())
     absorbed = {s.term.label: s.absorbed for s in state.screened}
     listed = order[:_LISTED]
     shares = _shares(state, verdict, listed)
-    ends = {i.key: i for i in intervals(final).entries} if best.terms else {}
+    ends = {i.key: i for i in intervals(final).entries} if verdict.effects else {}
     out = []
     for h, probability in zip(listed, shares, strict=True):
         _, where = worth(origin.account, h.account)
@@ -149,7 +163,7 @@ def _candidates(state: Search, verdict: Verdict, final: BaseFit) -> tuple[Candid
 
 
 def _shares(state: Search, verdict: Verdict, listed: list[Hypothesis]) -> list[float]:
-    """Give each listed hypothesis its chance: the named one that of the verdict, the others what is left."""
+    """Give each listed hypothesis its chance: those that tie share that of the verdict, the others what is left."""
     named = verdict.kind in ("named", "instrument", "ambiguous")
     if not listed:
         return []
@@ -157,8 +171,11 @@ def _shares(state: Search, verdict: Verdict, listed: list[Hypothesis]) -> list[f
     weights = np.array([max(score(origin.account, h.account), 1e-9) for h in listed])
     if not named:
         return [float(x) for x in (1.0 - verdict.probability) * weights / weights.sum()]
-    rest = weights[1:] / weights[1:].sum() if len(listed) > 1 else np.zeros(0)
-    return [verdict.probability, *(float(x) for x in (1.0 - verdict.probability) * rest)]
+    tied = np.array([h is state.best or any(h is r for r in verdict.rivals) for h in listed])
+    weights[tied] = 0.0
+    rest = (1.0 - verdict.probability) * weights / max(weights.sum(), 1e-12)
+    alike = len(verdict.rivals) + 1 if verdict.rivals or verdict.kind != "ambiguous" else 2
+    return [float(x) for x in np.where(tied, verdict.probability / alike, rest)]
 
 
 def _parameters(found: Hypothesis, ends: dict[str, Interval]) -> dict[str, Interval]:
@@ -168,29 +185,6 @@ def _parameters(found: Hypothesis, ends: dict[str, Interval]) -> dict[str, Inter
             value = found.solution.values[f.key]
             out[f.key] = ends.get(f.key, Interval(f.key, value, float("nan"), float("nan"), f.start, f.unit, ""))
     return out
-
-
-def _least(state: Search) -> dict[str, tuple[float, str]]:
-    """Give the smallest size of each effect that would have been material here, by its column."""
-    counts = state.path[0].account.counts
-    samples = min(n for n, _ in counts.values())
-    out: dict[str, tuple[float, str]] = {}
-    for s in state.screened:
-        own = strengths(s.term.effect)
-        if not own:
-            continue
-        size = _size(s, samples)
-        old = out.get(s.term.effect.name)
-        if np.isfinite(size) and (old is None or size < old[0]):
-            out[s.term.effect.name] = (size, own[0].unit)
-    return dict(sorted(out.items()))
-
-
-def _size(found: Screened, samples: int) -> float:
-    sizes = [abs(found.values[p.name] - float(p.neutral or 0.0)) for p in strengths(found.term.effect)]
-    if found.length <= 0.0 or max(sizes) == 0.0:
-        return float("nan")
-    return float(max(sizes) * np.sqrt(MATERIAL * samples) / found.length)
 
 
 def _replayed(fit: BaseFit) -> float:

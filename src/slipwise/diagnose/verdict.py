@@ -22,6 +22,8 @@ EXACT_FAMILY = 0.95
 _SURE_SHARE = 1.0
 #: An effect that explains less than half of little, and leaves nothing with structure, is no finding.
 HALF, _FAINT, _COIN = 0.5, 0.4, 0.6
+#: Beside a fault of samples something else is missing that has no name.
+_COIN_OF_FAULTS = 0.5
 #: A mean squared residual above this is no perfect model's [noise variance], even where no state foretells it.
 LOUD = 1.5
 #: Rivals whose scores differ by less than this much cannot be told apart; nor can those that differ by less than this
@@ -29,6 +31,8 @@ LOUD = 1.5
 _SAME_SCORE, _SAME_SHARE, _SAME_EXCESS = 60.0, 0.004, 0.5
 #: One thing to a rig without a gauge that could part them.
 ONE_THING: tuple[frozenset[str], ...] = (frozenset({"buffer_damping", "guide_drag"}),)
+#: Nobody is surer than this of what no run has confirmed that was not fitted [1].
+_UNCONFIRMED = 0.9
 
 
 @dataclass(frozen=True)
@@ -64,6 +68,13 @@ def excess(of: Account) -> float:
 
 def judge(state: Search) -> Verdict:
     """Give the verdict of a search."""
+    found = _judged(state)
+    if any(held for _, held in state.path[0].account.counts.values()):
+        return found
+    return replace(found, probability=min(found.probability, _UNCONFIRMED))
+
+
+def _judged(state: Search) -> Verdict:
     origin, best = state.path[0], state.best
     surface = leftover(state.final)
     remains = structured(surface)
@@ -78,21 +89,24 @@ def judge(state: Search) -> Verdict:
     family = explained >= _least_share(best, drop)
     if (remains and (not family or too_many)) or (_loud(state.final) and explained < HALF):
         shown = surface if remains else None
-        return Verdict("unknown", (), _unknown_probability(shown, explained), "unknown", explained, shown, ())
+        probability = _unknown_probability(shown, explained)
+        whole = leftover(origin)  # what is drawn is all that is missing, not what unnamed effects have left of it
+        drawn = whole if structured(whole) else shown
+        return Verdict("unknown", (), probability, "unknown", explained, drawn, ())
     if explained < HALF and not remains and drop < _FAINT and _worst(origin.account) < LOUD:
         return Verdict("complete", (), _COIN, "none", explained, surface, ())
     rivals = _rivals(state, best)
     names = best.names
-    left = "unknown" if remains else "none"
+    left = "unknown" if remains or _loud(state.final) else "none"
     margin = _margin(state, best)
     probability = _named_probability(margin, explained, best, left)
     if rivals:
         every = tuple(dict.fromkeys(n for h in (best, *rivals) for n in h.names))
         return Verdict("ambiguous", every, probability, left, explained, surface, rivals)
     for pair in ONE_THING:
-        found = pair & set(names)
-        if len(names) == 1 and found and not best.problem.runs[0].states.has_yaw:
-            return Verdict("ambiguous", tuple(sorted(pair)), probability, left, explained, surface, ())
+        if len(pair & set(names)) == 1 and not best.problem.runs[0].states.has_yaw:
+            every = (*sorted(pair), *(n for n in names if n not in pair))
+            return Verdict("ambiguous", every, probability, left, explained, surface, ())
     instruments = all(t.effect.component == "instrument" for t in best.terms)
     return Verdict("instrument" if instruments else "named", names, probability, left, explained, surface, ())
 
@@ -109,8 +123,7 @@ def _least_share(found: Hypothesis, drop: float) -> float:
 def _loud(found: Hypothesis) -> bool:
     """Tell whether a hypothesis leaves more than noise in all runs, whether or not a state organises it."""
     levels = found.account
-    told = [r for r in ("pads", "girder", "heave") if r in levels.fitted]
-    both = [[levels.level(r, held_out=h) for h in (False, True) if levels.counts[r][h]] for r in told]
+    both = [[levels.level(r, held_out=h) for h in (False, True) if levels.counts[r][h]] for r in levels.fitted]
     return any(min(of) > LOUD for of in both if of)
 
 
@@ -127,7 +140,7 @@ def with_faults(found: Verdict, faults: Sequence[SampleFault]) -> Verdict:
     if found.kind == "complete":
         return replace(found, kind="instrument", effects=names, probability=max(found.probability, 0.9))
     if found.kind == "unknown":
-        return replace(found, kind="named" if found.explained else "instrument", effects=names, probability=0.5)
+        return replace(found, kind="instrument", effects=names, probability=_COIN_OF_FAULTS)
     return replace(found, effects=(*found.effects, *(n for n in names if n not in found.effects)))
 
 

@@ -1,5 +1,6 @@
 """From what a search has tried to a verdict that is no stronger than its evidence."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -25,7 +26,7 @@ def _tried(
     terms = tuple(Term(catalogue()[name]) for name in names)
     values = {f"{t.label}.{k}": v for t in terms for k, v in t.effect.typical().items()}
     run = SimpleNamespace(states=SimpleNamespace(has_yaw=False))
-    problem = SimpleNamespace(held_out=[], runs=[run], relations=("pads", "girder"))
+    problem = SimpleNamespace(held_out=[], fitted=[], runs=[run], relations=("pads", "girder"))
     solution = SimpleNamespace(values=values, at_bounds=at_bounds, free=(None,) * constants)
     return Hypothesis(terms, cast(Any, problem), cast(Any, solution), account)
 
@@ -110,3 +111,26 @@ def test_a_second_law_beside_a_huge_one_must_explain_nearly_all_that_is_left(lef
     base, first = _tried((), 400.0), _tried(("load_crosstalk",), 8.0)
     both = _tried(("load_crosstalk", "rate_and_state"), left)
     assert material(base.account, first.account, both.account) == worthy
+
+
+def test_any_relation_far_above_its_noise_is_no_complete_model():
+    base = _tried((), 1.0)
+    levels = {"pads": 1.0, "girder": 1.0, "roll": 4.0}
+    total = {name: level * COUNT for name, level in levels.items()}
+    account = Account(total, dict(total), {name: (COUNT, COUNT) for name in levels})
+    assert judge(_search(replace(base, account=account))).kind == "unknown"
+
+
+def test_nobody_is_sure_of_what_no_held_out_run_has_confirmed():
+    def unseen(of: Hypothesis) -> Hypothesis:
+        counts = {name: (fitted, 0) for name, (fitted, _) in of.account.counts.items()}
+        return replace(of, account=replace(of.account, held_out=dict.fromkeys(counts, 0.0), counts=counts))
+
+    found = judge(_search(unseen(_tried((), 30.0)), unseen(_tried(("heating",), 1.0))))
+    assert found.kind == "named" and found.probability <= 0.9
+
+
+def test_one_of_two_effects_that_are_one_thing_is_given_with_the_other_beside_a_third():
+    found = judge(_search(_tried((), 30.0), _tried(("heating", "buffer_damping"), 1.0)))
+    assert found.kind == "ambiguous"
+    assert set(found.effects) == {"heating", "buffer_damping", "guide_drag"}
