@@ -81,7 +81,7 @@ def diagnose(
         relations=relations,
         system=replayed,
         candidates=_listed(explored, judged, verdict, final),
-        least=least_sizes(state.screened, state.path[0]),
+        least=least_sizes([*state.screened, *state.opposed], state.path[0]),
         cannot_tell=tuple(cannot),
         search=state,
         final=final,

@@ -36,7 +36,7 @@ class Screened:
     Attributes:
         term: the candidate.
         values: of its parameters where the score is best.
-        gain: drop of the squared residual of the fitted runs.
+        gain: drop of the squared residual of the fitted runs; 0 where that asks for the opposite of what can be.
         absorbed: part of the candidate's own effect that base parameters could mimic [1].
         column: (m,) of unit length, base projected out, pointing the way that helps.
         length: of the step that the score asks for, before it was brought to unit length.
@@ -193,12 +193,15 @@ def _replacing(base: BaseFit, term: Term, residual: Array, project: Callable[[Ar
     return _scored(term, values, residual, rest - residual, 0.0)
 
 
-def _scored(term: Term, values: dict[str, float], residual: Array, step: Array, absorbed: float) -> Screened | None:
-    """Score what a step makes of the residual; None for no step at all."""
+def _scored(
+    term: Term, values: dict[str, float], residual: Array, step: Array, absorbed: float, gain: float | None = None
+) -> Screened | None:
+    """Score what a step makes of the residual, if that is not known; None for no step at all."""
     length = float(np.sqrt(step @ step))
     if length == 0.0:
         return None
-    gain = float(residual @ residual - (residual + step) @ (residual + step))
+    if gain is None:
+        gain = float(residual @ residual - (residual + step) @ (residual + step))
     # Hundreds of columns are kept: four bytes a number are enough to compare them.
     column: Any = (step / length).astype(np.float32)
     return Screened(term, values, gain, absorbed, column, length)
@@ -217,8 +220,8 @@ def _best_mix(
         if not bad:
             break
         kept = [k for k in kept if k not in bad]
-    if not kept:
-        return None
+    if not kept:  # the residual asks for the opposite: its size still tells how little of it would have been seen
+        return _scored(term, starts[0][1], residual, columns[0], 1.0 - float(columns[0] @ columns[0]) / raw, gain=0.0)
     step = matrix[:, kept] @ amounts
     values = {**term.effect.neutral(), **shape}
     for k, amount in zip(kept, amounts, strict=True):

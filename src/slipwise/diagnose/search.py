@@ -47,6 +47,7 @@ class Search:
         path: base first, then the best hypothesis with one, two ... effects.
         tried: every hypothesis that was refitted.
         terms: every candidate, those that screening sees nothing in included.
+        opposed: candidates of which the residual of the base asks for the opposite, and that cannot be.
         settled: the one at which the search ended, weighed by its own law; None for the base.
     """
 
@@ -56,6 +57,7 @@ class Search:
     path: list[Hypothesis] = field(default_factory=list[Hypothesis])
     tried: list[Hypothesis] = field(default_factory=list[Hypothesis])
     terms: list[Term] = field(default_factory=list[Term])
+    opposed: list[Screened] = field(default_factory=list[Screened])
     settled: Hypothesis | None = None
 
     @property
@@ -80,7 +82,8 @@ def search(base: BaseFit, own: Iterable[Effect] = (), progress: Callable[[str, f
     terms, cannot = candidates(base, own)
     tell = progress or (lambda what, share: None)
     found = screen(base, terms, lambda share: tell("screening", 0.15 + 0.45 * share))
-    state = Search(base, found, cannot, [base_hypothesis(base)], terms=terms)
+    helping, opposed = ([s for s in found if (s.gain == 0.0) == against] for against in (False, True))
+    state = Search(base, helping, cannot, [base_hypothesis(base)], terms=terms, opposed=opposed)
     tell("refitting", 0.6)
     _first(state)
     _reshape(state)

@@ -1,12 +1,16 @@
-"""Where a refit begins, and that what is no longer there leaves no trace."""
+"""Where a refit begins, what is no longer there leaves no trace, and how little of an effect would have been seen."""
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from bench import build_campaign
 from measured import as_campaign
+from slipwise.diagnose.least import least_sizes
 from slipwise.diagnose.refit import base_hypothesis, refit
+from slipwise.diagnose.screen import projector, screen
+from slipwise.diagnose.worth import MATERIAL
 from slipwise.effects import catalogue
 from slipwise.fit.base import fit_base
 from slipwise.fit.terms import Term, base_free
@@ -37,3 +41,31 @@ def test_cards_that_lag_by_effects_of_their_own_have_no_lag_beside_them():
     assert "rig.late_force" not in [f.key for f in base_free(model, balances=True)]
     one = base_model("bridge1").adding(use("channel_delay", "pad_A_Fx", delay=2e-3))
     assert "rig.late_force" in [f.key for f in base_free(one, balances=True)]
+
+
+def test_every_candidate_with_a_strength_has_a_least_size_whichever_way_the_residual_points(base):
+    terms = [
+        Term(catalogue()[name]) for name in ("heating", "run_in", "breakaway", "buffer_damping", "buffer_hysteresis")
+    ]
+    sizes = least_sizes(screen(base, terms), base_hypothesis(base))
+    assert set(sizes) == {t.effect.name for t in terms}
+    assert all(size > 0.0 for size, _ in sizes.values())
+
+
+def test_a_least_size_is_one_at_which_a_relation_falls_by_what_is_material(base):
+    """Of the true size s the screen's column is s times that of the unit: its drop per sample is what is material."""
+    term = Term(catalogue()["buffer_damping"])
+    found = screen(base, [term])
+    size, unit = least_sizes(found, base_hypothesis(base))["buffer_damping"]
+    assert unit == "N*s/m"
+    left = base.solution.residuals.stacked(base.problem.fitted, base.problem.relations)
+    shape = {f"buffer_damping.{k}": v for k, v in found[0].values.items()}
+    moved = {**base.solution.values, **shape, "buffer_damping.damping": size}
+    there = base.problem.adding(term).residuals(moved, fitted_only=True)
+    step = projector(base.solution.jacobian)(there.stacked(base.problem.fitted, base.problem.relations) - left)
+    start, drops = 0, []
+    for relation in base.problem.relations:
+        rows = sum(base.solution.residuals.parts[relation][i].size for i in base.problem.fitted)
+        drops.append(float(np.sum(step[start : start + rows] ** 2)) / base_hypothesis(base).account.counts[relation][0])
+        start += rows
+    assert max(drops) == pytest.approx(MATERIAL, rel=0.1)
