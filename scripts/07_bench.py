@@ -4,17 +4,21 @@
     python scripts/07_bench.py --quick
 
 Campaigns are made by `tests/bench`, whose physics is not the library's. Every finished campaign is one line of
-results.jsonl, so an interrupted run goes on where it stopped. The page shows who is taken for whom and whether verdicts
-of probability 0.9 are right nine times in ten.
+results.jsonl: a run that was stopped (Ctrl-C) shows what is done, and the same command goes on where it stopped.
+bench.html shows who is taken for whom (confusion.png), whether verdicts of probability 0.9 are right nine times in ten
+(calibration.png), how far the error falls (error_ratios.png), and every verdict that is wrong. bench.json has the
+numbers.
 """
 
 import argparse
 import json
 import shutil
+import signal
 import sys
 import time
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from multiprocessing import get_context
+from concurrent.futures.process import BrokenProcessPool
+from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import Any
 
@@ -48,8 +52,7 @@ def _line(result: dict[str, Any], number: int, total: int) -> str:
 
 
 def run(out: Path, count: int, seed: int, workers: int) -> list[dict[str, Any]]:
-    """Run the campaigns that have no result yet; gives all results in order."""
-    sys.path.insert(0, str(TESTS))
+    """Run the campaigns that have no result yet; gives in order all results that there are, fewer if it is stopped."""
     from bench import plan  # pyright: ignore[reportMissingImports]
 
     out.mkdir(parents=True, exist_ok=True)
@@ -57,48 +60,32 @@ def run(out: Path, count: int, seed: int, workers: int) -> list[dict[str, Any]]:
     done = {r["name"]: r for r in map(json.loads, lines.read_text().splitlines())} if lines.exists() else {}
     cases = {f"b{seed + i:05d}": (seed + i, case) for i, case in enumerate(plan(count, seed))}
     left = {name: entry for name, entry in cases.items() if name not in done}
-    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool, lines.open("a") as stream:
+    # by default a signal ends a worker at once, without a word; Python's own way is a traceback of each
+    quiet = {"initializer": signal.signal, "initargs": (signal.SIGINT, signal.SIG_DFL)}
+    with ProcessPoolExecutor(workers, mp_context=get_context("spawn"), **quiet) as pool, lines.open("a") as stream:
         jobs = [pool.submit(one, out / "campaigns", n, s, c.effects, c.size, c.rich) for n, (s, c) in left.items()]
-        for number, job in enumerate(as_completed(jobs), start=1):
-            result = job.result()
-            done[result["name"]] = result
-            stream.write(json.dumps(result) + "\n")
-            stream.flush()
-            print(_line(result, number, len(left)), flush=True)
-    return [done[name] for name in cases]
+        try:
+            for number, job in enumerate(as_completed(jobs), start=1):
+                result = job.result()
+                done[result["name"]] = result
+                stream.write(json.dumps(result) + "\n")
+                stream.flush()
+                print(_line(result, number, len(left)), flush=True)
+        except (KeyboardInterrupt, BrokenProcessPool):
+            for worker in active_children():
+                worker.terminate()
+            shutil.rmtree(out / "campaigns", ignore_errors=True)
+    return [done[name] for name in cases if name in done]
 
 
-def draw(results: list[dict[str, Any]], path: Path) -> None:
-    """Draw the calibration: what was said against what came true."""
-    from bench.score import calibration  # pyright: ignore[reportMissingImports]
-    from slipwise.view.canvas import new_figure, save_figure
-
-    figure = new_figure(6.0, 5.5, "Is a probability worth its name?")
-    axes = figure.subplots()
-    axes.plot([0, 1], [0, 1], color="0.7", lw=1)
-    for row in calibration(results):
-        axes.plot(row["said"], row["right"], "o", color="#0072b2", markersize=4 + row["count"] ** 0.5)
-        axes.annotate(f" {row['count']:.0f}", (row["said"], row["right"]))
-    axes.set_xlabel("probability of the verdict")
-    axes.set_ylabel("share that was exactly right")
-    save_figure(figure, path)
-
-
-def main() -> None:
-    """Run, score, print, draw."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--out", type=Path, default=Path("out/bench"))
-    parser.add_argument("--count", type=int, default=300)
-    parser.add_argument(
-        "--seed", type=int, default=20000, help="of the first campaign; thresholds were frozen on others"
-    )
-    parser.add_argument("--workers", type=int, default=2)
-    parser.add_argument("--quick", action="store_true", help="two campaigns only")
-    chosen = parser.parse_args()
-    results = run(chosen.out, 2 if chosen.quick else chosen.count, chosen.seed, chosen.workers)
+def show(out: Path, results: list[dict[str, Any]], planned: int) -> None:
+    """Score results; print the rates, write the numbers, the pictures and the page."""
+    from bench.page import bench_page, pictures  # pyright: ignore[reportMissingImports]
     from bench.score import calibration, confusion, rates  # pyright: ignore[reportMissingImports]
     from bench.sizes import sizes  # pyright: ignore[reportMissingImports]
-    from slipwise.record import write_json
+    from slipwise.record import write_json, write_text
+    from slipwise.view.canvas import save_figure
+    from slipwise.view.style import styled
 
     scored = rates(results)
     for name, (good, total) in scored["exactly right"].items():
@@ -109,8 +96,33 @@ def main() -> None:
         print(f"{name:55s} {count:4d} of {total}")
     table = {hidden: dict(said) for hidden, said in confusion(results).items()}
     content = {**scored, "confusion": table, "calibration": calibration(results), "sizes": held}
-    write_json(chosen.out / "bench.json", content)
-    draw(results, chosen.out / "calibration.png")
+    write_json(out / "bench.json", content)
+    with styled():
+        drawn = pictures(results)
+        write_text(out / "bench.html", bench_page(results, planned, drawn))
+    for name, figure in drawn.items():
+        save_figure(figure, out / f"{name}.png")
+    print(f"wrote {out / 'bench.html'}")
+
+
+def main() -> None:
+    """Run, score, print, draw."""
+    sys.path.insert(0, str(TESTS))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", type=Path, default=Path("out/bench"))
+    parser.add_argument("--count", type=int, default=300)
+    parser.add_argument(
+        "--seed", type=int, default=20000, help="of the first campaign; thresholds were frozen on others"
+    )
+    parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--quick", action="store_true", help="two campaigns only")
+    chosen = parser.parse_args()
+    count = 2 if chosen.quick else chosen.count
+    results = run(chosen.out, count, chosen.seed, chosen.workers)
+    if len(results) < count:
+        print(f"stopped with {len(results)} of {count} campaigns done; the same command goes on from there")
+    if results:
+        show(chosen.out, results, count)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ import shutil
 import time
 from importlib.resources import files
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -12,8 +12,13 @@ from slipwise.cli.console import OUT, out_folder
 from slipwise.cli.diagnose import steps
 from slipwise.record import write_json, write_text
 
+if TYPE_CHECKING:
+    from slipwise.diagnose import Diagnosis
+
 #: Worst places of the error that are told.
 _TOLD = 3
+#: A balance below this is down to the noise [floors]; the ladder's own limit.
+_DOWN = 1.15
 
 
 def demo(
@@ -34,24 +39,30 @@ def demo(
     from slipwise.view.comparison import write_comparison
     from slipwise.view.diagnosis_page import diagnosis_page
     from slipwise.view.geometry import geometry_of
+    from slipwise.view.numbers import counted, in_words
     from slipwise.view.terminal import print_table
 
     began = time.perf_counter()
     folder = out_folder(out)
     campaign = folder / "campaign"
     _copy(campaign)
+    measured = load_campaign(campaign)
+    rig, unseen = measured.specimen, len(measured.with_role("holdout"))
+    fitted = len(measured.runs) - unseen
     _say(
         "1  A laboratory has shaken a girder",
-        "Ten tons on four PTFE pads and two rubber buffers (the rig of Takahashi et al., 2004): five runs on the "
-        f"shaking table. They lie in {campaign}. A second simulator made them, with one physical effect hidden in it.",
+        f"A girder of {rig.mass / 1e3:g} t on {counted(len(rig.pads), 'PTFE pad')} and "
+        f"{counted(len(rig.buffer_stiffness), 'rubber buffer')} (the rig of Takahashi et al., 2004): "
+        f"{counted(len(measured.runs), 'run')} on the shaking table. They lie in {campaign}. A second simulator made "
+        "them, with one physical effect hidden in it.",
     )
-    measured = load_campaign(campaign)
     runs = [{"run": r.name, "role": r.role, "seconds": round(float(r.record.time[-1]), 1)} for r in measured.runs]
     print_table("Runs", runs)
     with steps() as tell:
         compared = compare(measured, system=False, progress=tell)
     _say(
-        "2  The paper's model, fitted to four runs, is held against the one that it has not seen",
+        f"2  The paper's model, fitted to {counted(fitted, 'run')}, is held against the {in_words(unseen)} that it has "
+        "not seen",
         "Each balance of the rig answers for itself; 1 is the noise floor, what a perfect model would leave.",
     )
     rows = [
@@ -68,8 +79,8 @@ def demo(
     print_table(f"{climbed.tried[0]} candidates screened, {climbed.tried[1]} refitted", hypotheses)
     _say(
         "4  Add it, and watch the error fall",
-        f"Refitted with {' and '.join(found.search.best.names) or 'nothing more'}; the held-out run, which no fit has "
-        f"seen, decides. It stops here: {climbed.stopped}.",
+        f"Refitted with {' and '.join(found.search.best.names) or 'nothing more'}, and judged by "
+        f"{counted(unseen, 'held-out run')}, which no fit has seen. It stops here: {climbed.stopped}.",
     )
     print_table("Error in multiples of the noise floor", [_rung(r) for r in climbed.as_json()["rungs"]])
     save_model(found.final.problem.model(found.final.solution.values), campaign / "model.toml")
@@ -77,14 +88,13 @@ def demo(
     write_json(folder / "ladder.json", climbed.as_json())
     write_text(folder / "report.html", diagnosis_page(found, climbed))
     seen, simulated = replays(found)
-    geometry = geometry_of(measured.specimen)
-    write_comparison(seen, simulated, geometry, folder / "before_and_after.rrd", found.sentence)
+    write_comparison(seen, simulated, geometry_of(rig), folder / "before_and_after.rrd", found.sentence)
     _say("5  Look at it", "The report opens in any browser, the recording in the rerun viewer:")
     for line in (
         f"{folder / 'report.html'}",
         f"slipwise view {folder}",
-        f"slipwise diagnose {campaign} --model {campaign / 'model.toml'}   (nothing is missing any more)",
-        "slipwise effects run_in   (what it is, and where it comes from)",
+        f"slipwise diagnose {campaign} --model {campaign / 'model.toml'}   ({_left(found)})",
+        *(f"slipwise effects {name}   (what it is, and where it comes from)" for name in found.verdict.effects),
     ):
         OUT.print(f"  {line}", markup=False, highlight=False, soft_wrap=True)
     OUT.print(f"\n{time.perf_counter() - began:.0f} s")
@@ -101,6 +111,19 @@ def _copy(campaign: Path) -> None:
 def _say(title: str, words: str) -> None:
     OUT.print(f"\n[bold]{title}[/bold]")
     OUT.print(words, markup=False, highlight=False)
+
+
+def _left(found: "Diagnosis") -> str:
+    """Say what is left above the noise when the named effects are in the model."""
+    from slipwise.compare.component import NAMES
+
+    over = [f"{NAMES[name][0]} {after:.2f}" for name, (_, after) in found.relations.items() if after >= _DOWN]
+    if over:
+        return f"still above the noise, in floors: {', '.join(over)}"
+    if found.verdict.leftover != "none":
+        surface = found.verdict.surface
+        return f"what is left: {surface.words if surface else 'no state that was measured organises it'}"
+    return "nothing is missing any more"
 
 
 def _rounded(value: float | None) -> float | None:

@@ -58,6 +58,7 @@ def diagnose(
     Example: `slipwise diagnose campaigns/march --out out/march`
     """
     from slipwise.diagnose import diagnose as run_diagnosis
+    from slipwise.diagnose.explanations import partings
     from slipwise.ladder import ladder_of
     from slipwise.view.diagnosis_page import diagnosis_page
 
@@ -76,8 +77,11 @@ def diagnose(
     from slipwise.view.terminal import print_table
 
     OUT.print(found.sentence, markup=False, highlight=False)
+    for words in partings(found.verdict, found.search):
+        OUT.print(f"to tell apart: {words}", markup=False, highlight=False, soft_wrap=True)
+    before = "held-out before" if found.search.base.problem.held_out else "fitted runs before"
     rows = [
-        {"hypothesis": c.effect, "probability": round(c.probability, 3), "held-out before": round(c.holdout_before, 2),
+        {"hypothesis": c.effect, "probability": round(c.probability, 3), before: round(c.holdout_before, 2),
          "after": round(c.holdout_after, 2)}
         for c in found.candidates
     ]  # fmt: skip
@@ -96,7 +100,7 @@ def _record(found, folder: Path) -> list[Path]:  # noqa: ANN001 - a Diagnosis; i
     try:
         measured, simulated = replays(found)
     except InputError as error:
-        OUT.print(f"no recording: {error}", markup=False, highlight=False, soft_wrap=True)
+        ERR.print(f"no recording: {error}", markup=False, highlight=False, soft_wrap=True)
         return []
     geometry = geometry_of(found.final.campaign.specimen)
     return [write_comparison(measured, simulated, geometry, folder / "before_and_after.rrd", found.sentence)]

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from slipwise.compare.intervals import Interval
+from slipwise.diagnose.explanations import explanations
 from slipwise.diagnose.leftover import Surface
 from slipwise.diagnose.search import Search
 from slipwise.diagnose.verdict import Verdict
@@ -75,7 +76,8 @@ class Diagnosis:
         """The verdict in one sentence."""
         chance = f"{100 * self.verdict.probability:.0f} %"
         names = " and ".join(self.verdict.effects)
-        fall = f"held-out error {self.base_error:.2g} -> {self.final_error:.2g} times the noise floor"
+        seen = "held-out error" if self.search.base.problem.held_out else "error on the runs that were fitted"
+        fall = f"{seen} {self.base_error:.2g} -> {self.final_error:.2g} times the noise floor"
         match self.verdict.kind:
             case "complete":
                 return f"Nothing above the noise is missing ({self.base_error:.2g} times the floor; {chance})."
@@ -85,7 +87,8 @@ class Diagnosis:
             case "instrument":
                 return f"A gauge is at fault: {names} ({chance}); {fall}."
             case "ambiguous":
-                return f"Either {' or '.join(self.verdict.effects)}: this campaign cannot tell them apart ({chance})."
+                rivals = " or ".join(" + ".join(e) for e in explanations(self.verdict, self.search.best.names))
+                return f"Either {rivals}: this campaign cannot tell them apart ({chance})."
             case _:
                 surface = self.verdict.surface
                 shape = surface.words if surface else "no state that was measured organises it"

@@ -16,7 +16,7 @@ from slipwise.diagnose.refit import Account, Hypothesis
 from slipwise.diagnose.result import Candidate, Diagnosis
 from slipwise.diagnose.search import Search
 from slipwise.diagnose.untold import untold
-from slipwise.diagnose.verdict import Verdict, judge, with_faults
+from slipwise.diagnose.verdict import ONE_THING, Verdict, judge, with_faults
 from slipwise.diagnose.worth import score, worth
 from slipwise.effects import Effect
 from slipwise.errors import InputError
@@ -171,11 +171,16 @@ def _shares(state: Search, verdict: Verdict, listed: list[Hypothesis]) -> list[f
     weights = np.array([max(score(origin.account, h.account), 1e-9) for h in listed])
     if not named:
         return [float(x) for x in (1.0 - verdict.probability) * weights / weights.sum()]
-    tied = np.array([h is state.best or any(h is r for r in verdict.rivals) for h in listed])
+    alike = [h is state.best or any(h is r for r in verdict.rivals) or _is_one_thing(h, state.best) for h in listed]
+    tied = np.array(alike) if verdict.kind == "ambiguous" else np.array([h is state.best for h in listed])
     weights[tied] = 0.0
     rest = (1.0 - verdict.probability) * weights / max(weights.sum(), 1e-12)
-    alike = len(verdict.rivals) + 1 if verdict.rivals or verdict.kind != "ambiguous" else 2
-    return [float(x) for x in np.where(tied, verdict.probability / alike, rest)]
+    sharing = max(int(tied.sum()), 2 if verdict.kind == "ambiguous" else 1)  # a twin may not have been refitted
+    return [float(x) for x in np.where(tied, verdict.probability / sharing, rest)]
+
+
+def _is_one_thing(one: Hypothesis, other: Hypothesis) -> bool:
+    return any(set(one.names) ^ set(other.names) == pair for pair in ONE_THING)
 
 
 def _parameters(found: Hypothesis, ends: dict[str, Interval]) -> dict[str, Interval]:

@@ -99,7 +99,7 @@ def _screened(
     base: BaseFit, term: Term, left: Array, residual: Array, project: Callable[[Array], Array]
 ) -> Screened | None:
     if not strengths(term.effect):
-        return _replacing(base, term, residual, project)
+        return _replacing(base, term, left, residual, project)
     return _better(*_at_shapes(base, term, shapes(term.effect), left, residual, project))
 
 
@@ -124,7 +124,7 @@ def _at_shapes(
                 break
             starts = [(p, {**v, p.name: found.values[p.name]} if p.name in far else v) for p, v in starts]
             found = _mixed(base, term, shape, starts, left, residual, project)
-        best = _better(found, *_direct(base, term, shape, residual, project))
+        best = _better(found, *_direct(base, term, shape, left, residual, project))
         out += [best] if best else []
     return out
 
@@ -135,18 +135,20 @@ def _better(*found: Screened | None) -> Screened | None:
 
 
 def _direct(
-    base: BaseFit, term: Term, shape: Mapping[str, float], residual: Array, project: Callable[[Array], Array]
-) -> list[Screened | None]:
+    base: BaseFit, term: Term, shape: Mapping[str, float], left: Array | None, residual: Array,
+    project: Callable[[Array], Array],
+) -> list[Screened | None]:  # fmt: skip
     """Score lags of gauges at their full sizes where much is amiss: a straight line from a small one lies."""
     lags = [p for p in strengths(term.effect) if p.unit == "s"] if term.effect.port == "gauge" else []
-    if not lags or float(residual @ residual) < _MUCH_AMISS * len(residual):
+    if not lags or left is None or float(residual @ residual) < _MUCH_AMISS * len(residual):
         return []
     out = []
     for p, size in product(lags, _LAGS):
         values = {**term.effect.neutral(), **shape, p.name: size * p.typical}
         there = residual_with(base, term, values) if p.low <= values[p.name] <= p.high else None
         if there is not None:
-            out.append(_scored(term, values, residual, project(there) - residual, 0.0))
+            step = project(there) - residual
+            out.append(_scored(term, values, residual, step, _absorbed(there - left, step)))
     return out
 
 
@@ -176,7 +178,9 @@ def _mixed(
     return _best_mix(term, shape, columns, kept, residual, raw) if columns else None
 
 
-def _replacing(base: BaseFit, term: Term, residual: Array, project: Callable[[Array], Array]) -> Screened | None:
+def _replacing(
+    base: BaseFit, term: Term, left: Array, residual: Array, project: Callable[[Array], Array]
+) -> Screened | None:
     """Score a law that takes another's place: it is never absent, so a step of a fit from typical values tells."""
     values = term.effect.typical()
     there = residual_with(base, term, values)
@@ -188,9 +192,15 @@ def _replacing(base: BaseFit, term: Term, residual: Array, project: Callable[[Ar
         if moved is not None:
             columns.append(project(moved - there))
     rest = project(there)
+    absorbed = _absorbed(there - left, rest - residual)
     basis = np.linalg.qr(np.stack(columns, axis=1))[0]
     rest = rest - basis @ (basis.T @ rest)
-    return _scored(term, values, residual, rest - residual, 0.0)
+    return _scored(term, values, residual, rest - residual, absorbed)
+
+
+def _absorbed(whole: Array, clean: Array) -> float:
+    """Give the part of a candidate's step that base parameters can mimic: what is not left of it without them [1]."""
+    return 1.0 - float(clean @ clean) / max(float(whole @ whole), 1e-30)
 
 
 def _scored(

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from slipwise.diagnose import Diagnosis, Surface
 from slipwise.diagnose.leftover import WORDS
-from slipwise.ladder import Ladder
+from slipwise.ladder import Ladder, Rung
 from slipwise.view.canvas import new_figure
 from slipwise.view.style import EXPECTED, INK, MODEL_COLOURS, MUTED
 
@@ -20,7 +20,7 @@ _BEFORE, _AFTER = MODEL_COLOURS[0], MODEL_COLOURS[5]
 
 
 def balances_figure(found: Diagnosis) -> Figure:
-    """Draw the held-out error of every balance, before and after, in multiples of the floor."""
+    """Draw the error of every balance, before and after, in multiples of the floor; held-out where runs are."""
     figure = new_figure(8.0, 3.4)
     axes = figure.subplots()
     names = list(found.relations)
@@ -32,39 +32,49 @@ def balances_figure(found: Diagnosis) -> Figure:
     axes.axhline(1.0, color=INK, lw=1.0, ls="--")
     axes.annotate("noise floor", (1.0, 1.0), xycoords=("axes fraction", "data"), ha="right", va="bottom", color=MUTED)
     axes.set_xticks(places, [_RELATIONS.get(n, n) for n in names])
-    axes.set_ylabel("held-out error / floor")
+    held = found.search.base.problem.held_out
+    axes.set_ylabel(f"{'held-out error' if held else 'error on fitted runs'} / floor")
     axes.legend()
     return figure
+
+
+def rung_errors(found: Ladder) -> dict[str, list[float]]:
+    """Give what is known of the rungs: runs -> error of every rung in floors."""
+    unseen = [r.holdout_error for r in found.rungs]
+    held = bool(np.isfinite(unseen).any())
+    lines = {
+        "fitted runs": [r.fit_error for r in found.rungs],
+        "held-out runs": unseen,
+        "held-out, replay" if held else "replay": [r.system_holdout_error for r in found.rungs],
+    }
+    return {label: values for label, values in lines.items() if np.isfinite(values).any()}
 
 
 def ladder_figure(found: Ladder) -> Figure:
-    """Draw the error rung by rung, fitted and held-out, component and system level."""
-    figure = new_figure(8.0, 3.6)
+    """Draw the error rung by rung, fitted and held-out, component and system level, and why the ladder ends."""
+    figure = new_figure(8.0, 3.9)
     axes = figure.subplots()
     places = np.arange(len(found.rungs))
-    lines = (
-        ("fitted runs", [r.fit_error for r in found.rungs], EXPECTED, "o"),
-        ("held-out runs", [r.holdout_error for r in found.rungs], _AFTER, "o"),
-        ("held-out, replay", [r.system_holdout_error for r in found.rungs], _BEFORE, "s"),
-    )
-    for label, values, colour, marker in lines:
-        if np.isfinite(values).any():
-            axes.plot(places, values, marker=marker, color=colour, label=label, lw=2.0)
+    looks = {"fitted runs": (EXPECTED, "o"), "held-out runs": (_AFTER, "o")}
+    for label, values in rung_errors(found).items():
+        colour, marker = looks.get(label, (_BEFORE, "s"))
+        known = np.isfinite(values)  # of a search only the ends are replayed
+        axes.plot(places[known], np.array(values)[known], marker=marker, color=colour, label=label, lw=2.0)
     axes.axhline(1.0, color=INK, lw=1.0, ls="--", label="noise floor")
-    labels = [
-        "base model",
-        *(f"+ {_new(a.effects, b.effects)}" for a, b in zip(found.rungs, found.rungs[1:], strict=False)),
-    ]
-    axes.set_xticks(places, labels)
+    axes.set_xticks(places, ["base model", *map(_change, found.rungs, found.rungs[1:])])
     axes.set_xlim(-0.3, len(places) - 0.7)
     axes.set_ylim(bottom=0.0)
     axes.set_ylabel("error / floor")
+    screened, refitted = found.tried
+    axes.set_xlabel(f"{screened} candidates screened, {refitted} hypotheses refitted; {found.stopped}")
     axes.legend()
     return figure
 
 
-def _new(before: tuple[str, ...], after: tuple[str, ...]) -> str:
-    return "\n+ ".join(e for e in after if e not in before) or "(one taken away)"
+def _change(before: Rung, after: Rung) -> str:
+    """Name what one rung takes away from the one below it, and what it adds."""
+    gone = [f"− {e}" for e in before.effects if e not in after.effects]
+    return "\n".join([*gone, *(f"+ {e}" for e in after.effects if e not in before.effects)])
 
 
 def loops_figure(found: Diagnosis) -> Figure:
@@ -84,7 +94,7 @@ def loops_figure(found: Diagnosis) -> Figure:
         _loop(axes, run.slip, np.where(run.sliding, force, np.nan), colour, label, 0.9)
         axes.set_title(label)
         axes.set_xlabel("slip [mm]")
-        axes.legend(loc="lower right")
+        axes.legend(loc="lower right", frameon=True, framealpha=0.85, edgecolor="none")  # loops fill the panel
     panels[0].set_ylabel(f"friction of pad {run.pads[0]} [kN]")
     return figure
 

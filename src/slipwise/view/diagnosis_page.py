@@ -2,12 +2,21 @@
 
 from math import isfinite
 
+from slipwise.compare.intervals import Interval
 from slipwise.diagnose import Diagnosis
-from slipwise.effects import catalogue
+from slipwise.diagnose.explanations import explanations, known_effects, partings
 from slipwise.ladder import Ladder
+from slipwise.params import Parameter
 from slipwise.units import convert
-from slipwise.view.diagnosis_figures import balances_figure, ladder_figure, loops_figure, surface_figure
+from slipwise.view.diagnosis_figures import (
+    balances_figure,
+    ladder_figure,
+    loops_figure,
+    rung_errors,
+    surface_figure,
+)
 from slipwise.view.html import Section, bullets, callout, details, figure, page, paragraph, table, verdict
+from slipwise.view.numbers import in_words
 from slipwise.view.style import styled
 
 _TONES = {"complete": "good", "named": "warn", "instrument": "warn", "ambiguous": "warn", "unknown": "bad"}
@@ -15,7 +24,6 @@ _HEADLINES = {
     "complete": "Nothing is missing",
     "named": "An effect is missing",
     "instrument": "A gauge is at fault",
-    "ambiguous": "Two explanations, one measurement",
     "unknown": "Something that is not in the catalogue",
 }
 
@@ -35,17 +43,16 @@ def diagnosis_page(found: Diagnosis, ladder: Ladder | None = None) -> str:
 
 
 def _page(found: Diagnosis, ladder: Ladder | None) -> str:
-    names = ", ".join(found.verdict.effects)
+    before = "held-out error before" if _held_out(found) else "error on fitted runs before"
     facts = {
         "probability": f"{100 * found.verdict.probability:.0f} %",
-        "held-out error before": f"{found.base_error:.2f} floors",
+        before: f"{found.base_error:.2f} floors",
         "after": f"{found.final_error:.2f} floors",
         "where": found.component,
     }
     if found.system:
         facts["replay before / after"] = f"{found.system['base']:.1f} / {found.system['final']:.1f} floors"
-    headline = _HEADLINES[found.verdict.kind] + (f": {names}" if names else "")
-    box = verdict(headline, found.sentence, _TONES[found.verdict.kind], facts)  # type: ignore[arg-type]
+    box = verdict(_headline(found), found.sentence, _TONES[found.verdict.kind], facts)  # type: ignore[arg-type]
     sections = [_evidence(found), _what_it_is(found), _rivals(found)]
     if found.verdict.leftover == "unknown" and found.verdict.surface is not None:
         sections.insert(1, _shape(found))
@@ -55,16 +62,36 @@ def _page(found: Diagnosis, ladder: Ladder | None) -> str:
     return page(f"Diagnosis of {found.campaign}", sections, [box])
 
 
+def _headline(found: Diagnosis) -> str:
+    kind = found.verdict.kind
+    if kind == "ambiguous":
+        rivals = explanations(found.verdict, found.search.best.names)
+        words = f"{in_words(len(rivals)).capitalize()} explanations, one measurement"
+        return f"{words}: {' or '.join(' + '.join(names) for names in rivals)}"
+    names = ", ".join(found.verdict.effects)
+    return _HEADLINES[kind] + (f": {names}" if names else "")
+
+
+def _held_out(found: Diagnosis) -> bool:
+    """Tell whether the campaign has a run that no fit has seen; if not, nothing may be called held-out."""
+    return bool(found.search.base.problem.held_out)
+
+
 def _evidence(found: Diagnosis) -> Section:
+    if _held_out(found):
+        where, errors, run = "runs that no fit has seen", "Held-out error of every balance", "a held-out run"
+    else:
+        where, run = "the runs that were fitted (the campaign keeps none back)", "a run that was fitted"
+        errors = "Error of every balance on the runs that were fitted"
     return Section(
         "The evidence",
         [
             paragraph(
-                "Every balance of the rig, on runs that no fit has seen, in multiples of the noise floor: 1 is what a "
-                "perfect model leaves. Pads are driven by measured load and speed: each part answers for itself."
+                f"Every balance of the rig, on {where}, in multiples of the noise floor: 1 is what a perfect model "
+                "leaves. Pads are driven by measured load and speed: each part answers for itself."
             ),
-            figure(balances_figure(found), "Held-out error of every balance, before and after."),
-            figure(loops_figure(found), "Friction of one pad against slip in a held-out run."),
+            figure(balances_figure(found), f"{errors}, before and after."),
+            figure(loops_figure(found), f"Friction of one pad against slip in {run}."),
         ],
     )
 
@@ -74,19 +101,14 @@ def _floors(error: float) -> float | str:
 
 
 def _falling(ladder: Ladder) -> Section:
+    errors = rung_errors(ladder)
     rows = [
-        {
-            "model": " + ".join(("base", *rung.effects)),
-            "fitted runs": _floors(rung.fit_error),
-            "held-out runs": _floors(rung.holdout_error),
-            "held-out, replay": _floors(rung.system_holdout_error),
-        }
-        for rung in ladder.rungs
+        {"model": " + ".join(("base", *rung.effects)), **{label: _floors(own[i]) for label, own in errors.items()}}
+        for i, rung in enumerate(ladder.rungs)
     ]
-    words = f"{ladder.tried[0]} candidates were screened and {ladder.tried[1]} hypotheses refitted; {ladder.stopped}."
     return Section(
         "The error, rung by rung",
-        [figure(ladder_figure(ladder), "Error in multiples of the floor."), table(rows), paragraph(words)],
+        [figure(ladder_figure(ladder), "Error in multiples of the floor."), table(rows)],
     )
 
 
@@ -104,7 +126,7 @@ def _shape(found: Diagnosis) -> Section:
 
 def _what_it_is(found: Diagnosis) -> Section:
     pieces = []
-    known = catalogue()
+    known = known_effects(found.search)
     for name in found.verdict.effects:
         effect = known.get(name)
         if effect is None:
@@ -118,15 +140,15 @@ def _what_it_is(found: Diagnosis) -> Section:
         rows = []
         for key, interval in best.parameters.items():
             label, _, parameter = key.rpartition(".")
-            rows.append({"parameter": f"{label}: {parameter}", **_numbers(label, parameter, interval)})
+            effect = known[label.partition("[")[0]]
+            rows.append({"parameter": f"{label}: {parameter}", **_numbers(effect.parameter(parameter), interval)})
         pieces.append(table(rows, "Fitted on the fit runs, with 95 % intervals that hold for correlated noise"))
     if not pieces:
         pieces.append(paragraph("No effect of the catalogue was worth a name."))
     return Section("What it is, and how large", pieces)
 
 
-def _numbers(label: str, parameter: str, interval) -> dict[str, object]:  # noqa: ANN001 - an Interval
-    known = catalogue()[label.partition("[")[0]].parameter(parameter)
+def _numbers(known: Parameter, interval: Interval) -> dict[str, object]:
     shown = known.shown_in or known.unit
     ends = {"value": interval.value, "low": interval.low, "high": interval.high}
     out = {k: f"{convert(v, known.unit, shown):.{interval.figures}g}" for k, v in ends.items()}
@@ -137,12 +159,13 @@ def _numbers(label: str, parameter: str, interval) -> dict[str, object]:  # noqa
 
 
 def _rivals(found: Diagnosis) -> Section:
+    seen = "held-out" if _held_out(found) else "error on fitted runs"
     rows = [
         {
             "hypothesis": c.effect,
             "probability": f"{100 * c.probability:.1f} %",
-            "held-out before": round(c.holdout_before, 2),
-            "held-out after": round(c.holdout_after, 2),
+            f"{seen} before": round(c.holdout_before, 2),
+            f"{seen} after": round(c.holdout_after, 2),
             "hidden by the base fit": f"{100 * c.absorbed_by_base:.0f} %",
         }
         for c in found.candidates
@@ -153,13 +176,14 @@ def _rivals(found: Diagnosis) -> Section:
 
 
 def _change(found: Diagnosis) -> Section:
-    known = catalogue()
-    items = []
-    for name in found.verdict.effects:
-        if name in known:
-            items += [f"{rival} instead of {name}: {test}." for rival, test in known[name].confused_with.items()]
+    known, named = known_effects(found.search), found.verdict.effects
+    items = [f"{words}." for words in partings(found.verdict, found.search)]
+    for name in (n for n in named if n in known):
+        tests = known[name].confused_with.items()
+        items += [f"{rival} instead of {name}: {test}." for rival, test in tests if rival not in named]
     items.append(
-        "A held-out run of another kind (amplitude, frequency, rest before it) on which the error does not fall."
+        "A run of another kind (amplitude, frequency, rest before it), kept from the fit, on which the error does not "
+        "fall."
     )
     return Section("What would change our mind", [bullets(items), paragraph("`slipwise next` ranks table motions.")])
 

@@ -99,15 +99,17 @@ def print_effect(effect: Effect, console: Console | None = None) -> None:
 
 
 def readme_table() -> str:
-    """Write the catalogue as Markdown: a table of name, equation and meaning for each component."""
+    """Write the catalogue as Markdown: a table of name, equation, meaning and rivals for each component."""
     lines = []
     rows = effect_rows()
     for component in dict.fromkeys(row["component"] for row in rows):
-        lines += [f"**{component.capitalize()}**", "", "| effect | equation | what it is |", "|---|---|---|"]
+        lines += [f"**{component.capitalize()}**", "", "| effect | equation | what it is | confused with |"]
+        lines.append("|---|---|---|---|")
         for row in rows:
             if row["component"] == component:
                 equation = row["equation"].replace("|", "\\|")
-                lines.append(f"| `{row['name']}` | `{equation}` | {row['summary']} |")
+                rivals = ", ".join(f"`{name}`" for name in row["confused_with"])
+                lines.append(f"| `{row['name']}` | `{equation}` | {row['summary']} | {rivals} |")
         lines.append("")
     return "\n".join(lines).rstrip() + "\n"
 

@@ -27,7 +27,9 @@ def test_the_demo_names_the_hidden_effect_and_the_error_falls_to_the_floor(slipw
     assert not re.search(r"""(src|href)=["']https?:""", page)
     assert (tmp_path / "before_and_after.rrd").stat().st_size > 100_000
     assert "run_in" in load_model(tmp_path / "campaign" / "model.toml")
-    assert "nothing above the noise floor is left" in " ".join(out.split())
+    told = " ".join(out.split())
+    assert "nothing above the noise floor is left" in told and "nothing is missing any more" in told
+    assert "five runs" in told and "fitted to four runs" in told and "slipwise effects run_in" in told
 
 
 def test_add_and_remove_edit_the_model_and_print_the_error_before_and_after(slipwise, tmp_path):

@@ -63,4 +63,11 @@ def test_the_readme_table_has_a_row_for_every_effect() -> None:
     for name in catalogue():
         assert f"| `{name}` |" in table
     rows = [line for line in table.splitlines() if line.startswith("|")]
-    assert all(line.replace("\\|", "").count("|") == 4 for line in rows), "bars inside a cell are escaped"
+    assert all(line.replace("\\|", "").count("|") == 5 for line in rows), "bars inside a cell are escaped"
+
+
+def test_the_readme_table_says_which_effects_are_confused_with_which() -> None:
+    rows = {line.split("`")[1]: line for line in readme_table().splitlines() if line.startswith("| `")}
+    for name, effect in catalogue().items():
+        told = rows[name].rsplit("|", 2)[1]
+        assert told.strip() == ", ".join(f"`{rival}`" for rival in effect.confused_with)

@@ -1,0 +1,99 @@
+"""The page and the pictures of a diagnosis say no more than there is: rivals, held-out runs, rungs."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from slipwise.diagnose.result import Diagnosis
+from slipwise.diagnose.verdict import Verdict
+from slipwise.effects import catalogue
+from slipwise.ladder import Ladder, Rung
+from slipwise.view.canvas import new_figure
+from slipwise.view.diagnosis_figures import ladder_figure
+from slipwise.view.diagnosis_page import diagnosis_page
+from slipwise.view.numbers import counted, in_words
+from slipwise.view.style import styled
+
+NAN = float("nan")
+
+
+def _rung(*effects: str, fit: float = 2.0, held: float = 2.0, replay: float = NAN) -> Rung:
+    return Rung(effects, fit, held, replay, 1.0, {})
+
+
+def _ladder(*rungs: Rung, stopped: str = "nothing above the noise floor is left") -> Ladder:
+    return Ladder("made up", rungs, (102, 13), stopped, (), 1.0)
+
+
+def _found(*names: str, kind: str = "ambiguous", held_out: bool = True) -> Diagnosis:
+    """A diagnosis in which each name is an explanation of its own."""
+    rivals: Any = tuple(SimpleNamespace(names=(n,)) for n in names[1:]) if kind == "ambiguous" else ()
+    verdict = Verdict(kind, names, 0.5, "none", 1.0, None, rivals)
+    best = SimpleNamespace(names=names[:1], terms=names[:1])
+    base = SimpleNamespace(problem=SimpleNamespace(held_out=[4] if held_out else []))
+    search: Any = SimpleNamespace(base=base, best=best, terms=())
+    relations = {"pads": (3.0, 1.0), "girder": (1.0, 1.0)}
+    return Diagnosis(
+        "made up", verdict, "pad friction", 3.0, 1.0, relations, {"base": 4.0, "final": 1.1}, (), {}, (), search,
+        None, 1.0,  # pyright: ignore[reportArgumentType]
+    )  # fmt: skip
+
+
+@pytest.fixture
+def page(monkeypatch):
+    """Make the page without its loops, which need a measured run."""
+    monkeypatch.setattr("slipwise.view.diagnosis_page.loops_figure", lambda found: new_figure(1.0, 1.0))
+    return diagnosis_page
+
+
+def test_the_headline_counts_the_rivals(page):
+    two, three = _found("heating", "run_in"), _found("heating", "run_in", "channel_drift")
+    assert "Two explanations, one measurement: heating or run_in<" in page(two)
+    assert "Three explanations, one measurement: heating or run_in or channel_drift<" in page(three)
+    assert "Either heating or run_in or channel_drift:" in page(three)
+
+
+def test_what_parts_the_rivals_comes_first_and_once(page):
+    text = page(_found("heating", "run_in"))
+    parts = "run_in instead of heating: "
+    first = text.split('<section id="what-would-change-our-mind">')[1].split("<li>")[1]
+    assert first.startswith(parts) and text.count(parts) == 1
+    assert "heating instead of run_in" not in text
+    assert catalogue()["run_in"].confused_with["buffer_softening"] in text
+
+
+def test_nothing_is_called_held_out_where_every_run_was_fitted(page):
+    seen = _ladder(_rung(), _rung("heating"))
+    assert "held-out" in page(_found("heating", kind="named"), seen) and "no fit has seen" in page(_found("heating"))
+    unseen = _ladder(_rung(held=NAN, replay=4.0), _rung("heating", held=NAN, replay=1.1))
+    found = _found("heating", kind="named", held_out=False)
+    for text in (page(found, unseen), found.sentence):
+        assert "held-out" not in text.lower() and "no fit has seen" not in text
+        assert "the runs that were fitted" in text
+
+
+def test_a_rung_says_what_it_takes_away_and_what_it_adds():
+    with styled():
+        (axes,) = ladder_figure(
+            _ladder(
+                _rung(),
+                _rung("heating"),
+                _rung("heating", "guide_drag"),
+                _rung("run_in", "guide_drag"),
+                _rung("run_in"),
+            )
+        ).axes
+    labels = [label.get_text() for label in axes.get_xticklabels()]
+    assert labels == ["base model", "+ heating", "+ guide_drag", "− heating\n+ run_in", "− guide_drag"]
+
+
+def test_a_ladder_says_how_much_was_tried_and_why_it_stops():
+    with styled():
+        (axes,) = ladder_figure(_ladder(_rung(), stopped="no further effect is worth a rung")).axes
+    assert axes.get_xlabel() == "102 candidates screened, 13 hypotheses refitted; no further effect is worth a rung"
+
+
+def test_counts_are_written_as_people_say_them():
+    assert (counted(1, "run"), counted(4, "run"), counted(13, "run")) == ("one run", "four runs", "13 runs")
+    assert (in_words(0), in_words(12)) == ("no", "twelve")
