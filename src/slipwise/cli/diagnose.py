@@ -10,6 +10,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from slipwise.campaign import load_campaign
 from slipwise.cli.console import ERR, OUT, out_folder, print_json
+from slipwise.effects import Effect, find_effect
 from slipwise.errors import InputError
 from slipwise.model import Model
 from slipwise.model_file import load_model
@@ -20,6 +21,9 @@ System = Annotated[bool, typer.Option(help="Replay the models in MuJoCo as well 
 ModelFile = Annotated[
     Path | None,
     typer.Option("--model", help="A model.toml to start from; the one beside campaign.toml if there is one."),
+]
+Own = Annotated[
+    list[str] | None, typer.Option("--effect", help="An effect of your own that competes too, by its file (./mine.py).")
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON for a program to read.")]
 
@@ -41,12 +45,18 @@ def start_model(campaign: Path, given: Path | None) -> Model | None:
     return load_model(beside) if beside.is_file() else None
 
 
+def own_effects(given: list[str] | None) -> tuple[Effect, ...]:
+    """Give the effects of a user's own files."""
+    return tuple(find_effect(path) for path in given or [])
+
+
 def diagnose(
     campaign: CampaignFolder,
     out: Annotated[Path, typer.Option(help="Folder for diagnosis.json, report.html and the recording.")] = Path(
         "out/diagnosis"
     ),
     model: ModelFile = None,
+    effect: Own = None,
     system: System = True,
     recording: Annotated[
         bool, typer.Option(help="Write the model before and after beside the measurement, for the viewer.")
@@ -65,7 +75,8 @@ def diagnose(
     measured = load_campaign(campaign)
     folder = out_folder(out)
     with steps() as tell:
-        found = run_diagnosis(measured, start_model(campaign, model), system=system, progress=tell)
+        start = start_model(campaign, model)
+        found = run_diagnosis(measured, start, own=own_effects(effect), system=system, progress=tell)
     write_json(folder / "diagnosis.json", found.as_json())
     write_text(folder / "report.html", diagnosis_page(found, ladder_of(found.search, found.system)))
     files = [folder / "diagnosis.json", folder / "report.html"]
@@ -111,6 +122,7 @@ def ladder(
     out: Annotated[Path, typer.Option(help="Folder for ladder.json and the picture.")] = Path("out/ladder"),
     add: Annotated[list[str] | None, typer.Option(help="Add these effects in this order instead of searching.")] = None,
     model: ModelFile = None,
+    effect: Own = None,
     system: System = True,
     json: Json = False,
 ) -> None:
@@ -126,7 +138,8 @@ def ladder(
     measured = load_campaign(campaign)
     folder = out_folder(out)
     with steps() as tell:
-        found = climb(measured, add or [], start_model(campaign, model), system=system, progress=tell)
+        start = start_model(campaign, model)
+        found = climb(measured, add or [], start, own=own_effects(effect), system=system, progress=tell)
     write_json(folder / "ladder.json", found.as_json())
     with styled():
         picture = save_figure(ladder_figure(found), folder / "ladder.png")

@@ -9,6 +9,7 @@ import numpy as np
 from slipwise.compare.intervals import Interval
 from slipwise.diagnose.explanations import explanations
 from slipwise.diagnose.leftover import Surface
+from slipwise.diagnose.screen import Screened
 from slipwise.diagnose.search import Search
 from slipwise.diagnose.verdict import Verdict
 from slipwise.fit.base import BaseFit
@@ -110,6 +111,7 @@ class Diagnosis:
             "relations": {k: {"base": _number(a), "final": _number(b)} for k, (a, b) in self.relations.items()},
             "system": {k: _number(v) for k, v in self.system.items()},
             "candidates": [_candidate(c) for c in self.candidates],
+            "screened": [_screened(s) for s in self.search.screened],
             "leftover": verdict.leftover,
             "unknown": _surface(verdict.surface) if verdict.leftover == "unknown" else None,
             "least": {k: _number(v) for k, (v, _) in self.least.items()},
@@ -131,6 +133,15 @@ def _candidate(found: Candidate) -> dict[str, Any]:
         "holdout_after": _number(found.holdout_after),
         "absorbed_by_base": _number(found.absorbed_by_base),
         "parameters": {k: written(p) for k, p in found.parameters.items()},
+    }
+
+
+def _screened(found: Screened) -> dict[str, Any]:
+    """Write what a candidate could explain alone, in squared residuals, and what the base parameters hide of it."""
+    return {
+        "effect": found.term.label,
+        "gain": _number(found.gain),
+        "absorbed_by_base": _number(max(found.absorbed, 0.0)),
     }
 
 

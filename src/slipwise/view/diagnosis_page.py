@@ -194,4 +194,10 @@ def _limits(found: Diagnosis) -> Section:
         pieces.append(bullets(list(found.cannot_tell)))
     least = [{"effect": n, "smallest size": f"{v:.3g}", "unit": u} for n, (v, u) in found.least.items()]
     pieces.append(details("Smallest size of each effect that this campaign would have shown", [table(least)]))
+    seen = [
+        {"candidate": s.term.label, "explains alone": f"{s.gain:.3g}", "hidden by the base fit": f"{s.absorbed:.0%}"}
+        for s in found.search.screened
+    ]
+    words = paragraph("Without a refit: drop of the squared residual of the fitted runs, in variances of the noise.")
+    pieces.append(details(f"All {len(seen)} candidates as they were screened", [words, table(seen)]))
     return Section("What this campaign could not tell", pieces)

@@ -32,7 +32,7 @@ def _found(*names: str, kind: str = "ambiguous", held_out: bool = True) -> Diagn
     verdict = Verdict(kind, names, 0.5, "none", 1.0, None, rivals)
     best = SimpleNamespace(names=names[:1], terms=names[:1])
     base = SimpleNamespace(problem=SimpleNamespace(held_out=[4] if held_out else []))
-    search: Any = SimpleNamespace(base=base, best=best, terms=())
+    search: Any = SimpleNamespace(screened=[], base=base, best=best, terms=())
     relations = {"pads": (3.0, 1.0), "girder": (1.0, 1.0)}
     return Diagnosis(
         "made up", verdict, "pad friction", 3.0, 1.0, relations, {"base": 4.0, "final": 1.1}, (), {}, (), search,
