@@ -18,6 +18,12 @@ _COMMAND: dict[str, str] = {
     "table_gain": "the model is driven by the measured table motion; only the command could show it",
     "table_cross_axis": "the model is driven by the measured table motion; only the command could show it",
 }
+#: Why these are not looked for where the slip is prescribed, see `samples.py`.
+_OF_A_SLIDER: dict[str, str] = {
+    "channel_sign": "one slider has no balance that says which way a gauge is wired",
+    "channel_clipping": "an actuator may rest at its ends, which looks like a rail",
+    "dropped_samples": "an actuator may rest, and samples then repeat by themselves",
+}
 
 #: Loads are steady in each run when they differ between runs by this many times more than within one [1].
 _STEADY = 3.0
@@ -38,12 +44,13 @@ def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], d
     terms: list[Term] = []
     cannot: dict[str, str] = {}
     for name, effect in (catalogue() | {e.name: e for e in own}).items():
-        if name in BASE_PARTS or name in SAMPLE_FAULTS or (name in model and not effect.target):
+        if name in BASE_PARTS or (name in model and not effect.target):
             continue
-        if name in _COMMAND:
-            cannot[name] = _COMMAND[name]
+        if name in SAMPLE_FAULTS:
+            if not problem.specimen.free:
+                cannot[name] = _OF_A_SLIDER[name]
             continue
-        reason = _untestable(effect, problem)
+        reason = _COMMAND.get(name) or _untestable(effect, problem)
         if reason:
             cannot[name] = reason
             continue

@@ -81,7 +81,9 @@ def _heard_anew(campaign: Campaign, base: BaseFit, state: Search) -> Campaign | 
     A filter that nobody knew was read from reversals by a law that lacked an effect, and has bent itself to it.
     """
     found = state.final
-    if campaign.logger.known or not found.terms or found.account.level("pads", held_out=False) < 1.0 + MATERIAL:
+    if campaign.logger.known or not base.problem.balanced or not found.terms:
+        return None  # of one slider no filter is told from a law, see `fit_base`
+    if found.account.level("pads", held_out=False) < 1.0 + MATERIAL:
         return None
     before, now = base.campaign.logger.every, estimated_logger(campaign, base.model, found.solution, found.terms)
     if before and (now.order, now.phase) == (before.order, before.phase):

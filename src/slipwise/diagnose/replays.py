@@ -1,11 +1,13 @@
 """Free replays of a held-out run: the measurement, the model before and the model after, for the viewer."""
 
+import numpy as np
+
 from slipwise.campaign import measured_states
 from slipwise.diagnose.result import Diagnosis
 from slipwise.fit.base import BaseFit
 from slipwise.model import Model
 from slipwise.record import Record
-from slipwise.replay import replay
+from slipwise.replay import DT, replay
 from slipwise.system import measured_motion
 
 
@@ -27,7 +29,16 @@ def replays(found: Diagnosis) -> tuple[Record, list[tuple[str, Record]]]:
     models = [("base model", found.search.base)]
     if found.search.best.terms:
         models.append((f"with {' and '.join(found.search.best.names)}", found.final))
-    return states.record, [(label, replay(_mechanics(fit), motion, output_dt=0.002).record) for label, fit in models]
+    dt = simulation_step(states.dt)
+    return states.record, [
+        (label, replay(_mechanics(fit), motion, dt=dt, output_dt=states.dt).record) for label, fit in models
+    ]
+
+
+def simulation_step(sampling: float) -> float:
+    """Give the step of a simulation, the usual one at most, of which the step of a record is a multiple, both [s]."""
+    # a step that was read from a file's times is off by rounding
+    return sampling / float(np.ceil(sampling / DT * (1.0 - 1e-9)))
 
 
 def _mechanics(fit: BaseFit) -> Model:
