@@ -1,13 +1,17 @@
 """What a diagnosis says of the next test, of rivals, and of the ladder that it climbed."""
 
+from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
+from typing import Any, cast
 
 import pytest
 
 from slipwise.diagnose import diagnose
+from slipwise.errors import SimulationError
 from slipwise.ladder import ladder_of
 from slipwise.next_test import Limits, next_test, rivals
+from slipwise.replay import SimulationDiverged
 from slipwise.view.diagnosis_page import diagnosis_page
 
 
@@ -25,11 +29,37 @@ def test_a_rival_is_no_mere_addition_to_the_best(found):
 def test_a_motion_that_slides_tells_rivals_apart_and_one_that_sticks_does_not(found):
     slow, fast, far = "sine:0.5Hz,0.03g,cycles=9", "quake:seed=2,peak=0.7g,f=4Hz,strong=3s", "sine:0.5Hz,0.5g,cycles=9"
     ranked = next_test(found, Limits(stroke=0.2), library=(slow, far, fast))
-    assert [p.motion for p in ranked.proposals] == [fast, slow, far]
-    first, second, refused = ranked.proposals
-    assert first.separation > 1.0 > 0.1 > second.separation
-    assert "stroke" in refused.refused
-    assert all(p.probability >= ranked.now for p in ranked.proposals)
+    by = {p.motion: p for p in ranked.proposals}
+    smaller = next(m for m in by if m not in (slow, far, fast))
+    assert by[fast].separation > 1.0 > 0.1 > by[slow].separation
+    assert smaller.startswith("sine:0.5Hz,0.2") and not by[smaller].refused
+    assert ranked.proposals[-1].motion == far and "stroke" in by[far].refused
+    assert all(p.probability >= ranked.chances[0] for p in ranked.proposals)
+
+
+def test_three_rivals_are_told_apart_by_the_two_that_are_hardest_to_tell(found):
+    best, rival = rivals(found)
+    third = next(h for h in found.search.tried if h.names not in (best.names, rival.names) and len(h.terms) == 1)
+    quake = ("quake:seed=2,peak=0.7g,f=4Hz,strong=3s",)
+
+    def separation(*near):
+        verdict = replace(found.verdict, kind="ambiguous", rivals=near)
+        ranked = next_test(replace(found, verdict=verdict), library=quake)
+        assert ranked.chances == (found.verdict.probability / (1 + len(near)),) * (1 + len(near))
+        return ranked.proposals[0].separation
+
+    assert separation(rival, third) <= min(separation(rival), separation(third))
+
+
+def test_a_simulation_that_fails_is_no_motion_that_tells_nothing(found, monkeypatch):
+    def diverged(*_, **__):
+        raise SimulationDiverged(
+            "the simulation was stopped at 1 s: the slip grew beyond 5 m. Try less", cast(Any, None)
+        )
+
+    monkeypatch.setattr("slipwise.next_test.replay", diverged)
+    with pytest.raises(SimulationError, match="stopped at 1 s: the slip grew beyond 5 m"):
+        next_test(found)
 
 
 def test_the_ladder_and_the_page_of_a_diagnosis_tell_the_same_errors(found):
