@@ -1,4 +1,4 @@
-"""The paper's own discovery, found by the tool: Coulomb's law lacks that friction grows with pressure and with speed."""
+"""The paper's own discovery, found by the tool: Coulomb lacks that friction grows with pressure and with speed."""
 
 from dataclasses import replace
 

@@ -1,0 +1,37 @@
+"""One slider whose logger nobody knows: its pre-sliding is named, and its error falls on a run that no fit has seen."""
+
+import numpy as np
+import pytest
+
+from slipwise.campaign import load_campaign
+from slipwise.diagnose import diagnose
+from slipwise.effects.presliding import RATED
+from unit.campaign.slider import HEADER, RUNS, text
+
+LENGTH = 2.0  # mm
+
+
+def bristle(seed: int, frequency: float) -> np.ndarray:
+    """Give time [s], slip [mm], load [kN] and Dahl's friction [kN], dF/dx = (1 - F sgn v / F_b) F_b / u, (n, 4)."""
+    rng = np.random.default_rng(seed)
+    fine = np.arange(0.0, 6.0, 1e-4)
+    slip = 15.0 * np.sin(2.0 * np.pi * frequency * fine)
+    share = np.zeros(len(fine))
+    for i, step in enumerate(np.diff(slip), start=1):
+        share[i] = np.sign(step) + (share[i - 1] - np.sign(step)) * np.exp(-abs(step) / LENGTH)
+    every = slice(None, None, 50)
+    noise = rng.standard_normal((3, len(fine[every])))
+    load, force = 10.0 + 0.02 * noise[0], 1.2 * share[every] + 0.005 * noise[1]
+    return np.stack([fine[every], slip[every] + 0.005 * noise[2], load, force], axis=1)
+
+
+def test_the_presliding_of_a_slider_is_named(tmp_path):
+    (tmp_path / "campaign.toml").write_text(f'name = "slider"\nrig = "pad"\n{RUNS}')
+    (tmp_path / "one.csv").write_text(text(bristle(1, 0.5), HEADER))
+    (tmp_path / "two.csv").write_text(text(bristle(2, 0.7), HEADER))
+    found = diagnose(load_campaign(tmp_path))
+    assert found.verdict.effects == ("presliding",)
+    values = {key.rpartition(".")[2]: i.value for key, i in found.candidates[0].parameters.items()}
+    length = values["length"] * (1200.0 / RATED) ** values["growth"]  # one load does not tell the two apart
+    assert length == pytest.approx(1e-3 * LENGTH, rel=0.03)
+    assert found.final_error < 0.3 * found.base_error
