@@ -84,7 +84,7 @@ def _untestable(effect: Effect, problem: Problem) -> str:
     if effect.component == "buffer" and (not specimen.buffer_stiffness or "girder" not in relations):
         return "no buffers, or no girder_ax or pad forces to see them by"
     if effect.component in ("girder", "table", "pad load") and not problem.balanced:
-        return "one slider has no balance of a girder"
+        return "needs the balances of a girder: load and friction of all four pads, and accelerations"
     if effect.name in ("girder_bending", "key_friction") and "heave" not in relations:
         return "needs girder_az and the loads of four pads"
     if effect.name == "anisotropy" and "across" not in relations:
@@ -127,7 +127,8 @@ def _aimed(effect: Effect, problem: Problem) -> Iterator[Term]:
     for group, targets in groups(problem).items():
         cell = group.startswith("pad_")
         if effect.name == "load_crosstalk":
-            if cell and (free or group.endswith("Fx")):
+            crossing = [f"pad_{t[4]}_{'N' if t.endswith('Fx') else 'Fx'}" for t in targets] if cell else []
+            if cell and problem.runs[0].record.has_all(*crossing) and (free or group.endswith("Fx")):
                 yield Term(effect, targets, group)
         elif effect.name == "cell_inertia":
             if group in ("pad_*_N", "pad_A_N") and len(targets) == len(problem.runs[0].pads):

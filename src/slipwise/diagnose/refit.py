@@ -163,8 +163,8 @@ def polished(found: Hypothesis) -> Hypothesis:
 def as_reported(found: Hypothesis) -> Hypothesis:
     """Fit on, weighed by its own law and finer, as what is reported of it should be.
 
-    A slider's gauges are often so quiet that nearly all its floor is what the base law's reversals leave unsure: another
-    floor would make its error before and after two different things.
+    A slider's gauges are often so quiet that nearly all its floor is what the base law's reversals leave unsure:
+    another floor would make its error before and after two different things.
     """
     if not found.problem.balanced:
         return found

@@ -27,7 +27,7 @@ def replays(found: Diagnosis) -> tuple[Record, list[tuple[str, Record]]]:
     states = measured_states(run, campaign)
     motion = measured_motion(states)
     models = [("base model", found.search.base)]
-    if found.search.best.terms:
+    if found.final is not found.search.base:
         models.append((f"with {' and '.join(found.search.best.names)}", found.final))
     dt = simulation_step(states.dt)
     return states.record, [
