@@ -134,10 +134,11 @@ def next_test(
         progress: called with what is being done and the share done.
 
     Raises:
-        InputError: no effect can be held against the best hypothesis.
+        InputError: the rig's slip is prescribed, or no effect can be held against the best hypothesis.
         SimulationError: no motion could be judged.
         SlipwiseError: a motion of the library cannot be read.
     """
+    refuse_prescribed(found.final.campaign)
     tell = progress or (lambda words, share: None)
     asked = _asked(library, limits or Limits())
     tell("rivals", 0.0)
@@ -158,6 +159,19 @@ def next_test(
     ranked = sorted(out, key=lambda p: (bool(p.refused), bool(p.failed), -p.separation))
     words = _words(found, contest, max((p.separation for p in judged), default=np.inf))
     return NextTest(tuple(h.names for h in contest), chances, tuple(ranked), words)
+
+
+def refuse_prescribed(campaign: Campaign) -> None:
+    """Refuse one slider on an actuator: a simulation knows neither its load nor what the actuator can do.
+
+    Raises:
+        InputError: it is one.
+    """
+    if not campaign.specimen.free:
+        raise InputError(
+            f"{campaign.name}: the slip of rig {campaign.rig!r} is prescribed, so there is no table motion to choose. "
+            "`slipwise diagnose` names the rivals, `slipwise effects NAME` the test that tells an effect from others"
+        )
 
 
 def rivals(found: Diagnosis) -> tuple[Hypothesis, ...]:

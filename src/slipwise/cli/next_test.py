@@ -7,7 +7,7 @@ import typer
 
 from slipwise.campaign import load_campaign
 from slipwise.cli.console import OUT, out_folder, print_json
-from slipwise.cli.diagnose import CampaignFolder, Json, ModelFile, start_model, steps
+from slipwise.cli.diagnose import CampaignFolder, Json, ModelFile, Own, own_effects, start_model, steps
 from slipwise.record import write_json
 from slipwise.units import quantity
 
@@ -22,6 +22,7 @@ def next_motion(
     speed: Annotated[str, typer.Option(help="The table's largest speed.")] = "1.5 m/s",
     acceleration: Annotated[str, typer.Option(help="The table's largest acceleration.")] = "1 g",
     model: ModelFile = None,
+    effect: Own = None,
     json: Json = False,
 ) -> None:
     """Rank table motions by how well they would tell the remaining rivals apart.
@@ -32,7 +33,7 @@ def next_motion(
     Example: `slipwise next campaigns/march --stroke "150 mm"`
     """
     from slipwise.diagnose import diagnose
-    from slipwise.next_test import Limits, next_test
+    from slipwise.next_test import Limits, next_test, refuse_prescribed
 
     limits = Limits(
         quantity(stroke, "m", "--stroke"),
@@ -40,9 +41,11 @@ def next_motion(
         quantity(acceleration, "m/s^2", "--acceleration"),
     )
     measured = load_campaign(campaign)
+    refuse_prescribed(measured)
+    start, own = start_model(campaign, model), own_effects(effect)
     folder = None if out is None else out_folder(out)
     with steps() as tell:
-        found = diagnose(measured, start_model(campaign, model), progress=lambda words, share: tell(words, 0.5 * share))
+        found = diagnose(measured, start, own=own, progress=lambda words, share: tell(words, 0.5 * share))
         ranked = next_test(found, limits, progress=lambda words, share: tell(words, 0.5 + 0.5 * share))
     rows = [
         {
@@ -58,8 +61,11 @@ def next_motion(
     content = {
         "best": list(ranked.rivals[0]),
         "rival": list(ranked.rivals[1]),
-        "probability": ranked.chances[0],
-        "rivals": [{"effects": list(n), "probability": c} for n, c in zip(ranked.rivals, ranked.chances, strict=True)],
+        "probability": round(ranked.chances[0], 3),
+        "rivals": [
+            {"effects": list(names), "probability": round(chance, 3)}
+            for names, chance in zip(ranked.rivals, ranked.chances, strict=True)
+        ],
         "words": ranked.words,
         "motions": rows,
     }
