@@ -23,9 +23,9 @@ import numpy as np
 from slipwise.campaign import Campaign, Run
 from slipwise.compare.system_level import replayed_model
 from slipwise.diagnose import Diagnosis, Search
+from slipwise.diagnose.candidates import ONE_THING
 from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, polished, refit
 from slipwise.diagnose.replays import simulation_step
-from slipwise.diagnose.verdict import ONE_THING
 from slipwise.diagnose.worth import MATERIAL, score, worth
 from slipwise.errors import InputError, SettingError, SimulationError, SlipwiseError, UnitError
 from slipwise.fit.base import fit_base

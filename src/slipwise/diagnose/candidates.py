@@ -13,6 +13,8 @@ from slipwise.fit.terms import Term
 BASE_PARTS: frozenset[str] = frozenset({"pad_compliance"})
 #: Faults of samples rather than of signals: found by looking at the samples, see `samples.py`.
 SAMPLE_FAULTS: frozenset[str] = frozenset({"channel_sign", "channel_clipping", "dropped_samples"})
+#: One thing to a rig that measures neither yaw nor pitch: one acts at the buffers, the other on the whole girder.
+ONE_THING: tuple[frozenset[str], ...] = (frozenset({"buffer_damping", "guide_drag"}),)
 #: Laws of the table's command: the fit is driven by the motion that was measured.
 _COMMAND: dict[str, str] = {
     "table_gain": "the model is driven by the measured table motion; only the command could show it",
@@ -62,6 +64,11 @@ def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], d
         else:
             terms.append(Term(effect))
     return terms, cannot | _confounded(problem)
+
+
+def parts_twins(problem: Problem) -> bool:
+    """Tell whether a campaign measured what parts the effects of `ONE_THING`: yaw, or the girder's pitch."""
+    return problem.runs[0].states.has_yaw or "pitch" in problem.relations
 
 
 def _confounded(problem: Problem) -> dict[str, str]:

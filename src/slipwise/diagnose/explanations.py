@@ -3,8 +3,9 @@
 from collections.abc import Mapping, Sequence
 from itertools import combinations, product
 
+from slipwise.diagnose.candidates import ONE_THING
 from slipwise.diagnose.search import Search
-from slipwise.diagnose.verdict import ONE_THING, Verdict
+from slipwise.diagnose.verdict import Verdict
 from slipwise.effects import Effect, catalogue
 
 Explanation = tuple[str, ...]

@@ -10,13 +10,14 @@ import numpy as np
 from slipwise.campaign import Campaign, load_campaign
 from slipwise.compare.intervals import Interval, intervals
 from slipwise.compare.system_level import system_level
+from slipwise.diagnose.candidates import ONE_THING
 from slipwise.diagnose.explore import Explored, explore
 from slipwise.diagnose.least import least_sizes
 from slipwise.diagnose.refit import Account, Hypothesis
 from slipwise.diagnose.result import Candidate, Diagnosis
 from slipwise.diagnose.search import Search
 from slipwise.diagnose.untold import untold
-from slipwise.diagnose.verdict import ONE_THING, Verdict, judge, with_faults
+from slipwise.diagnose.verdict import Verdict, judge, with_faults
 from slipwise.diagnose.worth import score, worth
 from slipwise.effects import Effect
 from slipwise.errors import InputError
@@ -171,7 +172,8 @@ def _shares(state: Search, verdict: Verdict, listed: list[Hypothesis]) -> list[f
     weights = np.array([max(score(origin.account, h.account), 1e-9) for h in listed])
     if not named:
         return [float(x) for x in (1.0 - verdict.probability) * weights / weights.sum()]
-    alike = [h is state.best or any(h is r for r in verdict.rivals) or _is_one_thing(h, state.best) for h in listed]
+    rivals = verdict.rivals or [h for h in listed if _is_one_thing(h, state.best)]
+    alike = [h is state.best or any(h is r for r in rivals) for h in listed]
     tied = np.array(alike) if verdict.kind == "ambiguous" else np.array([h is state.best for h in listed])
     weights[tied] = 0.0
     rest = (1.0 - verdict.probability) * weights / max(weights.sum(), 1e-12)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.diagnose.candidates import candidates
+from slipwise.diagnose.candidates import ONE_THING, candidates
 from slipwise.diagnose.choose import best_of, various
 from slipwise.diagnose.pairs import leading_pair
 from slipwise.diagnose.refit import STICK_LENGTH, Hypothesis, as_reported, base_hypothesis, polished, refit, strained
@@ -95,6 +95,7 @@ def search(base: BaseFit, own: Iterable[Effect] = (), progress: Callable[[str, f
     if _swap(state):
         _prune(state)
     if state.best.terms:
+        _try_twin(state)
         _simplify(state)
         tell("settling", 0.95)
         state.settled = as_reported(state.best)
@@ -225,6 +226,22 @@ def _swap(state: Search) -> bool:
             state.path.append(max(better, key=lambda h: score(origin, h.account)))
             return True
     return False
+
+
+def _try_twin(state: Search) -> None:
+    """Refit what is nearly one thing with an effect in its place: a screen sees little of it beside that effect."""
+    best, origin = state.best, state.path[0].account
+    for term in best.terms:
+        twins = {name for pair in ONE_THING if term.effect.name in pair for name in pair} - set(best.names)
+        rest = [t for t in best.terms if t.label != term.label]
+        for twin in (t for t in state.terms if t.effect.name in twins):
+            again = _tried_before(state, [*rest, twin]) or [_try(state, [*rest, twin], _typical(twin), best)]
+            if score(origin, again[0].account) > score(origin, state.best.account):
+                state.path.append(again[0])
+
+
+def _typical(term: Term) -> dict[str, dict[str, float]]:
+    return {term.label: term.effect.typical()}
 
 
 def _simplify(state: Search) -> None:

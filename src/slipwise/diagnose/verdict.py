@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from slipwise.diagnose.candidates import ONE_THING, parts_twins
 from slipwise.diagnose.leftover import Surface, leftover, structured
 from slipwise.diagnose.refit import Account, Hypothesis, cornered, strained
 from slipwise.diagnose.samples import SampleFault
@@ -29,8 +30,8 @@ LOUD = 1.5
 #: Rivals whose scores differ by less than this much cannot be told apart; nor can those that differ by less than this
 #: share of it, and of what the better one leaves: a law of not quite the right form leaves something as well.
 _SAME_SCORE, _SAME_SHARE, _SAME_EXCESS = 60.0, 0.004, 0.5
-#: One thing to a rig without a gauge that could part them.
-ONE_THING: tuple[frozenset[str], ...] = (frozenset({"buffer_damping", "guide_drag"}),)
+#: The same share for two faults of gauges: both have one form only, and nothing but noise between them [1].
+_SAME_FAULT = 5e-4
 #: Nobody is surer than this of what no run has confirmed that was not fitted [1].
 _UNCONFIRMED = 0.9
 
@@ -104,7 +105,7 @@ def _judged(state: Search) -> Verdict:
         every = tuple(dict.fromkeys(n for h in (best, *rivals) for n in h.names))
         return Verdict("ambiguous", every, probability, left, explained, surface, rivals)
     for pair in ONE_THING:
-        if len(pair & set(names)) == 1 and not best.problem.runs[0].states.has_yaw:
+        if len(pair & set(names)) == 1 and not parts_twins(best.problem):
             every = (*sorted(pair), *(n for n in names if n not in pair))
             return Verdict("ambiguous", every, probability, left, explained, surface, ())
     instruments = all(t.effect.component == "instrument" for t in best.terms)
@@ -161,10 +162,18 @@ def _rivals(state: Search, best: Hypothesis) -> tuple[Hypothesis, ...]:
         shared = [score(origin.account, o.account) for o in state.tried if o.names and set(o.names) <= common]
         behind = top - score(origin.account, h.account)
         # only what is explained beyond the effects that both name can tell the two apart
-        near = max(_SAME_SCORE, min(_SAME_SHARE * (top - max(shared, default=0.0)), unexplained))
+        share = _SAME_FAULT if _faults_only(h, best) else _SAME_SHARE
+        near = max(_SAME_SCORE, min(share * (top - max(shared, default=0.0)), unexplained))
         if behind < near and material(origin.account, origin.account, h.account):
             out[h.names] = h
     return tuple(out.values())
+
+
+def _faults_only(one: Hypothesis, other: Hypothesis) -> bool:
+    """Tell whether two hypotheses differ by faults of gauges only."""
+    differ = set(one.names) ^ set(other.names)
+    of = {t.effect.name: t.effect.component for t in (*one.terms, *other.terms)}
+    return all(of[name] == "instrument" for name in differ)
 
 
 def _margin(state: Search, best: Hypothesis) -> float:
