@@ -12,9 +12,7 @@ the effect explains at no size. Of three rivals the two that are hardest to tell
 The specimen is taken as new: what pads and buffers remember of the campaign's runs is not carried on.
 """
 
-import re
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import combinations, product
 
@@ -27,57 +25,20 @@ from slipwise.diagnose.candidates import ONE_THING
 from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, polished, refit
 from slipwise.diagnose.replays import simulation_step
 from slipwise.diagnose.worth import MATERIAL, score, worth
-from slipwise.errors import InputError, SettingError, SimulationError, SlipwiseError, UnitError
+from slipwise.errors import InputError, SimulationError, SlipwiseError
 from slipwise.fit.base import fit_base
 from slipwise.fit.terms import Term
 from slipwise.model import Model
-from slipwise.motion import displacement_peak, parse_motion, velocity_peak
+from slipwise.motion import parse_motion
+from slipwise.next_motions import LIBRARY, Limits, motions_for
 from slipwise.record import Record
 from slipwise.replay import replay
 from slipwise.signals import lowpass
-from slipwise.units import quantity
 
-#: Motions that laboratories make: slow and fast, small and large, with and without vertical part.
-LIBRARY: tuple[str, ...] = (
-    "sine:0.5Hz,0.03g,cycles=9",
-    "triangle:0.25Hz,3cm/s,cycles=4",
-    "sine:1.6Hz,0.2g,cycles=12",
-    "sine:1.6Hz,0.2g,cycles=12,vertical=5Hz,0.25g",
-    "sine:4.2Hz,0.5g,cycles=24",
-    "sine:4.2Hz,0.5g,cycles=24,vertical=6.5Hz,0.3g",
-    "quake:seed=1,peak=0.4g,f=4Hz,strong=4s",
-    "quake:seed=2,peak=0.7g,f=4Hz,strong=4s,vertical=0.3g",
-    "quake:seed=3,peak=0.7g,f=3Hz,strong=5s,vertical=0.6g",
-)
 #: No motion makes anybody surer than this.
 _SUREST = 0.99
 #: Rivals that are held against each other: three cost nine fits a motion.
 _MOST = 3
-#: A smaller motion is made smaller by this share more, so that three figures do not round it beyond the limits [1].
-_ROUNDING = 0.005
-_NUMBER_AND_UNIT = re.compile(r"([\d.]+(?:[eE][-+]?\d+)?)(\s*[A-Za-z].*)")
-
-
-@dataclass(frozen=True)
-class Limits:
-    """What the table can do. Source of the defaults: DPRI, Kyoto University, the paper's table.
-
-    Attributes:
-        stroke: from the middle [m].
-        speed: [m/s].
-        acceleration: [m/s^2].
-    """
-
-    stroke: float = 0.3
-    speed: float = 1.5
-    acceleration: float = 9.8
-
-    def __post_init__(self) -> None:
-        """Refuse what no table is limited to."""
-        for name, unit in (("stroke", "m"), ("speed", "m/s"), ("acceleration", "m/s^2")):
-            value = getattr(self, name)
-            if not 0.0 < value < np.inf:
-                raise SettingError(f"a table with a {name} of {value:g} {unit} cannot be; give a value above zero")
 
 
 @dataclass(frozen=True)
@@ -140,7 +101,7 @@ def next_test(
     """
     refuse_prescribed(found.final.campaign)
     tell = progress or (lambda words, share: None)
-    asked = _asked(library, limits or Limits())
+    asked = motions_for(library, limits or Limits())
     tell("rivals", 0.0)
     every = rivals(found)
     contest, chances = every[:_MOST], _chances(found, every)[:_MOST]
@@ -241,45 +202,6 @@ def _later(chances: Sequence[float], separation: float) -> float:
     # A material difference leaves a third of the others' odds, twice that a ninth.
     together, odds = sum(chances), sum(chances[1:]) * float(np.exp(-separation / MATERIAL))
     return max(chances[0], min(_SUREST, together * chances[0] / max(chances[0] + odds, 1e-12)))
-
-
-def _asked(library: Sequence[str], limits: Limits) -> dict[str, str]:
-    """Give motion -> why the table cannot make it; where it cannot, also the motion as far as it can."""
-    out: dict[str, str] = {}
-    for text in library:
-        refused, share = _beyond(text, limits)
-        if refused:
-            smaller = ",".join(_times(part, (1.0 - _ROUNDING) * share) for part in text.split(","))
-            if not _beyond(smaller, limits)[0]:
-                out[smaller] = ""
-        out[text] = refused
-    return out
-
-
-def _beyond(text: str, limits: Limits) -> tuple[str, float]:
-    """Give where a motion exceeds the limits, in words, and the share of it that the table can do [1]."""
-    motion = parse_motion(text)
-    reached = {
-        "stroke": (float(displacement_peak(motion, "none").max()), limits.stroke, "m"),
-        "speed": (float(velocity_peak(motion, "none").max()), limits.speed, "m/s"),
-        "acceleration": (float(motion.peaks.max()), limits.acceleration, "m/s^2"),
-    }
-    over = {name: each for name, each in reached.items() if each[0] > each[1]}
-    words = [f"{name} {have:.2g} of {can:.2g} {unit}" for name, (have, can, unit) in over.items()]
-    return ", ".join(words), min((can / have for have, can, _ in over.values()), default=1.0)
-
-
-def _times(part: str, share: float) -> str:
-    """Give a part of a motion's text, "vertical=5Hz" or "0.25g", with its acceleration or speed times a share."""
-    start = max(part.rfind(":"), part.rfind("=")) + 1
-    found = _NUMBER_AND_UNIT.fullmatch(part[start:].strip())
-    if found is None:
-        return part
-    for dimension in ("m/s^2", "m/s"):
-        with suppress(UnitError):
-            quantity(found[0], dimension, part)
-            return f"{part[:start]}{share * float(found[1]):.3g}{found[2]}"
-    return part
 
 
 def _as_shaken(found: Diagnosis, right: Hypothesis) -> Model:

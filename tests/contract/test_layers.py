@@ -16,7 +16,7 @@ LAYERS: tuple[tuple[str, ...], ...] = (
     ("model", "model_file"),
     ("kernel", "predict", "replay", "loops", "loads", "pier", "demonstration"),
     ("campaign", "audit", "floor", "system", "compare", "fit"),
-    ("diagnose", "ladder", "next_test", "paper", "demo"),
+    ("diagnose", "ladder", "next_motions", "next_test", "paper", "demo"),
     ("view",),
     ("cli",),
 )

@@ -10,7 +10,8 @@ import pytest
 from slipwise.diagnose import diagnose
 from slipwise.errors import SimulationError
 from slipwise.ladder import ladder_of
-from slipwise.next_test import Limits, next_test, rivals
+from slipwise.next_motions import Limits
+from slipwise.next_test import next_test, rivals
 from slipwise.replay import SimulationDiverged
 from slipwise.view.diagnosis_page import diagnosis_page
 

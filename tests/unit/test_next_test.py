@@ -16,7 +16,8 @@ from slipwise.effects import catalogue
 from slipwise.errors import SettingError, SimulationError, SlipwiseError
 from slipwise.fit.terms import Term
 from slipwise.motion import displacement_peak, parse_motion, velocity_peak
-from slipwise.next_test import LIBRARY, Limits, next_test, rivals
+from slipwise.next_motions import LIBRARY, Limits
+from slipwise.next_test import next_test, rivals
 
 COUNT = 10_000
 SMALL = Limits(stroke=0.02, speed=0.2, acceleration=2.0)

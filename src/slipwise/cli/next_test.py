@@ -33,7 +33,8 @@ def next_motion(
     Example: `slipwise next campaigns/march --stroke "150 mm"`
     """
     from slipwise.diagnose import diagnose
-    from slipwise.next_test import Limits, next_test, refuse_prescribed
+    from slipwise.next_motions import Limits
+    from slipwise.next_test import next_test, refuse_prescribed
 
     limits = Limits(
         quantity(stroke, "m", "--stroke"),

@@ -3,6 +3,7 @@
 import numpy as np
 
 from slipwise.campaign import measured_states
+from slipwise.compare.system_level import replayed_model
 from slipwise.diagnose.result import Diagnosis
 from slipwise.fit.base import BaseFit
 from slipwise.model import Model
@@ -42,6 +43,6 @@ def simulation_step(sampling: float) -> float:
 
 
 def _mechanics(fit: BaseFit) -> Model:
-    model = fit.problem.model(fit.solution.values)
+    model, _ = replayed_model(fit)
     gauges = [u.label for u in model.on_port("gauge")]
     return model.without(*gauges)
