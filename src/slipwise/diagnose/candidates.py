@@ -60,7 +60,10 @@ def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], d
             if all(u.effect.replaces != effect.replaces for u in model.uses):
                 terms.append(Term(effect))
         elif effect.target:
-            terms += list(_aimed(effect, problem))
+            aimed = list(_aimed(effect, problem))
+            terms += aimed
+            if not aimed:
+                cannot[name] = "no gauge was recorded on which it would show"
         else:
             terms.append(Term(effect))
     return terms, cannot | _confounded(problem)

@@ -131,7 +131,7 @@ def _gauges_not_tried(state: Search) -> Iterator[tuple[str, str]]:
 
 def _vanished(state: Search) -> Iterator[tuple[str, str]]:
     """Say why nothing came of the candidates that screening saw nothing in; that a sign was wrong is no reason."""
-    seen = {s.term.effect.name for s in state.screened}
+    seen = {s.term.effect.name for s in (*state.screened, *state.opposed)}
     gone = [t for t in state.terms if t.effect.name not in seen]
     project = projector(state.base.solution.jacobian)
     reasons: dict[str, set[str]] = {}

@@ -131,10 +131,17 @@ def test_a_column_that_others_can_make_is_not_told_however_long_it_is() -> None:
 
 def test_a_candidate_that_cannot_be_evaluated_is_said_with_the_error() -> None:
     base = fit_base(slider(0.3, pressure=True))
-    terms = [t for t in candidates(base)[0] if t.effect.name in ("load_crosstalk", "slide_tilt")]
-    found = said(base, terms, screened=False)
+    terms = [t for t in candidates(base)[0] if t.effect.name == "slide_tilt"]
+    unfit = Term(catalogue()["load_crosstalk"], ("pad_A_Fx",), "pad_A_Fx")
+    found = said(base, [*terms, unfit], screened=False)
     assert found["load_crosstalk"].startswith("it could not be evaluated: ") and "pad_A_N" in found["load_crosstalk"]
     assert "slide_tilt" not in found
+
+
+def test_cross_talk_is_not_tried_where_no_load_was_recorded() -> None:
+    terms, cannot = candidates(fit_base(slider(0.3, pressure=True)))
+    assert "load_crosstalk" not in {t.effect.name for t in terms}
+    assert cannot["load_crosstalk"] == "no gauge was recorded on which it would show"
 
 
 def test_an_effect_that_changes_nothing_that_was_measured_is_said() -> None:
