@@ -23,7 +23,7 @@ from slipwise.model import Model
 
 _SEED = 1
 #: An error below this is down to the floor [floors].
-_DOWN = 1.15
+DOWN = 1.15
 
 
 @dataclass(frozen=True)
@@ -187,7 +187,7 @@ def _why(state: Search) -> str:
         return "no effect of the catalogue can be tested here"
     account = state.final.account
     worst = max(error_of(account, relation) for relation in account.fitted)
-    if worst < _DOWN:
+    if worst < DOWN:
         return "nothing above the noise floor is left"
     if len(state.best.terms) >= MOST_EFFECTS:
         return f"{MOST_EFFECTS} effects are the most that are added; {worst:.2g} floors are left"

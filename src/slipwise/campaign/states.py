@@ -245,11 +245,12 @@ def _along(record: Record, specimen: Specimen, gauges: Mapping[str, Gauge], miss
     if pitch is None:
         return fuse(record.time, record["slip_x"], relative, recorded, levels)
     lean = specimen.centre_height * pitch
-    raised = None if recorded is None else recorded + derivative(lean, record.dt)
+    leaning = derivative(lean, record.dt)
+    raised = None if recorded is None else recorded + leaning
     fused = fuse(record.time, record["slip_x"] + lean, relative, raised, levels)
     return Fused(
         position=fused.position - lean,
-        velocity=fused.velocity - derivative(lean, record.dt),
+        velocity=fused.velocity - leaning,
         acceleration=fused.acceleration,
         bias=fused.bias,
         velocity_error=fused.velocity_error,

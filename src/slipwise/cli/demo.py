@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
 #: Worst places of the error that are told.
 _TOLD = 3
-#: A balance below this is down to the noise [floors]; the ladder's own limit.
-_DOWN = 1.15
 
 
 def demo(
@@ -116,8 +114,9 @@ def _say(title: str, words: str) -> None:
 def _left(found: "Diagnosis") -> str:
     """Say what is left above the noise when the named effects are in the model."""
     from slipwise.compare.component import NAMES
+    from slipwise.ladder import DOWN
 
-    over = [f"{NAMES[name][0]} {after:.2f}" for name, (_, after) in found.relations.items() if after >= _DOWN]
+    over = [f"{NAMES[name][0]} {after:.2f}" for name, (_, after) in found.relations.items() if after >= DOWN]
     if over:
         return f"still above the noise, in floors: {', '.join(over)}"
     if found.verdict.leftover != "none":

@@ -235,13 +235,10 @@ def _try_twin(state: Search) -> None:
         twins = {name for pair in ONE_THING if term.effect.name in pair for name in pair} - set(best.names)
         rest = [t for t in best.terms if t.label != term.label]
         for twin in (t for t in state.terms if t.effect.name in twins):
-            again = _tried_before(state, [*rest, twin]) or [_try(state, [*rest, twin], _typical(twin), best)]
+            typical = {twin.label: twin.effect.typical()}
+            again = _tried_before(state, [*rest, twin]) or [_try(state, [*rest, twin], typical, best)]
             if score(origin, again[0].account) > score(origin, state.best.account):
                 state.path.append(again[0])
-
-
-def _typical(term: Term) -> dict[str, dict[str, float]]:
-    return {term.label: term.effect.typical()}
 
 
 def _simplify(state: Search) -> None:

@@ -37,22 +37,22 @@ def untold(state: Search, final: BaseFit) -> list[tuple[str, str]]:
         state: of the search.
         final: its best hypothesis as a fit.
     """
+    project = projector(state.base.solution.jacobian)
     return [
         *unidentified(final, state.base),
-        *_alike(state),
+        *_alike(state, project),
         *_rests_not_given(state),
         *_nothing_held_out(state.base),
         *_gauges_not_tried(state),
-        *_vanished(state),
+        *_vanished(state, project),
     ]
 
 
-def _alike(state: Search) -> Iterator[tuple[str, str]]:
+def _alike(state: Search, project: Callable[[Array], Array]) -> Iterator[tuple[str, str]]:
     """Find pairs of which one fades in a pause and the other does not, and which look alike in these runs."""
     base = state.base
     effects = {t.effect.name: t.effect for t in state.terms if t.effect.memory and not t.effect.target}
     pairs = [(a, b) for a in effects.values() for b in effects.values() if _parted_by_a_pause(a, b)]
-    project = projector(base.solution.jacobian)
     for fading, lasting in pairs:
         one, other = (_traces(base, effect, project) for effect in (fading, lasting))
         likeness = max((abs(float(a @ b)) for a in one for b in other), default=0.0)
@@ -129,11 +129,10 @@ def _gauges_not_tried(state: Search) -> Iterator[tuple[str, str]]:
         yield f"faults of {named}", f"never tried{but}"
 
 
-def _vanished(state: Search) -> Iterator[tuple[str, str]]:
+def _vanished(state: Search, project: Callable[[Array], Array]) -> Iterator[tuple[str, str]]:
     """Say why nothing came of the candidates that screening saw nothing in; that a sign was wrong is no reason."""
     seen = {s.term.effect.name for s in (*state.screened, *state.opposed)}
     gone = [t for t in state.terms if t.effect.name not in seen]
-    project = projector(state.base.solution.jacobian)
     reasons: dict[str, set[str]] = {}
     for term in gone:
         reasons.setdefault(term.effect.name, set()).add(_reason(state.base, term, project))

@@ -182,7 +182,8 @@ class Problem:
     def _balance_parts(self, model: Model, values: Mapping[str, float], forces: list[Array]) -> dict[str, list[Array]]:
         runs, scale = self.kinematics.corrected(values, len(forces))
         turning = self.kinematics.turning(values, len(forces))
-        raised, shares = self.kinematics.raised(values), shares_of_noise(self.specimen, runs[0])
+        raised = self.kinematics.raised(values)
+        shares = shares_of_noise(self.specimen, runs[0]) if raised else {}
         law = predictor(model)
         parts: dict[str, list[Array]] = {r: [] for r in self.relations if r in BALANCES}
         hidden = 0.0
