@@ -9,14 +9,13 @@ from slipwise.diagnose.shapes import strengths
 from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
 from slipwise.fit.base import BaseFit
+from slipwise.fit.faults import shifts
 from slipwise.fit.terms import Term
 from slipwise.params import Parameter
 
 Array = NDArray[np.float64]
 #: Size at which a column is taken, as a share of the typical size.
 _SMALL = 0.3
-#: Ports of effects that move measured noise about.
-_MOVES_NOISE = ("gauge", "table")
 
 
 def small(effect: Effect, shape: Mapping[str, float], moved: Parameter) -> dict[str, float]:
@@ -39,7 +38,7 @@ def _like_others(effect: Effect, moved: Parameter) -> float:
 def column_of(base: BaseFit, term: Term, moved: Parameter, values: dict[str, float], left: Array) -> Array | None:
     """Give the change of the residual.
 
-    Undoing a fault moves noise about, and half way between moved and unmoved noise there is less of it, as there is of
+    Undoing a lag moves noise in time, and half way between moved and unmoved noise there is less of it, as there is of
     noise that drives a table and is whitened: a column that looked one way only would find a false gain. Both ways
     together do not.
     """
@@ -48,18 +47,27 @@ def column_of(base: BaseFit, term: Term, moved: Parameter, values: dict[str, flo
         return None
     off = float(moved.neutral or 0.0)
     back = 2.0 * off - values[moved.name]
-    if term.effect.port in _MOVES_NOISE and moved.low <= back <= moved.high:
+    if (term.effect.port == "table" or shifts([term])) and moved.low <= back <= moved.high:
         other = residual_with(base, term, {**values, moved.name: back})
         return None if other is None else 0.5 * (there - other)
     return there - left
 
 
-def residual_with(base: BaseFit, term: Term, values: Mapping[str, float]) -> Array | None:
-    """Give the residual of the fitted runs beside the base fit; None where the candidate cannot be evaluated."""
+def residual_with(
+    base: BaseFit, term: Term, values: Mapping[str, float], moved: Mapping[str, float] | None = None
+) -> Array | None:
+    """Give the residual of the fitted runs with a candidate; None where it cannot be evaluated.
+
+    Args:
+        base: the base fit.
+        term: the candidate.
+        values: of its parameters.
+        moved: base parameters that are not as the base fit left them.
+    """
     problem = base.problem.adding(term)
     keyed = {f"{term.label}.{k}": v for k, v in values.items()}
     try:
-        found = problem.residuals({**base.solution.values, **keyed}, fitted_only=True)
+        found = problem.residuals({**base.solution.values, **(moved or {}), **keyed}, fitted_only=True)
     except SlipwiseError:
         return None
     stacked = found.stacked(problem.fitted, problem.relations)

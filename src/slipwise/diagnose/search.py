@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from slipwise.diagnose.candidates import ONE_THING, candidates
 from slipwise.diagnose.choose import best_of, various
 from slipwise.diagnose.pairs import leading_pair
+from slipwise.diagnose.promise import with_kept
 from slipwise.diagnose.refit import STICK_LENGTH, Hypothesis, as_reported, base_hypothesis, polished, refit, strained
 from slipwise.diagnose.rescreen import rescreen
 from slipwise.diagnose.screen import Screened, screen, screen_shapes
@@ -19,6 +20,8 @@ from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Term
 
 Array = NDArray[np.float64]
+#: Share of what is worth a name from which on a screen's gain is worth a refit [1].
+_HOPEFUL = 0.4
 #: Candidates that are refitted at each step.
 _REFITTED = 4
 _REFITTED_PAIRS = 2
@@ -81,9 +84,11 @@ def search(base: BaseFit, own: Iterable[Effect] = (), progress: Callable[[str, f
     """
     terms, cannot = candidates(base, own)
     tell = progress or (lambda what, share: None)
+    origin = base_hypothesis(base)
     found = screen(base, terms, lambda share: tell("screening", 0.15 + 0.45 * share))
+    found = with_kept(base, found, _worth_a_refit(origin, MATERIAL))
     helping, opposed = ([s for s in found if (s.gain == 0.0) == against] for against in (False, True))
-    state = Search(base, helping, cannot, [base_hypothesis(base)], terms=terms, opposed=opposed)
+    state = Search(base, helping, cannot, [origin], terms=terms, opposed=opposed)
     tell("refitting", 0.6)
     _first(state)
     _reshape(state)
@@ -108,7 +113,7 @@ def _first(state: Search) -> None:
     chosen = various(state.screened, _REFITTED)
     physics = [s for s in state.screened if s.term.effect.component != "instrument"]
     chosen += [s for s in physics[:_REFITTED_PHYSICS] if all(s is not c for c in chosen)]
-    least = 0.4 * MATERIAL * min(n for n, _ in origin.account.counts.values())
+    least = _worth_a_refit(origin, MATERIAL)
     asked = _asked([s for s in chosen if s.gain > least]) + longer_stick(state, origin)
     best = best_of(origin, _try_all(state, asked))
     pair = leading_pair(state.base, state.screened, best)
@@ -169,7 +174,7 @@ def _further(state: Search) -> bool:
     account = before.account
     if all_down(account):
         return False
-    least = 0.4 * MATERIAL_FURTHER * min(n for n, _ in account.counts.values())
+    least = _worth_a_refit(before, MATERIAL_FURTHER)
     found = [s for s in rescreen(state.screened, before) if s.gain > least]
     chosen = various(found, _REFITTED_PAIRS + 1)
     tried = _try_all(state, _asked(chosen, before.terms) + longer_stick(state, before), before)
@@ -179,6 +184,11 @@ def _further(state: Search) -> bool:
         return False
     state.path.append(max(good, key=lambda h: score(before.account, h.account)))
     return True
+
+
+def _worth_a_refit(before: Hypothesis, drop: float) -> float:
+    """Give the gain from which on a candidate is refitted, for a drop of a relation that is worth a name [1]."""
+    return _HOPEFUL * drop * min(n for n, _ in before.account.counts.values())
 
 
 def _asked(chosen: Sequence[Screened], beside: Sequence[Term] = ()) -> list[tuple[list[Term], dict]]:

@@ -87,7 +87,8 @@ def _resonances(effect: Effect, frequency: Parameter) -> list[float]:
 
 
 def variants(effect: Effect, values: dict[str, float]) -> list[dict[str, float]]:
-    """Give the values again, and with a smaller whole number, which no fit changes."""
-    smaller = {p.name: float(values[p.name] // 2) for p in effect.parameters if p.whole and values[p.name] > p.low}
-    others = [{**values, name: value} for name, value in smaller.items()]
-    return [values, *others]
+    """Give the values again, and with a smaller whole number, or the other of two, which no fit changes."""
+    whole = [p for p in effect.parameters if p.whole]
+    others = {p.name: p.low + p.high - values[p.name] for p in whole if _is_either(p)}
+    others |= {p.name: float(values[p.name] // 2) for p in whole if not _is_either(p) and values[p.name] > p.low}
+    return [values, *({**values, name: value} for name, value in others.items())]
