@@ -1,5 +1,6 @@
 """Component level: the laws driven by measured load, slip and speed, without a simulation."""
 
+import os
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache
@@ -80,6 +81,10 @@ class Predictor:
 def _other_thread() -> ThreadPoolExecutor:
     """Give a thread for half of the pads: the compiled law runs beside the one that asks."""
     return ThreadPoolExecutor(1)
+
+
+if hasattr(os, "register_at_fork"):  # a child has no thread of its parent's: what it would ask of it never comes
+    os.register_at_fork(after_in_child=_other_thread.cache_clear)
 
 
 def predictor(model: Model, *, engine: str | None = None, dt: float = 0.002) -> Predictor:

@@ -9,7 +9,7 @@ import pytest
 
 PACKAGE = Path(__file__).parents[2] / "src" / "slipwise"
 LAYERS: tuple[tuple[str, ...], ...] = (
-    ("errors", "units", "params", "channels"),
+    ("errors", "units", "params", "channels", "cores"),
     ("signals", "motion", "record"),
     ("rig",),
     ("effects",),
@@ -22,7 +22,7 @@ LAYERS: tuple[tuple[str, ...], ...] = (
 )
 #: Within a layer the order in which files may see each other.
 WITHIN = {
-    "errors": 0, "units": 1, "params": 1, "channels": 1,
+    "errors": 0, "units": 1, "params": 1, "channels": 1, "cores": 1,
     "signals": 1, "record": 0, "motion": 1,
     "kernel": 0, "predict": 1, "replay": 2, "loops": 0, "loads": 0, "pier": 0, "demonstration": 2,
     "campaign": 0, "audit": 1, "floor": 1, "system": 1, "fit": 2, "compare": 3,

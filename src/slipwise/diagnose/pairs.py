@@ -15,7 +15,7 @@ _PAIR_POOL = 24
 
 
 def leading_pair(
-    base: BaseFit, screened: Sequence[Screened], best: Hypothesis | None
+    base: BaseFit, screened: Sequence[Screened], best: Hypothesis | None, least: float
 ) -> tuple[Screened, Screened] | None:
     """Give the pair that screens best, if the best single is not part of it or there is none.
 
@@ -23,6 +23,7 @@ def leading_pair(
         base: the base fit.
         screened: candidates by their score against it.
         best: the best hypothesis of one effect.
+        least: gain that is worth a refit [1].
     """
     pool = screened[:_PAIR_POOL]
     if len(pool) < 2:
@@ -44,9 +45,9 @@ def leading_pair(
             amounts = np.linalg.solve(two, right[[i, j]])
             if (amounts > 0.0).all():
                 gains[(j, i)] = float(amounts @ right[[i, j]])
-    if not gains:
+    top = max(gains, key=lambda k: gains[k], default=None)
+    if top is None or gains[top] < least:
         return None
-    top = max(gains, key=lambda k: gains[k])
     leader = best.terms[0].label if best else pool[0].term.label
     labels = {k: (pool[k[0]].term.label, pool[k[1]].term.label) for k in gains}
     with_leader = max((g for k, g in gains.items() if leader in labels[k]), default=0.0)

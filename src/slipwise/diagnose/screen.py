@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.cores import on_every_core
 from slipwise.diagnose.columns import column_of, residual_with, small
 from slipwise.diagnose.shapes import shapes, strengths, two_sided
 from slipwise.fit.base import BaseFit
@@ -62,13 +63,18 @@ def screen(base: BaseFit, terms: list[Term], progress: Callable[[float], None] |
     left = base.solution.residuals.stacked(base.problem.fitted, base.problem.relations)
     residual = project(left)
     out: list[Screened] = []
-    for i, term in enumerate(terms):
-        found = _screened(base, term, left, residual, project)
+    answers = on_every_core(lambda i: _numbers(_screened(base, terms[i], left, residual, project)), len(terms))
+    for i, found in enumerate(answers):
         if found is not None:
-            out.append(found)
+            out.append(Screened(terms[i], **found))
         if progress:
             progress((i + 1) / len(terms))
     return sorted(out, key=lambda s: -s.gain)
+
+
+def _numbers(found: Screened | None) -> dict[str, Any] | None:
+    """Give a candidate's column without its term, whose functions cannot be sent from one process to another."""
+    return None if found is None else {k: v for k, v in vars(found).items() if k != "term"}
 
 
 def projector(jacobian: Array) -> Callable[[Array], Array]:

@@ -6,17 +6,28 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.cores import on_every_core
 from slipwise.diagnose.candidates import ONE_THING, candidates
 from slipwise.diagnose.choose import best_of, various
 from slipwise.diagnose.pairs import leading_pair
 from slipwise.diagnose.promise import with_kept
-from slipwise.diagnose.refit import STICK_LENGTH, Hypothesis, as_reported, base_hypothesis, polished, refit, strained
+from slipwise.diagnose.refit import (
+    STICK_LENGTH,
+    Account,
+    Hypothesis,
+    as_reported,
+    base_hypothesis,
+    polished,
+    refit,
+    strained,
+)
 from slipwise.diagnose.rescreen import rescreen
 from slipwise.diagnose.screen import Screened, screen, screen_shapes
 from slipwise.diagnose.shapes import MOST_POINTS_AGAIN, shapes, strengths, variants
 from slipwise.diagnose.worth import MATERIAL, MATERIAL_FURTHER, all_down, material, needless, score
 from slipwise.effects import Effect
 from slipwise.fit.base import BaseFit
+from slipwise.fit.solve import Solution
 from slipwise.fit.terms import Term
 
 Array = NDArray[np.float64]
@@ -116,7 +127,7 @@ def _first(state: Search) -> None:
     least = _worth_a_refit(origin, MATERIAL)
     asked = _asked([s for s in chosen if s.gain > least]) + longer_stick(state, origin)
     best = best_of(origin, _try_all(state, asked))
-    pair = leading_pair(state.base, state.screened, best)
+    pair = leading_pair(state.base, state.screened, best, least)
     if pair is not None:
         both = _try(state, [p.term for p in pair], {p.term.label: p.values for p in pair})
         if material(origin.account, origin.account, both.account):
@@ -204,18 +215,24 @@ def _try_all(
     state: Search, asked: Sequence[tuple[Sequence[Term], dict]], before: Hypothesis | None = None
 ) -> list[Hypothesis]:
     """Refit hypotheses of one kind; only the best of them are worth a fit to the end."""
-    origin = state.path[0].account
-    found = [refit(state.base, terms, starts, before) for terms, starts in asked]
+    origin, problem = state.path[0].account, state.base.problem
+    fits = on_every_core(lambda i: _fit(refit(state.base, *asked[i], before)), len(asked))
+    found = [Hypothesis(tuple(a[0]), problem.adding(*a[0]), *fit) for a, fit in zip(asked, fits, strict=True)]
     found.sort(key=lambda h: -score(origin, h.account))
-    done: list[Hypothesis] = []
-    ended: set[tuple[str, ...]] = set()
-    for h in found:
-        if h.names not in ended and len(ended) < _POLISHED:
-            ended.add(h.names)
-            h = polished(h)
-        done.append(h)
-    state.tried += done
-    return done
+    best: dict[tuple[str, ...], int] = {}
+    for place, h in enumerate(found):
+        best.setdefault(h.names, place)
+    ended = list(best.values())[:_POLISHED]
+    fits = on_every_core(lambda i: _fit(polished(found[ended[i]])), len(ended))
+    for place, fit in zip(ended, fits, strict=True):
+        found[place] = Hypothesis(found[place].terms, found[place].problem, *fit)
+    state.tried += found
+    return found
+
+
+def _fit(found: Hypothesis) -> tuple[Solution, Account]:
+    """Give a hypothesis without its terms, whose functions cannot be sent from one process to another."""
+    return found.solution, found.account
 
 
 def _swap(state: Search) -> bool:

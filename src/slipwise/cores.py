@@ -1,0 +1,47 @@
+"""Independent work on every core: children are forked, so they have what is there, and only answers come back."""
+
+import multiprocessing
+import os
+import signal
+import sys
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from typing import Any, TypeVar
+
+Answer = TypeVar("Answer")
+#: What the children of this moment are to do: a function that was made here cannot be sent to them.
+_WORK: list[Callable[[int], Any]] = []
+
+
+def on_every_core(work: Callable[[int], Answer], count: int) -> Iterator[Answer]:
+    """Give work(0), work(1), ... in order; each answer must be one that can be pickled.
+
+    Work is done here, one after another, where there is one core, where a process cannot be forked safely (Windows,
+    macOS), and in a process that another has started: that one keeps its cores busy itself.
+
+    Raises:
+        Exception: what `work` raises.
+    """
+    workers = min(_cores(), count)
+    if workers < 2:
+        yield from map(work, range(count))
+        return
+    _WORK.append(work)
+    forked = multiprocessing.get_context("fork")
+    # a child that was asked to stop stops at once; Python's own way is a traceback of each
+    quiet = {"initializer": signal.signal, "initargs": (signal.SIGINT, signal.SIG_DFL)}
+    try:
+        with ProcessPoolExecutor(workers, mp_context=forked, **quiet) as pool:
+            yield from pool.map(_at, range(count))
+    finally:
+        _WORK.pop()
+
+
+def _at(place: int) -> Any:
+    return _WORK[-1](place)
+
+
+def _cores() -> int:
+    if multiprocessing.parent_process() is not None or not sys.platform.startswith("linux"):
+        return 1
+    return len(os.sched_getaffinity(0))

@@ -1,0 +1,38 @@
+"""What a screen's straight line promises must be there, or it is not refitted."""
+
+from dataclasses import replace
+
+import pytest
+
+from bench import build_campaign
+from measured import as_campaign
+from slipwise.diagnose.candidates import candidates
+from slipwise.diagnose.promise import is_kept, with_kept
+from slipwise.diagnose.screen import Screened, screen
+from slipwise.fit.base import BaseFit, fit_base
+
+
+def screened(base: BaseFit, *labels: str) -> dict[str, Screened]:
+    terms = [t for t in candidates(base)[0] if t.label in labels]
+    return {s.term.label: s for s in screen(base, terms)}
+
+
+@pytest.fixture(scope="module")
+def complete() -> BaseFit:
+    return fit_base(as_campaign(build_campaign(45048, effects=())))
+
+
+def test_a_gauge_at_midspan_of_a_girder_that_does_not_bend_hides_noise_only(complete: BaseFit) -> None:
+    found = screened(complete, "girder_bending")["girder_bending"]
+    samples = len(complete.solution.residuals.parts["heave"][0])
+    assert found.gain > 0.1 * samples and found.values["midspan"] == 1.0
+    assert not is_kept(complete, found)
+    assert with_kept(complete, [found], 0.1 * samples)[0].gain == 0.0
+    assert with_kept(complete, [found], 2.0 * found.gain)[0].gain == found.gain, "what is not refitted is not looked at"
+
+
+def test_what_is_there_is_kept_and_the_opposite_of_it_is_not() -> None:
+    base = fit_base(as_campaign(build_campaign(45005, effects=("girder_bending",), size="medium")))
+    found = screened(base, "girder_bending")["girder_bending"]
+    assert is_kept(base, found)
+    assert not is_kept(base, replace(found, values={**found.values, "frequency": 5.0, "share": 0.4}))

@@ -1,0 +1,47 @@
+"""Work on every core gives the answers of work on one, in order, and its errors."""
+
+import os
+
+import numpy as np
+import pytest
+
+from slipwise import cores
+from slipwise.cores import on_every_core
+from slipwise.errors import InputError
+from slipwise.model import base_model
+from slipwise.predict import predictor
+
+
+@pytest.mark.parametrize("count", [1, 2, 4])
+def test_answers_come_in_order_whatever_the_number_of_cores(count: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cores, "_cores", lambda: count)
+    seen = [10, 20, 30, 40, 50]
+    answers = list(on_every_core(lambda i: (seen[i], os.getpid()), len(seen)))
+    assert [value for value, _ in answers] == seen
+    assert (os.getpid() in {process for _, process in answers}) == (count == 1)
+
+
+def test_an_error_of_a_child_is_an_error_here(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cores, "_cores", lambda: 2)
+
+    def work(place: int) -> int:
+        raise InputError(f"no {place}: give another")
+
+    with pytest.raises(InputError, match="no 0: give another"):
+        list(on_every_core(work, 3))
+
+
+def test_a_law_runs_in_a_child_although_its_parent_has_run_it_with_two_threads(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The second thread stays with the parent: a child that waited for it would wait for ever."""
+
+    def force(scale: int) -> float:
+        law = predictor(base_model("bridge1"))
+        load, slip = np.full((50, 4), 5e4 * (scale + 1)), np.zeros((50, 4, 2))
+        velocity = np.full((50, 4, 2), 0.1)
+        return float(law.pads(np.linspace(0.0, 0.049, 50), load, velocity, slip).force.sum())
+
+    here = [force(0), force(1)]
+    monkeypatch.setattr(cores, "_cores", lambda: 2)
+    assert list(on_every_core(force, 2)) == here
