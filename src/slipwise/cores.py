@@ -4,6 +4,7 @@ import multiprocessing
 import os
 import signal
 import sys
+import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from typing import Any, TypeVar
@@ -28,13 +29,24 @@ def on_every_core(work: Callable[[int], Answer], count: int) -> Iterator[Answer]
         return
     _WORK.append(work)
     forked = multiprocessing.get_context("fork")
-    # a child that was asked to stop stops at once; Python's own way is a traceback of each
-    quiet = {"initializer": signal.signal, "initargs": (signal.SIGINT, signal.SIG_DFL)}
     try:
-        with ProcessPoolExecutor(workers, mp_context=forked, **quiet) as pool:
+        with ProcessPoolExecutor(workers, mp_context=forked, initializer=_leave_ctrl_c_to_the_parent) as pool:
             yield from pool.map(_at, range(count))
     finally:
         _WORK.pop()
+
+
+def end_with_parent() -> None:
+    """Leave when the parent is gone; otherwise one that was killed would leave its children waiting for ever."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        threading.Thread(target=lambda: (parent.join(), os._exit(1)), daemon=True).start()
+
+
+def _leave_ctrl_c_to_the_parent() -> None:
+    """Finish the piece of work that was begun, without a traceback: the parent asks for no other."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    end_with_parent()
 
 
 def _at(place: int) -> Any:

@@ -7,13 +7,13 @@ a kill the lines that are whole count, a torn last line is cut off, and only wha
 import json
 import multiprocessing
 import os
-import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from slipwise.cores import end_with_parent
 from slipwise.errors import InputError
 from slipwise.paper.member import Member, run_member
 
@@ -99,15 +99,8 @@ def _pool(given: Executor | None, workers: int) -> Iterator[Executor]:
         yield given
         return
     context = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(workers, mp_context=context, initializer=_end_with_parent)
+    pool = ProcessPoolExecutor(workers, mp_context=context, initializer=end_with_parent)
     try:
         yield pool
     finally:
         pool.shutdown(wait=True, cancel_futures=True)
-
-
-def _end_with_parent() -> None:
-    """Leave when the parent is gone; otherwise a killed study would leave its workers waiting for ever."""
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        threading.Thread(target=lambda: (parent.join(), os._exit(1)), daemon=True).start()
