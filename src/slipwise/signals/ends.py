@@ -1,6 +1,7 @@
 """Carry a signal on beyond its ends, so that work in the frequency domain does not wrap one end into the other."""
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -52,7 +53,22 @@ def in_frequency(values: Array, dt: float, gain: Callable[[Array], NDArray[Any]]
     # A smooth way back from the last value to the first, where nobody looks: a jump there would ring into the ends.
     # A multiple of 256 has a fast transform.
     size = -(-(len(long) + max(2 * beyond, 16)) // 256) * 256
-    way = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, size - len(long)))
-    circle = np.concatenate([long, long[-1] + (long[0] - long[-1]) * way])
-    spectrum = np.fft.rfft(circle) * gain(np.asarray(np.fft.rfftfreq(size, dt), dtype=np.float64))
+    circle = np.concatenate([long, long[-1] + (long[0] - long[-1]) * _way(size - len(long))])
+    spectrum = np.fft.rfft(circle) * gain(_frequencies(size, dt))
     return np.fft.irfft(spectrum, size)[start : start + len(values)]
+
+
+@lru_cache(maxsize=64)
+def _way(count: int) -> Array:
+    """Go smoothly from 0 to 1 in so many samples; read only, for all who ask."""
+    way = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, count))
+    way.flags.writeable = False
+    return way
+
+
+@lru_cache(maxsize=64)
+def _frequencies(size: int, dt: float) -> Array:
+    """Give the frequencies of a real transform [Hz]; read only, for all who ask."""
+    found = np.asarray(np.fft.rfftfreq(size, dt), dtype=np.float64)
+    found.flags.writeable = False
+    return found
