@@ -158,12 +158,16 @@ def _reshape(state: Search) -> None:
             continue
         rest = [t for t in best.terms if t.label != term.label]
         before = _left_with(state, rest, best) if rest else origin
-        fitted = replace(state.base, problem=before.problem, free=before.solution.free, solution=before.solution)
-        found = screen_shapes(fitted, term, MOST_POINTS_AGAIN)[:_RESHAPED]
+        found = screen_shapes(_as_base(state, before), term, MOST_POINTS_AGAIN)[:_RESHAPED]
         again = _try_all(state, [([*rest, term], {term.label: s.values}) for s in found], before if rest else None)
         better = [h for h in again if score(origin.account, h.account) > score(origin.account, state.best.account)]
         if better:
             state.path[-1] = better[0]
+
+
+def _as_base(state: Search, found: Hypothesis) -> BaseFit:
+    """Give a hypothesis as the base of what is to be added to it."""
+    return replace(state.base, problem=found.problem, free=found.solution.free, solution=found.solution)
 
 
 def longer_stick(state: Search, before: Hypothesis) -> list[tuple[list[Term], dict]]:
@@ -186,8 +190,8 @@ def _further(state: Search) -> bool:
     if all_down(account):
         return False
     least = _worth_a_refit(before, MATERIAL_FURTHER)
-    found = [s for s in rescreen(state.screened, before) if s.gain > least]
-    chosen = various(found, _REFITTED_PAIRS + 1)
+    found = with_kept(_as_base(state, before), rescreen(state.screened, before), least)
+    chosen = various([s for s in found if s.gain > least], _REFITTED_PAIRS + 1)
     tried = _try_all(state, _asked(chosen, before.terms) + longer_stick(state, before), before)
     sound = [h for h in tried if strained(before) or not strained(h)]
     good = [h for h in sound if material(origin.account, before.account, h.account)]
