@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 
 from slipwise.campaign import Campaign, load_campaign
-from slipwise.compare.intervals import Interval, intervals
 from slipwise.compare.system_level import system_level
 from slipwise.diagnose.candidates import ONE_THING
 from slipwise.diagnose.explore import Explored, explore
@@ -16,6 +15,7 @@ from slipwise.diagnose.least import least_sizes
 from slipwise.diagnose.refit import Account, Hypothesis
 from slipwise.diagnose.result import Candidate, Diagnosis
 from slipwise.diagnose.search import Search
+from slipwise.diagnose.sizes import named_sizes
 from slipwise.diagnose.untold import untold
 from slipwise.diagnose.verdict import Verdict, judge, with_faults
 from slipwise.diagnose.worth import score, worth
@@ -144,7 +144,6 @@ def _candidates(state: Search, verdict: Verdict, final: BaseFit) -> tuple[Candid
     absorbed = {s.term.label: s.absorbed for s in state.screened}
     listed = order[:_LISTED]
     shares = _shares(state, verdict, listed)
-    ends = {i.key: i for i in intervals(final).entries} if verdict.effects else {}
     out = []
     for h, probability in zip(listed, shares, strict=True):
         _, where = worth(origin.account, h.account)
@@ -157,7 +156,7 @@ def _candidates(state: Search, verdict: Verdict, final: BaseFit) -> tuple[Candid
                 holdout_before=error_of(origin.account, where),
                 holdout_after=error_of(shown.account, where),
                 absorbed_by_base=max(absorbed.get(t.label, 0.0) for t in h.terms),
-                parameters=_parameters(shown, ends if h is best else {}),
+                parameters=named_sizes(shown, final if verdict.effects and h is best else None),
             )
         )
     return tuple(out)
@@ -183,15 +182,6 @@ def _shares(state: Search, verdict: Verdict, listed: list[Hypothesis]) -> list[f
 
 def _is_one_thing(one: Hypothesis, other: Hypothesis) -> bool:
     return any(set(one.names) ^ set(other.names) == pair for pair in ONE_THING)
-
-
-def _parameters(found: Hypothesis, ends: dict[str, Interval]) -> dict[str, Interval]:
-    out = {}
-    for f in found.solution.free:
-        if any(f.key.startswith(f"{t.label}.") for t in found.terms):
-            value = found.solution.values[f.key]
-            out[f.key] = ends.get(f.key, Interval(f.key, value, float("nan"), float("nan"), f.start, f.unit, ""))
-    return out
 
 
 def _replayed(fit: BaseFit) -> float:

@@ -1,0 +1,50 @@
+"""Intervals of named effects are as wide as laws of another form ask for, and no wider than what can be."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bench import build_campaign
+from measured import as_campaign
+from slipwise.compare.intervals import intervals
+from slipwise.diagnose.refit import Hypothesis, polished, refit
+from slipwise.diagnose.run import as_fit
+from slipwise.diagnose.sizes import named_sizes
+from slipwise.effects import catalogue
+from slipwise.fit.base import BaseFit, fit_base
+from slipwise.fit.terms import Term
+
+
+@pytest.fixture(scope="module")
+def fitted() -> tuple[Hypothesis, BaseFit]:
+    made = build_campaign(42016, effects=("buffer_height",), size="medium", rig="bridge1")
+    base = fit_base(as_campaign(made))
+    term = Term(catalogue()["buffer_height"])
+    found = polished(refit(base, [term], {term.label: term.effect.typical()}))
+    return found, as_fit(base, found)
+
+
+def test_an_interval_is_wider_than_that_of_a_true_law(fitted: tuple[Hypothesis, BaseFit]) -> None:
+    found, fit = fitted
+    key = "buffer_height.height"
+    true = next(i for i in intervals(fit).entries if i.key == key)
+    wide = named_sizes(found, fit)[key]
+    half = np.hypot(1.5 * (true.high - true.value), 0.02 * true.value)
+    assert wide.value == true.value
+    assert wide.high - wide.value == pytest.approx(half) == wide.value - wide.low
+    assert set(named_sizes(found, fit)) == {key}, "numbers of the rig are not named"
+
+
+def test_an_interval_ends_where_a_parameter_does(fitted: tuple[Hypothesis, BaseFit]) -> None:
+    found, fit = fitted
+    value = found.solution.values["buffer_height.height"]
+    close = tuple(replace(f, high=1.001 * value) if f.key.startswith("buffer_height") else f for f in fit.free)
+    solution = replace(found.solution, free=close)
+    narrow = named_sizes(replace(found, solution=solution), replace(fit, solution=replace(fit.solution, free=close)))
+    assert narrow["buffer_height.height"].high == pytest.approx(1.001 * value)
+
+
+def test_without_a_fit_of_its_own_a_size_has_no_interval(fitted: tuple[Hypothesis, BaseFit]) -> None:
+    only = named_sizes(fitted[0], None)["buffer_height.height"]
+    assert np.isnan(only.low) and np.isnan(only.high) and only.value > 0.0
