@@ -15,7 +15,8 @@ from slipwise.diagnose.explore import explore, prepared
 from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, polished, refit
 from slipwise.diagnose.run import as_fit, error_of
 from slipwise.diagnose.screen import Screened, screen
-from slipwise.diagnose.search import MOST_EFFECTS, Search
+from slipwise.diagnose.search import MOST_EFFECTS
+from slipwise.diagnose.tried import Search
 from slipwise.effects import Effect, find_effect
 from slipwise.errors import InputError, SettingError
 from slipwise.fit.base import BaseFit, fit_base

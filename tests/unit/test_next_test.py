@@ -10,7 +10,7 @@ from slipwise import next_test as module
 from slipwise.cli import main
 from slipwise.diagnose.refit import Account, Hypothesis
 from slipwise.diagnose.replays import simulation_step
-from slipwise.diagnose.search import Search
+from slipwise.diagnose.tried import Search
 from slipwise.diagnose.verdict import Verdict
 from slipwise.effects import catalogue
 from slipwise.errors import SettingError, SimulationError, SlipwiseError

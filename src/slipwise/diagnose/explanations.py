@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from itertools import combinations, product
 
 from slipwise.diagnose.candidates import ONE_THING
-from slipwise.diagnose.search import Search
+from slipwise.diagnose.tried import Search
 from slipwise.diagnose.verdict import Verdict
 from slipwise.effects import Effect, catalogue
 

@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 from slipwise.campaign import Campaign, Logger
 from slipwise.diagnose.refit import Account, base_hypothesis
 from slipwise.diagnose.samples import SampleFault, mended, sample_faults
-from slipwise.diagnose.search import Search, search
+from slipwise.diagnose.search import search
+from slipwise.diagnose.tried import Search
 from slipwise.diagnose.worth import MATERIAL
 from slipwise.effects import Effect
 from slipwise.fit.base import BaseFit, fit_base, restarted

@@ -10,7 +10,7 @@ from slipwise.compare.intervals import Interval
 from slipwise.diagnose.explanations import explanations
 from slipwise.diagnose.leftover import Surface
 from slipwise.diagnose.screen import Screened
-from slipwise.diagnose.search import Search
+from slipwise.diagnose.tried import Search
 from slipwise.diagnose.verdict import Verdict
 from slipwise.fit.base import BaseFit
 

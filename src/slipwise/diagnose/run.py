@@ -14,8 +14,8 @@ from slipwise.diagnose.explore import Explored, explore
 from slipwise.diagnose.least import least_sizes
 from slipwise.diagnose.refit import Account, Hypothesis
 from slipwise.diagnose.result import Candidate, Diagnosis
-from slipwise.diagnose.search import Search
 from slipwise.diagnose.sizes import named_sizes
+from slipwise.diagnose.tried import Search
 from slipwise.diagnose.untold import untold
 from slipwise.diagnose.verdict import Verdict, judge, with_faults
 from slipwise.diagnose.worth import score, worth

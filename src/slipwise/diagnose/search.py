@@ -1,33 +1,22 @@
 """The search for what is missing: one effect after another, pairs one step ahead, and back again."""
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterable
 
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.cores import on_every_core
 from slipwise.diagnose.candidates import ONE_THING, candidates
 from slipwise.diagnose.choose import best_of, various
 from slipwise.diagnose.pairs import leading_pair
 from slipwise.diagnose.promise import with_kept
-from slipwise.diagnose.refit import (
-    STICK_LENGTH,
-    Account,
-    Hypothesis,
-    as_reported,
-    base_hypothesis,
-    polished,
-    refit,
-    strained,
-)
+from slipwise.diagnose.refit import STICK_LENGTH, Hypothesis, as_reported, base_hypothesis, strained
 from slipwise.diagnose.rescreen import rescreen
-from slipwise.diagnose.screen import Screened, screen, screen_shapes
-from slipwise.diagnose.shapes import MOST_POINTS_AGAIN, shapes, strengths, variants
+from slipwise.diagnose.screen import screen, screen_shapes
+from slipwise.diagnose.shapes import MOST_POINTS_AGAIN, shapes, strengths
+from slipwise.diagnose.tried import Search, as_base, left_with, starts_of, tried_before, try_all, try_one
 from slipwise.diagnose.worth import MATERIAL, MATERIAL_FURTHER, all_down, material, needless, score
 from slipwise.effects import Effect
 from slipwise.fit.base import BaseFit
-from slipwise.fit.solve import Solution
 from slipwise.fit.terms import Term
 
 Array = NDArray[np.float64]
@@ -36,8 +25,6 @@ _HOPEFUL = 0.4
 #: Candidates that are refitted at each step.
 _REFITTED = 4
 _REFITTED_PAIRS = 2
-#: Those of them that are fitted to the end.
-_POLISHED = 2
 #: Starts from which a law that leaves something is fitted again.
 _RESHAPED = 3
 #: A longer stick is tried at this many times the longest of the base [1].
@@ -48,41 +35,6 @@ _SWAPPED = 2
 _REFITTED_PHYSICS = 2
 #: Most effects that are added.
 MOST_EFFECTS = 3
-
-
-@dataclass
-class Search:
-    """What a search has looked at.
-
-    Attributes:
-        base: the base fit.
-        screened: candidates by their score against the base.
-        cannot: effects that the campaign cannot test, with the reason.
-        path: base first, then the best hypothesis with one, two ... effects.
-        tried: every hypothesis that was refitted.
-        terms: every candidate, those that screening sees nothing in included.
-        opposed: candidates of which the residual of the base asks for the opposite, and that cannot be.
-        settled: the one at which the search ended, weighed by its own law; None for the base.
-    """
-
-    base: BaseFit
-    screened: list[Screened]
-    cannot: dict[str, str]
-    path: list[Hypothesis] = field(default_factory=list[Hypothesis])
-    tried: list[Hypothesis] = field(default_factory=list[Hypothesis])
-    terms: list[Term] = field(default_factory=list[Term])
-    opposed: list[Screened] = field(default_factory=list[Screened])
-    settled: Hypothesis | None = None
-
-    @property
-    def final(self) -> Hypothesis:
-        """The hypothesis as it is reported."""
-        return self.settled or self.best
-
-    @property
-    def best(self) -> Hypothesis:
-        """The hypothesis at which the search ended."""
-        return self.path[-1]
 
 
 def search(base: BaseFit, own: Iterable[Effect] = (), progress: Callable[[str, float], None] | None = None) -> Search:
@@ -125,14 +77,14 @@ def _first(state: Search) -> None:
     physics = [s for s in state.screened if s.term.effect.component != "instrument"]
     chosen += [s for s in physics[:_REFITTED_PHYSICS] if all(s is not c for c in chosen)]
     least = _worth_a_refit(origin, MATERIAL)
-    asked = _asked([s for s in chosen if s.gain > least]) + longer_stick(state, origin)
-    best = best_of(origin, _try_all(state, asked))
+    asked = starts_of([s for s in chosen if s.gain > least]) + longer_stick(state, origin)
+    best = best_of(origin, try_all(state, asked))
     pair = leading_pair(state.base, state.screened, best, least)
     if pair is not None:
-        both = _try(state, [p.term for p in pair], {p.term.label: p.values for p in pair})
+        both = try_one(state, [p.term for p in pair], {p.term.label: p.values for p in pair})
         if material(origin.account, origin.account, both.account):
             # a fit hides an effect behind the base less than a screen does: one of the two may do alone
-            alone = [_try(state, [p.term], {}, both) for p in pair if not _tried_before(state, [p.term])]
+            alone = [try_one(state, [p.term], {}, both) for p in pair if not tried_before(state, [p.term])]
             best = best_of(origin, [*alone, *([best] if best else [])])
             single = best or origin
             if score(origin.account, both.account) > score(origin.account, single.account) and material(
@@ -157,17 +109,12 @@ def _reshape(state: Search) -> None:
         if term.effect.port == "gauge" or len(shapes(term.effect, MOST_POINTS_AGAIN)) <= len(shapes(term.effect)):
             continue
         rest = [t for t in best.terms if t.label != term.label]
-        before = _left_with(state, rest, best) if rest else origin
-        found = screen_shapes(_as_base(state, before), term, MOST_POINTS_AGAIN)[:_RESHAPED]
-        again = _try_all(state, [([*rest, term], {term.label: s.values}) for s in found], before if rest else None)
+        before = left_with(state, rest, best) if rest else origin
+        found = screen_shapes(as_base(state, before), term, MOST_POINTS_AGAIN)[:_RESHAPED]
+        again = try_all(state, [([*rest, term], {term.label: s.values}) for s in found], before if rest else None)
         better = [h for h in again if score(origin.account, h.account) > score(origin.account, state.best.account)]
         if better:
             state.path[-1] = better[0]
-
-
-def _as_base(state: Search, found: Hypothesis) -> BaseFit:
-    """Give a hypothesis as the base of what is to be added to it."""
-    return replace(state.base, problem=found.problem, free=found.solution.free, solution=found.solution)
 
 
 def longer_stick(state: Search, before: Hypothesis) -> list[tuple[list[Term], dict]]:
@@ -190,9 +137,9 @@ def _further(state: Search) -> bool:
     if all_down(account):
         return False
     least = _worth_a_refit(before, MATERIAL_FURTHER)
-    found = with_kept(_as_base(state, before), rescreen(state.screened, before), least)
+    found = with_kept(as_base(state, before), rescreen(state.screened, before), least)
     chosen = various([s for s in found if s.gain > least], _REFITTED_PAIRS + 1)
-    tried = _try_all(state, _asked(chosen, before.terms) + longer_stick(state, before), before)
+    tried = try_all(state, starts_of(chosen, before.terms) + longer_stick(state, before), before)
     sound = [h for h in tried if strained(before) or not strained(h)]
     good = [h for h in sound if material(origin.account, before.account, h.account)]
     if not good:
@@ -206,39 +153,6 @@ def _worth_a_refit(before: Hypothesis, drop: float) -> float:
     return _HOPEFUL * drop * min(n for n, _ in before.account.counts.values())
 
 
-def _asked(chosen: Sequence[Screened], beside: Sequence[Term] = ()) -> list[tuple[list[Term], dict]]:
-    """Give what a refit needs of candidates: terms and starting values."""
-    return [([*beside, s.term], {s.term.label: values}) for s in chosen for values in variants(s.term.effect, s.values)]
-
-
-def _try(state: Search, terms: Sequence[Term], starts: dict, before: Hypothesis | None = None) -> Hypothesis:
-    return _try_all(state, [(terms, starts)], before)[0]
-
-
-def _try_all(
-    state: Search, asked: Sequence[tuple[Sequence[Term], dict]], before: Hypothesis | None = None
-) -> list[Hypothesis]:
-    """Refit hypotheses of one kind; only the best of them are worth a fit to the end."""
-    origin, problem = state.path[0].account, state.base.problem
-    fits = on_every_core(lambda i: _fit(refit(state.base, *asked[i], before)), len(asked))
-    found = [Hypothesis(tuple(a[0]), problem.adding(*a[0]), *fit) for a, fit in zip(asked, fits, strict=True)]
-    found.sort(key=lambda h: -score(origin, h.account))
-    best: dict[tuple[str, ...], int] = {}
-    for place, h in enumerate(found):
-        best.setdefault(h.names, place)
-    ended = list(best.values())[:_POLISHED]
-    fits = on_every_core(lambda i: _fit(polished(found[ended[i]])), len(ended))
-    for place, fit in zip(ended, fits, strict=True):
-        found[place] = Hypothesis(found[place].terms, found[place].problem, *fit)
-    state.tried += found
-    return found
-
-
-def _fit(found: Hypothesis) -> tuple[Solution, Account]:
-    """Give a hypothesis without its terms, whose functions cannot be sent from one process to another."""
-    return found.solution, found.account
-
-
 def _swap(state: Search) -> bool:
     """Exchange an effect, and its likes on other gauges, for one that helps more beside the rest; tell if any was.
 
@@ -250,9 +164,9 @@ def _swap(state: Search) -> bool:
     top = score(origin, best.account)
     for name in best.names:
         rest = [t for t in best.terms if t.effect.name != name]
-        kept = _left_with(state, rest, best)
+        kept = left_with(state, rest, best)
         chosen = [s for s in rescreen(state.screened, kept) if s.term.effect.name not in best.names][:_SWAPPED]
-        better = [h for h in _try_all(state, _asked(chosen, rest), kept) if score(origin, h.account) > top]
+        better = [h for h in try_all(state, starts_of(chosen, rest), kept) if score(origin, h.account) > top]
         if better:
             state.path.append(max(better, key=lambda h: score(origin, h.account)))
             return True
@@ -267,7 +181,7 @@ def _try_twin(state: Search) -> None:
         rest = [t for t in best.terms if t.label != term.label]
         for twin in (t for t in state.terms if t.effect.name in twins):
             typical = {twin.label: twin.effect.typical()}
-            again = _tried_before(state, [*rest, twin]) or [_try(state, [*rest, twin], typical, best)]
+            again = tried_before(state, [*rest, twin]) or [try_one(state, [*rest, twin], typical, best)]
             if score(origin, again[0].account) > score(origin, state.best.account):
                 state.path.append(again[0])
 
@@ -281,16 +195,6 @@ def _simplify(state: Search) -> None:
         state.path.append(max(plain, key=lambda h: score(origin, h.account)))
 
 
-def _left_with(state: Search, rest: Sequence[Term], whole: Hypothesis) -> Hypothesis:
-    """Give the hypothesis of the rest of a whole: as it was fitted before, or from where the whole ended."""
-    return (_tried_before(state, rest) or [_try(state, rest, {}, whole)])[0]
-
-
-def _tried_before(state: Search, terms: Sequence[Term]) -> list[Hypothesis]:
-    labels = {t.label for t in terms}
-    return [h for h in state.tried if {t.label for t in h.terms} == labels]
-
-
 def _prune(state: Search) -> None:
     """Take effects away again whose loss is not material."""
     origin = state.path[0]
@@ -299,9 +203,9 @@ def _prune(state: Search) -> None:
         for term in whole.terms:
             rest = [t for t in whole.terms if t.label != term.label]
             # what was fitted before may do; only if not is it fitted again, from where the whole ended
-            known = _tried_before(state, rest)
+            known = tried_before(state, rest)
             spare = next((h for h in known if not material(origin.account, h.account, whole.account)), None)
-            fewer = spare or _try(state, rest, {}, whole)
+            fewer = spare or try_one(state, rest, {}, whole)
             if not material(origin.account, fewer.account, whole.account):
                 state.path.append(fewer)
                 break

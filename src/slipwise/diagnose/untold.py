@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from slipwise.campaign import Run
 from slipwise.diagnose.columns import column_of, residual_with, small
 from slipwise.diagnose.screen import projector
-from slipwise.diagnose.search import Search
 from slipwise.diagnose.shapes import shapes, strengths
+from slipwise.diagnose.tried import Search
 from slipwise.diagnose.unidentified import unidentified
 from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError

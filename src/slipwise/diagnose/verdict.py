@@ -9,7 +9,8 @@ from slipwise.diagnose.candidates import ONE_THING, parts_twins
 from slipwise.diagnose.leftover import Surface, leftover, structured
 from slipwise.diagnose.refit import Account, Hypothesis, cornered, strained
 from slipwise.diagnose.samples import SampleFault
-from slipwise.diagnose.search import MOST_EFFECTS, Search
+from slipwise.diagnose.search import MOST_EFFECTS
+from slipwise.diagnose.tried import Search
 from slipwise.diagnose.worth import MATERIAL, material, needless, score, worth
 
 #: A right family explains this share of what the base left, whatever its exact form [1]: 0.87 and more on trials, the

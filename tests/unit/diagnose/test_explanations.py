@@ -6,7 +6,7 @@ from typing import Any, cast
 import pytest
 
 from slipwise.diagnose.explanations import explanations, partings
-from slipwise.diagnose.search import Search
+from slipwise.diagnose.tried import Search
 from slipwise.diagnose.verdict import Verdict
 from slipwise.effects import catalogue
 

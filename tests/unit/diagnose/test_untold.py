@@ -11,7 +11,7 @@ from slipwise.campaign import Campaign, Logger, Run
 from slipwise.diagnose.candidates import candidates
 from slipwise.diagnose.refit import base_hypothesis
 from slipwise.diagnose.screen import Screened
-from slipwise.diagnose.search import Search
+from slipwise.diagnose.tried import Search
 from slipwise.diagnose.unidentified import alone, unidentified
 from slipwise.diagnose.untold import untold
 from slipwise.effects import catalogue

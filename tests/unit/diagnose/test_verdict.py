@@ -8,9 +8,9 @@ import pytest
 
 from slipwise.diagnose.refit import Account, Hypothesis
 from slipwise.diagnose.samples import SampleFault
-from slipwise.diagnose.search import Search, material
+from slipwise.diagnose.tried import Search
 from slipwise.diagnose.verdict import judge, with_faults
-from slipwise.diagnose.worth import needless
+from slipwise.diagnose.worth import material, needless
 from slipwise.effects import catalogue
 from slipwise.fit.terms import Term
 
