@@ -68,26 +68,27 @@ class Ladder:
     fits: tuple[BaseFit, ...]
     seconds: float
 
-    def as_json(self) -> dict[str, Any]:
-        """Give the contract of ladder.json."""
-        return {
-            "schema": 1,
-            "campaign": self.campaign,
-            "rungs": [
-                {
-                    "effects": list(r.effects),
-                    "fit_error": _number(r.fit_error),
-                    "holdout_error": _number(r.holdout_error),
-                    "system_holdout_error": _number(r.system_holdout_error),
-                    "floor": r.floor,
-                }
-                for r in self.rungs
-            ],
-            "screened": self.tried[0],
-            "refitted": self.tried[1],
-            "stopped": self.stopped,
-            "seconds": round(self.seconds, 1),
-        }
+    def as_json(self) -> list[dict[str, Any]]:
+        """Give the contract of ladder.json: the rungs; the last one says why no further one was climbed."""
+        screened, refitted = self.tried
+        last = len(self.rungs) - 1
+        return [
+            {**rung, "screened": screened, "refitted": refitted, "stopped": self.stopped if place == last else ""}
+            for place, rung in enumerate(self.table())
+        ]
+
+    def table(self) -> list[dict[str, Any]]:
+        """Give the errors of every rung; none where there is none."""
+        return [
+            {
+                "effects": list(r.effects),
+                "fit_error": _number(r.fit_error),
+                "holdout_error": _number(r.holdout_error),
+                "system_holdout_error": _number(r.system_holdout_error),
+                "floor": r.floor,
+            }
+            for r in self.rungs
+        ]
 
 
 def ladder(

@@ -38,3 +38,7 @@ def test_the_ladder_falls_on_runs_that_the_fit_has_not_seen(tmp_path: Path) -> N
     assert (first.effects, last.effects) == ((), ("run_in",))
     assert last.holdout_error < 0.5 * first.holdout_error
     assert np.isnan(last.system_holdout_error)
+    rungs = json.loads(json.dumps(found.as_json(), allow_nan=False))
+    keys = ["effects", "fit_error", "holdout_error", "system_holdout_error", "floor", "screened", "refitted", "stopped"]
+    assert [list(rung) for rung in rungs] == [keys, keys], "a list of rungs is the contract"
+    assert [rung["stopped"] for rung in rungs] == ["", "these effects were asked for"]

@@ -80,7 +80,7 @@ def demo(
         f"Refitted with {' and '.join(found.search.best.names) or 'nothing more'}, and judged by "
         f"{counted(unseen, 'held-out run')}, which no fit has seen. It stops here: {climbed.stopped}.",
     )
-    print_table("Error in multiples of the noise floor", [_rung(r) for r in climbed.as_json()["rungs"]])
+    print_table("Error in multiples of the noise floor", [_rung(r) for r in climbed.table()])
     save_model(found.final.problem.model(found.final.solution.values), campaign / "model.toml")
     write_json(folder / "diagnosis.json", found.as_json())
     write_json(folder / "ladder.json", climbed.as_json())

@@ -148,8 +148,9 @@ def ladder(
         return
     from slipwise.view.terminal import print_table
 
-    print_table("Error in multiples of the noise floor", found.as_json()["rungs"])
-    OUT.print(f"{found.tried[0]} candidates screened, {found.tried[1]} hypotheses refitted; {found.stopped}")
+    print_table("Error in multiples of the noise floor", found.table())
+    screened, refitted = found.tried
+    OUT.print(f"{screened} candidates screened, {refitted} hypotheses refitted, {found.seconds:.0f} s; {found.stopped}")
     _wrote([folder / "ladder.json", picture])
 
 
