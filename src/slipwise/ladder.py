@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -9,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from slipwise.campaign import Campaign, load_campaign
-from slipwise.compare.system_level import system_level
 from slipwise.diagnose.candidates import SAMPLE_FAULTS, candidates
 from slipwise.diagnose.explore import explore, prepared
 from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, polished, refit
+from slipwise.diagnose.replays import replayed_errors
 from slipwise.diagnose.run import as_fit, error_of
 from slipwise.diagnose.screen import Screened, screen
 from slipwise.diagnose.search import MOST_EFFECTS
@@ -22,7 +23,6 @@ from slipwise.errors import InputError, SettingError
 from slipwise.fit.base import BaseFit, fit_base
 from slipwise.model import Model
 
-_SEED = 1
 #: An error below this is down to the floor [floors].
 DOWN = 1.15
 
@@ -129,11 +129,12 @@ def ladder(
         base, state = explored.base, explored.search
         path, counts, stopped = _climbed(state), (len(state.screened), len(state.tried)), _why(state)
     fits = tuple(as_fit(base, h) for h in path)
-    rungs = []
-    for i, (h, fit) in enumerate(zip(path, fits, strict=True)):
-        if system:
-            tell("replaying", part + (1.0 - part) * i / len(path))
-        rungs.append(_rung(h, _replayed(fit) if system else float("nan")))
+    errors = [float("nan")] * len(fits)
+    if system:
+        tell("replaying", part)
+        with suppress(InputError):  # nothing to replay: the table's motion was not recorded
+            errors = replayed_errors(fits, ("holdout",), lambda share: tell("replaying", part + (1.0 - part) * share))
+    rungs = [_rung(h, error) for h, error in zip(path, errors, strict=True)]
     tell("done", 1.0)
     return Ladder(found.name, tuple(rungs), counts, stopped, fits, time.perf_counter() - began)
 
@@ -212,15 +213,6 @@ def _rung(found: Hypothesis, replayed: float) -> Rung:
 def _errors(account: Account, *, held_out: bool) -> dict[str, float]:
     counted = {r: c for r, c in account.counts.items() if c[int(held_out)] > 0}
     return {r: float(np.sqrt(account.level(r, held_out=held_out))) for r in counted}
-
-
-def _replayed(fit: BaseFit) -> float:
-    try:
-        level = system_level(fit, np.random.default_rng(_SEED))
-    except InputError:
-        return float("nan")
-    chosen = [e.error**2 for e in level.errors if e.role == "holdout" and (e.channel == "slip_x" or "_Fx" in e.channel)]
-    return float(np.sqrt(np.mean(chosen))) if chosen else float("nan")
 
 
 def _number(value: float) -> float | None:

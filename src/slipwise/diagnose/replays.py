@@ -1,15 +1,21 @@
-"""Free replays of a held-out run: the measurement, the model before and the model after, for the viewer."""
+"""Free replays of models before and after: for the viewer, and their errors."""
+
+from collections.abc import Callable, Collection, Sequence
 
 import numpy as np
 
 from slipwise.campaign import measured_states
-from slipwise.compare.system_level import replayed_model
+from slipwise.compare.system_level import replayed_model, system_level
+from slipwise.cores import on_every_core
 from slipwise.diagnose.result import Diagnosis
 from slipwise.fit.base import BaseFit
 from slipwise.model import Model
 from slipwise.record import Record
 from slipwise.replay import DT, replay
 from slipwise.system import measured_motion
+
+#: Of the noise that a replay is given [1].
+_SEED = 1
 
 
 def replays(found: Diagnosis) -> tuple[Record, list[tuple[str, Record]]]:
@@ -34,6 +40,33 @@ def replays(found: Diagnosis) -> tuple[Record, list[tuple[str, Record]]]:
     return states.record, [
         (label, replay(_mechanics(fit), motion, dt=dt, output_dt=states.dt).record) for label, fit in models
     ]
+
+
+def replayed_errors(
+    fits: Sequence[BaseFit], roles: Collection[str], progress: Callable[[float], None] | None = None
+) -> list[float]:
+    """Give the error of the replay of every fit over slip and pad forces, in floors; NaN without a run of these roles.
+
+    Args:
+        fits: whose models are replayed.
+        roles: of the runs that count: "fit", "repeat", "holdout".
+        progress: called with the share done.
+
+    Raises:
+        InputError: the table's motion was not recorded.
+    """
+
+    def error_of(place: int) -> float:
+        level = system_level(fits[place], np.random.default_rng(_SEED))
+        counted = [e for e in level.errors if e.role in roles and (e.channel == "slip_x" or "_Fx" in e.channel)]
+        return float(np.sqrt(np.mean([e.error**2 for e in counted]))) if counted else float("nan")
+
+    out: list[float] = []
+    for error in on_every_core(error_of, len(fits)):
+        out.append(error)
+        if progress:
+            progress(len(out) / len(fits))
+    return out
 
 
 def simulation_step(sampling: float) -> float:

@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 
 from slipwise.campaign import Campaign, load_campaign
-from slipwise.compare.system_level import system_level
 from slipwise.diagnose.candidates import ONE_THING
 from slipwise.diagnose.explore import Explored, explore
 from slipwise.diagnose.least import least_sizes
 from slipwise.diagnose.refit import Account, Hypothesis
+from slipwise.diagnose.replays import replayed_errors
 from slipwise.diagnose.result import Candidate, Diagnosis
 from slipwise.diagnose.sizes import named_sizes
 from slipwise.diagnose.tried import Search
@@ -27,7 +27,6 @@ from slipwise.model import Model
 
 #: Hypotheses that are listed.
 _LISTED = 6
-_SEED = 1
 
 
 def diagnose(
@@ -67,7 +66,10 @@ def diagnose(
     if system:
         tell("replaying", 0.7)
         try:
-            replayed = {"base": _replayed(base), "final": _replayed(final)}
+            roles = ("holdout",) if base.problem.held_out else ("fit", "repeat")
+            models = [base] if final is base else [base, final]
+            errors = replayed_errors(models, roles, lambda share: tell("replaying", part + (1.0 - part) * share))
+            replayed = {"base": errors[0], "final": errors[-1]}
         except InputError as error:
             cannot.append(f"system level: {error}")
     relations = _relations(state, shown)
@@ -182,11 +184,3 @@ def _shares(state: Search, verdict: Verdict, listed: list[Hypothesis]) -> list[f
 
 def _is_one_thing(one: Hypothesis, other: Hypothesis) -> bool:
     return any(set(one.names) ^ set(other.names) == pair for pair in ONE_THING)
-
-
-def _replayed(fit: BaseFit) -> float:
-    """Give the held-out error of the replay over slip and pad forces, in floors."""
-    level = system_level(fit, np.random.default_rng(_SEED))
-    roles = ("holdout",) if any(e.role == "holdout" for e in level.errors) else ("fit", "repeat")
-    chosen = [e.error**2 for e in level.errors if e.role in roles and (e.channel == "slip_x" or "_Fx" in e.channel)]
-    return float(np.sqrt(np.mean(chosen))) if chosen else float("nan")
