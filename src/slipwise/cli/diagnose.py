@@ -98,6 +98,8 @@ def diagnose(
     ]  # fmt: skip
     if rows:
         print_table("Hypotheses, in multiples of the noise floor", rows)
+    for run in found.foretold:
+        OUT.print(run.words, markup=False, highlight=False, soft_wrap=True)
     for words in found.cannot_tell:
         OUT.print(f"cannot tell {words}", markup=False, highlight=False, soft_wrap=True)
     _wrote(files)

@@ -29,6 +29,8 @@ _OF_A_SLIDER: dict[str, str] = {
 
 #: Loads are steady in each run when they differ between runs by this many times more than within one [1].
 _STEADY = 3.0
+#: A load that changes by less never changes [1].
+_STEADY_LOAD = 0.005
 #: Speeds of runs that differ by less count as the same [1].
 _SAME_SPEED = 0.15
 
@@ -114,7 +116,11 @@ def _one_way(problem: Problem) -> bool:
 
 
 def _load_varies(problem: Problem) -> bool:
-    return any(float(np.std(r.load)) > 0.005 * float(np.mean(r.load)) for r in problem.runs)
+    """Tell whether the load changes within a run that is fitted, or from one of them to another."""
+    loads = [problem.runs[i].load for i in problem.fitted]
+    means = np.array([float(np.mean(load)) for load in loads])
+    within = any(float(np.std(load)) > _STEADY_LOAD * mean for load, mean in zip(loads, means, strict=True))
+    return within or float(np.ptp(means)) > _STEADY_LOAD * float(means.max())
 
 
 def groups(problem: Problem) -> dict[str, tuple[str, ...]]:

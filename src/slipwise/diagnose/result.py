@@ -8,6 +8,7 @@ import numpy as np
 
 from slipwise.compare.intervals import Interval
 from slipwise.diagnose.explanations import explanations
+from slipwise.diagnose.foretold import Foretold
 from slipwise.diagnose.leftover import Surface
 from slipwise.diagnose.screen import Screened
 from slipwise.diagnose.tried import Search
@@ -51,6 +52,7 @@ class Diagnosis:
         relations: relation -> (base, final) held-out error in floors.
         system: {"base", "final"} held-out error at replay level, in floors; empty where it was not asked for.
         candidates: hypotheses, best first.
+        foretold: mean friction of the held-out runs of one slider, foretold and measured.
         least: effect -> smallest size that this campaign would have shown, and its unit.
         cannot_tell: what this campaign could not test, and why.
         search: everything that was looked at.
@@ -66,6 +68,7 @@ class Diagnosis:
     relations: Mapping[str, tuple[float, float]]
     system: Mapping[str, float]
     candidates: tuple[Candidate, ...]
+    foretold: tuple[Foretold, ...]
     least: Mapping[str, tuple[float, str]]
     cannot_tell: tuple[str, ...]
     search: Search
@@ -114,6 +117,7 @@ class Diagnosis:
             "screened": [_screened(s) for s in self.search.screened],
             "leftover": verdict.leftover,
             "unknown": _surface(verdict.surface) if verdict.leftover == "unknown" else None,
+            "foretold": [_foretold(f) for f in self.foretold],
             "least": {k: _number(v) for k, (v, _) in self.least.items()},
             "cannot_tell": list(self.cannot_tell),
             "words": self.sentence,
@@ -134,6 +138,11 @@ def _candidate(found: Candidate) -> dict[str, Any]:
         "absorbed_by_base": _number(found.absorbed_by_base),
         "parameters": {k: written(p) for k, p in found.parameters.items()},
     }
+
+
+def _foretold(found: Foretold) -> dict[str, Any]:
+    numbers = {"measured": found.measured, "value": found.value, "low": found.low, "high": found.high}
+    return {"run": found.run, **{k: _number(v) for k, v in numbers.items()}, "unit": "N"}
 
 
 def _screened(found: Screened) -> dict[str, Any]:

@@ -10,6 +10,7 @@ import numpy as np
 from slipwise.campaign import Campaign, load_campaign
 from slipwise.diagnose.candidates import ONE_THING
 from slipwise.diagnose.explore import Explored, explore
+from slipwise.diagnose.foretold import foretold
 from slipwise.diagnose.least import least_sizes
 from slipwise.diagnose.refit import Account, Hypothesis
 from slipwise.diagnose.replays import replayed_errors
@@ -84,6 +85,7 @@ def diagnose(
         relations=relations,
         system=replayed,
         candidates=_listed(explored, judged, verdict, final),
+        foretold=foretold(final),
         least=least_sizes([*state.screened, *state.opposed], state.path[0]),
         cannot_tell=tuple(cannot),
         search=state,

@@ -92,6 +92,7 @@ def _evidence(found: Diagnosis) -> Section:
             ),
             figure(balances_figure(found), f"{errors}, before and after."),
             figure(loops_figure(found), f"Friction of one pad against slip in {run}."),
+            *(paragraph(f"{run.words}.") for run in found.foretold),
         ],
     )
 

@@ -35,7 +35,7 @@ def _found(*names: str, kind: str = "ambiguous", held_out: bool = True) -> Diagn
     search: Any = SimpleNamespace(screened=[], base=base, best=best, terms=())
     relations = {"pads": (3.0, 1.0), "girder": (1.0, 1.0)}
     return Diagnosis(
-        "made up", verdict, "pad friction", 3.0, 1.0, relations, {"base": 4.0, "final": 1.1}, (), {}, (), search,
+        "made up", verdict, "pad friction", 3.0, 1.0, relations, {"base": 4.0, "final": 1.1}, (), (), {}, (), search,
         None, 1.0,  # pyright: ignore[reportArgumentType]
     )  # fmt: skip
 
