@@ -28,7 +28,7 @@ def leading_pair(
     pool = screened[:_PAIR_POOL]
     if len(pool) < 2:
         return None
-    project = projector(base.solution.jacobian)
+    project = projector(base.solution.inside)
     problem = base.problem
     residual = project(base.solution.residuals.stacked(problem.fitted, problem.relations))
     columns = np.stack([s.column for s in pool], axis=1)

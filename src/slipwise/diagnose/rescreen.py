@@ -19,7 +19,7 @@ def rescreen(screened: Sequence[Screened], before: Hypothesis) -> list[Screened]
         before: the hypothesis; its own effects and what is at odds with them are left out.
     """
     problem, solution = before.problem, before.solution
-    project = projector(solution.jacobian)
+    project = projector(solution.inside)
     residual = project(solution.residuals.stacked(problem.fitted, problem.relations))
     out = []
     for s in screened:

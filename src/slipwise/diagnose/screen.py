@@ -59,7 +59,7 @@ def screen(base: BaseFit, terms: list[Term], progress: Callable[[float], None] |
         terms: candidates.
         progress: called with the share done.
     """
-    project = projector(base.solution.jacobian)
+    project = projector(base.solution.inside)
     left = base.solution.residuals.stacked(base.problem.fitted, base.problem.relations)
     residual = project(left)
     out: list[Screened] = []
@@ -94,7 +94,7 @@ def screen_shapes(base: BaseFit, term: Term, most: int) -> list[Screened]:
         term: the candidate.
         most: points of the grid.
     """
-    project = projector(base.solution.jacobian)
+    project = projector(base.solution.inside)
     left = base.solution.residuals.stacked(base.problem.fitted, base.problem.relations)
     residual = project(left)
     found = _at_shapes(base, term, shapes(term.effect, most), left, residual, project)

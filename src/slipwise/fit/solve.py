@@ -47,6 +47,12 @@ class Solution:
             f.key for f in self.free if min(self.values[f.key] - f.low, f.high - self.values[f.key]) < 1e-6 * f.scale
         )
 
+    @property
+    def inside(self) -> Array:
+        """Columns of the Jacobian of the numbers that ended inside their bounds: the others make up for nothing."""
+        ends = set(self.at_bounds)
+        return self.jacobian[:, [f.key not in ends for f in self.free]]
+
 
 def jacobian(
     problem: Problem,
