@@ -22,6 +22,8 @@ _SLOW = LowPass(2.5, 4, "aligned")
 _RATED = 0.30
 #: Pitch says nothing of the lever while the girder accelerates less than this (standard deviation) [m/s^2].
 _MOVING = 0.3
+#: More of the pitch than this share is not the inertia's: a table that rocks at its resonance, and no lever [1].
+_UNEXPLAINED = 0.2
 #: A channel that stands at its largest or smallest value for more than this share of its samples is clipped [1].
 _AT_RAIL = 0.005
 #: Samples beyond this part of a channel's largest are left out: a clipped channel is a fault, not another rig [1].
@@ -80,8 +82,11 @@ def _lever(record: Record) -> float | None:
     late = [np.gradient(values, record.dt) for values in (pushed, slid)]
     columns = np.stack([pushed, slid, *late, np.ones(len(record))], axis=1)
     kept = np.all([_within(record[name]) for name in told], axis=0)
-    slope = np.linalg.lstsq(columns[kept], pitch[kept], rcond=None)[0][0]
-    return float(-slope / 2.0)
+    slopes = np.linalg.lstsq(columns[kept], pitch[kept], rcond=None)[0]
+    left = pitch[kept] - columns[kept] @ slopes
+    if left.std() > _UNEXPLAINED * pitch[kept].std():
+        return None
+    return float(-slopes[0] / 2.0)
 
 
 def _clipped(values: NDArray[np.float64]) -> bool:

@@ -126,11 +126,30 @@ def test_a_clipped_accelerometer_is_no_other_rig(made, tmp_path):
     assert len(load_campaign(tmp_path / "clipped").runs) == 5
 
 
-@pytest.mark.parametrize("seed", [39037, 39104])
-def test_gauges_at_a_rail_or_behind_a_slow_filter_are_no_other_rig(seed: int) -> None:
-    effect = {39037: "channel_clipping", 39104: "channel_filter"}[seed]
-    campaign = as_campaign(build_campaign(seed, effects=(effect,), size="large"))
+@pytest.mark.parametrize(
+    ("seed", "effect", "size", "rich"),
+    [
+        (39037, "channel_clipping", "large", False),
+        (39104, "channel_filter", "large", False),
+        (46280, "table_pitch", "medium", True),  # a table that rocks at its resonance, 78 floors of it
+    ],
+)
+def test_faults_of_gauges_and_a_table_that_rocks_are_no_other_rig(
+    seed: int, effect: str, size: str, rich: bool
+) -> None:
+    campaign = as_campaign(build_campaign(seed, effects=(effect,), size=size, rich=rich))
     assert check_same_specimen(campaign) == ()
+
+
+def test_a_rig_of_the_same_weight_with_another_lever_is_another_rig(made):
+    campaign = as_campaign(made)
+    run = campaign.run("quake2_hv")
+    loads = {name: run.record[name] for name in run.record.channels if name.endswith("_N")}
+    steeper = {name: np.median(load) + 2.0 * (load - np.median(load)) for name, load in loads.items()}
+    other = replace(run, record=run.record.replaced(**steeper))
+    runs = tuple(other if r is run else r for r in campaign.runs)
+    with pytest.raises(InputError, match="lever of .* of the pad spacing"):
+        check_same_specimen(replace(campaign, runs=runs))
 
 
 def test_a_noisy_yaw_gauge_makes_the_velocities_of_the_pads_less_sure() -> None:
