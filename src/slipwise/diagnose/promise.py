@@ -35,8 +35,7 @@ def is_kept(base: BaseFit, found: Screened) -> bool:
     there = residual_with(base, found.term, found.values)
     if there is None:
         return True
-    slopes = solution.jacobian
-    step = -np.linalg.lstsq(slopes.T @ slopes, slopes.T @ (there - left), rcond=1e-12)[0]
+    step = -np.linalg.lstsq(solution.normal, solution.jacobian.T @ (there - left), rcond=1e-12)[0]
     off = {p.name: float(p.neutral or 0.0) for p in strengths(found.term.effect)}
     for part in _PARTS:
         moved = {
@@ -48,7 +47,7 @@ def is_kept(base: BaseFit, found: Screened) -> bool:
         if ended is None:
             return True
         promised = found.gain * part * (2.0 - part)
-        if float(left @ left - ended @ ended) > _ENOUGH * promised:
+        if solution.cost - float(ended @ ended) > _ENOUGH * promised:
             return True
     return False
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +47,11 @@ class Solution:
         return tuple(
             f.key for f in self.free if min(self.values[f.key] - f.low, f.high - self.values[f.key]) < 1e-6 * f.scale
         )
+
+    @cached_property
+    def normal(self) -> Array:
+        """Product of the Jacobian with itself (k, k)."""
+        return self.jacobian.T @ self.jacobian
 
     @property
     def inside(self) -> Array:
