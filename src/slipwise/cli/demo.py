@@ -77,7 +77,7 @@ def demo(
     print_table(f"{climbed.tried[0]} candidates screened, {climbed.tried[1]} refitted", hypotheses)
     _say(
         "4  Add it, and watch the error fall",
-        f"Refitted with {' and '.join(found.search.best.names) or 'nothing more'}, and judged by "
+        f"Refitted with {' and '.join(found.added) or 'nothing more'}, and judged by "
         f"{counted(unseen, 'held-out run')}, which no fit has seen. It stops here: {climbed.stopped}.",
     )
     print_table("Error in multiples of the noise floor", [_rung(r) for r in climbed.table()])

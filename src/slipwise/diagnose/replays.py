@@ -35,7 +35,7 @@ def replays(found: Diagnosis) -> tuple[Record, list[tuple[str, Record]]]:
     motion = measured_motion(states)
     models = [("base model", found.search.base)]
     if found.final is not found.search.base:
-        models.append((f"with {' and '.join(found.search.best.names)}", found.final))
+        models.append((f"with {' and '.join(found.added)}", found.final))
     dt = simulation_step(states.dt)
     return states.record, [
         (label, replay(_mechanics(fit), motion, dt=dt, output_dt=states.dt).record) for label, fit in models

@@ -76,6 +76,11 @@ class Diagnosis:
     seconds: float
 
     @property
+    def added(self) -> tuple[str, ...]:
+        """Effects that the final model has beside the base's; none where the verdict names none."""
+        return self.search.best.names if self.verdict.effects else ()
+
+    @property
     def sentence(self) -> str:
         """The verdict in one sentence."""
         chance = f"{100 * self.verdict.probability:.0f} %"

@@ -1,5 +1,7 @@
 """Pictures of a diagnosis: the falling error, every balance before and after, pads' loops, and what is left."""
 
+from textwrap import fill
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -16,6 +18,8 @@ _RELATIONS = {
     "pads": "pads\nF(N, v)", "girder": "girder\nbalance", "heave": "heave\nsum N", "pitch": "pitch", "roll": "roll",
     "warp": "warp", "motion": "slip against\naccelerometers", "across": "pads\nacross",
 }  # fmt: skip
+#: Letters that fit under the axes of a ladder.
+_WIDEST = 95
 _BEFORE, _AFTER = MODEL_COLOURS[0], MODEL_COLOURS[5]
 
 
@@ -27,8 +31,8 @@ def balances_figure(found: Diagnosis) -> Figure:
     places = np.arange(len(names))
     before, after = (np.array([found.relations[n][i] for n in names]) for i in (0, 1))
     axes.bar(places - 0.19, before, 0.36, color=_BEFORE, label="base model")
-    if found.search.best.terms:
-        axes.bar(places + 0.19, after, 0.36, color=_AFTER, label=f"with {' and '.join(found.search.best.names)}")
+    if found.added:
+        axes.bar(places + 0.19, after, 0.36, color=_AFTER, label=f"with {' and '.join(found.added)}")
     axes.axhline(1.0, color=INK, lw=1.0, ls="--")
     axes.annotate("noise floor", (1.0, 1.0), xycoords=("axes fraction", "data"), ha="right", va="bottom", color=MUTED)
     axes.set_xticks(places, [_RELATIONS.get(n, n) for n in names])
@@ -56,17 +60,19 @@ def ladder_figure(found: Ladder) -> Figure:
     axes = figure.subplots()
     places = np.arange(len(found.rungs))
     looks = {"fitted runs": (EXPECTED, "o"), "held-out runs": (_AFTER, "o")}
-    for label, values in rung_errors(found).items():
+    errors = rung_errors(found)
+    for label, values in errors.items():
         colour, marker = looks.get(label, (_BEFORE, "s"))
         known = np.isfinite(values)  # of a search only the ends are replayed
         axes.plot(places[known], np.array(values)[known], marker=marker, color=colour, label=label, lw=2.0)
     axes.axhline(1.0, color=INK, lw=1.0, ls="--", label="noise floor")
     axes.set_xticks(places, ["base model", *map(_change, found.rungs, found.rungs[1:])])
     axes.set_xlim(-0.3, len(places) - 0.7)
-    axes.set_ylim(bottom=0.0)
+    axes.set_ylim(0.0, 1.08 * max(1.0, *(float(np.nanmax(values)) for values in errors.values())))
     axes.set_ylabel("error / floor")
     screened, refitted = found.tried
-    axes.set_xlabel(f"{screened} candidates screened, {refitted} hypotheses refitted; {found.stopped}")
+    words = f"{screened} candidates screened, {refitted} hypotheses refitted; {found.stopped}"
+    axes.set_xlabel(fill(words, _WIDEST))
     axes.legend()
     return figure
 
@@ -88,7 +94,7 @@ def loops_figure(found: Diagnosis) -> Figure:
     final = found.final.solution.residuals.pad_forces[place][:, 0]
     for axes, label, force, colour in (
         (panels[0], "base model", base, _BEFORE),
-        (panels[1], f"with {' and '.join(found.search.best.names) or 'nothing added'}", final, _AFTER),
+        (panels[1], f"with {' and '.join(found.added) or 'nothing added'}", final, _AFTER),
     ):
         _loop(axes, run.slip, run.force[:, 0], EXPECTED, "measured", 2.2)
         _loop(axes, run.slip, np.where(run.sliding, force, np.nan), colour, label, 0.9)

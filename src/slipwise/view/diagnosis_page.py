@@ -136,7 +136,7 @@ def _what_it_is(found: Diagnosis) -> Section:
             callout(name, f"{effect.summary} `{effect.equation}`"),
             paragraph(f"How it shows: {effect.signature}."),
         ]
-    best = found.candidates[0] if found.candidates and found.search.best.terms else None
+    best = found.candidates[0] if found.candidates and found.added else None
     if best is not None:
         rows = []
         for key, interval in best.parameters.items():

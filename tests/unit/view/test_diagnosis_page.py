@@ -1,5 +1,6 @@
 """The page and the pictures of a diagnosis say no more than there is: rivals, held-out runs, rungs."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -10,7 +11,7 @@ from slipwise.diagnose.verdict import Verdict
 from slipwise.effects import catalogue
 from slipwise.ladder import Ladder, Rung
 from slipwise.view.canvas import new_figure
-from slipwise.view.diagnosis_figures import ladder_figure
+from slipwise.view.diagnosis_figures import balances_figure, ladder_figure
 from slipwise.view.diagnosis_page import diagnosis_page
 from slipwise.view.numbers import counted, in_words
 from slipwise.view.style import styled
@@ -92,6 +93,25 @@ def test_a_ladder_says_how_much_was_tried_and_why_it_stops():
     with styled():
         (axes,) = ladder_figure(_ladder(_rung(), stopped="no further effect is worth a rung")).axes
     assert axes.get_xlabel() == "102 candidates screened, 13 hypotheses refitted; no further effect is worth a rung"
+
+
+def test_a_long_reason_stays_inside_the_picture_and_so_does_a_single_rung():
+    reason = "no further effect of the catalogue is worth a rung; 11 floors are left"
+    with styled():
+        figure = ladder_figure(_ladder(_rung(fit=1.007, held=1.023), stopped=reason))
+    (axes,) = figure.axes
+    figure.canvas.draw()
+    label = axes.xaxis.label.get_window_extent()
+    assert 0.0 <= label.x0 and label.x1 <= figure.bbox.width
+    assert axes.get_ylim()[1] > 1.05
+
+
+def test_what_is_not_named_is_not_drawn_as_added():
+    unknown = replace(_found("slide_tilt"), verdict=Verdict("unknown", (), 0.8, "unknown", 0.4, None, ()))
+    assert unknown.search.best.names == ("slide_tilt",) and unknown.added == ()
+    with styled():
+        (axes,) = balances_figure(unknown).axes
+    assert [t.get_text() for t in axes.get_legend().get_texts()] == ["base model"]
 
 
 def test_counts_are_written_as_people_say_them():
