@@ -7,6 +7,7 @@ import numpy as np
 from slipwise.diagnose.refit import Hypothesis
 from slipwise.diagnose.screen import Screened
 from slipwise.diagnose.worth import material, score
+from slipwise.signals import LowPass
 
 #: Share of the best explanation from which on another gauge's ties with it [1].
 _TIE = 0.99
@@ -41,3 +42,14 @@ def _off_rated(found: Hypothesis) -> float:
     """Give how far a hypothesis takes the girder's mass from its rated value [1]."""
     rated = found.problem.specimen.mass
     return abs(np.log(found.solution.values.get("rig.mass", rated) / rated))
+
+
+def is_delay(found: Hypothesis) -> bool:
+    """Tell whether a hypothesis has a filter that takes nothing the logger's own let through: a delay by its name."""
+    filters = [found.values_of(t) for t in found.terms if t.effect.name == "channel_filter"]
+    if not filters:
+        return False
+    run = found.problem.runs[0]
+    most = run.filtered.frequency if run.filtered else 0.5 / run.dt
+    # of a filter of corner f_c the lag is that at 1 Hz over f_c
+    return any(LowPass(1.0, round(f["order"]), "causal").lag > most * f["lag"] for f in filters)

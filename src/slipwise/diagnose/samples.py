@@ -22,6 +22,9 @@ Mask = NDArray[np.bool_]
 _AGAINST = -0.3
 #: Equal samples at an extreme that make a rail; share of repeated samples above chance that means lost ones.
 _PLATEAU, _REPEATED = 4, 0.002
+#: So many repeats one after another mean it too where chance repeats at most this share: the rest of a record that had
+#: to be filled up, for what was lost had moved all that came after.
+_STRETCH, _RARELY = 8, 0.1
 #: Spoiled before and after a bad sample; more where the velocity is made of the channel [samples].
 _REACH, _REACH_OF_MOTION = 6, 40
 
@@ -172,4 +175,12 @@ def _repeats(values: Array) -> float:
     chance = np.minimum(quantum / (2.5066 * spread) * np.exp(-0.5 * (slope / spread) ** 2), 1.0)
     expected = float(np.mean(chance))
     share = float(np.mean(same))
+    if expected < _RARELY and _longest(same) >= _STRETCH:
+        return max(share, 2.0 * _REPEATED)
     return max(share - expected - 4.0 * np.sqrt(expected / len(same)), 0.0)
+
+
+def _longest(flags: Mask) -> int:
+    """Give the length of the longest stretch of true ones."""
+    ends = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))
+    return int(np.max(ends[1::2] - ends[::2], initial=0))

@@ -7,11 +7,11 @@ change of the residual is its column. What the base parameters could do is proje
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from itertools import product
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import minimize_scalar
 
 from slipwise.cores import on_every_core
 from slipwise.diagnose.columns import column_of, residual_with, small
@@ -24,8 +24,11 @@ Array = NDArray[np.float64]
 #: A column is taken anew where the strength that was found is this many times the one at which it was taken, so often,
 #: and where the candidate explains this share of the squared residual [1].
 _FAR_BEYOND, _ROUNDS, _WORTH_A_LOOK = 2.5, 2, 0.02
-#: Mean squared residual above which lags are tried at these multiples of their typical size too [1].
-_MUCH_AMISS, _LAGS = 30.0, (-4.0, -1.0, 1.0, 4.0)
+#: Mean squared residual above which lags are tried at these multiples of their typical size too, all of them or those
+#: of which a straight line explains that share [1].
+_MUCH_AMISS, _AMISS, _LAGS = 30.0, 3.0, (-4.0, -1.0, 1.0, 4.0)
+#: Further lags that are tried beside the best of these.
+_CLOSER = 6
 #: Step of a slope, as a share of the value.
 _NEAR = 0.01
 
@@ -130,8 +133,10 @@ def _at_shapes(
                 break
             starts = [(p, {**v, p.name: found.values[p.name]} if p.name in far else v) for p, v in starts]
             found = _mixed(base, term, shape, starts, left, residual, project)
-        best = _better(found, *_direct(base, term, shape, left, residual, project))
-        out += [best] if best else []
+        hopeful = found is not None and found.gain >= _WORTH_A_LOOK * float(residual @ residual)
+        if float(residual @ residual) > (_AMISS if hopeful else _MUCH_AMISS) * len(residual):
+            found = _better(found, *_direct(base, term, shape, left, residual, project))
+        out += [found] if found else []
     return out
 
 
@@ -146,15 +151,27 @@ def _direct(
 ) -> list[Screened | None]:  # fmt: skip
     """Score lags of gauges at their full sizes where much is amiss: a straight line from a small one lies."""
     lags = [p for p in strengths(term.effect) if p.unit == "s"] if term.effect.port == "gauge" else []
-    if not lags or left is None or float(residual @ residual) < _MUCH_AMISS * len(residual):
+    if left is None:
         return []
-    out = []
-    for p, size in product(lags, _LAGS):
-        values = {**term.effect.neutral(), **shape, p.name: size * p.typical}
-        there = residual_with(base, term, values) if p.low <= values[p.name] <= p.high else None
+    out: list[Screened | None] = []
+
+    def unexplained(lag: float, p: Parameter) -> float:
+        values = {**term.effect.neutral(), **shape, p.name: float(lag)}
+        there = residual_with(base, term, values)
         if there is not None:
             step = project(there) - residual
             out.append(_scored(term, values, residual, step, _absorbed(there - left, step)))
+        return np.inf if there is None else -(out[-1].gain if out[-1] else 0.0)
+
+    for p in lags:
+        sizes = [size * p.typical for size in _LAGS if p.low <= size * p.typical <= p.high]
+        found = {0.0: 0.0} | {size: unexplained(size, p) for size in sizes}
+        best = min(found, key=lambda size: found[size])
+        if found[best] > -_WORTH_A_LOOK * float(residual @ residual):
+            continue
+        ends = sorted([*found, p.low, p.high])
+        beside = max(x for x in ends if x < best), min(x for x in ends if x > best)
+        minimize_scalar(unexplained, bounds=beside, args=(p,), method="bounded", options={"maxiter": _CLOSER})
     return out
 
 

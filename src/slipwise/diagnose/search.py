@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.diagnose.candidates import ONE_THING, candidates
-from slipwise.diagnose.choose import best_of, various
+from slipwise.diagnose.choose import best_of, is_delay, various
 from slipwise.diagnose.pairs import leading_pair
 from slipwise.diagnose.promise import with_kept
 from slipwise.diagnose.refit import STICK_LENGTH, Hypothesis, as_reported, base_hypothesis, strained
@@ -14,7 +14,7 @@ from slipwise.diagnose.rescreen import rescreen
 from slipwise.diagnose.screen import screen, screen_shapes
 from slipwise.diagnose.shapes import MOST_POINTS_AGAIN, shapes, strengths
 from slipwise.diagnose.tried import Search, as_base, left_with, starts_of, tried_before, try_all, try_one
-from slipwise.diagnose.worth import MATERIAL, MATERIAL_FURTHER, all_down, material, needless, score
+from slipwise.diagnose.worth import MATERIAL, MATERIAL_FURTHER, SAME_SCORE, all_down, material, needless, score
 from slipwise.effects import Effect
 from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Term
@@ -187,10 +187,14 @@ def _try_twin(state: Search) -> None:
 
 
 def _simplify(state: Search) -> None:
-    """Take a law of far fewer constants where it does as well."""
+    """Take a law of far fewer constants, or a delay for a filter that takes nothing, where it does as well."""
     origin, best = state.path[0].account, state.best
     alike = [h for h in state.tried if len(h.terms) == len(best.terms) and set(h.names) != set(best.names)]
     plain = [h for h in alike if needless(h, best, origin)]
+    if is_delay(best):
+        delays = tuple("channel_delay" if n == "channel_filter" else n for n in best.names)
+        least = score(origin, best.account) - SAME_SCORE
+        plain += [h for h in alike if set(h.names) == set(delays) and score(origin, h.account) > least]
     if plain:
         state.path.append(max(plain, key=lambda h: score(origin, h.account)))
 

@@ -6,12 +6,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from slipwise.diagnose.candidates import ONE_THING, parts_twins
+from slipwise.diagnose.choose import is_delay
 from slipwise.diagnose.leftover import Surface, leftover, structured
 from slipwise.diagnose.refit import Account, Hypothesis, cornered, strained
 from slipwise.diagnose.samples import SampleFault
 from slipwise.diagnose.search import MOST_EFFECTS
 from slipwise.diagnose.tried import Search
-from slipwise.diagnose.worth import MATERIAL, material, needless, score, worth
+from slipwise.diagnose.worth import MATERIAL, SAME_SCORE, material, needless, score, worth
 
 #: A right family explains this share of what the base left, whatever its exact form [1]: 0.87 and more on trials, the
 #: best wrong one up to 0.69.
@@ -28,9 +29,9 @@ HALF, _FAINT, _COIN = 0.5, 0.4, 0.6
 _COIN_OF_FAULTS = 0.5
 #: A mean squared residual above this is no perfect model's [noise variance], even where no state foretells it.
 LOUD = 1.5
-#: Rivals whose scores differ by less than this much cannot be told apart; nor can those that differ by less than this
-#: share of it, and of what the better one leaves: a law of not quite the right form leaves something as well.
-_SAME_SCORE, _SAME_SHARE, _SAME_EXCESS = 60.0, 0.004, 0.5
+#: Nor can rivals be told apart whose scores differ by less than this share of it, and of what the better one leaves: a
+#: law of not quite the right form leaves something as well.
+_SAME_SHARE, _SAME_EXCESS = 0.004, 0.5
 #: The same share for two faults of gauges: both have one form only, and nothing but noise between them [1].
 _SAME_FAULT = 5e-4
 #: Nobody is surer than this of what no run has confirmed that was not fitted [1].
@@ -155,7 +156,7 @@ def _rivals(state: Search, best: Hypothesis) -> tuple[Hypothesis, ...]:
     for h in state.tried:
         if len(h.terms) != len(best.terms) or set(h.names) == set(best.names):
             continue
-        if cornered(h) and not cornered(best):
+        if (cornered(h) and not cornered(best)) or (is_delay(h) and not is_delay(best)):
             continue
         if needless(best, h, origin.account):
             continue
@@ -164,7 +165,7 @@ def _rivals(state: Search, best: Hypothesis) -> tuple[Hypothesis, ...]:
         behind = top - score(origin.account, h.account)
         # only what is explained beyond the effects that both name can tell the two apart
         share = _SAME_FAULT if _faults_only(h, best) else _SAME_SHARE
-        near = max(_SAME_SCORE, min(share * (top - max(shared, default=0.0)), unexplained))
+        near = max(SAME_SCORE, min(share * (top - max(shared, default=0.0)), unexplained))
         if behind < near and material(origin.account, origin.account, h.account):
             out[h.names] = h
     return tuple(out.values())

@@ -16,6 +16,8 @@ FURTHER = 0.025
 #: However much the base left: what takes away this share of all that the first effect leaves, on fitted and on held-out
 #: runs, is no repair of it [1].
 _NEARLY_ALL = 0.85
+#: Hypotheses whose scores differ by less than this much cannot be told apart [noise variance].
+SAME_SCORE = 60.0
 #: What a constant of a law must be worth: the logarithm of some hundred thousand samples (Schwarz 1978).
 _PER_CONSTANT = 12.0
 #: A law with one constant more is no other kind of law: a filter's order, beside a delay.

@@ -58,24 +58,34 @@ def fit_base(campaign: Campaign, model: Model | None = None, spoiled: Spoiled | 
     """
     model = model or base_model(campaign.specimen)
     runs = fit_runs(campaign, spoiled)
-    found = _fitted(campaign, model, Problem(runs, model.specimen, terms_of(model)))
-    if campaign.logger.known or not found.problem.balanced:
-        return found
-    kind = estimated_logger(campaign, model, found.solution)
-    known = replace(campaign, logger=Logger(kind, known=True))
-    return _fitted(known, model, Problem(fit_runs(known, spoiled), model.specimen, terms_of(model)))
+    problem = Problem(runs, model.specimen, terms_of(model))
+    if campaign.logger.known or not problem.balanced:
+        return _fitted(campaign, model, problem)
+    guessed = _roughly(problem, _free(campaign, model, problem), {})
+    known = replace(campaign, logger=Logger(estimated_logger(campaign, model, guessed), known=True))
+    problem = Problem(fit_runs(known, spoiled), model.specimen, terms_of(model))
+    return _fitted(known, model, problem, guessed.values)
 
 
-def _fitted(campaign: Campaign, model: Model, problem: Problem) -> BaseFit:
+def _free(campaign: Campaign, model: Model, problem: Problem) -> list[Free]:
     free = base_free(model, balances=problem.balanced, logger_known=campaign.logger.known)
     stroke = min(float(np.ptp(problem.runs[i].slip)) for i in problem.fitted)
     most = max(_STICK_SHARE * stroke, 1e-7)
-    free = [
+    return [
         replace(f, high=min(f.high, most), start=min(f.start, most)) if f.key == "rig.stick_length" else f for f in free
     ]
-    values = {f.key: f.start for f in free}
+
+
+def _roughly(problem: Problem, free: list[Free], start: Mapping[str, float]) -> Solution:
+    """Fit as a beginning, from these numbers where there are any; the problem is weighed by where it begins."""
+    values = {f.key: start.get(f.key, f.start) for f in free}
     problem.weigh(values)
-    solution = solve(problem, values, free, most=6, enough=50.0)
+    return solve(problem, values, free, most=6, enough=50.0)
+
+
+def _fitted(campaign: Campaign, model: Model, problem: Problem, start: Mapping[str, float] | None = None) -> BaseFit:
+    free = _free(campaign, model, problem)
+    solution = _roughly(problem, free, start or {})
     for enough in _ENOUGH:
         problem.weigh(solution.values)
         solution = solve(problem, solution.values, free, most=8, enough=enough)

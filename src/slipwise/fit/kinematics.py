@@ -84,7 +84,9 @@ class Kinematics:
         self._rockers = [t for t in self.terms if t.effect.port == "table" and "balance" in t.effect.hooks]
         turners = [t for t in self.terms if t.effect.name in _TURNERS]
         self.turns = (self.yaw or bool(turners)) and self.can_turn
-        self._buffers = [t for t in self.terms if t.effect.port == "buffer" or t in turners]
+        # whose numbers the yaw depends on: how unlike the pads are is in the forces that were measured
+        unlike = [t for t in turners if "rig" in t.effect.hooks]
+        self._buffers = [t for t in self.terms if t.effect.port == "buffer" or t in unlike]
 
     @property
     def inertias(self) -> tuple[str, ...]:

@@ -28,7 +28,7 @@ def carried_on(values: Array, beyond: int) -> Array:
     return np.concatenate([before, values, after])
 
 
-def in_frequency(values: Array, dt: float, gain: Callable[[Array], NDArray[Any]], beyond: int) -> Array:
+def in_frequency(values: Array, dt: float, gain: Callable[[Array], NDArray[Any]], beyond: int, finer: int = 1) -> Array:
     """Multiply a signal's spectrum.
 
     Args:
@@ -36,9 +36,10 @@ def in_frequency(values: Array, dt: float, gain: Callable[[Array], NDArray[Any]]
         dt: sampling step [s].
         gain: function of frequency (m,) [Hz] that gives the factor (m,), complex or real.
         beyond: samples by which the ends are carried on.
+        finer: samples to give for each one given.
 
     Returns:
-        (n,).
+        (finer n,), dt / finer apart.
 
     Raises:
         InputError: a value is missing; a spectrum needs every sample.
@@ -47,7 +48,7 @@ def in_frequency(values: Array, dt: float, gain: Callable[[Array], NDArray[Any]]
     if missing:
         raise InputError(f"{missing} samples are missing; a filter needs every one of them: fill or cut them first")
     if len(values) < 2:
-        return values.copy()
+        return np.repeat(values, finer)
     long = carried_on(values, beyond)
     start = (len(long) - len(values)) // 2
     # A smooth way back from the last value to the first, where nobody looks: a jump there would ring into the ends.
@@ -55,7 +56,9 @@ def in_frequency(values: Array, dt: float, gain: Callable[[Array], NDArray[Any]]
     size = -(-(len(long) + max(2 * beyond, 16)) // 256) * 256
     circle = np.concatenate([long, long[-1] + (long[0] - long[-1]) * _way(size - len(long))])
     spectrum = np.fft.rfft(circle) * gain(_frequencies(size, dt))
-    return np.fft.irfft(spectrum, size)[start : start + len(values)]
+    if finer > 1:
+        spectrum[-1] *= 0.5  # half the sampling rate is no longer the end, and counts at both signs
+    return finer * np.fft.irfft(spectrum, finer * size)[finer * start : finer * (start + len(values))]
 
 
 @lru_cache(maxsize=64)

@@ -67,6 +67,16 @@ def test_lost_samples_are_told_and_left_out() -> None:
     assert spoiled["only"]["pad_B_N"][lost].all()
 
 
+def test_samples_that_were_lost_for_good_show_where_the_record_had_to_be_filled_up() -> None:
+    slip = _campaign().runs[0].record["slip_x"]
+    kept = np.delete(slip, [700, 701, 702, 1500, 1501, 2200, 2201, 2202, 2600])
+    moved = np.concatenate([kept, np.full(9, kept[-1])])
+    assert [(f.effect, f.channel) for f in sample_faults(_campaign(slip_x=moved))] == [("dropped_samples", "slip_x")]
+    few = slip.copy()
+    few[-4:] = few[-5]  # as many as a coarse card repeats now and then
+    assert sample_faults(_campaign(slip_x=few)) == ()
+
+
 def test_a_peak_that_is_held_is_no_rail_where_other_samples_are_held_too() -> None:
     load = _campaign().runs[0].record["pad_C_N"].copy()
     starts = [int(np.argmax(load)), *range(100, 2900, 90)]

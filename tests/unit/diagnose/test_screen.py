@@ -1,10 +1,15 @@
 """Projection and grids of the screening."""
 
 import numpy as np
+import pytest
 
-from slipwise.diagnose.screen import projector
+from bench import build_campaign
+from measured import as_campaign
+from slipwise.diagnose.candidates import candidates
+from slipwise.diagnose.screen import projector, screen
 from slipwise.diagnose.shapes import shapes, strengths, variants
 from slipwise.effects import catalogue
+from slipwise.fit.base import fit_base
 
 
 def test_what_the_base_can_do_is_projected_out_and_the_rest_stays() -> None:
@@ -41,3 +46,14 @@ def test_shapes_that_no_fit_reaches_from_another_are_tried_one_by_one() -> None:
     assert {point["zeroed"] for point in shapes(catalogued["load_crosstalk"])} == {0.0, 1.0}
     orders = [v["order"] for v in variants(catalogued["channel_filter"], {"lag": 3e-3, "order": 2.0})]
     assert sorted(orders) == [1.0, 2.0]
+
+
+def test_a_lag_of_many_milliseconds_is_found_at_its_size_though_a_straight_line_sees_a_tenth_of_it() -> None:
+    made = build_campaign(46178, effects=("channel_delay",), size="large")
+    base = fit_base(as_campaign(made))
+    fault = made.truth.as_dict()["details"]["channel_delay"]
+    delays = [t for t in candidates(base)[0] if t.effect.name == "channel_delay"]
+    best = screen(base, delays)[0]
+    assert set(best.term.targets) == set(fault["channels"])
+    assert best.values["delay"] == pytest.approx(fault["size"], rel=0.1)
+    assert best.gain > 0.5 * base.solution.cost

@@ -6,6 +6,7 @@ from typing import Any, cast
 
 import pytest
 
+from slipwise.diagnose.choose import is_delay
 from slipwise.diagnose.refit import Account, Hypothesis
 from slipwise.diagnose.samples import SampleFault
 from slipwise.diagnose.tried import Search
@@ -13,6 +14,7 @@ from slipwise.diagnose.verdict import judge, with_faults
 from slipwise.diagnose.worth import material, needless
 from slipwise.effects import catalogue
 from slipwise.fit.terms import Term
+from slipwise.signals import LowPass
 
 COUNT = 10_000
 
@@ -25,7 +27,7 @@ def _tried(
     account = Account(levels, dict(levels), {name: (COUNT, COUNT) for name in levels})
     terms = tuple(Term(catalogue()[name]) for name in names)
     values = {f"{t.label}.{k}": v for t in terms for k, v in t.effect.typical().items()}
-    run = SimpleNamespace(states=SimpleNamespace(has_yaw=False))
+    run = SimpleNamespace(states=SimpleNamespace(has_yaw=False), filtered=LowPass(100.0))
     problem = SimpleNamespace(held_out=[], fitted=[], runs=[run], relations=("pads", "girder"))
     solution = SimpleNamespace(values=values, at_bounds=at_bounds, free=(None,) * constants)
     return Hypothesis(terms, cast(Any, problem), cast(Any, solution), account)
@@ -52,6 +54,15 @@ def test_a_law_of_far_more_constants_that_says_no_more_is_no_rival(constants: in
     rich = _tried(("position_patch",), 1.0005, constants=constants)
     found = judge(_search(_tried((), 20.0), _tried(("pad_spread",), 1.0), rich))
     assert found.kind == kind
+
+
+@pytest.mark.parametrize(("lag", "kind"), [(1e-3, "instrument"), (5e-3, "ambiguous")])
+def test_a_filter_that_takes_nothing_is_no_rival_of_a_delay(lag: float, kind: str) -> None:
+    """Of order 2, a lag of 1 ms is a corner of 225 Hz, above the logger's own of 100 Hz; one of 5 ms is 45 Hz."""
+    base, delay, behind = _tried((), 20.0), _tried(("channel_delay",), 1.0), _tried(("channel_filter",), 1.0005)
+    behind.solution.values["channel_filter.lag"] = lag
+    assert is_delay(behind) == (kind == "instrument")
+    assert judge(_search(base, delay, behind)).kind == kind
 
 
 def test_a_law_of_far_more_constants_gives_way_to_one_that_does_as_well() -> None:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from slipwise.signals import derivative, integral, resampled, shift, uniform_time
+from slipwise.signals.ends import in_frequency
 
 DT = 0.002
 TIME = DT * np.arange(1500)
@@ -16,6 +17,13 @@ def test_a_sine_shifted_by_a_fraction_of_a_sample_is_that_sine_later(delay, freq
     shifted = shift(np.sin(2.0 * np.pi * frequency * TIME), DT, delay)
     expected = np.sin(2.0 * np.pi * frequency * (TIME - delay))
     assert shifted[INNER] == pytest.approx(expected[INNER], abs=1e-3)
+
+
+@pytest.mark.parametrize("frequency", [3.0, 40.0, 200.0])
+def test_a_spectrum_gives_a_sine_between_its_samples(frequency):
+    fine = in_frequency(np.sin(2.0 * np.pi * frequency * TIME), DT, np.ones_like, 64, 8)
+    expected = np.sin(2.0 * np.pi * frequency * DT / 8.0 * np.arange(8 * len(TIME)))
+    assert fine[1600:-1600] == pytest.approx(expected[1600:-1600], abs=2e-3)
 
 
 def test_a_shift_keeps_the_noise_that_interpolation_would_smooth():
