@@ -7,7 +7,7 @@ import numpy as np
 from slipwise.diagnose.refit import Hypothesis
 from slipwise.diagnose.screen import Screened
 from slipwise.diagnose.shapes import strengths
-from slipwise.diagnose.worth import MATERIAL
+from slipwise.diagnose.worth import least_worth
 
 
 def least_sizes(screened: Sequence[Screened], base: Hypothesis) -> dict[str, tuple[float, str]]:
@@ -41,4 +41,4 @@ def _least(found: Screened, base: Hypothesis) -> tuple[float, str] | None:
     rows = [sum(parts[r][i].size for i in problem.fitted) for r in problem.relations]
     drops = np.add.reduceat(step, np.concatenate([[0], np.cumsum(rows)[:-1]]))
     counts = np.array([base.account.counts[r][0] for r in problem.relations])
-    return float(size * np.sqrt(MATERIAL / np.max(drops / np.maximum(counts, 1)))), leading.unit
+    return float(size * np.sqrt(least_worth([found.term]) / np.max(drops / np.maximum(counts, 1)))), leading.unit

@@ -14,7 +14,16 @@ from slipwise.diagnose.rescreen import rescreen
 from slipwise.diagnose.screen import screen, screen_shapes
 from slipwise.diagnose.shapes import MOST_POINTS_AGAIN, shapes, strengths
 from slipwise.diagnose.tried import Search, as_base, left_with, starts_of, tried_before, try_all, try_one
-from slipwise.diagnose.worth import MATERIAL, MATERIAL_FURTHER, SAME_SCORE, all_down, material, needless, score
+from slipwise.diagnose.worth import (
+    MATERIAL,
+    MATERIAL_FURTHER,
+    SAME_SCORE,
+    all_down,
+    least_worth,
+    material,
+    needless,
+    score,
+)
 from slipwise.effects import Effect
 from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Term
@@ -82,13 +91,13 @@ def _first(state: Search) -> None:
     pair = leading_pair(state.base, state.screened, best, least)
     if pair is not None:
         both = try_one(state, [p.term for p in pair], {p.term.label: p.values for p in pair})
-        if material(origin.account, origin.account, both.account):
+        if material(origin.account, origin.account, both.account, least_worth(both.terms)):
             # a fit hides an effect behind the base less than a screen does: one of the two may do alone
             alone = [try_one(state, [p.term], {}, both) for p in pair if not tried_before(state, [p.term])]
             best = best_of(origin, [*alone, *([best] if best else [])])
             single = best or origin
             if score(origin.account, both.account) > score(origin.account, single.account) and material(
-                origin.account, single.account, both.account
+                origin.account, single.account, both.account, least_worth(both.terms)
             ):
                 state.path.append(both)
                 return

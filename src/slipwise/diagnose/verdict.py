@@ -12,7 +12,7 @@ from slipwise.diagnose.refit import Account, Hypothesis, cornered, strained
 from slipwise.diagnose.samples import SampleFault
 from slipwise.diagnose.search import MOST_EFFECTS
 from slipwise.diagnose.tried import Search
-from slipwise.diagnose.worth import MATERIAL, SAME_SCORE, material, needless, score, worth
+from slipwise.diagnose.worth import SAME_SCORE, least_worth, material, needless, score, worth
 
 #: A right family explains this share of what the base left, whatever its exact form [1]: 0.87 and more on trials, the
 #: best wrong one up to 0.69.
@@ -21,6 +21,9 @@ RIGHT_FAMILY = 0.70
 STRAINED_FAMILY = 0.90
 #: What effects must explain that have one form only, geometry's.
 EXACT_FAMILY = 0.95
+#: What two or more must explain: together they take many forms. 0.92 and more on the blind bench, the best wrong two
+#: 0.87.
+SEVERAL_FAMILY = 0.90
 #: Below this drop of the mean squared residual the share is itself uncertain, and half is enough [noise variance].
 _SURE_SHARE = 1.0
 #: An effect that explains less than half of little, and leaves nothing with structure, is no finding.
@@ -90,7 +93,8 @@ def _judged(state: Search) -> Verdict:
     too_many = len(best.terms) >= MOST_EFFECTS
     drop = worth(origin.account, best.account)[0]
     family = explained >= _least_share(best, drop)
-    if (remains and (not family or too_many)) or (_loud(state.final) and explained < HALF):
+    too_little = explained < HALF if len(best.terms) == 1 else not family
+    if (remains and (not family or too_many)) or (_loud(state.final) and too_little):
         shown = surface if remains else None
         probability = _unknown_probability(shown, explained)
         whole = leftover(origin)  # what is drawn is all that is missing, not what unnamed effects have left of it
@@ -120,6 +124,8 @@ def _least_share(found: Hypothesis, drop: float) -> float:
         return EXACT_FAMILY
     if strained(found):
         return STRAINED_FAMILY
+    if drop >= _SURE_SHARE and len(found.terms) > 1:
+        return SEVERAL_FAMILY
     return RIGHT_FAMILY if drop >= _SURE_SHARE else HALF
 
 
@@ -166,7 +172,7 @@ def _rivals(state: Search, best: Hypothesis) -> tuple[Hypothesis, ...]:
         # only what is explained beyond the effects that both name can tell the two apart
         share = _SAME_FAULT if _faults_only(h, best) else _SAME_SHARE
         near = max(SAME_SCORE, min(share * (top - max(shared, default=0.0)), unexplained))
-        if behind < near and material(origin.account, origin.account, h.account):
+        if behind < near and material(origin.account, origin.account, h.account, least_worth(h.terms)):
             out[h.names] = h
     return tuple(out.values())
 
@@ -211,8 +217,8 @@ def _unknown_probability(surface: Surface | None, explained: float) -> float:
 def _complete_probability(state: Search) -> float:
     origin = state.path[0]
     near = max((_drop(origin, h) for h in state.tried), default=0.0)
-    return float(np.clip(0.98 - 0.2 * near / MATERIAL, 0.75, 0.98))
+    return float(np.clip(0.98 - 0.2 * near, 0.75, 0.98))
 
 
 def _drop(origin: Hypothesis, found: Hypothesis) -> float:
-    return min(worth(origin.account, found.account)[0], MATERIAL)
+    return min(worth(origin.account, found.account)[0] / least_worth(found.terms), 1.0)

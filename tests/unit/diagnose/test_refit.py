@@ -10,7 +10,7 @@ from measured import as_campaign
 from slipwise.diagnose.least import least_sizes
 from slipwise.diagnose.refit import base_hypothesis, refit
 from slipwise.diagnose.screen import projector, screen
-from slipwise.diagnose.worth import MATERIAL
+from slipwise.diagnose.worth import MATERIAL_LAW
 from slipwise.effects import catalogue
 from slipwise.fit.base import fit_base
 from slipwise.fit.terms import Term, base_free
@@ -68,4 +68,4 @@ def test_a_least_size_is_one_at_which_a_relation_falls_by_what_is_material(base)
         rows = sum(base.solution.residuals.parts[relation][i].size for i in base.problem.fitted)
         drops.append(float(np.sum(step[start : start + rows] ** 2)) / base_hypothesis(base).account.counts[relation][0])
         start += rows
-    assert max(drops) == pytest.approx(MATERIAL, rel=0.1)
+    assert max(drops) == pytest.approx(MATERIAL_LAW, rel=0.1)

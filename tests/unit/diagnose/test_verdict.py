@@ -11,7 +11,7 @@ from slipwise.diagnose.refit import Account, Hypothesis
 from slipwise.diagnose.samples import SampleFault
 from slipwise.diagnose.tried import Search
 from slipwise.diagnose.verdict import judge, with_faults
-from slipwise.diagnose.worth import material, needless
+from slipwise.diagnose.worth import least_worth, material, needless
 from slipwise.effects import catalogue
 from slipwise.fit.terms import Term
 from slipwise.signals import LowPass
@@ -36,7 +36,7 @@ def _tried(
 def _search(base: Hypothesis, *tried: Hypothesis) -> Search:
     """A search that took the best of what it tried, where that is material."""
     best = min((base, *tried), key=lambda h: h.account.total)
-    path = [base, best] if material(base.account, base.account, best.account) else [base]
+    path = [base, best] if material(base.account, base.account, best.account, least_worth(best.terms)) else [base]
     return Search(cast(Any, None), [], {}, path, list(tried))
 
 
@@ -114,6 +114,21 @@ def _structured(found: Hypothesis) -> Any:
 def test_geometry_that_leaves_structure_is_not_geometry_but_a_law_may_have_another_form(monkeypatch, name, kind):
     monkeypatch.setattr("slipwise.diagnose.verdict.leftover", _structured)
     assert judge(_search(_tried((), 20.0), _tried((name,), 3.0))).kind == kind
+
+
+@pytest.mark.parametrize(("left", "kind"), [(1.5, "named"), (4.0, "unknown")])
+@pytest.mark.parametrize("shaped", [True, False])
+def test_two_laws_that_leave_much_may_be_a_third(monkeypatch, left: float, kind: str, shaped: bool) -> None:
+    """Of what a cubic drag left, breakaway and the age of a contact explained 0.88 together, and neither was there."""
+    if shaped:
+        monkeypatch.setattr("slipwise.diagnose.verdict.leftover", _structured)
+    assert judge(_search(_tried((), 20.0), _tried(("breakaway", "rate_and_state"), left))).kind == kind
+
+
+@pytest.mark.parametrize(("name", "kind"), [("breakaway", "named"), ("channel_delay", "complete")])
+def test_a_law_needs_less_to_be_named_than_a_lag_that_takes_up_small_errors_of_a_model(name: str, kind: str) -> None:
+    assert judge(_search(_tried((), 1.07), _tried((name,), 1.0))).kind == kind
+    assert judge(_search(_tried((), 1.03), _tried((name,), 1.0))).kind == "complete"
 
 
 @pytest.mark.parametrize(("left", "worthy"), [(1.02, True), (6.0, False)])
