@@ -43,6 +43,14 @@ def one(folder: Path, name: str, seed: int, effects: tuple[str, ...], size: str,
     return {"name": name, "truth": truth.as_dict(), "said": said}
 
 
+def _begin() -> None:
+    """End at once, without a word, at a Ctrl-C (Python would print a traceback of each) and when the parent is gone."""
+    from slipwise.cores import end_with_parent
+
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    end_with_parent()
+
+
 def _line(result: dict[str, Any], number: int, total: int) -> str:
     said, truth = result["said"], result["truth"]
     hidden, named = "+".join(truth["missing"]) or "complete", "+".join(said["effects"])
@@ -60,9 +68,8 @@ def run(out: Path, count: int, seed: int, workers: int) -> list[dict[str, Any]]:
     done = {r["name"]: r for r in map(json.loads, lines.read_text().splitlines())} if lines.exists() else {}
     cases = {f"b{seed + i:05d}": (seed + i, case) for i, case in enumerate(plan(count, seed))}
     left = {name: entry for name, entry in cases.items() if name not in done}
-    # by default a signal ends a worker at once, without a word; Python's own way is a traceback of each
-    quiet = {"initializer": signal.signal, "initargs": (signal.SIGINT, signal.SIG_DFL)}
-    with ProcessPoolExecutor(workers, mp_context=get_context("spawn"), **quiet) as pool, lines.open("a") as stream:
+    spawned = get_context("spawn")
+    with ProcessPoolExecutor(workers, mp_context=spawned, initializer=_begin) as pool, lines.open("a") as stream:
         jobs = [pool.submit(one, out / "campaigns", n, s, c.effects, c.size, c.rich) for n, (s, c) in left.items()]
         try:
             for number, job in enumerate(as_completed(jobs), start=1):

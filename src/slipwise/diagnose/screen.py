@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize_scalar
 
 from slipwise.cores import on_every_core
 from slipwise.diagnose.columns import column_of, residual_with, small
+from slipwise.diagnose.lags import lag_at_its_size
 from slipwise.diagnose.shapes import shapes, strengths, two_sided
 from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Term
@@ -24,11 +24,6 @@ Array = NDArray[np.float64]
 #: A column is taken anew where the strength that was found is this many times the one at which it was taken, so often,
 #: and where the candidate explains this share of the squared residual [1].
 _FAR_BEYOND, _ROUNDS, _WORTH_A_LOOK = 2.5, 2, 0.02
-#: Mean squared residual above which lags are tried at these multiples of their typical size too, all of them or those
-#: of which a straight line explains that share [1].
-_MUCH_AMISS, _AMISS, _LAGS = 30.0, 3.0, (-4.0, -1.0, 1.0, 4.0)
-#: Further lags that are tried beside the best of these.
-_CLOSER = 6
 #: Step of a slope, as a share of the value.
 _NEAR = 0.01
 
@@ -134,8 +129,11 @@ def _at_shapes(
             starts = [(p, {**v, p.name: found.values[p.name]} if p.name in far else v) for p, v in starts]
             found = _mixed(base, term, shape, starts, left, residual, project)
         hopeful = found is not None and found.gain >= _WORTH_A_LOOK * float(residual @ residual)
-        if float(residual @ residual) > (_AMISS if hopeful else _MUCH_AMISS) * len(residual):
-            found = _better(found, *_direct(base, term, shape, left, residual, project))
+        lagging = lag_at_its_size(base, term, shape, residual, project, hopeful=hopeful)
+        if lagging is not None and left is not None:
+            values, there = lagging
+            step = project(there) - residual
+            found = _better(found, _scored(term, values, residual, step, _absorbed(there - left, step)))
         out += [found] if found else []
     return out
 
@@ -143,36 +141,6 @@ def _at_shapes(
 def _better(*found: Screened | None) -> Screened | None:
     """Give what explains most of these."""
     return max((f for f in found if f is not None), key=lambda f: f.gain, default=None)
-
-
-def _direct(
-    base: BaseFit, term: Term, shape: Mapping[str, float], left: Array | None, residual: Array,
-    project: Callable[[Array], Array],
-) -> list[Screened | None]:  # fmt: skip
-    """Score lags of gauges at their full sizes where much is amiss: a straight line from a small one lies."""
-    lags = [p for p in strengths(term.effect) if p.unit == "s"] if term.effect.port == "gauge" else []
-    if left is None:
-        return []
-    out: list[Screened | None] = []
-
-    def unexplained(lag: float, p: Parameter) -> float:
-        values = {**term.effect.neutral(), **shape, p.name: float(lag)}
-        there = residual_with(base, term, values)
-        if there is not None:
-            step = project(there) - residual
-            out.append(_scored(term, values, residual, step, _absorbed(there - left, step)))
-        return np.inf if there is None else -(out[-1].gain if out[-1] else 0.0)
-
-    for p in lags:
-        sizes = [size * p.typical for size in _LAGS if p.low <= size * p.typical <= p.high]
-        found = {0.0: 0.0} | {size: unexplained(size, p) for size in sizes}
-        best = min(found, key=lambda size: found[size])
-        if found[best] > -_WORTH_A_LOOK * float(residual @ residual):
-            continue
-        ends = sorted([*found, p.low, p.high])
-        beside = max(x for x in ends if x < best), min(x for x in ends if x > best)
-        minimize_scalar(unexplained, bounds=beside, args=(p,), method="bounded", options={"maxiter": _CLOSER})
-    return out
 
 
 def _is_far(p: Parameter, start: Mapping[str, float], values: Mapping[str, float]) -> bool:
