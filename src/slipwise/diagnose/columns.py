@@ -22,13 +22,14 @@ def small(effect: Effect, shape: Mapping[str, float], moved: Parameter) -> dict[
     """Give an effect's values with one strength at a small size, the others absent."""
     values = {**effect.neutral(), **shape}
     off = float(moved.neutral or 0.0)
-    typical = moved.typical if moved.typical != off else _like_others(effect, moved)
-    values[moved.name] = float(np.clip(off + _SMALL * (typical - off), moved.low, moved.high))
+    values[moved.name] = float(np.clip(off + _SMALL * (typical(effect, moved) - off), moved.low, moved.high))
     return values
 
 
-def _like_others(effect: Effect, moved: Parameter) -> float:
-    """Give a typical size for a strength that is usually absent: that of its siblings of the same unit."""
+def typical(effect: Effect, moved: Parameter) -> float:
+    """Give a typical size for a strength; for one that is usually absent that of its siblings of the same unit."""
+    if moved.typical != float(moved.neutral or 0.0):
+        return moved.typical
     for p in strengths(effect):
         if p.unit == moved.unit and p.typical != p.neutral:
             return p.typical

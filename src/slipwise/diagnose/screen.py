@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from slipwise.cores import on_every_core
 from slipwise.diagnose.columns import column_of, residual_with, small
-from slipwise.diagnose.lags import lag_at_its_size
+from slipwise.diagnose.full_size import at_full_size
 from slipwise.diagnose.shapes import shapes, strengths, two_sided
 from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Term
@@ -113,8 +113,8 @@ def _at_shapes(
 ) -> list[Screened]:  # fmt: skip
     """Give what a candidate could explain at every point of a grid where it can be evaluated."""
     problem = base.problem
-    # yaw that is made from measured forces is noise as well
-    if problem.adding(term).kinematics.turns != problem.kinematics.turns:
+    turns = problem.adding(term).kinematics.turns != problem.kinematics.turns
+    if turns:  # yaw that is made from measured forces is noise as well
         left = residual_with(base, term, term.effect.neutral())
     out: list[Screened] = []
     for shape in grid:
@@ -129,9 +129,9 @@ def _at_shapes(
             starts = [(p, {**v, p.name: found.values[p.name]} if p.name in far else v) for p, v in starts]
             found = _mixed(base, term, shape, starts, left, residual, project)
         hopeful = found is not None and found.gain >= _WORTH_A_LOOK * float(residual @ residual)
-        lagging = lag_at_its_size(base, term, shape, residual, project, hopeful=hopeful)
-        if lagging is not None and left is not None:
-            values, there = lagging
+        whole = at_full_size(base, term, shape, residual, project, turns=turns, hopeful=hopeful)
+        if whole is not None and left is not None:
+            values, there = whole
             step = project(there) - residual
             found = _better(found, _scored(term, values, residual, step, _absorbed(there - left, step)))
         out += [found] if found else []

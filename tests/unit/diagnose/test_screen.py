@@ -57,3 +57,13 @@ def test_a_lag_of_many_milliseconds_is_found_at_its_size_though_a_straight_line_
     assert set(best.term.targets) == set(fault["channels"])
     assert best.values["delay"] == pytest.approx(fault["size"], rel=0.1)
     assert best.gain > 0.5 * base.solution.cost
+
+
+def test_unlike_buffers_are_found_where_friction_holds_the_girder_until_they_are_unlike_enough() -> None:
+    made = build_campaign(48062, effects=("buffer_mismatch",), size="large")
+    base = fit_base(as_campaign(made))
+    mismatch = next(t for t in candidates(base)[0] if t.effect.name == "buffer_mismatch")
+    found = screen(base, [mismatch])[0]
+    truth = made.truth.as_dict()["details"]["buffer_mismatch"]["mismatch"]
+    assert found.values["difference"] == pytest.approx(truth, rel=0.1)
+    assert found.gain > 0.5 * base.solution.cost
