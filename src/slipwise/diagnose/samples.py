@@ -22,9 +22,9 @@ Mask = NDArray[np.bool_]
 _AGAINST = -0.3
 #: Equal samples at an extreme that make a rail; share of repeated samples above chance that means lost ones.
 _PLATEAU, _REPEATED = 4, 0.002
-#: So many repeats one after another mean it too where chance repeats at most this share: the rest of a record that had
-#: to be filled up, for what was lost had moved all that came after.
-_STRETCH, _RARELY = 8, 0.1
+#: So many repeats at the ends of the runs, some in each, mean it too where chance repeats at most this share: records
+#: that had to be filled up, for what was lost had moved all that came after.
+_FILLED, _RARELY = 8, 0.1
 #: Spoiled before and after a bad sample; more where the velocity is made of the channel [samples].
 _REACH, _REACH_OF_MOTION = 6, 40
 
@@ -50,21 +50,25 @@ def sample_faults(campaign: Campaign) -> tuple[SampleFault, ...]:
     if not campaign.specimen.free:
         return tuple(found)  # a slider's actuator may rest at its ends as long as it likes
     names = [n for n in campaign.runs[0].record.channels if not n.startswith("table_d")]
+    # what every channel repeats at its end is a record that was cut, no gauge's loss
+    cut = [min(_filled_up(r.record[n]) for n in names if n in r.record) for r in campaign.runs]
     for name in names:
-        runs = [r.record for r in campaign.runs if name in r.record]
-        if any(_coarse(r[name]) for r in runs):
+        here = zip(campaign.runs, cut, strict=True)
+        runs = [r.record[name][: len(r.record) - c] for r, c in here if name in r.record]
+        if any(_coarse(values) for values in runs):
             continue  # rounding makes equal samples of its own
-        rails = [_at_rail(r[name]) for r in runs]
-        held = [_repeats(r[name]) for r in runs]
+        rails = [_at_rail(values) for values in runs]
+        held = [_repeats(values) for values in runs]
         # a peak that is held looks like a rail, but then other samples are held as well
-        elsewhere = [_repeats(r[name][~rail]) for r, rail in zip(runs, rails, strict=True)]
-        lost = all(h > _REPEATED for h in held)
-        total = sum(len(r) for r in runs)
+        elsewhere = [_repeats(values[~rail]) for values, rail in zip(runs, rails, strict=True)]
+        filled = [_filled_up(values) for values in runs]
+        lost = all(h > _REPEATED for h in held) or (min(filled) > 0 and sum(filled) >= _FILLED)
+        total = sum(len(values) for values in runs)
         clipped = sum(int(np.count_nonzero(r)) for r in rails)
         if clipped >= _PLATEAU and not (lost and all(h > _REPEATED for h in elsewhere)):
             found.append(SampleFault("channel_clipping", name, clipped / total))
         elif lost:
-            found.append(SampleFault("dropped_samples", name, float(np.mean(held))))
+            found.append(SampleFault("dropped_samples", name, max(float(np.mean(held)), sum(filled) / total)))
     return tuple(found)
 
 
@@ -164,23 +168,29 @@ def _at_rail(values: Array) -> Mask:
 
 def _repeats(values: Array) -> float:
     """Give the share of samples that repeat the one before, above what rounding makes of noise."""
-    steps = np.diff(values)
-    same = steps == 0.0
-    finite = np.abs(steps[~same])
-    if finite.size < 32 or float(np.ptp(values)) == 0.0:
+    same, expected = _same(values), _by_chance(values)
+    if expected == 1.0:
         return 0.0
+    return max(float(np.mean(same)) - expected - 4.0 * np.sqrt(expected / len(same)), 0.0)
+
+
+def _filled_up(values: Array) -> int:
+    """Give how often the last value was repeated to fill up the record; 0 where rounding may have done it."""
+    other = np.flatnonzero(~_same(values))
+    return len(values) - 2 - int(other[-1]) if other.size and _by_chance(values) < _RARELY else 0
+
+
+def _same(values: Array) -> Mask:
+    return np.diff(values) == 0.0
+
+
+def _by_chance(values: Array) -> float:
+    """Give the share of samples that repeat the one before because of rounding; 1 where nothing changes [1]."""
+    steps = np.diff(values)
+    finite = np.abs(steps[steps != 0.0])
+    if finite.size < 32:
+        return 1.0
     quantum = float(finite.min())
     spread = np.hypot(1.4142 * white_level(values), quantum)
     slope = np.convolve(steps, np.ones(15) / 15.0, mode="same")
-    chance = np.minimum(quantum / (2.5066 * spread) * np.exp(-0.5 * (slope / spread) ** 2), 1.0)
-    expected = float(np.mean(chance))
-    share = float(np.mean(same))
-    if expected < _RARELY and _longest(same) >= _STRETCH:
-        return max(share, 2.0 * _REPEATED)
-    return max(share - expected - 4.0 * np.sqrt(expected / len(same)), 0.0)
-
-
-def _longest(flags: Mask) -> int:
-    """Give the length of the longest stretch of true ones."""
-    ends = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))
-    return int(np.max(ends[1::2] - ends[::2], initial=0))
+    return float(np.mean(np.minimum(quantum / (2.5066 * spread) * np.exp(-0.5 * (slope / spread) ** 2), 1.0)))

@@ -72,6 +72,9 @@ def test_samples_that_were_lost_for_good_show_where_the_record_had_to_be_filled_
     kept = np.delete(slip, [700, 701, 702, 1500, 1501, 2200, 2201, 2202, 2600])
     moved = np.concatenate([kept, np.full(9, kept[-1])])
     assert [(f.effect, f.channel) for f in sample_faults(_campaign(slip_x=moved))] == [("dropped_samples", "slip_x")]
+    record = _campaign().runs[0].record
+    cut = {name: np.concatenate([x[:-20], np.full(20, x[-21])]) for name, x in record.channels.items()}
+    assert sample_faults(_campaign(**cut)) == (), "every channel ends so: the record was cut"
     few = slip.copy()
     few[-4:] = few[-5]  # as many as a coarse card repeats now and then
     assert sample_faults(_campaign(slip_x=few)) == ()
