@@ -18,8 +18,8 @@ Array = NDArray[np.float64]
 _MUCH_AMISS, _AMISS = 30.0, 3.0
 #: Multiples of the typical size that are tried, and how many more beside the best of them.
 _SIZES, _CLOSER = (-4.0, -1.0, 1.0, 4.0), {"maxiter": 6}
-#: Share of the squared residual that the best must explain to be looked at more closely [1].
-_WORTH_A_LOOK = 0.02
+#: Share of the squared residual that a candidate must explain to be looked at more closely [1].
+WORTH_A_LOOK = 0.02
 
 
 def at_full_size(
@@ -64,7 +64,7 @@ def at_full_size(
         one = typical(term.effect, p)
         found = {0.0: whole} | {x * one: left(x * one, p.name) for x in _SIZES if p.low <= x * one <= p.high}
         nearest = min(found, key=lambda x: found[x])
-        if found[nearest] < (1.0 - _WORTH_A_LOOK) * whole:
+        if found[nearest] < (1.0 - WORTH_A_LOOK) * whole:
             ends = sorted({*found, p.low, p.high})
             below = max((x for x in ends if x < nearest), default=p.low)
             above = min((x for x in ends if x > nearest), default=p.high)

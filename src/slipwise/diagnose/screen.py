@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from slipwise.cores import on_every_core
 from slipwise.diagnose.columns import column_of, residual_with, small
-from slipwise.diagnose.full_size import at_full_size
+from slipwise.diagnose.full_size import WORTH_A_LOOK, at_full_size
 from slipwise.diagnose.shapes import shapes, strengths, two_sided
 from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Term
@@ -22,8 +22,8 @@ from slipwise.params import Parameter
 
 Array = NDArray[np.float64]
 #: A column is taken anew where the strength that was found is this many times the one at which it was taken, so often,
-#: and where the candidate explains this share of the squared residual [1].
-_FAR_BEYOND, _ROUNDS, _WORTH_A_LOOK = 2.5, 2, 0.02
+#: and where the candidate is worth a look.
+_FAR_BEYOND, _ROUNDS = 2.5, 2
 #: Step of a slope, as a share of the value.
 _NEAR = 0.01
 
@@ -121,14 +121,14 @@ def _at_shapes(
         starts = [(p, small(term.effect, shape, p)) for p in strengths(term.effect)]
         found = _mixed(base, term, shape, starts, left, residual, project)
         for _ in range(_ROUNDS):
-            if found is None or found.gain < _WORTH_A_LOOK * float(residual @ residual):
+            if found is None or found.gain < WORTH_A_LOOK * float(residual @ residual):
                 break
             far = {p.name for p, start in starts if _is_far(p, start, found.values)}
             if not far:
                 break
             starts = [(p, {**v, p.name: found.values[p.name]} if p.name in far else v) for p, v in starts]
             found = _mixed(base, term, shape, starts, left, residual, project)
-        hopeful = found is not None and found.gain >= _WORTH_A_LOOK * float(residual @ residual)
+        hopeful = found is not None and found.gain >= WORTH_A_LOOK * float(residual @ residual)
         whole = at_full_size(base, term, shape, residual, project, turns=turns, hopeful=hopeful)
         if whole is not None and left is not None:
             values, there = whole

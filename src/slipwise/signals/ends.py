@@ -57,8 +57,9 @@ def in_frequency(values: Array, dt: float, gain: Callable[[Array], NDArray[Any]]
     circle = np.concatenate([long, long[-1] + (long[0] - long[-1]) * _way(size - len(long))])
     spectrum = np.fft.rfft(circle) * gain(_frequencies(size, dt))
     if finer > 1:
+        spectrum *= finer
         spectrum[-1] *= 0.5  # half the sampling rate is no longer the end, and counts at both signs
-    return finer * np.fft.irfft(spectrum, finer * size)[finer * start : finer * (start + len(values))]
+    return np.fft.irfft(spectrum, finer * size)[finer * start : finer * (start + len(values))]
 
 
 @lru_cache(maxsize=64)
