@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.effects import Effect, catalogue
-from slipwise.kernel import Kernel, apply_rest, engine_for, fill, kernel
+from slipwise.kernel import Kernel, apply_rest, begin_memory, engine_for, fill, kernel
 from slipwise.model import Model
 
 Array = NDArray[np.float64]
@@ -71,6 +71,24 @@ class Predictor:
     def rest(self, seconds: float) -> None:
         """Let a pause between two runs act on the memory."""
         apply_rest(self.law.layout, self.numbers, self.model, seconds)
+
+    def begin(self, load: Array, velocity: Array, slip: Array, force: Array) -> None:
+        """Let what a slider remembers agree with the force that was measured when its record began.
+
+        Args:
+            load: (n_pads,) [N].
+            velocity: (n_pads, 2) [m/s].
+            slip: (n_pads, 2) [m].
+            force: (n_pads, 2) [N].
+        """
+        entries = self.model.with_hook("begin")
+        if not entries:
+            return
+        kept = self.numbers.copy()
+        twice = (np.stack([each, each]) for each in (load, velocity, slip))
+        bound = self.pads(np.array([0.0, 1e-6]), *twice).bound[0]
+        self.numbers[:] = kept
+        begin_memory(self.law.layout, self.numbers, entries, force, bound)
 
     def reset(self) -> None:
         """Start from rest, nothing slid and nothing warm."""

@@ -35,3 +35,17 @@ def test_the_presliding_of_a_slider_is_named(tmp_path):
     length = values["length"] * (1200.0 / RATED) ** values["growth"]  # one load does not tell the two apart
     assert length == pytest.approx(1e-3 * LENGTH, rel=0.03)
     assert found.final_error < 0.3 * found.base_error
+
+
+def test_a_slider_is_followed_from_a_record_that_begins_under_friction(tmp_path):
+    """Full of friction one way, then the other: nothing before the record is known, but its first force is."""
+    (tmp_path / "campaign.toml").write_text(f'name = "slider"\nrig = "pad"\n{RUNS}')
+    for name, seed, frequency, begin in (("one", 1, 0.5, 0.9), ("two", 2, 0.7, 1.7)):
+        rows = bristle(seed, frequency)
+        (tmp_path / f"{name}.csv").write_text(text(rows[rows[:, 0] >= begin], HEADER))
+    found = diagnose(load_campaign(tmp_path))
+    assert found.verdict.effects == ("presliding",)
+    for run, left in zip(found.final.problem.runs, found.final.solution.residuals.pad_forces, strict=True):
+        off = np.abs(run.force - left)[:, 0]
+        assert abs(run.force[0, 0]) > 1000.0
+        assert off[: len(off) // 20].max() < 60.0

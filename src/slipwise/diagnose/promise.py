@@ -33,7 +33,7 @@ def is_kept(base: BaseFit, found: Screened) -> bool:
     solution = base.solution
     left = solution.residuals.stacked(base.problem.fitted, base.problem.relations)
     there = residual_with(base, found.term, found.values)
-    if there is None:
+    if there is None or solution.cost - float(there @ there) > _ENOUGH * found.gain:
         return True
     step = -np.linalg.lstsq(solution.normal, solution.jacobian.T @ (there - left), rcond=1e-12)[0]
     off = {p.name: float(p.neutral or 0.0) for p in strengths(found.term.effect)}

@@ -134,7 +134,9 @@ def refit(
     if not problem.balanced and before is None:
         solution = _several_starts(problem, values, free, terms)
     else:
-        known = {f.key: base.solution.jacobian[:, j] for j, f in enumerate(base.free)}
+        known = None  # a slider's laws change it too much for slopes of before, and are quick
+        if problem.balanced:
+            known = {f.key: base.solution.jacobian[:, j] for j, f in enumerate(base.free)}
         solution = solve(problem, values, free, most=most, enough=_ENOUGH, rough=_ROUGH, known=known)
         contained = before if before is not None and labels <= {t.label for t in terms} else base
         if solution.cost > contained.solution.cost:  # the base has moved too far for its slopes of before

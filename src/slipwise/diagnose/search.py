@@ -146,7 +146,7 @@ def _further(state: Search) -> bool:
     if all_down(account):
         return False
     least = _worth_a_refit(before, MATERIAL_FURTHER)
-    found = with_kept(as_base(state, before), rescreen(state.screened, before), least)
+    found = with_kept(as_base(state, before), rescreen(state.seen, before), least)
     chosen = various([s for s in found if s.gain > least], _REFITTED_PAIRS + 1)
     tried = try_all(state, starts_of(chosen, before.terms) + longer_stick(state, before), before)
     sound = [h for h in tried if strained(before) or not strained(h)]
@@ -174,7 +174,7 @@ def _swap(state: Search) -> bool:
     for name in best.names:
         rest = [t for t in best.terms if t.effect.name != name]
         kept = left_with(state, rest, best)
-        chosen = [s for s in rescreen(state.screened, kept) if s.term.effect.name not in best.names][:_SWAPPED]
+        chosen = [s for s in rescreen(state.seen, kept) if s.term.effect.name not in best.names][:_SWAPPED]
         better = [h for h in try_all(state, starts_of(chosen, rest), kept) if score(origin, h.account) > top]
         if better:
             state.path.append(max(better, key=lambda h: score(origin, h.account)))

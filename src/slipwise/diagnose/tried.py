@@ -46,6 +46,11 @@ class Search:
         return self.settled or self.best
 
     @property
+    def seen(self) -> list[Screened]:
+        """Every candidate that was screened: what the base's residual speaks against may help beside another."""
+        return [*self.screened, *self.opposed]
+
+    @property
     def best(self) -> Hypothesis:
         """The hypothesis at which the search ended."""
         return self.path[-1]

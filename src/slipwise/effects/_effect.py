@@ -19,6 +19,8 @@ Hooks of whole arrays (numpy):
     gauge(record, target, ...) -> Record       undo(record, target, ...) -> Record (its inverse, where `gauge` has one)
     balance(states, ...) -> {"heave" | "pitch" | "roll" | "warp": (n,), "girder": (n,)} added to what is predicted
     rest(memory, seconds, ...) -> None         what a pause between runs leaves of the memory
+    begin(memory, share_x, share_y, bound, ...) -> None    what is remembered where a slider's record begins, by the
+                                               share of the bound [1] that its force was then
 """
 
 import fnmatch
@@ -104,6 +106,7 @@ HOOKS: dict[str, Hook] = {
     "undo": _hook({}, "record", "target", instant=False),
     "balance": _hook({}, "states", instant=False),
     "rest": _hook({}, "memory", "seconds", memory="pad", instant=False),
+    "begin": _hook({}, "memory", "share_x", "share_y", "bound", memory="pad", instant=False),
 }
 #: Ports in the order in which they act, with the hooks that an effect on them may have.
 PORTS: dict[str, tuple[str, ...]] = {
@@ -111,7 +114,7 @@ PORTS: dict[str, tuple[str, ...]] = {
     "table": ("table", "balance"),
     "area": ("area", "advance", "rest"),
     "shear": ("shear", "advance", "rest"),
-    "stick": ("stick", "shear", "advance", "rest"),
+    "stick": ("stick", "shear", "advance", "rest", "begin"),
     "pad": ("pad", "advance", "rest"),
     "buffer": ("deflection", "spring", "settle", "lift", "balance", "rest"),
     "girder": ("rig", "drag", "lift", "balance"),

@@ -62,6 +62,12 @@ def stick(
     return stiffness * bent_x, stiffness * bent_y
 
 
+def begin(memory: np.ndarray, share_x: float, share_y: float, bound: float, length: float, growth: float) -> None:
+    """Bend the bristle as far as a force asks for."""
+    most = length * max(bound / RATED, LEAST) ** growth
+    memory[0], memory[1] = share_x * most, share_y * most
+
+
 EFFECT = Effect(
     port="stick",
     component="pad friction",

@@ -2,6 +2,17 @@
 
 from slipwise.kernel.callbacks import installed
 from slipwise.kernel.engine import ENGINES, Kernel, engine_for, kernel
-from slipwise.kernel.layout import Layout, apply_rest, fill, set_values
+from slipwise.kernel.layout import Layout, apply_rest, begin_memory, fill, set_values
 
-__all__ = ["ENGINES", "Kernel", "Layout", "apply_rest", "engine_for", "fill", "installed", "kernel", "set_values"]
+__all__ = [
+    "ENGINES",
+    "Kernel",
+    "Layout",
+    "apply_rest",
+    "begin_memory",
+    "engine_for",
+    "fill",
+    "installed",
+    "kernel",
+    "set_values",
+]

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from slipwise.effects import Effect
 from slipwise.errors import SettingError
-from slipwise.model import Model
+from slipwise.model import EffectUse, Model
 
 MAX_PADS = 4
 MAX_BUFFERS = 2
@@ -171,3 +171,15 @@ def apply_rest(layout: Layout, array: NDArray[np.float64], model: Model, seconds
             blocks, start = buffer_memories(layout, array).reshape(-1, layout.buffer_block), layout.buffer_memory[name]
         for block in blocks:
             entry.effect.hooks["rest"](block[start : start + size], seconds, **entry.values)
+
+
+def begin_memory(
+    layout: Layout, array: NDArray[np.float64], entries: Sequence[EffectUse], force: NDArray, bound: NDArray
+) -> None:
+    """Let what pads remember agree with the force (p, 2) [N] that each bears, of the bound (p,) [N], in place."""
+    shares = force / np.maximum(bound, 1e-12)[:, None]
+    shares /= np.maximum(np.hypot(*shares.T), 1.0)[:, None]
+    for entry in entries:
+        start, size = layout.pad_memory[entry.effect.name], len(entry.effect.memory)
+        for block, share, most in zip(pad_memories(layout, array), shares, bound, strict=False):
+            entry.effect.hooks["begin"](block[start : start + size], *share, most, **entry.values)

@@ -36,3 +36,10 @@ def test_what_is_there_is_kept_and_the_opposite_of_it_is_not() -> None:
     found = screened(base, "girder_bending")["girder_bending"]
     assert is_kept(base, found)
     assert not is_kept(base, replace(found, values={**found.values, "frequency": 5.0, "share": 0.4}))
+
+
+def test_slopes_of_the_base_that_lead_astray_take_nothing_away() -> None:
+    base = fit_base(as_campaign(build_campaign(45005, effects=("girder_bending",), size="medium")))
+    found = screened(base, "girder_bending")["girder_bending"]
+    astray = replace(base, solution=replace(base.solution, jacobian=1e-6 * base.solution.jacobian))
+    assert is_kept(astray, found)

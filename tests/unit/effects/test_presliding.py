@@ -132,3 +132,15 @@ def test_a_contact_that_slips_has_its_whole_friction_while_that_falls() -> None:
     found = predictor(model).pads(time, load, np.gradient(slip, time, axis=0), slip)
     share = (found.force[:, 0] / found.bound[:, :1])[:, 0]
     np.testing.assert_allclose(share[slip[:, 0, 0] > 2.0 * U], 1.0, rtol=1e-12)
+
+
+@pytest.mark.parametrize("share", [(0.4, 0.0), (-1.0, 0.0), (1.2, 0.9)])
+def test_a_record_may_begin_with_a_bristle_that_is_bent_already(share: tuple[float, float]) -> None:
+    law = predictor(base_model("bridge1", [use("presliding", length=U, growth=0.5)]))
+    still, load = np.zeros((4, 2)), np.full(4, 0.2 * LOAD)
+    time, path = 0.002 * np.arange(2), np.zeros((2, 4, 2))
+    bound = law.pads(time, np.stack([load, load]), path, path).bound[0]
+    law.begin(load, still, still, np.asarray(share) * bound[:, None])
+    bent = law.pads(time, np.stack([load, load]), path, path)
+    length = max(np.hypot(*share), 1.0)
+    np.testing.assert_allclose(bent.force[0] / bound[:, None], np.tile(share, (4, 1)) / length, atol=1e-12)
