@@ -13,7 +13,7 @@ from collections.abc import Callable
 import numpy as np
 
 from slipwise.fit.base import BaseFit
-from slipwise.fit.solve import solve
+from slipwise.fit.solve import slopes_of, solve
 from slipwise.fit.terms import Free
 
 #: The limit is found when its cost is this near to what was asked for, as a share [1], or after this many fits.
@@ -49,7 +49,7 @@ def upper_limit(base: BaseFit, free: Free, first: float, rise: float) -> float:
 
 def _profiled(base: BaseFit, free: Free, value: float) -> float:
     others = [f for f in base.solution.free if f.key != free.key]
-    slopes = {f.key: base.solution.jacobian[:, j] for j, f in enumerate(base.solution.free)}
+    slopes = slopes_of(base.solution)
     known = {f.key: slopes[f.key] for f in others}
     values = {**base.solution.values, free.key: value}
     return solve(base.problem, values, others, most=4, enough=0.1, known=known).cost

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from slipwise.diagnose.shapes import strengths
 from slipwise.fit.base import BaseFit, settled
 from slipwise.fit.problem import Problem
-from slipwise.fit.solve import Solution, solve
+from slipwise.fit.solve import Solution, slopes_of, solve
 from slipwise.fit.terms import Free, Term, inertia_free
 
 Array = NDArray[np.float64]
@@ -136,7 +136,7 @@ def refit(
     else:
         known = None  # a slider's laws change it too much for slopes of before, and are quick
         if problem.balanced:
-            known = {f.key: base.solution.jacobian[:, j] for j, f in enumerate(base.free)}
+            known = slopes_of(base.solution)
         solution = solve(problem, values, free, most=most, enough=_ENOUGH, rough=_ROUGH, known=known)
         contained = before if before is not None and labels <= {t.label for t in terms} else base
         if solution.cost > contained.solution.cost:  # the base has moved too far for its slopes of before

@@ -61,7 +61,7 @@ def diagnose(
     judged = judge(state)
     shown = state.final if judged.effects else state.path[0]
     verdict = with_faults(judged, explored.faults)
-    final = as_fit(base, shown)
+    final = as_fit(base, shown, with_slopes=shown is not state.settled or not shown.problem.balanced)
     cannot = [f"{name}: {reason}" for name, reason in [*state.cannot.items(), *untold(state, final)]]
     replayed: dict[str, float] = {}
     if system:
@@ -94,13 +94,21 @@ def diagnose(
     )
 
 
-def as_fit(base: BaseFit, found: Hypothesis) -> BaseFit:
-    """Give a hypothesis as a fit of its own, with its own Jacobian, for intervals, locating and replays."""
+def as_fit(base: BaseFit, found: Hypothesis, *, with_slopes: bool = True) -> BaseFit:
+    """Give a hypothesis as a fit of its own, with its own Jacobian, for intervals, locating and replays.
+
+    Args:
+        base: the base fit.
+        found: the hypothesis.
+        with_slopes: take its slopes, those that it has are of a fit nearby; `as_reported` has taken its own.
+    """
     if not found.terms:
         return base
     solution = found.solution
-    slopes = jacobian(found.problem, solution.values, solution.free, solution.residuals)
-    return BaseFit(base.campaign, base.model, found.problem, solution.free, replace(solution, jacobian=slopes))
+    if with_slopes:
+        slopes = jacobian(found.problem, solution.values, solution.free, solution.residuals)
+        solution = replace(solution, jacobian=slopes)
+    return BaseFit(base.campaign, base.model, found.problem, solution.free, solution)
 
 
 def error_of(account: Account, relation: str) -> float:

@@ -9,15 +9,17 @@ from slipwise.campaign import Campaign, Logger
 from slipwise.fit.data import Spoiled, fit_runs
 from slipwise.fit.logger import estimated_logger
 from slipwise.fit.problem import Problem
-from slipwise.fit.solve import Solution, solve
+from slipwise.fit.solve import Solution, slopes_of, solve
 from slipwise.fit.terms import DAMPED_STICK, STICK_DAMPING, YAW_INERTIA, Free, base_free, inertia_free, terms_of
 from slipwise.model import Model, base_model
 
 #: Noise near reversals depends on the fit and the fit on the noise: each is made anew, and every fit ends where a step
 #: promises less than this much of the squared residual. One halfwidth of an interval is worth four [1].
 _ENOUGH = (1.0, 0.1)
-#: Where a fit that is reported ends [1].
-_SETTLED = 0.1
+#: The same as a share of what is left above the noise: a law that is wrong needs no fine fit [1].
+_ROUGH = 1e-5
+#: Where a fit that is reported ends, and where one that is only to be weighed by [1].
+_SETTLED, _TO_WEIGH = 0.1, 50.0
 #: A stick longer than this share of the stroke is no detail of the rig [1].
 _STICK_SHARE = 0.01
 #: A fit from elsewhere is another one if it leaves this share less of the squared residual [1].
@@ -80,7 +82,7 @@ def _roughly(problem: Problem, free: list[Free], start: Mapping[str, float]) -> 
     """Fit as a beginning, from these numbers where there are any; the problem is weighed by where it begins."""
     values = {f.key: start.get(f.key, f.start) for f in free}
     problem.weigh(values)
-    return solve(problem, values, free, most=6, enough=50.0)
+    return solve(problem, values, free, most=6, enough=_TO_WEIGH)
 
 
 def _fitted(campaign: Campaign, model: Model, problem: Problem, start: Mapping[str, float] | None = None) -> BaseFit:
@@ -88,12 +90,12 @@ def _fitted(campaign: Campaign, model: Model, problem: Problem, start: Mapping[s
     solution = _roughly(problem, free, start or {})
     for enough in _ENOUGH:
         problem.weigh(solution.values)
-        solution = solve(problem, solution.values, free, most=8, enough=enough)
+        solution = solve(problem, solution.values, free, most=8, enough=enough, rough=_ROUGH)
     if _turns(problem, solution):
         problem = problem.turning()
         free.append(inertia_free(model.specimen, YAW_INERTIA))
         start = {**solution.values, free[-1].key: free[-1].start}
-        solution = solve(problem, start, free, most=8, enough=_ENOUGH[-1])
+        solution = solve(problem, start, free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
     return BaseFit(campaign, model, problem, tuple(free), solution)
 
 
@@ -107,9 +109,9 @@ def settled(problem: Problem, solution: Solution) -> tuple[Problem, Solution]:
         free.append(Free("rig.stick_damping", *STICK_DAMPING, "s"))
         starts = ({**start, "rig.stick_damping": 0.0}, {**start, **DAMPED_STICK})
         start = min(starts, key=lambda values: _cost(problem, values))
-    solution = solve(problem, start, free, most=4, enough=_SETTLED)
+    solution = solve(problem, start, free, most=4, enough=_TO_WEIGH, begin=slopes_of(solution))
     problem = problem.weighed_anew(solution.values)
-    return problem, solve(problem, solution.values, free, most=4, enough=_SETTLED)
+    return problem, solve(problem, solution.values, free, most=3, enough=_SETTLED)
 
 
 def fit_finely(campaign: Campaign, model: Model | None = None) -> BaseFit:
@@ -127,11 +129,12 @@ def restarted(base: BaseFit, values: Mapping[str, float]) -> BaseFit | None:
         values: key -> value of the hypothesis.
     """
     start = {**base.solution.values, **{f.key: values[f.key] for f in base.free if f.key in values}}
-    solution = solve(base.problem, start, base.free, most=8, enough=_ENOUGH[-1])
+    fall = 0.1 * _BETTER * base.solution.cost
+    solution = solve(base.problem, start, base.free, most=8, enough=fall, begin=slopes_of(base.solution))
     if solution.cost > (1.0 - _BETTER) * base.solution.cost:
         return None
     problem = base.problem.weighed_anew(solution.values)
-    again = solve(problem, solution.values, base.free, most=8, enough=_ENOUGH[-1])
+    again = solve(problem, solution.values, base.free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
     return replace(base, problem=problem, solution=again)
 
 

@@ -60,6 +60,11 @@ class Solution:
         return self.jacobian[:, [f.key not in ends for f in self.free]]
 
 
+def slopes_of(solution: Solution) -> dict[str, Array]:
+    """Give the columns of a solution's Jacobian by the keys of its free numbers."""
+    return {f.key: solution.jacobian[:, j] for j, f in enumerate(solution.free)}
+
+
 def jacobian(
     problem: Problem,
     values: Mapping[str, float],
@@ -94,6 +99,7 @@ def solve(
     enough: float = _ENOUGH,
     rough: float = 0.0,
     known: Mapping[str, Array] | None = None,
+    begin: Mapping[str, Array] | None = None,
 ) -> Solution:
     """Fit the free numbers to the runs that may be fitted.
 
@@ -105,6 +111,7 @@ def solve(
         enough: drop of the squared residual below which a further step is not worth it.
         rough: that drop also as a share of what is left above the noise: a law that is wrong needs no fine fit [1].
         known: columns of the Jacobian that a fit nearby has found, by key; they are used as they are.
+        begin: the same, but until a step does not keep what they promise.
     """
     which = problem.fitted
     values = dict(start)
@@ -120,9 +127,11 @@ def solve(
     stale = True
     for _ in range(most):
         if stale:
-            slopes = jacobian(problem, values, free, now, known)
-            evaluations += len(free) - len(known or ())
+            taken = begin or known
+            slopes = jacobian(problem, values, free, now, taken)
+            evaluations += len(free) - len(taken or ())
             normal = slopes.T @ slopes
+            begin = None
         gradient = slopes.T @ left
         here = np.array([values[f.key] for f in free])
         better = False
