@@ -60,7 +60,7 @@ def diagnose(
     base, state = explored.base, explored.search
     judged = judge(state)
     shown = state.final if judged.effects else state.path[0]
-    verdict = with_faults(judged, explored.faults)
+    verdict = with_faults(judged, explored.faults, state.best.terms)
     final = as_fit(base, shown, with_slopes=shown is not state.settled or not shown.problem.balanced)
     cannot = [f"{name}: {reason}" for name, reason in [*state.cannot.items(), *untold(state, final)]]
     replayed: dict[str, float] = {}

@@ -37,11 +37,13 @@ class SampleFault:
         effect: "channel_sign", "channel_clipping" or "dropped_samples".
         channel: name.
         share: of the samples that it touches [1].
+        moved: whether samples were lost for good, so that all that came after is late.
     """
 
     effect: str
     channel: str
     share: float
+    moved: bool = False
 
 
 def sample_faults(campaign: Campaign) -> tuple[SampleFault, ...]:
@@ -62,13 +64,15 @@ def sample_faults(campaign: Campaign) -> tuple[SampleFault, ...]:
         # a peak that is held looks like a rail, but then other samples are held as well
         elsewhere = [_repeats(values[~rail]) for values, rail in zip(runs, rails, strict=True)]
         filled = [_filled_up(values) for values in runs]
-        lost = all(h > _REPEATED for h in held) or (min(filled) > 0 and sum(filled) >= _FILLED)
+        moved = min(filled) > 0 and sum(filled) >= _FILLED
+        lost = all(h > _REPEATED for h in held) or moved
         total = sum(len(values) for values in runs)
         clipped = sum(int(np.count_nonzero(r)) for r in rails)
         if clipped >= _PLATEAU and not (lost and all(h > _REPEATED for h in elsewhere)):
             found.append(SampleFault("channel_clipping", name, clipped / total))
         elif lost:
-            found.append(SampleFault("dropped_samples", name, max(float(np.mean(held)), sum(filled) / total)))
+            share = max(float(np.mean(held)), sum(filled) / total)
+            found.append(SampleFault("dropped_samples", name, share, moved))
     return tuple(found)
 
 

@@ -13,6 +13,7 @@ from slipwise.diagnose.samples import SampleFault
 from slipwise.diagnose.search import MOST_EFFECTS
 from slipwise.diagnose.tried import Search
 from slipwise.diagnose.worth import SAME_SCORE, least_worth, material, needless, score, worth
+from slipwise.fit.terms import Term
 
 #: A right family explains this share of what the base left, whatever its exact form [1]: 0.87 and more on trials, the
 #: best wrong one up to 0.69.
@@ -37,6 +38,8 @@ LOUD = 1.5
 _SAME_SHARE, _SAME_EXCESS = 0.004, 0.5
 #: The same share for two faults of gauges: both have one form only, and nothing but noise between them [1].
 _SAME_FAULT = 5e-4
+#: What lost samples look like where their gap was closed.
+_LATE = ("channel_delay", "channel_filter", "clock_skew")
 #: Nobody is surer than this of what no run has confirmed that was not fitted [1].
 _UNCONFIRMED = 0.9
 
@@ -141,8 +144,14 @@ def _worst(of: Account) -> float:
     return max(of.level(r, held_out=h) for r, counts in of.counts.items() for h in (False, True) if counts[h])
 
 
-def with_faults(found: Verdict, faults: Sequence[SampleFault]) -> Verdict:
-    """Add faults of samples to a verdict on what is left when they are mended."""
+def with_faults(found: Verdict, faults: Sequence[SampleFault], terms: Sequence[Term] = ()) -> Verdict:
+    """Add faults of samples to a verdict on what is left when they are mended.
+
+    Args:
+        found: the verdict on the rest.
+        faults: of samples.
+        terms: that the verdict names.
+    """
     if not faults:
         return found
     names = tuple(dict.fromkeys(f.effect for f in faults))
@@ -150,7 +159,12 @@ def with_faults(found: Verdict, faults: Sequence[SampleFault]) -> Verdict:
         return replace(found, kind="instrument", effects=names, probability=max(found.probability, 0.9))
     if found.kind == "unknown":
         return replace(found, kind="instrument", effects=names, probability=_COIN_OF_FAULTS)
-    return replace(found, effects=(*found.effects, *(n for n in names if n not in found.effects)))
+    moved = {f.channel for f in faults if f.moved}
+    # a gauge whose lost samples moved up the rest is late by that
+    same = {t.effect.name for t in terms if t.effect.name in _LATE and moved.issuperset(t.targets)}
+    same -= {t.effect.name for t in terms if not moved.issuperset(t.targets)}
+    named = tuple(n for n in found.effects if n not in same)
+    return replace(found, effects=(*named, *(n for n in names if n not in named)))
 
 
 def _rivals(state: Search, best: Hypothesis) -> tuple[Hypothesis, ...]:

@@ -106,6 +106,17 @@ def test_faults_of_samples_are_named_whatever_is_left_when_they_are_mended(left)
     assert (found.probability < 0.7) == (left > 2.0)
 
 
+@pytest.mark.parametrize(
+    ("moved", "channel", "named"), [(True, "girder_ax", False), (False, "girder_ax", True), (True, "slip_x", True)]
+)
+def test_a_gauge_that_lost_samples_for_good_is_late_by_that(moved, channel, named):
+    late = Term(catalogue()["channel_delay"], ("girder_ax",), "girder_ax")
+    found = replace(judge(_search(_tried((), 5.0), _tried(("channel_delay",), 1.0))), kind="instrument")
+    told = with_faults(found, [SampleFault("dropped_samples", channel, 0.01, moved)], [late])
+    assert told.kind == "instrument"
+    assert told.effects == (("channel_delay",) if named else ()) + ("dropped_samples",)
+
+
 def _structured(found: Hypothesis) -> Any:
     return SimpleNamespace(relation="pads", explained=0.5, level=1.0)
 
