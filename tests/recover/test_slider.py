@@ -49,3 +49,24 @@ def test_a_slider_is_followed_from_a_record_that_begins_under_friction(tmp_path)
         off = np.abs(run.force - left)[:, 0]
         assert abs(run.force[0, 0]) > 1000.0
         assert off[: len(off) // 20].max() < 60.0
+
+
+@pytest.mark.parametrize(("share", "named"), [(0.03, False), (0.15, True)])
+def test_the_zero_of_a_sliders_gauge_is_nobodys_effect_unless_it_is_far_off(tmp_path, share, named):
+    """A twentieth of the friction is what an actuator's cell may be off by; more is an offset or an asymmetry."""
+    (tmp_path / "campaign.toml").write_text(f'name = "slider"\nrig = "pad"\n{RUNS}')
+    for name, seed, frequency in (("one", 1, 0.5), ("two", 2, 0.7)):
+        rows = bristle(seed, frequency)
+        rows[:, 3] += 1.2 * share
+        (tmp_path / f"{name}.csv").write_text(text(rows, HEADER))
+    found = diagnose(load_campaign(tmp_path))
+    assert found.verdict.effects[0] == "presliding"
+    assert bool({"channel_offset", "direction_asymmetry"} & set(found.verdict.effects)) == named
+    zero = found.final.solution.values.get("rig.zero_force", 0.0)
+    assert zero == (0.0 if named else pytest.approx(1200.0 * share, rel=0.1))
+    assert any("gauge's zero" in reason for reason in found.cannot_tell) != named
+    off = [
+        float(np.std(r.force - f))
+        for r, f in zip(found.final.problem.runs, found.final.solution.residuals.pad_forces, strict=True)
+    ]
+    assert max(off) < 30.0

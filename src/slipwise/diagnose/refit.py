@@ -10,7 +10,7 @@ from slipwise.diagnose.shapes import strengths
 from slipwise.fit.base import BaseFit, settled
 from slipwise.fit.problem import Problem
 from slipwise.fit.solve import Solution, slopes_of, solve
-from slipwise.fit.terms import Free, Term, inertia_free
+from slipwise.fit.terms import ZERO, ZEROES, Free, Term, inertia_free
 
 Array = NDArray[np.float64]
 #: Constants that only say at which value a law is neutral: free, they would be one with its strength.
@@ -119,6 +119,9 @@ def refit(
     free: list[Free] = [f for f in base.free if f.key != STICK_LENGTH or not problem.has_stick]
     if any(t.effect.name == "shear_rate" for t in terms):
         free = [f for f in free if f.key != "rig.shear_strength"]
+    if any(t.effect.name in ZEROES for t in terms):
+        free = [f for f in free if f.key != ZERO]
+        values.pop(ZERO, None)
     for term in terms:
         if before is not None and term.label in labels:
             start = before.values_of(term)

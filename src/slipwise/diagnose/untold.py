@@ -16,7 +16,7 @@ from slipwise.diagnose.unidentified import unidentified
 from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
 from slipwise.fit.base import BaseFit
-from slipwise.fit.terms import Term
+from slipwise.fit.terms import ZERO, ZEROES, Term
 
 Array = NDArray[np.float64]
 #: Two effects look alike when columns of theirs agree so well beside the base; one run gives 0.95, two with a long rest
@@ -42,6 +42,7 @@ def untold(state: Search, final: BaseFit) -> list[tuple[str, str]]:
         *unidentified(final, state.base),
         *_alike(state, project),
         *_rests_not_given(state),
+        *_zero_not_shown(state.base),
         *_nothing_held_out(state.base),
         *_gauges_not_tried(state),
         *_vanished(state, project),
@@ -61,6 +62,12 @@ def _alike(state: Search, project: Callable[[Array], Array]) -> Iterator[tuple[s
             reason = ", and ".join([*_lacking(base.campaign.runs), said])
             apart = fading.confused_with[lasting.name]
             yield f"{fading.name} against {lasting.name}", f"{reason}; what tells them apart: {apart}"
+
+
+def _zero_not_shown(base: BaseFit) -> Iterator[tuple[str, str]]:
+    for zero in (f for f in base.free if f.key == ZERO):
+        reason = f"no record of a slider shows its gauge's zero, and up to {zero.high:.2g} N is taken for one"
+        yield ", ".join(ZEROES), reason
 
 
 def _parted_by_a_pause(fading: Effect, lasting: Effect) -> bool:

@@ -10,7 +10,8 @@ from slipwise.fit.data import Spoiled, fit_runs
 from slipwise.fit.logger import estimated_logger
 from slipwise.fit.problem import Problem
 from slipwise.fit.solve import Solution, slopes_of, solve
-from slipwise.fit.terms import DAMPED_STICK, STICK_DAMPING, YAW_INERTIA, Free, base_free, inertia_free, terms_of
+from slipwise.fit.terms import DAMPED_STICK, STICK_DAMPING, YAW_INERTIA, ZEROES, Free, base_free, inertia_free, terms_of
+from slipwise.fit.zero import free_zero
 from slipwise.model import Model, base_model
 
 #: Noise near reversals depends on the fit and the fit on the noise: each is made anew, and every fit ends where a step
@@ -73,6 +74,9 @@ def _free(campaign: Campaign, model: Model, problem: Problem) -> list[Free]:
     free = base_free(model, balances=problem.balanced, logger_known=campaign.logger.known)
     stroke = min(float(np.ptp(problem.runs[i].slip)) for i in problem.fitted)
     most = max(_STICK_SHARE * stroke, 1e-7)
+    if not model.specimen.free and not any(e.effect.name in ZEROES for e in model.uses):
+        zero = free_zero([problem.runs[i] for i in problem.fitted])
+        free += [zero] if zero else []
     return [
         replace(f, high=min(f.high, most), start=min(f.start, most)) if f.key == "rig.stick_length" else f for f in free
     ]

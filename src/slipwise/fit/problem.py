@@ -28,7 +28,7 @@ from slipwise.fit.pads import PadLaw, as_logged, force_along, lost_velocity, sti
 from slipwise.fit.recent import Key, Recent
 from slipwise.fit.residuals import Residuals
 from slipwise.fit.sharpened import evened
-from slipwise.fit.terms import PITCH_INERTIA, Term, fitted_model
+from slipwise.fit.terms import PITCH_INERTIA, ZERO, Term, fitted_model
 from slipwise.fit.weights import noise_across, pad_noise, reversal_noise, whitened, with_hidden
 from slipwise.model import Model
 from slipwise.predict import PadForces, predictor
@@ -37,7 +37,7 @@ from slipwise.signals import LowPass
 
 Array = NDArray[np.float64]
 #: Numbers that change what is seen of the pads' forces, not what their law says.
-_SEEN_KEYS = ("rig.stick_length", "rig.stick_damping", "rig.late_force", "rig.logger")
+_SEEN_KEYS = ("rig.stick_length", "rig.stick_damping", "rig.late_force", ZERO, "rig.logger")
 #: Numbers that no balance knows of.
 _PAD_KEYS = ("rig.pitch_slip", "rig.shear_strength", *_SEEN_KEYS)
 _PAD_PORTS = ("area", "shear", "stick", "pad")
@@ -290,7 +290,8 @@ class Problem:
         """Give the pads' forces along x as measured, a list of (n, p) [N]."""
         by, late, averaged = self._by(values), values.get("rig.late_force", 0.0), not self.has_stick
         forces = self._along(values, states[: len(said)], said)
-        return [as_logged(f, r, by, averaged=averaged, late=late) for f, r in zip(forces, runs, strict=False)]
+        zero = values.get(ZERO, 0.0)
+        return [zero + as_logged(f, r, by, averaged=averaged, late=late) for f, r in zip(forces, runs, strict=False)]
 
     def _motion(self, place: int, run: FitRun, values: Mapping[str, float], scale: Mapping[str, float]) -> Array:
         late = values["rig.late_slip"]

@@ -38,6 +38,9 @@ _LAGS: dict[str, str] = {
 }
 #: Effects that lag slow signals: beside one of them on a card the card's own lag is the same number.
 LAGGING = ("channel_delay", "channel_filter")
+#: The zero of a slider's friction gauge, and effects that push it one way: beside one of them it is the same number.
+ZERO = "rig.zero_force"
+ZEROES = ("channel_offset", "direction_asymmetry")
 #: A girder with weights on it is seldom rated for how hard it is to turn: 8 % more than rated left three floors in the
 #: pads where it yaws. Axis, and the shares of the rated value between which it may be.
 YAW_INERTIA, PITCH_INERTIA = "rig.yaw_inertia", "rig.pitch_inertia"

@@ -20,6 +20,7 @@ _CALLED: dict[str, tuple[str, str]] = {
     "rig.stick_length": ("slip over which stick turns round", "um"),
     "rig.stick_damping": ("time by which its damper leads", "ms"),
     "rig.shear_strength": ("shear strength s", "MPa"),
+    "rig.zero_force": ("zero of the friction gauge", "N"),
     "rig.logger": ("logger's filter of the friction channels", "Hz"),
     "shear_rate.strength": ("s' of eq. (5)", "MPa"),
     "shear_rate.rate": ("n of eq. (5)", "s/m"),
