@@ -53,7 +53,7 @@ def test_a_slider_is_followed_from_a_record_that_begins_under_friction(tmp_path)
 
 @pytest.mark.parametrize(("share", "named"), [(0.03, False), (0.15, True)])
 def test_the_zero_of_a_sliders_gauge_is_nobodys_effect_unless_it_is_far_off(tmp_path, share, named):
-    """A twentieth of the friction is what an actuator's cell may be off by; more is an offset or an asymmetry."""
+    """A twentieth of its friction is what an actuator's cell may be off by; more is an offset or an asymmetry."""
     (tmp_path / "campaign.toml").write_text(f'name = "slider"\nrig = "pad"\n{RUNS}')
     for name, seed, frequency in (("one", 1, 0.5), ("two", 2, 0.7)):
         rows = bristle(seed, frequency)

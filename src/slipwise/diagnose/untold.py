@@ -42,7 +42,7 @@ def untold(state: Search, final: BaseFit) -> list[tuple[str, str]]:
         *unidentified(final, state.base),
         *_alike(state, project),
         *_rests_not_given(state),
-        *_zero_not_shown(state.base),
+        *_zero_not_shown(final),
         *_nothing_held_out(state.base),
         *_gauges_not_tried(state),
         *_vanished(state, project),
@@ -64,8 +64,8 @@ def _alike(state: Search, project: Callable[[Array], Array]) -> Iterator[tuple[s
             yield f"{fading.name} against {lasting.name}", f"{reason}; what tells them apart: {apart}"
 
 
-def _zero_not_shown(base: BaseFit) -> Iterator[tuple[str, str]]:
-    for zero in (f for f in base.free if f.key == ZERO):
+def _zero_not_shown(fit: BaseFit) -> Iterator[tuple[str, str]]:
+    for zero in (f for f in fit.solution.free if f.key == ZERO):
         reason = f"no record of a slider shows its gauge's zero, and up to {zero.high:.2g} N is taken for one"
         yield ", ".join(ZEROES), reason
 

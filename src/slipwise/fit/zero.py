@@ -14,6 +14,8 @@ from slipwise.fit.terms import ZERO, Free
 
 #: A zero is off by no more than this share of the usual force, and the same everywhere within as much [1].
 _SHARE = 0.05
+#: Quantiles of a force that are friction forth and back: where it turns round it is neither [1].
+_ENDS = (0.05, 0.95)
 #: Each way of sliding must have this share of a stretch [1].
 _BOTH_WAYS = 0.1
 
@@ -33,11 +35,10 @@ def free_zero(runs: Sequence[FitRun]) -> Free | None:
 
 
 def _middles(run: FitRun) -> list[float]:
-    """Give the force midway between both ways of sliding in each half of a run [N]; nan where it slides one way."""
+    """Give the force midway between friction forth and back in each half of a run [N]; nan where it slides one way."""
     found = []
     for half in np.array_split(np.arange(len(run.time)), 2):
-        force, velocity, sliding = run.force[half].mean(axis=1), run.velocity[half], run.sliding[half]
-        forth, back = sliding & (velocity > 0.0), sliding & (velocity < 0.0)
-        enough = min(np.count_nonzero(forth), np.count_nonzero(back)) > _BOTH_WAYS * np.count_nonzero(sliding)
-        found.append(0.5 * float(force[forth].mean() + force[back].mean()) if enough else np.nan)
+        forth = float(np.mean(run.velocity[half][run.sliding[half]] > 0.0)) if run.sliding[half].any() else 0.0
+        both = min(forth, 1.0 - forth) > _BOTH_WAYS
+        found.append(float(np.mean(np.quantile(run.force[half], _ENDS))) if both else np.nan)
     return found
