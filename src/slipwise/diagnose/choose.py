@@ -6,7 +6,7 @@ import numpy as np
 
 from slipwise.diagnose.refit import Hypothesis
 from slipwise.diagnose.screen import Screened
-from slipwise.diagnose.worth import least_worth, material, score
+from slipwise.diagnose.worth import material_alone, score
 from slipwise.signals import LowPass
 
 #: Share of the best explanation from which on another gauge's ties with it [1].
@@ -29,7 +29,7 @@ def best_of(origin: Hypothesis, tried: Sequence[Hypothesis]) -> Hypothesis | Non
 
     Cells of load that all read 4 % less under a girder of 4 % more mass are cells of friction that all read 4 % more.
     """
-    good = [h for h in tried if material(origin.account, origin.account, h.account, least_worth(h.terms))]
+    good = [h for h in tried if material_alone(origin, h)]
     gains = [score(origin.account, h.account) for h in good]
     first = max(zip(gains, good, strict=True), key=lambda pair: pair[0], default=None)
     if first is None:

@@ -19,8 +19,8 @@ from slipwise.diagnose.worth import (
     MATERIAL_FURTHER,
     SAME_SCORE,
     all_down,
-    least_worth,
     material,
+    material_alone,
     needless,
     score,
 )
@@ -91,14 +91,13 @@ def _first(state: Search) -> None:
     pair = leading_pair(state.base, state.screened, best, least)
     if pair is not None:
         both = try_one(state, [p.term for p in pair], {p.term.label: p.values for p in pair})
-        if material(origin.account, origin.account, both.account, least_worth(both.terms)):
+        if material_alone(origin, both):
             # a fit hides an effect behind the base less than a screen does: one of the two may do alone
             alone = [try_one(state, [p.term], {}, both) for p in pair if not tried_before(state, [p.term])]
             best = best_of(origin, [*alone, *([best] if best else [])])
             single = best or origin
-            if score(origin.account, both.account) > score(origin.account, single.account) and material(
-                origin.account, single.account, both.account, least_worth(both.terms)
-            ):
+            worth_two = single is origin or material(origin.account, single.account, both.account)
+            if worth_two and score(origin.account, both.account) > score(origin.account, single.account):
                 state.path.append(both)
                 return
     if best is not None:

@@ -12,7 +12,7 @@ from slipwise.diagnose.refit import Account, Hypothesis, cornered, strained
 from slipwise.diagnose.samples import SampleFault
 from slipwise.diagnose.search import MOST_EFFECTS
 from slipwise.diagnose.tried import Search
-from slipwise.diagnose.worth import SAME_SCORE, least_worth, material, needless, score, worth
+from slipwise.diagnose.worth import SAME_SCORE, least_worth, material_alone, needless, score, worth
 from slipwise.fit.terms import Term
 
 #: A right family explains this share of what the base left, whatever its exact form [1]: 0.87 and more on trials, the
@@ -186,7 +186,7 @@ def _rivals(state: Search, best: Hypothesis) -> tuple[Hypothesis, ...]:
         # only what is explained beyond the effects that both name can tell the two apart
         share = _SAME_FAULT if _faults_only(h, best) else _SAME_SHARE
         near = max(SAME_SCORE, min(share * (top - max(shared, default=0.0)), unexplained))
-        if behind < near and material(origin.account, origin.account, h.account, least_worth(h.terms)):
+        if behind < near and material_alone(origin, h):
             out[h.names] = h
     return tuple(out.values())
 

@@ -57,17 +57,21 @@ def least_worth(terms: Iterable[Term]) -> float:
     return MATERIAL if any(t.effect.port in _EVERYWHERE for t in terms) else MATERIAL_LAW
 
 
-def material(base: Account, before: Account, after: Account, least: float = MATERIAL) -> bool:
+def material_alone(origin: Hypothesis, found: Hypothesis) -> bool:
+    """Tell whether effects are worth a name as a first step from the base model."""
+    return worth(origin.account, found.account)[0] >= least_worth(found.terms)
+
+
+def material(base: Account, before: Account, after: Account) -> bool:
     """Tell whether a step is worth a name.
 
     Args:
         base: of the base model.
         before: without the effect.
         after: with it.
-        least: of a first step, see `least_worth` [1].
     """
     if before is base:
-        return worth(before, after)[0] >= least
+        return worth(before, after)[0] >= MATERIAL
     for name in base.fitted:
         # an effect that only repairs what the one before has spoilt explains nothing of the rig
         lower = {h: min(base.level(name, held_out=h), before.level(name, held_out=h)) for h in (False, True)}

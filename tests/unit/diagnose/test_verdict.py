@@ -11,7 +11,7 @@ from slipwise.diagnose.refit import Account, Hypothesis
 from slipwise.diagnose.samples import SampleFault
 from slipwise.diagnose.tried import Search
 from slipwise.diagnose.verdict import judge, with_faults
-from slipwise.diagnose.worth import least_worth, material, needless
+from slipwise.diagnose.worth import material, material_alone, needless
 from slipwise.effects import catalogue
 from slipwise.fit.terms import Term
 from slipwise.signals import LowPass
@@ -36,7 +36,7 @@ def _tried(
 def _search(base: Hypothesis, *tried: Hypothesis) -> Search:
     """A search that took the best of what it tried, where that is material."""
     best = min((base, *tried), key=lambda h: h.account.total)
-    path = [base, best] if material(base.account, base.account, best.account, least_worth(best.terms)) else [base]
+    path = [base, best] if material_alone(base, best) else [base]
     return Search(cast(Any, None), [], {}, path, list(tried))
 
 
