@@ -24,6 +24,8 @@ _RATED = 0.30
 _MOVING = 0.3
 #: More of the pitch than this share is not the inertia's: a table that rocks at its resonance, and no lever [1].
 _UNEXPLAINED = 0.2
+#: Two levers, with and without a table that rocks as it is shaken, that differ by more than this are none [1].
+_SAME = 0.3
 #: A channel that stands at its largest or smallest value for more than this share of its samples is clipped [1].
 _AT_RAIL = 0.005
 #: Samples beyond this part of a channel's largest are left out: a clipped channel is a fault, not another rig [1].
@@ -86,6 +88,11 @@ def _lever(record: Record) -> float | None:
     left = pitch[kept] - columns[kept] @ slopes
     if left.std() > _UNEXPLAINED * pitch[kept].std():
         return None
+    if "table_ax" in record:
+        shaken = np.column_stack([columns, lowpass(record["table_ax"], record.dt, _SLOW)])
+        beside = np.linalg.lstsq(shaken[kept], pitch[kept], rcond=None)[0]
+        if abs(beside[0] - slopes[0]) > _SAME * abs(slopes[0]):
+            return None  # a table that rocks as it is shaken, or a girder that never slid beside it
     return float(-slopes[0] / 2.0)
 
 
