@@ -31,6 +31,19 @@ def test_a_hidden_effect_is_named(tmp_path: Path, effect: str, seed: int, kind: 
     assert said["candidates"][0]["effect"].startswith(effect)
 
 
+@pytest.mark.parametrize(
+    ("effect", "seed"),
+    [
+        ("channel_delay", 50151),  # 0.87 ms: a filter of 260 Hz behind the logger's 100 Hz explained 0.24 % more
+        ("channel_filter", 53009),  # 75 Hz before the logger's 80 Hz: the base fit had bent the girder's pitch to it
+    ],
+)
+def test_a_small_lag_is_called_a_filter_only_where_something_was_taken(tmp_path: Path, effect: str, seed: int) -> None:
+    make_campaign(tmp_path / "made", seed, effects=(effect,), size="small")
+    found = diagnose(tmp_path / "made", system=False)
+    assert found.verdict.effects == (effect,), found.sentence
+
+
 def test_the_ladder_falls_on_runs_that_the_fit_has_not_seen(tmp_path: Path) -> None:
     make_campaign(tmp_path / "made", 7005, effects=("run_in",), size="medium")
     found = ladder(tmp_path / "made", add=("run_in",))

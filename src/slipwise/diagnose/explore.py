@@ -67,7 +67,7 @@ def explore(
     better = restarted(base, state.best.solution.values) if state.best.terms else None
     if better is not None:
         base = better
-        state = search(base, own, progress)
+        state = search(base, own, progress, state)
     heard = _heard_anew(whole, base, state)
     if heard is not None:
         base = fit_base(heard, model, spoiled)
