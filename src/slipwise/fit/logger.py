@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from slipwise.campaign import Campaign, Logger
+from slipwise.cores import on_every_core
 from slipwise.fit.data import fit_runs
 from slipwise.fit.problem import Problem
 from slipwise.fit.solve import Solution, solve
@@ -50,25 +51,30 @@ def estimated_logger(campaign: Campaign, model: Model, first: Solution, terms: S
     tried: dict[LowPass, float] = {}
 
     def error(kind: LowPass) -> float:
-        if kind not in tried:
-            runs = fit_runs(replace(alone, logger=Logger(kind, known=True)))
-            problem = Problem(runs, model.specimen, (*terms_of(model), *terms))
-            problem.relations = ("pads",)
-            problem.weigh(start)
-            values = solve(problem, start, own, most=3, enough=20.0).values
-            problem.weigh(values)
-            found = solve(problem, values, own, most=1, enough=20.0)
-            tried[kind] = float(np.sum((found.residuals.parts["pads"][0] * problem.sigmas["pads"][0]) ** 2))
-        return tried[kind]
+        runs = fit_runs(replace(alone, logger=Logger(kind, known=True)))
+        problem = Problem(runs, model.specimen, (*terms_of(model), *terms))
+        problem.relations = ("pads",)
+        problem.weigh(start)
+        values = solve(problem, start, own, most=3, enough=20.0).values
+        problem.weigh(values)
+        found = solve(problem, values, own, most=1, enough=20.0)
+        return float(np.sum((found.residuals.parts["pads"][0] * problem.sigmas["pads"][0]) ** 2))
+
+    def try_all(kinds: Sequence[LowPass]) -> None:
+        fresh = [k for k in kinds if k not in tried]
+        tried.update(zip(fresh, on_every_core(lambda i: error(fresh[i]), len(fresh)), strict=True))
 
     coarse = [[LowPass(f, order, phase) for f in _FREQUENCIES if f < limit] for order, phase in _KINDS]
-    leaders = [min(kinds, key=error) for kinds in coarse]
-    best = min(leaders, key=error)
-    for leader in [k for k in leaders if error(k) <= _NEAR * error(best)]:
+    try_all([kind for kinds in coarse for kind in kinds])
+    leaders = [min(kinds, key=tried.__getitem__) for kinds in coarse]
+    best = min(leaders, key=tried.__getitem__)
+    for leader in [k for k in leaders if tried[k] <= _NEAR * tried[best]]:
         ratio, centre = _WIDE, leader
         while ratio > _NARROW:
             beside = [replace(centre, frequency=centre.frequency * x) for x in (1.0 / ratio, ratio)]
-            centre = min([centre, *(k for k in beside if k.frequency < limit)], key=error)
+            beside = [k for k in beside if k.frequency < limit]
+            try_all(beside)
+            centre = min([centre, *beside], key=tried.__getitem__)
             ratio = float(np.sqrt(ratio))
-        best = min(best, centre, key=error)
+        best = min(best, centre, key=tried.__getitem__)
     return best
