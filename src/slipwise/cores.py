@@ -9,6 +9,8 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from typing import Any, TypeVar
 
+from threadpoolctl import threadpool_limits
+
 Answer = TypeVar("Answer")
 #: What the children of this moment are to do: a function that was made here cannot be sent to them.
 _WORK: list[Callable[[int], Any]] = []
@@ -30,7 +32,7 @@ def on_every_core(work: Callable[[int], Answer], count: int) -> Iterator[Answer]
     _WORK.append(work)
     forked = multiprocessing.get_context("fork")
     try:
-        with ProcessPoolExecutor(workers, mp_context=forked, initializer=_leave_ctrl_c_to_the_parent) as pool:
+        with ProcessPoolExecutor(workers, mp_context=forked, initializer=_begin_as_child) as pool:
             yield from pool.map(_at, range(count))
     finally:
         _WORK.pop()
@@ -43,9 +45,14 @@ def end_with_parent() -> None:
         threading.Thread(target=lambda: (parent.join(), os._exit(1)), daemon=True).start()
 
 
-def _leave_ctrl_c_to_the_parent() -> None:
-    """Finish the piece of work that was begun, without a traceback: the parent asks for no other."""
+def _begin_as_child() -> None:
+    """Finish at Ctrl-C what was begun, without a traceback, and keep to one core.
+
+    A child's linear algebra would take a thread for each core too, and wait for them: a diagnosis took up to three
+    times as long.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threadpool_limits(1)
     end_with_parent()
 
 

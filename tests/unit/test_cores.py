@@ -4,6 +4,7 @@ import os
 
 import numpy as np
 import pytest
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from slipwise import cores
 from slipwise.cores import on_every_core
@@ -19,6 +20,13 @@ def test_answers_come_in_order_whatever_the_number_of_cores(count: int, monkeypa
     answers = list(on_every_core(lambda i: (seen[i], os.getpid()), len(seen)))
     assert [value for value, _ in answers] == seen
     assert (os.getpid() in {process for _, process in answers}) == (count == 1)
+
+
+def test_a_child_keeps_to_one_thread_of_linear_algebra(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cores, "_cores", lambda: 2)
+    with threadpool_limits(2):
+        threads = on_every_core(lambda i: [library["num_threads"] for library in threadpool_info()], 2)
+        assert all(set(each) == {1} for each in threads)
 
 
 def test_an_error_of_a_child_is_an_error_here(monkeypatch: pytest.MonkeyPatch) -> None:
