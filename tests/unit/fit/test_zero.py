@@ -8,7 +8,7 @@ from slipwise.fit.base import fit_base
 from unit.campaign.slider import HEADER, slider, text
 
 
-def _campaign(folder, shifts, rows=lambda seed: slider(seed)):
+def _campaign(folder, shifts, rows=slider):
     runs = []
     for seed, shift in enumerate(shifts):
         table = rows(seed)
