@@ -93,8 +93,8 @@ def _confounded(problem: Problem) -> dict[str, str]:
 def _untestable(effect: Effect, problem: Problem) -> str:
     relations, run = problem.relations, problem.runs[0]
     specimen = problem.specimen
-    if effect.component == "buffer" and (not specimen.buffer_stiffness or "girder" not in relations):
-        return "no buffers, or no girder_ax or pad forces to see them by"
+    if effect.component == "buffer" and (not specimen.buffer_stiffness or not {"girder", "pitch"} & set(relations)):
+        return "no buffers, or neither girder_ax nor all pads' loads and friction to see them by"
     if effect.component in ("girder", "table", "pad load") and not problem.balanced:
         return "needs the balances of a girder: load and friction of all four pads, and accelerations"
     if effect.name in ("girder_bending", "key_friction") and "heave" not in relations:

@@ -82,7 +82,7 @@ def _heard_anew(campaign: Campaign, base: BaseFit, state: Search) -> Campaign | 
     A filter that nobody knew was read from reversals by a law that lacked an effect, and has bent itself to it.
     """
     found = state.final
-    if campaign.logger.known or not base.problem.balanced or not found.terms:
+    if campaign.logger.known or not base.model.specimen.free or not found.terms:
         return None  # of one slider no filter is told from a law, see `fit_base`
     if found.account.level("pads", held_out=False) < 1.0 + MATERIAL:
         return None

@@ -105,6 +105,14 @@ class FitRun:
         """Load at the instants at which the laws are evaluated, (f, p) [N]."""
         return np.maximum(refined(self.load, self.fine), 0.0)
 
+    @property
+    def all_loads(self) -> Array | None:
+        """Load of the rig's four pads (n, 4) [N], whether or not their friction was measured; None without them."""
+        if len(self.pads) == len(PADS):
+            return self.load
+        names = [f"pad_{p}_N" for p in PADS]
+        return np.stack([self.record[n] for n in names], axis=1) if self.record.has_all(*names) else None
+
     def channel(self, name: str) -> Array:
         """Give a channel (n,), zero where it was not measured."""
         return self.record[name] if name in self.record else np.zeros(len(self.record))
@@ -189,9 +197,13 @@ def fit_runs(campaign: Campaign, spoiled: Spoiled | None = None) -> list[FitRun]
 
 def _fit_run(run: Run, campaign: Campaign, spoiled: Mapping[str, Mask]) -> FitRun:
     states = measured_states(run, campaign)
-    pads = tuple(p for p in PADS if f"pad_{p}_Fx" in states.record)
+    loaded = np.isfinite(states.load).any(axis=0)
+    pads = tuple(p for p, known in zip(states.pads, loaded, strict=True) if known and f"pad_{p}_Fx" in states.record)
     if not pads:
-        raise InputError(f"{run.file}: no pad_*_Fx was measured, so no law of friction can be fitted")
+        raise InputError(
+            f"{run.file}: a law of friction is fitted where both pad_*_Fx and pad_*_N (or pad_*_P) of a pad were "
+            f"measured; it has {', '.join(states.record.channels)}"
+        )
     here = [states.pads.index(p) for p in pads]
     load = states.load[:, here]
     states = replace(states, pads=pads, load=load, force=states.force[:, here])

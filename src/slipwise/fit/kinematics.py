@@ -15,6 +15,7 @@ from slipwise.fit.recent import Key, Recent
 from slipwise.fit.sharpened import Spectrum
 from slipwise.fit.terms import PITCH_INERTIA, YAW_INERTIA, Term, fitted_model
 from slipwise.fit.yaw import yaw_of
+from slipwise.loads import load_modes
 from slipwise.predict import predictor
 from slipwise.rig import Specimen
 from slipwise.signals.ends import in_frequency
@@ -56,7 +57,7 @@ class Kinematics:
 
     def __post_init__(self) -> None:
         """Make ready what never changes."""
-        self._pitching = [_pitch_rate(r) if len(r.pads) == 4 else np.zeros(len(r.time)) for r in self.runs]
+        self._pitching = [_pitch_rate(r) for r in self.runs]
         self._here = [self.specimen.pads.index(p) for p in self.runs[0].pads]
         self._sort()
 
@@ -167,11 +168,15 @@ class Kinematics:
         return self.recent.get("yaw", (len(self.runs[:count]), *self.key(values)), make)
 
     def compliance(self, specimen: Specimen) -> Array:
-        """Give the acceleration of pad i for a force along x on pad j, (p, p) [1/kg]; it turns where yaw is known."""
+        """Give the acceleration of pad i for a force along x on pad j, (p, p) [1/kg]; it turns where yaw is known.
+
+        A pad that was not measured is taken to hold the girder as the measured ones do.
+        """
         places = np.array(specimen.pad_places)[self._here, 1] - specimen.centre_y
         turning = np.outer(places, places) / specimen.inertia[2]
         knows = self.turns or self.runs[0].states.has_yaw
-        return 1.0 / specimen.mass + (turning if knows else np.zeros_like(turning))
+        every = len(specimen.pads) / len(self._here)
+        return every / specimen.mass + (turning if knows else np.zeros_like(turning))
 
     def states(self, values: Mapping[str, float], count: int | None = None) -> list[Instants]:
         """Give the states of every pad in the runs, as many of them as asked for."""
@@ -218,7 +223,9 @@ def _whole(run: FitRun, mass: float, buffers: Array) -> Array:
 
 
 def _pitch_rate(run: FitRun) -> Array:
-    """Give the rate of the pitch load (n,) [N/s], by which the sliding plane moves against the gauge."""
-    pitch = run.load[:, 0] + run.load[:, 2] - run.load[:, 1] - run.load[:, 3]
-    smooth = in_frequency(pitch, run.dt, lambda f: 1.0 / (1.0 + (f / 120.0) ** 8), 64)
+    """Give the rate of the pitch load (n,) [N/s], by which the sliding plane moves against the gauge; 0 if unknown."""
+    loads = run.all_loads
+    if loads is None:
+        return np.zeros(len(run.time))
+    smooth = in_frequency(load_modes(loads).pitch, run.dt, lambda f: 1.0 / (1.0 + (f / 120.0) ** 8), 64)
     return np.gradient(smooth, run.dt)

@@ -139,6 +139,9 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True) -> lis
         units = {"rig.mass": "kg", "rig.centre_height": "m", "rig.buffer_stiffness": "N/m"}
         out += [_around(key, value, *_RIG_SHARES[key], units[key]) for key, value in rated.items()]
         out += [Free(key, *numbers) for key, numbers in _SMALL.items()]
+    elif specimen.free:  # the sliding plane moves against the gauge all the same
+        out.append(Free("rig.pitch_slip", *_SMALL["rig.pitch_slip"]))
+    if specimen.free:
         late = LATE if logger_known else _LATE_UNKNOWN
         out.append(Free("rig.late_force", 0.0, -late, late, 5e-5, "s"))
         if not logger_known:

@@ -1,0 +1,51 @@
+"""Campaigns in which gauges were not recorded: what the others still show is named, and what they cannot is said."""
+
+from dataclasses import replace
+
+import pytest
+
+from bench import build_campaign
+from measured import as_campaign
+from slipwise.campaign import Campaign, Logger
+from slipwise.diagnose import diagnose
+from slipwise.errors import InputError
+from slipwise.fit.base import fit_base
+from slipwise.record import Record
+
+
+def _without(campaign: Campaign, *gauges: str) -> Campaign:
+    def left(record: Record) -> Record:
+        return Record(record.time, {name: values for name, values in record.channels.items() if name not in gauges})
+
+    return replace(campaign, runs=tuple(replace(run, record=left(run.record)) for run in campaign.runs))
+
+
+@pytest.fixture(scope="module")
+def play() -> Campaign:
+    """Play in the shear key."""
+    return as_campaign(build_campaign(7011, effects=("key_clearance",), size="medium"))
+
+
+def test_a_buffer_shows_in_the_girders_pitch_where_nobody_measured_its_acceleration(play: Campaign) -> None:
+    found = diagnose(_without(play, "girder_ax", "girder_az"))
+    assert found.verdict.effects == ("key_clearance",), found.sentence
+    assert "girder" not in found.relations
+
+
+@pytest.mark.parametrize("known", [True, False])
+def test_pads_alone_accuse_nobody_of_what_only_balances_see(play: Campaign, known: bool) -> None:
+    """Reversals look right only through the logger's filter, of which two pads tell as well as four."""
+    few = _without(play, "pad_B_Fx", "pad_D_Fx")
+    found = diagnose(few if known else replace(few, logger=Logger()))
+    assert found.verdict.kind == "complete", found.sentence
+    assert found.final_error < 1.15
+    assert any(reason.startswith("key_clearance:") for reason in found.cannot_tell)
+
+
+def test_friction_without_any_load_is_refused_in_words(play: Campaign) -> None:
+    with pytest.raises(InputError, match=r"pad_\*_N"):
+        fit_base(_without(play, *(f"pad_{p}_N" for p in "ABCD")))
+
+
+def test_a_pad_without_a_load_is_left_out(play: Campaign) -> None:
+    assert fit_base(_without(play, "pad_B_N")).problem.runs[0].pads == ("A", "C", "D")
