@@ -197,8 +197,8 @@ def fit_runs(campaign: Campaign, spoiled: Spoiled | None = None) -> list[FitRun]
 
 def _fit_run(run: Run, campaign: Campaign, spoiled: Mapping[str, Mask]) -> FitRun:
     states = measured_states(run, campaign)
-    loaded = np.isfinite(states.load).any(axis=0)
-    pads = tuple(p for p, known in zip(states.pads, loaded, strict=True) if known and f"pad_{p}_Fx" in states.record)
+    loaded = [p for p, load in zip(states.pads, states.load.T, strict=True) if np.isfinite(load).any()]
+    pads = tuple(p for p in loaded if f"pad_{p}_Fx" in states.record)
     if not pads:
         raise InputError(
             f"{run.file}: a law of friction is fitted where both pad_*_Fx and pad_*_N (or pad_*_P) of a pad were "
