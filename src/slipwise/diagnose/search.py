@@ -5,25 +5,17 @@ from collections.abc import Callable, Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.diagnose.candidates import ONE_THING, candidates
-from slipwise.diagnose.choose import best_of, is_delay, various
+from slipwise.diagnose.candidates import candidates
+from slipwise.diagnose.choose import best_of, various
 from slipwise.diagnose.pairs import leading_pair
 from slipwise.diagnose.promise import with_kept
-from slipwise.diagnose.refit import STICK_LENGTH, Hypothesis, as_reported, base_hypothesis, strained
+from slipwise.diagnose.refit import STICK_LENGTH, Hypothesis, base_hypothesis, strained
 from slipwise.diagnose.rescreen import rescreen
 from slipwise.diagnose.screen import screen, screen_shapes
+from slipwise.diagnose.settle import prune, settle
 from slipwise.diagnose.shapes import MOST_POINTS_AGAIN, shapes, strengths
 from slipwise.diagnose.tried import Search, as_base, left_with, starts_of, tried_before, try_all, try_one
-from slipwise.diagnose.worth import (
-    MATERIAL,
-    MATERIAL_FURTHER,
-    SAME_SCORE,
-    all_down,
-    material,
-    material_alone,
-    needless,
-    score,
-)
+from slipwise.diagnose.worth import MATERIAL, MATERIAL_FURTHER, all_down, material, material_alone, score
 from slipwise.effects import Effect
 from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Term
@@ -42,9 +34,6 @@ _LONGER = 4.0
 _SWAPPED = 2
 #: The best physics is refitted even where faults of gauges screen better, and far from its best shape.
 _REFITTED_PHYSICS = 2
-#: A filter that takes nothing is a delay though it explains more by this share: true delays lay 0.0024 behind one, and
-#: 0.015 behind filters that do take something [1].
-_NO_FILTER = 0.004
 #: Mean squared residual that no effect may leave before all of physics has been refitted [noise variance].
 _ASTRAY = 30.0
 #: Most effects that are added.
@@ -78,14 +67,12 @@ def search(
     _onward(state, tell)
     if _astray(state):
         _onward(state, tell)
-    _prune(state)
+    prune(state)
     if _swap(state):
-        _prune(state)
+        prune(state)
     if state.best.terms:
-        _try_twin(state)
-        _simplify(state)
         tell("settling", 0.95)
-        state.settled = as_reported(state.best)
+        settle(state)
     tell("done", 1.0)
     return state
 
@@ -214,58 +201,3 @@ def _swap(state: Search) -> bool:
             state.path.append(max(better, key=lambda h: score(origin, h.account)))
             return True
     return False
-
-
-def _try_twin(state: Search) -> None:
-    """Refit what is nearly one thing with an effect in its place: a screen sees little of it beside that effect."""
-    best, origin = state.best, state.path[0].account
-    for term in best.terms:
-        twins = {name for pair in ONE_THING if term.effect.name in pair for name in pair} - set(best.names)
-        rest = [t for t in best.terms if t.label != term.label]
-        for twin in (t for t in state.terms if t.effect.name in twins):
-            typical = {twin.label: twin.effect.typical()}
-            again = tried_before(state, [*rest, twin]) or [try_one(state, [*rest, twin], typical, best)]
-            if score(origin, again[0].account) > score(origin, state.best.account):
-                state.path.append(again[0])
-
-
-def _simplify(state: Search) -> None:
-    """Take a law of far fewer constants, or a delay for a filter that takes nothing, where it does as well."""
-    origin, best = state.path[0].account, state.best
-    alike = [h for h in state.tried if len(h.terms) == len(best.terms) and set(h.names) != set(best.names)]
-    plain = [h for h in alike if needless(h, best, origin)]
-    if is_delay(best):
-        top = score(origin, best.account)
-        least = top - max(SAME_SCORE, _NO_FILTER * top)
-        plain += [h for h in _with_delays(state, best) if score(origin, h.account) > least]
-    if plain:
-        state.path.append(max(plain, key=lambda h: score(origin, h.account)))
-
-
-def _with_delays(state: Search, found: Hypothesis) -> list[Hypothesis]:
-    """Give a hypothesis with delays in the place of its filters, fitted if it was not before."""
-    delays = {t.group: t for t in state.terms if t.effect.name == "channel_delay"}
-    filters = [t for t in found.terms if t.effect.name == "channel_filter" and t.group in delays]
-    if not filters:
-        return []
-    terms = [delays[t.group] if t in filters else t for t in found.terms]
-    starts = {delays[t.group].label: {"delay": found.values_of(t)["lag"]} for t in filters}
-    return tried_before(state, terms) or [try_one(state, terms, starts, found)]
-
-
-def _prune(state: Search) -> None:
-    """Take effects away again whose loss is not material."""
-    origin = state.path[0]
-    while len(state.best.terms) > 1:
-        whole = state.best
-        for term in whole.terms:
-            rest = [t for t in whole.terms if t.label != term.label]
-            # what was fitted before may do; only if not is it fitted again, from where the whole ended
-            known = tried_before(state, rest)
-            spare = next((h for h in known if not material(origin.account, h.account, whole.account)), None)
-            fewer = spare or try_one(state, rest, {}, whole)
-            if not material(origin.account, fewer.account, whole.account):
-                state.path.append(fewer)
-                break
-        else:
-            return
