@@ -4,9 +4,9 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 from slipwise.campaign import Campaign, Logger
-from slipwise.diagnose.refit import Account, base_hypothesis
+from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis
 from slipwise.diagnose.samples import SampleFault, mended, sample_faults
-from slipwise.diagnose.search import search
+from slipwise.diagnose.search import begun, finish, search
 from slipwise.diagnose.tried import Search
 from slipwise.diagnose.worth import MATERIAL
 from slipwise.effects import Effect
@@ -62,26 +62,26 @@ def explore(
     own = tuple(own)
     whole, spoiled, faults = prepared(campaign)
     base = fit_base(whole, model, spoiled)
-    state = search(base, own, progress)
+    state = begun(base, own, progress)
+    heard = _heard_anew(whole, base, state.best)
+    if heard is not None:
+        base = fit_base(heard, model, spoiled)
+        state = begun(base, own, progress)
+    finish(state, progress)
     # what an effect seems to explain may be a valley that the base fit has missed
     better = restarted(base, state.best.solution.values) if state.best.terms else None
     if better is not None:
         base = better
         state = search(base, own, progress, state)
-    heard = _heard_anew(whole, base, state)
-    if heard is not None:
-        base = fit_base(heard, model, spoiled)
-        state = search(base, own, progress)
     unmended = base_hypothesis(fit_base(campaign, model)).account if faults else state.path[0].account
     return Explored(base, state, faults, unmended)
 
 
-def _heard_anew(campaign: Campaign, base: BaseFit, state: Search) -> Campaign | None:
+def _heard_anew(campaign: Campaign, base: BaseFit, found: Hypothesis) -> Campaign | None:
     """Give the campaign with its logger's filter as it sounds beside what was found; None where that is no other.
 
     A filter that nobody knew was read from reversals by a law that lacked an effect, and has bent itself to it.
     """
-    found = state.final
     if campaign.logger.known or not base.model.specimen.free or not found.terms:
         return None  # of one slider no filter is told from a law, see `fit_base`
     if found.account.level("pads", held_out=False) < 1.0 + MATERIAL:

@@ -36,8 +36,8 @@ _SWAPPED = 2
 _REFITTED_PHYSICS = 2
 #: Mean squared residual that no effect may leave before all of physics has been refitted [noise variance].
 _ASTRAY = 30.0
-#: Most effects that are added.
-MOST_EFFECTS = 3
+#: Most effects that are added, and how many of them before a logger that nobody knew is heard anew.
+MOST_EFFECTS, _FIRST_EFFECTS = 3, 2
 
 
 def search(
@@ -54,8 +54,20 @@ def search(
         progress: called with what is being done and the share done.
         before: from a base fit that was left for this one: where its first effect led, no fit may come from here.
     """
+    state = begun(base, own, progress, before)
+    finish(state, progress)
+    return state
+
+
+def begun(
+    base: BaseFit,
+    own: Iterable[Effect] = (),
+    progress: Callable[[str, float], None] | None = None,
+    before: Search | None = None,
+) -> Search:
+    """Find the first effects, two at most, and look no further; arguments as `search`."""
     terms, cannot = candidates(base, own)
-    tell = progress or (lambda what, share: None)
+    tell = progress or _silent
     origin = base_hypothesis(base)
     found = screen(base, terms, lambda share: tell("screening", 0.15 + 0.45 * share))
     found = with_kept(base, found, _worth_a_refit(origin, MATERIAL))
@@ -64,9 +76,21 @@ def search(
     tell("refitting", 0.6)
     _first(state, next((h for h in before.path if len(h.terms) == 1), None) if before else None)
     _reshape(state)
-    _onward(state, tell)
+    _onward(state, tell, _FIRST_EFFECTS)
+    return state
+
+
+def finish(state: Search, progress: Callable[[str, float], None] | None = None) -> None:
+    """Go on from the first effects to the hypothesis that is reported.
+
+    Args:
+        state: of a search that was begun.
+        progress: called with what is being done and the share done.
+    """
+    tell = progress or _silent
+    _onward(state, tell, MOST_EFFECTS)
     if _astray(state):
-        _onward(state, tell)
+        _onward(state, tell, MOST_EFFECTS)
     prune(state)
     if _swap(state):
         prune(state)
@@ -74,12 +98,15 @@ def search(
         tell("settling", 0.95)
         settle(state)
     tell("done", 1.0)
-    return state
 
 
-def _onward(state: Search, tell: Callable[[str, float], None]) -> None:
+def _silent(what: str, share: float) -> None:
+    """Tell nobody."""
+
+
+def _onward(state: Search, tell: Callable[[str, float], None], most: int) -> None:
     """Add effects to the first while one is worth it."""
-    while len(state.path) - 1 and len(state.best.terms) < MOST_EFFECTS:
+    while len(state.path) - 1 and len(state.best.terms) < most:
         tell("refitting", 0.7 + 0.1 * len(state.best.terms))
         if not _further(state):
             break

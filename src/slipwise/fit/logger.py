@@ -22,6 +22,9 @@ _KINDS: tuple[tuple[int, str], ...] = ((4, "zero"), (2, "zero"), (4, "causal"), 
 _FREQUENCIES: tuple[float, ...] = (55.0, 80.0, 115.0, 165.0)
 #: A kind is looked at more closely while its best error is within this factor of the best of all.
 _NEAR = 1.6
+#: A closer look is in vain where the worst of all is not this much worse than the best: the law is wrong by far more
+#: than a filter could be [1].
+_HEARD = 1.3
 #: Ratio of neighbouring frequencies at which the closer look begins and ends; each round takes its square root.
 _WIDE, _NARROW = 1.2, 1.02
 #: Numbers of the rig that decide how a reversal looks.
@@ -66,15 +69,16 @@ def estimated_logger(campaign: Campaign, model: Model, first: Solution, terms: S
 
     coarse = [[LowPass(f, order, phase) for f in _FREQUENCIES if f < limit] for order, phase in _KINDS]
     try_all([kind for kinds in coarse for kind in kinds])
+    best = min(tried, key=tried.__getitem__)
+    if max(tried.values()) < _HEARD * tried[best]:
+        return best
     leaders = [min(kinds, key=tried.__getitem__) for kinds in coarse]
-    best = min(leaders, key=tried.__getitem__)
-    for leader in [k for k in leaders if tried[k] <= _NEAR * tried[best]]:
-        ratio, centre = _WIDE, leader
-        while ratio > _NARROW:
-            beside = [replace(centre, frequency=centre.frequency * x) for x in (1.0 / ratio, ratio)]
-            beside = [k for k in beside if k.frequency < limit]
-            try_all(beside)
-            centre = min([centre, *beside], key=tried.__getitem__)
-            ratio = float(np.sqrt(ratio))
-        best = min(best, centre, key=tried.__getitem__)
-    return best
+    leaders = [k for k in leaders if tried[k] <= _NEAR * tried[best]]
+    ratio = _WIDE
+    while ratio > _NARROW:
+        beside = [[replace(k, frequency=k.frequency * x) for x in (1.0 / ratio, 1.0, ratio)] for k in leaders]
+        beside = [[k for k in kinds if k.frequency < limit] for kinds in beside]
+        try_all([k for kinds in beside for k in kinds])
+        leaders = [min(kinds, key=tried.__getitem__) for kinds in beside]
+        ratio = float(np.sqrt(ratio))
+    return min(leaders, key=tried.__getitem__)
