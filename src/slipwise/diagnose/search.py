@@ -34,8 +34,9 @@ _LONGER = 4.0
 _SWAPPED = 2
 #: The best physics is refitted even where faults of gauges screen better, and far from its best shape.
 _REFITTED_PHYSICS = 2
-#: Mean squared residual that no effect may leave before all of physics has been refitted [noise variance].
-_ASTRAY = 30.0
+#: Mean squared residual of a base that is bent too far for a screen, and that no effect may leave then before all of
+#: physics has been refitted [noise variance].
+_BENT, _ASTRAY = 1000.0, 30.0
 #: Most effects that are added, and how many of them before a logger that nobody knew is heard anew.
 MOST_EFFECTS, _FIRST_EFFECTS = 3, 2
 
@@ -119,7 +120,8 @@ def _astray(state: Search) -> bool:
     fitted with another pitch of the girder, a hundred floors off, and the screen ranked it behind faults of gauges.
     """
     origin, best = state.path[0], state.best
-    if max(best.account.level(r, held_out=False) for r in best.account.fitted) < _ASTRAY:
+    worst, left = (max(h.account.level(r, held_out=False) for r in h.account.fitted) for h in (origin, best))
+    if worst < _BENT or left < _ASTRAY:
         return False
     fresh = [s for s in state.seen if s.term.effect.component != "instrument" and not tried_before(state, [s.term])]
     found = best_of(origin, try_all(state, starts_of(fresh)))
