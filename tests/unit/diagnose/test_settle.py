@@ -1,0 +1,37 @@
+"""The end of a search: what is immaterial once it is weighed by its own law goes, what is material stays."""
+
+from types import SimpleNamespace
+from typing import Any, cast
+
+import pytest
+
+from slipwise.diagnose import settle as module
+from slipwise.diagnose.refit import Account, Hypothesis
+from slipwise.diagnose.settle import settle
+from slipwise.diagnose.tried import Search
+from slipwise.effects import catalogue
+from slipwise.fit.terms import Term
+
+COUNT = 10_000
+
+
+def _tried(names: tuple[str, ...], pads: float) -> Hypothesis:
+    """A hypothesis with this mean squared residual in fitted and held-out runs alike."""
+    account = Account({"pads": pads * COUNT}, {"pads": pads * COUNT}, {"pads": (COUNT, COUNT)})
+    solution = SimpleNamespace(free=(None,) * 3)
+    return Hypothesis(tuple(Term(catalogue()[n]) for n in names), cast(Any, None), cast(Any, solution), account)
+
+
+@pytest.mark.parametrize(("alone", "left"), [(1.02, ("buffer_mismatch",)), (3.0, ("buffer_mismatch", "key_clearance"))])
+def test_a_second_effect_stays_only_where_it_is_material_as_reported(
+    monkeypatch: pytest.MonkeyPatch, alone: float, left: tuple[str, ...]
+) -> None:
+    """Before the noise near reversals is weighed anew, a clearance of nothing takes away a floor and a half."""
+    base, both = _tried((), 400.0), _tried(("buffer_mismatch", "key_clearance"), 6.0)
+    state = Search(
+        cast(Any, None), [], {}, [base, both], [_tried(("buffer_mismatch",), 8.0), _tried(("key_clearance",), 390.0)]
+    )
+    weighed = {both.names: 1.0, ("buffer_mismatch",): alone, ("key_clearance",): 300.0}
+    monkeypatch.setattr(module, "as_reported", lambda found: _tried(found.names, weighed[found.names]))
+    settle(state)
+    assert state.final.names == state.best.names == left
