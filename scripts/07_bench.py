@@ -22,6 +22,8 @@ from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import Any
 
+from threadpoolctl import threadpool_limits
+
 TESTS = Path(__file__).parents[1] / "tests"
 
 
@@ -44,10 +46,15 @@ def one(folder: Path, name: str, seed: int, effects: tuple[str, ...], size: str,
 
 
 def _begin() -> None:
-    """End at once, without a word, at a Ctrl-C (Python would print a traceback of each) and when the parent is gone."""
+    """Keep to one core, and end at once, without a word, at a Ctrl-C and when the parent is gone.
+
+    Python would print a traceback of each worker; linear algebra in as many threads as there are cores would make the
+    workers wait for one another.
+    """
     from slipwise.cores import end_with_parent
 
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+    threadpool_limits(1)
     end_with_parent()
 
 
@@ -79,6 +86,8 @@ def run(out: Path, count: int, seed: int, workers: int) -> list[dict[str, Any]]:
                 stream.flush()
                 print(_line(result, number, len(left)), flush=True)
         except (KeyboardInterrupt, BrokenProcessPool):
+            pass  # what is done is shown
+        finally:  # else the campaigns that are left would run on, unseen, for as long as they take
             for worker in active_children():
                 worker.terminate()
             shutil.rmtree(out / "campaigns", ignore_errors=True)
