@@ -1,4 +1,4 @@
-"""Campaigns in which gauges were not recorded: what the others still show is named, and what they cannot is said."""
+"""Campaigns that lack gauges, or the beginning of every record: what is left is named, what it cannot show is said."""
 
 from dataclasses import replace
 
@@ -49,3 +49,17 @@ def test_friction_without_any_load_is_refused_in_words(play: Campaign) -> None:
 
 def test_a_pad_without_a_load_is_left_out(play: Campaign) -> None:
     assert fit_base(_without(play, "pad_B_N")).problem.runs[0].pads == ("A", "C", "D")
+
+
+def test_records_that_begin_in_motion_name_what_whole_ones_do(play: Campaign) -> None:
+    """Beyond the cut nobody knows how the slip bends, and its accelerometers seem to disagree."""
+
+    def cut(record: Record) -> Record:
+        kept = record.time >= 2.6
+        return Record(record.time[kept], {name: values[kept] for name, values in record.channels.items()})
+
+    late = replace(play, runs=tuple(replace(run, record=cut(run.record)) for run in play.runs))
+    found = diagnose(late)
+    assert not any(run.states.at_rest[0] for run in found.final.problem.runs)
+    assert found.verdict.effects == ("key_clearance",), found.sentence
+    assert found.final_error < 1.15

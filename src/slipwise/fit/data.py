@@ -12,7 +12,7 @@ from slipwise.campaign import Campaign, Run
 from slipwise.campaign.states import States, measured_states
 from slipwise.channels import PADS
 from slipwise.errors import InputError
-from slipwise.fit.judged import judged
+from slipwise.fit.judged import away_from_cuts, judged
 from slipwise.record import Record
 from slipwise.signals import LowPass, lowpass
 from slipwise.signals.ends import in_frequency
@@ -220,7 +220,7 @@ def _fit_run(run: Run, campaign: Campaign, spoiled: Mapping[str, Mask]) -> FitRu
     fast = np.hypot(*states.velocity.T) > FAST
     # samples were looked at as recorded; a gap of theirs is filled on the axis of the states
     bad = {c: np.interp(states.time, run.record.time, m.astype(float)) > 0.0 for c, m in spoiled.items()}
-    kept = judged(grounded, sliding, fast, pads, bad)
+    kept = judged(grounded, sliding, fast, away_from_cuts(states.at_rest, states.dt), pads, bad)
     return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, across, sliding, kept, bad)
 
 

@@ -19,10 +19,15 @@ _USES: dict[str, tuple[str, ...]] = {
     "warp": ("pad_?_N",),
     "motion": VELOCITY_CHANNELS,
 }
+#: Relations that ring on with what was before.
+_FROM_BEFORE = ("motion", "pitch")
+#: How far a cut through the motion is felt in the difference of slip and accelerometers: 300 noise variances in the
+#: first 20 ms, 20 after 50, none after 100 [s].
+_CUT = 0.12
 
 
 def judged(
-    grounded: Mask, sliding: Mask, fast: Mask, pads: tuple[str, ...], spoiled: Mapping[str, Mask]
+    grounded: Mask, sliding: Mask, fast: Mask, whole: Mask, pads: tuple[str, ...], spoiled: Mapping[str, Mask]
 ) -> dict[str, Mask]:
     """Give the samples by which each relation is judged: (n,), or (n, p) for pads and friction across.
 
@@ -30,6 +35,7 @@ def judged(
         grounded: (n,) every pad carries load.
         sliding: (n,) the law says the force of a pad.
         fast: (n,) the direction of sliding is known.
+        whole: (n,) what was before is known, see `away_from_cuts`.
         pads: those measured.
         spoiled: channel -> samples (n,) at which its gauge does not tell the truth.
     """
@@ -39,7 +45,28 @@ def judged(
         return ~np.any(bad, axis=0) if bad else np.ones(len(grounded), dtype=bool)
 
     out = {name: grounded & truthful(*names) for name, names in _USES.items()}
+    for name in _FROM_BEFORE:
+        out[name] &= whole
     moving = sliding & truthful(*VELOCITY_CHANNELS)
     for name, axis, kept in (("pads", "x", moving), ("across", "y", moving & fast)):
         out[name] = np.stack([kept & truthful(f"pad_{p}_N", f"pad_{p}_F{axis}") for p in pads], axis=1)
     return out
+
+
+def away_from_cuts(at_rest: Mask, dt: float) -> Mask:
+    """Give the samples whose past and future are known: not those where a record begins or ends in motion.
+
+    What whitens the difference of slip and accelerometers reaches over the end of the record, and beyond it nobody
+    knows how the slip bends; nor how the girder was pitching.
+
+    Args:
+        at_rest: (n,) the girder does not move over the table.
+        dt: sampling step [s].
+    """
+    whole = np.ones(len(at_rest), dtype=bool)
+    reach = round(_CUT / dt)
+    if not at_rest[0]:
+        whole[:reach] = False
+    if not at_rest[-1]:
+        whole[-reach:] = False
+    return whole

@@ -9,7 +9,7 @@ from bench import build_campaign
 from measured import as_campaign
 from slipwise.diagnose.samples import mended, sample_faults
 from slipwise.fit.data import FitRun, fit_runs
-from slipwise.fit.judged import judged
+from slipwise.fit.judged import away_from_cuts, judged
 from slipwise.fit.kinematics import Kinematics
 from slipwise.fit.recent import Recent
 
@@ -19,7 +19,7 @@ LATE = np.arange(COUNT) > 3
 
 
 def test_a_clipped_friction_gauge_leaves_the_other_pads_and_the_loads() -> None:
-    kept = judged(ALL, ALL, ALL, ("A", "B"), {"pad_B_Fx": LATE})
+    kept = judged(ALL, ALL, ALL, ALL, ("A", "B"), {"pad_B_Fx": LATE})
     assert kept["pads"][:, 0].all() and np.array_equal(kept["pads"][:, 1], ~LATE)
     assert kept["heave"].all() and kept["roll"].all() and kept["motion"].all() and kept["across"].all()
     assert np.array_equal(kept["girder"], ~LATE) and np.array_equal(kept["pitch"], ~LATE)
@@ -27,13 +27,13 @@ def test_a_clipped_friction_gauge_leaves_the_other_pads_and_the_loads() -> None:
 
 @pytest.mark.parametrize("name", ["slip_x", "girder_ax", "table_ax"])
 def test_a_gauge_of_motion_spoils_every_pad(name: str) -> None:
-    kept = judged(ALL, ALL, ALL, ("A", "B"), {name: LATE})
+    kept = judged(ALL, ALL, ALL, ALL, ("A", "B"), {name: LATE})
     assert all(np.array_equal(kept["pads"][:, i], ~LATE) for i in range(2))
     assert kept["heave"].all()
 
 
 def test_no_relation_is_judged_off_the_ground_or_stuck() -> None:
-    kept = judged(LATE, LATE & (np.arange(COUNT) > 4), ALL, ("A",), {})
+    kept = judged(LATE, LATE & (np.arange(COUNT) > 4), ALL, ALL, ("A",), {})
     assert all(np.array_equal(kept[r], LATE) for r in ("girder", "heave", "pitch", "roll", "warp", "motion"))
     assert kept["pads"][:, 0].sum() == 1
 
@@ -59,3 +59,12 @@ def test_the_yaw_of_unequal_pads_is_seen_though_one_of_their_gauges_is_clipped()
     for seen, true in zip(yaw(ready), yaw(fit_runs(campaign)), strict=True):
         assert np.std(true) > 1e-4, "it must be seen at all"
         assert np.std(seen - true) < 0.1 * np.std(true)
+
+
+@pytest.mark.parametrize(("begins", "ends"), [(True, True), (False, True), (True, False)])
+def test_slip_is_not_held_against_accelerometers_where_a_record_was_cut(begins: bool, ends: bool) -> None:
+    at_rest = np.zeros(500, dtype=bool)
+    at_rest[0], at_rest[-1] = begins, ends
+    whole = away_from_cuts(at_rest, 0.002)
+    assert (whole[0], whole[-1]) == (begins, ends)
+    assert whole[100:400].all() and whole.sum() == 500 - 60 * (not begins) - 60 * (not ends)
