@@ -22,8 +22,6 @@ from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import Any
 
-from threadpoolctl import threadpool_limits
-
 TESTS = Path(__file__).parents[1] / "tests"
 
 
@@ -46,16 +44,11 @@ def one(folder: Path, name: str, seed: int, effects: tuple[str, ...], size: str,
 
 
 def _begin() -> None:
-    """Keep to one core, and end at once, without a word, at a Ctrl-C and when the parent is gone.
-
-    Python would print a traceback of each worker; linear algebra in as many threads as there are cores would make the
-    workers wait for one another.
-    """
-    from slipwise.cores import end_with_parent
+    """Be a worker that ends at once, without a word, at a Ctrl-C (Python would print a traceback of each)."""
+    from slipwise.cores import begin_worker
 
     signal.signal(signal.SIGINT, signal.SIG_DFL)
-    threadpool_limits(1)
-    end_with_parent()
+    begin_worker()
 
 
 def _line(result: dict[str, Any], number: int, total: int) -> str:

@@ -38,22 +38,22 @@ def on_every_core(work: Callable[[int], Answer], count: int) -> Iterator[Answer]
         _WORK.pop()
 
 
-def end_with_parent() -> None:
-    """Leave when the parent is gone; otherwise one that was killed would leave its children waiting for ever."""
+def begin_worker() -> None:
+    """Keep to one core, and leave when the parent is gone.
+
+    A worker's linear algebra would take a thread for each core too, and wait for the others': a diagnosis took up to
+    three times as long. One whose parent was killed would wait for ever.
+    """
+    threadpool_limits(1)
     parent = multiprocessing.parent_process()
     if parent is not None:
         threading.Thread(target=lambda: (parent.join(), os._exit(1)), daemon=True).start()
 
 
 def _begin_as_child() -> None:
-    """Finish at Ctrl-C what was begun, without a traceback, and keep to one core.
-
-    A child's linear algebra would take a thread for each core too, and wait for them: a diagnosis took up to three
-    times as long.
-    """
+    """Finish at Ctrl-C what was begun, without a traceback."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    threadpool_limits(1)
-    end_with_parent()
+    begin_worker()
 
 
 def _at(place: int) -> Any:

@@ -70,6 +70,10 @@ class Hypothesis:
         """Names of the effects, each once."""
         return tuple(dict.fromkeys(t.effect.name for t in self.terms))
 
+    def without(self, term: Term) -> list[Term]:
+        """Give the terms but for one."""
+        return [t for t in self.terms if t.label != term.label]
+
     def values_of(self, term: Term) -> dict[str, float]:
         """Give the fitted parameters of one effect."""
         return {n: self.solution.values[f"{term.label}.{n}"] for n in term.effect.parameter_names}

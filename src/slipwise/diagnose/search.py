@@ -89,7 +89,8 @@ def finish(state: Search, progress: Callable[[str, float], None] | None = None) 
         progress: called with what is being done and the share done.
     """
     tell = progress or _silent
-    _onward(state, tell, MOST_EFFECTS)
+    if len(state.best.terms) == _FIRST_EFFECTS:  # with fewer, nothing more was worth it
+        _onward(state, tell, MOST_EFFECTS)
     if _astray(state):
         _onward(state, tell, MOST_EFFECTS)
     prune(state)
@@ -167,7 +168,7 @@ def _reshape(state: Search) -> None:
     for term in best.terms:
         if term.effect.port == "gauge" or len(shapes(term.effect, MOST_POINTS_AGAIN)) <= len(shapes(term.effect)):
             continue
-        rest = [t for t in best.terms if t.label != term.label]
+        rest = best.without(term)
         before = left_with(state, rest, best) if rest else origin
         found = screen_shapes(as_base(state, before), term, MOST_POINTS_AGAIN)[:_RESHAPED]
         again = try_all(state, [([*rest, term], {term.label: s.values}) for s in found], before if rest else None)

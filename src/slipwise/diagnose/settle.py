@@ -6,7 +6,6 @@ from slipwise.diagnose.choose import is_delay
 from slipwise.diagnose.refit import Hypothesis, as_reported
 from slipwise.diagnose.tried import Search, left_with, tried_before, try_one
 from slipwise.diagnose.worth import SAME_SCORE, material, needless, score
-from slipwise.fit.terms import Term
 
 #: A filter that takes nothing is a delay though it explains more by this share: true delays lay 0.0024 behind one, and
 #: 0.015 behind filters that do take something [1].
@@ -18,7 +17,7 @@ def prune(state: Search) -> None:
     origin = state.path[0]
     while len(state.best.terms) > 1:
         whole = state.best
-        for rest in _without_one(whole):
+        for rest in map(whole.without, whole.terms):
             # what was fitted before may do; only if not is it fitted again, from where the whole ended
             known = tried_before(state, rest)
             spare = next((h for h in known if not material(origin.account, h.account, whole.account)), None)
@@ -40,7 +39,7 @@ def settle(state: Search) -> None:
     origin = state.path[0].account
     state.settled = as_reported(state.best)
     while len(state.best.terms) > 1:
-        fewer = [left_with(state, rest, state.best) for rest in _without_one(state.best)]
+        fewer = [left_with(state, state.best.without(t), state.best) for t in state.best.terms]
         accounts = on_every_core(lambda i, of=fewer: as_reported(of[i]).account, len(fewer))
         pairs = zip(fewer, accounts, strict=True)
         spare = next((h for h, account in pairs if not material(origin, account, state.settled.account)), None)
@@ -50,17 +49,12 @@ def settle(state: Search) -> None:
         state.settled = as_reported(spare)
 
 
-def _without_one(whole: Hypothesis) -> list[list[Term]]:
-    """Give the terms of a hypothesis without each of them in turn."""
-    return [[t for t in whole.terms if t.label != term.label] for term in whole.terms]
-
-
 def _try_twin(state: Search) -> None:
     """Refit what is nearly one thing with an effect in its place: a screen sees little of it beside that effect."""
     best, origin = state.best, state.path[0].account
     for term in best.terms:
         twins = {name for pair in ONE_THING if term.effect.name in pair for name in pair} - set(best.names)
-        rest = [t for t in best.terms if t.label != term.label]
+        rest = best.without(term)
         for twin in (t for t in state.terms if t.effect.name in twins):
             typical = {twin.label: twin.effect.typical()}
             again = tried_before(state, [*rest, twin]) or [try_one(state, [*rest, twin], typical, best)]

@@ -200,7 +200,7 @@ def _fit_run(run: Run, campaign: Campaign, spoiled: Mapping[str, Mask]) -> FitRu
     loaded = [p for p, load in zip(states.pads, states.load.T, strict=True) if np.isfinite(load).any()]
     pads = tuple(p for p in loaded if f"pad_{p}_Fx" in states.record)
     if not pads:
-        forces = [name for name in states.record.channels if name in {f"pad_{p}_Fx" for p in PADS}]
+        forces = [name for p in PADS if (name := f"pad_{p}_Fx") in states.record]
         told = f"{', '.join(forces)} without pad_*_N (or pad_*_P) of the same pad" if forces else "no pad_*_Fx"
         raise InputError(
             f"{run.file}: {told} was measured; a law of friction is fitted where a pad has both its friction and its "

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from slipwise.cores import end_with_parent
+from slipwise.cores import begin_worker
 from slipwise.errors import InputError
 from slipwise.paper.member import Member, run_member
 
@@ -99,7 +99,7 @@ def _pool(given: Executor | None, workers: int) -> Iterator[Executor]:
         yield given
         return
     context = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(workers, mp_context=context, initializer=end_with_parent)
+    pool = ProcessPoolExecutor(workers, mp_context=context, initializer=begin_worker)
     try:
         yield pool
     finally:
