@@ -15,9 +15,6 @@ from slipwise.fit.data import Spoiled
 from slipwise.fit.logger import estimated_logger
 from slipwise.model import Model
 
-#: A filter is another one if its frequency is this far off [1].
-_OTHER_FILTER = 0.05
-
 
 @dataclass(frozen=True)
 class Explored:
@@ -86,8 +83,6 @@ def _heard_anew(campaign: Campaign, base: BaseFit, found: Hypothesis) -> Campaig
         return None  # of one slider no filter is told from a law, see `fit_base`
     if found.account.level("pads", held_out=False) < 1.0 + MATERIAL:
         return None
-    before, now = base.campaign.logger.every, estimated_logger(campaign, base.model, found.solution, found.terms)
-    if before and (now.order, now.phase) == (before.order, before.phase):
-        if abs(now.frequency - before.frequency) < _OTHER_FILTER * before.frequency:
-            return None
-    return replace(campaign, logger=Logger(now, known=True))
+    before = base.campaign.logger.every
+    now = estimated_logger(campaign, base.model, found.solution, found.terms, before)
+    return None if now == before else replace(campaign, logger=Logger(now, known=True))

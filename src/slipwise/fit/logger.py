@@ -4,34 +4,82 @@ At a reversal friction turns round within a fraction of a millisecond. What the 
 filter's own step response, ringing and lag included, so kind, order and frequency can be read from it.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter1d
 
-from slipwise.campaign import Campaign, Logger
+from slipwise.campaign import Campaign, Logger, Run
 from slipwise.cores import on_every_core
-from slipwise.fit.data import fit_runs
+from slipwise.fit.data import FitRun, fit_runs
 from slipwise.fit.problem import Problem
 from slipwise.fit.solve import Solution, solve
 from slipwise.fit.terms import YAW_INERTIA, Term, base_free, terms_of
 from slipwise.model import Model
-from slipwise.signals import LowPass
+from slipwise.signals import LowPass, lowpass
 
+Array = NDArray[np.float64]
 _KINDS: tuple[tuple[int, str], ...] = ((4, "zero"), (2, "zero"), (4, "causal"), (2, "causal"))
 _FREQUENCIES: tuple[float, ...] = (55.0, 80.0, 115.0, 165.0)
 #: A kind is looked at more closely while its best error is within this factor of the best of all.
 _NEAR = 1.6
 #: A closer look is in vain where the worst of all is not this much worse than the best: the law is wrong by far more
-#: than a filter could be [1].
+#: than a filter could be, and the usual kind is taken [1].
 _HEARD = 1.3
+#: A filter is the same to the pads if it leaves no more than this of what the best leaves [1].
+_SAME = 1.02
 #: Ratio of neighbouring frequencies at which the closer look begins and ends; each round takes its square root.
 _WIDE, _NARROW = 1.2, 1.02
 #: Numbers of the rig that decide how a reversal looks.
 _OF_REVERSALS = ("rig.stick_length", "rig.late_force", "rig.pitch_slip", "rig.shear_strength")
 
 
-def estimated_logger(campaign: Campaign, model: Model, first: Solution, terms: Sequence[Term] = ()) -> LowPass:
+#: What filters differ in lies above this [Hz].
+_SHARP = 50.0
+#: Time within which a friction that only rises or falls, or a zero that wanders, says nothing of a filter [s].
+_LOCAL = 0.15
+#: Gains of a moment that friction may have, and that a moment in which it hardly changes may ask for [1].
+_GAINS = (0.5, 2.0)
+
+
+def _clearest(campaign: Campaign, first: Solution) -> Run:
+    """Give the run whose reversals speak loudest against what a fit leaves of the pads' forces."""
+
+    def clearness(place: int) -> float:
+        said, left = first.residuals.pad_forces[place], first.residuals.parts["pads"][place]
+        dt = campaign.runs[place].record.dt
+        sharp = np.stack([f - lowpass(f, dt, LowPass(_SHARP)) for f in said.T], axis=1)
+        return float(np.sum(sharp**2) / np.sum(left**2))
+
+    fitted = [i for i, run in enumerate(campaign.runs) if run.role != "holdout"]
+    return campaign.runs[max(fitted, key=clearness)]
+
+
+def _levelled(run: FitRun, said: Array) -> FitRun:
+    """Give a run whose pads' forces have the level and the gain of what is said, moment by moment.
+
+    Args:
+        run: what was measured.
+        said: (n, p) what is predicted [N].
+    """
+    kept = run.judged["pads"].astype(float)
+
+    def spread_out(values: Array) -> Array:
+        return gaussian_filter1d(values, _LOCAL / run.dt, axis=0, mode="constant")
+
+    weight = np.maximum(spread_out(kept), 1e-6)
+    seen_level, said_level = spread_out(kept * run.force) / weight, spread_out(kept * said) / weight
+    together = spread_out(kept * run.force * said) / weight - seen_level * said_level
+    alone = spread_out(kept * said**2) / weight - said_level**2
+    gain = np.clip(together / np.maximum(alone, 1e-12 * float(np.max(said**2))), *_GAINS)
+    return replace(run, force=said_level + (run.force - seen_level) / gain)
+
+
+def estimated_logger(
+    campaign: Campaign, model: Model, first: Solution, terms: Sequence[Term] = (), heard: LowPass | None = None
+) -> LowPass:
     """Give the filter under which the law of friction, fitted anew for each, explains one run's pads best.
 
     A law that was fitted under a wrong filter has bent itself to it and speaks for a filter like that one.
@@ -41,10 +89,11 @@ def estimated_logger(campaign: Campaign, model: Model, first: Solution, terms: S
         model: its base model.
         first: a fit with a guessed filter; a start.
         terms: effects that this fit has added to the model: what they do at reversals is not the filter's doing.
+        heard: the filter that was found without them; it stays unless another is better by more than a trifle.
     """
-    fastest = max(campaign.with_role("fit", "repeat"), key=lambda r: float(np.ptp(r.record["slip_x"])))
-    limit = 0.48 / fastest.record.dt
-    alone = replace(campaign, runs=(replace(fastest, role="fit"),))
+    chosen = _clearest(campaign, first)
+    limit = 0.48 / chosen.record.dt
+    alone = replace(campaign, runs=(replace(chosen, role="fit"),))
     start = {k: v for k, v in first.values.items() if k != "rig.logger"}
     start |= {"rig.stick_length": 1e-6, "rig.late_force": 0.0}
     own = [f for f in base_free(model, balances=True) if not f.key.startswith("rig.") or f.key in _OF_REVERSALS]
@@ -52,33 +101,40 @@ def estimated_logger(campaign: Campaign, model: Model, first: Solution, terms: S
         beside = tuple(f"{t.label}." for t in terms)
         own += [f for f in first.free if f.key.startswith(beside) or f.key == YAW_INERTIA]
     tried: dict[LowPass, float] = {}
+    ended: dict[LowPass, dict[str, float]] = {}
 
-    def error(kind: LowPass) -> float:
-        runs = fit_runs(replace(alone, logger=Logger(kind, known=True)))
-        problem = Problem(runs, model.specimen, (*terms_of(model), *terms))
-        problem.relations = ("pads",)
-        problem.weigh(start)
-        values = solve(problem, start, own, most=3, enough=20.0).values
-        problem.weigh(values)
-        found = solve(problem, values, own, most=1, enough=20.0)
-        return float(np.sum((found.residuals.parts["pads"][0] * problem.sigmas["pads"][0]) ** 2))
+    def fitted(kind: LowPass, start: Mapping[str, float], most: int) -> tuple[float, dict[str, float]]:
+        run, values = fit_runs(replace(alone, logger=Logger(kind, known=True)))[0], dict(start)
+        for most in (most, 1):
+            problem = Problem([run], model.specimen, (*terms_of(model), *terms))
+            problem.relations = ("pads",)
+            problem.weigh(values)
+            found = solve(problem, values, own, most=most, enough=20.0)
+            values, run = found.values, _levelled(run, found.residuals.pad_forces[0])
+        left = np.where(run.judged["pads"], run.force - found.residuals.pad_forces[0], 0.0)
+        return float(np.sum(left**2)), values
 
-    def try_all(kinds: Sequence[LowPass]) -> None:
-        fresh = [k for k in kinds if k not in tried]
-        tried.update(zip(fresh, on_every_core(lambda i: error(fresh[i]), len(fresh)), strict=True))
+    def try_all(kinds: Sequence[LowPass], starts: Sequence[Mapping[str, float]], most: int) -> None:
+        fresh = {k: s for k, s in zip(kinds, starts, strict=True) if k not in tried}
+        asked = [(kind, start, most) for kind, start in fresh.items()]
+        for kind, (left, values) in zip(fresh, on_every_core(lambda i: fitted(*asked[i]), len(asked)), strict=True):
+            tried[kind], ended[kind] = left, values
 
     coarse = [[LowPass(f, order, phase) for f in _FREQUENCIES if f < limit] for order, phase in _KINDS]
-    try_all([kind for kinds in coarse for kind in kinds])
+    every = [kind for kinds in coarse for kind in kinds] + ([heard] if heard else [])
+    try_all(every, [start] * len(every), 3)
     best = min(tried, key=tried.__getitem__)
     if max(tried.values()) < _HEARD * tried[best]:
-        return best
+        return heard or min(coarse[0], key=tried.__getitem__)
     leaders = [min(kinds, key=tried.__getitem__) for kinds in coarse]
     leaders = [k for k in leaders if tried[k] <= _NEAR * tried[best]]
     ratio = _WIDE
     while ratio > _NARROW:
         beside = [[replace(k, frequency=k.frequency * x) for x in (1.0 / ratio, 1.0, ratio)] for k in leaders]
         beside = [[k for k in kinds if k.frequency < limit] for kinds in beside]
-        try_all([k for kinds in beside for k in kinds])
+        near = [(k, ended[leader]) for leader, kinds in zip(leaders, beside, strict=True) for k in kinds]
+        try_all([k for k, _ in near], [values for _, values in near], 2)
         leaders = [min(kinds, key=tried.__getitem__) for kinds in beside]
         ratio = float(np.sqrt(ratio))
-    return min(leaders, key=tried.__getitem__)
+    best = min(leaders, key=tried.__getitem__)
+    return heard if heard and tried[heard] < _SAME * tried[best] else best

@@ -31,6 +31,10 @@ def _stick(along, step, length, lag, parts, share):  # pragma: no cover - compil
         for i in range(count):
             before = 0.5 * (along[max(i - 1, 0), pad] + along[i, pad])
             after = 0.5 * (along[i, pad] + along[min(i + 1, count - 1), pad])
+            side = length if along[i, pad] > 0.0 else -length
+            if z == side and before * side > 0.0 and after * side > 0.0:  # it slides on the way it did
+                share[i, pad] = side / length
+                continue
             total = 0.0
             for j in range(parts):
                 at = (j + 0.5) / parts

@@ -13,7 +13,7 @@ def pads_over_record(u, time, load, velocity, slip, force, bounds, first, last):
     Fills force (n, p, 2) and bounds (n, p). Pads share nothing, so that several threads may each drive some. Where a
     pad sticks without a bristle, the law gives only the bound: force is then the bound along the motion.
     """
-    bristle = u[{at["stick"]}] > 0.0
+    bristle, further, remembers = u[{at["stick"]}] > 0.0, u[{at["pad"]}] > 0.0, u[{at["advance"]}] > 0.0
     first_dt = time[1] - time[0] if len(time) > 1 else u[{at["dt"]}]
     for pad in range(first, last):
         z = {at["pad_memory"]} + pad * {layout.pad_block}
@@ -35,18 +35,22 @@ def pads_over_record(u, time, load, velocity, slip, force, bounds, first, last):
                 force_x = bound * velocity_x / speed if speed > 0.0 else 0.0
                 force_y = bound * velocity_y / speed if speed > 0.0 else 0.0
             friction = sqrt(force_x * force_x + force_y * force_y)
-            more_x, more_y = pad_further(
-                u, z, bound, friction, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time[i], dt
-            )
-            if i + 1 < len(time):
+            if further:
+                more_x, more_y = pad_further(
+                    u, z, bound, friction, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time[i],
+                    dt,
+                )
+                force_x += more_x
+                force_y += more_y
+            if remembers and i + 1 < len(time):
                 # Half a step of speed makes an old contact look young: it is worn out over some micrometres.
                 pad_advance(
                     u, z, bound, friction, load[i, pad], 0.5 * (velocity_x + velocity[i + 1, pad, 0]),
                     0.5 * (velocity_y + velocity[i + 1, pad, 1]), slip_x, slip_y, side_x, side_y, time[i],
                     time[i + 1] - time[i],
                 )
-            force[i, pad, 0] = force_x + more_x
-            force[i, pad, 1] = force_y + more_y
+            force[i, pad, 0] = force_x
+            force[i, pad, 1] = force_y
             bounds[i, pad] = bound
     return 0
 
