@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from inspect import signature
 
 from slipwise.campaign import Campaign, Logger
 from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis
@@ -13,6 +14,7 @@ from slipwise.effects import Effect
 from slipwise.fit.base import BaseFit, fit_base, restarted
 from slipwise.fit.data import Spoiled
 from slipwise.fit.logger import estimated_logger
+from slipwise.fit.terms import Term
 from slipwise.model import Model
 
 
@@ -77,12 +79,23 @@ def explore(
 def _heard_anew(campaign: Campaign, base: BaseFit, found: Hypothesis) -> Campaign | None:
     """Give the campaign with its logger's filter as it sounds beside what was found; None where that is no other.
 
-    A filter that nobody knew was read from reversals by a law that lacked an effect, and has bent itself to it.
+    A filter that nobody knew was read from reversals by a law that lacked an effect, and has bent itself to it, if that
+    effect speaks there.
     """
     if campaign.logger.known or not base.model.specimen.free or not found.terms:
         return None  # of one slider no filter is told from a law, see `fit_base`
+    if not any(_speaks_at_reversals(t) for t in found.terms) and found.problem.kinematics.turns == base.problem.kinematics.turns:
+        return None
     if found.account.level("pads", held_out=False) < 1.0 + MATERIAL:
         return None
     before = base.campaign.logger.every
     now = estimated_logger(campaign, base.model, found.solution, found.terms, before)
     return None if now == before else replace(campaign, logger=Logger(now, known=True))
+
+
+def _speaks_at_reversals(term: Term) -> bool:
+    """Tell whether an effect shapes how friction turns round: by speed, by a bristle, or by a gauge's lag."""
+    if term.effect.port in ("stick", "gauge"):
+        return term.effect.port == "stick" or any(p.unit == "s" for p in term.effect.parameters)
+    laws = [term.effect.hooks[h] for h in ("shear", "pad") if h in term.effect.hooks]
+    return any({"speed", "velocity_x"} & set(signature(law).parameters) for law in laws)

@@ -30,8 +30,9 @@ _REFITTED_PAIRS = 2
 _RESHAPED = 3
 #: A longer stick is tried at this many times the longest of the base [1].
 _LONGER = 4.0
-#: Candidates that are tried in the place of an effect.
-_SWAPPED = 2
+#: Candidates that are tried in the place of an effect, if their columns leave less than so many times what the whole
+#: has left [1].
+_SWAPPED, _HOPELESS = 2, 100.0
 #: The best physics is refitted even where faults of gauges screen better, and far from its best shape.
 _REFITTED_PHYSICS = 2
 #: Mean squared residual of a base that is bent too far for a screen, and that no effect may leave then before all of
@@ -225,7 +226,9 @@ def _swap(state: Search) -> bool:
     for name in best.names:
         rest = [t for t in best.terms if t.effect.name != name]
         kept = left_with(state, rest, best)
-        chosen = [s for s in rescreen(state.seen, kept) if s.term.effect.name not in best.names][:_SWAPPED]
+        enough = kept.solution.cost - _HOPELESS * best.solution.cost
+        others = [s for s in rescreen(state.seen, kept) if s.term.effect.name not in best.names and s.gain > enough]
+        chosen = [s for s in others[:_SWAPPED] if not tried_before(state, [*rest, s.term])]
         better = [h for h in try_all(state, starts_of(chosen, rest), kept) if score(origin, h.account) > top]
         if better:
             state.path.append(max(better, key=lambda h: score(origin, h.account)))
