@@ -95,8 +95,11 @@ def screen_shapes(base: BaseFit, term: Term, most: int) -> list[Screened]:
     project = projector(base.solution.inside)
     left = base.solution.residuals.stacked(base.problem.fitted, base.problem.relations)
     residual = project(left)
-    found = _at_shapes(base, term, shapes(term.effect, most), left, residual, project)
-    return sorted(found, key=lambda s: -s.gain)
+    grid = shapes(term.effect, most)
+    found = on_every_core(
+        lambda i: [_numbers(s) for s in _at_shapes(base, term, grid[i : i + 1], left, residual, project)], len(grid)
+    )
+    return sorted((Screened(term, **s) for of in found for s in of if s), key=lambda s: -s.gain)
 
 
 def _screened(
