@@ -9,6 +9,8 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from typing import Any, TypeVar
 
+import numpy.linalg  # noqa: F401  of a library that is not loaded yet no threads can be taken away
+import scipy.linalg  # noqa: F401
 from threadpoolctl import threadpool_limits
 
 Answer = TypeVar("Answer")

@@ -84,7 +84,8 @@ def _heard_anew(campaign: Campaign, base: BaseFit, found: Hypothesis) -> Campaig
     """
     if campaign.logger.known or not base.model.specimen.free or not found.terms:
         return None  # of one slider no filter is told from a law, see `fit_base`
-    if not any(_speaks_at_reversals(t) for t in found.terms) and found.problem.kinematics.turns == base.problem.kinematics.turns:
+    turned = found.problem.kinematics.turns != base.problem.kinematics.turns
+    if not turned and not any(_speaks_at_reversals(t) for t in found.terms):
         return None
     if found.account.level("pads", held_out=False) < 1.0 + MATERIAL:
         return None
