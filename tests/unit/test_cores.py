@@ -1,6 +1,8 @@
 """Work on every core gives the answers of work on one, in order, and its errors."""
 
 import os
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -27,6 +29,15 @@ def test_a_child_keeps_to_one_thread_of_linear_algebra(monkeypatch: pytest.Monke
     with threadpool_limits(2):
         threads = on_every_core(lambda i: [library["num_threads"] for library in threadpool_info()], 2)
         assert all(set(each) == {1} for each in threads)
+
+
+def test_a_worker_that_has_loaded_nothing_yet_keeps_to_one_thread_too() -> None:
+    """A limit reaches only libraries that are there: workers that were limited first took two threads each later."""
+    asked = (
+        "from slipwise.cores import begin_worker; begin_worker(); import slipwise.diagnose, threadpoolctl;"
+        "print({library['num_threads'] for library in threadpoolctl.threadpool_info()})"
+    )
+    assert subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, check=True).stdout == "{1}\n"
 
 
 def test_an_error_of_a_child_is_an_error_here(monkeypatch: pytest.MonkeyPatch) -> None:

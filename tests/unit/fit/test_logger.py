@@ -2,12 +2,18 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from bench import build_campaign
 from bench.write import write_campaign
 from slipwise.campaign import load_campaign
+from slipwise.diagnose.explore import _speaks_at_reversals
+from slipwise.effects import catalogue
 from slipwise.fit.base import fit_base
+from slipwise.fit.data import fit_runs
+from slipwise.fit.logger import _levelled
+from slipwise.fit.terms import Term
 
 
 def test_an_unknown_filter_is_found_within_ten_percent(tmp_path):
@@ -17,3 +23,27 @@ def test_an_unknown_filter_is_found_within_ten_percent(tmp_path):
     assert found is not None
     assert found.frequency == pytest.approx(made.truth.logger.lowpass, rel=0.10)
     assert found.phase.replace("aligned", "causal") == made.truth.logger.phase
+
+
+def test_friction_that_heats_up_does_not_bend_the_filter_that_is_heard(tmp_path):
+    made = build_campaign(71021, effects=("heating",), size="large", rig="bridge1")
+    write_campaign(tmp_path, made.truth.rig, replace(made.truth.logger, stated=False), made.recorded)
+    found = fit_base(load_campaign(tmp_path)).campaign.logger.every
+    assert found is not None
+    assert found.frequency == pytest.approx(made.truth.logger.lowpass, rel=0.10)
+
+
+def test_a_gain_that_wanders_and_an_offset_are_levelled_away(tmp_path):
+    made = build_campaign(71002, size="medium", rig="bridge1")
+    write_campaign(tmp_path, made.truth.rig, made.truth.logger, made.recorded)
+    run = fit_runs(load_campaign(tmp_path))[0]
+    wandering = 1.0 + 0.2 * run.time[:, None] / run.time[-1]
+    level = _levelled(replace(run, force=wandering * run.force + 500.0), run.force)
+    kept = run.judged["pads"]
+    assert np.std((level.force - run.force)[kept]) < 0.02 * np.std(run.force[kept])
+
+
+def test_what_goes_by_speed_or_lags_speaks_at_reversals_and_what_only_wanders_does_not():
+    said = {name for name, effect in catalogue().items() if _speaks_at_reversals(Term(effect))}
+    assert {"breakaway", "rate_and_state", "presliding", "channel_delay", "channel_filter"} <= said
+    assert not {"heating", "run_in", "uneven_seating", "buffer_damping", "channel_gain", "girder_bending"} & said
