@@ -46,6 +46,12 @@ _LOCAL = 0.15
 _GAINS = (0.5, 2.0)
 
 
+def _frequencies(limit: float) -> list[float]:
+    """Give frequencies to begin with, below the highest that samples can show; lower ones for a slow logger [Hz]."""
+    usual = [f for f in _FREQUENCIES if f < limit]
+    return usual if len(usual) > 1 else [f * limit / (_WIDE * _FREQUENCIES[-1]) for f in _FREQUENCIES]
+
+
 def _clearest(campaign: Campaign, first: Solution) -> Run:
     """Give the run whose reversals speak loudest against what a fit leaves of the pads' forces."""
 
@@ -123,7 +129,7 @@ def estimated_logger(
         for (kind, _), (left, values) in zip(fresh, answers, strict=True):
             tried[kind], ended[kind] = left, values
 
-    coarse = [[LowPass(f, order, phase) for f in _FREQUENCIES if f < limit] for order, phase in _KINDS]
+    coarse = [[LowPass(f, order, phase) for f in _frequencies(limit)] for order, phase in _KINDS]
     try_all([(kind, start) for kinds in (*coarse, [heard] if heard else []) for kind in kinds], 3)
     best = min(tried, key=tried.__getitem__)
     if max(tried.values()) < _HEARD * tried[best]:

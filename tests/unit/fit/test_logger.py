@@ -12,7 +12,7 @@ from slipwise.diagnose.explore import _speaks_at_reversals
 from slipwise.effects import catalogue
 from slipwise.fit.base import fit_base
 from slipwise.fit.data import fit_runs
-from slipwise.fit.logger import _levelled
+from slipwise.fit.logger import _frequencies, _levelled
 from slipwise.fit.terms import Term
 
 
@@ -47,3 +47,9 @@ def test_what_goes_by_speed_or_lags_speaks_at_reversals_and_what_only_wanders_do
     said = {name for name, effect in catalogue().items() if _speaks_at_reversals(Term(effect))}
     assert {"breakaway", "rate_and_state", "presliding", "channel_delay", "channel_filter"} <= said
     assert not {"heating", "run_in", "uneven_seating", "buffer_damping", "channel_gain", "girder_bending"} & said
+
+
+@pytest.mark.parametrize("rate", [50.0, 100.0, 200.0, 500.0])
+def test_there_are_filters_to_begin_with_at_every_rate_of_sampling(rate):
+    begun = _frequencies(0.48 * rate)
+    assert len(begun) > 1 and max(begun) < 0.48 * rate
