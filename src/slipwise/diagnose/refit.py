@@ -6,15 +6,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.diagnose.shapes import strengths
+from slipwise.diagnose.shapes import REFERENCES, strengths
 from slipwise.fit.base import BaseFit, settled
 from slipwise.fit.problem import Problem
 from slipwise.fit.solve import Solution, slopes_of, solve
 from slipwise.fit.terms import ZERO, ZEROES, Free, Term, inertia_free
 
 Array = NDArray[np.float64]
-#: Constants that only say at which value a law is neutral: free, they would be one with its strength.
-_REFERENCES: frozenset[str] = frozenset({"rated"})
 #: A fit is over when a step lowers the squared residual by less than this, and by less than this share of what is left
 #: above the noise [1].
 _ENOUGH, _ROUGH = 10.0, 5e-4
@@ -132,7 +130,7 @@ def refit(
         else:
             start = _inside(term, starts[term.label])
         values.update({f"{term.label}.{k}": v for k, v in start.items()})
-        free += [f for f in term.free(start) if f.key.rsplit(".", 1)[1] not in _REFERENCES]
+        free += [f for f in term.free(start) if f.key.rsplit(".", 1)[1] not in REFERENCES]
     present = {f.key for f in free}
     for key in problem.kinematics.inertias:
         if key not in present:

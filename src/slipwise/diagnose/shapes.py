@@ -7,6 +7,9 @@ import numpy as np
 from slipwise.effects import Effect
 from slipwise.params import Parameter
 
+#: Constants that only say at which value a law is neutral: free, they would be one with its strength. Nor are they
+#: moved on a grid: a law of pressure that began at a third of the rated pressure began with a slope at its bound.
+REFERENCES: frozenset[str] = frozenset({"rated"})
 #: Most points of the grid over shape constants, and of the one that is looked at where the best fit leaves something.
 _MOST_POINTS, MOST_POINTS_AGAIN = 5, 60
 #: Multiples of a constant's typical value that are tried: a fit that begins a decade off ends in a valley of its own.
@@ -48,7 +51,7 @@ def shapes(effect: Effect, most: int = _MOST_POINTS) -> list[dict[str, float]]:
         return [typical, *({**typical, p.name: x} for p, x in either)]
     axes = []
     for p in effect.parameters:
-        if p.neutral is not None:
+        if p.neutral is not None or p.name in REFERENCES:
             continue
         if p.whole:
             points = sorted({p.low, p.typical, p.high})

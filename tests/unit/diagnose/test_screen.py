@@ -35,6 +35,10 @@ def test_shapes_stay_within_their_bounds() -> None:
                 effect.parameter(name).check(value, effect.name)
 
 
+def test_the_value_at_which_a_law_is_neutral_is_no_constant_of_its_shape() -> None:
+    assert shapes(catalogue()["pressure_law"]) == [{}]
+
+
 def test_a_constant_that_may_be_decades_off_is_tried_over_decades():
     tried = [point["length"] for point in shapes(catalogue()["rate_and_state"])]
     assert max(tried) / min(tried) > 300.0
