@@ -3,8 +3,8 @@
 At a reversal friction turns round within a fraction of a millisecond. What the record makes of that step is the
 filter's own step response, ringing and lag included, so kind, order and frequency can be read from it. They are read
 in the run whose reversals say most, and beside a level and a gain that may wander: a friction that heats up, runs in or
-reads the load too has bent them least there. Of ten campaigns of another simulator, nine without their logger's word,
-nine filters were found within 7 %, heating and cross-talk included; under a washboard no filter was heard.
+reads the load too has bent them least there. Of eight campaigns of another simulator whose filter is on record seven
+were found within 7 %, beside heating and cross-talk too; under a washboard no filter was heard.
 """
 
 from collections.abc import Mapping, Sequence
