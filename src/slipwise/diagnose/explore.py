@@ -96,7 +96,9 @@ def _heard_anew(campaign: Campaign, base: BaseFit, found: Hypothesis) -> Campaig
 
 def _speaks_at_reversals(term: Term) -> bool:
     """Tell whether an effect shapes how friction turns round: by speed, by a bristle, or by a gauge's lag."""
-    if term.effect.port in ("stick", "gauge"):
-        return term.effect.port == "stick" or any(p.unit == "s" for p in term.effect.parameters)
+    if term.effect.port == "stick":
+        return True
+    if term.effect.port == "gauge":
+        return any(p.unit == "s" for p in term.effect.parameters)
     laws = [term.effect.hooks[h] for h in ("shear", "pad") if h in term.effect.hooks]
     return any({"speed", "velocity_x"} & set(signature(law).parameters) for law in laws)

@@ -1,11 +1,13 @@
 """The logger's filter, where nobody knows it, is read from the reversals."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from bench import build_campaign
+from bench.truth import Truth
 from bench.write import write_campaign
 from slipwise.campaign import load_campaign
 from slipwise.diagnose.explore import _speaks_at_reversals
@@ -14,23 +16,27 @@ from slipwise.fit.base import fit_base
 from slipwise.fit.data import fit_runs
 from slipwise.fit.logger import _frequencies, _levelled
 from slipwise.fit.terms import Term
+from slipwise.signals import LowPass
+
+
+def heard_and_true(folder: Path, seed: int, effect: str, size: str, rig: str) -> tuple[LowPass, Truth]:
+    """Give the filter that is found in a campaign that does not say its own, and what it was."""
+    made = build_campaign(seed, effects=(effect,), size=size, rig=rig)
+    write_campaign(folder, made.truth.rig, replace(made.truth.logger, stated=False), made.recorded)
+    found = fit_base(load_campaign(folder)).campaign.logger.every
+    assert found is not None
+    return found, made.truth
 
 
 def test_an_unknown_filter_is_found_within_ten_percent(tmp_path):
-    made = build_campaign(71002, effects=("buffer_hardening",), size="medium", rig="bridge2")
-    write_campaign(tmp_path, made.truth.rig, replace(made.truth.logger, stated=False), made.recorded)
-    found = fit_base(load_campaign(tmp_path)).campaign.logger.every
-    assert found is not None
-    assert found.frequency == pytest.approx(made.truth.logger.lowpass, rel=0.10)
-    assert found.phase.replace("aligned", "causal") == made.truth.logger.phase
+    found, truth = heard_and_true(tmp_path, 71002, "buffer_hardening", "medium", "bridge2")
+    assert found.frequency == pytest.approx(truth.logger.lowpass, rel=0.10)
+    assert found.phase.replace("aligned", "causal") == truth.logger.phase
 
 
 def test_friction_that_heats_up_does_not_bend_the_filter_that_is_heard(tmp_path):
-    made = build_campaign(71021, effects=("heating",), size="large", rig="bridge1")
-    write_campaign(tmp_path, made.truth.rig, replace(made.truth.logger, stated=False), made.recorded)
-    found = fit_base(load_campaign(tmp_path)).campaign.logger.every
-    assert found is not None
-    assert found.frequency == pytest.approx(made.truth.logger.lowpass, rel=0.10)
+    found, truth = heard_and_true(tmp_path, 71021, "heating", "large", "bridge1")
+    assert found.frequency == pytest.approx(truth.logger.lowpass, rel=0.10)
 
 
 def test_a_gain_that_wanders_and_an_offset_are_levelled_away(tmp_path):
