@@ -97,7 +97,8 @@ def _judged(state: Search) -> Verdict:
     drop = worth(origin.account, best.account)[0]
     family = explained >= _least_share(best, drop)
     too_little = explained < HALF if len(best.terms) == 1 else not family
-    if (remains and (not family or too_many)) or (_loud(state.final) and too_little):
+    # effects of the wrong family can be bent to the fitted runs until they leave little there: held-out runs tell
+    if (remains and (not family or too_many)) or (too_little and _worst(state.final.account) > LOUD):
         shown = surface if remains else None
         probability = _unknown_probability(shown, explained)
         whole = leftover(origin)  # what is drawn is all that is missing, not what unnamed effects have left of it
