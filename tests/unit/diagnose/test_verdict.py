@@ -136,6 +136,13 @@ def test_two_laws_that_leave_much_may_be_a_third(monkeypatch, left: float, kind:
     assert judge(_search(_tried((), 20.0), _tried(("breakaway", "rate_and_state"), left))).kind == kind
 
 
+@pytest.mark.parametrize(("held", "kind"), [(1.4, "named"), (168.0, "unknown")])
+def test_two_laws_that_are_bent_to_look_quiet_where_they_were_fitted_are_not_named(held: float, kind: str) -> None:
+    base, both = _tried((), 300.0), _tried(("rate_and_state", "breakaway"), 1.4)
+    account = replace(both.account, held_out={**both.account.held_out, "pads": held * COUNT})
+    assert judge(_search(base, replace(both, account=account))).kind == kind
+
+
 @pytest.mark.parametrize(("name", "kind"), [("breakaway", "named"), ("channel_delay", "complete")])
 def test_a_law_needs_less_to_be_named_than_a_lag_that_takes_up_small_errors_of_a_model(name: str, kind: str) -> None:
     assert judge(_search(_tried((), 1.07), _tried((name,), 1.0))).kind == kind

@@ -75,11 +75,12 @@ def test_hardening_adds_its_share_at_thirty_millimetres() -> None:
     np.testing.assert_allclose(found, STIFFNESS * x * [1.1, 1.025, 1.0, 1.1], rtol=1e-12)
 
 
-def test_softening_is_spent_by_the_largest_stroke_so_far() -> None:
+@pytest.mark.parametrize("shape", [1.0, 2.0])
+def test_softening_is_spent_by_the_largest_stroke_so_far(shape: float) -> None:
     x = np.array([0.0, 0.01, 0.02, 0.01, -0.01, -0.02, 0.03, 0.01])
     largest = np.maximum.accumulate(np.abs(x))
-    found = force(bridge("buffer_softening", rise=0.2, length=0.015), np.arange(8.0), x, 0.0 * x)[:, 0]
-    np.testing.assert_allclose(found, STIFFNESS * x * (1.0 + 0.2 * np.exp(-largest / 0.015)), rtol=1e-12)
+    found = force(bridge("buffer_softening", rise=0.2, length=0.015, shape=shape), np.arange(8.0), x, 0.0 * x)[:, 0]
+    np.testing.assert_allclose(found, STIFFNESS * x * (1.0 + 0.2 * np.exp(-((largest / 0.015) ** shape))), rtol=1e-12)
 
 
 def test_a_loop_is_forgotten_in_a_long_pause_wherever_the_girder_is_set_then() -> None:
