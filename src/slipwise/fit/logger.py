@@ -7,8 +7,8 @@ reads the load too has bent them least there. Of eight campaigns of another simu
 were found within 7 %, beside heating and cross-talk too; under a washboard no filter was heard.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,7 @@ from slipwise.cores import on_every_core
 from slipwise.fit.data import FitRun, fit_runs
 from slipwise.fit.problem import Problem
 from slipwise.fit.solve import Solution, solve
-from slipwise.fit.terms import YAW_INERTIA, Term, base_free, terms_of
+from slipwise.fit.terms import YAW_INERTIA, Free, Term, base_free, terms_of
 from slipwise.model import Model
 from slipwise.signals import LowPass, lowpass
 
@@ -85,6 +85,51 @@ def _levelled(run: FitRun, said: Array) -> FitRun:
     return replace(run, force=said_level + (run.force - seen_level) / gain)
 
 
+@dataclass
+class _Hearing:
+    """Filters under which one run was fitted.
+
+    Attributes:
+        campaign: of that run alone.
+        model: its base model.
+        terms: effects beside the model's.
+        free: numbers that may change.
+        left: filter -> squared error of the pads' forces that is left [N^2].
+        ended: filter -> values at which its fit ended.
+    """
+
+    campaign: Campaign
+    model: Model
+    terms: tuple[Term, ...]
+    free: list[Free]
+    left: dict[LowPass, float] = field(default_factory=dict[LowPass, float])
+    ended: dict[LowPass, dict[str, float]] = field(default_factory=dict[LowPass, dict[str, float]])
+
+    def try_all(self, asked: Sequence[tuple[LowPass, Mapping[str, float]]], jacobians: int) -> None:
+        """Fit under each filter that was not tried yet, from the values beside it."""
+        fresh = [(kind, begin) for kind, begin in dict(asked).items() if kind not in self.left]
+        answers = on_every_core(lambda i: self._fitted(*fresh[i], jacobians), len(fresh))
+        for (kind, _), (left, values) in zip(fresh, answers, strict=True):
+            self.left[kind], self.ended[kind] = left, values
+
+    def best_of(self, kinds: Iterable[LowPass]) -> LowPass:
+        """Give the filter that leaves least of those that were tried."""
+        return min(kinds, key=self.left.__getitem__)
+
+    def _fitted(self, kind: LowPass, start: Mapping[str, float], jacobians: int) -> tuple[float, dict[str, float]]:
+        runs = fit_runs(replace(self.campaign, logger=Logger(kind, known=True)))
+        run, values, said = runs[0], start, np.empty(0)
+        for most in (jacobians, 1):
+            problem = Problem([run], self.model.specimen, (*terms_of(self.model), *self.terms))
+            problem.relations = ("pads",)
+            problem.weigh(values)
+            found = solve(problem, values, self.free, most=most, enough=20.0)
+            values, said = found.values, found.residuals.pad_forces[0]
+            run = _levelled(run, said)
+        left = np.where(run.judged["pads"], run.force - said, 0.0)
+        return float(np.sum(left**2)), dict(values)
+
+
 def estimated_logger(
     campaign: Campaign, model: Model, first: Solution, terms: Sequence[Term] = (), heard: LowPass | None = None
 ) -> LowPass:
@@ -101,47 +146,31 @@ def estimated_logger(
     """
     chosen = _clearest(campaign, first)
     limit = 0.48 / chosen.record.dt
-    alone = replace(campaign, runs=(replace(chosen, role="fit"),))
     start = {k: v for k, v in first.values.items() if k != "rig.logger"}
     start |= {"rig.stick_length": 1e-6, "rig.late_force": 0.0}
     own = [f for f in base_free(model, balances=True) if not f.key.startswith("rig.") or f.key in _OF_REVERSALS]
     if terms:
         beside = tuple(f"{t.label}." for t in terms)
         own += [f for f in first.free if f.key.startswith(beside) or f.key == YAW_INERTIA]
-    tried: dict[LowPass, float] = {}
-    ended: dict[LowPass, dict[str, float]] = {}
-
-    def fitted(kind: LowPass, start: Mapping[str, float], jacobians: int) -> tuple[float, dict[str, float]]:
-        run, values, said = fit_runs(replace(alone, logger=Logger(kind, known=True)))[0], start, np.empty(0)
-        for most in (jacobians, 1):
-            problem = Problem([run], model.specimen, (*terms_of(model), *terms))
-            problem.relations = ("pads",)
-            problem.weigh(values)
-            found = solve(problem, values, own, most=most, enough=20.0)
-            values, said = found.values, found.residuals.pad_forces[0]
-            run = _levelled(run, said)
-        left = np.where(run.judged["pads"], run.force - said, 0.0)
-        return float(np.sum(left**2)), dict(values)
-
-    def try_all(asked: Sequence[tuple[LowPass, Mapping[str, float]]], jacobians: int) -> None:
-        fresh = [(kind, begin) for kind, begin in dict(asked).items() if kind not in tried]
-        answers = on_every_core(lambda i: fitted(*fresh[i], jacobians), len(fresh))
-        for (kind, _), (left, values) in zip(fresh, answers, strict=True):
-            tried[kind], ended[kind] = left, values
-
+    hearing = _Hearing(replace(campaign, runs=(replace(chosen, role="fit"),)), model, tuple(terms), own)
     coarse = [[LowPass(f, order, phase) for f in _frequencies(limit)] for order, phase in _KINDS]
-    try_all([(kind, start) for kinds in (*coarse, [heard] if heard else []) for kind in kinds], 3)
-    best = min(tried, key=tried.__getitem__)
-    if max(tried.values()) < _HEARD * tried[best]:
-        return heard or min(coarse[0], key=tried.__getitem__)
-    leaders, ratio = [min(kinds, key=tried.__getitem__) for kinds in coarse], _WIDE
+    hearing.try_all([(kind, start) for kinds in (*coarse, [heard] if heard else []) for kind in kinds], 3)
+    if max(hearing.left.values()) < _HEARD * min(hearing.left.values()):
+        return heard or hearing.best_of(coarse[0])
+    best = _looked_closely(hearing, [hearing.best_of(kinds) for kinds in coarse], limit)
+    return heard if heard and hearing.left[heard] < _SAME * hearing.left[best] else best
+
+
+def _looked_closely(hearing: _Hearing, leaders: list[LowPass], limit: float) -> LowPass:
+    """Give the best filter of any kind whose leader is near the best, with ever smaller steps in frequency."""
+    ratio = _WIDE
     while ratio > _NARROW:
-        best = min(leaders, key=tried.__getitem__)
-        leaders = [k for k in leaders if tried[k] <= ratio**_STEEP * tried[best]]
+        least = min(hearing.left[k] for k in leaders)
+        leaders = [k for k in leaders if hearing.left[k] <= ratio**_STEEP * least]
         beside = [[replace(k, frequency=k.frequency * x) for x in (1.0 / ratio, 1.0, ratio)] for k in leaders]
         beside = [[k for k in kinds if k.frequency < limit] for kinds in beside]
-        try_all([(k, ended[leader]) for leader, kinds in zip(leaders, beside, strict=True) for k in kinds], 2)
-        leaders = [min(kinds, key=tried.__getitem__) for kinds in beside]
+        asked = [(k, hearing.ended[leader]) for leader, kinds in zip(leaders, beside, strict=True) for k in kinds]
+        hearing.try_all(asked, 2)
+        leaders = [hearing.best_of(kinds) for kinds in beside]
         ratio = float(np.sqrt(ratio))
-    best = min(leaders, key=tried.__getitem__)
-    return heard if heard and tried[heard] < _SAME * tried[best] else best
+    return hearing.best_of(leaders)
