@@ -12,7 +12,7 @@ from slipwise.diagnose.refit import Account, Hypothesis, cornered, strained
 from slipwise.diagnose.samples import SampleFault
 from slipwise.diagnose.search import MOST_EFFECTS
 from slipwise.diagnose.tried import Search
-from slipwise.diagnose.worth import SAME_SCORE, least_worth, material_alone, needless, score, worth
+from slipwise.diagnose.worth import SAME_SCORE, least_worth, material_alone, needless, score, spoils, worth
 from slipwise.fit.terms import Term
 
 #: A right family explains this share of what the base left, whatever its exact form [1]: 0.87 and more on trials, the
@@ -95,7 +95,7 @@ def _judged(state: Search) -> Verdict:
         return Verdict("complete", (), _complete_probability(state), "none", 1.0, surface, ())
     too_many = len(best.terms) >= MOST_EFFECTS
     drop = worth(origin.account, best.account)[0]
-    family = explained >= _least_share(best, drop)
+    family = explained >= _least_share(best, drop) and not spoils(origin.account, best.account)
     too_little = explained < HALF if len(best.terms) == 1 else not family
     # effects of the wrong family can be bent to the fitted runs until they leave little there: held-out runs tell
     if (remains and (not family or too_many)) or (too_little and _worst(state.final.account) > LOUD):

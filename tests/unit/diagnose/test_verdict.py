@@ -143,6 +143,14 @@ def test_two_laws_that_are_bent_to_look_quiet_where_they_were_fitted_are_not_nam
     assert judge(_search(base, replace(both, account=account))).kind == kind
 
 
+@pytest.mark.parametrize(("girder", "kind"), [(1.01, "named"), (1.08, "unknown")])
+def test_what_repairs_one_relation_and_spoils_another_is_not_what_is_there(monkeypatch, girder, kind) -> None:
+    """Curvature and inertia of cells took friction that follows acceleration from the pads, and left some elsewhere."""
+    monkeypatch.setattr("slipwise.diagnose.verdict.leftover", _structured)
+    both = _tried(("slide_curvature", "cell_inertia"), 1.05, girder=girder)
+    assert judge(_search(_tried((), 5.0), both)).kind == kind
+
+
 @pytest.mark.parametrize(("name", "kind"), [("breakaway", "named"), ("channel_delay", "complete")])
 def test_a_law_needs_less_to_be_named_than_a_lag_that_takes_up_small_errors_of_a_model(name: str, kind: str) -> None:
     assert judge(_search(_tried((), 1.07), _tried((name,), 1.0))).kind == kind
