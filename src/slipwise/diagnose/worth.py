@@ -20,6 +20,9 @@ _EVERYWHERE = ("gauge", "girder", "table")
 #: does not quite describe is not a second effect.
 MATERIAL_FURTHER = 0.20
 FURTHER = 0.025
+#: Where the effects before have changed a relation by less than this, on held-out runs by twice as much, nothing there is
+#: theirs to repair, and what is worth a name alone is worth one beside them [noise variance].
+_UNTOUCHED = 0.05
 #: However much the base left: what takes away this share of all that the first effect leaves, on fitted and on held-out
 #: runs, is no repair of it [1].
 _NEARLY_ALL = 0.85
@@ -82,9 +85,17 @@ def material(base: Account, before: Account, after: Account) -> bool:
         if base.counts[name][1]:
             drop = min(drop, 2.0 * (lower[True] - after.level(name, held_out=True)))
         excess = max(base.level(name, held_out=False) - 1.0, 0.0)
-        if drop >= MATERIAL_FURTHER and (drop > FURTHER * excess or _nearly_all(before, after, name)):
+        least = MATERIAL if _untouched(base, before, name) else MATERIAL_FURTHER
+        if drop >= least and (drop > FURTHER * excess or _nearly_all(before, after, name)):
             return True
     return False
+
+
+def _untouched(base: Account, before: Account, name: str) -> bool:
+    """Tell whether a step has left a relation as it was."""
+    kinds = (False, True) if base.counts[name][1] else (False,)
+    changes = [abs(before.level(name, held_out=h) - base.level(name, held_out=h)) for h in kinds]
+    return all(change < _UNTOUCHED * (1 + h) for h, change in zip(kinds, changes, strict=True))
 
 
 def _nearly_all(before: Account, after: Account, name: str) -> bool:
