@@ -20,8 +20,8 @@ _EVERYWHERE = ("gauge", "girder", "table")
 #: does not quite describe is not a second effect.
 MATERIAL_FURTHER = 0.20
 FURTHER = 0.025
-#: Where the effects before have changed a relation by less than this, on held-out runs by twice as much, nothing there is
-#: theirs to repair, and what is worth a name alone is worth one beside them [noise variance].
+#: Where the effects before have changed a relation by less than this, on held-out runs by twice as much, they need no
+#: repair there, and what is worth a name alone is worth one beside them [noise variance].
 _UNTOUCHED = 0.05
 #: However much the base left: what takes away this share of all that the first effect leaves, on fitted and on held-out
 #: runs, is no repair of it [1].

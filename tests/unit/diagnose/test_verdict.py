@@ -167,7 +167,7 @@ def test_a_second_law_beside_a_huge_one_must_explain_nearly_all_that_is_left(lef
 
 @pytest.mark.parametrize(("touched", "worthy"), [(1.15, True), (1.6, False)])
 def test_beside_an_effect_of_buffers_a_law_of_pads_is_worth_a_name_as_it_is_alone(touched: float, worthy: bool) -> None:
-    """Breakaway of 1 % takes 0.15 from the pads; had the first effect changed them, that might be its own wrong form."""
+    """Breakaway takes 0.15 from the pads; had the first effect changed them, that might be its own wrong form."""
     base, first = _tried((), touched, girder=3.0), _tried(("buffer_hardening",), 1.15, girder=1.0)
     both = _tried(("buffer_hardening", "breakaway"), 1.0, girder=1.0)
     assert material(base.account, first.account, both.account) == worthy
