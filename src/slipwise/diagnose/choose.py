@@ -29,13 +29,14 @@ def best_of(origin: Hypothesis, tried: Sequence[Hypothesis]) -> Hypothesis | Non
 
     Cells of load that all read 4 % less under a girder of 4 % more mass are cells of friction that all read 4 % more.
     """
-    good = [h for h in tried if material_alone(origin, h)]
-    gains = [score(origin.account, h.account) for h in good]
-    first = max(zip(gains, good, strict=True), key=lambda pair: pair[0], default=None)
-    if first is None:
+    good = sorted((h for h in tried if material_alone(origin, h)), key=lambda h: -score(origin.account, h.account))
+    if not good:
         return None
-    ties = [h for gain, h in zip(gains, good, strict=True) if h.names == first[1].names and gain > _TIE * first[0]]
-    return min(ties, key=_off_rated) if len(ties) > 1 else first[1]
+    first, ties = good[0], dict[tuple[str, ...], Hypothesis]()
+    for h in good:  # one gauge with a worse law is no tie
+        if h.names == first.names and score(origin.account, h.account) > _TIE * score(origin.account, first.account):
+            ties.setdefault(tuple(t.label for t in h.terms), h)
+    return min(ties.values(), key=_off_rated)
 
 
 def _off_rated(found: Hypothesis) -> float:
