@@ -6,7 +6,7 @@ import numpy as np
 
 from slipwise.diagnose.refit import Hypothesis
 from slipwise.diagnose.screen import Screened
-from slipwise.diagnose.worth import material_alone, score
+from slipwise.diagnose.worth import MATERIAL, material_alone, score, worth
 from slipwise.signals import LowPass
 
 #: Share of the best explanation from which on another gauge's ties with it [1].
@@ -33,6 +33,9 @@ def best_of(origin: Hypothesis, tried: Sequence[Hypothesis]) -> Hypothesis | Non
     if not good:
         return None
     first, ties = good[0], dict[tuple[str, ...], Hypothesis]()
+    most = max(score(origin.account, h.account) for h in tried)
+    if worth(origin.account, first.account)[0] < MATERIAL and most > score(origin.account, first.account):
+        return None  # a law of so little is not named where what is no finding explains more
     for h in good:  # one gauge with a worse law is no tie
         if h.names == first.names and score(origin.account, h.account) > _TIE * score(origin.account, first.account):
             ties.setdefault(tuple(t.label for t in h.terms), h)

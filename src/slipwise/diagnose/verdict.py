@@ -20,8 +20,8 @@ from slipwise.fit.terms import Term
 RIGHT_FAMILY = 0.70
 #: What it must explain when its strength has run against a bound: more of the same, not something else.
 STRAINED_FAMILY = 0.90
-#: What effects must explain that have one form only, geometry's: 0.96 was curvature with inertia of cells in the place of
-#: friction that follows acceleration. Where they were right (36 campaigns), nothing with structure was left.
+#: What effects must explain that have one form only, geometry: curvature and inertia of cells in the place of friction
+#: that follows acceleration explained 0.96. Where they were right (36 campaigns), nothing with structure was left.
 EXACT_FAMILY = 0.98
 #: What two or more must explain: together they take many forms. 0.92 and more on the blind bench, the best wrong two
 #: 0.87.

@@ -39,3 +39,9 @@ def test_of_gauges_that_tie_the_one_that_leaves_the_girder_its_mass_is_taken() -
 
 def test_what_is_worth_nothing_is_not_chosen() -> None:
     assert best_of(_tried("", "", 1.0, RATED), [_tried("heating", "", 0.99, RATED)]) is None
+
+
+def test_a_law_of_very_little_is_not_chosen_where_a_gauge_explains_more() -> None:
+    base, law = _tried("", "", 1.07, RATED), _tried("buffer_height", "", 1.0, RATED)
+    assert best_of(base, [law, _tried("channel_gain", "pad_*_N", 1.02, RATED)]) is law
+    assert best_of(base, [law, _tried("channel_gain", "pad_*_N", 0.99, RATED)]) is None
