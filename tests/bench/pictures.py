@@ -65,7 +65,7 @@ def confusion_figure(results: Sequence[Result]) -> Figure:
     below.set_title("Called by its name every time" if clean else "")
     for i, hidden in enumerate(clean):
         place = (i // lines / _ABREAST, 1.0 - (i % lines + 1) / (lines + 1))
-        below.text(*place, f"{hidden}: {_share(groups[hidden])}", transform=below.transAxes, fontsize=8.5)
+        below.text(*place, f"{hidden}: {_share(groups[hidden])}", transform=below.transAxes, fontsize=7.5)
     return figure
 
 
