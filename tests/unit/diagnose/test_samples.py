@@ -63,8 +63,9 @@ def test_lost_samples_are_told_and_left_out() -> None:
     faults = sample_faults(broken)
     assert [(f.effect, f.channel) for f in faults] == [("dropped_samples", "pad_B_N")]
     assert faults[0].share == pytest.approx(lost.size / load.size, rel=0.3)
-    _, spoiled = mended(broken, faults)
+    whole, spoiled = mended(broken, faults)
     assert spoiled["only"]["pad_B_N"][lost].all()
+    np.testing.assert_allclose(whole.runs[0].record["pad_B_N"][lost], 0.5 * (load[lost - 1] + load[lost + 1]))
 
 
 def test_samples_that_were_lost_for_good_show_where_the_record_had_to_be_filled_up() -> None:

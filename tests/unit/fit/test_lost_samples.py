@@ -1,0 +1,22 @@
+"""What gauges of friction lost must not make the girder ring."""
+
+from bench import build_campaign
+from bench.campaign import with_faults
+from bench.faults import Fault
+from measured import as_campaign
+from slipwise.diagnose.explore import prepared
+from slipwise.diagnose.refit import account
+from slipwise.fit.base import fit_base
+
+
+def test_pitch_does_not_ring_with_samples_that_gauges_of_friction_have_lost() -> None:
+    """At a reversal a held sample is off by kilonewtons, and pitch rings with it long after: 3 to 9 noise variances."""
+    made = build_campaign(61, effects=(), rig="bridge2")
+    gauges = tuple(f"pad_{p}_Fx" for p in "ABCD")
+    whole, spoiled, faults = prepared(
+        as_campaign(with_faults(made, [Fault("dropped_samples", gauges, 0.06, "held")], 5))
+    )
+    assert {f.channel for f in faults} == set(gauges)
+    base = fit_base(whole, None, spoiled)
+    levels = account(base.problem, base.solution)
+    assert all(levels.level("pitch", held_out=h) < 1.25 for h in (False, True))
