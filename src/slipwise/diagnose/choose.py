@@ -29,15 +29,16 @@ def best_of(origin: Hypothesis, tried: Sequence[Hypothesis]) -> Hypothesis | Non
 
     Cells of load that all read 4 % less under a girder of 4 % more mass are cells of friction that all read 4 % more.
     """
-    good = sorted((h for h in tried if material_alone(origin, h)), key=lambda h: -score(origin.account, h.account))
+    ranked = sorted(((score(origin.account, h.account), h) for h in tried), key=lambda pair: -pair[0])
+    good = [(gain, h) for gain, h in ranked if material_alone(origin, h)]
     if not good:
         return None
-    first, ties = good[0], dict[tuple[str, ...], Hypothesis]()
-    most = max(score(origin.account, h.account) for h in tried)
-    if worth(origin.account, first.account)[0] < MATERIAL and most > score(origin.account, first.account):
+    top, first = good[0]
+    if worth(origin.account, first.account)[0] < MATERIAL and ranked[0][0] > top:
         return None  # a law of so little is not named where what is no finding explains more
-    for h in good:  # one gauge with a worse law is no tie
-        if h.names == first.names and score(origin.account, h.account) > _TIE * score(origin.account, first.account):
+    ties = dict[tuple[str, ...], Hypothesis]()
+    for gain, h in good:  # one gauge with a worse law is no tie
+        if h.names == first.names and gain > _TIE * top:
             ties.setdefault(tuple(t.label for t in h.terms), h)
     return min(ties.values(), key=_off_rated)
 

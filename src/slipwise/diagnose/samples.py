@@ -95,8 +95,7 @@ def mended(campaign: Campaign, faults: tuple[SampleFault, ...]) -> tuple[Campaig
             bad = _at_rail(values)
             if fault.effect == "dropped_samples":
                 bad[1:] |= values[1:] == values[:-1]
-                time = record.time
-                between = np.interp(time, time[~bad], values[~bad])
+                between = np.interp(record.time, record.time[~bad], values[~bad])
                 record = record.replaced(**{fault.channel: between})
             reach = _REACH_OF_MOTION if fault.channel in VELOCITY_CHANNELS else _REACH
             spoilt[fault.channel] = np.convolve(bad, np.ones(2 * reach + 1), mode="same") > 0.5

@@ -110,13 +110,7 @@ def _nearly_all(before: Account, after: Account, name: str) -> bool:
 
 def spoils(before: Account, after: Account) -> bool:
     """Tell whether a step repairs some relation at the cost of another, on fitted and half as much on held-out runs."""
-    for name in before.fitted:
-        rise = after.level(name, held_out=False) - before.level(name, held_out=False)
-        if before.counts[name][1]:
-            rise = min(rise, 2.0 * (after.level(name, held_out=True) - before.level(name, held_out=True)))
-        if rise > _SPOILT:
-            return True
-    return False
+    return worth(after, before)[0] > _SPOILT
 
 
 def score(before: Account, after: Account) -> float:

@@ -10,7 +10,7 @@ from slipwise.fit.base import fit_base
 
 
 def test_pitch_does_not_ring_with_samples_that_gauges_of_friction_have_lost() -> None:
-    """At a reversal a held sample is off by kilonewtons, and pitch rings with it long after: 3 to 9 noise variances."""
+    """At a reversal a held sample is off by kilonewtons, and pitch rings with it: by 8.6 noise variances once."""
     made = build_campaign(61, effects=(), rig="bridge2")
     gauges = tuple(f"pad_{p}_Fx" for p in "ABCD")
     whole, spoiled, faults = prepared(
