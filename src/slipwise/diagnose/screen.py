@@ -61,6 +61,7 @@ def screen(base: BaseFit, terms: list[Term], progress: Callable[[float], None] |
     left = base.solution.residuals.stacked(base.problem.fitted, base.problem.relations)
     residual = project(left)
     out: list[Screened] = []
+    terms = sorted(terms, key=lambda t: -len(shapes(t.effect)))  # what takes longest first, or one core waits for it
     answers = on_every_core(lambda i: _numbers(_screened(base, terms[i], left, residual, project)), len(terms))
     for i, found in enumerate(answers):
         if found is not None:

@@ -13,7 +13,7 @@ from slipwise.diagnose.refit import STICK_LENGTH, Hypothesis, base_hypothesis, s
 from slipwise.diagnose.rescreen import rescreen
 from slipwise.diagnose.screen import screen, screen_shapes
 from slipwise.diagnose.settle import prune, settle
-from slipwise.diagnose.shapes import MOST_POINTS_AGAIN, shapes, strengths
+from slipwise.diagnose.shapes import MOST_POINTS_AGAIN, is_placed, shapes, strengths
 from slipwise.diagnose.tried import Search, as_base, left_with, starts_of, tried_before, try_all, try_one
 from slipwise.diagnose.worth import MATERIAL, MATERIAL_FURTHER, all_down, material, material_alone, score
 from slipwise.effects import Effect
@@ -27,7 +27,7 @@ _HOPEFUL = 0.4
 _REFITTED = 4
 _REFITTED_PAIRS = 2
 #: Starts from which a law that leaves something is fitted again.
-_RESHAPED = 3
+_RESHAPED = 2
 #: A longer stick is tried at this many times the longest of the base [1].
 _LONGER = 4.0
 #: Candidates that are tried in the place of an effect, if their columns leave less than so many times what the whole
@@ -158,16 +158,17 @@ def _first(state: Search, led: Hypothesis | None) -> None:
 
 
 def _reshape(state: Search) -> None:
-    """Begin a law anew from the whole grid of its constants where it leaves something.
+    """Begin a law of a place or a frequency anew from the whole grid of its constants where it leaves something.
 
     Its fit may be in another valley: a patch that was begun at the wrong place became a wide dip beside the narrow rise
-    that was there.
+    that was there. Lengths and times a fit finds from where the coarse grid has led it.
     """
     best, origin = state.best, state.path[0]
     if not best.terms or all_down(best.account):
         return
     for term in best.terms:
-        if term.effect.port == "gauge" or len(shapes(term.effect, MOST_POINTS_AGAIN)) <= len(shapes(term.effect)):
+        grids = [len(shapes(term.effect, *most)) for most in ((), (MOST_POINTS_AGAIN,))]
+        if term.effect.port == "gauge" or not is_placed(term.effect) or grids[0] == grids[1]:
             continue
         rest = best.without(term)
         before = left_with(state, rest, best) if rest else origin

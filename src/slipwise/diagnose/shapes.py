@@ -35,6 +35,12 @@ def two_sided(strength: Parameter) -> bool:
     return strength.low < float(strength.neutral or 0.0) < strength.high
 
 
+def is_placed(effect: Effect) -> bool:
+    """Tell whether a law acts at a place or a frequency: a fit that begins beside it does not find it."""
+    constants = [p for p in effect.parameters if p.neutral is None and not p.whole]
+    return any(p.unit == "Hz" or p.low < 0.0 < p.high for p in constants)
+
+
 def shapes(effect: Effect, most: int = _MOST_POINTS) -> list[dict[str, float]]:
     """Give a small grid over the constants that switch nothing: typical, and some multiples of it.
 

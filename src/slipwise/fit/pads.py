@@ -1,6 +1,7 @@
 """Pads' forces as a logger would have written them: the law at every instant, then the logger's filter."""
 
 from dataclasses import dataclass
+from math import sqrt
 
 import numpy as np
 from numba import njit
@@ -46,6 +47,18 @@ def _stick(along, step, length, lag, parts, share):  # pragma: no cover - compil
                 z = min(max(z + speed * step / parts, -length), length)
                 total += min(max(0.5 * (old + z) + lag * speed, -length), length)
             share[i, pad] = total / (parts * length)
+
+
+@njit(cache=True)
+def _turned_round(force, bound, velocity, share, out):  # pragma: no cover - compiled
+    """Put the share of a stick in the place of the sharp turn of a bound that acts along the motion."""
+    for i in range(bound.shape[0]):
+        for pad in range(bound.shape[1]):
+            along, across = velocity[i, pad, 0], velocity[i, pad, 1]
+            speed = sqrt(along * along + across * across)
+            turned = abs(along) / speed if speed > 0.0 else 1.0
+            sharp = along / speed if speed > 0.0 else 0.0
+            out[i, pad] = force[i, pad, 0] + bound[i, pad] * (share[i, pad] * turned - sharp)
 
 
 def stick_share(state: Instants, stick_length: float, stick_damping: float) -> Array:
@@ -102,16 +115,11 @@ def force_along(found: PadForces, state: Instants, share: Array | None) -> Array
         state: to which.
         share: of the bound that acts, see `stick_share`; None for a law that knows itself how a pad sticks.
     """
-    force = found.force[:, :, 0]
     if share is None:
-        return force
-    along, across = state.velocity[:, :, 0], state.velocity[:, :, 1]
-    if not across.any():
-        return force + found.bound * (share - np.sign(along))
-    speed = np.hypot(along, across)
-    sharp = np.divide(along, speed, out=np.zeros_like(along), where=speed > 0.0)
-    turned = np.divide(np.abs(along), speed, out=np.ones_like(along), where=speed > 0.0)
-    return force + found.bound * (share * turned - sharp)
+        return found.force[:, :, 0]
+    out = np.empty(found.bound.shape)
+    _turned_round(found.force, found.bound, state.velocity, share, out)
+    return out
 
 
 def lost_velocity(force: Array, run: FitRun, compliance: Array, by: LowPass | None) -> Array:

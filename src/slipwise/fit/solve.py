@@ -85,8 +85,8 @@ def jacobian(
         if values[f.key] + step > f.high:
             step = -step
         there = nearby.residuals({**values, f.key: values[f.key] + step}, fitted_only=True)
-        moved = there.stacked(which, problem.relations)
-        out[:, j] = (moved - base) * (f.scale / step)
+        np.subtract(there.stacked(which, problem.relations), base, out=out[:, j])
+        out[:, j] *= f.scale / step
     return out
 
 

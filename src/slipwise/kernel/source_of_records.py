@@ -32,9 +32,10 @@ def pads_over_record(u, time, load, velocity, slip, force, bounds, first, last):
                 )
             else:
                 speed = sqrt(velocity_x * velocity_x + velocity_y * velocity_y)
-                force_x = bound * velocity_x / speed if speed > 0.0 else 0.0
-                force_y = bound * velocity_y / speed if speed > 0.0 else 0.0
-            friction = sqrt(force_x * force_x + force_y * force_y)
+                share = bound / speed if speed > 0.0 else 0.0
+                force_x = share * velocity_x
+                force_y = share * velocity_y
+            friction = sqrt(force_x * force_x + force_y * force_y) if further or remembers else 0.0
             if further:
                 more_x, more_y = pad_further(
                     u, z, bound, friction, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time[i],
