@@ -33,15 +33,15 @@ LAST = FIRST * RATIO ** (TERMS - 1)
 DENSITY = log(RATIO) / sqrt(pi)
 CLOSER = sqrt(RATIO)
 TAIL = 1.0 / (1.0 - 1.0 / CLOSER)
-HALVED = log(0.7) / 50.0
+SOFTENING = log(0.7) / 50.0
 PER_FLUX = sqrt(4.44e-6 / pi) / 18.0
 LUMP = 2.0 / (1.0 - exp(-1.0))
 
 
 def shear(shear: float, memory: np.ndarray, remains: float) -> float:
     """Lower the shear strength [Pa] by what the temperature does."""
-    cold = exp(HALVED * 20.0)
-    return shear * ((cold * exp(HALVED * memory[9]) + remains) / (cold + remains))
+    cold = exp(SOFTENING * 20.0)
+    return shear * ((cold * exp(SOFTENING * memory[9]) + remains) / (cold + remains))
 
 
 def advance(

@@ -7,7 +7,7 @@ from bench import build_campaign
 from measured import as_campaign
 from slipwise.diagnose.candidates import candidates
 from slipwise.diagnose.screen import projector, screen
-from slipwise.diagnose.shapes import shapes, strengths, variants
+from slipwise.diagnose.shapes import is_placed, shapes, strengths, variants
 from slipwise.effects import catalogue
 from slipwise.fit.base import fit_base
 
@@ -50,6 +50,11 @@ def test_shapes_that_no_fit_reaches_from_another_are_tried_one_by_one() -> None:
     assert {point["zeroed"] for point in shapes(catalogued["load_crosstalk"])} == {0.0, 1.0}
     orders = [v["order"] for v in variants(catalogued["channel_filter"], {"lag": 3e-3, "order": 2.0})]
     assert sorted(orders) == [1.0, 2.0]
+
+
+def test_laws_of_a_place_or_a_frequency_are_told_from_those_of_lengths_and_times() -> None:
+    placed = {name for name, effect in catalogue().items() if effect.port != "gauge" and is_placed(effect)}
+    assert placed == {"position_patch", "girder_bending", "table_pitch"}
 
 
 def test_a_lag_of_many_milliseconds_is_found_at_its_size_though_a_straight_line_sees_a_tenth_of_it() -> None:

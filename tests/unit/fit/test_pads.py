@@ -7,7 +7,8 @@ import pytest
 
 from slipwise.fit.data import FINE, refined
 from slipwise.fit.instants import Instants
-from slipwise.fit.pads import as_logged, lost_velocity, stick_share
+from slipwise.fit.pads import as_logged, force_along, lost_velocity, stick_share
+from slipwise.predict import PadForces
 from slipwise.signals import LowPass, lowpass
 
 
@@ -93,3 +94,17 @@ def test_a_spring_turns_friction_round_over_a_slip_and_a_damper_at_once() -> Non
     np.testing.assert_allclose(spring[12:], np.minimum(0.1 * since, 1.0), atol=0.03)
     np.testing.assert_allclose(damped[12:], np.minimum(0.1 * since + 0.4, 1.0), atol=0.03)
     assert np.all(spring[:9] == 0.0) and np.all(damped[:9] == 0.0)
+
+
+def test_a_share_of_the_bound_acts_in_the_place_of_a_sharp_turn_along_x_alone() -> None:
+    """Friction of 10 N with 1 N of tilt: at rest 1 N and the share, along the diagonal the share of its cosine."""
+    velocity = np.array([[[0.0, 0.0]], [[-0.2, 0.0]], [[0.3, 0.3]]])
+    speed = np.maximum(np.hypot(*velocity[:, 0].T), 1e-12)
+    bound = np.full((3, 1), 10.0)
+    force = 10.0 * velocity / speed[:, None, None]
+    force[:, :, 0] += 1.0
+    state = Instants(1e-3 * np.arange(3), np.ones((3, 1)), velocity, np.zeros_like(velocity))
+    share = np.array([[0.4], [-0.9], [0.5]])
+    along = force_along(PadForces(force, bound), state, share)[:, 0]
+    np.testing.assert_allclose(along, [5.0, -8.0, 1.0 + 5.0 / np.sqrt(2.0)])
+    np.testing.assert_allclose(force_along(PadForces(force, bound), state, None), force[:, :, 0])
