@@ -4,12 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from scipy.signal import butter, lsim
 
 from slipwise.fit.data import FINE, refined
 from slipwise.fit.instants import Instants
 from slipwise.fit.pads import as_logged, force_along, lost_velocity, stick_share
 from slipwise.predict import PadForces
-from slipwise.signals import LowPass, lowpass
+from slipwise.signals import LowPass, align, lowpass
 
 
 @dataclass(frozen=True)
@@ -44,6 +45,22 @@ def test_a_reversal_between_two_samples_is_timed_to_a_fraction_of_a_sample() -> 
     near = np.abs(run.time - turn) < 0.006
     crossing = np.interp(0.0, logged[near], run.time[near])
     assert crossing == pytest.approx(turn, abs=2e-5)
+
+
+@pytest.mark.parametrize("order", [2, 4])
+@pytest.mark.parametrize("fine", [FINE, 2 * FINE])
+def test_what_the_samples_of_a_causal_filter_fold_is_foretold(order: int, fine: int) -> None:
+    """Friction of 1 turns round behind 150 Hz, 500 samples a second: without the folding it was 0.15 and 0.03 off."""
+    once, dt, parts = LowPass(150.0, order, "causal"), 0.002, 48
+    time = np.arange(0.0, 2.0, dt / parts)
+    force = np.where((time > 0.7003) & (time < 1.2011), 1.0, -1.0)
+    logged = np.asarray(lsim(butter(order, 2.0 * np.pi * 150.0, analog=True), force + 1.0, time)[1])[::parts] - 1.0
+    measured, by = align(logged, dt, once)
+    step = parts // fine
+    around = np.concatenate([np.full(step // 2, -1.0), force])[: step * (fine * (len(logged) - 1) + 1)]
+    mean = around.reshape(-1, step).mean(axis=1)
+    found = as_logged(mean[:, None], _Run(time[::parts], dt, by, fine), None, averaged=True)[:, 0]  # type: ignore[arg-type]
+    np.testing.assert_allclose(found[100:-100], measured[100:-100], atol=0.025)
 
 
 def test_most_of_a_kink_that_the_filter_took_from_the_velocity_is_given_back() -> None:
