@@ -1,6 +1,6 @@
 """Pads' forces as a logger would have written them: the law at every instant, then the logger's filter."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
@@ -12,7 +12,7 @@ from slipwise.fit.data import FitRun
 from slipwise.fit.instants import Instants
 from slipwise.model import Model
 from slipwise.predict import PadForces, predictor
-from slipwise.signals import LowPass, response
+from slipwise.signals import LowPass, folded, response
 
 Array = NDArray[np.float64]
 #: Samples by which a force is carried on at both ends before it is filtered.
@@ -183,17 +183,6 @@ def _gain(size: int, step: float, by: LowPass, averaged: bool, fine: int) -> NDA
         if len(_GAINS) > 64:
             _GAINS.clear()
         frequency = np.asarray(rfftfreq(size, step), dtype=np.float64)
-        gain = _folded(frequency, 1.0 / (step * fine), by) if by.phase == "aligned" else np.abs(response(by, frequency))
+        gain = folded(by, frequency, 1.0 / (step * fine)) if by.phase == "aligned" else np.abs(response(by, frequency))
         _GAINS[key] = gain / np.sinc(frequency * step) if averaged else gain
     return _GAINS[key]
-
-
-def _folded(frequency: Array, rate: float, by: LowPass) -> NDArray[np.complex128]:
-    """Give what a filter that acts once leaves of each frequency [Hz] in samples at `rate` [Hz] without its lag, (m,).
-
-    What is faster than half the rate is seen at another frequency, and the lag of that one is taken out of it: of the
-    turn of friction behind 150 Hz of second order, sampled at 500 Hz, that is more than the noise.
-    """
-    once = replace(by, phase="causal")
-    seen = frequency - rate * np.round(frequency / rate)
-    return response(once, frequency) * np.exp(-1j * np.angle(response(once, seen)))

@@ -1,7 +1,7 @@
 """Signals on a uniform time axis: filter, shift, differentiate, fuse, and measure their noise."""
 
 from slipwise.signals.derivative import derivative, integral
-from slipwise.signals.filters import LowPass, align, lowpass, response
+from slipwise.signals.filters import LowPass, align, folded, lowpass, response
 from slipwise.signals.fused import Fused, fuse
 from slipwise.signals.noise import Noise, noise, white_level
 from slipwise.signals.resample import UniformTime, resampled, uniform_time
@@ -14,6 +14,7 @@ __all__ = [
     "UniformTime",
     "align",
     "derivative",
+    "folded",
     "fuse",
     "integral",
     "lowpass",
