@@ -28,20 +28,16 @@ import numpy as np
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
 
-RATIO, FIRST, TERMS = 7, 0.02, 8
-LAST = FIRST * RATIO ** (TERMS - 1)
+RATIO, FIRST, TERMS = 7.0, 0.02, 8
 DENSITY = log(RATIO) / sqrt(pi)
-CLOSER = sqrt(RATIO)
-TAIL = 1.0 / (1.0 - 1.0 / CLOSER)
-SOFTENING = log(0.7) / 50.0
+TAIL = 1.0 / (1.0 - RATIO**-0.5)
 PER_FLUX = sqrt(4.44e-6 / pi) / 18.0
 LUMP = 2.0 / (1.0 - exp(-1.0))
 
 
 def shear(shear: float, memory: np.ndarray, remains: float) -> float:
     """Lower the shear strength [Pa] by what the temperature does."""
-    cold = exp(SOFTENING * 20.0)
-    return shear * ((cold * exp(SOFTENING * memory[9]) + remains) / (cold + remains))
+    return shear * ((0.7 ** ((20.0 + memory[9]) / 50.0) + remains) / (0.7 ** (20.0 / 50.0) + remains))
 
 
 def advance(
@@ -51,16 +47,15 @@ def advance(
     """Let heat flow in and away; exact while the flux is constant."""
     work = friction * speed / apparent_area
     flux = work if slip_x * slip_x + slip_y * slip_y < 0.25 * apparent_area else work * (1.0 - cover)
-    rise = DENSITY * sqrt(FIRST / RATIO) * TAIL * flux
-    lost, left = 1.0 / cooling, exp(-dt / cooling)
-    # from the slowest, so that each relaxation is a power of the last: two exponentials a step, not nine
-    held, rate, weight = exp(-dt / LAST), 1.0 / LAST, DENSITY / sqrt(LAST)
-    for i in range(TERMS - 1, -1, -1):
-        kept = held * left
-        memory[i] = memory[i] * kept + flux * (1.0 - kept) / (rate + lost)
-        rise += weight * memory[i] * (TAIL if i == TERMS - 1 else 1.0)
-        held, rate, weight = held**RATIO, rate * RATIO, weight * CLOSER
-    memory[8] = memory[8] * left + work * cooling * (1.0 - left)
+    time, rise = FIRST, DENSITY * sqrt(FIRST / RATIO) * TAIL * flux
+    for i in range(TERMS):
+        lasting = 1.0 / (1.0 / time + 1.0 / cooling)
+        kept = exp(-dt / lasting)
+        memory[i] = memory[i] * kept + flux * lasting * (1.0 - kept)
+        rise += DENSITY / sqrt(time) * memory[i] * (TAIL if i == TERMS - 1 else 1.0)
+        time *= RATIO
+    kept = exp(-dt / cooling)
+    memory[8] = memory[8] * kept + work * cooling * (1.0 - kept)
     memory[9] = share * PER_FLUX * ((1.0 - lump) * rise + lump * LUMP / sqrt(cooling) * memory[8])
 
 
