@@ -16,15 +16,14 @@ Valid: 5 to 25 MPa, the range of the tests; bridges use 10 to 30 MPa.
 Source: paper, eq. (3); k = 0.102 from the identification below eq. (8), its unit 1/MPa is implied by P in MPa.
 """
 
-from math import expm1
-
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._saturation import risen
 from slipwise.params import Parameter
 
 
 def area(apparent_area: float, pressure: float, saturation: float) -> float:
     """Replace the real area of contact [m^2]."""
-    return -apparent_area * expm1(-saturation * pressure)
+    return apparent_area * risen(saturation * pressure)
 
 
 EFFECT = Effect(

@@ -33,11 +33,15 @@ DENSITY = log(RATIO) / sqrt(pi)
 TAIL = 1.0 / (1.0 - RATIO**-0.5)
 PER_FLUX = sqrt(4.44e-6 / pi) / 18.0
 LUMP = 2.0 / (1.0 - exp(-1.0))
+PER_DEGREE, COLD = log(0.7) / 50.0, 0.7 ** (20.0 / 50.0)
+SHARES = tuple(DENSITY / sqrt(FIRST * RATIO**i) * (TAIL if i == TERMS - 1 else 1.0) for i in range(TERMS))
+#: Places in memory of what a step keeps and takes in, and of the step and the time of cooling for which that holds.
+KEPT, TAKEN, STEP = 10, 11 + TERMS, 12 + 2 * TERMS
 
 
 def shear(shear: float, memory: np.ndarray, remains: float) -> float:
     """Lower the shear strength [Pa] by what the temperature does."""
-    return shear * ((0.7 ** ((20.0 + memory[9]) / 50.0) + remains) / (0.7 ** (20.0 / 50.0) + remains))
+    return shear * ((COLD * exp(PER_DEGREE * memory[9]) + remains) / (COLD + remains))
 
 
 def advance(
@@ -45,17 +49,21 @@ def advance(
     memory: np.ndarray, share: float, lump: float, cooling: float, cover: float, remains: float,
 ) -> None:  # fmt: skip
     """Let heat flow in and away; exact while the flux is constant."""
+    if abs(dt - memory[STEP]) > 1e-9 * dt or cooling != memory[STEP + 1]:  # instants differ in their last digits
+        time = FIRST
+        for i in range(TERMS + 1):
+            lasting = 1.0 / (1.0 / time + 1.0 / cooling) if i < TERMS else cooling
+            memory[KEPT + i] = exp(-dt / lasting)
+            memory[TAKEN + i] = lasting * (1.0 - memory[KEPT + i])
+            time *= RATIO
+        memory[STEP], memory[STEP + 1] = dt, cooling
     work = friction * speed / apparent_area
     flux = work if slip_x * slip_x + slip_y * slip_y < 0.25 * apparent_area else work * (1.0 - cover)
-    time, rise = FIRST, DENSITY * sqrt(FIRST / RATIO) * TAIL * flux
+    rise = DENSITY * sqrt(FIRST / RATIO) * TAIL * flux
     for i in range(TERMS):
-        lasting = 1.0 / (1.0 / time + 1.0 / cooling)
-        kept = exp(-dt / lasting)
-        memory[i] = memory[i] * kept + flux * lasting * (1.0 - kept)
-        rise += DENSITY / sqrt(time) * memory[i] * (TAIL if i == TERMS - 1 else 1.0)
-        time *= RATIO
-    kept = exp(-dt / cooling)
-    memory[8] = memory[8] * kept + work * cooling * (1.0 - kept)
+        memory[i] = memory[i] * memory[KEPT + i] + flux * memory[TAKEN + i]
+        rise += SHARES[i] * memory[i]
+    memory[8] = memory[8] * memory[KEPT + TERMS] + work * memory[TAKEN + TERMS]
     memory[9] = share * PER_FLUX * ((1.0 - lump) * rise + lump * LUMP / sqrt(cooling) * memory[8])
 
 
@@ -83,5 +91,8 @@ EFFECT = Effect(
         "run_in": "repeat at once and after a long rest: heat is gone by then, run-in is not undone",
         "channel_drift": "a drift of a cell is even in velocity",
     },
-    memory=(*(f"heat_{i}" for i in range(TERMS)), "body", "temperature_rise"),
+    memory=(
+        *(f"heat_{i}" for i in range(TERMS)), "body", "temperature_rise",
+        *(f"{what}_{i}" for what in ("kept", "taken") for i in range(TERMS + 1)), "step", "cooling",
+    ),
 )  # fmt: skip

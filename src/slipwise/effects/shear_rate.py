@@ -12,15 +12,14 @@ size of mu; s/cm because energies are in kN cm and because n in the literature i
 197 s/m).
 """
 
-from math import expm1
-
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._saturation import risen
 from slipwise.params import Parameter
 
 
 def shear(speed: float, true_pressure: float, strength: float, rate: float, slow: float) -> float:
     """Replace the shear strength [Pa]."""
-    return -strength * expm1(-rate * speed) + slow * true_pressure
+    return strength * risen(rate * speed) + slow * true_pressure
 
 
 EFFECT = Effect(
