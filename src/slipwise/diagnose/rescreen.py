@@ -7,7 +7,7 @@ import numpy as np
 
 from slipwise.diagnose.pairs import at_odds
 from slipwise.diagnose.refit import Hypothesis
-from slipwise.diagnose.screen import Screened, projector
+from slipwise.diagnose.screen import Screened, basis_of
 from slipwise.diagnose.shapes import strengths, two_sided
 
 
@@ -19,15 +19,18 @@ def rescreen(screened: Sequence[Screened], before: Hypothesis) -> list[Screened]
         before: the hypothesis; its own effects and what is at odds with them are left out.
     """
     problem, solution = before.problem, before.solution
-    project = projector(solution.inside)
-    residual = project(solution.residuals.stacked(problem.fitted, problem.relations))
+    basis = basis_of(solution.inside)
+    residual = solution.residuals.stacked(problem.fitted, problem.relations)
+    residual = residual - basis @ (basis.T @ residual)
+    across = np.column_stack([basis, residual]).T
     out = []
     for s in screened:
         if any(at_odds(s.term, t) for t in before.terms):
             continue
-        column = project(s.column)
-        length = float(column @ column)
-        amount = -float(column @ residual) / length if length > 1e-6 else 0.0
+        column = s.column.astype(np.float64)
+        *mimicked, along = across @ column
+        length = float(column @ column) - float(np.dot(mimicked, mimicked))  # of what the hypothesis cannot mimic
+        amount = -float(along) / length if length > 1e-6 else 0.0
         if amount > 0.0 or all(two_sided(p) for p in strengths(s.term.effect)):
             out.append(_scaled(s, amount, amount**2 * length))
     return sorted(out, key=lambda s: -s.gain)

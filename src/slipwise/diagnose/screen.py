@@ -76,12 +76,17 @@ def _numbers(found: Screened | None) -> dict[str, Any] | None:
     return None if found is None else {k: v for k, v in vars(found).items() if k != "term"}
 
 
-def projector(jacobian: Array) -> Callable[[Array], Array]:
-    """Give the projection away from the columns (m, k) of a Jacobian."""
+def basis_of(jacobian: Array) -> Array:
+    """Give an orthonormal basis (m, <= k) of what the columns (m, k) of a Jacobian can do."""
     scale = np.sqrt(np.einsum("ij,ij->j", jacobian, jacobian))
     kept = jacobian[:, scale > 0.0] / scale[scale > 0.0]
     basis, triangle = np.linalg.qr(kept)
-    basis = basis[:, np.abs(np.diag(triangle)) > 1e-9]
+    return basis[:, np.abs(np.diag(triangle)) > 1e-9]
+
+
+def projector(jacobian: Array) -> Callable[[Array], Array]:
+    """Give the projection away from the columns (m, k) of a Jacobian."""
+    basis = basis_of(jacobian)
     return lambda v: v - basis @ (basis.T @ v)
 
 

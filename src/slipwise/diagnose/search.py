@@ -15,7 +15,7 @@ from slipwise.diagnose.screen import screen, screen_shapes
 from slipwise.diagnose.settle import prune, settle
 from slipwise.diagnose.shapes import MOST_POINTS_AGAIN, is_placed, shapes, strengths
 from slipwise.diagnose.tried import Search, as_base, left_with, starts_of, tried_before, try_all, try_one
-from slipwise.diagnose.worth import MATERIAL, MATERIAL_FURTHER, all_down, material, material_alone, score
+from slipwise.diagnose.worth import MATERIAL, MATERIAL_FURTHER, all_down, is_near, material, material_alone, score
 from slipwise.effects import Effect
 from slipwise.fit.base import BaseFit
 from slipwise.fit.terms import Term
@@ -202,7 +202,8 @@ def _further(state: Search) -> bool:
     least = _worth_a_refit(before, MATERIAL_FURTHER)
     found = with_kept(as_base(state, before), rescreen(state.seen, before), least)
     chosen = various([s for s in found if s.gain > least], _REFITTED_PAIRS + 1)
-    tried = try_all(state, starts_of(chosen, before.terms) + longer_stick(state, before), before)
+    asked = starts_of(chosen, before.terms) + longer_stick(state, before)
+    tried = try_all(state, asked, before, lambda h: is_near(origin.account, account, h.account))
     sound = [h for h in tried if strained(before) or not strained(h)]
     good = [h for h in sound if material(origin.account, before.account, h.account)]
     if not good:

@@ -1,6 +1,6 @@
 """What a search has looked at, and how it tries more: refits side by side, the best of them to the end."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 from slipwise.cores import on_every_core
@@ -67,7 +67,10 @@ def try_one(state: Search, terms: Sequence[Term], starts: dict, before: Hypothes
 
 
 def try_all(
-    state: Search, asked: Sequence[tuple[Sequence[Term], dict]], before: Hypothesis | None = None
+    state: Search,
+    asked: Sequence[tuple[Sequence[Term], dict]],
+    before: Hypothesis | None = None,
+    promising: Callable[[Hypothesis], bool] | None = None,
 ) -> list[Hypothesis]:
     """Refit hypotheses of one kind, side by side; only the best of them are worth a fit to the end.
 
@@ -75,6 +78,7 @@ def try_all(
         state: of the search, which keeps them.
         asked: terms and starting values of each.
         before: as of `refit`.
+        promising: tells which of the best are; all, if not given.
     """
     origin, problem = state.path[0].account, state.base.problem
     fits = on_every_core(lambda i: _fit(refit(state.base, *asked[i], before)), len(asked))
@@ -83,7 +87,7 @@ def try_all(
     best: dict[tuple[str, ...], int] = {}
     for place, h in enumerate(found):
         best.setdefault(h.names, place)
-    ended = list(best.values())[:_POLISHED]
+    ended = [place for place in list(best.values())[:_POLISHED] if promising is None or promising(found[place])]
     fits = on_every_core(lambda i: _fit(polished(found[ended[i]])), len(ended))
     for place, fit in zip(ended, fits, strict=True):
         found[place] = Hypothesis(found[place].terms, found[place].problem, *fit)

@@ -12,7 +12,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import gaussian_filter1d
+from scipy.signal import fftconvolve
+from scipy.signal.windows import gaussian
 
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.cores import on_every_core
@@ -73,9 +74,12 @@ def _levelled(run: FitRun, said: Array) -> FitRun:
         said: (n, p) what is predicted [N].
     """
     kept = run.judged["pads"].astype(float)
+    width = _LOCAL / run.dt
+    kernel = gaussian(2 * round(4.0 * width) + 1, width)[:, None]
+    kernel /= np.sum(kernel)
 
     def spread_out(values: Array) -> Array:
-        return gaussian_filter1d(values, _LOCAL / run.dt, axis=0, mode="constant")
+        return fftconvolve(values, kernel, mode="same", axes=0)
 
     weight = np.maximum(spread_out(kept), 1e-6)
     seen_level, said_level = spread_out(kept * run.force) / weight, spread_out(kept * said) / weight
@@ -94,6 +98,7 @@ class _Hearing:
         model: its base model.
         terms: effects beside the model's.
         free: numbers that may change.
+        steady: the run under a filter that moves nothing in time, whichever that is; None before one was tried.
         left: filter -> squared error of the pads' forces that is left [N^2].
         ended: filter -> values at which its fit ended.
     """
@@ -102,12 +107,15 @@ class _Hearing:
     model: Model
     terms: tuple[Term, ...]
     free: list[Free]
+    steady: FitRun | None = None
     left: dict[LowPass, float] = field(default_factory=dict[LowPass, float])
     ended: dict[LowPass, dict[str, float]] = field(default_factory=dict[LowPass, dict[str, float]])
 
     def try_all(self, asked: Sequence[tuple[LowPass, Mapping[str, float]]], jacobians: int) -> None:
         """Fit under each filter that was not tried yet, from the values beside it."""
         fresh = [(kind, begin) for kind, begin in dict(asked).items() if kind not in self.left]
+        if self.steady is None and any(kind.phase == "zero" for kind, _ in fresh):
+            self.steady = self._prepared(next(kind for kind, _ in fresh if kind.phase == "zero"))
         answers = on_every_core(lambda i: self._fitted(*fresh[i], jacobians), len(fresh))
         for (kind, _), (left, values) in zip(fresh, answers, strict=True):
             self.left[kind], self.ended[kind] = left, values
@@ -116,9 +124,15 @@ class _Hearing:
         """Give the filter that leaves least of those that were tried."""
         return min(kinds, key=self.left.__getitem__)
 
+    def _prepared(self, kind: LowPass) -> FitRun:
+        return fit_runs(replace(self.campaign, logger=Logger(kind, known=True)))[0]
+
     def _fitted(self, kind: LowPass, start: Mapping[str, float], jacobians: int) -> tuple[float, dict[str, float]]:
-        runs = fit_runs(replace(self.campaign, logger=Logger(kind, known=True)))
-        run, values, said = runs[0], start, np.empty(0)
+        if self.steady is not None and kind.phase == "zero":
+            run = replace(self.steady, filtered=kind)
+        else:
+            run = self._prepared(kind)
+        values, said = start, np.empty(0)
         for most in (jacobians, 1):
             problem = Problem([run], self.model.specimen, (*terms_of(self.model), *self.terms))
             problem.relations = ("pads",)
