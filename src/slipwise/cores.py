@@ -1,10 +1,9 @@
 """Independent work on every core: children are forked, so they have what is there, and only answers come back.
 
-The slopes of a fit are tens of megabytes. Through a pipe they took as long as a third of a short fit, so arrays are left
-in memory that parent and child share.
+The slopes of a fit are tens of megabytes. Through a pipe they took as long as a third of a short fit, so arrays come
+back through files in memory.
 """
 
-import mmap
 import multiprocessing
 import os
 import pickle
@@ -65,11 +64,11 @@ def _put(answer: object, file: int) -> tuple[bytes, list[int]]:
 
 
 def _taken(said: bytes, sizes: list[int], file: int) -> Any:
-    """Give an answer whose arrays lie where the child has put them; they may be written to, and go when they go."""
-    total = sum(map(_padded, sizes))
-    if total == 0:
-        return pickle.loads(said, buffers=[b""] * len(sizes))
-    whole = memoryview(mmap.mmap(file, total, flags=mmap.MAP_PRIVATE, prot=mmap.PROT_READ | mmap.PROT_WRITE))
+    """Read an answer back, its arrays from the file in memory; they are one's own and may be written to."""
+    whole = memoryview(bytearray(sum(map(_padded, sizes))))
+    with open(file, "rb", closefd=False) as stream:
+        stream.seek(0)
+        stream.readinto(whole)
     arrays, start = [], 0
     for size in sizes:
         arrays.append(whole[start : start + size])

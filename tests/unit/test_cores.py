@@ -24,6 +24,34 @@ def test_answers_come_in_order_whatever_the_number_of_cores(count: int, monkeypa
     assert (os.getpid() in {process for _, process in answers}) == (count == 1)
 
 
+def test_arrays_of_answers_are_whole_and_ones_own_however_large_and_however_they_lie(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(cores, "_cores", lambda: 2)
+    large = np.arange(300_000.0).reshape(1000, 300)
+
+    def work(place: int) -> dict[str, object]:
+        return {"rows": large + place, "columns": np.asfortranarray(large[:, place:]), "none": np.empty((0, 3)), "n": 3}
+
+    before = len(os.listdir("/proc/self/fd"))
+    for place, answer in enumerate(list(on_every_core(work, 4))):
+        rows, columns = answer["rows"], answer["columns"]
+        assert isinstance(rows, np.ndarray) and isinstance(columns, np.ndarray)
+        np.testing.assert_array_equal(rows, large + place)
+        np.testing.assert_array_equal(columns, large[:, place:])
+        rows[:] = 0.0
+        columns *= 2.0
+        np.testing.assert_array_equal(columns, 2.0 * large[:, place:])
+        assert np.shape(answer["none"]) == (0, 3) and answer["n"] == 3
+    assert len(os.listdir("/proc/self/fd")) == before
+
+
+def test_answers_without_arrays_and_with_empty_ones_come_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cores, "_cores", lambda: 2)
+    answers = list(on_every_core(lambda i: (None, np.empty(0), "x" * i), 3))
+    assert [(n, a.shape, t) for n, a, t in answers] == [(None, (0,), ""), (None, (0,), "x"), (None, (0,), "xx")]
+
+
 def test_a_child_keeps_to_one_thread_of_linear_algebra(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cores, "_cores", lambda: 2)
     with threadpool_limits(2):
