@@ -35,14 +35,14 @@ def test_arrays_of_answers_are_whole_and_ones_own_however_large_and_however_they
 
     before = len(os.listdir("/proc/self/fd"))
     for place, answer in enumerate(list(on_every_core(work, 4))):
-        rows, columns = answer["rows"], answer["columns"]
-        assert isinstance(rows, np.ndarray) and isinstance(columns, np.ndarray)
+        rows, columns, none = answer["rows"], answer["columns"], answer["none"]
+        assert isinstance(rows, np.ndarray) and isinstance(columns, np.ndarray) and isinstance(none, np.ndarray)
         np.testing.assert_array_equal(rows, large + place)
         np.testing.assert_array_equal(columns, large[:, place:])
         rows[:] = 0.0
         columns *= 2.0
         np.testing.assert_array_equal(columns, 2.0 * large[:, place:])
-        assert np.shape(answer["none"]) == (0, 3) and answer["n"] == 3
+        assert none.shape == (0, 3) and answer["n"] == 3
     assert len(os.listdir("/proc/self/fd")) == before
 
 

@@ -17,6 +17,9 @@ from slipwise.model import Model, base_model
 #: Noise near reversals depends on the fit and the fit on the noise: each is made anew, and every fit ends where a step
 #: promises less than this much of the squared residual. One halfwidth of an interval is worth four [1].
 _ENOUGH = (1.0, 0.1)
+#: Each is made anew more often, at most so often, while the resonance of the girder's pitch moves between two fits by
+#: more than this share of its width: from 80 Hz to 54 Hz it took three fits, and the noise counted as half as loud.
+_MOST_ROUNDS, _AT_REST = 5, 0.1
 #: The same as a share of what is left above the noise: a law that is wrong needs no fine fit [1].
 _ROUGH = 1e-5
 #: Where a fit that is reported ends, and where one that is only to be weighed by [1].
@@ -92,15 +95,26 @@ def _roughly(problem: Problem, free: list[Free], start: Mapping[str, float]) -> 
 def _fitted(campaign: Campaign, model: Model, problem: Problem, start: Mapping[str, float] | None = None) -> BaseFit:
     free = _free(campaign, model, problem)
     solution = _roughly(problem, free, start or {})
-    for enough in _ENOUGH:
-        problem.weigh(solution.values)
-        solution = solve(problem, solution.values, free, most=8, enough=enough, rough=_ROUGH)
+    weighed, rounds = solution.values, 0
+    while rounds < len(_ENOUGH) or (rounds < _MOST_ROUNDS and _rings_elsewhere(weighed, solution.values)):
+        weighed, enough = solution.values, _ENOUGH[min(rounds, len(_ENOUGH) - 1)]
+        problem.weigh(weighed)
+        solution = solve(problem, weighed, free, most=8, enough=enough, rough=_ROUGH)
+        rounds += 1
     if _turns(problem, solution):
         problem = problem.turning()
         free.append(inertia_free(model.specimen, YAW_INERTIA))
         start = {**solution.values, free[-1].key: free[-1].start}
         solution = solve(problem, start, free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
     return BaseFit(campaign, model, problem, tuple(free), solution)
+
+
+def _rings_elsewhere(weighed: Mapping[str, float], found: Mapping[str, float]) -> bool:
+    """Tell whether the girder's pitch was weighed with another resonance than was found: its noise is loud there."""
+    if "rig.pitch_frequency" not in found:
+        return False
+    frequency, damping = (found[k] / weighed[k] - 1.0 for k in ("rig.pitch_frequency", "rig.pitch_damping"))
+    return abs(frequency) > _AT_REST * found["rig.pitch_damping"] or abs(damping) > _AT_REST
 
 
 def settled(problem: Problem, solution: Solution) -> tuple[Problem, Solution]:

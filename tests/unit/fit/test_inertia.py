@@ -8,7 +8,7 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.campaign import Logger
-from slipwise.diagnose.refit import as_reported, polished, refit
+from slipwise.diagnose.refit import account, as_reported, polished, refit
 from slipwise.effects import catalogue
 from slipwise.effects._oscillator import oscillator
 from slipwise.fit.balance_noise import driven_noise_in_pitch
@@ -54,3 +54,13 @@ def test_the_noise_that_drives_a_rocking_table_is_counted() -> None:
     turning = oscillator((2.0 * np.pi * 13.0) ** 2 * 3e-4 * heard, run.dt, 13.0, 0.35, 2)
     load = through_pitch(-model.specimen.inertia[1] * turning / model.specimen.half_spacing[0], run.dt, 70.0, 0.1)
     assert np.mean(power) == pytest.approx(np.var(load), rel=0.1)
+
+
+def test_pitch_is_weighed_with_the_resonance_that_is_there_however_far_from_the_rated_one() -> None:
+    """54 Hz where 80 Hz is rated: weighed where the fit had passed by, its noise counted half."""
+    made = build_campaign(59174, effects=())
+    chain = made.truth.logger
+    stated = Logger(LowPass(chain.lowpass, chain.order, chain.phase), known=True)
+    base = fit_base(replace(as_campaign(made), logger=stated))
+    assert made.truth.base.inertia_pitch == 1.6e4
+    assert account(base.problem, base.solution).level("pitch", held_out=True) < 1.1
