@@ -24,7 +24,8 @@ _RATED = 0.30
 _MOVING = 0.3
 #: More of the pitch than this share is not the inertia's: a table that rocks at its resonance, and no lever [1].
 _UNEXPLAINED = 0.2
-#: Two levers, with and without a table that rocks as it is shaken, that differ by more than this are none [1].
+#: Two levers of one run that differ by more than this are none: with and without a table that rocks as it is shaken,
+#: of its first and its last motion, between which a gauge lost samples and came out of step with the others [1].
 _SAME = 0.3
 #: A channel that stands at its largest or smallest value for more than this share of its samples is clipped [1].
 _AT_RAIL = 0.005
@@ -93,6 +94,10 @@ def _lever(record: Record) -> float | None:
         beside = np.linalg.lstsq(shaken[kept], pitch[kept], rcond=None)[0]
         if abs(beside[0] - slopes[0]) > _SAME * abs(slopes[0]):
             return None  # a table that rocks as it is shaken, or a girder that never slid beside it
+    first = np.cumsum(pushed**2) < 0.5 * float(pushed @ pushed)
+    halves = [np.linalg.lstsq(columns[k], pitch[k], rcond=None)[0][0] for k in (kept & first, kept & ~first)]
+    if abs(halves[0] - halves[1]) > _SAME * abs(slopes[0]):
+        return None  # out of step
     return float(-slopes[0] / 2.0)
 
 

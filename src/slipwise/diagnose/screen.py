@@ -90,18 +90,17 @@ def projector(jacobian: Array) -> Callable[[Array], Array]:
     return lambda v: v - basis @ (basis.T @ v)
 
 
-def screen_shapes(base: BaseFit, term: Term, most: int) -> list[Screened]:
+def screen_shapes(base: BaseFit, term: Term, grid: list[dict[str, float]]) -> list[Screened]:
     """Screen one candidate at every point of a grid over its shape constants; best first.
 
     Args:
         base: a fit without the candidate.
         term: the candidate.
-        most: points of the grid.
+        grid: values of its shape constants.
     """
     project = projector(base.solution.inside)
     left = base.solution.residuals.stacked(base.problem.fitted, base.problem.relations)
     residual = project(left)
-    grid = shapes(term.effect, most)
     found = on_every_core(
         lambda i: [_numbers(s) for s in _at_shapes(base, term, grid[i : i + 1], left, residual, project)], len(grid)
     )

@@ -13,7 +13,7 @@ from slipwise.diagnose.refit import STICK_LENGTH, Hypothesis, base_hypothesis, s
 from slipwise.diagnose.rescreen import rescreen
 from slipwise.diagnose.screen import screen, screen_shapes
 from slipwise.diagnose.settle import prune, settle
-from slipwise.diagnose.shapes import MOST_POINTS_AGAIN, is_placed, shapes, strengths
+from slipwise.diagnose.shapes import places, strengths
 from slipwise.diagnose.tried import Search, as_base, left_with, starts_of, tried_before, try_all, try_one
 from slipwise.diagnose.worth import MATERIAL, MATERIAL_FURTHER, all_down, is_near, material, material_alone, score
 from slipwise.effects import Effect
@@ -168,12 +168,12 @@ def _reshape(state: Search) -> None:
     if not best.terms or all_down(best.account):
         return
     for term in best.terms:
-        more = len(shapes(term.effect, MOST_POINTS_AGAIN)) > len(shapes(term.effect))
-        if not (more and is_placed(term.effect)):
+        grid = places(term.effect)
+        if not grid:
             continue
         rest = best.without(term)
         before = left_with(state, rest, best) if rest else origin
-        found = screen_shapes(as_base(state, before), term, MOST_POINTS_AGAIN)[:_RESHAPED]
+        found = screen_shapes(as_base(state, before), term, grid)[:_RESHAPED]
         again = try_all(state, [([*rest, term], {term.label: s.values}) for s in found], before if rest else None)
         better = [h for h in again if score(origin.account, h.account) > score(origin.account, state.best.account)]
         if better:

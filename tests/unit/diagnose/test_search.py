@@ -10,7 +10,7 @@ from slipwise.diagnose.candidates import candidates
 from slipwise.diagnose.refit import STICK_LENGTH, base_hypothesis, refit
 from slipwise.diagnose.screen import screen_shapes
 from slipwise.diagnose.search import longer_stick
-from slipwise.diagnose.shapes import MOST_POINTS_AGAIN
+from slipwise.diagnose.shapes import places, shapes
 from slipwise.diagnose.tried import Search
 from slipwise.effects import catalogue
 from slipwise.fit.base import BaseFit, fit_base
@@ -48,6 +48,6 @@ def test_a_patch_is_found_at_its_place_where_the_small_grid_takes_another() -> N
     base = fit_base(as_campaign(made))
     place = made.truth.hidden.settings["patch_place"]
     term = next(t for t in candidates(base)[0] if t.effect.name == "position_patch")
-    small, whole = (screen_shapes(base, term, most)[0] for most in (5, MOST_POINTS_AGAIN))
+    small, whole = (screen_shapes(base, term, grid(term.effect))[0] for grid in (shapes, places))
     assert abs(small.values["place"] - place) > 8e-3
     assert abs(whole.values["place"] - place) < 4e-3 and whole.gain > small.gain
