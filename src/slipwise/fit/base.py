@@ -22,8 +22,9 @@ _ENOUGH = (1.0, 0.1)
 _MOST_ROUNDS, _AT_REST = 5, 0.1
 #: The same as a share of what is left above the noise: a law that is wrong needs no fine fit [1].
 _ROUGH = 1e-5
-#: Where a fit that is reported ends, and where one that is only to be weighed by [1].
-_SETTLED, _TO_WEIGH = 0.1, 50.0
+#: Where a fit that is reported ends, and where one that is only to be weighed by [1]; both also at a share of what is
+#: left above the noise, for what leaves a hundred floors may settle for ever.
+_SETTLED, _TO_WEIGH, _MUCH_LEFT = 0.1, 50.0, 5e-4
 #: A stick longer than this share of the stroke is no detail of the rig [1].
 _STICK_SHARE = 0.01
 #: A fit from elsewhere is another one if it leaves this share less of the squared residual [1].
@@ -127,9 +128,10 @@ def settled(problem: Problem, solution: Solution) -> tuple[Problem, Solution]:
         free.append(Free("rig.stick_damping", *STICK_DAMPING, "s"))
         starts = ({**start, "rig.stick_damping": 0.0}, {**start, **DAMPED_STICK})
         start = min(starts, key=lambda values: _cost(problem, values))
-    solution = solve(problem, start, free, most=4, enough=_TO_WEIGH, begin=slopes_of(solution))
+    begin = slopes_of(solution)
+    solution = solve(problem, start, free, most=4, enough=_TO_WEIGH, rough=_MUCH_LEFT, begin=begin)
     problem = problem.weighed_anew(solution.values)
-    return problem, solve(problem, solution.values, free, most=3, enough=_SETTLED)
+    return problem, solve(problem, solution.values, free, most=3, enough=_SETTLED, rough=_MUCH_LEFT)
 
 
 def fit_finely(campaign: Campaign, model: Model | None = None) -> BaseFit:
