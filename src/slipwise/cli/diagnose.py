@@ -68,7 +68,6 @@ def diagnose(
     Example: `slipwise diagnose campaigns/march --out out/march`
     """
     from slipwise.diagnose import diagnose as run_diagnosis
-    from slipwise.diagnose.explanations import partings
     from slipwise.ladder import ladder_of
     from slipwise.view.diagnosis_page import diagnosis_page
 
@@ -77,6 +76,8 @@ def diagnose(
     with steps() as tell:
         start = start_model(campaign, model)
         found = run_diagnosis(measured, start, own=own_effects(effect), system=system, progress=tell)
+    if not json:  # before anything is drawn: who waits, waits for this
+        _tell(found)
     write_json(folder / "diagnosis.json", found.as_json())
     write_text(folder / "report.html", diagnosis_page(found, ladder_of(found.search, found.system)))
     files = [folder / "diagnosis.json", folder / "report.html"]
@@ -84,7 +85,13 @@ def diagnose(
         files += _record(found, folder)
     if json:
         print_json(found.as_json())
-        return
+    else:
+        _wrote(files)
+
+
+def _tell(found) -> None:  # noqa: ANN001 - a Diagnosis; imported where it is used
+    """Print the verdict, its rivals and what it rests on."""
+    from slipwise.diagnose.explanations import partings
     from slipwise.view.terminal import print_table
 
     OUT.print(found.sentence, markup=False, highlight=False)
@@ -102,7 +109,6 @@ def diagnose(
         OUT.print(run.words, markup=False, highlight=False, soft_wrap=True)
     for words in found.cannot_tell:
         OUT.print(f"cannot tell {words}", markup=False, highlight=False, soft_wrap=True)
-    _wrote(files)
 
 
 def _record(found, folder: Path) -> list[Path]:  # noqa: ANN001 - a Diagnosis; imported where it is used

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from slipwise.cores import on_every_core
 from slipwise.diagnose.columns import residual_with
 from slipwise.diagnose.screen import Screened
 from slipwise.diagnose.shapes import strengths
@@ -60,8 +61,7 @@ def with_kept(base: BaseFit, found: Sequence[Screened], least: float) -> list[Sc
         found: candidates, best first.
         least: gain that is worth a refit [1].
     """
-    out = [s for s in found if s.gain <= least]
-    leading = [s for s in found if s.gain > least]
-    for place, s in enumerate(leading):
-        out.append(s if place >= _LEADING or is_kept(base, s) else replace(s, gain=0.0))
-    return sorted(out, key=lambda s: -s.gain)
+    leading = [s for s in found if s.gain > least][:_LEADING]
+    kept = on_every_core(lambda i: is_kept(base, leading[i]), len(leading))
+    broken = {id(s) for s, keeps in zip(leading, kept, strict=True) if not keeps}
+    return sorted((replace(s, gain=0.0) if id(s) in broken else s for s in found), key=lambda s: -s.gain)

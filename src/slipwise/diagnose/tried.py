@@ -81,6 +81,8 @@ def try_all(
         promising: tells which of the best are; all, if not given.
     """
     origin, problem = state.path[0].account, state.base.problem
+    # what takes longest first, or one core waits for it
+    asked = sorted(asked, key=lambda a: -sum(len(t.effect.parameters) for t in a[0]))
     fits = on_every_core(lambda i: _fit(refit(state.base, *asked[i], before)), len(asked))
     found = [Hypothesis(tuple(a[0]), problem.adding(*a[0]), *fit) for a, fit in zip(asked, fits, strict=True)]
     found.sort(key=lambda h: -score(origin, h.account))

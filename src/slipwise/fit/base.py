@@ -17,9 +17,10 @@ from slipwise.model import Model, base_model
 #: Noise near reversals depends on the fit and the fit on the noise: each is made anew, and every fit ends where a step
 #: promises less than this much of the squared residual. One halfwidth of an interval is worth four [1].
 _ENOUGH = (1.0, 0.1)
-#: Each is made anew more often, at most so often, while the resonance of the girder's pitch moves between two fits by
-#: more than this share of its width: from 80 Hz to 54 Hz it took three fits, and the noise counted as half as loud.
-_MOST_ROUNDS, _AT_REST = 5, 0.1
+#: Both are made anew more often, so often at most, where the resonance of the girder's pitch has moved by more than
+#: this share of its width, and noise is louder there by more than this share of the squared residual: from 80 Hz to
+#: 54 Hz noise had counted as half as loud.
+_MORE_ROUNDS, _AT_REST, _LOUDER = 3, 0.1, 0.02
 #: The same as a share of what is left above the noise: a law that is wrong needs no fine fit [1].
 _ROUGH = 1e-5
 #: Where a fit that is reported ends, and where one that is only to be weighed by [1]; both also at a share of what is
@@ -96,12 +97,19 @@ def _roughly(problem: Problem, free: list[Free], start: Mapping[str, float]) -> 
 def _fitted(campaign: Campaign, model: Model, problem: Problem, start: Mapping[str, float] | None = None) -> BaseFit:
     free = _free(campaign, model, problem)
     solution = _roughly(problem, free, start or {})
-    weighed, rounds = solution.values, 0
-    while rounds < len(_ENOUGH) or (rounds < _MOST_ROUNDS and _rings_elsewhere(weighed, solution.values)):
-        weighed, enough = solution.values, _ENOUGH[min(rounds, len(_ENOUGH) - 1)]
+    weighed = solution.values
+    for enough in _ENOUGH:
+        weighed = solution.values
         problem.weigh(weighed)
         solution = solve(problem, weighed, free, most=8, enough=enough, rough=_ROUGH)
-        rounds += 1
+    for _ in range(_MORE_ROUNDS):
+        if not _rings_elsewhere(weighed, solution.values):
+            break
+        again, weighed = problem.weighed_anew(solution.values), solution.values
+        if _cost(again, weighed) > (1.0 - _LOUDER) * solution.cost:
+            break
+        problem = again
+        solution = solve(problem, weighed, free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
     if _turns(problem, solution):
         problem = problem.turning()
         free.append(inertia_free(model.specimen, YAW_INERTIA))
