@@ -7,7 +7,7 @@ from bench import build_campaign
 from measured import as_campaign
 from slipwise.diagnose.candidates import candidates
 from slipwise.diagnose.screen import projector, screen
-from slipwise.diagnose.shapes import is_placed, shapes, strengths, variants
+from slipwise.diagnose.shapes import is_placed, places, shapes, strengths, variants
 from slipwise.effects import catalogue
 from slipwise.fit.base import fit_base
 
@@ -55,6 +55,16 @@ def test_shapes_that_no_fit_reaches_from_another_are_tried_one_by_one() -> None:
 def test_laws_of_a_place_or_a_frequency_are_told_from_those_of_lengths_and_times() -> None:
     placed = {name for name, effect in catalogue().items() if effect.port != "gauge" and is_placed(effect)}
     assert placed == {"position_patch", "girder_bending", "table_pitch"}
+
+
+def test_a_patch_is_looked_for_everywhere_with_an_edge_of_one_kind() -> None:
+    catalogued = catalogue()
+    patch, typical = catalogued["position_patch"], catalogued["position_patch"].typical()
+    asked = {(shape["place"], shape["width"], shape["edge"]) for shape in places(patch)}
+    assert {place for place, *_ in asked} == {0.01, -0.01, 0.003, -0.003}
+    assert {edge for *_, edge in asked} == {typical["edge"]}
+    assert len(asked) == 4 * len({width for _, width, _ in asked}) > len(shapes(patch))
+    assert places(catalogued["heating"]) == places(catalogued["channel_delay"]) == []
 
 
 def test_a_lag_of_many_milliseconds_is_found_at_its_size_though_a_straight_line_sees_a_tenth_of_it() -> None:

@@ -11,7 +11,7 @@ from slipwise.diagnose.refit import Account, Hypothesis
 from slipwise.diagnose.samples import SampleFault
 from slipwise.diagnose.tried import Search
 from slipwise.diagnose.verdict import judge, with_faults
-from slipwise.diagnose.worth import material, material_alone, needless
+from slipwise.diagnose.worth import is_near, material, material_alone, needless
 from slipwise.effects import catalogue
 from slipwise.fit.terms import Term
 from slipwise.signals import LowPass
@@ -170,6 +170,15 @@ def test_beside_an_effect_of_buffers_a_law_of_pads_is_worth_a_name_as_it_is_alon
     """Breakaway takes 0.15 from the pads; had the first effect changed them, that might be its own wrong form."""
     base, first = _tried((), touched, girder=3.0), _tried(("buffer_hardening",), 1.15, girder=1.0)
     both = _tried(("buffer_hardening", "breakaway"), 1.0, girder=1.0)
+    assert material(base.account, first.account, both.account) == worthy
+
+
+@pytest.mark.parametrize(("left", "near", "worthy"), [(7.95, False, False), (7.88, True, False), (1.02, True, True)])
+def test_a_further_law_is_fitted_on_only_where_half_of_what_is_worth_a_name_is_there(
+    left: float, near: bool, worthy: bool
+) -> None:
+    base, first, both = _tried((), 9.0), _tried(("heating",), 8.0), _tried(("heating", "run_in"), left)
+    assert is_near(base.account, first.account, both.account) == near
     assert material(base.account, first.account, both.account) == worthy
 
 

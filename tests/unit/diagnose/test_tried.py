@@ -1,0 +1,33 @@
+"""Hypotheses are refitted side by side; only those that are worth it are fitted to the end."""
+
+import pytest
+
+from bench import build_campaign
+from measured import as_campaign
+from slipwise.diagnose import tried as module
+from slipwise.diagnose.candidates import candidates
+from slipwise.diagnose.refit import Hypothesis, base_hypothesis
+from slipwise.diagnose.tried import Search, try_all
+from slipwise.fit.base import fit_base
+
+
+def test_only_the_promising_are_fitted_to_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("slipwise.cores._cores", lambda: 1)  # or children would count their own
+    ended: list[tuple[str, ...]] = []
+
+    def polished(found: Hypothesis) -> Hypothesis:
+        ended.append(found.names)
+        return found
+
+    monkeypatch.setattr(module, "polished", polished)
+    base = fit_base(as_campaign(build_campaign(7005, effects=("run_in",), size="medium")))
+    terms = {t.label: t for t in candidates(base)[0]}
+    asked = [([terms[name]], {name: terms[name].effect.typical()}) for name in ("run_in", "pad_spread", "heating")]
+    state = Search(base, [], {}, [base_hypothesis(base)])
+    every = try_all(state, asked)
+    assert [h.names for h in every[:2]] == ended and every[0].names == ("run_in",)
+    ended.clear()
+    some = try_all(state, asked, promising=lambda h: h.names != ("run_in",))
+    assert ended == [every[1].names]
+    assert [h.names for h in some] == [h.names for h in every] and len(state.tried) == 2 * len(asked)
+    assert some[0].solution.cost == every[0].solution.cost
