@@ -9,10 +9,12 @@ import os
 import pickle
 import signal
 import sys
+import tempfile
 import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
-from typing import Any, TypeVar
+from io import BufferedRandom
+from typing import Any, TypeVar, cast
 
 import numpy.linalg  # noqa: F401  of a library that is not loaded yet no threads can be taken away
 import scipy.linalg  # noqa: F401
@@ -37,7 +39,7 @@ def on_every_core(work: Callable[[int], Answer], count: int) -> Iterator[Answer]
         yield from map(work, range(count))
         return
     forked = multiprocessing.get_context("fork")
-    shared = [os.memfd_create("answer") for _ in range(count)]
+    shared = [_file() for _ in range(count)]
     _WORK.append(lambda place: _put(work(place), shared[place]))
     try:
         with ProcessPoolExecutor(workers, mp_context=forked, initializer=_begin_as_child) as pool:
@@ -46,29 +48,36 @@ def on_every_core(work: Callable[[int], Answer], count: int) -> Iterator[Answer]
     finally:
         _WORK.pop()
         for file in shared:
-            os.close(file)
+            file.close()
 
 
-def _put(answer: object, file: int) -> tuple[bytes, list[int]]:
-    """Write an answer's arrays to a file in memory; gives the rest of it, and the arrays' sizes [bytes]."""
+def _file() -> BufferedRandom:
+    """Give a file in memory, or an unnamed one on disk where a sandbox allows no such thing."""
+    try:
+        return open(os.memfd_create("answer"), "w+b")
+    except OSError:
+        return cast(BufferedRandom, tempfile.TemporaryFile())
+
+
+def _put(answer: object, file: BufferedRandom) -> tuple[bytes, list[int]]:
+    """Write an answer's arrays to a file; gives the rest of it, and the arrays' sizes [bytes]."""
     arrays: list[pickle.PickleBuffer] = []
     said = pickle.dumps(answer, protocol=5, buffer_callback=arrays.append)
     sizes = []
-    with open(file, "wb", closefd=False) as stream:
-        for array in arrays:
-            with array.raw() as raw:
-                sizes.append(raw.nbytes)
-                stream.write(raw)
-                stream.write(bytes(_padded(raw.nbytes) - raw.nbytes))
+    for array in arrays:
+        with array.raw() as raw:
+            sizes.append(raw.nbytes)
+            file.write(raw)
+            file.write(bytes(_padded(raw.nbytes) - raw.nbytes))
+    file.flush()
     return said, sizes
 
 
-def _taken(said: bytes, sizes: list[int], file: int) -> Any:
-    """Read an answer back, its arrays from the file in memory; they are one's own and may be written to."""
+def _taken(said: bytes, sizes: list[int], file: BufferedRandom) -> Any:
+    """Read an answer back, its arrays from the file; they are one's own and may be written to."""
     whole = memoryview(bytearray(sum(map(_padded, sizes))))
-    with open(file, "rb", closefd=False) as stream:
-        stream.seek(0)
-        stream.readinto(whole)
+    file.seek(0)
+    file.readinto(whole)
     arrays, start = [], 0
     for size in sizes:
         arrays.append(whole[start : start + size])

@@ -46,6 +46,16 @@ def test_arrays_of_answers_are_whole_and_ones_own_however_large_and_however_they
     assert len(os.listdir("/proc/self/fd")) == before
 
 
+def test_where_no_file_in_memory_is_allowed_one_on_disk_does(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refused(name: str) -> int:
+        raise OSError("not here")
+
+    monkeypatch.setattr(cores, "_cores", lambda: 2)
+    monkeypatch.setattr(os, "memfd_create", refused)
+    answers = list(on_every_core(lambda i: np.full(100_000, float(i)), 3))
+    assert [(len(a), a[0], a[-1]) for a in answers] == [(100_000, float(i), float(i)) for i in range(3)]
+
+
 def test_answers_without_arrays_and_with_empty_ones_come_too(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cores, "_cores", lambda: 2)
     answers = list(on_every_core(lambda i: (None, np.empty(0), "x" * i), 3))

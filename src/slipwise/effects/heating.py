@@ -21,7 +21,7 @@ Source: Kumar, Whittaker, Constantinou (2015) and OpenSees FPBearingPTV for the 
 k_s = 18 W/(m K); Carslaw & Jaeger for the kernel: constant q gives 2 q sqrt(D t/pi)/k_s; `lump` and `cooling` assumed.
 """
 
-from math import exp, log, pi, sqrt
+from math import exp, expm1, log, pi, sqrt
 
 import numpy as np
 
@@ -54,7 +54,7 @@ def advance(
         for i in range(TERMS + 1):
             lasting = 1.0 / (1.0 / time + 1.0 / cooling) if i < TERMS else cooling
             memory[KEPT + i] = exp(-dt / lasting)
-            memory[TAKEN + i] = lasting * (1.0 - memory[KEPT + i])
+            memory[TAKEN + i] = -lasting * expm1(-dt / lasting)
             time *= RATIO
         memory[STEP], memory[STEP + 1] = dt, cooling
     work = friction * speed / apparent_area
