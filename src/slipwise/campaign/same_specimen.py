@@ -83,7 +83,8 @@ def _lever(record: Record) -> float | None:
     pushed, slid, pitch = (lowpass(values, record.dt, _SLOW) for values in signals)
     # cells behind a slow filter of their own are late: a fault again, and no other rig
     late = [np.gradient(values, record.dt) for values in (pushed, slid)]
-    columns = np.stack([pushed, slid, *late, np.ones(len(record))], axis=1)
+    # and a cell that drifts leans on whatever else is slow
+    columns = np.stack([pushed, slid, *late, np.ones(len(record)), np.linspace(-1.0, 1.0, len(record))], axis=1)
     kept = np.all([_within(record[name]) for name in told], axis=0)
     slopes = np.linalg.lstsq(columns[kept], pitch[kept], rcond=None)[0]
     left = pitch[kept] - columns[kept] @ slopes

@@ -134,6 +134,7 @@ def test_a_clipped_accelerometer_is_no_other_rig(made, tmp_path):
         (46280, ("table_pitch",), "medium", True),  # a table that rocks at its resonance, 78 floors of it
         (50211, ("table_pitch", "channel_gain"), "large", False),  # one that rocks as it is shaken
         (62139, ("position_patch", "dropped_samples"), "small", False),  # a gauge ever more out of step
+        (60206, ("channel_drift",), "medium", True),  # a cell that drifts
     ],
 )
 def test_faults_of_gauges_and_a_table_that_rocks_are_no_other_rig(
