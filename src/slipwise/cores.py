@@ -68,26 +68,17 @@ def _put(answer: object, file: BufferedRandom) -> tuple[bytes, list[int]]:
         with array.raw() as raw:
             sizes.append(raw.nbytes)
             file.write(raw)
-            file.write(bytes(_padded(raw.nbytes) - raw.nbytes))
     file.flush()
     return said, sizes
 
 
 def _taken(said: bytes, sizes: list[int], file: BufferedRandom) -> Any:
     """Read an answer back, its arrays from the file; they are one's own and may be written to."""
-    whole = memoryview(bytearray(sum(map(_padded, sizes))))
+    arrays = [bytearray(size) for size in sizes]
     file.seek(0)
-    file.readinto(whole)
-    arrays, start = [], 0
-    for size in sizes:
-        arrays.append(whole[start : start + size])
-        start += _padded(size)
+    for array in arrays:
+        file.readinto(array)
     return pickle.loads(said, buffers=arrays)
-
-
-def _padded(size: int) -> int:
-    """Give the room of an array, so that the next begins where processors like it [bytes]."""
-    return -(-size // 64) * 64
 
 
 def begin_worker() -> None:

@@ -7,7 +7,7 @@ import numpy as np
 
 from slipwise.diagnose.pairs import at_odds
 from slipwise.diagnose.refit import Hypothesis
-from slipwise.diagnose.screen import Screened, basis_of
+from slipwise.diagnose.screen import Screened, away_from, basis_of
 from slipwise.diagnose.shapes import strengths, two_sided
 
 
@@ -20,8 +20,7 @@ def rescreen(screened: Sequence[Screened], before: Hypothesis) -> list[Screened]
     """
     problem, solution = before.problem, before.solution
     basis = basis_of(solution.inside)
-    residual = solution.residuals.stacked(problem.fitted, problem.relations)
-    residual = residual - basis @ (basis.T @ residual)
+    residual = away_from(basis, solution.residuals.stacked(problem.fitted, problem.relations))
     across = np.column_stack([basis, residual]).T
     out = []
     for s in screened:

@@ -84,10 +84,15 @@ def basis_of(jacobian: Array) -> Array:
     return basis[:, np.abs(np.diag(triangle)) > 1e-9]
 
 
+def away_from(basis: Array, vector: Array) -> Array:
+    """Project a vector (m,) away from an orthonormal basis (m, k)."""
+    return vector - basis @ (basis.T @ vector)
+
+
 def projector(jacobian: Array) -> Callable[[Array], Array]:
     """Give the projection away from the columns (m, k) of a Jacobian."""
     basis = basis_of(jacobian)
-    return lambda v: v - basis @ (basis.T @ v)
+    return lambda v: away_from(basis, v)
 
 
 def screen_shapes(base: BaseFit, term: Term, grid: list[dict[str, float]]) -> list[Screened]:

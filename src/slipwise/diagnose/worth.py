@@ -93,7 +93,8 @@ def is_near(base: Account, before: Account, after: Account) -> bool:
 
     Of 15 such steps on the blind bench fitting on added a fifth at most to what any relation had lost.
     """
-    return any(drop >= _NEAR * least for drop, least in (_further_drop(base, before, after, n) for n in base.fitted))
+    drops = (_further_drop(base, before, after, name) for name in base.fitted)
+    return any(drop >= _NEAR * least for drop, least in drops)
 
 
 def _further_drop(base: Account, before: Account, after: Account, name: str) -> tuple[float, float]:

@@ -24,7 +24,7 @@ _MORE_ROUNDS, _AT_REST, _LOUDER = 3, 0.1, 0.02
 #: The same as a share of what is left above the noise: a law that is wrong needs no fine fit [1].
 _ROUGH = 1e-5
 #: Where a fit that is reported ends, and where one that is only to be weighed by [1]; both also at a share of what is
-#: left above the noise, for what leaves a hundred floors may settle for ever.
+#: left above the noise: a law that left 16 floors settled for four seconds and got nowhere.
 _SETTLED, _TO_WEIGH, _MUCH_LEFT = 0.1, 50.0, 5e-4
 #: A stick longer than this share of the stroke is no detail of the rig [1].
 _STICK_SHARE = 0.01

@@ -98,7 +98,7 @@ class _Hearing:
         model: its base model.
         terms: effects beside the model's.
         free: numbers that may change.
-        steady: the run under a filter that moves nothing in time, whichever that is; None before one was tried.
+        steady: the run as it is under every filter that moves nothing in time.
         left: filter -> squared error of the pads' forces that is left [N^2].
         ended: filter -> values at which its fit ended.
     """
@@ -107,15 +107,13 @@ class _Hearing:
     model: Model
     terms: tuple[Term, ...]
     free: list[Free]
-    steady: FitRun | None = None
+    steady: FitRun
     left: dict[LowPass, float] = field(default_factory=dict[LowPass, float])
     ended: dict[LowPass, dict[str, float]] = field(default_factory=dict[LowPass, dict[str, float]])
 
     def try_all(self, asked: Sequence[tuple[LowPass, Mapping[str, float]]], jacobians: int) -> None:
         """Fit under each filter that was not tried yet, from the values beside it."""
         fresh = [(kind, begin) for kind, begin in dict(asked).items() if kind not in self.left]
-        if self.steady is None and any(kind.phase == "zero" for kind, _ in fresh):
-            self.steady = self._prepared(next(kind for kind, _ in fresh if kind.phase == "zero"))
         answers = on_every_core(lambda i: self._fitted(*fresh[i], jacobians), len(fresh))
         for (kind, _), (left, values) in zip(fresh, answers, strict=True):
             self.left[kind], self.ended[kind] = left, values
@@ -124,14 +122,9 @@ class _Hearing:
         """Give the filter that leaves least of those that were tried."""
         return min(kinds, key=self.left.__getitem__)
 
-    def _prepared(self, kind: LowPass) -> FitRun:
-        return fit_runs(replace(self.campaign, logger=Logger(kind, known=True)))[0]
-
     def _fitted(self, kind: LowPass, start: Mapping[str, float], jacobians: int) -> tuple[float, dict[str, float]]:
-        if self.steady is not None and kind.phase == "zero":
-            run = replace(self.steady, filtered=kind)
-        else:
-            run = self._prepared(kind)
+        steady = kind.phase == "zero"
+        run = replace(self.steady, filtered=kind) if steady else _prepared(self.campaign, kind)
         values, said = start, np.empty(0)
         for most in (jacobians, 1):
             problem = Problem([run], self.model.specimen, (*terms_of(self.model), *self.terms))
@@ -142,6 +135,11 @@ class _Hearing:
             run = _levelled(run, said)
         left = np.where(run.judged["pads"], run.force - said, 0.0)
         return float(np.sum(left**2)), dict(values)
+
+
+def _prepared(campaign: Campaign, kind: LowPass) -> FitRun:
+    """Give a campaign's only run as it is under a filter."""
+    return fit_runs(replace(campaign, logger=Logger(kind, known=True)))[0]
 
 
 def estimated_logger(
@@ -166,8 +164,10 @@ def estimated_logger(
     if terms:
         beside = tuple(f"{t.label}." for t in terms)
         own += [f for f in first.free if f.key.startswith(beside) or f.key == YAW_INERTIA]
-    hearing = _Hearing(replace(campaign, runs=(replace(chosen, role="fit"),)), model, tuple(terms), own)
+    one = replace(campaign, runs=(replace(chosen, role="fit"),))
     coarse = [[LowPass(f, order, phase) for f in _frequencies(limit)] for order, phase in _KINDS]
+    steady = next(kind for kinds in coarse for kind in kinds if kind.phase == "zero")
+    hearing = _Hearing(one, model, tuple(terms), own, _prepared(one, steady))
     hearing.try_all([(kind, start) for kinds in (*coarse, [heard] if heard else []) for kind in kinds], 3)
     if max(hearing.left.values()) < _HEARD * min(hearing.left.values()):
         return heard or hearing.best_of(coarse[0])
