@@ -1,7 +1,7 @@
 """Independent work on every core: children are forked, so they have what is there, and only answers come back.
 
-The slopes of a fit are tens of megabytes. Through a pipe they took as long as a third of a short fit, so arrays come
-back through files in memory.
+The slopes of a fit are tens of megabytes. Through a pipe they took as long as a third of a short fit, so answers come
+back through files in memory. Whoever asks works too: its own answers need no way back.
 """
 
 import multiprocessing
@@ -11,18 +11,87 @@ import signal
 import sys
 import tempfile
 import threading
+import traceback
 from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
 from io import BufferedRandom
+from mmap import mmap
+from multiprocessing.context import ForkProcess
 from typing import Any, TypeVar, cast
 
 import numpy.linalg  # noqa: F401  of a library that is not loaded yet no threads can be taken away
 import scipy.linalg  # noqa: F401
-from threadpoolctl import threadpool_limits
+from threadpoolctl import ThreadpoolController, threadpool_limits
+
+from slipwise.errors import SlipwiseError
 
 Answer = TypeVar("Answer")
-#: What the children of this moment are to do: a function that was made here cannot be sent to them.
-_WORK: list[Callable[[int], Any]] = []
+#: Bytes in which a place is written.
+_PLACE = 4
+#: Set while this process does its share: what that asks to be done on every core is done on this one.
+_AT_WORK = threading.Event()
+#: Whose threads are taken away and given back: to look for them takes longer than many a piece of work.
+_LIBRARIES = ThreadpoolController()
+
+
+@dataclass(frozen=True)
+class _Outcome:
+    """What became of one piece of work."""
+
+    answer: Any = None
+    error: Exception | None = None
+
+
+@dataclass(frozen=True)
+class _Shared:
+    """What a process and its children have in common while they work.
+
+    Attributes:
+        left: places that nobody has taken; they share how far it was read, so that each is taken once.
+        outcomes: a file for each place.
+        done: a byte for each place, 1 where what a child has written is whole.
+    """
+
+    left: BufferedRandom
+    outcomes: list[BufferedRandom]
+    done: mmap
+
+    def places(self) -> Iterator[int]:
+        """Take one place after another until none is left."""
+        while taken := os.read(self.left.fileno(), _PLACE):
+            yield int.from_bytes(taken, "big")
+
+    def put(self, place: int, outcome: _Outcome) -> None:
+        """Write an outcome: what it is without its arrays, then those."""
+        arrays: list[pickle.PickleBuffer] = []
+        said = pickle.dumps(outcome, protocol=5, buffer_callback=arrays.append)
+        file = self.outcomes[place]
+        raws = [array.raw() for array in arrays]
+        pickle.dump((said, [raw.nbytes for raw in raws]), file)
+        for raw in raws:
+            file.write(raw)
+        file.flush()
+        self.done[place] = 1
+
+    def read(self, place: int) -> _Outcome:
+        """Read what a child has written; arrays are one's own and may be written to.
+
+        Raises:
+            SlipwiseError: it has not, and has ended.
+        """
+        if not self.done[place]:
+            raise SlipwiseError(
+                "a process of this one was ended before its work was done: it may have been out of memory;"
+                " close other programs, or keep to one core with `taskset -c 0 slipwise ...`"
+            )
+        file = self.outcomes[place]
+        file.seek(0)
+        said, sizes = pickle.load(file)
+        arrays = [bytearray(size) for size in sizes]
+        for array in arrays:
+            file.readinto(array)
+        return pickle.loads(said, buffers=arrays)
 
 
 def on_every_core(work: Callable[[int], Answer], count: int) -> Iterator[Answer]:
@@ -32,53 +101,73 @@ def on_every_core(work: Callable[[int], Answer], count: int) -> Iterator[Answer]
     macOS), and in a process that another has started: that one keeps its cores busy itself.
 
     Raises:
+        SlipwiseError: a child was ended before its work was done.
         Exception: what `work` raises.
     """
     workers = min(_cores(), count)
     if workers < 2:
         yield from map(work, range(count))
         return
-    forked = multiprocessing.get_context("fork")
-    shared = [_file() for _ in range(count)]
-    _WORK.append(lambda place: _put(work(place), shared[place]))
+    with ExitStack() as ends:
+        left, *outcomes = [ends.enter_context(_file()) for _ in range(count + 1)]
+        left.write(b"".join(place.to_bytes(_PLACE, "big") for place in range(count)))
+        left.seek(0)
+        shared = _Shared(left, outcomes, ends.enter_context(mmap(-1, count)))
+        children = [ends.enter_context(_child(work, shared)) for _ in range(workers - 1)]
+        own: dict[int, _Outcome] = {}
+        given = 0
+        for place in shared.places():
+            own[place] = _alone(work, place)
+            while given in own or (given < count and shared.done[given]):
+                yield _answer(own.pop(given, None) or shared.read(given))
+                given += 1
+        for child in children:
+            child.join()
+        for place in range(given, count):
+            yield _answer(own.pop(place, None) or shared.read(place))
+
+
+def _answer(outcome: _Outcome) -> Any:
+    if outcome.error is not None:
+        raise outcome.error
+    return outcome.answer
+
+
+def _alone(work: Callable[[int], Any], place: int) -> _Outcome:
+    """Do one piece of work on this core alone, as each child does."""
+    _AT_WORK.set()
     try:
-        with ProcessPoolExecutor(workers, mp_context=forked, initializer=_begin_as_child) as pool:
-            for place, (said, sizes) in enumerate(pool.map(_at, range(count))):
-                yield _taken(said, sizes, shared[place])
+        with _LIBRARIES.limit(limits=1):
+            return _Outcome(work(place))
+    except Exception as error:
+        return _Outcome(error=error)
     finally:
-        _WORK.pop()
-        for file in shared:
-            file.close()
+        _AT_WORK.clear()
 
 
-def _file() -> BufferedRandom:
-    """Give a file in memory, or an unnamed one on disk where a sandbox allows no such thing."""
+@contextmanager
+def _child(work: Callable[[int], Any], shared: _Shared) -> Iterator[ForkProcess]:
+    """Begin a child that takes its part of the work; end it, however far it has come."""
+    child = multiprocessing.get_context("fork").Process(target=_as_child, args=(work, shared))
+    child.start()
     try:
-        return open(os.memfd_create("answer"), "w+b")
-    except OSError:
-        return cast(BufferedRandom, tempfile.TemporaryFile())
+        yield child
+    finally:
+        child.kill()
+        child.join()
 
 
-def _put(answer: object, file: BufferedRandom) -> tuple[bytes, list[int]]:
-    """Write an answer's arrays to a file; gives the rest of it, and the arrays' sizes [bytes]."""
-    arrays: list[pickle.PickleBuffer] = []
-    said = pickle.dumps(answer, protocol=5, buffer_callback=arrays.append)
-    sizes = []
-    for array in arrays:
-        with array.raw() as raw:
-            sizes.append(raw.nbytes)
-            file.write(raw)
-    file.flush()
-    return said, sizes
-
-
-def _taken(said: bytes, sizes: list[int], file: BufferedRandom) -> Any:
-    """Read an answer back, its arrays from the file; they are one's own and may be written to."""
-    arrays = [bytearray(size) for size in sizes]
-    file.seek(0)
-    for array in arrays:
-        file.readinto(array)
-    return pickle.loads(said, buffers=arrays)
+def _as_child(work: Callable[[int], Any], shared: _Shared) -> None:
+    signal.signal(
+        signal.SIGINT, signal.SIG_IGN
+    )  # at Ctrl-C the parent ends its children, without a traceback of theirs
+    begin_worker()
+    for place in shared.places():
+        try:
+            shared.put(place, _Outcome(work(place)))
+        except Exception as error:
+            error.add_note("".join(traceback.format_exception(error)))
+            shared.put(place, _Outcome(error=error))
 
 
 def begin_worker() -> None:
@@ -93,17 +182,15 @@ def begin_worker() -> None:
         threading.Thread(target=lambda: (parent.join(), os._exit(1)), daemon=True).start()
 
 
-def _begin_as_child() -> None:
-    """Finish at Ctrl-C what was begun, without a traceback."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    begin_worker()
-
-
-def _at(place: int) -> Any:
-    return _WORK[-1](place)
+def _file() -> BufferedRandom:
+    """Give a file in memory, or an unnamed one on disk where a sandbox allows no such thing."""
+    try:
+        return open(os.memfd_create("work"), "w+b")
+    except OSError:
+        return cast(BufferedRandom, tempfile.TemporaryFile())
 
 
 def _cores() -> int:
-    if multiprocessing.parent_process() is not None or not sys.platform.startswith("linux"):
+    if _AT_WORK.is_set() or multiprocessing.parent_process() is not None or not sys.platform.startswith("linux"):
         return 1
     return len(os.sched_getaffinity(0))

@@ -1,8 +1,12 @@
 """Work on every core gives the answers of work on one, in order, and its errors."""
 
+import multiprocessing
 import os
+import pickle
+import signal
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -10,7 +14,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 
 from slipwise import cores
 from slipwise.cores import on_every_core
-from slipwise.errors import InputError
+from slipwise.errors import InputError, SlipwiseError
 from slipwise.model import base_model
 from slipwise.predict import predictor
 
@@ -21,7 +25,62 @@ def test_answers_come_in_order_whatever_the_number_of_cores(count: int, monkeypa
     seen = [10, 20, 30, 40, 50]
     answers = list(on_every_core(lambda i: (seen[i], os.getpid()), len(seen)))
     assert [value for value, _ in answers] == seen
-    assert (os.getpid() in {process for _, process in answers}) == (count == 1)
+    assert os.getpid() in {process for _, process in answers}
+
+
+@pytest.mark.parametrize("count", [2, 4])
+def test_each_core_does_its_part_and_one_that_is_late_holds_up_no_other(
+    count: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cores, "_cores", lambda: count)
+
+    def work(place: int) -> int:
+        time.sleep(0.3 if place < count else 0.0)
+        return os.getpid()
+
+    processes = list(on_every_core(work, 4 * count))
+    assert len(set(processes[:count])) == count
+
+
+def test_what_is_asked_of_work_at_work_is_done_where_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Children of children would fight for the cores, and those of the one who asked would too."""
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1})
+    inner = on_every_core(lambda i: (os.getpid(), set(on_every_core(lambda j: os.getpid(), 3))), 4)
+    assert all(beside == {process} for process, beside in inner)
+
+
+def test_a_child_that_was_ended_is_an_error_that_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cores, "_cores", lambda: 2)
+    here = os.getpid()
+
+    def work(place: int) -> int:
+        time.sleep(0.2)
+        if os.getpid() != here:
+            os.kill(os.getpid(), signal.SIGKILL)
+        return place
+
+    with pytest.raises(SlipwiseError, match="out of memory.*taskset"):
+        list(on_every_core(work, 4))
+
+
+def test_an_answer_that_cannot_be_sent_is_an_error_and_one_that_nobody_waits_for_leaves_nothing(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(cores, "_cores", lambda: 2)
+    here = os.getpid()
+
+    def work(place: int) -> object:
+        time.sleep(0.2)
+        return place if os.getpid() == here else lambda: place
+
+    with pytest.raises((AttributeError, pickle.PicklingError), match="lambda"):
+        list(on_every_core(work, 2))
+    before = len(os.listdir("/proc/self/fd"))
+    asked = on_every_core(lambda i: time.sleep(0.05 if i < 2 else 60.0), 4)
+    next(asked)
+    asked.close()
+    assert not multiprocessing.active_children()
+    assert len(os.listdir("/proc/self/fd")) == before
 
 
 def test_arrays_of_answers_are_whole_and_ones_own_however_large_and_however_they_lie(
@@ -81,11 +140,18 @@ def test_a_worker_that_has_loaded_nothing_yet_keeps_to_one_thread_too() -> None:
 def test_an_error_of_a_child_is_an_error_here(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cores, "_cores", lambda: 2)
 
+    here = os.getpid()
+
     def work(place: int) -> int:
+        time.sleep(0.2)
+        if os.getpid() == here:
+            return place
         raise InputError(f"no {place}: give another")
 
-    with pytest.raises(InputError, match="no 0: give another"):
+    with pytest.raises(InputError) as raised:
         list(on_every_core(work, 3))
+    assert str(raised.value) in {f"no {place}: give another" for place in range(3)}
+    assert "in work" in raised.value.__notes__[0]
 
 
 def test_a_law_runs_in_a_child_although_its_parent_has_run_it_with_two_threads(
