@@ -68,25 +68,31 @@ def diagnose(
     Example: `slipwise diagnose campaigns/march --out out/march`
     """
     from slipwise.diagnose import diagnose as run_diagnosis
-    from slipwise.ladder import ladder_of
-    from slipwise.view.diagnosis_page import diagnosis_page
 
     measured = load_campaign(campaign)
     folder = out_folder(out)
     with steps() as tell:
         start = start_model(campaign, model)
         found = run_diagnosis(measured, start, own=own_effects(effect), system=system, progress=tell)
-    if not json:  # before anything is drawn: who waits, waits for this
-        _tell(found)
-    write_json(folder / "diagnosis.json", found.as_json())
-    write_text(folder / "report.html", diagnosis_page(found, ladder_of(found.search, found.system)))
-    files = [folder / "diagnosis.json", folder / "report.html"]
-    if recording and measured.specimen.free:
-        files += _record(found, folder)
+    try:
+        if not json:  # before anything is drawn: who waits, waits for this
+            _tell(found)
+    finally:  # who listened may have left after some lines, as `head` does
+        files = _write(found, folder, recording and measured.specimen.free)
     if json:
         print_json(found.as_json())
     else:
         _wrote(files)
+
+
+def _write(found, folder: Path, recording: bool) -> list[Path]:  # noqa: ANN001 - a Diagnosis; imported where it is used
+    """Write the diagnosis, its page and, if asked for, its recording."""
+    from slipwise.ladder import ladder_of
+    from slipwise.view.diagnosis_page import diagnosis_page
+
+    write_json(folder / "diagnosis.json", found.as_json())
+    write_text(folder / "report.html", diagnosis_page(found, ladder_of(found.search, found.system)))
+    return [folder / "diagnosis.json", folder / "report.html", *(_record(found, folder) if recording else [])]
 
 
 def _tell(found) -> None:  # noqa: ANN001 - a Diagnosis; imported where it is used

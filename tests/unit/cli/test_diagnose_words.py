@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from slipwise.cli.demo import _left
-from slipwise.cli.diagnose import _record
+from slipwise.cli.diagnose import _record, diagnose
 from slipwise.errors import InputError
 
 
@@ -18,6 +18,26 @@ def test_a_recording_that_cannot_be_made_is_told_beside_the_output_that_a_progra
     assert _record(SimpleNamespace(), tmp_path) == []
     said = capsys.readouterr()
     assert said.out == "" and "no recording: the table was not measured" in said.err
+
+
+def test_who_listens_to_the_first_lines_only_finds_all_files(monkeypatch, tmp_path):
+    """`slipwise diagnose campaign | head -3`: what took half a minute is not lost."""
+
+    def left(found):
+        raise BrokenPipeError
+
+    found = SimpleNamespace(as_json=lambda: {"verdict": "named"}, search=None, system=None)
+    monkeypatch.setattr(
+        "slipwise.cli.diagnose.load_campaign", lambda _: SimpleNamespace(specimen=SimpleNamespace(free=True))
+    )
+    monkeypatch.setattr("slipwise.diagnose.diagnose", lambda *_, **__: found)
+    monkeypatch.setattr("slipwise.ladder.ladder_of", lambda *_: None)
+    monkeypatch.setattr("slipwise.view.diagnosis_page.diagnosis_page", lambda *_: "the page")
+    monkeypatch.setattr("slipwise.cli.diagnose._record", lambda _, folder: [folder / "before_and_after.rrd"])
+    monkeypatch.setattr("slipwise.cli.diagnose._tell", left)
+    with pytest.raises(BrokenPipeError):
+        diagnose(tmp_path, out=tmp_path / "out")
+    assert sorted(f.name for f in (tmp_path / "out").iterdir()) == ["diagnosis.json", "report.html"]
 
 
 @pytest.mark.parametrize(
