@@ -121,9 +121,10 @@ def on_every_core(work: Callable[[int], Answer], count: int) -> Iterator[Answer]
             while given in own or (given < count and shared.done[given]):
                 yield _answer(own.pop(given, None) or shared.read(given))
                 given += 1
-        for child in children:
-            child.join()
         for place in range(given, count):
+            if place not in own and not shared.done[place]:
+                for child in children:
+                    child.join()
             yield _answer(own.pop(place, None) or shared.read(place))
 
 

@@ -18,28 +18,30 @@ from slipwise.errors import InputError, SlipwiseError
 from slipwise.model import base_model
 from slipwise.predict import predictor
 
+FORKED = multiprocessing.get_context("fork")
+#: Nobody waits so long unless something is wrong [s].
+LONG = 60.0
+
 
 @pytest.mark.parametrize("count", [1, 2, 4])
 def test_answers_come_in_order_whatever_the_number_of_cores(count: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cores, "_cores", lambda: count)
     seen = [10, 20, 30, 40, 50]
-    answers = list(on_every_core(lambda i: (seen[i], os.getpid()), len(seen)))
-    assert [value for value, _ in answers] == seen
-    assert os.getpid() in {process for _, process in answers}
+    assert list(on_every_core(lambda i: seen[i], len(seen))) == seen
 
 
 @pytest.mark.parametrize("count", [2, 4])
-def test_each_core_does_its_part_and_one_that_is_late_holds_up_no_other(
-    count: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_each_core_takes_its_part(count: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cores, "_cores", lambda: count)
+    meeting = FORKED.Barrier(count)
 
     def work(place: int) -> int:
-        time.sleep(0.3 if place < count else 0.0)
+        if place < count:
+            meeting.wait(LONG)
         return os.getpid()
 
-    processes = list(on_every_core(work, 4 * count))
-    assert len(set(processes[:count])) == count
+    processes = set(list(on_every_core(work, 3 * count))[:count])
+    assert len(processes) == count and os.getpid() in processes
 
 
 def test_what_is_asked_of_work_at_work_is_done_where_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -51,10 +53,11 @@ def test_what_is_asked_of_work_at_work_is_done_where_it_is(monkeypatch: pytest.M
 
 def test_a_child_that_was_ended_is_an_error_that_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cores, "_cores", lambda: 2)
-    here = os.getpid()
+    here, meeting = os.getpid(), FORKED.Barrier(2)
 
     def work(place: int) -> int:
-        time.sleep(0.2)
+        if place < 2:
+            meeting.wait(LONG)
         if os.getpid() != here:
             os.kill(os.getpid(), signal.SIGKILL)
         return place
@@ -67,16 +70,24 @@ def test_an_answer_that_cannot_be_sent_is_an_error_and_one_that_nobody_waits_for
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(cores, "_cores", lambda: 2)
-    here = os.getpid()
+    here, meeting = os.getpid(), FORKED.Barrier(2)
 
     def work(place: int) -> object:
-        time.sleep(0.2)
+        meeting.wait(LONG)
         return place if os.getpid() == here else lambda: place
 
     with pytest.raises((AttributeError, pickle.PicklingError), match="lambda"):
         list(on_every_core(work, 2))
     before = len(os.listdir("/proc/self/fd"))
-    asked = on_every_core(lambda i: time.sleep(0.05 if i < 2 else 60.0), 4)
+    again = FORKED.Barrier(2)
+
+    def slow(place: int) -> None:
+        if place < 2:
+            again.wait(LONG)
+        if place and os.getpid() != here:
+            time.sleep(LONG)
+
+    asked = on_every_core(slow, 3)
     next(asked)
     asked.close()
     assert not multiprocessing.active_children()
@@ -140,10 +151,11 @@ def test_a_worker_that_has_loaded_nothing_yet_keeps_to_one_thread_too() -> None:
 def test_an_error_of_a_child_is_an_error_here(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cores, "_cores", lambda: 2)
 
-    here = os.getpid()
+    here, meeting = os.getpid(), FORKED.Barrier(2)
 
     def work(place: int) -> int:
-        time.sleep(0.2)
+        if place < 2:
+            meeting.wait(LONG)
         if os.getpid() == here:
             return place
         raise InputError(f"no {place}: give another")
