@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from slipwise.cli.console import OUT, out_folder
-from slipwise.cli.diagnose import steps
+from slipwise.cli.diagnose import print_rungs, steps
 from slipwise.record import write_json, write_text
 
 if TYPE_CHECKING:
@@ -80,7 +80,7 @@ def demo(
         f"Refitted with {' and '.join(found.added) or 'nothing more'}, and judged by "
         f"{counted(unseen, 'held-out run')}, which no fit has seen. It stops here: {climbed.stopped}.",
     )
-    print_table("Error in multiples of the noise floor", [_rung(r) for r in climbed.table()])
+    print_rungs(climbed)
     save_model(found.final.problem.model(found.final.solution.values), campaign / "model.toml")
     write_json(folder / "diagnosis.json", found.as_json())
     write_json(folder / "ladder.json", climbed.as_json())
@@ -127,15 +127,6 @@ def _left(found: "Diagnosis") -> str:
 
 def _rounded(value: float | None) -> float | None:
     return None if value is None else round(value, 2)
-
-
-def _rung(rung: dict) -> dict:
-    return {
-        "model": " + ".join(["base", *rung["effects"]]),
-        "fitted runs": rung["fit_error"],
-        "held-out run": rung["holdout_error"],
-        "held-out, replay": rung["system_holdout_error"],
-    }
 
 
 def register(app: typer.Typer) -> None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from math import isfinite
 from pathlib import Path
 from typing import Annotated
 
@@ -160,12 +161,24 @@ def ladder(
     if json:
         print_json(found.as_json())
         return
-    from slipwise.view.terminal import print_table
-
-    print_table("Error in multiples of the noise floor", found.table())
+    print_rungs(found)
     screened, refitted = found.tried
     OUT.print(f"{screened} candidates screened, {refitted} hypotheses refitted, {found.seconds:.0f} s; {found.stopped}")
     _wrote([folder / "ladder.json", picture])
+
+
+def print_rungs(found) -> None:  # noqa: ANN001 - a Ladder; imported where it is used
+    """Print the errors of every rung; nothing where there is none."""
+    from slipwise.view.diagnosis_figures import rung_errors
+    from slipwise.view.terminal import print_table
+
+    errors = rung_errors(found)
+    rows = [
+        {"model": " + ".join(["base", *rung.effects])}
+        | {runs: values[place] for runs, values in errors.items() if isfinite(values[place])}
+        for place, rung in enumerate(found.rungs)
+    ]
+    print_table("Error in multiples of the noise floor", rows)
 
 
 def _wrote(files: list[Path]) -> None:

@@ -20,6 +20,8 @@ _RELATIONS = {
 }  # fmt: skip
 #: Letters that fit under the axes of a ladder.
 _WIDEST = 95
+#: Where a ladder begins so many floors up, its last rungs are told apart on a logarithmic axis only.
+_FAR = 20.0
 _BEFORE, _AFTER = MODEL_COLOURS[0], MODEL_COLOURS[5]
 
 
@@ -68,7 +70,13 @@ def ladder_figure(found: Ladder) -> Figure:
     axes.axhline(1.0, color=INK, lw=1.0, ls="--", label="noise floor")
     axes.set_xticks(places, ["base model", *map(_change, found.rungs, found.rungs[1:])])
     axes.set_xlim(-0.3, len(places) - 0.7)
-    axes.set_ylim(0.0, 1.08 * max(1.0, *(float(np.nanmax(values)) for values in errors.values())))
+    largest = max(1.0, *(float(np.nanmax(values)) for values in errors.values()))
+    if largest > _FAR:
+        axes.set_yscale("log")
+        axes.yaxis.set_major_formatter("{x:g}")
+        axes.set_ylim(0.7, 1.5 * largest)
+    else:
+        axes.set_ylim(0.0, 1.08 * largest)
     axes.set_ylabel("error / floor")
     screened, refitted = found.tried
     words = f"{screened} candidates screened, {refitted} hypotheses refitted; {found.stopped}"

@@ -89,6 +89,21 @@ def test_a_rung_says_what_it_takes_away_and_what_it_adds():
     assert labels == ["base model", "+ heating", "+ guide_drag", "− heating\n+ run_in", "− guide_drag"]
 
 
+def test_the_last_rungs_of_a_ladder_that_begins_far_up_are_told_apart():
+    def heights(first: float) -> tuple[float, float]:
+        rungs = _ladder(_rung(fit=first, held=first), _rung("heating", held=4.0), _rung("heating", "run_in", held=1.0))
+        with styled():
+            figure = ladder_figure(rungs)
+        figure.canvas.draw()
+        (axes,) = figure.axes
+        low, high = (axes.transData.transform((0.0, error))[1] for error in (1.0, 4.0))
+        assert axes.transData.transform((0.0, first))[1] < axes.bbox.y1
+        return (high - low) / axes.bbox.height, axes.get_ylim()[0]
+
+    assert heights(300.0)[0] > 0.15
+    assert heights(8.0)[1] == 0.0
+
+
 def test_a_ladder_says_how_much_was_tried_and_why_it_stops():
     with styled():
         (axes,) = ladder_figure(_ladder(_rung(), stopped="no further effect is worth a rung")).axes
