@@ -1,7 +1,7 @@
 """The ladder: effects added one by one, the error falling rung by rung, on runs the fit has not seen."""
 
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +14,7 @@ from slipwise.diagnose.candidates import SAMPLE_FAULTS, candidates
 from slipwise.diagnose.explore import explore, prepared
 from slipwise.diagnose.refit import Account, Hypothesis, base_hypothesis, polished, refit
 from slipwise.diagnose.replays import replayed_errors
+from slipwise.diagnose.result import Diagnosis
 from slipwise.diagnose.run import as_fit, error_of
 from slipwise.diagnose.screen import Screened, screen
 from slipwise.diagnose.search import MOST_EFFECTS
@@ -139,17 +140,16 @@ def ladder(
     return Ladder(found.name, tuple(rungs), counts, stopped, fits, time.perf_counter() - began)
 
 
-def ladder_of(search: Search, replayed: Mapping[str, float] | None = None) -> Ladder:
-    """Give the ladder that a search has climbed already.
+def ladder_of(found: Diagnosis) -> Ladder:
+    """Give the ladder that a diagnosis has climbed already, with the replays that it knows.
 
-    Args:
-        search: of a diagnosis.
-        replayed: {"base", "final"} held-out error of the replay in floors, where it is known.
+    Where nothing is named the base model was replayed, and not what the search had come to.
     """
-    known = replayed or {}
+    search = found.search
     path = _climbed(search)
-    last = len(path) - 1
-    ends = {0: known.get("base", np.nan), last: known.get("final", np.nan)}
+    ends = {0: found.system.get("base", np.nan)}
+    if found.added:
+        ends[len(path) - 1] = found.system.get("final", np.nan)
     rungs = [_rung(h, float(ends.get(i, np.nan))) for i, h in enumerate(path)]
     counts = (len(search.screened), len(search.tried))
     return Ladder(search.base.campaign.name, tuple(rungs), counts, _why(search), (), 0.0)

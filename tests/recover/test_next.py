@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from importlib.resources import files
+from math import isnan
 from pathlib import Path
 from typing import Any, cast
 
@@ -64,10 +65,19 @@ def test_a_simulation_that_fails_is_no_motion_that_tells_nothing(found, monkeypa
 
 
 def test_the_ladder_and_the_page_of_a_diagnosis_tell_the_same_errors(found):
-    climbed = ladder_of(found.search)
+    climbed = ladder_of(found)
     assert climbed.rungs[0].holdout_error == pytest.approx(found.base_error)
     assert climbed.rungs[-1].holdout_error == pytest.approx(found.final_error)
     page = diagnosis_page(found, climbed)
     assert "run_in" in page
     assert page.count("<svg") >= 3
     assert "<script" not in page
+
+
+def test_a_rung_that_was_not_replayed_has_no_error_of_a_replay(found):
+    """Where nothing is named the base model is replayed: its error was shown as that of the search's last model."""
+    named = replace(found, system={"base": 4.0, "final": 1.2})
+    assert [r.system_holdout_error for r in ladder_of(named).rungs] == [4.0, 1.2]
+    unknown = replace(named, verdict=replace(found.verdict, effects=()), system={"base": 4.0, "final": 4.0})
+    seen = [r.system_holdout_error for r in ladder_of(unknown).rungs]
+    assert seen[0] == 4.0 and isnan(seen[1])

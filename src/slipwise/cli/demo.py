@@ -71,7 +71,7 @@ def demo(
         OUT.print(f"  - {place.words}", markup=False, highlight=False, soft_wrap=True)
     with steps() as tell:
         found = diagnose(measured, system=True, progress=tell)
-    climbed = ladder_of(found.search, found.system)
+    climbed = ladder_of(found)
     _say("3  What is missing?", found.sentence)
     hypotheses = [{"hypothesis": c.effect, "probability": round(c.probability, 3)} for c in found.candidates]
     print_table(f"{climbed.tried[0]} candidates screened, {climbed.tried[1]} refitted", hypotheses)

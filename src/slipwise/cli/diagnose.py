@@ -92,7 +92,7 @@ def _write(found, folder: Path, recording: bool) -> list[Path]:  # noqa: ANN001 
     from slipwise.view.diagnosis_page import diagnosis_page
 
     write_json(folder / "diagnosis.json", found.as_json())
-    write_text(folder / "report.html", diagnosis_page(found, ladder_of(found.search, found.system)))
+    write_text(folder / "report.html", diagnosis_page(found, ladder_of(found)))
     return [folder / "diagnosis.json", folder / "report.html", *(_record(found, folder) if recording else [])]
 
 
