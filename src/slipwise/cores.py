@@ -159,9 +159,8 @@ def _child(work: Callable[[int], Any], shared: _Shared) -> Iterator[ForkProcess]
 
 
 def _as_child(work: Callable[[int], Any], shared: _Shared) -> None:
-    signal.signal(
-        signal.SIGINT, signal.SIG_IGN
-    )  # at Ctrl-C the parent ends its children, without a traceback of theirs
+    # At Ctrl-C the parent ends its children, without a traceback of theirs.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     begin_worker()
     for place in shared.places():
         try:
