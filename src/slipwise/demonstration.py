@@ -190,7 +190,7 @@ def _balance(model: Model) -> Demonstration:
         girder_acceleration=girder,
         table_acceleration=girder,
         buffer_force=buffers.sum(axis=1),
-        buffer_size=np.abs(buffers).sum(axis=1),
+        buffer_size=np.linalg.norm(buffers, axis=2),
         heave_rate=-np.gradient(load.sum(axis=1), _DT) / (4.0 * specimen.pad_stiffness),
     )
     added: dict[str, Array] = {}

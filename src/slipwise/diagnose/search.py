@@ -1,6 +1,7 @@
 """The search for what is missing: one effect after another, pairs one step ahead, and back again."""
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,7 @@ from slipwise.diagnose.shapes import places, strengths
 from slipwise.diagnose.tried import Search, as_base, left_with, starts_of, tried_before, try_all, try_one
 from slipwise.diagnose.worth import MATERIAL, MATERIAL_FURTHER, all_down, is_near, material, material_alone, score
 from slipwise.effects import Effect
-from slipwise.fit.base import BaseFit
+from slipwise.fit.base import BaseFit, at_rated
 from slipwise.fit.terms import Term
 
 Array = NDArray[np.float64]
@@ -35,8 +36,8 @@ _LONGER = 4.0
 _SWAPPED, _HOPELESS = 2, 100.0
 #: The best physics is refitted even where faults of gauges screen better, and far from its best shape.
 _REFITTED_PHYSICS = 2
-#: Mean squared residual of a base that is bent too far for a screen, and that no effect may leave then before all of
-#: physics has been refitted [noise variance].
+#: Mean squared residual of a base that is bent too far for a screen, and that no effect may leave then before a search
+#: from rated numbers [noise variance].
 _BENT, _ASTRAY = 1000.0, 30.0
 #: Most effects that are added, and how many of them before a logger that nobody knew is heard anew.
 MOST_EFFECTS, _FIRST_EFFECTS = 3, 2
@@ -69,12 +70,9 @@ def begun(
 ) -> Search:
     """Find the first effects, two at most, and look no further; arguments as `search`."""
     terms, cannot = candidates(base, own)
+    state = Search(base, [], cannot, [base_hypothesis(base)], terms=terms)
     tell = progress or _silent
-    origin = base_hypothesis(base)
-    found = screen(base, terms, lambda share: tell("screening", 0.15 + 0.45 * share))
-    found = with_kept(base, found, _worth_a_refit(origin, MATERIAL))
-    helping, opposed = ([s for s in found if (s.gain == 0.0) == against] for against in (False, True))
-    state = Search(base, helping, cannot, [origin], terms=terms, opposed=opposed)
+    _screen(state, lambda share: tell("screening", 0.15 + 0.45 * share))
     tell("refitting", 0.6)
     _first(state, next((h for h in before.path if len(h.terms) == 1), None) if before else None)
     _reshape(state)
@@ -116,24 +114,33 @@ def _onward(state: Search, tell: Callable[[str, float], None], most: int) -> Non
 
 
 def _astray(state: Search) -> bool:
-    """Refit every effect of physics alone where very much is left; tell if one of them is better than all.
+    """Begin anew from the rated numbers where very much is left; tell if that leads to something better.
 
-    A base that is bent that far shows each as a straight line that leads elsewhere: a table that rocks by 3 mrad was
-    fitted with another pitch of the girder, a hundred floors off, and the screen ranked it behind faults of gauges.
+    A base that is bent that far shows each effect as a straight line that leads elsewhere: a table that rocks by 3 mrad
+    was fitted with another pitch of the girder, a hundred floors off, and every fit from there ended beside the truth.
     """
     origin, best = state.path[0], state.best
     worst, left = (max(h.account.level(r, held_out=False) for r in h.account.fitted) for h in (origin, best))
     if worst < _BENT or left < _ASTRAY:
         return False
-    fresh = [s for s in state.seen if s.term.effect.component != "instrument" and not tried_before(state, [s.term])]
-    found = best_of(origin, try_all(state, starts_of(fresh)))
-    if found is None or score(origin.account, found.account) <= score(origin.account, best.account):
+    anew = replace(state, base=at_rated(state.base), path=[origin])
+    _screen(anew)
+    _first(anew)
+    _reshape(anew)
+    if score(origin.account, anew.best.account) <= score(origin.account, best.account):
         return False
-    state.path.append(found)
+    state.path.append(anew.best)
     return True
 
 
-def _first(state: Search, led: Hypothesis | None) -> None:
+def _screen(state: Search, progress: Callable[[float], None] | None = None) -> None:
+    """Screen every candidate against the base of a search."""
+    found = screen(state.base, state.terms, progress)
+    found = with_kept(state.base, found, _worth_a_refit(state.path[0], MATERIAL))
+    state.screened, state.opposed = ([s for s in found if (s.gain == 0.0) == against] for against in (False, True))
+
+
+def _first(state: Search, led: Hypothesis | None = None) -> None:
     origin = state.path[0]
     chosen = various(state.screened, _REFITTED)
     physics = [s for s in state.screened if s.term.effect.component != "instrument"]

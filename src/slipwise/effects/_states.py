@@ -35,7 +35,7 @@ class BalanceStates:
         girder_acceleration: (n, 3) absolute, at the centre of gravity [m/s^2].
         table_acceleration: (n, 3) absolute [m/s^2].
         buffer_force: (n, 2) of the girder on all buffers, as the model has it [N].
-        buffer_size: (n, 2) sum over the buffers of |force| [N].
+        buffer_size: (n, n_buffers) size of the force on each buffer [N].
         heave_rate: (n,) vertical rate of the girder over the table [m/s], up.
     """
 

@@ -34,12 +34,13 @@ def lift(
 
 
 def balance(states: BalanceStates, friction: float, slow: float, elastic: float) -> dict[str, NDArray[np.float64]]:
-    """Give what the pads carry more when the girder rises against the keys (n,) [N]."""
-    push = np.hypot(states.buffer_size[:, 0], states.buffer_size[:, 1])
+    """Give what the pads carry more when the girder rises against the keys (n,) [N]; unlike keys tip it."""
     share = np.tanh(states.heave_rate / slow)
     if elastic > 0.0:
         share = np.clip(share + prandtl(elastic * states.heave_rate, float(states.time[1] - states.time[0])), -1.0, 1.0)
-    return {"heave": friction * push * share}
+    held = friction * states.buffer_size * share[:, None]
+    levers = np.array(states.specimen.buffer_places) / states.specimen.half_spacing
+    return {"heave": held.sum(axis=1), "pitch": held @ levers[:, 0], "roll": held @ levers[:, 1]}
 
 
 EFFECT = Effect(

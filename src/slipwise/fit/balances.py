@@ -191,7 +191,7 @@ def effects_in(
         girder_acceleration=np.nan_to_num(run.states.girder_acceleration) if acceleration is None else acceleration,
         table_acceleration=np.nan_to_num(run.states.table_acceleration) if table is None else table,
         buffer_force=np.stack([buffers.sum(axis=1), zero], axis=1),
-        buffer_size=np.stack([np.abs(buffers).sum(axis=1), zero], axis=1),
+        buffer_size=np.abs(buffers),
         heave_rate=heave_rate(run.load.sum(axis=1), run.dt, specimen) + rising,
     )
     out: dict[str, Array] = {}

@@ -9,7 +9,7 @@ from slipwise.campaign import Campaign, Logger
 from slipwise.fit.data import Spoiled, fit_runs
 from slipwise.fit.logger import estimated_logger
 from slipwise.fit.problem import Problem
-from slipwise.fit.solve import Solution, slopes_of, solve
+from slipwise.fit.solve import Solution, jacobian, slopes_of, solve
 from slipwise.fit.terms import DAMPED_STICK, STICK_DAMPING, YAW_INERTIA, ZEROES, Free, base_free, inertia_free, terms_of
 from slipwise.fit.zero import free_zero
 from slipwise.model import Model, base_model
@@ -164,6 +164,19 @@ def restarted(base: BaseFit, values: Mapping[str, float]) -> BaseFit | None:
     problem = base.problem.weighed_anew(solution.values)
     again = solve(problem, solution.values, base.free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
     return replace(base, problem=problem, solution=again)
+
+
+def at_rated(base: BaseFit) -> BaseFit:
+    """Give a base model that was not fitted: every number where its fit began.
+
+    Args:
+        base: the base fit, whose weights are kept.
+    """
+    problem, free = base.problem, base.free
+    values = {**base.solution.values, **{f.key: f.start for f in free}}
+    residuals = problem.residuals(values)
+    slopes = jacobian(problem, values, free, residuals)
+    return replace(base, solution=Solution(values, free, residuals, slopes, _cost(problem, values), len(free) + 1))
 
 
 def _cost(problem: Problem, values: Mapping[str, float]) -> float:

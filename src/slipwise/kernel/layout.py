@@ -22,7 +22,7 @@ MAX_DOFS = 11
 CHAINS: tuple[str, ...] = ("area", "shear", "stick", "pad", "advance", "deflection", "spring", "settle", "lift", "drag")
 #: Numbers at the head of the array, then blocks: name -> size.
 _HEAD: tuple[tuple[str, int], ...] = (
-    ("dt", 1), ("n_pads", 1), ("n_buffers", 1), ("n_dofs", 1), ("user_sensor", 1), ("girder_dof", 3),
+    ("dt", 1), ("n_pads", 1), ("n_buffers", 1), ("n_dofs", 1), ("user_sensor", 1), ("girder_dof", 6),
     ("apparent_area", 1), ("plastic_pressure", 1), ("shear_strength", 1), ("full_stick", 1),
     ("buffer_stiffness", MAX_BUFFERS), ("side", 2 * MAX_PADS), ("pad_geom", MAX_PADS),
     ("tendon", 2 * (MAX_PADS + MAX_BUFFERS)), ("friction_row", 2 * MAX_PADS),

@@ -87,6 +87,15 @@ def control_step(u, time, ten_length, ten_velocity, qvel, frictionloss, applied)
         applied[dof_y] -= force_y
         force_z = girder_lift(u, sum_x, sum_y, qvel[dof_x], qvel[dof_y], qvel[dof_z], time, dt)
         applied[dof_z] += force_z
+        if force_z != 0.0 and sum_x + sum_y > 0.0:
+            # Each key holds by its share of the horizontal force, where it stands: yaw tells how far from the middle.
+            dof_yaw = int(u[{at["girder_dof"]} + 5])
+            for buffer in range(int(u[{at["n_buffers"]}])):
+                own = u[{at["buffer_force"]} + 2 * buffer], u[{at["buffer_force"]} + 2 * buffer + 1]
+                held = force_z * (abs(own[0]) + abs(own[1])) / (sum_x + sum_y)
+                j = {at["jacobian"]} + 2 * (n_pads + buffer) * {MAX_DOFS} + dof_yaw
+                applied[int(u[{at["girder_dof"]} + 3])] -= u[j] * held
+                applied[int(u[{at["girder_dof"]} + 4])] -= u[j + {MAX_DOFS}] * held
         u[{at["girder_force"]}] = -force_x
         u[{at["girder_force"]} + 1] = -force_y
         u[{at["girder_force"]} + 2] = force_z

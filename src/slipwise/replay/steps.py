@@ -27,7 +27,8 @@ def numbers_for(law: Kernel, rig: Rig, model: Model, dt: float) -> Array:
     n_pads, n_tendons = len(rig.specimen.pads), len(rig.tendons)
     numbers[at["n_dofs"]] = rig.model.nv
     numbers[at["user_sensor"]] = rig.user_sensor
-    numbers[at["girder_dof"] : at["girder_dof"] + 3] = [_dof(rig.model, f"girder_{axis}") for axis in "xyz"]
+    axes = ("x", "y", "z", "roll", "pitch", "yaw")
+    numbers[at["girder_dof"] : at["girder_dof"] + 6] = [_dof(rig.model, f"girder_{axis}") for axis in axes]
     if not rig.specimen.free:
         numbers[at["girder_dof"]] = -1.0
     numbers[at["pad_geom"] : at["pad_geom"] + n_pads] = rig.pad_geoms

@@ -44,7 +44,7 @@ def states(model: Model, record: Record) -> BalanceStates:
         girder_acceleration=three("girder_a{}"),
         table_acceleration=three("table_a{}"),
         buffer_force=buffers.sum(axis=1),
-        buffer_size=np.abs(buffers).sum(axis=1),
+        buffer_size=np.linalg.norm(buffers, axis=2),
         heave_rate=np.gradient(record["heave"], record.dt),
     )
 
@@ -115,11 +115,18 @@ def test_the_balances_close_without_effects() -> None:
 def test_what_a_hook_adds_closes_the_balances_again(name: str) -> None:
     values = {"along": 0.02, "across": 0.03} if name == "mass_eccentricity" else {}
     left, said = open_balances(base_model("bridge1").adding(use(name, **values)))
-    assert set(said) == set(CLOSED[name])
+    assert all(rms(said[balance]) < 1.0 for balance in set(said) - set(CLOSED[name]))
     for balance, share in CLOSED[name].items():
         opened, still = rms(left[balance]), rms(left[balance] - said[balance])
         assert opened > 10.0, "it must be seen at all"
         assert still < share * opened, f"{balance}: {still:.1f} of {opened:.1f} N"
+
+
+def test_keys_that_are_pressed_unlike_tip_the_girder() -> None:
+    both = base_model("bridge1").adding(use("key_friction")).adding(use("buffer_mismatch", difference=0.3))
+    left, said = open_balances(both)
+    assert rms(left["roll"]) > 50.0
+    assert rms(left["roll"] - said["roll"]) < 0.1 * rms(left["roll"])
 
 
 def test_keys_above_the_sliding_plane_turn_the_girder_by_their_force() -> None:
