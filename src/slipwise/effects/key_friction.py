@@ -39,7 +39,7 @@ def balance(states: BalanceStates, friction: float, slow: float, elastic: float)
     if elastic > 0.0:
         share = np.clip(share + prandtl(elastic * states.heave_rate, float(states.time[1] - states.time[0])), -1.0, 1.0)
     held = friction * states.buffer_size * share[:, None]
-    levers = np.array(states.specimen.buffer_places) / states.specimen.half_spacing
+    levers = np.reshape(states.specimen.buffer_places, (-1, 2)) / states.specimen.half_spacing
     return {"heave": held.sum(axis=1), "pitch": held @ levers[:, 0], "roll": held @ levers[:, 1]}
 
 

@@ -64,7 +64,7 @@ def weighed_balances(
         if changed:
             more = noise_of_mending(model.specimen, turning[i], changed[i], struck_pitch(run, values))
         if springs is not None:
-            more["heave"] = rubbing_noise(model, run, buffers_along(springs, run, *np.zeros((2, len(run.time)))))
+            more |= rubbing_noise(model, run, buffers_along(springs, run, *np.zeros((2, len(run.time)))))
         for name, level in levels.items():
             out.setdefault(name, []).append(np.hypot(level, more[name]) if name in more else level)
     return out
@@ -122,25 +122,28 @@ def _more_heave(model: Model, run: FitRun, upward: Array) -> Array | None:
     """Give what effects add to the load for an acceleration (n,) upward alone, (n,) [N]; None where none adds any."""
     acceleration = np.zeros((2, len(run.time), 3))
     acceleration[1, :, 2] = upward
-    nothing = np.zeros((len(run.time), 1))
-    quiet, loud = (effects_in(model, run, model.specimen, run.force, nothing, a).get("heave") for a in acceleration)
+    answers = (effects_in(model, run, model.specimen, run.force, acceleration=a) for a in acceleration)
+    quiet, loud = (a.get("heave") for a in answers)
     return None if quiet is None or loud is None else loud - quiet
 
 
-def rubbing_noise(model: Model, run: FitRun, buffers: Array) -> Array:
-    """Give what noise of the loads makes of what rubs against heave, by the rate that is made from them, (n,) [N].
+def rubbing_noise(model: Model, run: FitRun, buffers: Array) -> dict[str, Array]:
+    """Give what noise of the loads makes of what rubs against heave, by the rate that is made from them.
 
     Args:
         model: with the numbers of the fit.
         run: its channels.
         buffers: (n, n_buffers) [N].
+
+    Returns:
+        "heave" and "roll" (n,) [N], where anything rubs.
     """
     struck = np.zeros(len(run.time))
     struck[len(struck) // 2] = np.linalg.norm(run.gauge_noise[1])
     wrong = float(np.linalg.norm(heave_rate(struck, run.dt, model.specimen)))
     specimen = model.built_specimen()
-    up, down = (effects_in(model, run, specimen, run.force, buffers, rising=w).get("heave") for w in (wrong, -wrong))
-    return np.zeros(len(struck)) if up is None or down is None else 0.5 * np.abs(up - down)
+    up, down = (effects_in(model, run, specimen, run.force, buffers, rising=w) for w in (wrong, -wrong))
+    return {name: 0.5 * np.abs(up[name] - down[name]) for name in ("heave", "roll") if name in up}
 
 
 def force_noise_in_pitch(run: FitRun, specimen: Specimen, values: Mapping[str, float]) -> Array:
@@ -164,12 +167,13 @@ def driven_noise_in_pitch(model: Model, runs: Sequence[FitRun], values: Mapping[
     """
     run = min(runs, key=lambda r: len(r.time))
     frequency, damping = values["rig.pitch_frequency"], values["rig.pitch_damping"]
-    nothing, at = np.zeros((len(run.time), 1)), np.fft.rfftfreq(len(run.time), run.dt)
+    specimen, at = model.built_specimen(), np.fft.rfftfreq(len(run.time), run.dt)
     power = [np.zeros(len(r.time) // 2 + 1) for r in runs]
     for place, channel in enumerate(("girder_ax", "table_ax")):
         struck = np.zeros((2, len(run.time), 3))
         struck[place, len(run.time) // 2, 0] = 1.0
-        answer = effects_in(model, run, model.built_specimen(), run.force, nothing, struck[0], struck[1]).get("pitch")
+        told = effects_in(model, run, specimen, run.force, acceleration=struck[0], table=struck[1])
+        answer = told.get("pitch")
         if answer is not None and answer.any():
             size = np.abs(np.fft.rfft(through_pitch(answer, run.dt, frequency, damping))) ** 2
             for of, r in zip(power, runs, strict=True):

@@ -75,7 +75,7 @@ def buffers_along(law: Predictor, run: FitRun, yaw: Array, yaw_rate: Array) -> A
     """
     specimen = law.model.specimen
     if not specimen.buffer_stiffness:
-        return np.zeros((len(run.time), 1))
+        return np.zeros((len(run.time), 0))
     sides = np.array(specimen.buffer_places)[:, 1]
     slip = run.slip[:, None] - sides * yaw[:, None]
     if not any(u.effect.port == "buffer" for u in law.model.uses):
@@ -161,7 +161,7 @@ def _late(values: Array, dt: float, lag: float) -> Array:
 
 
 def effects_in(
-    model: Model, run: FitRun, specimen: Specimen, force: Array, buffers: Array,
+    model: Model, run: FitRun, specimen: Specimen, force: Array, buffers: Array | None = None,
     acceleration: Array | None = None, table: Array | None = None, rising: float = 0.0,
 ) -> dict[str, Array]:  # fmt: skip
     """Give what effects add to the balances by their `balance` hooks, relation -> (n,) [N]; "motion" in m/s^2.
@@ -171,7 +171,7 @@ def effects_in(
         run: its channels.
         specimen: as built.
         force: (n, p) of the pads along x [N].
-        buffers: (n, n_buffers) along x [N].
+        buffers: (n, n_buffers) along x [N]; none of them pushes, if not given.
         acceleration: (n, 3) of the girder in place of the measured one [m/s^2].
         table: (n, 3) of the table in place of the measured one [m/s^2].
         rising: added to the heave rate [m/s].
@@ -180,6 +180,8 @@ def effects_in(
     if not uses:
         return {}
     zero = np.zeros(len(run.time))
+    if buffers is None:
+        buffers = np.zeros((len(zero), len(specimen.buffer_stiffness)))
     across = np.zeros_like(force)
     states = BalanceStates(
         time=run.time,
@@ -203,8 +205,7 @@ def effects_in(
 
 def no_slip(model: Model, run: FitRun) -> Array:
     """Give the part of the girder's acceleration over the table that is no slip, by effects that turn both, (n,)."""
-    nothing = np.zeros((len(run.time), 1))
-    return effects_in(model, run, model.built_specimen(), run.force, nothing).get("motion", nothing[:, 0])
+    return effects_in(model, run, model.built_specimen(), run.force).get("motion", np.zeros(len(run.time)))
 
 
 def motion_residual(run: FitRun, late: float, scale: Mapping[str, float], raised: Mapping[str, Spectrum]) -> Array:
