@@ -10,16 +10,25 @@ from slipwise.diagnose.candidates import candidates
 from slipwise.diagnose.choose import best_of, various
 from slipwise.diagnose.pairs import leading_pair
 from slipwise.diagnose.promise import with_kept
-from slipwise.diagnose.refit import STICK_LENGTH, Hypothesis, base_hypothesis, strained
+from slipwise.diagnose.refit import Hypothesis, base_hypothesis, strained
 from slipwise.diagnose.rescreen import rescreen
 from slipwise.diagnose.screen import screen, screen_shapes
 from slipwise.diagnose.settle import prune, settle
-from slipwise.diagnose.shapes import places, strengths
-from slipwise.diagnose.tried import Search, as_base, left_with, starts_of, tried_before, try_all, try_one
+from slipwise.diagnose.shapes import places
+from slipwise.diagnose.tried import (
+    Search,
+    as_alone,
+    as_base,
+    left_with,
+    longer_stick,
+    starts_of,
+    tried_before,
+    try_all,
+    try_one,
+)  # fmt: skip
 from slipwise.diagnose.worth import MATERIAL, MATERIAL_FURTHER, all_down, is_near, material, material_alone, score
 from slipwise.effects import Effect
 from slipwise.fit.base import BaseFit, at_rated
-from slipwise.fit.terms import Term
 
 Array = NDArray[np.float64]
 #: Share of what is worth a name from which on a screen's gain is worth a refit [1].
@@ -29,8 +38,6 @@ _REFITTED = 4
 _REFITTED_PAIRS = 2
 #: Starts from which a law that leaves something is fitted again.
 _RESHAPED = 2
-#: A longer stick is tried at this many times the longest of the base [1].
-_LONGER = 4.0
 #: Candidates that are tried in the place of an effect, if their columns leave less than so many times what the whole
 #: has left [1].
 _SWAPPED, _HOPELESS = 2, 100.0
@@ -187,19 +194,6 @@ def _reshape(state: Search) -> None:
             state.path[-1] = better[0]
 
 
-def longer_stick(state: Search, before: Hypothesis) -> list[tuple[list[Term], dict]]:
-    """Ask for a law of sticking where the base would stick over more than it may: no screen sees past its bound."""
-    most = next((f.high for f in before.solution.free if f.key == STICK_LENGTH), np.inf)
-    if before.solution.values.get(STICK_LENGTH, 0.0) < (1.0 - 1e-6) * most:
-        return []
-    out = []
-    for term in (t for t in state.terms if "stick" in t.effect.hooks):
-        lengths = [p.name for p in strengths(term.effect) if p.unit == "m"]
-        longer = {**term.effect.typical(), **dict.fromkeys(lengths, _LONGER * most)}
-        out.append(([*before.terms, term], {term.label: longer}))
-    return out
-
-
 def _further(state: Search) -> bool:
     """Add the effect that helps most beside those found; false when none is worth it."""
     before, origin = state.best, state.path[0]
@@ -209,14 +203,15 @@ def _further(state: Search) -> bool:
     least = _worth_a_refit(before, MATERIAL_FURTHER)
     found = with_kept(as_base(state, before), rescreen(state.seen, before), least)
     chosen = various([s for s in found if s.gain > least], _REFITTED_PAIRS + 1)
-    asked = starts_of(chosen, before.terms) + longer_stick(state, before)
-    tried = try_all(state, asked, before, lambda h: is_near(origin.account, account, h.account))
-    sound = [h for h in tried if strained(before) or not strained(h)]
-    good = [h for h in sound if material(origin.account, before.account, h.account)]
-    if not good:
-        return False
-    state.path.append(max(good, key=lambda h: score(before.account, h.account)))
-    return True
+    screened, alone = starts_of(chosen, before.terms), as_alone(state, chosen, before.terms)
+    for asked in (screened + longer_stick(state, before), alone):
+        tried = try_all(state, asked, before, lambda h: is_near(origin.account, account, h.account))
+        sound = [h for h in tried if strained(before) or not strained(h)]
+        good = [h for h in sound if material(origin.account, before.account, h.account)]
+        if good:
+            state.path.append(max(good, key=lambda h: score(before.account, h.account)))
+            return True
+    return False
 
 
 def _worth_a_refit(before: Hypothesis, drop: float) -> float:

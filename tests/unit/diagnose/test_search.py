@@ -9,9 +9,8 @@ from measured import as_campaign
 from slipwise.diagnose.candidates import candidates
 from slipwise.diagnose.refit import STICK_LENGTH, base_hypothesis, refit
 from slipwise.diagnose.screen import screen_shapes
-from slipwise.diagnose.search import longer_stick
 from slipwise.diagnose.shapes import places, shapes
-from slipwise.diagnose.tried import Search
+from slipwise.diagnose.tried import Search, longer_stick
 from slipwise.effects import catalogue
 from slipwise.fit.base import BaseFit, fit_base
 from slipwise.fit.terms import Term
