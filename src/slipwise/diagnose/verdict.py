@@ -18,6 +18,8 @@ from slipwise.fit.terms import Term
 #: A right family explains this share of what the base left, whatever its exact form [1]: 0.87 and more on trials, the
 #: best wrong one up to 0.69.
 RIGHT_FAMILY = 0.70
+#: From this share on it is as sure as its lead says: a drag with the cube of speed passed for rate and state with 0.72.
+_SURE_FAMILY = 0.87
 #: What it must explain when its strength has run against a bound: more of the same, not something else.
 STRAINED_FAMILY = 0.90
 #: What effects must explain that have one form only, geometry: curvature and inertia of cells in the place of friction
@@ -112,6 +114,8 @@ def _judged(state: Search) -> Verdict:
     left = "unknown" if remains or _loud(state.final) else "none"
     margin = _margin(state, best)
     probability = _named_probability(margin, explained, best, left)
+    if drop >= _SURE_SHARE:
+        probability = min(probability, _family_probability(explained))
     if rivals:
         every = tuple(dict.fromkeys(n for h in (best, *rivals) for n in h.names))
         return Verdict("ambiguous", every, probability, left, explained, surface, rivals)
@@ -222,6 +226,12 @@ def _named_probability(margin: float, explained: float, best: Hypothesis, left: 
     odds = 0.6 + 5.0 * lead / 0.5 + 2.0 * (np.clip(explained, 0.4, 1.0) - 0.7) / 0.3
     odds -= 0.3 * (len(best.terms) - 1) + (0.7 if left == "unknown" else 0.0)
     return float(np.clip(1.0 / (1.0 + np.exp(-odds)), 0.3, 0.99))
+
+
+def _family_probability(explained: float) -> float:
+    """Give the chance that a family is right by its share: a coin near the best wrong ones, sure near right ones."""
+    along = (explained - RIGHT_FAMILY) / (_SURE_FAMILY - RIGHT_FAMILY)
+    return float(np.clip(0.5 + 0.49 * along, 0.5, 0.99))
 
 
 def _unknown_probability(surface: Surface | None, explained: float) -> float:
