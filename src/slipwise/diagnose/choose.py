@@ -30,7 +30,7 @@ def best_of(origin: Hypothesis, tried: Sequence[Hypothesis]) -> Hypothesis | Non
     Cells of load that all read 4 % less under a girder of 4 % more mass are cells of friction that all read 4 % more.
     """
     ranked = sorted(((score(origin.account, h.account), h) for h in tried), key=lambda pair: -pair[0])
-    good = [(gain, h) for gain, h in ranked if material_alone(origin, h)]
+    good = [(gain, h) for gain, h in ranked if gain > 0.0 and material_alone(origin, h)]
     if not good:
         return None
     top, first = good[0]

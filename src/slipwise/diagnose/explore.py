@@ -13,6 +13,7 @@ from slipwise.diagnose.worth import MATERIAL
 from slipwise.effects import Effect
 from slipwise.fit.base import BaseFit, fit_base, restarted
 from slipwise.fit.data import Spoiled
+from slipwise.fit.faults import shifts
 from slipwise.fit.logger import estimated_logger
 from slipwise.fit.terms import Term
 from slipwise.model import Model
@@ -99,6 +100,6 @@ def _speaks_at_reversals(term: Term) -> bool:
     if term.effect.port == "stick":
         return True
     if term.effect.port == "gauge":
-        return any(p.unit == "s" for p in term.effect.parameters)
+        return shifts([term]) or any(p.unit == "s" for p in term.effect.parameters)
     laws = [term.effect.hooks[h] for h in ("shear", "pad") if h in term.effect.hooks]
     return any({"speed", "velocity_x"} & set(signature(law).parameters) for law in laws)

@@ -1,5 +1,6 @@
 """Among fits that explain nearly as much: one gauge's best law, and of several gauges the one that leaves the mass."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -39,6 +40,15 @@ def test_of_gauges_that_tie_the_one_that_leaves_the_girder_its_mass_is_taken() -
 
 def test_what_is_worth_nothing_is_not_chosen() -> None:
     assert best_of(_tried("", "", 1.0, RATED), [_tried("heating", "", 0.99, RATED)]) is None
+
+
+def test_what_spoils_other_runs_more_than_it_helps_is_not_chosen() -> None:
+    """Slip whose lost samples had moved it: every law that helped the pads a little spoilt other balances far more."""
+    base, law = _tried("", "", 3.0, RATED), _tried("heating", "", 1.0, RATED)
+    counts = {name: (COUNT, COUNT) for name in ("pads", "girder")}
+    before, after = ({"pads": pads * COUNT, "girder": girder * COUNT} for pads, girder in ((3.0, 1.0), (1.0, 9.0)))
+    base = replace(base, account=Account(before, dict(before), counts))
+    assert best_of(base, [replace(law, account=Account(after, dict(after), counts))]) is None
 
 
 def test_a_law_of_very_little_is_not_chosen_where_a_gauge_explains_more() -> None:

@@ -51,7 +51,7 @@ def test_a_gain_that_wanders_and_an_offset_are_levelled_away(tmp_path):
 
 def test_what_goes_by_speed_or_lags_speaks_at_reversals_and_what_only_wanders_does_not():
     said = {name for name, effect in catalogue().items() if _speaks_at_reversals(Term(effect))}
-    assert {"breakaway", "rate_and_state", "presliding", "channel_delay", "channel_filter"} <= said
+    assert {"breakaway", "rate_and_state", "presliding", "channel_delay", "channel_filter", "clock_skew"} <= said
     assert not {"heating", "run_in", "uneven_seating", "buffer_damping", "channel_gain", "girder_bending"} & said
 
 
