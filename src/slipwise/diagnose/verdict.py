@@ -15,11 +15,11 @@ from slipwise.diagnose.tried import Search
 from slipwise.diagnose.worth import SAME_SCORE, least_worth, material_alone, needless, score, spoils, worth
 from slipwise.fit.terms import Term
 
-#: A right family explains this share of what the base left, whatever its exact form [1]: 0.87 and more on trials, the
-#: best wrong one up to 0.69.
+#: A right family explains this share of what the base left, whatever its exact form [1]: 0.87 and more on trials, most
+#: wrong ones 0.69 and less.
 RIGHT_FAMILY = 0.70
-#: Up to the first share a family is right as often as not, from the second on it is as sure as its lead says: drags with
-#: the cube of speed passed for rate and state with 0.72 and 0.79, a measured band brake's pre-sliding explained 0.78 [1].
+#: Up to the first share it is right as often as not, from the second on it is as sure as its lead says [1]: drags with
+#: the cube of speed passed for rate and state with 0.72 and 0.79, pre-sliding of a measured band brake explained 0.78.
 _COIN_FAMILY, _SURE_FAMILY = 0.80, 0.92
 #: What it must explain when its strength has run against a bound: more of the same, not something else.
 STRAINED_FAMILY = 0.90
