@@ -7,12 +7,12 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.diagnose.candidates import candidates
-from slipwise.diagnose.refit import STICK_LENGTH, base_hypothesis, refit
+from slipwise.diagnose.refit import STICK_LENGTH, base_hypothesis, polished, refit
 from slipwise.diagnose.screen import screen_shapes
 from slipwise.diagnose.shapes import places, shapes
 from slipwise.diagnose.tried import Search, longer_stick
 from slipwise.effects import catalogue
-from slipwise.fit.base import BaseFit, fit_base
+from slipwise.fit.base import BaseFit, at_rated, fit_base
 from slipwise.fit.terms import Term
 
 
@@ -50,3 +50,16 @@ def test_a_patch_is_found_at_its_place_where_the_small_grid_takes_another() -> N
     small, whole = (screen_shapes(base, term, grid(term.effect))[0] for grid in (shapes, places))
     assert abs(small.values["place"] - place) > 8e-3
     assert abs(whole.values["place"] - place) < 4e-3 and whole.gain > small.gain
+
+
+def test_a_table_that_rocks_is_found_from_rated_numbers_where_the_base_is_bent_by_it() -> None:
+    """Fitted with another pitch and late gauges the base was 90 floors off, and every fit from there ended at 14."""
+    base = fit_base(as_campaign(build_campaign(61043, effects=("table_pitch",), size="large", rich=True)))
+    term = next(t for t in candidates(base)[0] if t.effect.name == "table_pitch")
+    left = {}
+    for begun in (base, at_rated(base)):
+        values = screen_shapes(begun, term, shapes(term.effect))[0].values
+        found = polished(refit(begun, [term], {term.label: values}))
+        left[begun is base] = found.solution.cost / sum(fitted for fitted, _ in found.account.counts.values())
+    assert left[True] > 10.0
+    assert left[False] < 1.2
