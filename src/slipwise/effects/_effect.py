@@ -11,7 +11,8 @@ arithmetic, `math` and `memory[...]` may be used):
     stick(bound, ...) -> (force_x, force_y)    pad(...) -> (force_x, force_y)
     advance(...) -> None, changes memory[...] after the force is known
     deflection(deflection, ...) -> deflection  spring(force, ...) -> force         settle(...) -> None (buffer's memory)
-    lift(force_x, force_y, ...) -> force_z     drag(...) -> (force_x, force_y)
+    lift(force_x, force_y, ...) -> force_z (of all shear keys, which share it as they share the horizontal force)
+    drag(...) -> (force_x, force_y)
 
 Hooks of whole arrays (numpy):
 

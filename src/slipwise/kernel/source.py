@@ -127,7 +127,7 @@ def girder_drag(u, {", ".join(_GIRDER_ARGUMENTS)}):
 def girder_lift(u, force_x, force_y, {", ".join(_GIRDER_ARGUMENTS)}):
     """Vertical force on the girder at the shear keys, whose horizontal force is given [N]; their memory goes on by dt.
 
-    All keys rise together: their memory is that of the first buffer.
+    All keys rise together: their memory is that of the first buffer. Each holds by its share of the horizontal force.
     """
     z = {at["buffer_memory"]}
     force_z = 0.0
