@@ -71,11 +71,17 @@ class Verdict:
     rivals: tuple[Hypothesis, ...]
 
 
-def excess(of: Account) -> float:
-    """Give how much squared residual stands above the noise, over all relations and runs."""
+def excess(of: Account, best: Account) -> float:
+    """Give how much squared residual stands above the noise, over all relations and runs.
+
+    Args:
+        of: a hypothesis.
+        best: one that may tell that the noise is less than was thought, for it leaves less.
+    """
     total = 0.0
     for name, (fitted, held) in of.counts.items():
-        total += max(of.fitted[name] - fitted, 0.0) + max(of.held_out[name] - held, 0.0)
+        total += max(of.fitted[name] - min(fitted, best.fitted[name]), 0.0)
+        total += max(of.held_out[name] - min(held, best.held_out[name]), 0.0)
     return total
 
 
@@ -91,7 +97,7 @@ def _judged(state: Search) -> Verdict:
     origin, best = state.path[0], state.best
     surface = leftover(state.final)
     remains = structured(surface)
-    explained = 1.0 - excess(best.account) / max(excess(origin.account), 1e-12)
+    explained = 1.0 - excess(best.account, best.account) / max(excess(origin.account, best.account), 1e-12)
     if not best.terms:
         if remains or _loud(best):
             shown = surface if remains else None
@@ -178,7 +184,7 @@ def _rivals(state: Search, best: Hypothesis) -> tuple[Hypothesis, ...]:
     """Give other hypotheses of as many effects that explain as much."""
     origin = state.path[0]
     top = score(origin.account, best.account)
-    unexplained = _SAME_EXCESS * excess(best.account)
+    unexplained = _SAME_EXCESS * excess(best.account, best.account)
     out: dict[tuple[str, ...], Hypothesis] = {}
     for h in state.tried:
         if len(h.terms) != len(best.terms) or set(h.names) == set(best.names):
