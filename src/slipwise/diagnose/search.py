@@ -15,17 +15,8 @@ from slipwise.diagnose.rescreen import rescreen
 from slipwise.diagnose.screen import screen, screen_shapes
 from slipwise.diagnose.settle import prune, settle
 from slipwise.diagnose.shapes import places
-from slipwise.diagnose.tried import (
-    Search,
-    as_alone,
-    as_base,
-    left_with,
-    longer_stick,
-    starts_of,
-    tried_before,
-    try_all,
-    try_one,
-)  # fmt: skip
+from slipwise.diagnose.starts import beginnings, longer_stick, starts_of
+from slipwise.diagnose.tried import Search, as_base, left_with, tried_before, try_all, try_one
 from slipwise.diagnose.worth import MATERIAL, MATERIAL_FURTHER, all_down, is_near, material, material_alone, score
 from slipwise.effects import Effect
 from slipwise.fit.base import BaseFit, at_rated
@@ -203,11 +194,11 @@ def _further(state: Search) -> bool:
     least = _worth_a_refit(before, MATERIAL_FURTHER)
     found = with_kept(as_base(state, before), rescreen(state.seen, before), least)
     chosen = various([s for s in found if s.gain > least], _REFITTED_PAIRS + 1)
-    screened, alone = starts_of(chosen, before.terms), as_alone(state, chosen, before.terms)
-    for asked in (screened + longer_stick(state, before), alone):
-        tried = try_all(state, asked, before, lambda h: is_near(origin.account, account, h.account))
+    tried = list[Hypothesis]()
+    for asked in beginnings(state, chosen, tried):
+        tried += try_all(state, asked, before, lambda h: is_near(origin.account, account, h.account))
         sound = [h for h in tried if strained(before) or not strained(h)]
-        good = [h for h in sound if material(origin.account, before.account, h.account)]
+        good = [h for h in sound if material(origin.account, account, h.account)]
         if good:
             state.path.append(max(good, key=lambda h: score(before.account, h.account)))
             return True

@@ -3,19 +3,14 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
-import numpy as np
-
 from slipwise.cores import on_every_core
-from slipwise.diagnose.refit import STICK_LENGTH, Account, Hypothesis, polished, refit
+from slipwise.diagnose.refit import Account, Hypothesis, polished, refit
 from slipwise.diagnose.screen import Screened
-from slipwise.diagnose.shapes import strengths, variants
 from slipwise.diagnose.worth import score
 from slipwise.fit.base import BaseFit
 from slipwise.fit.solve import Solution
 from slipwise.fit.terms import Term
 
-#: A longer stick is tried at this many times the longest of the base [1].
-_LONGER = 4.0
 #: Hypotheses of one kind that are fitted to the end.
 _POLISHED = 2
 
@@ -58,35 +53,6 @@ class Search:
     def best(self) -> Hypothesis:
         """The hypothesis at which the search ended."""
         return self.path[-1]
-
-
-def starts_of(chosen: Sequence[Screened], beside: Sequence[Term] = ()) -> list[tuple[list[Term], dict]]:
-    """Give what a refit needs of candidates: terms and starting values."""
-    return [([*beside, s.term], {s.term.label: values}) for s in chosen for values in variants(s.term.effect, s.values)]
-
-
-def as_alone(state: Search, chosen: Sequence[Screened], beside: Sequence[Term]) -> list[tuple[list[Term], dict]]:
-    """Give the same of those that were fitted alone, from where that ended: a screen's constants may lead astray."""
-    out = []
-    for term in (s.term for s in chosen):
-        alone = tried_before(state, [term])
-        if alone:
-            best = max(alone, key=lambda h: score(state.path[0].account, h.account))
-            out.append(([*beside, term], {term.label: best.values_of(term)}))
-    return out
-
-
-def longer_stick(state: Search, before: Hypothesis) -> list[tuple[list[Term], dict]]:
-    """Ask for a law of sticking where the base would stick over more than it may: no screen sees past its bound."""
-    most = next((f.high for f in before.solution.free if f.key == STICK_LENGTH), np.inf)
-    if before.solution.values.get(STICK_LENGTH, 0.0) < (1.0 - 1e-6) * most:
-        return []
-    out = []
-    for term in (t for t in state.terms if "stick" in t.effect.hooks):
-        lengths = [p.name for p in strengths(term.effect) if p.unit == "m"]
-        longer = {**term.effect.typical(), **dict.fromkeys(lengths, _LONGER * most)}
-        out.append(([*before.terms, term], {term.label: longer}))
-    return out
 
 
 def try_one(state: Search, terms: Sequence[Term], starts: dict, before: Hypothesis | None = None) -> Hypothesis:

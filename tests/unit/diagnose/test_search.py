@@ -10,7 +10,8 @@ from slipwise.diagnose.candidates import candidates
 from slipwise.diagnose.refit import STICK_LENGTH, base_hypothesis, polished, refit
 from slipwise.diagnose.screen import screen_shapes
 from slipwise.diagnose.shapes import places, shapes
-from slipwise.diagnose.tried import Search, longer_stick
+from slipwise.diagnose.starts import beginnings, longer_stick
+from slipwise.diagnose.tried import Search
 from slipwise.effects import catalogue
 from slipwise.fit.base import BaseFit, at_rated, fit_base
 from slipwise.fit.terms import Term
@@ -40,6 +41,17 @@ def test_a_longer_stick_is_asked_for_where_that_of_the_base_is_at_its_bound(base
         for those, starts in longer:
             assert [t.effect.name for t in those] == ["presliding"]
             assert starts["presliding"]["length"] == pytest.approx(4.0 * most)
+
+
+def test_a_law_whose_strength_ran_against_its_bound_is_begun_again_from_every_shape(base: BaseFit) -> None:
+    found, term = base_hypothesis(base), Term(catalogue()["buffer_softening"])
+    state = Search(base, [], {}, [found], terms=[term])
+    fit = refit(base, [term], {term.label: term.effect.typical()}, most=1)
+    for rise, begun in ((1.0, len(shapes(term.effect))), (0.2, 0)):
+        values = {**fit.solution.values, f"{term.label}.rise": rise}
+        *_, again = beginnings(state, [], [replace(fit, solution=replace(fit.solution, values=values))])
+        assert len(again) == begun
+        assert all(starts[term.label]["rise"] == 0.2 for _, starts in again)
 
 
 def test_a_patch_is_found_at_its_place_where_the_small_grid_takes_another() -> None:
