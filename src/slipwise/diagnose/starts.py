@@ -63,6 +63,9 @@ def _as_alone(state: Search, chosen: Sequence[Screened], beside: Sequence[Term])
 
 def _from_typical(strange: Sequence[Hypothesis]) -> list[Start]:
     """Ask for the last law of each again, from its typical strength and every shape, where its fit has gone astray."""
-    terms = {h.terms[-1].label: h.terms for h in strange}.values()
-    grid = [(of, {**of[-1].effect.typical(), **shape}) for of in terms for shape in shapes(of[-1].effect)]
-    return [([*of], {of[-1].label: values}) for of, values in grid]
+    asked = {h.terms[-1].label: h.terms for h in strange}
+    return [
+        ([*terms], {label: {**terms[-1].effect.typical(), **shape}})
+        for label, terms in asked.items()
+        for shape in shapes(terms[-1].effect)
+    ]

@@ -175,8 +175,9 @@ def at_rated(base: BaseFit) -> BaseFit:
     problem, free = base.problem, base.free
     values = {**base.solution.values, **{f.key: f.start for f in free}}
     residuals = problem.residuals(values)
+    left = residuals.stacked(problem.fitted, problem.relations)
     slopes = jacobian(problem, values, free, residuals)
-    return replace(base, solution=Solution(values, free, residuals, slopes, _cost(problem, values), len(free) + 1))
+    return replace(base, solution=Solution(values, free, residuals, slopes, float(left @ left), len(free) + 1))
 
 
 def _cost(problem: Problem, values: Mapping[str, float]) -> float:
