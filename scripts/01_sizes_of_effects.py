@@ -21,9 +21,10 @@ from numpy.typing import NDArray
 
 from slipwise.model import EffectUse, Model, base_model, use
 from slipwise.motion import load_motion
-from slipwise.predict import predictor
 from slipwise.record import Record, write_json
-from slipwise.replay import Replay, replay
+from slipwise.simulation.predict import predictor
+from slipwise.simulation.replay import replay
+from slipwise.simulation.simulator import Replay
 from slipwise.view.terminal import print_table
 
 MOTION = "quake:seed=12,peak=0.7g,f=4Hz,strong=4s,vertical=0.25g"

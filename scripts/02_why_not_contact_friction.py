@@ -14,10 +14,10 @@ import mujoco
 import numpy as np
 
 from slipwise.model import base_model
-from slipwise.predict import predictor
 from slipwise.record import write_json
-from slipwise.replay import simulate
 from slipwise.rig import build
+from slipwise.simulation.predict import predictor
+from slipwise.simulation.simulator import simulate
 from slipwise.view.canvas import new_figure, save_figure
 
 G = 9.80665

@@ -15,11 +15,11 @@ import numpy as np
 
 from slipwise.effects import load_effect
 from slipwise.errors import SettingError
-from slipwise.kernel import engine_for
 from slipwise.model import base_model, use
 from slipwise.model_file import add_effect, draft_model, load_model
-from slipwise.predict import predictor
-from slipwise.replay import simulate
+from slipwise.simulation.kernel import engine_for
+from slipwise.simulation.predict import predictor
+from slipwise.simulation.simulator import simulate
 from slipwise.view.canvas import save_figure
 from slipwise.view.effects import effect_picture, print_effect
 from slipwise.view.style import styled

@@ -17,11 +17,11 @@ import mujoco
 import numpy as np
 from mujoco.batch import Batch
 
-from slipwise.kernel import installed, kernel
 from slipwise.model import Model, base_model, use
 from slipwise.record import write_json
-from slipwise.replay.steps import numbers_for, run_python, start_state, without_springs
 from slipwise.rig import build
+from slipwise.simulation.kernel import installed, kernel
+from slipwise.simulation.steps import numbers_for, run_python, start_state, without_springs
 
 DT = 5e-4
 FIVE = ("breakaway", "run_in", "heating", "buffer_damping", "key_clearance")

@@ -14,7 +14,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 
 from bench import make_campaign  # noqa: E402  # pyright: ignore[reportMissingImports]
 from slipwise.campaign import load_campaign  # noqa: E402
-from slipwise.compare import as_json, check_instruments, compare, refine  # noqa: E402
+from slipwise.comparison.compare import compare  # noqa: E402
+from slipwise.comparison.refinement import refine  # noqa: E402
+from slipwise.comparison.tables import as_json  # noqa: E402
+from slipwise.instruments.checks import check_instruments  # noqa: E402
 from slipwise.record import write_json, write_text  # noqa: E402
 from slipwise.view.compare_answers import one_minute  # noqa: E402
 from slipwise.view.compare_page import compare_page  # noqa: E402

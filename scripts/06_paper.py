@@ -10,10 +10,10 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
-from slipwise.paper import PaperSettings, as_json, change, reenact
-from slipwise.paper.law import mu
-from slipwise.paper.settings import paper_model
 from slipwise.record import write_json
+from slipwise.studies.paper import PaperSettings, as_json, change, reenact
+from slipwise.studies.paper.law import mu
+from slipwise.studies.paper.settings import paper_model
 from slipwise.view.paper_page import write_page
 
 

@@ -30,7 +30,7 @@ def one(folder: Path, name: str, seed: int, effects: tuple[str, ...], size: str,
     sys.path.insert(0, str(TESTS))
     from bench import make_campaign  # pyright: ignore[reportMissingImports]
     from slipwise.campaign import load_campaign
-    from slipwise.diagnose import diagnose
+    from slipwise.diagnosis.diagnose import diagnose
 
     truth = make_campaign(folder / name, seed, effects=effects, size=size, rich=rich)
     began = time.perf_counter()
@@ -45,7 +45,7 @@ def one(folder: Path, name: str, seed: int, effects: tuple[str, ...], size: str,
 
 def _begin() -> None:
     """Be a worker that ends at once, without a word, at a Ctrl-C (Python would print a traceback of each)."""
-    from slipwise.cores import begin_worker
+    from slipwise.parallel import begin_worker
 
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     begin_worker()

@@ -19,19 +19,19 @@ from typing import Any
 import numpy as np
 
 from slipwise.campaign import Campaign, Logger, Run
-from slipwise.compare.intervals import Intervals, intervals
-from slipwise.diagnose.candidates import candidates
-from slipwise.diagnose.refit import account
-from slipwise.diagnose.screen import screen
-from slipwise.diagnose.shapes import strengths
+from slipwise.diagnosis.candidates import candidates
+from slipwise.diagnosis.hypothesis import account
+from slipwise.diagnosis.screening import screen
+from slipwise.diagnosis.starting_grid import strengths
 from slipwise.errors import SlipwiseError
-from slipwise.fit.base import BaseFit, fit_base, fit_finely
-from slipwise.fit.terms import Term
+from slipwise.estimation.base_fit import BaseFit, fit_base, fit_finely
+from slipwise.estimation.intervals import Intervals, intervals
+from slipwise.estimation.parameters import Term
 from slipwise.model import EffectUse, Model, base_model
 from slipwise.motion import load_motion
 from slipwise.record import Record, write_json
-from slipwise.replay import replay
 from slipwise.signals import LowPass, lowpass
+from slipwise.simulation.replay import replay
 
 NOISE = 0.01
 #: Without it reversals, which take a fraction of a millisecond, would alias.

@@ -17,8 +17,9 @@ from typing import Any
 
 import numpy as np
 
-from slipwise.audit import AuditReport, audit
 from slipwise.campaign import load_campaign
+from slipwise.instruments.audit import audit
+from slipwise.instruments.report import AuditReport
 from slipwise.record import write_json
 
 TESTS = Path(__file__).parents[1] / "tests"

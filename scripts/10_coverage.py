@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from slipwise.compare.intervals import intervals
-from slipwise.fit.base import fit_base
+from slipwise.estimation.base_fit import fit_base
+from slipwise.estimation.intervals import intervals
 from slipwise.record import write_json
 
 TESTS = Path(__file__).parents[1] / "tests"

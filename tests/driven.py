@@ -6,8 +6,8 @@ import numpy as np
 
 from slipwise.effects import BalanceStates, Effect
 from slipwise.model import EffectUse, Model, base_model
-from slipwise.predict import predictor
 from slipwise.record import Record
+from slipwise.simulation.predict import predictor
 
 #: A channel on which an instrument effect can be tried; those of load cells need a cell.
 TARGET = "pad_A_Fx"

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from slipwise.model import Model, base_model
-from slipwise.replay import Replay, simulate
+from slipwise.simulation.simulator import Replay, simulate
 
 G = 9.80665
 #: Eq. (8) at the rated pressure and high speed.

@@ -9,9 +9,9 @@ import pytest
 
 from driven import TARGET, answers, arrays, bridge, motion, record, with_effect
 from slipwise.effects import COMPONENTS, PORTS, Effect, catalogue, moved_channels
-from slipwise.kernel import kernel
 from slipwise.model import EffectUse
-from slipwise.predict import predictor
+from slipwise.simulation.kernel import kernel
+from slipwise.simulation.predict import predictor
 from slipwise.units import parse_unit
 
 EFFECTS = list(catalogue().values())

@@ -10,7 +10,7 @@ from shaking import shaken
 from slipwise.effects import Effect, catalogue, moved_channels
 from slipwise.model import base_model, use
 from slipwise.record import Record
-from slipwise.replay import Replay
+from slipwise.simulation.simulator import Replay
 
 EFFECTS = [e for e in catalogue().values() if not e.replaces]
 every_effect = pytest.mark.parametrize("effect", EFFECTS, ids=lambda e: e.name)

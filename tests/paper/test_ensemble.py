@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 
 from slipwise.errors import InputError
-from slipwise.paper import Member, PaperSettings, run_ensemble, run_member
-from slipwise.paper.member import _CLOSE
+from slipwise.studies.paper import Member, PaperSettings, run_ensemble, run_member
+from slipwise.studies.paper.member import _CLOSE
 
 SETTINGS = PaperSettings()
 #: Short earthquakes: 1.7 s each.
@@ -88,7 +88,7 @@ def test_a_killed_ensemble_goes_on_with_nothing_lost_and_nothing_run_twice(tmp_p
     members = [replace(MEMBERS[1], seed=seed) for seed in range(1, 25)]
     code = (
         "from pathlib import Path; from dataclasses import replace\n"
-        "from slipwise.paper import Member, PaperSettings, run_ensemble\n"
+        "from slipwise.studies.paper import Member, PaperSettings, run_ensemble\n"
         f"base = Member('bridge1', 1, 7.0, 5.0, 1.0, 2.8, PaperSettings())\n"
         f"run_ensemble([replace(base, seed=s) for s in range(1, 25)], Path({str(tmp_path)!r}), workers=2)\n"
     )

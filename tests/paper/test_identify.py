@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from slipwise.model import base_model
-from slipwise.paper import PaperSettings, paper_model
-from slipwise.paper.identify import PadData, friction_law, identify, with_noise
-from slipwise.paper.law import mu
-from slipwise.paper.sine_tests import SWINGS, noise_of, pad_data, sine_model, sine_test, truth, worth_of_swing
+from slipwise.studies.paper import PaperSettings, paper_model
+from slipwise.studies.paper.identify import PadData, friction_law, identify, with_noise
+from slipwise.studies.paper.law import mu
+from slipwise.studies.paper.sine_tests import SWINGS, noise_of, pad_data, sine_model, sine_test, truth, worth_of_swing
 
 MODEL = base_model("bridge1")
 AREA, TRUE = MODEL.specimen.pad_area, truth(MODEL)

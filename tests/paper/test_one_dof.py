@@ -8,8 +8,8 @@ import pytest
 from shaking import coulomb
 from slipwise.model import base_model, use
 from slipwise.motion import TableMotion, load_motion
-from slipwise.paper.one_dof import one_dof
-from slipwise.replay import replay
+from slipwise.simulation.replay import replay
+from slipwise.studies.paper.one_dof import one_dof
 
 G = 9.80665
 

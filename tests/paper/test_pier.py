@@ -9,11 +9,11 @@ import pytest
 from slipwise.errors import InputError, SettingError, SlipwiseWarning
 from slipwise.model import base_model
 from slipwise.motion import TableMotion, load_motion
-from slipwise.paper import PaperSettings
-from slipwise.paper.one_dof import one_dof
-from slipwise.paper.table_input import two_ways
-from slipwise.pier import BridgeSettings, Pier, bridge_response, pier_top
 from slipwise.rig import LENGTH_SCALE
+from slipwise.simulation.pier import BridgeSettings, Pier, bridge_response, pier_top
+from slipwise.studies.paper import PaperSettings
+from slipwise.studies.paper.one_dof import one_dof
+from slipwise.studies.paper.table_input import two_ways
 
 GROUND = load_motion("quake:seed=2,peak=0.45g,f=1.2Hz,strong=6s,vertical=0.2g,2.4Hz")
 #: So heavy that no friction moves it, and so stiff that it follows the ground.

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from slipwise.errors import SettingError, UnitError, UnknownNameError
-from slipwise.paper import VERDICTS, PaperSettings, Reenactment, as_json, assumptions, change, plan, run_member
-from slipwise.paper.finding import FAILS, HOLDS, LIMITS, UNCHECKED, Finding
-from slipwise.paper.plan import LATER, MAP_SCALES, MAP_SLENDERNESS, Plan, drawn, middle
-from slipwise.paper.reenact import _studies
-from slipwise.paper.settings import SETTINGS, paper_model
+from slipwise.studies.paper import VERDICTS, PaperSettings, Reenactment, as_json, assumptions, change, plan, run_member
+from slipwise.studies.paper.finding import FAILS, HOLDS, LIMITS, UNCHECKED, Finding
+from slipwise.studies.paper.plan import LATER, MAP_SCALES, MAP_SLENDERNESS, Plan, drawn, middle
+from slipwise.studies.paper.reenact import _studies
+from slipwise.studies.paper.settings import SETTINGS, paper_model
 
 CHOSEN = PaperSettings(
     members=2, strong_low=1.4, strong_high=1.4, ground="quake:seed=1,peak=0.4g,f=1.2Hz,strong=4s,vertical=0.16g,2.4Hz"

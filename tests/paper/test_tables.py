@@ -5,10 +5,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from slipwise.paper import PaperSettings, change, paper_model
-from slipwise.paper.hysteresis import steady_loops
-from slipwise.paper.law import FAST, edge_slope, leftover, mu, per_load, vertical_loss
-from slipwise.paper.scaling import bridge_row, masses_that_round_to, unscaled
+from slipwise.studies.paper import PaperSettings, change, paper_model
+from slipwise.studies.paper.hysteresis import steady_loops
+from slipwise.studies.paper.law import FAST, edge_slope, leftover, mu, per_load, vertical_loss
+from slipwise.studies.paper.scaling import bridge_row, masses_that_round_to, unscaled
 
 G = 9.80665
 SETTINGS = PaperSettings()

@@ -5,7 +5,7 @@ import pytest
 
 from shaking import G
 from slipwise.model import base_model, use
-from slipwise.predict import predictor
+from slipwise.simulation.predict import predictor
 
 AREA = np.pi * 0.0215**2
 

@@ -44,7 +44,7 @@ def test_the_edges_of_the_trapezoid_slope_as_rocking_says(rig, frequency, amplit
 
 @pytest.mark.parametrize(("swing", "deficit"), [(0.2, 0.0077), (0.6, 0.075)])
 def test_the_sum_of_the_loops_lacks_what_the_concave_law_says(swing, deficit):
-    from slipwise.predict import predictor
+    from slipwise.simulation.predict import predictor
 
     model = base_model("bridge1")
     load0 = model.specimen.weight / 4

@@ -9,7 +9,7 @@ from bench import simulate as second
 from bench.motions import draw_quake
 from bench.settings import rated
 from slipwise.model import base_model
-from slipwise.replay import simulate
+from slipwise.simulation.simulator import simulate
 
 DT = 5e-4
 

@@ -7,9 +7,9 @@ import pytest
 
 from shaking import FAST, G, coulomb, shaken, sine
 from slipwise.model import base_model
-from slipwise.replay import simulate
 from slipwise.rig import load_specimen
 from slipwise.rig.statics import at_rest
+from slipwise.simulation.simulator import simulate
 
 MASS = 1e4
 

@@ -7,7 +7,7 @@ import pytest
 
 from shaking import G, half_range, shaken, sine
 from slipwise.model import base_model
-from slipwise.replay import simulate
+from slipwise.simulation.simulator import simulate
 
 
 def test_a_mirrored_motion_gives_the_mirrored_answer():

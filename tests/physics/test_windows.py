@@ -5,8 +5,8 @@ import pytest
 
 from shaking import G, sine
 from slipwise.model import base_model, use
-from slipwise.replay import simulate
-from slipwise.replay.windows import Windows, simulate_windows
+from slipwise.simulation.simulator import simulate
+from slipwise.simulation.windows import Windows, simulate_windows
 
 DT = 5e-4
 

@@ -7,9 +7,9 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.campaign import Campaign, Logger
-from slipwise.diagnose import diagnose
+from slipwise.diagnosis.diagnose import diagnose
 from slipwise.errors import InputError
-from slipwise.fit.base import fit_base
+from slipwise.estimation.base_fit import fit_base
 from slipwise.record import Record
 
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from bench import make_campaign
-from slipwise.diagnose import diagnose
-from slipwise.ladder import ladder
+from slipwise.diagnosis.diagnose import diagnose
+from slipwise.diagnosis.ladder import ladder
 
 
 def test_a_complete_model_is_not_accused(tmp_path: Path) -> None:

@@ -8,12 +8,12 @@ from typing import Any, cast
 
 import pytest
 
-from slipwise.diagnose import diagnose
+from slipwise.diagnosis.diagnose import diagnose
+from slipwise.diagnosis.ladder import ladder_of
 from slipwise.errors import SimulationError
-from slipwise.ladder import ladder_of
-from slipwise.next_motions import Limits
-from slipwise.next_test import next_test, rivals
-from slipwise.replay import SimulationDiverged
+from slipwise.experiment.motions import Limits
+from slipwise.experiment.next_test import next_test, rivals
+from slipwise.simulation.simulator import SimulationDiverged
 from slipwise.view.diagnosis_page import diagnosis_page
 
 
@@ -59,7 +59,7 @@ def test_a_simulation_that_fails_is_no_motion_that_tells_nothing(found, monkeypa
             "the simulation was stopped at 1 s: the slip grew beyond 5 m. Try less", cast(Any, None)
         )
 
-    monkeypatch.setattr("slipwise.next_test.replay", diverged)
+    monkeypatch.setattr("slipwise.experiment.next_test.replay", diverged)
     with pytest.raises(SimulationError, match="stopped at 1 s: the slip grew beyond 5 m"):
         next_test(found)
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from bench import build_campaign
 from measured import as_campaign
-from slipwise.diagnose import diagnose
+from slipwise.diagnosis.diagnose import diagnose
 from slipwise.model import Model
 
 

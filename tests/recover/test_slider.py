@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from slipwise.campaign import load_campaign
-from slipwise.diagnose import diagnose
+from slipwise.diagnosis.diagnose import diagnose
 from slipwise.effects.presliding import RATED
 from unit.campaign.slider import HEADER, RUNS, text
 

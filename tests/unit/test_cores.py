@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from slipwise import cores
-from slipwise.cores import on_every_core
+from slipwise import parallel as cores
 from slipwise.errors import InputError, SlipwiseError
 from slipwise.model import base_model
-from slipwise.predict import predictor
+from slipwise.parallel import on_every_core
+from slipwise.simulation.predict import predictor
 
 FORKED = multiprocessing.get_context("fork")
 #: Nobody waits so long unless something is wrong [s].
@@ -142,7 +142,7 @@ def test_a_child_keeps_to_one_thread_of_linear_algebra(monkeypatch: pytest.Monke
 def test_a_worker_that_has_loaded_nothing_yet_keeps_to_one_thread_too() -> None:
     """A limit reaches only libraries that are there: workers that were limited first took two threads each later."""
     asked = (
-        "from slipwise.cores import begin_worker; begin_worker(); import slipwise.diagnose, threadpoolctl;"
+        "from slipwise.parallel import begin_worker; begin_worker(); import slipwise.diagnosis.diagnose, threadpoolctl;"
         "print({library['num_threads'] for library in threadpoolctl.threadpool_info()})"
     )
     assert subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, check=True).stdout == "{1}\n"

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from slipwise.errors import InputError
-from slipwise.loads import load_factors, load_modes, pad_loads, rest_shares, rigid_modes
 from slipwise.record import Record
+from slipwise.rig.load_modes import load_factors, load_modes, pad_loads, rest_shares, rigid_modes
 
 MASS, GRAVITY, HEIGHT, HALF = 10e3, 9.80665, 0.366, (1.5, 2.5)
 SIGN_X, SIGN_Y = np.array([1, -1, 1, -1]), np.array([1, 1, -1, -1])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from slipwise.errors import InputError, SettingError
-from slipwise.loops import branches, energy, loop_shape
+from slipwise.signals.hysteresis_loop import branches, energy, loop_shape
 
 HALF, LEVEL, SLOPE = 0.02, 2500.0, 15000.0
 

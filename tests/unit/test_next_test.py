@@ -6,18 +6,18 @@ from typing import Any, cast
 
 import pytest
 
-from slipwise import next_test as module
 from slipwise.cli import main
-from slipwise.diagnose.refit import Account, Hypothesis
-from slipwise.diagnose.replays import simulation_step
-from slipwise.diagnose.tried import Search
-from slipwise.diagnose.verdict import Verdict
+from slipwise.diagnosis.hypothesis import Account, Hypothesis
+from slipwise.diagnosis.replays import simulation_step
+from slipwise.diagnosis.search_state import Search
+from slipwise.diagnosis.verdict import Verdict
 from slipwise.effects import catalogue
 from slipwise.errors import SettingError, SimulationError, SlipwiseError
-from slipwise.fit.terms import Term
+from slipwise.estimation.parameters import Term
+from slipwise.experiment import next_test as module
+from slipwise.experiment.motions import LIBRARY, Limits
+from slipwise.experiment.next_test import next_test, rivals
 from slipwise.motion import displacement_peak, parse_motion, velocity_peak
-from slipwise.next_motions import LIBRARY, Limits
-from slipwise.next_test import next_test, rivals
 
 COUNT = 10_000
 SMALL = Limits(stroke=0.02, speed=0.2, acceleration=2.0)

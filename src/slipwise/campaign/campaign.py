@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
-from slipwise.campaign.rests import Gauge, noise_of_gauges
+from slipwise.campaign.rest_noise import Gauge, noise_of_gauges
 from slipwise.errors import SettingError
 from slipwise.record import Record
 from slipwise.rig import Specimen

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from slipwise.campaign.campaign import Campaign, Run
 from slipwise.campaign.derived import evaluate
+from slipwise.campaign.held_out_check import check_untouched
 from slipwise.campaign.same_specimen import check_same_specimen
 from slipwise.campaign.settings import ColumnMap, RunSettings, Settings, read_settings
 from slipwise.campaign.table import Table, open_table
-from slipwise.campaign.untouched import check_untouched
 from slipwise.channels import CHANNELS, channel
 from slipwise.errors import InputError, UnitError
 from slipwise.record import Record

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from slipwise.campaign.campaign import Campaign, Run
 from slipwise.errors import InputError
-from slipwise.loads import load_modes
 from slipwise.record import Record
+from slipwise.rig.load_modes import load_modes
 from slipwise.signals import LowPass, lowpass
 
 #: Largest difference of weight between runs of one specimen: gauges drift, seating changes [1].

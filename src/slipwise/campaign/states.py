@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 from slipwise.campaign.aligned import aligned_run
 from slipwise.campaign.campaign import Campaign, Run
 from slipwise.campaign.phases import is_at_rest, is_inside, is_lifted, is_slow, is_stuck
-from slipwise.campaign.rests import Gauge, noise_of_slip
+from slipwise.campaign.rest_noise import Gauge, noise_of_slip
 from slipwise.channels import PADS
 from slipwise.errors import InputError
-from slipwise.loads import load_modes, vertical_acceleration
 from slipwise.record import Record
 from slipwise.rig import Specimen
+from slipwise.rig.load_modes import load_modes, vertical_acceleration
 from slipwise.signals import Fused, LowPass, derivative, fuse
 
 Array = NDArray[np.float64]

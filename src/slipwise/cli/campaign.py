@@ -36,7 +36,7 @@ def audit(campaign: CampaignFolder, correct: Correct = None, json: Json = False)
 
     Example: `slipwise audit campaigns/march`
     """
-    from slipwise.compare import check_instruments, corrected_campaign
+    from slipwise.instruments.checks import check_instruments, corrected_campaign
     from slipwise.view.terminal import print_table
 
     measured = load_campaign(campaign)
@@ -80,8 +80,9 @@ def compare(
 
     Example: `slipwise compare campaigns/march --out out/march`
     """
-    from slipwise.compare import as_json, check_instruments, corrected_campaign
-    from slipwise.compare import compare as run_comparison
+    from slipwise.comparison.compare import compare as run_comparison
+    from slipwise.comparison.tables import as_json
+    from slipwise.instruments.checks import check_instruments, corrected_campaign
     from slipwise.view.compare_page import compare_page
 
     measured = load_campaign(campaign)

@@ -13,7 +13,7 @@ from slipwise.cli.diagnose import print_rungs, steps
 from slipwise.record import write_json, write_text
 
 if TYPE_CHECKING:
-    from slipwise.diagnose import Diagnosis
+    from slipwise.diagnosis.result import Diagnosis
 
 #: Worst places of the error that are told.
 _TOLD = 3
@@ -29,10 +29,10 @@ def demo(
     Example: `slipwise demo`
     """
     from slipwise.campaign import load_campaign
-    from slipwise.compare import compare
-    from slipwise.diagnose import diagnose
-    from slipwise.diagnose.replays import replays
-    from slipwise.ladder import ladder_of
+    from slipwise.comparison.compare import compare
+    from slipwise.diagnosis.diagnose import diagnose
+    from slipwise.diagnosis.ladder import ladder_of
+    from slipwise.diagnosis.replays import replays
     from slipwise.model_file import save_model
     from slipwise.view.comparison import write_comparison
     from slipwise.view.diagnosis_page import diagnosis_page
@@ -113,8 +113,8 @@ def _say(title: str, words: str) -> None:
 
 def _left(found: "Diagnosis") -> str:
     """Say what is left above the noise when the named effects are in the model."""
-    from slipwise.compare.component import NAMES
-    from slipwise.ladder import DOWN
+    from slipwise.comparison.component_level import NAMES
+    from slipwise.diagnosis.ladder import DOWN
 
     over = [f"{NAMES[name][0]} {after:.2f}" for name, (_, after) in found.relations.items() if after >= DOWN]
     if over:

@@ -68,7 +68,7 @@ def diagnose(
 
     Example: `slipwise diagnose campaigns/march --out out/march`
     """
-    from slipwise.diagnose import diagnose as run_diagnosis
+    from slipwise.diagnosis.diagnose import diagnose as run_diagnosis
 
     measured = load_campaign(campaign)
     folder = out_folder(out)
@@ -88,7 +88,7 @@ def diagnose(
 
 def _write(found, folder: Path, recording: bool) -> list[Path]:  # noqa: ANN001 - a Diagnosis; imported where it is used
     """Write the diagnosis, its page and, if asked for, its recording."""
-    from slipwise.ladder import ladder_of
+    from slipwise.diagnosis.ladder import ladder_of
     from slipwise.view.diagnosis_page import diagnosis_page
 
     write_json(folder / "diagnosis.json", found.as_json())
@@ -98,7 +98,7 @@ def _write(found, folder: Path, recording: bool) -> list[Path]:  # noqa: ANN001 
 
 def _tell(found) -> None:  # noqa: ANN001 - a Diagnosis; imported where it is used
     """Print the verdict, its rivals and what it rests on."""
-    from slipwise.diagnose.explanations import partings
+    from slipwise.diagnosis.rivals import partings
     from slipwise.view.terminal import print_table
 
     OUT.print(found.sentence, markup=False, highlight=False)
@@ -119,7 +119,7 @@ def _tell(found) -> None:  # noqa: ANN001 - a Diagnosis; imported where it is us
 
 
 def _record(found, folder: Path) -> list[Path]:  # noqa: ANN001 - a Diagnosis; imported where it is used
-    from slipwise.diagnose.replays import replays
+    from slipwise.diagnosis.replays import replays
     from slipwise.view.comparison import write_comparison
     from slipwise.view.geometry import geometry_of
 
@@ -145,7 +145,7 @@ def ladder(
 
     Example: `slipwise ladder campaigns/march --out out/march`
     """
-    from slipwise.ladder import ladder as climb
+    from slipwise.diagnosis.ladder import ladder as climb
     from slipwise.view.canvas import save_figure
     from slipwise.view.diagnosis_figures import ladder_figure
     from slipwise.view.style import styled

@@ -8,7 +8,7 @@ import typer
 from slipwise.campaign import load_campaign
 from slipwise.cli.console import OUT
 from slipwise.cli.diagnose import start_model, steps
-from slipwise.fit.base import BaseFit, fit_finely
+from slipwise.estimation.base_fit import BaseFit, fit_finely
 from slipwise.model import Model, base_model
 from slipwise.model_file import save_model
 from slipwise.view.terminal import print_table
@@ -24,7 +24,7 @@ def add(
 
     Example: `slipwise add run_in --campaign campaigns/march`
     """
-    from slipwise.ladder import ladder
+    from slipwise.diagnosis.ladder import ladder
 
     measured = load_campaign(campaign)
     with steps() as tell:
@@ -41,8 +41,8 @@ def remove(
 
     Example: `slipwise remove run_in --campaign campaigns/march`
     """
-    from slipwise.diagnose.refit import base_hypothesis
-    from slipwise.diagnose.run import error_of
+    from slipwise.diagnosis.diagnose import error_of
+    from slipwise.diagnosis.hypothesis import base_hypothesis
 
     measured = load_campaign(campaign)
     before = start_model(campaign, None) or base_model(measured.specimen)

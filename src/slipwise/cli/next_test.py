@@ -12,7 +12,7 @@ from slipwise.record import write_json
 from slipwise.units import quantity
 
 if TYPE_CHECKING:
-    from slipwise.next_test import NextTest
+    from slipwise.experiment.next_test import NextTest
 
 
 def next_motion(
@@ -32,9 +32,9 @@ def next_motion(
 
     Example: `slipwise next campaigns/march --stroke "150 mm"`
     """
-    from slipwise.diagnose import diagnose
-    from slipwise.next_motions import Limits
-    from slipwise.next_test import next_test, refuse_prescribed
+    from slipwise.diagnosis.diagnose import diagnose
+    from slipwise.experiment.motions import Limits
+    from slipwise.experiment.next_test import next_test, refuse_prescribed
 
     limits = Limits(
         quantity(stroke, "m", "--stroke"),

@@ -12,8 +12,8 @@ import typer
 from slipwise.cli.console import OUT, out_folder, print_json, progress
 from slipwise.errors import InputError
 from slipwise.motion import load_motion
-from slipwise.paper import PaperSettings, as_json, change, reenact
 from slipwise.record import write_json
+from slipwise.studies.paper import PaperSettings, as_json, change, reenact
 
 #: Motions of the ensemble in quick mode.
 _QUICK = 8

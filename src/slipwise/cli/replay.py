@@ -10,11 +10,12 @@ from slipwise.cli.console import OUT, out_folder, print_json, progress
 from slipwise.errors import SettingError
 from slipwise.model import Model, base_model, use
 from slipwise.motion import TableMotion, load_motion, scale, scale_time, scale_to_peak, trim, warn_beyond_stroke
-from slipwise.pier import pier_top
 from slipwise.record import write_json, write_record
-from slipwise.replay import DT, OUTPUT_DT, Replay, SimulationDiverged, summary
-from slipwise.replay import replay as run_replay
 from slipwise.rig import LENGTH_SCALE
+from slipwise.simulation.pier import pier_top
+from slipwise.simulation.replay import replay as run_replay
+from slipwise.simulation.simulator import DT, OUTPUT_DT, Replay, SimulationDiverged
+from slipwise.simulation.summary import summary
 from slipwise.units import quantity
 
 

@@ -1,8 +1,8 @@
 """A comparison in words: what everybody asks first, and the answers in a sentence each."""
 
-from slipwise.compare import Comparison
-from slipwise.compare.cells import ALLOWANCE
-from slipwise.compare.component import NAMES
+from slipwise.comparison.cells import ALLOWANCE
+from slipwise.comparison.component_level import NAMES
+from slipwise.comparison.result import Comparison
 from slipwise.view.html import Tone
 
 

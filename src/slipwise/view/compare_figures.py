@@ -7,10 +7,10 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from slipwise.channels import channel
-from slipwise.compare import Comparison
-from slipwise.compare.cells import ALLOWANCE
-from slipwise.compare.component import NAMES
-from slipwise.fit.data import FitRun
+from slipwise.comparison.cells import ALLOWANCE
+from slipwise.comparison.component_level import NAMES
+from slipwise.comparison.result import Comparison
+from slipwise.estimation.run_data import FitRun
 from slipwise.units import parse_unit
 from slipwise.view.canvas import new_figure
 from slipwise.view.style import INK, MUTED, PAD_COLOURS, PAD_PANELS, PAD_PLACES, UPLIFT, envelope, shown_unit, styled
@@ -32,7 +32,7 @@ def errors_figure(found: Comparison) -> Figure:
     ]
     split = len(rows)
     if found.system:
-        from slipwise.compare.system_level import pooled_system
+        from slipwise.comparison.system_level import pooled_system
 
         for name, label in (
             ("slip_x", "slip"),

@@ -2,10 +2,10 @@
 
 from typing import Any
 
-from slipwise.compare import Comparison
-from slipwise.compare.cells import ALLOWANCE, Cell
-from slipwise.compare.component import NAMES
-from slipwise.compare.words import UNITS
+from slipwise.comparison.cells import ALLOWANCE, Cell
+from slipwise.comparison.component_level import NAMES
+from slipwise.comparison.result import Comparison
+from slipwise.comparison.sentences import UNITS
 from slipwise.view import compare_figures as figures
 from slipwise.view import error_maps
 from slipwise.view.compare_answers import capital, headline, one_minute, place_words, roles, size, tones

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from slipwise.compare import Comparison
-from slipwise.fit.data import FitRun
+from slipwise.comparison.result import Comparison
+from slipwise.estimation.run_data import FitRun
 from slipwise.record import Record
 from slipwise.view.compare_figures import shown_run
 from slipwise.view.comparison import write_comparison

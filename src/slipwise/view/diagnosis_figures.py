@@ -7,9 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from slipwise.diagnose import Diagnosis, Surface
-from slipwise.diagnose.leftover import WORDS
-from slipwise.ladder import Ladder, Rung
+from slipwise.diagnosis.ladder import Ladder, Rung
+from slipwise.diagnosis.result import Diagnosis
+from slipwise.diagnosis.unknown_surface import WORDS, Surface
 from slipwise.view.canvas import new_figure
 from slipwise.view.style import EXPECTED, INK, MODEL_COLOURS, MUTED
 

@@ -2,10 +2,10 @@
 
 from math import isfinite
 
-from slipwise.compare.intervals import Interval
-from slipwise.diagnose import Diagnosis
-from slipwise.diagnose.explanations import explanations, known_effects, partings
-from slipwise.ladder import Ladder
+from slipwise.diagnosis.ladder import Ladder
+from slipwise.diagnosis.result import Diagnosis
+from slipwise.diagnosis.rivals import explanations, known_effects, partings
+from slipwise.estimation.intervals import Interval
 from slipwise.params import Parameter
 from slipwise.units import convert
 from slipwise.view.diagnosis_figures import (

@@ -6,9 +6,9 @@ from typing import Any
 from matplotlib.figure import Figure
 from rich.console import Console
 
-from slipwise.demonstration import demonstrate
 from slipwise.effects import COMPONENTS, Effect, catalogue
 from slipwise.params import Parameter
+from slipwise.studies.demonstration import demonstrate
 from slipwise.units import parse_unit
 from slipwise.view.canvas import new_figure
 from slipwise.view.style import EXPECTED, MODEL_COLOURS

@@ -6,11 +6,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from slipwise.compare import Comparison
-from slipwise.compare.component import NAMES
-from slipwise.compare.motion_states import STATES
-from slipwise.compare.patterns import Pattern
-from slipwise.compare.words import UNITS
+from slipwise.comparison.component_level import NAMES
+from slipwise.comparison.motion_states import STATES
+from slipwise.comparison.patterns import Pattern
+from slipwise.comparison.result import Comparison
+from slipwise.comparison.sentences import UNITS
 from slipwise.view.canvas import new_figure
 from slipwise.view.style import INK, MUTED, styled
 

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from slipwise.compare import Comparison
+from slipwise.comparison.result import Comparison
 from slipwise.units import parse_unit
 from slipwise.view.error_maps import surface_figure
 from slipwise.view.html import figure, paragraph, table

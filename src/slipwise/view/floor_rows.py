@@ -1,7 +1,7 @@
 """The noise floor of every channel as people read it: in the channel's usual unit, with its basis or the reason."""
 
 from slipwise.channels import channel
-from slipwise.floor import STATES, Floor
+from slipwise.evidence.floor import STATES, Floor
 from slipwise.units import parse_unit
 
 

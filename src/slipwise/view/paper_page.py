@@ -7,10 +7,10 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from slipwise.paper.finding import FAILS, HOLDS, LIMITS, UNCHECKED, Finding, Study
-from slipwise.paper.reenact import Reenactment, assumptions
-from slipwise.paper.settings import SETTINGS
 from slipwise.record import write_text
+from slipwise.studies.paper.finding import FAILS, HOLDS, LIMITS, UNCHECKED, Finding, Study
+from slipwise.studies.paper.reenact import Reenactment, assumptions
+from slipwise.studies.paper.settings import SETTINGS
 from slipwise.units import convert
 from slipwise.view.html import Html, Piece, Section, Tone, callout, details, figure, page, paragraph, table, verdict
 from slipwise.view.paper_law_pictures import claims_figure, identification_figure, law_figure, map_figure

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from slipwise.channels import BUFFERS, PADS
 from slipwise.errors import InputError
-from slipwise.loads import LoadModes, load_factors, load_modes, rest_shares, rigid_modes
-from slipwise.loops import branches, loop_shape
 from slipwise.record import Record
+from slipwise.rig.load_modes import LoadModes, load_factors, load_modes, rest_shares, rigid_modes
+from slipwise.signals.hysteresis_loop import branches, loop_shape
 from slipwise.view.canvas import new_figure, save_figure
 from slipwise.view.geometry import RigGeometry
 from slipwise.view.style import (

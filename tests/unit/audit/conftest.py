@@ -4,8 +4,9 @@ import pytest
 
 from bench import Fault, build_campaign, with_faults
 from measured import as_campaign
-from slipwise.audit import AuditReport, audit
 from slipwise.campaign import Campaign
+from slipwise.instruments.audit import audit
+from slipwise.instruments.report import AuditReport
 
 
 @pytest.fixture(scope="package")

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from bench import GROUPS, Fault
-from slipwise.audit import audit, correct
 from slipwise.errors import InputError, UnknownNameError
+from slipwise.instruments.audit import audit
+from slipwise.instruments.corrections import correct
 
 
 def test_an_audit_changes_no_data(late_slip):

@@ -14,7 +14,7 @@ def test_a_recording_that_cannot_be_made_is_told_beside_the_output_that_a_progra
     def refuse(found):
         raise InputError("the table was not measured")
 
-    monkeypatch.setattr("slipwise.diagnose.replays.replays", refuse)
+    monkeypatch.setattr("slipwise.diagnosis.replays.replays", refuse)
     assert _record(SimpleNamespace(), tmp_path) == []
     said = capsys.readouterr()
     assert said.out == "" and "no recording: the table was not measured" in said.err
@@ -30,8 +30,8 @@ def test_who_listens_to_the_first_lines_only_finds_all_files(monkeypatch, tmp_pa
     monkeypatch.setattr(
         "slipwise.cli.diagnose.load_campaign", lambda _: SimpleNamespace(specimen=SimpleNamespace(free=True))
     )
-    monkeypatch.setattr("slipwise.diagnose.diagnose", lambda *_, **__: found)
-    monkeypatch.setattr("slipwise.ladder.ladder_of", lambda *_: None)
+    monkeypatch.setattr("slipwise.diagnosis.diagnose.diagnose", lambda *_, **__: found)
+    monkeypatch.setattr("slipwise.diagnosis.ladder.ladder_of", lambda *_: None)
     monkeypatch.setattr("slipwise.view.diagnosis_page.diagnosis_page", lambda *_: "the page")
     monkeypatch.setattr("slipwise.cli.diagnose._record", lambda _, folder: [folder / "before_and_after.rrd"])
     monkeypatch.setattr("slipwise.cli.diagnose._tell", left)

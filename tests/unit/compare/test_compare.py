@@ -8,7 +8,8 @@ import pytest
 
 from bench import build_campaign, make_campaign
 from bench.write import write_campaign
-from slipwise.compare import as_json, compare
+from slipwise.comparison.compare import compare
+from slipwise.comparison.tables import as_json
 from slipwise.errors import InputError, UnknownNameError
 
 

@@ -6,7 +6,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from slipwise.compare.foretold import foretold
+from slipwise.estimation.prediction_interval import foretold
 
 
 def _fit(ratios: list[float], held: float) -> Any:

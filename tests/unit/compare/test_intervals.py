@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from slipwise.compare.intervals import of_fit
-from slipwise.fit.terms import Free
+from slipwise.estimation.intervals import of_fit
+from slipwise.estimation.parameters import Free
 
 ROWS, RUNS = 4000, 200
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from slipwise.compare.cells import Samples, cells_of, corrected
-from slipwise.compare.motion_states import STATES
-from slipwise.compare.parity import parity
-from slipwise.compare.patterns import patterns_of
-from slipwise.compare.words import places
+from slipwise.comparison.cells import Samples, cells_of, corrected
+from slipwise.comparison.motion_states import STATES
+from slipwise.comparison.parity import parity
+from slipwise.comparison.patterns import patterns_of
+from slipwise.comparison.sentences import places
 
 COUNT = 24000
 

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from slipwise.compare.motion_states import STATES, motion_states
+from slipwise.comparison.motion_states import STATES, motion_states
 
 AMPLITUDE, FREQUENCY, DT = 0.02, 1.0, 0.002
 

@@ -6,12 +6,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from slipwise.compare.intervals import intervals
 from slipwise.effects import find_effect
-from slipwise.fit.base import BaseFit
-from slipwise.fit.residuals import Residuals
-from slipwise.fit.solve import jacobian, solve
-from slipwise.fit.terms import Free, Term
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.intervals import intervals
+from slipwise.estimation.least_squares import jacobian, solve
+from slipwise.estimation.parameters import Free, Term
+from slipwise.estimation.residuals import Residuals
 
 DT, COUNT, SIGMA = 0.01, 4000, 1.0
 LEVEL = Free("rig.mass", 0.0, -9.0, 9.0, 0.1, "kg")

@@ -7,15 +7,16 @@ import numpy as np
 import pytest
 
 from slipwise.campaign import Campaign, Logger, Run
-from slipwise.compare import refine
+from slipwise.comparison.refinement import refine
 from slipwise.errors import InputError, SettingError, UnknownNameError
-from slipwise.fit.base import BaseFit, fit_base
+from slipwise.estimation.base_fit import BaseFit, fit_base
 from slipwise.model import base_model, use
 from slipwise.motion import load_motion
 from slipwise.record import Record
-from slipwise.replay import DT, replay
 from slipwise.rig import load_specimen
 from slipwise.signals import LowPass, lowpass
+from slipwise.simulation.replay import replay
+from slipwise.simulation.simulator import DT
 
 LOGGER = LowPass(100.0)
 CHANNELS = (

@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from slipwise.campaign import load_campaign
-from slipwise.diagnose.candidates import candidates
-from slipwise.fit.base import fit_base
+from slipwise.diagnosis.candidates import candidates
+from slipwise.estimation.base_fit import fit_base
 from unit.campaign.slider import write_at_loads
 
 OF_LOAD = {"pressure_law", "slide_tilt", "slide_curvature"}

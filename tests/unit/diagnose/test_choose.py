@@ -4,10 +4,10 @@ from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any, cast
 
-from slipwise.diagnose.choose import best_of
-from slipwise.diagnose.refit import Account, Hypothesis
+from slipwise.diagnosis.choice import best_of
+from slipwise.diagnosis.hypothesis import Account, Hypothesis
 from slipwise.effects import catalogue
-from slipwise.fit.terms import Term
+from slipwise.estimation.parameters import Term
 
 COUNT, RATED = 10_000, 10_000.0
 

@@ -5,9 +5,9 @@ from typing import Any, cast
 
 import pytest
 
-from slipwise.diagnose.explanations import explanations, partings
-from slipwise.diagnose.tried import Search
-from slipwise.diagnose.verdict import Verdict
+from slipwise.diagnosis.rivals import explanations, partings
+from slipwise.diagnosis.search_state import Search
+from slipwise.diagnosis.verdict import Verdict
 from slipwise.effects import catalogue
 
 

@@ -7,8 +7,8 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.campaign import load_campaign
-from slipwise.diagnose.foretold import Foretold, foretold
-from slipwise.fit.base import fit_base
+from slipwise.diagnosis.predicted_friction import Foretold, foretold
+from slipwise.estimation.base_fit import fit_base
 from unit.campaign.slider import write_at_loads
 
 LOADS = {"one": 5.0, "two": 10.0, "three": 20.0, "between": 15.0}  # kN

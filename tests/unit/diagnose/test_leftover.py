@@ -6,7 +6,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from slipwise.diagnose.leftover import _surfaces, structured
+from slipwise.diagnosis.unknown_surface import _surfaces, structured
 
 
 def _best(relation: str, left: Any, states: dict[str, Any]) -> Any:

@@ -6,10 +6,10 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign
-from slipwise.diagnose.candidates import candidates
-from slipwise.diagnose.promise import is_kept, with_kept
-from slipwise.diagnose.screen import Screened, screen
-from slipwise.fit.base import BaseFit, fit_base
+from slipwise.diagnosis.bound_check import is_kept, with_kept
+from slipwise.diagnosis.candidates import candidates
+from slipwise.diagnosis.screening import Screened, screen
+from slipwise.estimation.base_fit import BaseFit, fit_base
 
 
 def screened(base: BaseFit, *labels: str) -> dict[str, Screened]:

@@ -7,13 +7,13 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign
-from slipwise.diagnose.least import least_sizes
-from slipwise.diagnose.refit import base_hypothesis, refit
-from slipwise.diagnose.screen import projector, screen
-from slipwise.diagnose.worth import MATERIAL_LAW
+from slipwise.diagnosis.detectable_size import least_sizes
+from slipwise.diagnosis.hypothesis import base_hypothesis, refit
+from slipwise.diagnosis.screening import projector, screen
 from slipwise.effects import catalogue
-from slipwise.fit.base import fit_base
-from slipwise.fit.terms import Term, base_free
+from slipwise.estimation.base_fit import fit_base
+from slipwise.estimation.parameters import Term, base_free
+from slipwise.evidence.materiality import MATERIAL_LAW
 from slipwise.model import base_model, use
 
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from slipwise.compare.intervals import Interval
-from slipwise.diagnose.result import written
+from slipwise.diagnosis.result import written
+from slipwise.estimation.intervals import Interval
 
 
 @pytest.mark.parametrize("half", [3e-2, 2e-4, 7e-7])

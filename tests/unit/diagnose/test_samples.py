@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from slipwise.campaign import Campaign, Logger, Run
-from slipwise.diagnose.samples import mended, sample_faults
+from slipwise.diagnosis.samples import mended, sample_faults
 from slipwise.record import Record
 from slipwise.rig import load_specimen
 

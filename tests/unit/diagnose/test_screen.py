@@ -5,11 +5,11 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign
-from slipwise.diagnose.candidates import candidates
-from slipwise.diagnose.screen import projector, screen
-from slipwise.diagnose.shapes import is_placed, places, shapes, strengths, variants
+from slipwise.diagnosis.candidates import candidates
+from slipwise.diagnosis.screening import projector, screen
+from slipwise.diagnosis.starting_grid import is_placed, places, shapes, strengths, variants
 from slipwise.effects import catalogue
-from slipwise.fit.base import fit_base
+from slipwise.estimation.base_fit import fit_base
 
 
 def test_what_the_base_can_do_is_projected_out_and_the_rest_stays() -> None:

@@ -6,15 +6,15 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign
-from slipwise.diagnose.candidates import candidates
-from slipwise.diagnose.refit import STICK_LENGTH, base_hypothesis, polished, refit
-from slipwise.diagnose.screen import screen_shapes
-from slipwise.diagnose.shapes import places, shapes
-from slipwise.diagnose.starts import beginnings, longer_stick
-from slipwise.diagnose.tried import Search
+from slipwise.diagnosis.candidates import candidates
+from slipwise.diagnosis.hypothesis import STICK_LENGTH, base_hypothesis, polished, refit
+from slipwise.diagnosis.screening import screen_shapes
+from slipwise.diagnosis.search_state import Search
+from slipwise.diagnosis.starting_grid import places, shapes
+from slipwise.diagnosis.starting_values import beginnings, longer_stick
 from slipwise.effects import catalogue
-from slipwise.fit.base import BaseFit, at_rated, fit_base
-from slipwise.fit.terms import Term
+from slipwise.estimation.base_fit import BaseFit, at_rated, fit_base
+from slipwise.estimation.parameters import Term
 
 
 @pytest.fixture(scope="module")

@@ -5,12 +5,12 @@ from typing import Any, cast
 
 import pytest
 
-from slipwise.diagnose import settle as module
-from slipwise.diagnose.refit import Account, Hypothesis
-from slipwise.diagnose.settle import settle
-from slipwise.diagnose.tried import Search
+from slipwise.diagnosis import backward_elimination as module
+from slipwise.diagnosis.backward_elimination import settle
+from slipwise.diagnosis.hypothesis import Account, Hypothesis
+from slipwise.diagnosis.search_state import Search
 from slipwise.effects import catalogue
-from slipwise.fit.terms import Term
+from slipwise.estimation.parameters import Term
 
 COUNT = 10_000
 

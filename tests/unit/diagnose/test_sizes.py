@@ -7,13 +7,13 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign
-from slipwise.compare.intervals import intervals
-from slipwise.diagnose.refit import Hypothesis, polished, refit
-from slipwise.diagnose.run import as_fit
-from slipwise.diagnose.sizes import named_sizes
+from slipwise.diagnosis.diagnose import as_fit
+from slipwise.diagnosis.hypothesis import Hypothesis, polished, refit
+from slipwise.diagnosis.reported_sizes import named_sizes
 from slipwise.effects import catalogue
-from slipwise.fit.base import BaseFit, fit_base
-from slipwise.fit.terms import Term
+from slipwise.estimation.base_fit import BaseFit, fit_base
+from slipwise.estimation.intervals import intervals
+from slipwise.estimation.parameters import Term
 
 
 @pytest.fixture(scope="module")

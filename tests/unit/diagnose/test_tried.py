@@ -4,15 +4,15 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign
-from slipwise.diagnose import tried as module
-from slipwise.diagnose.candidates import candidates
-from slipwise.diagnose.refit import Hypothesis, base_hypothesis
-from slipwise.diagnose.tried import Search, try_all
-from slipwise.fit.base import fit_base
+from slipwise.diagnosis import search_state as module
+from slipwise.diagnosis.candidates import candidates
+from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis
+from slipwise.diagnosis.search_state import Search, try_all
+from slipwise.estimation.base_fit import fit_base
 
 
 def test_only_the_promising_are_fitted_to_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("slipwise.cores._cores", lambda: 1)  # or children would count their own
+    monkeypatch.setattr("slipwise.parallel._cores", lambda: 1)  # or children would count their own
     ended: list[tuple[str, ...]] = []
 
     def polished(found: Hypothesis) -> Hypothesis:

@@ -8,15 +8,15 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.campaign import Campaign, Logger, Run
-from slipwise.diagnose.candidates import candidates
-from slipwise.diagnose.refit import base_hypothesis
-from slipwise.diagnose.screen import Screened
-from slipwise.diagnose.tried import Search
-from slipwise.diagnose.unidentified import alone, unidentified
-from slipwise.diagnose.untold import untold
+from slipwise.diagnosis.candidates import candidates
+from slipwise.diagnosis.cannot_tell import untold
+from slipwise.diagnosis.hypothesis import base_hypothesis
+from slipwise.diagnosis.identifiability import alone, unidentified
+from slipwise.diagnosis.screening import Screened
+from slipwise.diagnosis.search_state import Search
 from slipwise.effects import catalogue
-from slipwise.fit.base import BaseFit, fit_base
-from slipwise.fit.terms import Term
+from slipwise.estimation.base_fit import BaseFit, fit_base
+from slipwise.estimation.parameters import Term
 from slipwise.record import Record
 from slipwise.rig import load_specimen
 

@@ -6,14 +6,14 @@ from typing import Any, cast
 
 import pytest
 
-from slipwise.diagnose.choose import is_delay
-from slipwise.diagnose.refit import Account, Hypothesis
-from slipwise.diagnose.samples import SampleFault
-from slipwise.diagnose.tried import Search
-from slipwise.diagnose.verdict import judge, with_faults
-from slipwise.diagnose.worth import is_near, material, material_alone, needless
+from slipwise.diagnosis.choice import is_delay
+from slipwise.diagnosis.hypothesis import Account, Hypothesis
+from slipwise.diagnosis.samples import SampleFault
+from slipwise.diagnosis.search_state import Search
+from slipwise.diagnosis.verdict import judge, with_faults
 from slipwise.effects import catalogue
-from slipwise.fit.terms import Term
+from slipwise.estimation.parameters import Term
+from slipwise.evidence.materiality import is_near, material, material_alone, needless
 from slipwise.signals import LowPass
 
 COUNT = 10_000
@@ -129,7 +129,7 @@ def _structured(found: Hypothesis) -> Any:
 
 @pytest.mark.parametrize(("name", "kind"), [("slide_curvature", "unknown"), ("breakaway", "named")])
 def test_geometry_that_leaves_structure_is_not_geometry_but_a_law_may_have_another_form(monkeypatch, name, kind):
-    monkeypatch.setattr("slipwise.diagnose.verdict.leftover", _structured)
+    monkeypatch.setattr("slipwise.diagnosis.verdict.leftover", _structured)
     assert judge(_search(_tried((), 20.0), _tried((name,), 3.0))).kind == kind
 
 
@@ -138,7 +138,7 @@ def test_geometry_that_leaves_structure_is_not_geometry_but_a_law_may_have_anoth
 def test_two_laws_that_leave_much_may_be_a_third(monkeypatch, left: float, kind: str, shaped: bool) -> None:
     """Of what a cubic drag left, breakaway and the age of a contact explained 0.88 together, and neither was there."""
     if shaped:
-        monkeypatch.setattr("slipwise.diagnose.verdict.leftover", _structured)
+        monkeypatch.setattr("slipwise.diagnosis.verdict.leftover", _structured)
     assert judge(_search(_tried((), 20.0), _tried(("breakaway", "rate_and_state"), left))).kind == kind
 
 
@@ -152,7 +152,7 @@ def test_two_laws_that_are_bent_to_look_quiet_where_they_were_fitted_are_not_nam
 @pytest.mark.parametrize(("girder", "kind"), [(1.01, "named"), (1.08, "unknown")])
 def test_what_repairs_one_relation_and_spoils_another_is_not_what_is_there(monkeypatch, girder, kind) -> None:
     """Curvature and inertia of cells took friction that follows acceleration from the pads, and left some elsewhere."""
-    monkeypatch.setattr("slipwise.diagnose.verdict.leftover", _structured)
+    monkeypatch.setattr("slipwise.diagnosis.verdict.leftover", _structured)
     both = _tried(("slide_curvature", "cell_inertia"), 1.05, girder=girder)
     assert judge(_search(_tried((), 5.0), both)).kind == kind
 

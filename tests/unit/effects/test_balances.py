@@ -9,9 +9,9 @@ from scipy.integrate import solve_ivp
 from shaking import coulomb, shaken
 from slipwise.effects import BalanceStates
 from slipwise.effects._oscillator import oscillator
-from slipwise.loads import load_modes
 from slipwise.model import Model, base_model, use
 from slipwise.record import Record
+from slipwise.rig.load_modes import load_modes
 from slipwise.signals.ends import in_frequency
 
 DT = 5e-4

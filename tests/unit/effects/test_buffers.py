@@ -6,7 +6,7 @@ from scipy.integrate import solve_ivp
 
 from shaking import coulomb, shaken
 from slipwise.model import Model, base_model, use
-from slipwise.predict import predictor
+from slipwise.simulation.predict import predictor
 
 STIFFNESS = base_model("bridge1").specimen.buffer_stiffness[0]
 AMPLITUDE = 0.02

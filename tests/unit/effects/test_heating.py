@@ -7,10 +7,10 @@ import pytest
 from scipy.special import erf
 
 from shaking import needs_shared
-from slipwise.kernel.layout import pad_memories
 from slipwise.model import base_model, use
-from slipwise.predict import Predictor, predictor
 from slipwise.rig import load_specimen
+from slipwise.simulation.kernel.layout import pad_memories
+from slipwise.simulation.predict import Predictor, predictor
 
 PRESSURE = 16.882e6
 

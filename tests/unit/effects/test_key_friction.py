@@ -5,7 +5,7 @@ import pytest
 
 from slipwise.effects._prandtl import prandtl
 from slipwise.model import base_model, use
-from slipwise.predict import predictor
+from slipwise.simulation.predict import predictor
 
 DT, TURNS = 1e-4, 20000
 TIME = DT * np.arange(TURNS)

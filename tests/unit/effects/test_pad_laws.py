@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from slipwise.model import Model, base_model, use
-from slipwise.predict import PadForces, Predictor, predictor
+from slipwise.simulation.predict import PadForces, Predictor, predictor
 
 LOAD = 24.5e3
 DT = 0.002

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from slipwise.model import base_model, use
-from slipwise.predict import predictor
+from slipwise.simulation.predict import predictor
 
 LOAD = 24.5e3
 U = 0.3e-3

@@ -7,12 +7,12 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign
-from slipwise.compare.component import component_errors
+from slipwise.comparison.component_level import component_errors
 from slipwise.effects import catalogue
-from slipwise.fit.base import fit_base
-from slipwise.fit.data import fit_runs
-from slipwise.fit.problem import Problem
-from slipwise.fit.terms import Term
+from slipwise.estimation.base_fit import fit_base
+from slipwise.estimation.parameters import Term
+from slipwise.estimation.problem import Problem
+from slipwise.estimation.run_data import fit_runs
 from slipwise.record import Record
 
 

@@ -6,9 +6,9 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.effects import catalogue
-from slipwise.fit.data import fit_runs
-from slipwise.fit.faults import noise_scale, without
-from slipwise.fit.terms import Term
+from slipwise.estimation.measurement_model import noise_scale, without
+from slipwise.estimation.parameters import Term
+from slipwise.estimation.run_data import fit_runs
 
 
 @pytest.fixture(scope="module")

@@ -10,12 +10,12 @@ from bench.campaign import Campaign as Made
 from bench.campaign import with_faults
 from bench.faults import Fault
 from measured import as_campaign
-from slipwise.diagnose.refit import account, as_reported, polished, refit
+from slipwise.diagnosis.hypothesis import account, as_reported, polished, refit
 from slipwise.effects import catalogue
-from slipwise.fit.balance_noise import heave_level
-from slipwise.fit.base import fit_base
-from slipwise.fit.data import fit_runs
-from slipwise.fit.terms import Term
+from slipwise.estimation.balance_noise import heave_level
+from slipwise.estimation.base_fit import fit_base
+from slipwise.estimation.parameters import Term
+from slipwise.estimation.run_data import fit_runs
 from slipwise.model import base_model
 
 CUTOFF = 12.0

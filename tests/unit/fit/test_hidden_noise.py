@@ -8,10 +8,10 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.effects._oscillator import oscillator
-from slipwise.fit.balance_noise import bent_noise_in_heave, rubbing_noise
-from slipwise.fit.balances import heave_rate
-from slipwise.fit.data import FitRun, fit_runs
-from slipwise.fit.weights import whitened, with_hidden
+from slipwise.estimation.balance_noise import bent_noise_in_heave, rubbing_noise
+from slipwise.estimation.girder_balances import heave_rate
+from slipwise.estimation.noise_model import whitened, with_hidden
+from slipwise.estimation.run_data import FitRun, fit_runs
 from slipwise.model import base_model, use
 
 

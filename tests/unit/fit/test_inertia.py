@@ -8,14 +8,14 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.campaign import Logger
-from slipwise.diagnose.refit import account, as_reported, polished, refit
+from slipwise.diagnosis.hypothesis import account, as_reported, polished, refit
 from slipwise.effects import catalogue
 from slipwise.effects._oscillator import oscillator
-from slipwise.fit.balance_noise import driven_noise_in_pitch
-from slipwise.fit.balances import through_pitch
-from slipwise.fit.base import fit_base
-from slipwise.fit.data import fit_runs
-from slipwise.fit.terms import PITCH_INERTIA, YAW_INERTIA, Term
+from slipwise.estimation.balance_noise import driven_noise_in_pitch
+from slipwise.estimation.base_fit import fit_base
+from slipwise.estimation.girder_balances import through_pitch
+from slipwise.estimation.parameters import PITCH_INERTIA, YAW_INERTIA, Term
+from slipwise.estimation.run_data import fit_runs
 from slipwise.model import base_model, use
 from slipwise.signals import LowPass
 

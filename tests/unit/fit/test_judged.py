@@ -7,11 +7,11 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign
-from slipwise.diagnose.samples import mended, sample_faults
-from slipwise.fit.data import FitRun, fit_runs
-from slipwise.fit.judged import away_from_cuts, judged
-from slipwise.fit.kinematics import Kinematics
-from slipwise.fit.recent import Recent
+from slipwise.diagnosis.samples import mended, sample_faults
+from slipwise.estimation.judged_samples import away_from_cuts, judged
+from slipwise.estimation.kinematics import Kinematics
+from slipwise.estimation.recent_results import Recent
+from slipwise.estimation.run_data import FitRun, fit_runs
 
 COUNT = 6
 ALL = np.ones(COUNT, dtype=bool)

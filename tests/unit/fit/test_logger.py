@@ -10,12 +10,12 @@ from bench import build_campaign
 from bench.truth import Truth
 from bench.write import write_campaign
 from slipwise.campaign import load_campaign
-from slipwise.diagnose.explore import _speaks_at_reversals
+from slipwise.diagnosis.workflow import _speaks_at_reversals
 from slipwise.effects import catalogue
-from slipwise.fit.base import fit_base
-from slipwise.fit.data import fit_runs
-from slipwise.fit.logger import _frequencies, _levelled
-from slipwise.fit.terms import Term
+from slipwise.estimation.base_fit import fit_base
+from slipwise.estimation.logger_filter import _frequencies, _levelled
+from slipwise.estimation.parameters import Term
+from slipwise.estimation.run_data import fit_runs
 from slipwise.signals import LowPass
 
 

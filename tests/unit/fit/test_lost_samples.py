@@ -4,9 +4,9 @@ from bench import build_campaign
 from bench.campaign import with_faults
 from bench.faults import Fault
 from measured import as_campaign
-from slipwise.diagnose.explore import prepared
-from slipwise.diagnose.refit import account
-from slipwise.fit.base import fit_base
+from slipwise.diagnosis.hypothesis import account
+from slipwise.diagnosis.workflow import prepared
+from slipwise.estimation.base_fit import fit_base
 
 
 def test_pitch_does_not_ring_with_samples_that_gauges_of_friction_have_lost() -> None:

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from scipy.signal import butter, lsim
 
-from slipwise.fit.data import FINE, refined
-from slipwise.fit.instants import Instants
-from slipwise.fit.pads import as_logged, force_along, lost_velocity, stick_share
-from slipwise.predict import PadForces
+from slipwise.estimation.instants import Instants
+from slipwise.estimation.pad_forces import as_logged, force_along, lost_velocity, stick_share
+from slipwise.estimation.run_data import FINE, refined
 from slipwise.signals import LowPass, align, lowpass
+from slipwise.simulation.predict import PadForces
 
 
 @dataclass(frozen=True)

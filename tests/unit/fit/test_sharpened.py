@@ -9,11 +9,11 @@ from scipy.signal import welch
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.effects import catalogue
-from slipwise.fit.balances import motion_residual
-from slipwise.fit.data import fit_runs
-from slipwise.fit.faults import raised_noise, without
-from slipwise.fit.sharpened import evened
-from slipwise.fit.terms import Term
+from slipwise.estimation.girder_balances import motion_residual
+from slipwise.estimation.inverse_filter import evened
+from slipwise.estimation.measurement_model import raised_noise, without
+from slipwise.estimation.parameters import Term
+from slipwise.estimation.run_data import fit_runs
 
 LAG = 5e-3
 

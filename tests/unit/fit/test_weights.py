@@ -6,11 +6,11 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.effects import catalogue
-from slipwise.fit.balance_noise import noise_of_mending
-from slipwise.fit.data import FitRun, fit_runs
-from slipwise.fit.faults import changed_by
-from slipwise.fit.terms import Term
-from slipwise.fit.weights import reversal_noise
+from slipwise.estimation.balance_noise import noise_of_mending
+from slipwise.estimation.measurement_model import changed_by
+from slipwise.estimation.noise_model import reversal_noise
+from slipwise.estimation.parameters import Term
+from slipwise.estimation.run_data import FitRun, fit_runs
 from slipwise.model import base_model
 
 

@@ -5,8 +5,8 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign
-from slipwise.fit.base import fit_base
-from slipwise.fit.terms import YAW_INERTIA
+from slipwise.estimation.base_fit import fit_base
+from slipwise.estimation.parameters import YAW_INERTIA
 from slipwise.model import base_model, use
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from slipwise.campaign import load_campaign
-from slipwise.fit.base import fit_base
+from slipwise.estimation.base_fit import fit_base
 from unit.campaign.slider import HEADER, slider, text
 
 

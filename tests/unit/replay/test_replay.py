@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 
 from slipwise.errors import SettingError
-from slipwise.kernel import installed, kernel
 from slipwise.model import base_model, use
 from slipwise.motion import load_motion
 from slipwise.record import read_record, write_record
-from slipwise.replay import SimulationDiverged, replay, simulate, summary
+from slipwise.simulation.kernel import installed, kernel
+from slipwise.simulation.replay import replay
+from slipwise.simulation.simulator import SimulationDiverged, simulate
+from slipwise.simulation.summary import summary
 
 
 def test_a_record_says_what_it_was_made_from(tmp_path):

@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from slipwise.diagnose.result import Diagnosis
-from slipwise.diagnose.verdict import Verdict
+from slipwise.diagnosis.ladder import Ladder, Rung
+from slipwise.diagnosis.result import Diagnosis
+from slipwise.diagnosis.verdict import Verdict
 from slipwise.effects import catalogue
-from slipwise.ladder import Ladder, Rung
 from slipwise.view.canvas import new_figure
 from slipwise.view.diagnosis_figures import balances_figure, ladder_figure
 from slipwise.view.diagnosis_page import diagnosis_page

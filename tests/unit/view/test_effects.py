@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from slipwise.demonstration import demonstrate
 from slipwise.effects import Effect, catalogue
+from slipwise.studies.demonstration import demonstrate
 from slipwise.view.effects import effect_picture, effect_rows, print_effect, print_effects, readme_table
 from slipwise.view.style import styled
 

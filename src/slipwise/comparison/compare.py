@@ -1,0 +1,131 @@
+"""Hold a model against a campaign: fit its base parameters, tell its error at two levels, and where it lies."""
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from slipwise.campaign import Campaign, load_campaign
+from slipwise.comparison.cells import cells_of, corrected, gather
+from slipwise.comparison.component_level import component_errors, repeat_errors
+from slipwise.comparison.friction_surface import surface
+from slipwise.comparison.motion_states import motion_states
+from slipwise.comparison.parity import parity
+from slipwise.comparison.patterns import patterns_of
+from slipwise.comparison.result import Comparison
+from slipwise.comparison.sentences import places
+from slipwise.comparison.system_level import SystemLevel, system_level
+from slipwise.errors import InputError
+from slipwise.estimation.base_fit import BaseFit, fit_finely
+from slipwise.estimation.girder_balances import BALANCES
+from slipwise.estimation.intervals import intervals
+from slipwise.estimation.prediction_interval import foretold
+from slipwise.evidence.floor import noise_floor
+from slipwise.instruments.checks import Checks, check_instruments
+from slipwise.model import Model
+
+#: Noise that the replay is fed with is the same in every comparison, so that two of them can be compared.
+_SEED = 1
+
+
+def compare(
+    campaign: Campaign | Path | str,
+    model: Model | None = None,
+    *,
+    system: bool = True,
+    checks: Checks | None = None,
+    progress: Callable[[str, float], None] | None = None,
+) -> Comparison:
+    """Hold a model against a campaign.
+
+    Base parameters are fitted on the runs of role fit and repeat; held-out runs are only looked at.
+
+    Args:
+        campaign: or its folder.
+        model: the user's current model; the paper's law on the campaign's rig when not given.
+        system: replay the runs as well.
+        checks: the audit of the instruments, where it was made already.
+        progress: called with what is being done and the fraction done.
+
+    Raises:
+        InputError: the campaign lacks what every comparison needs.
+    """
+    began = time.perf_counter()
+    tell = progress or (lambda words, done: None)
+    tell("reading", 0.0)
+    if not isinstance(campaign, Campaign):
+        campaign = load_campaign(campaign)
+    tell("auditing the instruments", 0.05)
+    checks = checks or check_instruments(campaign)
+    tell("fitting base parameters", 0.25)
+    base = fit_finely(campaign, model)
+    tell("locating errors", 0.5)
+    residuals = {r: base.solution.residuals.parts[r] for r in base.problem.relations}
+    components = component_errors(base)
+    motions = [motion_states(run) for run in base.problem.runs]
+    area = base.problem.specimen.pad_area
+    samples = {
+        r: gather(r, parts, base.problem.runs, motions, area)
+        for r, parts in residuals.items()
+        if any(np.any(p) for p in parts)
+    }
+    cells = corrected(cell for one in samples.values() for cell in cells_of(one))
+    parities = {r: found for r, one in samples.items() if (found := parity(one)) is not None}
+    patterns = tuple(pattern for one in samples.values() for pattern in patterns_of(one))
+    errors = {r: float(np.sqrt(one.squared.mean())) for r, one in samples.items()}
+    states = {run.name: run.states for run in base.problem.runs}
+    floor = noise_floor(campaign, [states[run.name] for run in campaign.runs])
+    found = intervals(base)
+    tell("drawing the friction surface", 0.6)
+    friction = surface(base, found)
+    cannot = _cannot(base)
+    level: SystemLevel | None = None
+    if system:
+        tell("replaying", 0.65)
+        try:
+            if not campaign.specimen.free:
+                raise InputError("the slip of this rig is prescribed: there is nothing to replay")
+            rng = np.random.default_rng(_SEED)
+            level = system_level(base, rng, lambda done: tell("replaying", 0.65 + 0.35 * done))
+        except InputError as error:
+            cannot.append(f"system level: {error}")
+    tell("done", 1.0)
+    return Comparison(
+        campaign=campaign,
+        model=base.problem.model(base.solution.values),
+        base=base,
+        checks=checks,
+        floor=floor,
+        residuals=residuals,
+        components=components,
+        repeats=repeat_errors(base, residuals),
+        system=level,
+        intervals=found,
+        surface=friction,
+        foretold=foretold(base),
+        cells=cells,
+        patterns=patterns,
+        parities=parities,
+        places=places(cells, patterns, parities, errors),
+        cannot=(*cannot, *(f"audit: {words}" for words in checks.cannot)),
+        notes=tuple(dict.fromkeys([*campaign.notes, *(level.notes if level else ())])),
+        seconds=time.perf_counter() - began,
+    )
+
+
+def _cannot(base: BaseFit) -> list[str]:
+    """Say in words what the channels do not allow."""
+    problem = base.problem
+    out = []
+    if not problem.specimen.free:
+        out.append("balances of girder, heave, pitch, roll and warp: the slip of this rig is prescribed")
+    else:
+        absent = [b for b in BALANCES if b not in problem.relations]
+        out += [f"{b} balance: a channel that it needs is missing" for b in absent]
+    if not problem.held_out:
+        out.append("held-out error: no run has the role holdout; errors are those of the fitted runs")
+    if not any(run.role == "repeat" for run in problem.runs):
+        out.append("floor from repeated runs: no run has the role repeat; the floor is that of the gauges' noise")
+    missing = [words for run in problem.runs for words in run.states.missing]
+    return [*out, *dict.fromkeys(missing)]

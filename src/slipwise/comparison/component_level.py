@@ -1,0 +1,131 @@
+"""Component level: every law and balance fed with measured load, slip and speed, in multiples of its noise floor."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.estimation.base_fit import BaseFit
+
+Array = NDArray[np.float64]
+#: Relation -> what it is called, unit of its residual.
+NAMES: Mapping[str, tuple[str, str]] = {
+    "pads": ("pad friction", "N"),
+    "girder": ("girder balance", "m/s^2"),
+    "heave": ("heave of the loads", "N"),
+    "pitch": ("pitch of the loads", "N"),
+    "roll": ("roll of the loads", "N"),
+    "warp": ("warp of the loads", "N"),
+    "motion": ("slip against accelerometers", "1"),
+    "across": ("pad friction across", "N"),
+}
+
+
+@dataclass(frozen=True)
+class ComponentError:
+    """Error of one relation in one run.
+
+    Attributes:
+        relation: "pads", "girder", "heave" ...
+        run: name.
+        role: "fit", "repeat" or "holdout".
+        error: rms of the residual over its floor [1].
+        rms: of the residual, in the relation's unit.
+        floor: rms of the noise that gauges explain, in the relation's unit.
+        share: rms of the residual over the rms of what was measured; NaN for relations that are zero by nature [1].
+        samples: that were judged.
+    """
+
+    relation: str
+    run: str
+    role: str
+    error: float
+    rms: float
+    floor: float
+    share: float
+    samples: int
+
+
+def component_errors(base: BaseFit) -> tuple[ComponentError, ...]:
+    """Give the error of every relation in every run."""
+    out = []
+    for relation in base.problem.relations:
+        parts = zip(base.problem.runs, base.solution.residuals.parts[relation], strict=True)
+        for i, (run, part) in enumerate(parts):
+            judged = part != 0.0
+            if not judged.any():
+                continue
+            sigma = np.broadcast_to(base.problem.sigmas[relation][i], part.shape)[judged]
+            left = part[judged] * sigma
+            measured = run.force[judged] if relation == "pads" else _measured(relation, run, judged)
+            size = float(np.sqrt(np.mean(measured**2))) if measured is not None else float("nan")
+            rms = float(np.sqrt(np.mean(left**2)))
+            out.append(
+                ComponentError(
+                    relation,
+                    run.name,
+                    run.role,
+                    float(np.sqrt(np.mean(part[judged] ** 2))),
+                    rms,
+                    float(np.sqrt(np.mean(sigma**2))),
+                    rms / size if size > 0.0 else float("nan"),
+                    int(np.count_nonzero(judged)),
+                )
+            )
+    return tuple(out)
+
+
+def _measured(relation: str, run, judged: NDArray[np.bool_]) -> Array | None:
+    if relation == "across":
+        return run.across[judged]
+    if relation == "girder":
+        return run.channel("girder_ax")[judged]
+    if relation == "heave":
+        return run.load.sum(axis=1)[judged]
+    if relation == "pitch":
+        return (run.load[:, 0] + run.load[:, 2] - run.load[:, 1] - run.load[:, 3])[judged]
+    return None
+
+
+def pooled(errors: Sequence[ComponentError], relation: str, *, held_out: bool) -> float | None:
+    """Give the error of a relation over all fitted, or all held-out, runs; None where there is none."""
+    chosen = [e for e in errors if e.relation == relation and (e.role == "holdout") == held_out]
+    count = sum(e.samples for e in chosen)
+    if count == 0:
+        return None
+    return float(np.sqrt(sum(e.samples * e.error**2 for e in chosen) / count))
+
+
+def repeat_errors(base: BaseFit, residuals: Mapping[str, Sequence[Array]]) -> dict[str, float]:
+    """Hold a repeated run against its first: rms of the difference of both residuals over sqrt(2), in floors.
+
+    Whatever is the same in both runs drops out, the model's errors included: what stays is noise, and 1 says that the
+    floor is right. Empty without a repeated run of the same length and motion.
+    """
+    runs = base.problem.runs
+    pairs = [
+        (i, j)
+        for j, later in enumerate(runs)
+        if later.role == "repeat"
+        for i, first in enumerate(runs[:j])
+        if _same_motion(first, later)
+    ]
+    out = {}
+    for relation, parts in residuals.items():
+        squares, count = 0.0, 0
+        for i, j in pairs[-1:]:
+            both = (parts[i] != 0.0) & (parts[j] != 0.0)
+            squares += float(np.sum((parts[i][both] - parts[j][both]) ** 2)) / 2.0
+            count += int(np.count_nonzero(both))
+        if count:
+            out[relation] = float(np.sqrt(squares / count))
+    return out
+
+
+def _same_motion(first, later) -> bool:
+    name = next((n for n in ("table_ax", "slip_x") if n in first.record and n in later.record), "")
+    if not name or len(first.record) != len(later.record):
+        return False
+    one, other = first.record[name], later.record[name]
+    return float(np.sqrt(np.mean((one - other) ** 2))) < 0.1 * float(np.std(one)) + 2.0 * first.noise[name]

@@ -1,0 +1,81 @@
+"""The friction surface mu(P, V) that a fit means, with its band: parameters trade off, the surface does not.
+
+Source: physics.md 1.6: "compare mu(P, V) surfaces, not parameters"; band by first-order propagation.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.intervals import Intervals
+from slipwise.simulation.predict import predictor
+
+Array = NDArray[np.float64]
+_PRESSURES, _SPEEDS = 9, 12
+_STEP = 1e-3
+
+
+@dataclass(frozen=True)
+class Surface:
+    """Coefficient of friction of the fitted model where the campaign has been.
+
+    Attributes:
+        pressure: (p,) [Pa].
+        speed: (v,) [m/s].
+        friction: (p, v) F/N in steady sliding, from rest [1].
+        deviation: (p, v) standard deviation that comes from the fitted numbers [1].
+    """
+
+    pressure: Array
+    speed: Array
+    friction: Array
+    deviation: Array
+
+
+def surface(base: BaseFit, found: Intervals) -> Surface | None:
+    """Give the surface over the pressures and speeds that the campaign has seen; None where no load is known."""
+    runs = base.problem.runs
+    area = base.problem.specimen.pad_area
+    loads = np.concatenate([r.load[r.sliding].ravel() for r in runs])
+    speeds = np.concatenate([np.abs(r.velocity[r.sliding]) for r in runs])
+    if len(loads) == 0 or not np.isfinite(loads).all():
+        return None
+    low, high = np.quantile(loads, [0.005, 0.995])
+    pressure = np.linspace(max(low, 1e-3 * high), high, _PRESSURES) / area
+    fastest = float(np.quantile(speeds, 0.995))
+    speed = fastest * np.linspace(0.02, 1.0, _SPEEDS) ** 1.5
+    values = base.solution.values
+    here = _friction(base, values, pressure, speed)
+    keys = [k for k in found.keys if not k.startswith("rig.") or k == "rig.shear_strength"]
+    scales = {f.key: f.scale for f in base.free}
+    slopes = []
+    for key in keys:
+        step = _STEP * scales[key]
+        high_f = next(f.high for f in base.free if f.key == key)
+        step = -step if values[key] + step > high_f else step
+        moved = _friction(base, {**values, key: values[key] + step}, pressure, speed)
+        slopes.append((moved - here) / step)
+    places = [found.keys.index(k) for k in keys]
+    own = found.covariance[np.ix_(places, places)]
+    slope = np.stack(slopes) if slopes else np.zeros((0, *here.shape))
+    variance = np.einsum("ipv,ij,jpv->pv", slope, own, slope)
+    return Surface(pressure, speed, here, np.sqrt(np.maximum(variance, 0.0)))
+
+
+def _friction(base: BaseFit, values: Mapping[str, float], pressure: Array, speed: Array) -> Array:
+    model = base.problem.model(values)
+    law = predictor(model)
+    pads = len(model.specimen.pads)
+    out = np.empty((len(pressure), len(speed)))
+    for i, p in enumerate(pressure):
+        for j, v in enumerate(speed):
+            law.reset()
+            load = np.full((1, pads), p * model.specimen.pad_area)
+            velocity = np.zeros((1, pads, 2))
+            velocity[:, :, 0] = v
+            # what the pad could carry: a law with a memory of slip has not built up its force yet
+            out[i, j] = float(law.pads(np.zeros(1), load, velocity, np.zeros((1, pads, 2))).bound[0, 0] / load[0, 0])
+    return out

@@ -1,0 +1,207 @@
+"""System-level refinement: numbers of a fit brought to where the replay, not the law alone, agrees with the runs.
+
+    min over the numbers of  sum over runs, channels, samples of [(simulated - measured) / spread]^2
+
+A component-level fit drives each law with measured states; what the girder makes of the forces is not asked. Here the
+whole rig is replayed in windows that restart from what was measured, and slopes are differences of replays: the model
+as it stands and one copy for each number are stepped side by side. A channel's spread is its error before refinement,
+or its noise if that is larger, so that every channel counts alike.
+
+Source: windows restarted from measured states, Ljung, System Identification (1999); intervals, see `intervals`.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import lsq_linear
+
+from slipwise.channels import channel
+from slipwise.comparison.measured_replay import SystemRun, replay_models
+from slipwise.comparison.system_level import replayed_model
+from slipwise.errors import InputError, SettingError, unknown_name
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.intervals import BLOCK, Interval, of_fit
+from slipwise.estimation.parameters import Free, fitted_model
+from slipwise.model import Model
+
+Array = NDArray[np.float64]
+#: Numbers of the rig that a replay has; all others belong to the measurement, or to the springs that are fitted apart.
+_REPLAYED = ("rig.mass", "rig.centre_height", "rig.buffer_stiffness", "rig.shear_strength")
+#: Difference over a number's scale: large enough that reversals move by more than a step's chance.
+_STEP = 0.02
+#: A step is tried in full and in these parts.
+_PARTS = (1.0, 0.5, 0.2)
+#: A channel on which nothing happens is spread by this share of the largest of its unit, not by its own chance [1].
+_LEAST = 0.01
+#: A round that lowers the squared error by less than this share is the last [1].
+_ENOUGH = 1e-3
+
+
+@dataclass(frozen=True)
+class Refined:
+    """What a refinement found.
+
+    Attributes:
+        model: as the replay has it, with the refined numbers.
+        entries: of every number that was refined: value, 95 % interval, and where it began.
+        before: root of the mean squared error in units of the channels' spread, of the runs that may be fitted [1].
+        after: the same with the refined numbers.
+        held_out: both on runs that were not fitted; None where there are none.
+        rounds: of slopes that were taken.
+    """
+
+    model: Model
+    entries: tuple[Interval, ...]
+    before: float
+    after: float
+    held_out: tuple[float, float] | None
+    rounds: int
+
+
+def refine(base: BaseFit, keys: Sequence[str], *, rounds: int = 5, threads: int = 2) -> Refined:
+    """Refine numbers of a component-level fit against the replay.
+
+    Args:
+        base: the fit; a hypothesis is made one by `diagnose.run.as_fit`.
+        keys: which of its numbers, e.g. "run_in.rise", "rig.buffer_stiffness"; the others stay.
+        rounds: of slopes at most.
+        threads: to step on.
+
+    Raises:
+        InputError: a channel that a replay needs was not recorded, or the rig does not slide by itself.
+        SettingError: no key, or a number that a replay does not have.
+        UnknownNameError: no such number.
+    """
+    free = _chosen(base, keys)
+    if not base.model.specimen.free:
+        raise InputError(
+            f"rig {base.model.specimen.name!r} has its slip prescribed, so there is nothing to replay; its component "
+            "level fit is all that can be known"
+        )
+    replayed, _ = replayed_model(base)
+    fitted, held = base.problem.fitted, base.problem.held_out
+    values = {f.key: base.solution.values[f.key] for f in free}
+    now = begun = _replay(base, [_model(base, replayed, values)], threads)[0]
+    spread = _spread(base, now)
+    left = _left(base, now, fitted, spread)
+    slopes, done = np.zeros((len(left), len(free))), 0
+    for _ in range(rounds):
+        done += 1
+        steps = [_STEP * f.scale * (1.0 if values[f.key] + _STEP * f.scale <= f.high else -1.0) for f in free]
+        moved = [{**values, f.key: values[f.key] + step} for f, step in zip(free, steps, strict=True)]
+        answers = _replay(base, [_model(base, replayed, v) for v in moved], threads)
+        for j, (f, step, answer) in enumerate(zip(free, steps, answers, strict=True)):
+            slopes[:, j] = (_left(base, answer, fitted, spread) - left) * (f.scale / step)
+        tried = [_stepped(free, values, slopes, left, part) for part in _PARTS]
+        answers = _replay(base, [_model(base, replayed, v) for v in tried], threads)
+        ends = [_left(base, answer, fitted, spread) for answer in answers]
+        best = min(range(len(ends)), key=lambda i: float(ends[i] @ ends[i]))
+        gained = float(left @ left - ends[best] @ ends[best])
+        if gained <= 0.0:
+            break
+        values, left, now = tried[best], ends[best], answers[best]
+        if gained < _ENOUGH * float(left @ left):
+            break
+    found = of_fit(free, values, slopes, left, _blocks(now, fitted))
+
+    def error(answer: Sequence[SystemRun], which: Sequence[int]) -> float:
+        squared = _left(base, answer, which, spread) ** 2
+        return float(np.sqrt(np.sum(squared) / max(np.count_nonzero(squared), 1)))
+
+    return Refined(
+        _model(base, replayed, values), found.entries, error(begun, fitted), error(now, fitted),
+        (error(begun, held), error(now, held)) if held else None, done,
+    )  # fmt: skip
+
+
+def _chosen(base: BaseFit, keys: Sequence[str]) -> list[Free]:
+    known = {f.key: f for f in base.free}
+    if not keys:
+        raise SettingError(f"nothing to refine; possible: {', '.join(_possible(known))}")
+    for key in keys:
+        if key not in known:
+            raise unknown_name("fitted number", key, _possible(known))
+        if key not in _possible(known):
+            raise SettingError(
+                f"{key} belongs to the measurement, not to the rig that is replayed; possible: "
+                f"{', '.join(_possible(known))}"
+            )
+    return [replace(known[key], start=base.solution.values[key]) for key in dict.fromkeys(keys)]
+
+
+def _possible(known: Mapping[str, Free]) -> list[str]:
+    return [key for key in known if key in _REPLAYED or not key.startswith("rig.")]
+
+
+def _model(base: BaseFit, replayed: Model, values: Mapping[str, float]) -> Model:
+    """Give the replayed model with other numbers; its springs, inertia and stick stay as they were found."""
+    model = fitted_model(base.problem.specimen, base.problem.terms, {**base.solution.values, **values})
+    kept = replayed.specimen
+    specimen = replace(
+        model.specimen, pad_stiffness=kept.pad_stiffness, pad_damping=kept.pad_damping, inertia=kept.inertia
+    )
+    return Model(specimen, (*model.uses, *replayed.uses[len(model.uses) :]))
+
+
+def _replay(base: BaseFit, models: Sequence[Model], threads: int) -> list[list[SystemRun]]:
+    """Replay all runs with all models; also those that are not fitted, for what pads remember goes on through them."""
+    return replay_models(models, [(r.name, r.states, r.rest_before) for r in base.problem.runs], threads=threads)
+
+
+def _judged(
+    base: BaseFit, answer: Sequence[SystemRun], which: Sequence[int]
+) -> list[tuple[str, Array, NDArray[np.bool_]]]:
+    """Give channel, simulated minus measured (n,), and which samples count (n,), of every channel of these runs."""
+    out = []
+    for i in which:
+        usable = base.problem.runs[i].states.usable
+        for name, simulated in answer[i].simulated.items():
+            out.append((name, simulated - answer[i].measured[name], usable & np.isfinite(simulated)))
+    return out
+
+
+def _spread(base: BaseFit, answer: Sequence[SystemRun]) -> dict[str, float]:
+    errors: dict[str, list[Array]] = {}
+    for name, difference, here in _judged(base, answer, base.problem.fitted):
+        errors.setdefault(name, []).append(difference[here])
+    size: dict[str, float] = {}
+    for i in base.problem.fitted:
+        for name, values in answer[i].measured.items():
+            unit = channel(name).unit
+            size[unit] = max(size.get(unit, 0.0), float(np.std(values)))
+    noise = {n: max(r.noise.get(n, 0.0) for r in base.problem.runs) for n in errors}
+    rms = {n: float(np.sqrt(np.mean(np.concatenate(e) ** 2))) for n, e in errors.items()}
+    return {n: max(noise[n], rms[n], _LEAST * size[channel(n).unit]) for n in errors}
+
+
+def _left(base: BaseFit, answer: Sequence[SystemRun], which: Sequence[int], spread: Mapping[str, float]) -> Array:
+    judged = _judged(base, answer, which)
+    return np.concatenate([np.where(here, difference / spread[name], 0.0) for name, difference, here in judged])
+
+
+def _blocks(answer: Sequence[SystemRun], which: Sequence[int]) -> NDArray[np.int64]:
+    """Number the stretches of time that count as independent: all channels of half a second of a run."""
+    parts: list[NDArray[np.int64]] = []
+    first = 0
+    for i in which:
+        of_sample = ((answer[i].time - answer[i].time[0]) / BLOCK).astype(np.int64) + first
+        parts += [of_sample] * len(answer[i].simulated)
+        first = int(of_sample[-1]) + 1
+    return np.concatenate(parts)
+
+
+def _stepped(
+    free: Sequence[Free], values: Mapping[str, float], slopes: Array, left: Array, part: float
+) -> dict[str, float]:
+    """Give the numbers a part of the way to where straight slopes would end, inside their bounds."""
+    room = [((f.low - values[f.key]) / f.scale, (f.high - values[f.key]) / f.scale) for f in free]
+    low, high = np.array(room).T
+    wide = high > low
+    step = np.zeros(len(free))
+    step[wide] = lsq_linear(slopes[:, wide], -left, bounds=(low[wide] - 1e-12, high[wide] + 1e-12)).x
+    return {
+        f.key: float(np.clip(values[f.key] + part * s * f.scale, f.low, f.high))
+        for f, s in zip(free, step, strict=True)
+    }

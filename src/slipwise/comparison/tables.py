@@ -1,0 +1,181 @@
+"""Tables of a comparison, and compare.json."""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from slipwise.comparison.component_level import NAMES
+from slipwise.comparison.result import Comparison
+
+
+def rows_of(found: Comparison, table: str) -> list[dict[str, Any]]:
+    """Give a table as rows of plain values, SI."""
+    return _MAKERS[table](found)
+
+
+def _components(found: Comparison) -> list[dict[str, Any]]:
+    return [
+        {
+            "relation": e.relation,
+            "run": e.run,
+            "role": e.role,
+            "error": e.error,
+            "rms": e.rms,
+            "floor": e.floor,
+            "unit": NAMES[e.relation][1],
+            "share": e.share,
+            "samples": e.samples,
+        }
+        for e in found.components
+    ]
+
+
+def _system(found: Comparison) -> list[dict[str, Any]]:
+    keys = ("run", "role", "channel", "error", "rms", "floor", "gauge", "fed", "step", "share")
+    return [{k: getattr(e, k) for k in keys} for e in (found.system.errors if found.system else ())]
+
+
+def _parameters(found: Comparison) -> list[dict[str, Any]]:
+    keys = ("value", "low", "high", "rated", "unit", "bound", "limit")
+    return [{"parameter": e.key, **{k: getattr(e, k) for k in keys}} for e in found.intervals.entries]
+
+
+def _correlations(found: Comparison) -> list[dict[str, Any]]:
+    pairs = found.intervals.strongest(len(found.intervals.keys) ** 2)
+    return [{"parameter": a, "other": b, "correlation": value} for a, b, value in pairs]
+
+
+def _cells(found: Comparison) -> list[dict[str, Any]]:
+    keys = ("relation", "kind", "label", "low", "high", "error", "samples", "effective", "chance", "above")
+    return [{k: getattr(c, k) for k in keys} for c in found.cells]
+
+
+def _places(found: Comparison) -> list[dict[str, Any]]:
+    keys = ("relation", "words", "error", "elsewhere", "share", "part", "kind", "direction")
+    return [{k: getattr(p, k) for k in keys} for p in found.places]
+
+
+def _parity(found: Comparison) -> list[dict[str, Any]]:
+    keys = ("relation", "odd", "even", "plus", "minus")
+    return [{k: getattr(p, k) for k in keys} for p in found.parities.values()]
+
+
+def _foretold(found: Comparison) -> list[dict[str, Any]]:
+    keys = ("run", "role", "measured", "said", "low", "high", "inside")
+    return [{k: getattr(f, k) for k in keys} for f in found.foretold]
+
+
+def _floor(found: Comparison) -> list[dict[str, Any]]:
+    problem = found.base.problem
+    out = []
+    for relation in found.relations:
+        sliding, turning = [], []
+        for sigma, part, run in zip(problem.sigmas[relation], found.residuals[relation], problem.runs, strict=True):
+            wide = part if part.ndim == 2 else part[:, None]
+            level = np.broadcast_to(sigma if np.ndim(sigma) != 1 else np.asarray(sigma)[:, None], wide.shape)
+            turns = np.broadcast_to(run.states.near_reversal[:, None], wide.shape)
+            sliding.append(level[(wide != 0.0) & ~turns])
+            turning.append(level[(wide != 0.0) & turns])
+        row = {"relation": relation, "floor": _rms(sliding), "near_reversals": _rms(turning)}
+        row |= {"unit": NAMES[relation][1], "repeated_runs": found.repeats.get(relation)}
+        out.append(row)
+    return out
+
+
+def _rms(parts: list[np.ndarray]) -> float | None:
+    values = np.concatenate(parts)
+    return float(np.sqrt(np.mean(values**2))) if len(values) else None
+
+
+_MAKERS = {
+    "audit": lambda found: found.checks.report.rows(),
+    "components": _components,
+    "system": _system,
+    "parameters": _parameters,
+    "correlations": _correlations,
+    "cells": _cells,
+    "places": _places,
+    "parity": _parity,
+    "floor": _floor,
+    "noise": lambda found: found.floor.rows(),
+    "foretold": _foretold,
+}
+
+
+def as_json(found: Comparison) -> dict[str, Any]:
+    """Give a comparison as compare.json holds it: SI, errors in multiples of the floor, null where unknown.
+
+    schema: 1
+    campaign, rig: names
+    model: [{effect, target, values}], as fitted
+    components: {relation: {fit, holdout, repeats}}
+    system: {channel: {fit, holdout}}
+    audit: {accused, words, findings: [{what, channel, size, low, high, unit, probability, ...}]}
+    worst: {relation, error}
+    places: [{relation, words, error, elsewhere, share, part, kind, direction}], the worst first
+    parameters: [{parameter, value, low, high, rated, unit, bound, limit}], 95 % intervals
+    correlations: [{parameter, other, correlation}], the strongest first
+    surface: {pressure, speed, friction, deviation}, mu(P, V), or null
+    floor: [{relation, floor, near_reversals, unit, repeated_runs}]
+    foretold: [{run, role, measured, said, low, high, inside}], mean friction of one pad while sliding
+    noise: {channels: [{channel, unit, level, stuck, near reversal, sliding, basis, correlation_time}], notes: in words}
+    parity: [{relation, odd, even, plus, minus}]
+    cells: [{relation, kind, label, low, high, error, samples, effective, chance, above}]
+    runs: {components: [...], system: [...]}, error of every run
+    cannot, notes: in words
+    seconds: that it took
+    """
+    from slipwise.comparison.system_level import pooled_system
+
+    worst, error = found.worst
+    system = {}
+    if found.system:
+        for channel in dict.fromkeys(e.channel for e in found.system.errors):
+            system[channel] = {
+                "fit": pooled_system(found.system.errors, channel, held_out=False),
+                "holdout": pooled_system(found.system.errors, channel, held_out=True),
+            }
+    surface = None
+    if found.surface:
+        keys = ("pressure", "speed", "friction", "deviation")
+        surface = {k: getattr(found.surface, k).tolist() for k in keys}
+    content = {
+        "schema": 1,
+        "campaign": found.campaign.name,
+        "rig": found.campaign.rig,
+        "model": [{"effect": u.effect.name, "target": u.target, "values": dict(u.values)} for u in found.model.uses],
+        "components": {
+            r: {
+                "fit": found.error(r, held_out=False),
+                "holdout": found.error(r, held_out=True),
+                "repeats": found.repeats.get(r),
+            }
+            for r in found.relations
+        },
+        "system": system,
+        "audit": {"accused": found.checks.accused, "words": found.checks.words, "findings": found.rows("audit")},
+        "worst": {"relation": worst, "error": error},
+        "surface": surface,
+        **{
+            name: found.rows(name)
+            for name in ("places", "parameters", "correlations", "floor", "parity", "cells", "foretold")
+        },
+        "noise": {"channels": found.rows("noise"), "notes": list(found.floor.notes)},
+        "runs": {"components": found.rows("components"), "system": found.rows("system")},
+        "cannot": list(found.cannot),
+        "notes": list(found.notes),
+        "seconds": found.seconds,
+    }
+    return _plain(content)
+
+
+def _plain(value: Any) -> Any:
+    """Give what JSON can hold: NaN and infinity become null."""
+    if isinstance(value, dict):
+        return {k: _plain(v) for k, v in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(v) for v in value]
+    if isinstance(value, float):
+        return float(value) if math.isfinite(value) else None
+    return value

@@ -1,0 +1,1 @@
+"""Diagnosis: which physical effect does a model lack?"""

@@ -1,0 +1,60 @@
+"""Choosing among candidates that were screened, and among those that were fitted."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.diagnosis.screening import Screened
+from slipwise.evidence.materiality import MATERIAL, material_alone, score, worth
+from slipwise.signals import LowPass
+
+#: Share of the best explanation from which on another gauge's ties with it [1].
+_TIE = 0.99
+
+
+def various(found: Sequence[Screened], count: int) -> list[Screened]:
+    """Give the best candidates, each effect at most twice: a card and a single gauge."""
+    out: list[Screened] = []
+    for s in found:
+        if sum(o.term.effect.name == s.term.effect.name for o in out) < 2:
+            out.append(s)
+        if len(out) == count:
+            break
+    return out
+
+
+def best_of(origin: Hypothesis, tried: Sequence[Hypothesis]) -> Hypothesis | None:
+    """Give what explains most; of one fault on several gauges that tie, that which leaves the girder its rated mass.
+
+    Cells of load that all read 4 % less under a girder of 4 % more mass are cells of friction that all read 4 % more.
+    """
+    ranked = sorted(((score(origin.account, h.account), h) for h in tried), key=lambda pair: -pair[0])
+    good = [(gain, h) for gain, h in ranked if gain > 0.0 and material_alone(origin, h)]
+    if not good:
+        return None
+    top, first = good[0]
+    if worth(origin.account, first.account)[0] < MATERIAL and ranked[0][0] > top:
+        return None  # a law of so little is not named where what is no finding explains more
+    ties = dict[tuple[str, ...], Hypothesis]()
+    for gain, h in good:  # one gauge with a worse law is no tie
+        if h.names == first.names and gain > _TIE * top:
+            ties.setdefault(tuple(t.label for t in h.terms), h)
+    return min(ties.values(), key=_off_rated)
+
+
+def _off_rated(found: Hypothesis) -> float:
+    """Give how far a hypothesis takes the girder's mass from its rated value [1]."""
+    rated = found.problem.specimen.mass
+    return abs(np.log(found.solution.values.get("rig.mass", rated) / rated))
+
+
+def is_delay(found: Hypothesis) -> bool:
+    """Tell whether a hypothesis has a filter that takes nothing the logger's own let through: a delay by its name."""
+    filters = [found.values_of(t) for t in found.terms if t.effect.name == "channel_filter"]
+    if not filters:
+        return False
+    run = found.problem.runs[0]
+    most = run.filtered.frequency if run.filtered else 0.5 / run.dt
+    # of a filter of corner f_c the lag is that at 1 Hz over f_c
+    return any(LowPass(1.0, round(f["order"]), "causal").lag > most * f["lag"] for f in filters)

@@ -1,0 +1,44 @@
+"""How small an effect may be and still be seen: the least size that this campaign would have shown."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.diagnosis.screening import Screened
+from slipwise.diagnosis.starting_grid import strengths
+from slipwise.evidence.materiality import least_worth
+
+
+def least_sizes(screened: Sequence[Screened], base: Hypothesis) -> dict[str, tuple[float, str]]:
+    """Give for every effect the smallest size that would have been material, by its column: size and unit.
+
+    Args:
+        screened: candidates; of an effect on many gauges the smallest counts.
+        base: the base model as a hypothesis.
+    """
+    out: dict[str, tuple[float, str]] = {}
+    for candidate in screened:
+        found = _least(candidate, base)
+        old = out.get(candidate.term.effect.name)
+        if found is not None and (old is None or found[0] < old[0]):
+            out[candidate.term.effect.name] = found
+    return dict(sorted(out.items()))
+
+
+def _least(found: Screened, base: Hypothesis) -> tuple[float, str] | None:
+    """Scale the strength that moved most until some relation's mean squared residual would fall by what is material."""
+    away = {
+        p: abs(found.values[p.name] - float(p.neutral or 0.0)) / (abs(p.typical - float(p.neutral or 0.0)) or 1.0)
+        for p in strengths(found.term.effect)
+    }
+    leading = max(away, key=lambda p: away[p], default=None)
+    if leading is None or away[leading] == 0.0 or found.length <= 0.0:
+        return None
+    size = abs(found.values[leading.name] - float(leading.neutral or 0.0))
+    step = (found.length * found.column.astype(np.float64)) ** 2
+    parts, problem = base.solution.residuals.parts, base.problem
+    rows = [sum(parts[r][i].size for i in problem.fitted) for r in problem.relations]
+    drops = np.add.reduceat(step, np.concatenate([[0], np.cumsum(rows)[:-1]]))
+    counts = np.array([base.account.counts[r][0] for r in problem.relations])
+    return float(size * np.sqrt(least_worth([found.term]) / np.max(drops / np.maximum(counts, 1)))), leading.unit

@@ -1,0 +1,196 @@
+"""The verb: diagnose a campaign."""
+
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from slipwise.campaign import Campaign, load_campaign
+from slipwise.diagnosis.candidates import ONE_THING
+from slipwise.diagnosis.cannot_tell import untold
+from slipwise.diagnosis.detectable_size import least_sizes
+from slipwise.diagnosis.hypothesis import Account, Hypothesis
+from slipwise.diagnosis.predicted_friction import foretold
+from slipwise.diagnosis.replays import replayed_errors
+from slipwise.diagnosis.reported_sizes import named_sizes
+from slipwise.diagnosis.result import Candidate, Diagnosis
+from slipwise.diagnosis.search_state import Search
+from slipwise.diagnosis.verdict import Verdict, judge, with_faults
+from slipwise.diagnosis.workflow import Explored, explore
+from slipwise.effects import Effect
+from slipwise.errors import InputError
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.least_squares import jacobian
+from slipwise.evidence.materiality import score, worth
+from slipwise.model import Model
+
+#: Hypotheses that are listed.
+_LISTED = 6
+
+
+def diagnose(
+    campaign: Campaign | Path | str,
+    model: Model | None = None,
+    *,
+    own: Iterable[Effect] = (),
+    system: bool = False,
+    progress: Callable[[str, float], None] | None = None,
+) -> Diagnosis:
+    """Say which effect a model lacks.
+
+    Args:
+        campaign: or its folder.
+        model: the user's current model; the paper's law on the campaign's rig when not given.
+        own: effects beside those of the catalogue, as `slipwise.effects.find_effect` gives them.
+        system: replay base and final model as well.
+        progress: called with what is being done and the share done.
+
+    Raises:
+        InputError: the campaign lacks what every fit needs.
+    """
+    began = time.perf_counter()
+    tell = progress or (lambda words, share: None)
+    tell("reading", 0.0)
+    found = campaign if isinstance(campaign, Campaign) else load_campaign(campaign)
+    tell("fitting base parameters", 0.02)
+    part = 0.7 if system else 1.0
+    explored = explore(found, model, own, lambda words, share: tell(words, part * share))
+    base, state = explored.base, explored.search
+    judged = judge(state)
+    shown = state.final if judged.effects else state.path[0]
+    verdict = with_faults(judged, explored.faults, state.best.terms)
+    final = as_fit(base, shown, with_slopes=shown is not state.settled or not shown.problem.balanced)
+    cannot = [f"{name}: {reason}" for name, reason in [*state.cannot.items(), *untold(state, final)]]
+    replayed: dict[str, float] = {}
+    if system:
+        tell("replaying", 0.7)
+        try:
+            roles = ("holdout",) if base.problem.held_out else ("fit", "repeat")
+            models = [base] if final is base else [base, final]
+            errors = replayed_errors(models, roles, lambda share: tell("replaying", part + (1.0 - part) * share))
+            replayed = {"base": errors[0], "final": errors[-1]}
+        except InputError as error:
+            cannot.append(f"system level: {error}")
+    relations = _relations(state, shown)
+    before = max(error_of(explored.unmended, r) for r in explored.unmended.fitted)
+    tell("done", 1.0)
+    return Diagnosis(
+        campaign=found.name,
+        verdict=verdict,
+        component=_component(state, verdict),
+        base_error=before,
+        final_error=max(b for _, b in relations.values()),
+        relations=relations,
+        system=replayed,
+        candidates=_listed(explored, judged, verdict, final),
+        foretold=foretold(final),
+        least=least_sizes([*state.screened, *state.opposed], state.path[0]),
+        cannot_tell=tuple(cannot),
+        search=state,
+        final=final,
+        seconds=time.perf_counter() - began,
+    )
+
+
+def as_fit(base: BaseFit, found: Hypothesis, *, with_slopes: bool = True) -> BaseFit:
+    """Give a hypothesis as a fit of its own, with its own Jacobian, for intervals, locating and replays.
+
+    Args:
+        base: the base fit.
+        found: the hypothesis.
+        with_slopes: take its slopes, those that it has are of a fit nearby; `as_reported` has taken its own.
+    """
+    if not found.terms:
+        return base
+    solution = found.solution
+    if with_slopes:
+        slopes = jacobian(found.problem, solution.values, solution.free, solution.residuals)
+        solution = replace(solution, jacobian=slopes)
+    return BaseFit(base.campaign, base.model, found.problem, solution.free, solution)
+
+
+def error_of(account: Account, relation: str) -> float:
+    """Give the held-out error of a relation in floors; that of the fitted runs where none is held out."""
+    held = account.counts[relation][1] > 0
+    return float(np.sqrt(account.level(relation, held_out=held)))
+
+
+def _relations(state: Search, shown: Hypothesis) -> dict[str, tuple[float, float]]:
+    origin, best = state.path[0].account, shown.account
+    return {r: (error_of(origin, r), error_of(best, r)) for r in origin.fitted}
+
+
+def _component(state: Search, verdict: Verdict) -> str:
+    if verdict.kind == "complete":
+        return "none"
+    if verdict.kind == "instrument":
+        return "instrument"
+    if state.best.terms and verdict.kind != "unknown":
+        return state.best.terms[0].effect.component
+    relation = verdict.surface.relation if verdict.surface else "pads"
+    return {"pads": "pad friction", "girder": "girder", "heave": "pad load"}.get(relation, "pad load")
+
+
+def _listed(explored: Explored, judged: Verdict, verdict: Verdict, final: BaseFit) -> tuple[Candidate, ...]:
+    """Give hypotheses, and faults of samples: before them where they alone are what is missing."""
+    hypotheses = _candidates(explored.search, judged, final)
+    recorded, kept = explored.unmended, explored.search.path[0].account
+    where = max(recorded.fitted, key=lambda relation: error_of(recorded, relation))
+    before, after = error_of(recorded, where), error_of(kept, where)
+    labels = dict.fromkeys(f"{f.effect}[{f.channel}]" for f in explored.faults)
+    faults = tuple(Candidate(label, verdict.probability, before, after, 0.0, {}) for label in labels)
+    return (*hypotheses, *faults) if judged.effects else (*faults, *hypotheses)
+
+
+def _candidates(state: Search, verdict: Verdict, final: BaseFit) -> tuple[Candidate, ...]:
+    origin = state.path[0]
+    unique: dict[tuple[str, ...], Hypothesis] = {}
+    for h in sorted(state.tried, key=lambda h: -score(origin.account, h.account)):
+        if h.terms and score(origin.account, h.account) > 0.0:
+            unique.setdefault(h.names, h)
+    best = state.best
+    unique |= {h.names: h for h in verdict.rivals}
+    order = [best, *(h for n, h in unique.items() if n != best.names)] if best.terms else list(unique.values())
+    absorbed = {s.term.label: s.absorbed for s in state.screened}
+    listed = order[:_LISTED]
+    shares = _shares(state, verdict, listed)
+    out = []
+    for h, probability in zip(listed, shares, strict=True):
+        _, where = worth(origin.account, h.account)
+        where = where or "pads"
+        shown = state.final if h is best else h
+        out.append(
+            Candidate(
+                effect=" + ".join(t.label for t in h.terms),
+                probability=probability,
+                holdout_before=error_of(origin.account, where),
+                holdout_after=error_of(shown.account, where),
+                absorbed_by_base=max(absorbed.get(t.label, 0.0) for t in h.terms),
+                parameters=named_sizes(shown, final if verdict.effects and h is best else None),
+            )
+        )
+    return tuple(out)
+
+
+def _shares(state: Search, verdict: Verdict, listed: list[Hypothesis]) -> list[float]:
+    """Give each listed hypothesis its chance: those that tie share that of the verdict, the others what is left."""
+    named = verdict.kind in ("named", "instrument", "ambiguous")
+    if not listed:
+        return []
+    origin = state.path[0]
+    weights = np.array([max(score(origin.account, h.account), 1e-9) for h in listed])
+    if not named:
+        return [float(x) for x in (1.0 - verdict.probability) * weights / weights.sum()]
+    rivals = verdict.rivals or [h for h in listed if _is_one_thing(h, state.best)]
+    alike = [h is state.best or any(h is r for r in rivals) for h in listed]
+    tied = np.array(alike) if verdict.kind == "ambiguous" else np.array([h is state.best for h in listed])
+    weights[tied] = 0.0
+    rest = (1.0 - verdict.probability) * weights / max(weights.sum(), 1e-12)
+    sharing = max(int(tied.sum()), 2 if verdict.kind == "ambiguous" else 1)  # a twin may not have been refitted
+    return [float(x) for x in np.where(tied, verdict.probability / sharing, rest)]
+
+
+def _is_one_thing(one: Hypothesis, other: Hypothesis) -> bool:
+    return any(set(one.names) ^ set(other.names) == pair for pair in ONE_THING)

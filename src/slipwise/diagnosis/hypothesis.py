@@ -1,0 +1,235 @@
+"""Refits: a candidate with its own parameters and all base parameters free, and what it is worth."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.diagnosis.starting_grid import REFERENCES, strengths
+from slipwise.estimation.base_fit import BaseFit, settled
+from slipwise.estimation.least_squares import Solution, slopes_of, solve
+from slipwise.estimation.parameters import ZERO, ZEROES, Free, Term, inertia_free
+from slipwise.estimation.problem import Problem
+
+Array = NDArray[np.float64]
+#: A fit is over when a step lowers the squared residual by less than this, and by less than this share of what is left
+#: above the noise [1].
+_ENOUGH, _ROUGH = 10.0, 5e-4
+#: A polish that lowers the squared residual by more than this share is followed by another, so often at most.
+_FALLS, _POLISHES = 0.05, 3
+#: Slip over which a pad turns round belongs to the stick of the base model only.
+STICK_LENGTH = "rig.stick_length"
+
+
+@dataclass(frozen=True)
+class Account:
+    """Squared residuals of a solution, by relation.
+
+    Attributes:
+        fitted: relation -> sum over the runs that were fitted.
+        held_out: relation -> sum over the runs that were not.
+        counts: relation -> (samples fitted, samples held out).
+    """
+
+    fitted: dict[str, float]
+    held_out: dict[str, float]
+    counts: dict[str, tuple[int, int]]
+
+    def level(self, relation: str, *, held_out: bool) -> float:
+        """Give the mean squared residual of a relation in units of the noise's variance."""
+        total, count = (self.held_out, 1) if held_out else (self.fitted, 0)
+        return total[relation] / max(self.counts[relation][count], 1)
+
+    @property
+    def total(self) -> float:
+        """Sum over all runs and relations."""
+        return sum(self.fitted.values()) + sum(self.held_out.values())
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """Effects that were added to the base model, refitted.
+
+    Attributes:
+        terms: the effects.
+        problem: base and effects.
+        solution: of the fit.
+        account: of its residuals.
+    """
+
+    terms: tuple[Term, ...]
+    problem: Problem
+    solution: Solution
+    account: Account
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the effects, each once."""
+        return tuple(dict.fromkeys(t.effect.name for t in self.terms))
+
+    def without(self, term: Term) -> list[Term]:
+        """Give the terms but for one."""
+        return [t for t in self.terms if t.label != term.label]
+
+    def values_of(self, term: Term) -> dict[str, float]:
+        """Give the fitted parameters of one effect."""
+        return {n: self.solution.values[f"{term.label}.{n}"] for n in term.effect.parameter_names}
+
+
+def account(problem: Problem, solution: Solution) -> Account:
+    """Sum up a solution's squared residuals."""
+    parts = solution.residuals.parts
+    fitted, held_out, counts = {}, {}, {}
+    for name in problem.relations:
+        samples = [int(np.count_nonzero(run.judged[name])) for run in problem.runs]
+        of = [(float(np.sum(part**2)), count) for part, count in zip(parts[name], samples, strict=True)]
+        fitted[name] = sum(of[i][0] for i in problem.fitted)
+        held_out[name] = sum(of[i][0] for i in problem.held_out)
+        counts[name] = (sum(of[i][1] for i in problem.fitted), sum(of[i][1] for i in problem.held_out))
+    return Account(fitted, held_out, counts)
+
+
+def base_hypothesis(base: BaseFit) -> Hypothesis:
+    """Give the base model as a hypothesis without effects."""
+    return _hypothesis((), base.problem, base.solution)
+
+
+def refit(
+    base: BaseFit,
+    terms: Sequence[Term],
+    starts: Mapping[str, Mapping[str, float]],
+    before: Hypothesis | None = None,
+    *,
+    most: int = 7,
+) -> Hypothesis:
+    """Fit a hypothesis, all base parameters free; `polished` takes what is worth it to the end.
+
+    Args:
+        base: the base fit.
+        terms: effects to add.
+        starts: label -> parameters to start from.
+        before: a hypothesis whose numbers are a better start than the base's.
+        most: Jacobians at most.
+    """
+    problem = base.problem.adding(*terms)
+    values = dict(base.solution.values)
+    if before is not None:  # numbers of effects that are no longer there would act, or be begun from
+        kept = values.keys() | set(problem.kinematics.inertias)
+        values |= {k: v for k, v in before.solution.values.items() if k in kept}
+    labels = {t.label for t in before.terms} if before is not None else set[str]()
+    free: list[Free] = [f for f in base.free if f.key != STICK_LENGTH or not problem.has_stick]
+    if any(t.effect.name == "shear_rate" for t in terms):
+        free = [f for f in free if f.key != "rig.shear_strength"]
+    if any(t.effect.name in ZEROES for t in terms):
+        free = [f for f in free if f.key != ZERO]
+        values.pop(ZERO, None)
+    for term in terms:
+        if before is not None and term.label in labels:
+            start = before.values_of(term)
+        else:
+            start = _inside(term, starts[term.label])
+        values.update({f"{term.label}.{k}": v for k, v in start.items()})
+        free += [f for f in term.free(start) if f.key.rsplit(".", 1)[1] not in REFERENCES]
+    present = {f.key for f in free}
+    for key in problem.kinematics.inertias:
+        if key not in present:
+            free.append(inertia_free(problem.specimen, key))
+            values.setdefault(key, free[-1].start)
+    if not problem.balanced and before is None:
+        solution = _several_starts(problem, values, free, terms)
+    else:
+        known = None  # a slider's laws change it too much for slopes of before, and are quick
+        if problem.balanced:
+            known = slopes_of(base.solution)
+        solution = solve(problem, values, free, most=most, enough=_ENOUGH, rough=_ROUGH, known=known)
+        contained = before if before is not None and labels <= {t.label for t in terms} else base
+        if solution.cost > contained.solution.cost:  # the base has moved too far for its slopes of before
+            solution = solve(problem, solution.values, free, most=most, enough=_ENOUGH, rough=_ROUGH)
+    return _hypothesis(terms, problem, solution)
+
+
+def _hypothesis(terms: Sequence[Term], problem: Problem, solution: Solution) -> Hypothesis:
+    return Hypothesis(tuple(terms), problem, solution, account(problem, solution))
+
+
+def polished(found: Hypothesis) -> Hypothesis:
+    """Fit on with slopes of its own: those of the base, taken without the effects, lead only near the end.
+
+    What still falls fast is not there yet: a delay of five milliseconds is far from where screening saw it.
+    """
+    before, solution = found.solution.cost, found.solution
+    for _ in range(_POLISHES):
+        solution = solve(found.problem, solution.values, solution.free, most=6, enough=_ENOUGH, rough=_ROUGH)
+        if before - solution.cost < _FALLS * solution.cost:
+            break
+        before = solution.cost
+    return _hypothesis(found.terms, found.problem, solution)
+
+
+def as_reported(found: Hypothesis) -> Hypothesis:
+    """Fit on, weighed by its own law and finer, as what is reported of it should be.
+
+    A slider's gauges are often so quiet that nearly all its floor is what the base law's reversals leave unsure:
+    another floor would make its error before and after two different things.
+    """
+    if not found.problem.balanced:
+        return found
+    return _hypothesis(found.terms, *settled(found.problem, found.solution))
+
+
+def _several_starts(
+    problem: Problem, values: Mapping[str, float], free: Sequence[Free], terms: Sequence[Term]
+) -> Solution:
+    """Fit one slider from several starts: its material may be far from any rated value.
+
+    Friction that does not depend on speed, as high as the record's usual force, is tried beside the base fit; a length
+    of slip also at several shares of the stroke.
+    """
+    bounds = {f.key: f for f in free}
+    force = np.concatenate([problem.runs[i].force.ravel() for i in problem.fitted])
+    load = np.concatenate([problem.runs[i].load.ravel() for i in problem.fitted])
+    usual = float(np.quantile(np.abs(force), 0.8) / max(float(np.mean(load)), 1e-12))
+    strength = usual * problem.specimen.plastic_pressure
+    flat = {"shear_rate.strength": 0.0, "shear_rate.slow": usual, "rig.shear_strength": strength}
+    stroke = max(float(np.ptp(problem.runs[i].slip)) for i in problem.fitted)
+    lengths = [f"{t.label}.length" for t in terms if "stick" in t.effect.hooks]
+    starts = [dict(values), {**values, **{k: v for k, v in flat.items() if k in values}}]
+    for key in lengths:
+        starts += [{**starts[1], key: share * stroke} for share in (0.03, 0.1, 0.3)]
+    for start in starts:
+        start.update({k: float(np.clip(v, bounds[k].low, bounds[k].high)) for k, v in start.items() if k in bounds})
+    tries = [solve(problem, s, free, most=6, enough=100.0) for s in starts]
+    best = min(tries, key=lambda s: s.cost)
+    return solve(problem, best.values, free, most=12, enough=_ENOUGH)
+
+
+def _inside(term: Term, start: Mapping[str, float]) -> dict[str, float]:
+    """Move a start off neutral values and bounds, where slopes vanish or point outside."""
+    out = {}
+    for p in term.effect.parameters:
+        value = start[p.name]
+        width = abs(p.typical - (p.neutral or 0.0)) or 0.1 * (p.high - p.low)
+        if p.neutral is not None and p.neutral in (p.low, p.high):
+            inward = 1.0 if p.neutral == p.low else -1.0
+            if abs(value - p.neutral) < 0.02 * width and p.typical != p.neutral:
+                value = p.neutral + inward * 0.02 * width
+        out[p.name] = float(np.clip(value, p.low, p.high))
+    return out
+
+
+def strained(found: Hypothesis) -> bool:
+    """Tell whether a strength has run against a bound that is not its absence: a law asked for more than it can be."""
+    return any(p.name in _ends(found, t) for t in found.terms for p in strengths(t.effect))
+
+
+def cornered(found: Hypothesis) -> bool:
+    """Tell whether any constant of its laws has run against a bound: a patch wider than the stroke is no patch."""
+    return any(_ends(found, t) for t in found.terms)
+
+
+def _ends(found: Hypothesis, term: Term) -> set[str]:
+    """Give the parameters of a term that ended on a bound other than their absence; whole numbers are not fitted."""
+    ends, values = set(found.solution.at_bounds), found.values_of(term)
+    fitted = [p for p in term.effect.parameters if not p.whole]
+    return {p.name for p in fitted if f"{term.label}.{p.name}" in ends and values[p.name] != p.neutral}

@@ -1,0 +1,219 @@
+"""The ladder: effects added one by one, the error falling rung by rung, on runs the fit has not seen."""
+
+import time
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from slipwise.campaign import Campaign, load_campaign
+from slipwise.diagnosis.candidates import SAMPLE_FAULTS, candidates
+from slipwise.diagnosis.diagnose import as_fit, error_of
+from slipwise.diagnosis.forward_selection import MOST_EFFECTS
+from slipwise.diagnosis.hypothesis import Account, Hypothesis, base_hypothesis, polished, refit
+from slipwise.diagnosis.replays import replayed_errors
+from slipwise.diagnosis.result import Diagnosis
+from slipwise.diagnosis.screening import Screened, screen
+from slipwise.diagnosis.search_state import Search
+from slipwise.diagnosis.workflow import explore, prepared
+from slipwise.effects import Effect, find_effect
+from slipwise.errors import InputError, SettingError
+from slipwise.estimation.base_fit import BaseFit, fit_base
+from slipwise.model import Model
+
+#: An error below this is down to the floor [floors].
+DOWN = 1.15
+
+
+@dataclass(frozen=True)
+class Rung:
+    """One model of the ladder.
+
+    Attributes:
+        effects: labels of what was added to the base model.
+        fit_error: component-level error on fitted runs, worst relation, in floors.
+        holdout_error: the same on held-out runs; NaN where none is held out.
+        system_holdout_error: held-out error of the replay, in floors; NaN where it was not asked for or cannot be.
+        floor: 1 by definition of the errors.
+        relations: relation -> held-out error in floors; that of the fitted runs where none is held out.
+    """
+
+    effects: tuple[str, ...]
+    fit_error: float
+    holdout_error: float
+    system_holdout_error: float
+    floor: float
+    relations: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """All rungs.
+
+    Attributes:
+        campaign: its name.
+        rungs: base first.
+        tried: number of candidates that were screened, and of hypotheses that were refitted.
+        stopped: why no further rung was climbed.
+        fits: the fit of each rung, for model.toml; none where a diagnosis has climbed already.
+        seconds: it took.
+    """
+
+    campaign: str
+    rungs: tuple[Rung, ...]
+    tried: tuple[int, int]
+    stopped: str
+    fits: tuple[BaseFit, ...]
+    seconds: float
+
+    def as_json(self) -> list[dict[str, Any]]:
+        """Give the contract of ladder.json: the rungs; the last one says why no further one was climbed."""
+        screened, refitted = self.tried
+        last = len(self.rungs) - 1
+        return [
+            {**rung, "screened": screened, "refitted": refitted, "stopped": self.stopped if place == last else ""}
+            for place, rung in enumerate(self.table())
+        ]
+
+    def table(self) -> list[dict[str, Any]]:
+        """Give the errors of every rung; none where there is none."""
+        return [
+            {
+                "effects": list(r.effects),
+                "fit_error": _number(r.fit_error),
+                "holdout_error": _number(r.holdout_error),
+                "system_holdout_error": _number(r.system_holdout_error),
+                "floor": r.floor,
+            }
+            for r in self.rungs
+        ]
+
+
+def ladder(
+    campaign: Campaign | Path | str,
+    add: Sequence[str] = (),
+    model: Model | None = None,
+    *,
+    own: Iterable[Effect] = (),
+    system: bool = False,
+    progress: Callable[[str, float], None] | None = None,
+) -> Ladder:
+    """Climb the ladder: forward, pairs one step ahead, and effects taken away again that are not worth it.
+
+    Args:
+        campaign: or its folder.
+        add: effects to add in this order instead of searching: names, or paths of a user's files ("./mine.py").
+        model: where the ladder stands; the paper's law on the campaign's rig when not given.
+        own: effects that are searched beside those of the catalogue.
+        system: replay every rung as well.
+        progress: called with what is being done and the share done.
+
+    Raises:
+        UnknownNameError: an effect of `add` does not exist.
+        SettingError: the campaign cannot test an effect of `add`.
+    """
+    began = time.perf_counter()
+    tell = progress or (lambda words, share: None)
+    asked = [find_effect(name) for name in add]
+    found = campaign if isinstance(campaign, Campaign) else load_campaign(campaign)
+    tell("fitting base parameters", 0.02)
+    part = 0.6 if system else 1.0
+    if asked:
+        whole, spoiled, _ = prepared(found)
+        base = fit_base(whole, model, spoiled)
+        path, counts, stopped = _asked(base, asked, lambda share: tell("refitting", part * share))
+    else:
+        explored = explore(found, model, own, lambda words, share: tell(words, part * share))
+        base, state = explored.base, explored.search
+        path, counts, stopped = _climbed(state), (len(state.screened), len(state.tried)), _why(state)
+    fits = tuple(as_fit(base, h) for h in path)
+    errors = [float("nan")] * len(fits)
+    if system:
+        tell("replaying", part)
+        with suppress(InputError):  # nothing to replay: the table's motion was not recorded
+            errors = replayed_errors(fits, ("holdout",), lambda share: tell("replaying", part + (1.0 - part) * share))
+    rungs = [_rung(h, error) for h, error in zip(path, errors, strict=True)]
+    tell("done", 1.0)
+    return Ladder(found.name, tuple(rungs), counts, stopped, fits, time.perf_counter() - began)
+
+
+def ladder_of(found: Diagnosis) -> Ladder:
+    """Give the ladder that a diagnosis has climbed already, with the replays that it knows.
+
+    Where nothing is named the base model was replayed, and not what the search had come to.
+    """
+    search = found.search
+    path = _climbed(search)
+    ends = {0: found.system.get("base", np.nan)}
+    if found.added:
+        ends[len(path) - 1] = found.system.get("final", np.nan)
+    rungs = [_rung(h, float(ends.get(i, np.nan))) for i, h in enumerate(path)]
+    counts = (len(search.screened), len(search.tried))
+    return Ladder(search.base.campaign.name, tuple(rungs), counts, _why(search), (), 0.0)
+
+
+def _climbed(state: Search) -> list[Hypothesis]:
+    """Give the hypotheses of a search rung by rung, the last one as it is reported."""
+    return [*state.path[:-1], state.final]
+
+
+def _asked(
+    base: BaseFit, add: Sequence[Effect], tell: Callable[[float], None]
+) -> tuple[list[Hypothesis], tuple[int, int], str]:
+    """Add effects in the order asked for; a gauge's fault goes to the channel where it explains most."""
+    terms, cannot = candidates(base, add)
+    path = [base_hypothesis(base)]
+    screened = 0
+    for i, effect in enumerate(add):
+        own = [t for t in terms if t.effect.name == effect.name]
+        if not own:
+            faults = "a fault of samples is found by looking at them: `slipwise diagnose` says whether there is one"
+            known = faults if effect.name in SAMPLE_FAULTS else "it is part of the model already"
+            reason = cannot.get(effect.name, known)
+            raise SettingError(f"{effect.name} cannot be added here: {reason}")
+        before = path[-1]
+        found: list[Screened] = screen(as_fit(base, before), own)
+        screened += len(found)
+        if not found:
+            raise SettingError(f"{effect.name} changes nothing in this campaign, so it cannot be fitted")
+        best = found[0]
+        path.append(polished(refit(base, [*before.terms, best.term], {best.term.label: best.values}, before)))
+        tell((i + 1) / len(add))
+    return path, (screened, len(add)), "these effects were asked for"
+
+
+def _why(state: Search) -> str:
+    if not state.screened:
+        return "no effect of the catalogue can be tested here"
+    account = state.final.account
+    worst = max(error_of(account, relation) for relation in account.fitted)
+    if worst < DOWN:
+        return "nothing above the noise floor is left"
+    if len(state.best.terms) >= MOST_EFFECTS:
+        return f"{MOST_EFFECTS} effects are the most that are added; {worst:.2g} floors are left"
+    return f"no further effect of the catalogue is worth a rung; {worst:.2g} floors are left"
+
+
+def _rung(found: Hypothesis, replayed: float) -> Rung:
+    fitted = _errors(found.account, held_out=False)
+    held = _errors(found.account, held_out=True)
+    return Rung(
+        effects=tuple(t.label for t in found.terms),
+        fit_error=max(fitted.values()),
+        holdout_error=max(held.values(), default=float("nan")),
+        system_holdout_error=replayed,
+        floor=1.0,
+        relations={r: error_of(found.account, r) for r in found.account.fitted},
+    )
+
+
+def _errors(account: Account, *, held_out: bool) -> dict[str, float]:
+    counted = {r: c for r, c in account.counts.items() if c[int(held_out)] > 0}
+    return {r: float(np.sqrt(account.level(r, held_out=held_out))) for r in counted}
+
+
+def _number(value: float) -> float | None:
+    return float(f"{value:.4g}") if np.isfinite(value) else None

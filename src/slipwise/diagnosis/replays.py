@@ -1,0 +1,82 @@
+"""Free replays of models before and after: for the viewer, and their errors."""
+
+from collections.abc import Callable, Collection, Sequence
+
+import numpy as np
+
+from slipwise.campaign import measured_states
+from slipwise.comparison.measured_replay import measured_motion
+from slipwise.comparison.system_level import replayed_model, system_level
+from slipwise.diagnosis.result import Diagnosis
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.model import Model
+from slipwise.parallel import on_every_core
+from slipwise.record import Record
+from slipwise.simulation.replay import replay
+from slipwise.simulation.simulator import DT
+
+#: Of the noise that a replay is given [1].
+_SEED = 1
+
+
+def replays(found: Diagnosis) -> tuple[Record, list[tuple[str, Record]]]:
+    """Replay the first held-out run (or the first run) from its measured table motion.
+
+    Gauges are left out: the viewer shows what the rig does.
+
+    Returns:
+        The measured record, and label and record of the base model and, if anything was named, of the final one.
+
+    Raises:
+        InputError: the table's motion was not recorded.
+    """
+    campaign = found.final.campaign
+    run = next((r for r in campaign.runs if r.role == "holdout"), campaign.runs[0])
+    states = measured_states(run, campaign)
+    motion = measured_motion(states)
+    models = [("base model", found.search.base)]
+    if found.final is not found.search.base:
+        models.append((f"with {' and '.join(found.added)}", found.final))
+    dt = simulation_step(states.dt)
+    return states.record, [
+        (label, replay(_mechanics(fit), motion, dt=dt, output_dt=states.dt).record) for label, fit in models
+    ]
+
+
+def replayed_errors(
+    fits: Sequence[BaseFit], roles: Collection[str], progress: Callable[[float], None] | None = None
+) -> list[float]:
+    """Give the error of the replay of every fit over slip and pad forces, in floors; NaN without a run of these roles.
+
+    Args:
+        fits: whose models are replayed.
+        roles: of the runs that count: "fit", "repeat", "holdout".
+        progress: called with the share done.
+
+    Raises:
+        InputError: the table's motion was not recorded.
+    """
+
+    def error_of(place: int) -> float:
+        level = system_level(fits[place], np.random.default_rng(_SEED))
+        counted = [e for e in level.errors if e.role in roles and (e.channel == "slip_x" or "_Fx" in e.channel)]
+        return float(np.sqrt(np.mean([e.error**2 for e in counted]))) if counted else float("nan")
+
+    out: list[float] = []
+    for error in on_every_core(error_of, len(fits)):
+        out.append(error)
+        if progress:
+            progress(len(out) / len(fits))
+    return out
+
+
+def simulation_step(sampling: float) -> float:
+    """Give the step of a simulation, the usual one at most, of which the step of a record is a multiple, both [s]."""
+    # a step that was read from a file's times is off by rounding
+    return sampling / float(np.ceil(sampling / DT * (1.0 - 1e-9)))
+
+
+def _mechanics(fit: BaseFit) -> Model:
+    model, _ = replayed_model(fit)
+    gauges = [u.label for u in model.on_port("gauge")]
+    return model.without(*gauges)

@@ -1,0 +1,185 @@
+"""What `diagnose` answers: a verdict with its evidence, as an object, as JSON and in words."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from slipwise.diagnosis.predicted_friction import Foretold
+from slipwise.diagnosis.rivals import explanations
+from slipwise.diagnosis.screening import Screened
+from slipwise.diagnosis.search_state import Search
+from slipwise.diagnosis.unknown_surface import Surface
+from slipwise.diagnosis.verdict import Verdict
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.intervals import Interval
+
+SCHEMA = 1
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A hypothesis that was refitted.
+
+    Attributes:
+        effect: names, joined by " + ".
+        probability: that it is what is missing.
+        holdout_before: held-out error of the base model where this hypothesis helps most, in floors.
+        holdout_after: the same with it.
+        absorbed_by_base: part of its own effect that base parameters could mimic [1].
+        parameters: label.parameter -> interval; without ends where the hypothesis was not the best.
+    """
+
+    effect: str
+    probability: float
+    holdout_before: float
+    holdout_after: float
+    absorbed_by_base: float
+    parameters: Mapping[str, Interval]
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """The answer.
+
+    Attributes:
+        campaign: its name.
+        verdict: kind, effects, probability.
+        component: "pad friction", "pad load", "buffer", "girder", "table", "instrument" or "none".
+        base_error: held-out component-level error of the base model, worst relation, in floors.
+        final_error: the same with the named effects.
+        relations: relation -> (base, final) held-out error in floors.
+        system: {"base", "final"} held-out error at replay level, in floors; empty where it was not asked for.
+        candidates: hypotheses, best first.
+        foretold: mean friction of the held-out runs of one slider, foretold and measured.
+        least: effect -> smallest size that this campaign would have shown, and its unit.
+        cannot_tell: what this campaign could not test, and why.
+        search: everything that was looked at.
+        final: the best hypothesis as a fit, for reports and replays.
+        seconds: it took.
+    """
+
+    campaign: str
+    verdict: Verdict
+    component: str
+    base_error: float
+    final_error: float
+    relations: Mapping[str, tuple[float, float]]
+    system: Mapping[str, float]
+    candidates: tuple[Candidate, ...]
+    foretold: tuple[Foretold, ...]
+    least: Mapping[str, tuple[float, str]]
+    cannot_tell: tuple[str, ...]
+    search: Search
+    final: BaseFit
+    seconds: float
+
+    @property
+    def added(self) -> tuple[str, ...]:
+        """Effects that the final model has beside the base's; none where the verdict names none."""
+        return self.search.best.names if self.verdict.effects else ()
+
+    @property
+    def sentence(self) -> str:
+        """The verdict in one sentence."""
+        chance = f"{100 * self.verdict.probability:.0f} %"
+        names = " and ".join(self.verdict.effects)
+        seen = "held-out error" if self.search.base.problem.held_out else "error on the runs that were fitted"
+        fall = f"{seen} {self.base_error:.2g} -> {self.final_error:.2g} times the noise floor"
+        match self.verdict.kind:
+            case "complete":
+                return f"Nothing above the noise is missing ({self.base_error:.2g} times the floor; {chance})."
+            case "named":
+                more = "; form not exact" if self.verdict.leftover == "unknown" else ""
+                return f"The model lacks {names} ({chance}); {fall}{more}."
+            case "instrument":
+                return f"A gauge is at fault: {names} ({chance}); {fall}."
+            case "ambiguous":
+                rivals = " or ".join(" + ".join(e) for e in explanations(self.verdict, self.search.best.names))
+                return f"Either {rivals}: this campaign cannot tell them apart ({chance})."
+            case _:
+                surface = self.verdict.surface
+                shape = surface.words if surface else "no state that was measured organises it"
+                return f"Something outside the catalogue ({chance}). {shape[0].upper()}{shape[1:]}."
+
+    def as_json(self) -> dict[str, Any]:
+        """Give the contract of diagnosis.json."""
+        verdict = self.verdict
+        return {
+            "schema": SCHEMA,
+            "campaign": self.campaign,
+            "verdict": verdict.kind,
+            "effects": list(verdict.effects),
+            "probability": round(verdict.probability, 3),
+            "component": self.component,
+            "base_error": _number(self.base_error),
+            "floor": 1.0,
+            "final_error": _number(self.final_error),
+            "relations": {k: {"base": _number(a), "final": _number(b)} for k, (a, b) in self.relations.items()},
+            "system": {k: _number(v) for k, v in self.system.items()},
+            "candidates": [_candidate(c) for c in self.candidates],
+            "screened": [_screened(s) for s in self.search.screened],
+            "leftover": verdict.leftover,
+            "unknown": _surface(verdict.surface) if verdict.leftover == "unknown" else None,
+            "foretold": [_foretold(f) for f in self.foretold],
+            "least": {k: _number(v) for k, (v, _) in self.least.items()},
+            "cannot_tell": list(self.cannot_tell),
+            "words": self.sentence,
+            "seconds": round(self.seconds, 1),
+        }
+
+
+def _number(value: float, figures: int = 4) -> float | None:
+    return float(f"{value:.{figures}g}") if np.isfinite(value) else None
+
+
+def _candidate(found: Candidate) -> dict[str, Any]:
+    return {
+        "effect": found.effect,
+        "probability": round(found.probability, 3),
+        "holdout_before": _number(found.holdout_before),
+        "holdout_after": _number(found.holdout_after),
+        "absorbed_by_base": _number(found.absorbed_by_base),
+        "parameters": {k: written(p) for k, p in found.parameters.items()},
+    }
+
+
+def _foretold(found: Foretold) -> dict[str, Any]:
+    numbers = {"measured": found.measured, "value": found.value, "low": found.low, "high": found.high}
+    return {"run": found.run, **{k: _number(v) for k, v in numbers.items()}, "unit": "N"}
+
+
+def _screened(found: Screened) -> dict[str, Any]:
+    """Write what a candidate could explain alone, in squared residuals, and what the base parameters hide of it."""
+    return {
+        "effect": found.term.label,
+        "gain": _number(found.gain),
+        "absorbed_by_base": _number(max(found.absorbed, 0.0)),
+    }
+
+
+def written(found: Interval) -> dict[str, Any]:
+    """Write a number with its interval; "limit" says that `high` is what it is at most, and that it may be absent."""
+    numbers = {"value": found.value, "low": found.low, "high": found.high}
+    out = {**{k: _number(v, found.figures) for k, v in numbers.items()}, "unit": found.unit}
+    return {**out, "limit": found.limit} if found.limit else out
+
+
+def _surface(found: Surface | None) -> dict[str, Any] | None:
+    if found is None:
+        return None
+    return {
+        "relation": found.relation,
+        "states": list(found.states),
+        "edges": [[_number(float(x)) for x in e] for e in found.edges],
+        "mean": _nested(found.mean),
+        "band": _nested(found.band),
+        "unit": found.unit,
+        "explained": _number(found.explained),
+        "words": found.words,
+    }
+
+
+def _nested(values: np.ndarray) -> list[Any]:
+    return [_nested(v) for v in values] if values.ndim > 1 else [_number(float(v)) for v in values]

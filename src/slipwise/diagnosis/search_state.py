@@ -1,0 +1,112 @@
+"""What a search has looked at, and how it tries more: refits side by side, the best of them to the end."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+
+from slipwise.diagnosis.hypothesis import Account, Hypothesis, polished, refit
+from slipwise.diagnosis.screening import Screened
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.least_squares import Solution
+from slipwise.estimation.parameters import Term
+from slipwise.evidence.materiality import score
+from slipwise.parallel import on_every_core
+
+#: Hypotheses of one kind that are fitted to the end.
+_POLISHED = 2
+
+
+@dataclass
+class Search:
+    """What a search has looked at.
+
+    Attributes:
+        base: the base fit.
+        screened: candidates by their score against the base.
+        cannot: effects that the campaign cannot test, with the reason.
+        path: base first, then the best hypothesis with one, two ... effects.
+        tried: every hypothesis that was refitted.
+        terms: every candidate, those that screening sees nothing in included.
+        opposed: candidates of which the residual of the base asks for the opposite, and that cannot be.
+        settled: the one at which the search ended, weighed by its own law; None for the base.
+    """
+
+    base: BaseFit
+    screened: list[Screened]
+    cannot: dict[str, str]
+    path: list[Hypothesis] = field(default_factory=list[Hypothesis])
+    tried: list[Hypothesis] = field(default_factory=list[Hypothesis])
+    terms: list[Term] = field(default_factory=list[Term])
+    opposed: list[Screened] = field(default_factory=list[Screened])
+    settled: Hypothesis | None = None
+
+    @property
+    def final(self) -> Hypothesis:
+        """The hypothesis as it is reported."""
+        return self.settled or self.best
+
+    @property
+    def seen(self) -> list[Screened]:
+        """Every candidate that was screened: what the base's residual speaks against may help beside another."""
+        return [*self.screened, *self.opposed]
+
+    @property
+    def best(self) -> Hypothesis:
+        """The hypothesis at which the search ended."""
+        return self.path[-1]
+
+
+def try_one(state: Search, terms: Sequence[Term], starts: dict, before: Hypothesis | None = None) -> Hypothesis:
+    """Refit one hypothesis; arguments as `refit`."""
+    return try_all(state, [(terms, starts)], before)[0]
+
+
+def try_all(
+    state: Search,
+    asked: Sequence[tuple[Sequence[Term], dict]],
+    before: Hypothesis | None = None,
+    promising: Callable[[Hypothesis], bool] | None = None,
+) -> list[Hypothesis]:
+    """Refit hypotheses of one kind, side by side; only the best of them are worth a fit to the end.
+
+    Args:
+        state: of the search, which keeps them.
+        asked: terms and starting values of each.
+        before: as of `refit`.
+        promising: tells which of the best are; all, if not given.
+    """
+    origin, problem = state.path[0].account, state.base.problem
+    # what takes longest first, or one core waits for it
+    asked = sorted(asked, key=lambda a: -sum(len(t.effect.parameters) for t in a[0]))
+    fits = on_every_core(lambda i: _fit(refit(state.base, *asked[i], before)), len(asked))
+    found = [Hypothesis(tuple(a[0]), problem.adding(*a[0]), *fit) for a, fit in zip(asked, fits, strict=True)]
+    found.sort(key=lambda h: -score(origin, h.account))
+    best: dict[tuple[str, ...], int] = {}
+    for place, h in enumerate(found):
+        best.setdefault(h.names, place)
+    ended = [place for place in list(best.values())[:_POLISHED] if promising is None or promising(found[place])]
+    fits = on_every_core(lambda i: _fit(polished(found[ended[i]])), len(ended))
+    for place, fit in zip(ended, fits, strict=True):
+        found[place] = Hypothesis(found[place].terms, found[place].problem, *fit)
+    state.tried += found
+    return found
+
+
+def _fit(found: Hypothesis) -> tuple[Solution, Account]:
+    """Give a hypothesis without its terms, whose functions cannot be sent from one process to another."""
+    return found.solution, found.account
+
+
+def left_with(state: Search, rest: Sequence[Term], whole: Hypothesis) -> Hypothesis:
+    """Give the hypothesis of the rest of a whole: as it was fitted before, or from where the whole ended."""
+    return (tried_before(state, rest) or [try_one(state, rest, {}, whole)])[0]
+
+
+def tried_before(state: Search, terms: Sequence[Term]) -> list[Hypothesis]:
+    """Give the hypotheses of these terms that were fitted."""
+    labels = {t.label for t in terms}
+    return [h for h in state.tried if {t.label for t in h.terms} == labels]
+
+
+def as_base(state: Search, found: Hypothesis) -> BaseFit:
+    """Give a hypothesis as the base of what is to be added to it."""
+    return replace(state.base, problem=found.problem, free=found.solution.free, solution=found.solution)

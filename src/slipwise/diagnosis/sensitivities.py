@@ -1,0 +1,75 @@
+"""Columns of a screen: what a candidate of some size changes in the residual of the base fit."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.diagnosis.starting_grid import strengths
+from slipwise.effects import Effect
+from slipwise.errors import SlipwiseError
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.measurement_model import shifts
+from slipwise.estimation.parameters import Term
+from slipwise.params import Parameter
+
+Array = NDArray[np.float64]
+#: Size at which a column is taken, as a share of the typical size.
+_SMALL = 0.3
+
+
+def small(effect: Effect, shape: Mapping[str, float], moved: Parameter) -> dict[str, float]:
+    """Give an effect's values with one strength at a small size, the others absent."""
+    values = {**effect.neutral(), **shape}
+    off = float(moved.neutral or 0.0)
+    values[moved.name] = float(np.clip(off + _SMALL * (typical(effect, moved) - off), moved.low, moved.high))
+    return values
+
+
+def typical(effect: Effect, moved: Parameter) -> float:
+    """Give a typical size for a strength; for one that is usually absent that of its siblings of the same unit."""
+    if moved.typical != float(moved.neutral or 0.0):
+        return moved.typical
+    for p in strengths(effect):
+        if p.unit == moved.unit and p.typical != p.neutral:
+            return p.typical
+    return float(moved.neutral or 0.0) + 0.2 * (moved.high - float(moved.neutral or 0.0))
+
+
+def column_of(base: BaseFit, term: Term, moved: Parameter, values: dict[str, float], left: Array) -> Array | None:
+    """Give the change of the residual.
+
+    Undoing a lag moves noise in time, and half way between moved and unmoved noise there is less of it, as there is of
+    noise that drives a table and is whitened: a column that looked one way only would find a false gain. Both ways
+    together do not.
+    """
+    there = residual_with(base, term, values)
+    if there is None:
+        return None
+    off = float(moved.neutral or 0.0)
+    back = 2.0 * off - values[moved.name]
+    if (term.effect.port == "table" or shifts([term])) and moved.low <= back <= moved.high:
+        other = residual_with(base, term, {**values, moved.name: back})
+        return None if other is None else 0.5 * (there - other)
+    return there - left
+
+
+def residual_with(
+    base: BaseFit, term: Term, values: Mapping[str, float], moved: Mapping[str, float] | None = None
+) -> Array | None:
+    """Give the residual of the fitted runs with a candidate; None where it cannot be evaluated.
+
+    Args:
+        base: the base fit.
+        term: the candidate.
+        values: of its parameters.
+        moved: base parameters that are not as the base fit left them.
+    """
+    problem = base.problem.adding(term)
+    keyed = {f"{term.label}.{k}": v for k, v in values.items()}
+    try:
+        found = problem.residuals({**base.solution.values, **(moved or {}), **keyed}, fitted_only=True)
+    except SlipwiseError:
+        return None
+    stacked = found.stacked(problem.fitted, problem.relations)
+    return stacked if np.isfinite(stacked).all() else None

@@ -1,0 +1,1 @@
+"""Estimation: the numbers of a model from measured runs, with their intervals."""

@@ -1,0 +1,214 @@
+"""What noise of gauges makes of the balances: of each by itself, and where the girder or an effect rings with it."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import fftconvolve
+
+from slipwise.estimation.girder_balances import buffers_along, effects_in, heave_rate, through_pitch
+from slipwise.estimation.run_data import FitRun
+from slipwise.model import Model
+from slipwise.rig import Specimen
+from slipwise.simulation.predict import predictor
+
+Array = NDArray[np.float64]
+
+
+def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
+    """Give the noise of every balance of a girder, in its own unit."""
+    gauge, loads = run.gauge_noise
+    total, force = float(np.sqrt(np.sum(loads**2))), float(np.sqrt(np.sum(gauge**2)))
+    stiffness = sum(specimen.buffer_stiffness)
+    beside = np.hypot(force, stiffness * 0.1 * run.noise["slip_x"]) / specimen.mass
+    levels = {
+        "girder": np.hypot(run.noise.get("girder_ax", 0.0), beside),
+        "heave": np.hypot(total, specimen.mass * run.noise.get("girder_az", 0.0)),
+        "pitch": total,  # and what the friction gauges make of it, see `whitened`
+        "roll": total,
+        "warp": total,
+        "motion": 1.0,
+    }
+    return {name: max(float(level), 1e-12) for name, level in levels.items()}
+
+
+def shares_of_noise(specimen: Specimen, run: FitRun) -> dict[str, dict[str, float]]:
+    """Give the share of single channels in the variance of the balances of loads: relation -> channel -> share [1]."""
+    loads = {f"pad_{p}_N": float(level**2) for p, level in zip(run.pads, run.gauge_noise[1], strict=True)}
+    heave = {**loads, "girder_az": (specimen.mass * run.noise.get("girder_az", 0.0)) ** 2}
+    powers = {"heave": heave, "pitch": loads, "roll": loads, "warp": loads}
+    return {
+        name: {channel: power / max(sum(of.values()), 1e-24) for channel, power in of.items()}
+        for name, of in powers.items()
+    }
+
+
+def weighed_balances(
+    model: Model, runs: Sequence[FitRun], values: Mapping[str, float], turning: Sequence[Array],
+    changed: Sequence[Array],
+) -> dict[str, list[Array]]:  # fmt: skip
+    """Give the noise of every balance in its own unit, relation -> per run a number or (n,).
+
+    Args:
+        model: with the numbers of the fit.
+        runs: their gauges.
+        values: of the fit, for the girder's pitch.
+        turning: per run (n, p) of `reversal_noise` [N].
+        changed: per run (p,) of `changed_by` [1]; empty without faults of the gauges of friction.
+    """
+    springs = predictor(model) if model.with_hook("balance") else None
+    out: dict[str, list[Array]] = {}
+    for i, run in enumerate(runs):
+        levels = {name: np.array(level) for name, level in balance_noise(model.specimen, run).items()}
+        more: dict[str, Array] = {}
+        if changed:
+            more = noise_of_mending(model.specimen, turning[i], changed[i], struck_pitch(run, values))
+        if springs is not None:
+            more |= rubbing_noise(model, run, buffers_along(springs, run, *np.zeros((2, len(run.time)))))
+        for name, level in levels.items():
+            out.setdefault(name, []).append(np.hypot(level, more[name]) if name in more else level)
+    return out
+
+
+def heave_level(model: Model, run: FitRun, scale: Mapping[str, float]) -> float:
+    """Give the noise of the heave balance as the model's mass and effects pass it on [N].
+
+    Less mass multiplies the accelerometer's noise by less: without this the fit would buy a smaller residual with mass,
+    and pay for the load with whatever else adds to it. What effects let ring is counted by `bent_noise_in_heave`.
+
+    Args:
+        model: with the numbers of the fit.
+        run: its gauges.
+        scale: of `fit.faults.noise_scale`, by which the balance is divided.
+    """
+    loads = float(np.linalg.norm(run.gauge_noise[1])) * scale.get("loads", 1.0)
+    vertical = model.specimen.mass * run.noise.get("girder_az", 0.0) * scale.get("girder_az", 1.0)
+    return float(np.hypot(loads, min(1.0, heave_noise(model, run)) * vertical)) / scale.get("heave", 1.0)
+
+
+def heave_noise(model: Model, run: FitRun) -> float:
+    """Tell by which factor effects change the accelerometer's noise in the heave balance.
+
+    A girder that bends hides part of a_z at high frequency, noise included: without this factor every such effect
+    would seem to explain something.
+    """
+    uses = model.with_hook("balance")
+    if not uses or not np.isfinite(run.states.girder_acceleration[:, 2]).all():
+        return 1.0
+    shaken = np.random.default_rng(0).normal(size=len(run.time))
+    more = _more_heave(model, run, shaken)
+    return 1.0 if more is None else float(np.std(shaken + more / model.specimen.mass) / np.std(shaken))
+
+
+def bent_noise_in_heave(model: Model, run: FitRun) -> Array:
+    """Give what the accelerometer's noise adds to the predicted load where effects ring with it.
+
+    A girder that bends multiplies the noise at its own frequency by up to 1/(2 z).
+
+    Returns:
+        spectrum (m,) as `force_noise_in_pitch` gives it, nowhere below zero [N^2].
+    """
+    struck = np.zeros(len(run.time))
+    struck[len(struck) // 2] = 1.0
+    more = _more_heave(model, run, struck)
+    if more is None:
+        return np.zeros(len(struck) // 2 + 1)
+    mass = model.specimen.mass
+    passed = np.abs(np.fft.rfft(mass * struck + more)) ** 2
+    return run.noise.get("girder_az", 0.0) ** 2 * np.maximum(passed - mass**2, 0.0)
+
+
+def _more_heave(model: Model, run: FitRun, upward: Array) -> Array | None:
+    """Give what effects add to the load for an acceleration (n,) upward alone, (n,) [N]; None where none adds any."""
+    acceleration = np.zeros((2, len(run.time), 3))
+    acceleration[1, :, 2] = upward
+    answers = (effects_in(model, run, model.specimen, run.force, acceleration=a) for a in acceleration)
+    quiet, loud = (a.get("heave") for a in answers)
+    return None if quiet is None or loud is None else loud - quiet
+
+
+def rubbing_noise(model: Model, run: FitRun, buffers: Array) -> dict[str, Array]:
+    """Give what noise of the loads makes of what rubs against heave, by the rate that is made from them.
+
+    Args:
+        model: with the numbers of the fit.
+        run: its channels.
+        buffers: (n, n_buffers) [N].
+
+    Returns:
+        "heave" and "roll" (n,) [N], where anything rubs.
+    """
+    struck = np.zeros(len(run.time))
+    struck[len(struck) // 2] = np.linalg.norm(run.gauge_noise[1])
+    wrong = float(np.linalg.norm(heave_rate(struck, run.dt, model.specimen)))
+    specimen = model.built_specimen()
+    up, down = (effects_in(model, run, specimen, run.force, buffers, rising=w) for w in (wrong, -wrong))
+    return {name: 0.5 * np.abs(up[name] - down[name]) for name in ("heave", "roll") if name in up}
+
+
+def force_noise_in_pitch(run: FitRun, specimen: Specimen, values: Mapping[str, float]) -> Array:
+    """Give what the friction gauges' noise adds to the predicted pitch load: the girder's pitch rings with it.
+
+    Returns:
+        spectrum (m,) at the frequencies of a real transform, as the variance of white noise of that height [N^2].
+    """
+    heard = specimen.centre_height / specimen.half_spacing[0] * struck_pitch(run, values)
+    return float(np.sum(run.gauge_noise[0] ** 2)) * np.abs(np.fft.rfft(heard)) ** 2
+
+
+def driven_noise_in_pitch(model: Model, runs: Sequence[FitRun], values: Mapping[str, float]) -> list[Array]:
+    """Give what accelerometers' noise adds to the predicted pitch load through effects that are driven by it.
+
+    A table that rocks is told to by a measured acceleration, and turns the harder the higher the frequency: its noise
+    may be several times that of the load cells.
+
+    Returns:
+        per run spectrum (m,) as `force_noise_in_pitch` gives it [N^2].
+    """
+    run = min(runs, key=lambda r: len(r.time))
+    frequency, damping = values["rig.pitch_frequency"], values["rig.pitch_damping"]
+    specimen, at = model.built_specimen(), np.fft.rfftfreq(len(run.time), run.dt)
+    power = [np.zeros(len(r.time) // 2 + 1) for r in runs]
+    for place, channel in enumerate(("girder_ax", "table_ax")):
+        struck = np.zeros((2, len(run.time), 3))
+        struck[place, len(run.time) // 2, 0] = 1.0
+        told = effects_in(model, run, specimen, run.force, acceleration=struck[0], table=struck[1])
+        answer = told.get("pitch")
+        if answer is not None and answer.any():
+            size = np.abs(np.fft.rfft(through_pitch(answer, run.dt, frequency, damping))) ** 2
+            for of, r in zip(power, runs, strict=True):
+                of += r.noise.get(channel, 0.0) ** 2 * np.interp(np.fft.rfftfreq(len(r.time), r.dt), at, size)
+    return power
+
+
+def struck_pitch(run: FitRun, values: Mapping[str, float]) -> Array:
+    """Give what the girder's pitch makes of a pulse in the middle of a run, (n,) [1]."""
+    struck = np.zeros(len(run.time))
+    struck[len(struck) // 2] = 1.0
+    return through_pitch(struck, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
+
+
+def noise_of_mending(specimen: Specimen, turning: Array, changed: Array, ringing: Array) -> dict[str, Array]:
+    """Give the noise that balances get where the law must say what a faulty gauge of friction did not show.
+
+    Args:
+        specimen: its mass, and the lever of friction in pitch.
+        turning: (n, p) of `reversal_noise` [N].
+        changed: (p,) share of such an error that the fault lets through [1].
+        ringing: (n,) what the girder's pitch makes of a pulse in the middle [1].
+
+    Returns:
+        "girder" (n,) [m/s^2] and "pitch" (n,) [N].
+    """
+    squared = np.sum((turning * changed) ** 2, axis=1)
+    pitch = np.maximum(fftconvolve(squared, ringing**2, mode="same"), 0.0)
+    lever = specimen.centre_height / specimen.half_spacing[0]
+    return {"girder": np.sqrt(squared) / specimen.mass, "pitch": lever * np.sqrt(pitch)}
+
+
+def heard_in_balances(model: Model, runs: Sequence[FitRun], values: Mapping[str, float]) -> dict[str, list[Array]]:
+    """Give what rings with gauges' noise in pitch and heave: relation -> per run spectrum (m,) [N^2]."""
+    heard = {"pitch": [force_noise_in_pitch(r, model.specimen, values) for r in runs]}
+    if model.with_hook("balance"):
+        heard["heave"] = [bent_noise_in_heave(model, r) for r in runs]
+    return heard

@@ -1,0 +1,203 @@
+"""The base fit: the user's model with its own parameters and the rig's numbers, nothing missing added."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from slipwise.campaign import Campaign, Logger
+from slipwise.estimation.gauge_zero import free_zero
+from slipwise.estimation.least_squares import Solution, jacobian, slopes_of, solve
+from slipwise.estimation.logger_filter import estimated_logger
+from slipwise.estimation.parameters import (
+    DAMPED_STICK,
+    STICK_DAMPING,
+    YAW_INERTIA,
+    ZEROES,
+    Free,
+    base_free,
+    inertia_free,
+    terms_of,
+)
+from slipwise.estimation.problem import Problem
+from slipwise.estimation.run_data import Spoiled, fit_runs
+from slipwise.model import Model, base_model
+
+#: Noise near reversals depends on the fit and the fit on the noise: each is made anew, and every fit ends where a step
+#: promises less than this much of the squared residual. One halfwidth of an interval is worth four [1].
+_ENOUGH = (1.0, 0.1)
+#: Both are made anew more often, so often at most, where the resonance of the girder's pitch has moved by more than
+#: this share of its width, and noise is louder there by more than this share of the squared residual: from 80 Hz to
+#: 54 Hz noise had counted as half as loud.
+_MORE_ROUNDS, _AT_REST, _LOUDER = 3, 0.1, 0.02
+#: The same as a share of what is left above the noise: a law that is wrong needs no fine fit [1].
+_ROUGH = 1e-5
+#: Where a fit that is reported ends, and where one that is only to be weighed by [1]; both also at a share of what is
+#: left above the noise: a law that left 16 floors settled for four seconds and got nowhere.
+_SETTLED, _TO_WEIGH, _MUCH_LEFT = 0.1, 50.0, 5e-4
+#: A stick longer than this share of the stroke is no detail of the rig [1].
+_STICK_SHARE = 0.01
+#: A fit from elsewhere is another one if it leaves this share less of the squared residual [1].
+_BETTER = 0.01
+#: Share of the pads' squared residual that yaw must take away [1].
+_EARNED = 0.03
+
+
+@dataclass(frozen=True)
+class BaseFit:
+    """What the base model makes of a campaign.
+
+    Attributes:
+        campaign: that was fitted, with the logger's filter as it was found where nobody knew it.
+        model: where the fit began.
+        problem: relations and noise.
+        free: base parameters.
+        solution: the fit.
+    """
+
+    campaign: Campaign
+    model: Model
+    problem: Problem
+    free: tuple[Free, ...]
+    solution: Solution
+
+
+def fit_base(campaign: Campaign, model: Model | None = None, spoiled: Spoiled | None = None) -> BaseFit:
+    """Fit a campaign's base parameters on its runs of role fit and repeat.
+
+    Args:
+        campaign: with at least one run that is not held out.
+        model: the user's current model; the paper's law on the campaign's rig when not given.
+        spoiled: run -> channel -> samples (n,) at which its gauge does not tell the truth.
+
+    Raises:
+        InputError: a run lacks what every fit needs.
+    """
+    model = model or base_model(campaign.specimen)
+    runs = fit_runs(campaign, spoiled)
+    problem = Problem(runs, model.specimen, terms_of(model))
+    if campaign.logger.known or not model.specimen.free:  # of one slider no filter is told from a law
+        return _fitted(campaign, model, problem)
+    guessed = _roughly(problem, _free(campaign, model, problem), {})
+    known = replace(campaign, logger=Logger(estimated_logger(campaign, model, guessed), known=True))
+    problem = Problem(fit_runs(known, spoiled), model.specimen, terms_of(model))
+    return _fitted(known, model, problem, guessed.values)
+
+
+def _free(campaign: Campaign, model: Model, problem: Problem) -> list[Free]:
+    free = base_free(model, balances=problem.balanced, logger_known=campaign.logger.known)
+    stroke = min(float(np.ptp(problem.runs[i].slip)) for i in problem.fitted)
+    most = max(_STICK_SHARE * stroke, 1e-7)
+    if not model.specimen.free and not any(e.effect.name in ZEROES for e in model.uses):
+        zero = free_zero([problem.runs[i] for i in problem.fitted])
+        free += [zero] if zero else []
+    return [
+        replace(f, high=min(f.high, most), start=min(f.start, most)) if f.key == "rig.stick_length" else f for f in free
+    ]
+
+
+def _roughly(problem: Problem, free: list[Free], start: Mapping[str, float]) -> Solution:
+    """Fit as a beginning, from these numbers where there are any; the problem is weighed by where it begins."""
+    values = {f.key: start.get(f.key, f.start) for f in free}
+    problem.weigh(values)
+    return solve(problem, values, free, most=6, enough=_TO_WEIGH)
+
+
+def _fitted(campaign: Campaign, model: Model, problem: Problem, start: Mapping[str, float] | None = None) -> BaseFit:
+    free = _free(campaign, model, problem)
+    solution = _roughly(problem, free, start or {})
+    weighed = solution.values
+    for enough in _ENOUGH:
+        weighed = solution.values
+        problem.weigh(weighed)
+        solution = solve(problem, weighed, free, most=8, enough=enough, rough=_ROUGH)
+    for _ in range(_MORE_ROUNDS):
+        if not _rings_elsewhere(weighed, solution.values):
+            break
+        again, weighed = problem.weighed_anew(solution.values), solution.values
+        if _cost(again, weighed) > (1.0 - _LOUDER) * solution.cost:
+            break
+        problem = again
+        solution = solve(problem, weighed, free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
+    if _turns(problem, solution):
+        problem = problem.turning()
+        free.append(inertia_free(model.specimen, YAW_INERTIA))
+        start = {**solution.values, free[-1].key: free[-1].start}
+        solution = solve(problem, start, free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
+    return BaseFit(campaign, model, problem, tuple(free), solution)
+
+
+def _rings_elsewhere(weighed: Mapping[str, float], found: Mapping[str, float]) -> bool:
+    """Tell whether the girder's pitch was weighed with another resonance than was found: its noise is loud there."""
+    if "rig.pitch_frequency" not in found:
+        return False
+    frequency, damping = (found[k] / weighed[k] - 1.0 for k in ("rig.pitch_frequency", "rig.pitch_damping"))
+    return abs(frequency) > _AT_REST * found["rig.pitch_damping"] or abs(damping) > _AT_REST
+
+
+def settled(problem: Problem, solution: Solution) -> tuple[Problem, Solution]:
+    """Fit on with the laws evaluated at twice the instants, weighed anew twice, and a stick that may be damped.
+
+    What was weighed by another law is off near reversals, where that law was wrong.
+    """
+    problem, free, start = problem.weighed_anew(solution.values, finer=True), list(solution.free), solution.values
+    if any(f.key in DAMPED_STICK for f in free):
+        free.append(Free("rig.stick_damping", *STICK_DAMPING, "s"))
+        starts = ({**start, "rig.stick_damping": 0.0}, {**start, **DAMPED_STICK})
+        start = min(starts, key=lambda values: _cost(problem, values))
+    begin = slopes_of(solution)
+    solution = solve(problem, start, free, most=4, enough=_TO_WEIGH, rough=_MUCH_LEFT, begin=begin)
+    problem = problem.weighed_anew(solution.values)
+    return problem, solve(problem, solution.values, free, most=3, enough=_SETTLED, rough=_MUCH_LEFT)
+
+
+def fit_finely(campaign: Campaign, model: Model | None = None) -> BaseFit:
+    """Fit a campaign's base parameters for their own sake; arguments and errors as `fit_base`."""
+    base = fit_base(campaign, model)
+    problem, solution = settled(base.problem, base.solution)
+    return replace(base, problem=problem, free=solution.free, solution=solution)
+
+
+def restarted(base: BaseFit, values: Mapping[str, float]) -> BaseFit | None:
+    """Fit the base once more from where a hypothesis has led its parameters; None where that is no better.
+
+    Args:
+        base: the base fit.
+        values: key -> value of the hypothesis.
+    """
+    start = {**base.solution.values, **{f.key: values[f.key] for f in base.free if f.key in values}}
+    fall = 0.1 * _BETTER * base.solution.cost
+    solution = solve(base.problem, start, base.free, most=8, enough=fall, begin=slopes_of(base.solution))
+    if solution.cost > (1.0 - _BETTER) * base.solution.cost:
+        return None
+    problem = base.problem.weighed_anew(solution.values)
+    again = solve(problem, solution.values, base.free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
+    return replace(base, problem=problem, solution=again)
+
+
+def at_rated(base: BaseFit) -> BaseFit:
+    """Give a base model that was not fitted: every number where its fit began.
+
+    Args:
+        base: the base fit, whose weights are kept.
+    """
+    problem, free = base.problem, base.free
+    values = {**base.solution.values, **{f.key: f.start for f in free}}
+    residuals = problem.residuals(values)
+    left = residuals.stacked(problem.fitted, problem.relations)
+    slopes = jacobian(problem, values, free, residuals)
+    return replace(base, solution=Solution(values, free, residuals, slopes, float(left @ left), len(free) + 1))
+
+
+def _cost(problem: Problem, values: Mapping[str, float]) -> float:
+    left = problem.residuals(values, fitted_only=True).stacked(problem.fitted, problem.relations)
+    return float(left @ left)
+
+
+def _turns(problem: Problem, solution: Solution) -> bool:
+    """Tell whether yaw made from the measured forces earns its noise."""
+    if not problem.kinematics.can_turn:
+        return False
+    left = problem.turning().residuals(solution.values, fitted_only=True).stacked(problem.fitted, ("pads",))
+    before = solution.residuals.stacked(problem.fitted, ("pads",))
+    return float(left @ left) < (1.0 - _EARNED) * float(before @ before)

@@ -1,0 +1,21 @@
+"""Friction across the girder, where pads have gauges for it and the girder moves that way too.
+
+    F_y = F_b v_y / |v| + what effects add
+
+Where a pad is slow the direction of its velocity is noise, so only fast samples are held against the law.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.estimation.pad_forces import as_logged
+from slipwise.estimation.run_data import FitRun
+from slipwise.signals import LowPass
+from slipwise.simulation.predict import PadForces
+
+Array = NDArray[np.float64]
+
+
+def logged_across(run: FitRun, said: PadForces, by: LowPass | None) -> Array:
+    """Give the pads' forces along y as the logger would have written them, (n, p) [N]."""
+    return as_logged(said.force[:, :, 1], run, by, averaged=False)

@@ -1,0 +1,232 @@
+"""What a rigid girder on four springs asks of the measured channels, without any law of friction.
+
+    girder  m a_x = -(sum F + F_buffers + drag)
+    heave   sum N = m (g + a_z) - lift
+    pitch   Q_pitch = P(s) [h sum F + (h - z_b) F_buffers] / half_x + x sum N / half_x + ...
+    roll    Q_roll = 0,    warp = 0
+    motion  a_x - a_x,table = d2(slip)/dt2
+
+P(s) = (2 z w s + w^2) / (s^2 + 2 z w s + w^2) is the girder's pitch on its pads: taken as quasi-static, the balance
+leaves 2.5 times the noise. Effects add to each by their `balance`, `spring`, `drag` and `lift` hooks.
+
+Source: physics.md 1.2, 1.7; Harris' Shock and Vibration Handbook, base-excited oscillator.
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.effects import BalanceStates
+from slipwise.estimation.inverse_filter import Spectrum
+from slipwise.estimation.pad_forces import as_logged
+from slipwise.estimation.run_data import FitRun, refined
+from slipwise.model import Model
+from slipwise.rig import Specimen
+from slipwise.rig.load_modes import load_modes
+from slipwise.signals import shift
+from slipwise.signals.ends import in_frequency
+from slipwise.simulation.predict import Predictor
+
+Array = NDArray[np.float64]
+BALANCES: tuple[str, ...] = ("girder", "heave", "pitch", "roll", "warp", "motion")
+#: Where a gauge of friction lies, the girder's accelerometer is believed if it is so many of its noises away [1].
+_TELLING = 4.0
+
+
+def available(run: FitRun, specimen: Specimen) -> tuple[str, ...]:
+    """Tell which balances a run's channels allow."""
+    out = []
+    if not specimen.free or len(specimen.pads) != 4 or len(run.pads) != 4 or not np.isfinite(run.load).all():
+        return ()
+    if "girder_ax" in run.record:
+        out.append("girder")
+    if np.isfinite(run.states.girder_acceleration[:, 2]).all():
+        out.append("heave")
+    out += ["pitch", "warp"] if run.states.has_y else ["pitch", "roll", "warp"]
+    if run.record.has_all("girder_ax", "table_ax"):
+        out.append("motion")
+    return tuple(out)
+
+
+def through_pitch(values: Array, dt: float, frequency: float, damping: float) -> Array:
+    """Pass a pitch load (n,) through the girder's pitch on its pads."""
+
+    def gain(f: Array) -> NDArray[np.complex128]:
+        ratio = f / frequency
+        spring = 1.0 + 2j * damping * ratio
+        return spring / (spring - ratio**2)
+
+    return in_frequency(values, dt, gain, int(3.0 / (dt * frequency * max(damping, 0.01))) + 8)
+
+
+def _pitched(load: Array, run: FitRun, values: Mapping[str, float]) -> Array:
+    return through_pitch(load, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
+
+
+def buffers_along(law: Predictor, run: FitRun, yaw: Array, yaw_rate: Array) -> Array:
+    """Give the force of the girder on each buffer along x, (n, n_buffers) [N]; yaw moves the buffers apart.
+
+    Args:
+        law: the model's laws with their memory.
+        run: its slip.
+        yaw: of the girder over the table (n,) [rad].
+        yaw_rate: (n,) [rad/s].
+    """
+    specimen = law.model.specimen
+    if not specimen.buffer_stiffness:
+        return np.zeros((len(run.time), 0))
+    sides = np.array(specimen.buffer_places)[:, 1]
+    slip = run.slip[:, None] - sides * yaw[:, None]
+    if not any(u.effect.port == "buffer" for u in law.model.uses):
+        return slip * np.array(specimen.buffer_stiffness)
+    slip = refined(slip, run.fine)
+    velocity = refined(run.velocity[:, None] - sides * yaw_rate[:, None], run.fine)
+    time = np.linspace(run.time[0], run.time[-1], len(slip))
+    deflection = np.stack([slip, np.zeros_like(slip)], axis=2)
+    rate = np.stack([velocity, np.zeros_like(velocity)], axis=2)
+    return as_logged(law.buffers(time, deflection, rate)[:, :, 0], run, None, averaged=False)
+
+
+def heave_rate(total: Array, dt: float, specimen: Specimen) -> Array:
+    """Give the girder's vertical rate over the table (n,) [m/s]: the pads' shortening under their measured load [N]."""
+    stiffness = len(specimen.pads) * specimen.pad_stiffness
+    lag = specimen.pad_damping / specimen.pad_stiffness  # a pad's damper carries load before its spring has given way
+    smooth = in_frequency(total, dt, lambda f: 1.0 / (1.0 + (f / 100.0) ** 8) / (1.0 + 2j * np.pi * f * lag), 64)
+    return -np.gradient(smooth, dt) / stiffness
+
+
+def predicted(
+    model: Model,
+    run: FitRun,
+    force: Array,
+    buffers: Array,
+    values: Mapping[str, float],
+) -> tuple[dict[str, Array], dict[str, Array]]:
+    """Give what the balances predict and what was measured, each relation (n,).
+
+    Args:
+        model: with the numbers of the fit.
+        run: its channels, instrument faults of the hypothesis taken out.
+        force: (n, 4) measured pad forces, faults taken out [N].
+        buffers: (n, n_buffers) [N].
+        values: of the fit, for the pitch of the girder on its pads.
+    """
+    specimen = model.built_specimen()
+    half = specimen.half_spacing[0]
+    fb = buffers.sum(axis=1)
+    total = _total(run, force, specimen.mass, fb)
+    height = specimen.centre_height
+    turning = height * total + (height - specimen.buffer_height) * fb
+    heave = run.load.sum(axis=1)
+    swing = run.slip * heave if specimen.pads_on == "table" else 0.0
+    pitch = _pitched((turning + swing) / half, run, values)
+    modes = load_modes(run.load)
+    mass, gravity = specimen.mass, specimen.gravity
+    said = {
+        "girder": _late(-(total + fb) / mass, run.dt, values["rig.late_girder"]),
+        "heave": _late(mass * (gravity + run.states.girder_acceleration[:, 2]), run.dt, values["rig.late_load"]),
+        "pitch": _late(pitch, run.dt, values["rig.late_pitch"]),
+        "roll": np.zeros(len(heave)),
+        "warp": np.zeros(len(heave)),
+    }
+    seen = {"girder": run.channel("girder_ax"), "heave": heave, "pitch": modes.pitch, "roll": modes.roll}
+    seen["warp"] = modes.warp
+    for name, more in effects_in(model, run, specimen, force, buffers).items():
+        if name == "motion":
+            continue  # taken out of the states already
+        if name == "pitch":
+            more = _pitched(more, run, values)
+        said[name] = said[name] + (-more / mass if name == "girder" else more)
+    return said, seen
+
+
+def _total(run: FitRun, force: Array, mass: float, buffers: Array) -> Array:
+    """Give the pads' force along x (n,) [N]; where a gauge lies and the girder's own motion tells, what that says.
+
+    Such samples are not judged, but pitch rings on with them.
+    """
+    total = force.sum(axis=1)
+    lies = [bad for name, bad in run.spoiled.items() if name.startswith("pad_") and name.endswith("_Fx")]
+    if not lies or "girder_ax" not in run.record or "girder_ax" in run.spoiled:
+        return total
+    moved = -mass * run.record["girder_ax"] - buffers
+    off = np.abs(total - moved) > _TELLING * mass * run.noise["girder_ax"]
+    return np.where(np.any(lies, axis=0) & off, moved, total)
+
+
+def _late(values: Array, dt: float, lag: float) -> Array:
+    """Shift a smooth signal by a lag far below the sampling step."""
+    return values - lag * np.gradient(values, dt)
+
+
+def effects_in(
+    model: Model, run: FitRun, specimen: Specimen, force: Array, buffers: Array | None = None,
+    acceleration: Array | None = None, table: Array | None = None, rising: float = 0.0,
+) -> dict[str, Array]:  # fmt: skip
+    """Give what effects add to the balances by their `balance` hooks, relation -> (n,) [N]; "motion" in m/s^2.
+
+    Args:
+        model: whose effects.
+        run: its channels.
+        specimen: as built.
+        force: (n, p) of the pads along x [N].
+        buffers: (n, n_buffers) along x [N]; none of them pushes, if not given.
+        acceleration: (n, 3) of the girder in place of the measured one [m/s^2].
+        table: (n, 3) of the table in place of the measured one [m/s^2].
+        rising: added to the heave rate [m/s].
+    """
+    uses = model.with_hook("balance")
+    if not uses:
+        return {}
+    zero = np.zeros(len(run.time))
+    if buffers is None:
+        buffers = np.zeros((len(zero), len(specimen.buffer_stiffness)))
+    across = np.zeros_like(force)
+    states = BalanceStates(
+        time=run.time,
+        specimen=specimen,
+        slip=run.states.slip,
+        velocity=run.states.velocity,
+        load=run.load,
+        pad_force=np.stack([force, across], axis=2),
+        girder_acceleration=np.nan_to_num(run.states.girder_acceleration) if acceleration is None else acceleration,
+        table_acceleration=np.nan_to_num(run.states.table_acceleration) if table is None else table,
+        buffer_force=np.stack([buffers.sum(axis=1), zero], axis=1),
+        buffer_size=np.abs(buffers),
+        heave_rate=heave_rate(run.load.sum(axis=1), run.dt, specimen) + rising,
+    )
+    out: dict[str, Array] = {}
+    for entry in uses:
+        for name, more in entry.effect.hooks["balance"](states, **entry.values).items():
+            out[name] = out.get(name, zero) + more
+    return out
+
+
+def no_slip(model: Model, run: FitRun) -> Array:
+    """Give the part of the girder's acceleration over the table that is no slip, by effects that turn both, (n,)."""
+    return effects_in(model, run, model.built_specimen(), run.force).get("motion", np.zeros(len(run.time)))
+
+
+def motion_residual(run: FitRun, late: float, scale: Mapping[str, float], raised: Mapping[str, Spectrum]) -> Array:
+    """Give a_x - a_x,table - d2(slip)/dt2, whitened by the noise of the three gauges: (n,) of unit variance.
+
+    Args:
+        run: its channels.
+        late: by which the slip gauge lags behind the accelerometers [s].
+        scale: channel -> by how much undoing faults has scaled its noise: else a gain would shrink it and look good.
+        raised: channel -> by how much taking a filter out has raised the power of its noise.
+    """
+
+    def power(name: str, f: Array) -> Array:
+        factor = np.interp(f, *raised[name]) if name in raised else 1.0
+        return np.asarray((run.noise[name] * scale.get(name, 1.0)) ** 2 * factor)
+
+    def white(f: Array) -> Array:
+        slip = (2.0 * np.pi * f) ** 4 * power("slip_x", f)
+        return 1.0 / np.sqrt(power("girder_ax", f) + power("table_ax", f) + slip)
+
+    relative = run.record["girder_ax"] - run.record["table_ax"] - run.no_slip
+    slip = shift(run.record["slip_x"], run.dt, -late)
+    bend = in_frequency(slip - slip[0], run.dt, lambda f: (2.0 * np.pi * f) ** 2 * white(f), 256)
+    return in_frequency(relative, run.dt, white, 256) + bend

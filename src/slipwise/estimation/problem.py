@@ -1,0 +1,299 @@
+"""One stacked fit: pads, girder, heave, pitch, roll, warp, motion and friction across with one set of numbers.
+
+Residuals are (measured - predicted) / noise in measured units: a fault of a gauge is put on the prediction, or its
+inverse on the measurement with the noise scaled alike. Else a gain below one would shrink the noise and look good.
+"""
+
+from collections.abc import Mapping
+from copy import copy
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.estimation.balance_noise import (
+    driven_noise_in_pitch,
+    heard_in_balances,
+    heave_level,
+    shares_of_noise,
+    weighed_balances,
+)
+from slipwise.estimation.friction_across import logged_across
+from slipwise.estimation.girder_balances import BALANCES, available, buffers_along, motion_residual, predicted
+from slipwise.estimation.instants import Instants
+from slipwise.estimation.inverse_filter import evened
+from slipwise.estimation.kinematics import Kinematics, values_of
+from slipwise.estimation.measurement_model import acts_on_force, changed_by, faulted, on_force, shifts
+from slipwise.estimation.noise_model import noise_across, pad_noise, reversal_noise, whitened, with_hidden
+from slipwise.estimation.pad_forces import PadLaw, as_logged, force_along, lost_velocity, stick_share
+from slipwise.estimation.parameters import PITCH_INERTIA, ZERO, Term, fitted_model
+from slipwise.estimation.recent_results import Key, Recent
+from slipwise.estimation.residuals import Residuals
+from slipwise.estimation.run_data import FINER, FitRun
+from slipwise.model import Model
+from slipwise.rig import Specimen
+from slipwise.signals import LowPass
+from slipwise.simulation.predict import PadForces, predictor
+
+Array = NDArray[np.float64]
+#: Numbers that change what is seen of the pads' forces, not what their law says.
+_SEEN_KEYS = ("rig.stick_length", "rig.stick_damping", "rig.late_force", ZERO, "rig.logger")
+#: Numbers that no balance knows of.
+_PAD_KEYS = ("rig.pitch_slip", "rig.shear_strength", *_SEEN_KEYS)
+_PAD_PORTS = ("area", "shear", "stick", "pad")
+#: Where a model has its own memory of slip, or nothing is fitted yet [m].
+_SHORT_STICK = 1e-6
+
+
+@dataclass
+class Problem:
+    """A campaign's runs held against a base model with further terms.
+
+    Attributes:
+        runs: in the order in which they were made; memory goes on from one to the next.
+        specimen: rated values.
+        terms: effects of the base model, then those of the hypothesis.
+        sigmas: relation -> per run noise, broadcastable to the residual; made by `weigh`.
+        heard: relation -> per run spectrum (m,) of gauges' noise that rings in it [N^2]; made by `weigh`.
+        kinematics: what moved, as the terms understand it.
+    """
+
+    runs: list[FitRun]
+    specimen: Specimen
+    terms: tuple[Term, ...]
+    sigmas: dict[str, list[Array]] = field(default_factory=dict[str, list[Array]])
+    heard: dict[str, list[Array]] = field(default_factory=dict[str, list[Array]])
+
+    def __post_init__(self) -> None:
+        """Make ready what never changes."""
+        balances = (r for r in BALANCES if all(r in available(x, self.specimen) for x in self.runs))
+        across = ("across",) if all(r.across.size for r in self.runs) else ()
+        self.relations = ("pads", *balances, *across)
+        can_turn = self.balanced and not self.runs[0].states.has_yaw
+        self.kinematics = Kinematics(self.runs, self.specimen, self.terms, False, can_turn, Recent())
+        self._sort()
+
+    @property
+    def balanced(self) -> bool:
+        """Whether the balances of a girder are there, not only sliders."""
+        return len(self.relations) > 1 + ("across" in self.relations)
+
+    def _sort(self) -> None:
+        """Sort the terms by what they touch."""
+        self._on_force = [t for t in self.terms if t.effect.port == "gauge" and acts_on_force(t)]
+        self._on_girder = [t for t in self.terms if t.effect.port == "gauge" and "girder_ax" in t.targets]
+        self._law: PadLaw | None = None
+
+    @property
+    def fitted(self) -> list[int]:
+        """Places of the runs that may be fitted."""
+        return [i for i, r in enumerate(self.runs) if r.role != "holdout"]
+
+    @property
+    def held_out(self) -> list[int]:
+        """Places of the runs that are never fitted."""
+        return [i for i, r in enumerate(self.runs) if r.role == "holdout"]
+
+    def adding(self, *terms: Term) -> "Problem":
+        """Give the same problem with more terms; the noise stays."""
+        return self._with((*self.terms, *terms), self.kinematics.yaw)
+
+    def turning(self) -> "Problem":
+        """Give the same problem with the girder's yaw made from the measured forces, whatever the terms."""
+        return self._with(self.terms, True)
+
+    def _with(self, terms: tuple[Term, ...], yaw: bool) -> "Problem":
+        other = copy(self)  # results are shared: a candidate leaves most relations as they are
+        other.terms, other.kinematics = terms, self.kinematics.of(terms, yaw=yaw)
+        other._sort()
+        return other
+
+    def near(self, values: Mapping[str, float]) -> "Problem":
+        """Give the problem of which slopes at these values are to be taken."""
+        if not shifts(self.terms):
+            return self
+        other = self._with(self.terms, self.kinematics.yaw)
+        other.kinematics = self.kinematics.near(values)
+        return other
+
+    def weighed_anew(self, values: Mapping[str, float], *, finer: bool = False) -> "Problem":
+        """Give the same problem with the noise, and what the filter took at reversals, as these numbers say.
+
+        Args:
+            values: key -> value of everything.
+            finer: evaluate the laws at twice the instants from now on.
+        """
+        anew = self._with(self.terms, self.kinematics.yaw)
+        anew.kinematics.recent = Recent()
+        if finer:
+            anew.kinematics.refine(FINER)
+            anew.runs = anew.kinematics.runs
+        anew.weigh(values)
+        return anew
+
+    @property
+    def has_stick(self) -> bool:
+        """Whether an effect decides how a pad sticks."""
+        return any("stick" in t.effect.hooks for t in self.terms)
+
+    def model(self, values: Mapping[str, float]) -> Model:
+        """Give the model that these numbers describe."""
+        return fitted_model(self.specimen, self.terms, values)
+
+    def residuals(self, values: Mapping[str, float], *, fitted_only: bool = False) -> Residuals:
+        """Evaluate every relation.
+
+        Args:
+            values: key -> value, of every term's parameters and the rig's numbers.
+            fitted_only: leave out the runs after the last one that may be fitted; their parts are missing then.
+        """
+        model = self.model(values)
+        count = max(self.fitted) + 1 if fitted_only else len(self.runs)
+        pad_key = (count, *self._pad_key(values))
+        pads = self.kinematics.recent.get("pad parts", pad_key, lambda: self._pad_parts(model, values, count))
+        if not self.balanced:
+            return Residuals(pads[0], pads[1])
+        key = (count, *self._balance_key(values), *(pad_key if self._on_force else ()))
+        balances = self.kinematics.recent.get("balances", key, lambda: self._balance_parts(model, values, pads[2]))
+        return Residuals({**pads[0], **balances}, pads[1])
+
+    def _pad_parts(
+        self, model: Model, values: Mapping[str, float], count: int
+    ) -> tuple[dict[str, list[Array]], list[Array], list[Array]]:
+        """Give residuals and predictions of the pads, and measured forces without their gauges' faults."""
+        runs, _ = self.kinematics.corrected(values, count)
+        states = self.kinematics.states(values, count)
+        key = (count, *self._pad_key(values, faults=False))
+        said = self.kinematics.recent.get("law", key, lambda: self._law_of(model).at_instants(runs, states))
+        key = (*key, *(values.get(k, 0.0) for k in _SEEN_KEYS))
+        forces = self.kinematics.recent.get("forces", key, lambda: self._logged(values, runs, states, said))
+        parts, outputs, clean = [], [], []
+        for i, (run, force) in enumerate(zip(runs, forces, strict=True)):
+            seen, offset = on_force(self._on_force, values, run, force, self.kinematics.around)
+            outputs.append(force + offset)
+            clean.append(seen)
+            parts.append(self._over("pads", i, run.force - force - offset, run.judged["pads"]))
+        if "across" not in self.relations:
+            return {"pads": parts}, outputs, clean
+        sides = [r.across - logged_across(r, f, self._by(values)) for r, f in zip(runs, said, strict=True)]
+        across = [self._over("across", i, side, runs[i].judged["across"]) for i, side in enumerate(sides)]
+        return {"pads": parts, "across": across}, outputs, clean
+
+    def _balance_parts(self, model: Model, values: Mapping[str, float], forces: list[Array]) -> dict[str, list[Array]]:
+        runs, scale = self.kinematics.corrected(values, len(forces))
+        turning = self.kinematics.turning(values, len(forces))
+        raised = self.kinematics.raised(values)
+        shares = shares_of_noise(self.specimen, runs[0]) if raised else {}
+        law = predictor(model)
+        parts: dict[str, list[Array]] = {r: [] for r in self.relations if r in BALANCES}
+        hidden = 0.0
+        if "heave" in parts and self.sigmas:
+            hidden = 1.0 - (heave_level(model, runs[0], scale) / float(np.min(self.sigmas["heave"][0]))) ** 2
+        driven: list[Array | None] = [None] * len(runs)
+        if self.sigmas and PITCH_INERTIA in self.kinematics.inertias:
+            driven = [*driven_noise_in_pitch(model, runs, values)]
+        for i, (run, force) in enumerate(zip(runs, forces, strict=True)):
+            law.rest(run.rest_before)
+            said, seen = predicted(model, run, force, buffers_along(law, run, *turning[i]), values)
+            for name in parts:
+                if name == "motion":
+                    left = self._motion(i, run, values, scale)
+                elif name == "girder" and self._on_girder:  # put on what is predicted: a filter has no inverse
+                    shown = run.record.replaced(girder_ax=said[name])
+                    left = self.runs[i].channel("girder_ax") - faulted(self._on_girder, values, shown)["girder_ax"]
+                else:
+                    left = (seen[name] - said[name]) / scale.get(name, 1.0)
+                    left = evened(left, run, raised, shares.get(name, {}))
+                if name in self.heard:
+                    more = driven[i] if name == "pitch" else None
+                    left = whitened(left, run, float(np.min(self.sigmas[name][i])), self.heard[name][i], more)
+                parts[name].append(self._over(name, i, left, run.judged[name]))
+                if name == "heave":
+                    parts[name][-1] = with_hidden(parts[name][-1], hidden)
+        return parts
+
+    def weigh(self, values: Mapping[str, float]) -> None:
+        """Set the noise of every relation, error of the velocity near reversals included, and what filters took."""
+        self.kinematics.recent.forget()
+        self.kinematics.late = values.get("rig.late_slip", 0.0)
+        model = self.model(values)
+        law = PadLaw(model)
+        runs, _ = self.kinematics.corrected(values)
+        if self.specimen.free:
+            states = self.kinematics.faster(values)
+            said = law.at_instants(runs, states)
+            found = self._along(values, states, said)
+            soft = self.kinematics.compliance(model.built_specimen())
+            pairs = zip(found, runs, strict=True)
+            self.kinematics.lost = [lost_velocity(f, r, soft, self._by(values)) for f, r in pairs]
+            self.kinematics.bounds = [s.bound[:: r.fine] for s, r in zip(said, runs, strict=True)]
+            self.kinematics.recent.forget()
+        states = self.kinematics.states(values)
+        said = law.at_instants(runs, states)
+        faster = self.kinematics.faster(values, 1.0)
+        still = {**values, "rig.late_force": 0.0}
+        plain = self._logged(still, runs, states, said)
+        shifted = self._logged(still, runs, faster, law.at_instants(runs, faster))
+        for forces in (plain, shifted):  # a late gauge shows its reversals, and their noise, later too
+            for i, run in enumerate(runs):
+                forces[i] = forces[i] + on_force(self._on_force, values, run, forces[i])[1]
+        turning = [reversal_noise(*each) for each in zip(runs, plain, shifted, strict=True)]
+        self.sigmas = {"pads": [pad_noise(*each) for each in zip(runs, plain, turning, strict=True)]}
+        self.heard = {}
+        if self.balanced:
+            changed = [changed_by(self._on_force, values, r) for r in runs] if self._on_force else []
+            levels = weighed_balances(model, runs, values, turning, changed)
+            heard = heard_in_balances(model, runs, values)
+            self.sigmas |= {name: levels[name] for name in self.relations if name in levels}
+            self.heard = {name: heard[name] for name in self.relations if name in heard}
+        if "across" in self.relations:
+            self.sigmas["across"] = [noise_across(*each) for each in zip(runs, states, said, strict=True)]
+
+    def _over(self, name: str, run: int, left: Array, kept: NDArray[np.bool_]) -> Array:
+        if not self.sigmas:
+            return np.where(kept, left, 0.0)
+        return np.where(kept, left / self.sigmas[name][run], 0.0)
+
+    def _pad_key(self, values: Mapping[str, float], *, faults: bool = True) -> Key:
+        """Give what the pads' residuals depend on; without the faults of friction gauges, what their law does."""
+        own = [t for t in self.terms if t.effect.instant_hooks or "rig" in t.effect.hooks]
+        key = (*values_of(own, values), *self.kinematics.key(values), values.get("rig.shear_strength", 0.0))
+        if not faults:
+            return key
+        return (*key, *values_of(self._on_force, values), *(values.get(k, 0.0) for k in _SEEN_KEYS))
+
+    def _balance_key(self, values: Mapping[str, float]) -> Key:
+        own = [t for t in self.terms if t.effect.port not in _PAD_PORTS or "balance" in t.effect.hooks]
+        rig = [v for k, v in values.items() if k.startswith("rig.") and k not in _PAD_KEYS]
+        return (*values_of(own, values), *self.kinematics.turning_key(values), *rig)
+
+    def _by(self, values: Mapping[str, float]) -> LowPass | None:
+        """Give the logger's filter as fitted, where the campaign does not know it."""
+        return LowPass(values["rig.logger"]) if "rig.logger" in values else None
+
+    def _law_of(self, model: Model) -> PadLaw:
+        if self._law is None:
+            self._law = PadLaw(model)
+        self._law.set(model)
+        return self._law
+
+    def _along(self, values: Mapping[str, float], states: list[Instants], said: list[PadForces]) -> list[Array]:
+        """Give the pads' forces along x at the instants, a list of (f, p) [N]."""
+        length, damping = values.get("rig.stick_length", _SHORT_STICK), values.get("rig.stick_damping", 0.0)
+        sharp = not self.has_stick
+        shares = [stick_share(s, length, damping) if sharp else None for s in states]
+        return [force_along(*each) for each in zip(said, states, shares, strict=False)]
+
+    def _logged(
+        self, values: Mapping[str, float], runs: list[FitRun], states: list[Instants], said: list[PadForces]
+    ) -> list[Array]:
+        """Give the pads' forces along x as measured, a list of (n, p) [N]."""
+        by, late, averaged = self._by(values), values.get("rig.late_force", 0.0), not self.has_stick
+        forces = self._along(values, states[: len(said)], said)
+        zero = values.get(ZERO, 0.0)
+        return [zero + as_logged(f, r, by, averaged=averaged, late=late) for f, r in zip(forces, runs, strict=False)]
+
+    def _motion(self, place: int, run: FitRun, values: Mapping[str, float], scale: Mapping[str, float]) -> Array:
+        late = values["rig.late_slip"]
+        key, raised = (late, *self.kinematics.fault_key(values)), self.kinematics.raised(values)
+        return self.kinematics.recent.get(f"motion{place}", key, lambda: motion_residual(run, late, scale, raised))

@@ -1,0 +1,1 @@
+"""Evidence: what an explanation is worth, against noise and against what matters."""

@@ -1,0 +1,1 @@
+"""Experiment: which table motion to try next."""

@@ -1,0 +1,1 @@
+"""Instruments: are the gauges telling the truth, without any law of friction?"""

@@ -1,0 +1,175 @@
+"""Are the instruments telling the truth? The balances of a rigid girder say so, without any law of friction."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from slipwise.campaign import Campaign
+from slipwise.channels import channel
+from slipwise.effects import catalogue
+from slipwise.effects._gauges import span
+from slipwise.instruments.acceptance import Evidence
+from slipwise.instruments.balances import relations
+from slipwise.instruments.forward_selection import judge
+from slipwise.instruments.joint_fit import KNOWN_MASS, RATED_MASS, Case, Fit
+from slipwise.instruments.logger_spectrum import estimate_logger
+from slipwise.instruments.report import AuditReport, Balance, Finding
+from slipwise.instruments.rows import hold, noise_of_channels, noise_of_runs
+from slipwise.instruments.sample_faults import RAILS, SampleFault, coarse, repaired, sample_faults
+from slipwise.instruments.sentences import as_sentence, confusable, how_to_settle, nearest, sentence
+from slipwise.instruments.signs import turned_gauges
+from slipwise.instruments.suspects import Suspect
+from slipwise.signals import white_level
+from slipwise.signals.noise import quantum
+
+#: Nobody is surer than this.
+_SUREST = 0.99
+#: A rounding step above this many standard deviations of noise is worth a word [1].
+_COARSE = 2.0
+#: Sample faults -> effect of the catalogue, and how sure they are.
+_SAMPLE = {"dead": "channel_gain", **dict.fromkeys(RAILS, "channel_clipping")}
+
+
+def audit(campaign: Campaign) -> AuditReport:
+    """Hold every run's channels against each other; nothing is corrected.
+
+    Args:
+        campaign: whose logger may be unknown: then its filter is estimated too.
+    """
+    samples = sample_faults(campaign)
+    records, left_out = repaired(campaign, samples)
+    clean = campaign.with_records(records, "bad samples left out") if samples else campaign
+    runs, band = hold(clean, left_out)
+    held, cannot = relations(runs[0].record, campaign.specimen)
+    noise = noise_of_runs(runs, noise_of_channels(clean, runs, band), band)
+    mass_error = KNOWN_MASS if "mass" in campaign.known else RATED_MASS
+    logger = None if campaign.logger.known else estimate_logger(clean)
+    findings, notes = [_of_samples(fault) for fault in samples], _rounded(campaign)
+    plain = AuditReport(campaign.name, tuple(findings), (), (), {}, logger, tuple(cannot), tuple(notes))
+    if not any(relation.accuses and relation.rows in ("moving", "inner") for relation in held):
+        return plain
+    turned, case, first = turned_gauges(Case(runs, held, campaign.specimen, noise, mass_error))
+    verdict = judge(case, first)
+    findings += [_of_sign(suspect) for suspect in turned]
+    findings += [_of_evidence(evidence) for evidence in verdict.accepted]
+    notes += [f"{as_sentence(e.suspect, e.size)}: too little to matter" for e in verdict.small]
+    notes += [f"{as_sentence(e.suspect, e.size)} would explain something, but {e.why_not}" for e in verdict.refused]
+    return replace(
+        plain,
+        findings=tuple(sorted(findings, key=lambda finding: -finding.probability)),
+        balances=_balances(first, verdict.fit),
+        physics=tuple(dict.fromkeys(verdict.physics)),
+        constants=verdict.fit.constants,
+        notes=tuple(notes),
+    )
+
+
+def _of_evidence(evidence: Evidence) -> Finding:
+    """Turn a suspect that stands into a finding."""
+    suspect, size = evidence.suspect, evidence.size
+    # runs that disagree widen the interval: their scatter is misfit that the formula does not know
+    scatter = float(np.std(evidence.runs, ddof=1)) / np.sqrt(len(evidence.runs)) if len(evidence.runs) > 1 else 0.0
+    reach = 1.96 * max(evidence.error, scatter)
+    against = [loss for name, loss in evidence.rivals if not _same_fault(name, suspect)]
+    odds = sum(float(np.exp(-np.clip(loss, -30.0, 30.0))) for loss in against)
+    rivals = nearest(evidence.rivals, evidence.gain)
+    return Finding(
+        what=suspect.effect,
+        channel=suspect.target if suspect.target != "all" else "pad_*",
+        size=size,
+        low=size - reach,
+        high=size + reach,
+        unit=suspect.unit,
+        probability=min(_SUREST, 1.0 / (1.0 + odds)),
+        mistaken_for=tuple(dict.fromkeys([*rivals, *confusable(suspect.effect)])),
+        settle_by=how_to_settle(suspect.effect, rivals),
+        words=as_sentence(suspect, size),
+        target=suspect.target,
+        values=suspect.values(size),
+    )
+
+
+def _same_fault(rival: str, suspect: Suspect) -> bool:
+    """Tell variants of one fault on one channel, which do not make it less sure."""
+    effect, _, place = rival.partition(" ")
+    return effect == suspect.effect and place.startswith(suspect.target)
+
+
+def _of_sign(suspect: Suspect) -> Finding:
+    return Finding(
+        "channel_sign",
+        suspect.target,
+        -1.0,
+        -1.0,
+        -1.0,
+        "1",
+        _SUREST,
+        confusable("channel_sign"),
+        how_to_settle("channel_sign", ()),
+        as_sentence(suspect, -1.0),
+        suspect.target,
+        suspect.values(-1.0),
+    )
+
+
+def _of_samples(fault: SampleFault) -> Finding:
+    """Turn bad samples into a finding."""
+    effect = _SAMPLE.get(fault.kind, "dropped_samples")
+    place = _place(fault.channels)
+    unit = channel(fault.channels[0]).unit if fault.kind in RAILS else "1"
+    words = {
+        "dead": f"{place} is dead in {', '.join(fault.runs)}",
+        "lost": f"{place} has lost samples: what follows them came early, and the end repeats one value",
+        "gap": f"the logger has lost {fault.size:.2%} of all samples",
+    }.get(fault.kind, sentence(effect, place, fault.size, unit))
+    if fault.kind in RAILS:
+        upper = fault.kind == RAILS[0]
+        values = {"upper" if upper else "lower": (1.0 if upper else -1.0) * fault.size / span(fault.channels[0])}
+    else:
+        values = {catalogue()[effect].parameters[0].name: fault.size}
+    return Finding(
+        what=effect,
+        channel=place,
+        size=fault.size,
+        low=fault.size,
+        high=fault.size,
+        unit=unit,
+        probability=_SUREST,
+        mistaken_for=confusable(effect),
+        settle_by=how_to_settle(effect, ()),
+        words=words,
+        target=fault.channels[0] if len(fault.channels) == 1 else place,
+        values=values,
+        runs=fault.runs,
+    )
+
+
+def _place(channels: tuple[str, ...]) -> str:
+    """Write several channels as one pattern where they are one card."""
+    kinds = {name.split("_")[-1] for name in channels}
+    if len(channels) > 1 and all(name.startswith("pad_") for name in channels) and len(kinds) == 1:
+        return f"pad_*_{kinds.pop()}"
+    return channels[0] if len(channels) == 1 else "all"
+
+
+def _balances(first: Fit, last: Fit) -> tuple[Balance, ...]:
+    rows = []
+    for name, left in first.left.items():
+        before, after = (float(np.sqrt(np.mean(np.square(f.left[name])))) / f.floor[name] for f in (first, last))
+        rows.append(Balance(name, first.floor[name], before, after, len(left)))
+    return tuple(rows)
+
+
+def _rounded(campaign: Campaign) -> list[str]:
+    """Name channels whose rounding is coarser than their noise."""
+    found = []
+    for name in campaign.runs[0].record.channels:
+        values = campaign.runs[0].record[name]
+        if np.ptp(values) == 0.0:
+            continue
+        step, noise = quantum(values), white_level(values)
+        if step > _COARSE * noise > 0.0:
+            found.append(f"{name} is rounded to steps of {step:.3g} {channel(name).unit}, more than its noise")
+        if coarse(values):
+            found.append(f"{name} is rounded so coarsely that repeated samples cannot be told")
+    return found

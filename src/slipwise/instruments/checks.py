@@ -1,0 +1,102 @@
+"""The audit of the instruments in words and rows: what lies, on which channel, how large, how sure, what else it is.
+
+Nothing is corrected unless a finding is named: then the records are mended by its size, and the campaign says so.
+"""
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from slipwise.campaign import Campaign
+from slipwise.instruments.audit import audit
+from slipwise.instruments.corrections import correct
+from slipwise.instruments.report import AuditReport, Finding, LoggerEstimate
+from slipwise.instruments.sentences import shown
+
+
+@dataclass(frozen=True)
+class Checks:
+    """What the audit of the instruments says, for tables and pages.
+
+    Attributes:
+        words: the answer in a sentence.
+        report: the audit itself, in numbers.
+        seconds: that it took.
+    """
+
+    words: str
+    report: AuditReport
+    seconds: float
+
+    @property
+    def accused(self) -> bool:
+        """Whether a gauge is accused."""
+        return bool(self.report.findings)
+
+    @property
+    def rows(self) -> list[Mapping[str, Any]]:
+        """Findings in the units that people read, one a row."""
+        return [_row(finding) for finding in self.report.findings]
+
+    @property
+    def cannot(self) -> tuple[str, ...]:
+        """What could not be tested, and for want of what."""
+        return self.report.cannot
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What matters to nobody but should be known, and what the data say of the logger."""
+        logger = self.report.logger
+        return self.report.notes if logger is None else (_logger(logger), *self.report.notes)
+
+
+def check_instruments(campaign: Campaign) -> Checks:
+    """Audit a campaign without any law of friction."""
+    began = time.perf_counter()
+    report = audit(campaign)
+    held = [b for b in report.balances if not b.relation.startswith("rest_")]
+    if report.findings:
+        words = f"No: {'; '.join(f.words for f in report.findings)}. No law of friction was needed to see it."
+    elif held:
+        words = f"Yes: {len(held)} balances and kinematic relations agree, no gauge is accused."
+    else:
+        words = "Not known: these channels allow no balance, so no gauge can be held against another."
+    return Checks(words, report, time.perf_counter() - began)
+
+
+def corrected_campaign(campaign: Campaign, checks: Checks, names: Sequence[str]) -> Campaign:
+    """Mend the records by the named findings, and note it.
+
+    Args:
+        campaign: as recorded.
+        checks: its audit.
+        names: of findings, as the audit prints them.
+
+    Raises:
+        UnknownNameError: the audit has no such finding.
+        InputError: the audit has no finding at all, or one whose harm cannot be undone.
+    """
+    return correct(campaign, checks.report, names)[0]
+
+
+def _row(finding: Finding) -> dict[str, Any]:
+    low, high = (shown(end, finding.unit, finding.what) for end in (finding.low, finding.high))
+    return {
+        "finding": finding.name,
+        "in words": finding.words,
+        "95 % interval": f"{low} to {high}",
+        "sure": f"{finding.probability:.0%}",
+        "could be mistaken for": ", ".join(finding.mistaken_for) or "nothing near",
+        "what would settle it": finding.settle_by,
+    }
+
+
+def _logger(found: LoggerEstimate) -> str:
+    if found.lowpass is None:
+        return f"the logger's filter is not known: {found.why}"
+    by = found.lowpass
+    return (
+        f"the logger's low-pass filter, which campaign.toml does not give: {by.frequency:.0f} Hz "
+        f"({found.low:.0f} to {found.high:.0f}), order {by.order}, phase {by.phase}, {found.why}"
+    )

@@ -1,0 +1,68 @@
+"""Apply corrections that a user has named; what was done is written down, nothing is done silently."""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from slipwise.campaign import Campaign
+from slipwise.effects import catalogue
+from slipwise.errors import InputError, unknown_name
+from slipwise.instruments.report import AuditReport, Finding
+from slipwise.instruments.sample_faults import bridged, sample_faults
+from slipwise.instruments.suspects import sharpened
+from slipwise.record import Record
+
+
+def correct(campaign: Campaign, report: AuditReport, names: Iterable[str]) -> tuple[Campaign, list[str]]:
+    """Take named faults out of a campaign's records.
+
+    Args:
+        campaign: that was audited.
+        report: its audit.
+        names: of findings: "channel_delay:slip_x", or only "channel_delay" for all of that kind.
+
+    Returns:
+        The campaign with corrected records and notes, and the corrections in words.
+
+    Raises:
+        UnknownNameError: no finding has such a name.
+        InputError: nothing was found at all, or a fault whose harm cannot be undone, such as a rail.
+    """
+    done: list[str] = []
+    for name in names:
+        chosen = [finding for finding in report.findings if name in (finding.name, finding.what)]
+        if not chosen:
+            known = [finding.name for finding in report.findings]
+            if not known:
+                raise InputError(f"{name!r}: the audit accuses no gauge, there is nothing to correct")
+            raise unknown_name("finding", name, known, "`slipwise audit` lists them.")
+        for finding in chosen:
+            words = f"corrected: {finding.words}"
+            records = {run.name: _mended(run.record, finding, campaign, run.name) for run in campaign.runs}
+            campaign = campaign.with_records(records, words)
+            done.append(words)
+    return campaign, done
+
+
+def _mended(record: Record, finding: Finding, campaign: Campaign, run: str) -> Record:
+    hooks = catalogue()[finding.what].hooks
+    if finding.what == "channel_gain" and finding.size <= -1.0:
+        raise InputError(f"{finding.channel} is dead: there is nothing that could be corrected; leave the channel out")
+    if finding.what == "dropped_samples":
+        return _bridged(record, finding, campaign, run)
+    if finding.what == "channel_filter":
+        return sharpened(record, finding.target, **finding.values)
+    if "undo" not in hooks:
+        raise InputError(f"{finding.words}: what it has cut away cannot be brought back; leave the channel or run out")
+    return hooks["undo"](record, finding.target, **finding.values)
+
+
+def _bridged(record: Record, finding: Finding, campaign: Campaign, run: str) -> Record:
+    """Interpolate over repeated samples."""
+    for fault in sample_faults(campaign):
+        if fault.kind == "held" and run in fault.bad and finding.runs == fault.runs:
+            bad = fault.bad[run]
+            return record.replaced(**{n: bridged(record[n], bad) for n in fault.channels if np.any(bad)})
+    if run in finding.runs:
+        raise InputError(f"{finding.words}: samples that are lost cannot be put back; cut the run before them")
+    return record

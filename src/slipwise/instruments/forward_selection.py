@@ -1,0 +1,175 @@
+"""Which suspects stand: forward choice among suspects and physics, then what speaks for each suspect."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.instruments.acceptance import Evidence, possible, weigh
+from slipwise.instruments.joint_fit import Case, Fit, fit, noise_with_itself, signature, start, supports
+from slipwise.instruments.physical_alternatives import Alternative, alternatives
+from slipwise.instruments.rows import Block
+from slipwise.instruments.suspects import Suspect, suspects
+
+Array = NDArray[np.float64]
+#: Explanations that are tried at most, refused ones included.
+_MOST = 10
+#: Candidates that are fitted in each step, and how near to the best they must be for that [1].
+_TRIED, _NEAR = 4, 0.4
+#: Least gain of the score for an explanation to be taken up.
+_WORTH = 12.0
+#: A filter must explain more than a delay by this, in units of the score.
+_ALIKE = 15.0
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What was found.
+
+    Attributes:
+        fit: the last joint fit.
+        accepted: suspects that stand, with reasons in numbers.
+        small: suspects that are there, but too small to matter.
+        refused: suspects that explained something but not as a fault would.
+        physics: names of physical alternatives that were taken up.
+    """
+
+    fit: Fit
+    accepted: tuple[Evidence, ...]
+    small: tuple[Evidence, ...]
+    refused: tuple[Evidence, ...]
+    physics: tuple[str, ...]
+
+
+def judge(case: Case, begun: Fit | None = None) -> Verdict:
+    """Choose explanations one by one until nothing is worth another.
+
+    Args:
+        case: what is judged.
+        begun: its fit of constants alone, if there is one.
+    """
+    first = here = begun or start(case)
+    # before physics is named, what a fault that stands has left is what the next one has to explain
+    plain = first
+    candidates: list[Suspect | Alternative] = [*suspects(case.runs[0].record)]
+    blocks: list[Block] = []
+    itself: list[Mapping[str, float]] = []
+    one_sided: list[bool] = []
+    for who in candidates:
+        assert isinstance(who, Suspect)
+        blocks.append(signature(case, who, first.mended, first.stack, first.constants))
+        itself.append(noise_with_itself(case, who, first.mended, first.stack, first.constants))
+        one_sided.append(who.one_sided)
+    for alternative in alternatives(case.runs, case.relations):
+        candidates.append(alternative)
+        blocks.append(alternative.columns)
+        itself.append({})
+        one_sided.append(False)
+    accepted: list[Evidence] = []
+    refused: list[Evidence] = []
+    small: list[Evidence] = []
+    for _ in range(_MOST):
+        found = supports(here, case, blocks, itself, one_sided)
+        fits = {i: _with(case, here, candidates[i]) for i in _to_try(found)}
+        for i, tried in fits.items():
+            # signatures are taken at small sizes: a large delay explains more than its signature does
+            found[i] = tried.score - here.score
+        best = max(fits, key=lambda i: float(found[i]), default=-1)
+        if best < 0:
+            break
+        best = _plainer(candidates, found, fits, best)
+        chosen, worth = candidates[best], float(found[best])
+        rivals = sorted(((_called(c), worth - float(g)) for c, g in zip(candidates, found, strict=True)), key=_loss)
+        for pile in (candidates, blocks, itself, one_sided):
+            del pile[best]
+        if worth < _WORTH:
+            continue
+        if isinstance(chosen, Alternative):
+            here = fits[best]
+            continue
+        tried = fits[best]
+        evidence = weigh(case, plain, here, tried, len(tried.model.sizes) - 1)
+        if evidence.why_not and not evidence.small:
+            best, disturbed = _disturbed(case, tried, candidates, blocks, itself, one_sided)
+            if disturbed is not None:
+                again = weigh(case, plain, here, disturbed, len(tried.model.sizes) - 1)
+                other = weigh(case, plain, tried, disturbed, len(tried.model.sizes))
+                if not again.why_not and other.small and possible(other):
+                    for pile in (candidates, blocks, itself, one_sided):
+                        del pile[best]
+                    evidence, tried = again, disturbed
+                    small.append(other)
+        if evidence.small and possible(evidence):
+            # too small to matter, but true: it stays, lest its traces be given to others
+            small.append(evidence)
+            here = tried
+        elif evidence.why_not:
+            refused.append(evidence)
+        else:
+            accepted.append(replace(evidence, rivals=tuple(r for r in rivals if r[0] != _called(chosen))[:6]))
+            here = tried
+            plain = plain if here.model.physics else here
+    physics = tuple(a.name for a in here.model.physics)
+    return Verdict(here, _as_fitted_last(accepted, here), _as_fitted_last(small, here), tuple(refused), physics)
+
+
+def _disturbed(
+    case: Case,
+    tried: Fit,
+    candidates: Sequence[Suspect | Alternative],
+    blocks: Sequence[Block],
+    itself: Sequence[Mapping[str, float]],
+    one_sided: Sequence[bool],
+) -> tuple[int, Fit | None]:
+    """Give the suspect that explains most of what a fit leaves, and the fit with it; none where none is worth it.
+
+    Cards that are a tenth of a millisecond apart matter to nobody, but may bend what a balance says of another gauge.
+    """
+    found = supports(tried, case, blocks, itself, one_sided)
+    number = int(np.argmax(found)) if len(found) else -1
+    if number < 0 or found[number] < _WORTH or not isinstance(candidates[number], Suspect):
+        return -1, None
+    return number, _with(case, tried, candidates[number])
+
+
+def _as_fitted_last(evidence: Sequence[Evidence], last: Fit) -> tuple[Evidence, ...]:
+    """Give evidence with the sizes of the last joint fit: what was named later had disturbed the earlier ones."""
+    sizes = {who.key: (size, error) for (who, size), error in zip(last.model.sizes, last.errors, strict=True)}
+    return tuple(replace(e, size=sizes[e.suspect.key][0], error=sizes[e.suspect.key][1]) for e in evidence)
+
+
+def _plainer(candidates: Sequence[Suspect | Alternative], found: Array, fits: Mapping[int, Fit], best: int) -> int:
+    """Take the delay where a slower filter explains hardly more: below the band's edge they are nearly one."""
+    who = candidates[best]
+    if isinstance(who, Suspect) and who.effect == "channel_filter":
+        for i in fits:
+            other = candidates[i]
+            if isinstance(other, Suspect) and (other.effect, other.target) == ("channel_delay", who.target):
+                if found[i] > found[best] - _ALIKE:
+                    return i
+    return best
+
+
+def _loss(rival: tuple[str, float]) -> float:
+    return rival[1]
+
+
+def _to_try(found: Array) -> list[int]:
+    """Give the numbers of the candidates that are worth a fit of their own: the best few that are near the best."""
+    if len(found) == 0:
+        return []
+    best = np.argsort(-found)[:_TRIED]
+    return [int(i) for i in best if found[i] > max(_WORTH, _NEAR * found[best[0]])]
+
+
+def _with(case: Case, here: Fit, who: Suspect | Alternative) -> Fit:
+    if isinstance(who, Alternative):
+        model = replace(here.model, physics=(*here.model.physics, who))
+    else:
+        model = replace(here.model, sizes=(*here.model.sizes, (who, 0.0)))
+    return fit(case, model, here.constants)
+
+
+def _called(who: Suspect | Alternative) -> str:
+    return who.name if isinstance(who, Alternative) else f"{who.effect} {who.label}"

@@ -1,0 +1,265 @@
+"""Fit the rig's constants, the sizes of suspected faults and physical alternatives jointly to what the relations leave.
+
+A suspect's size is refined by mending the records and taking its signature again (Gauss-Newton), so that large delays
+and gains come out right. Relations weigh by what is left in them, not less than their noise: a relation that physics of
+an unknown kind disturbs loses its voice.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.instruments.balances import Relation
+from slipwise.instruments.normal_equations import inverse, left_of, parts_of, weighed
+from slipwise.instruments.physical_alternatives import Alternative
+from slipwise.instruments.rows import Block, Held, Stack, adding, change, constants_of, stack, with_records
+from slipwise.instruments.suspects import Suspect
+from slipwise.rig import Specimen
+
+Array = NDArray[np.float64]
+#: A rated mass is taken to be right within this, a mass that the campaign gives within that [1].
+RATED_MASS, KNOWN_MASS = 0.01, 0.003
+#: Rows of one band are not quite independent, and misfit is less so: evidence counts this part of each row [1].
+EVIDENCE = 0.2
+#: What an explanation pays for each number it may choose freely, in units of the score (half of log n).
+PER_NUMBER = 4.0
+#: A floor is known well enough that no explanation is paid for going below this part of it [1].
+_SURE = 0.7
+#: Part of a column's power below which what is left of it is rounding [1].
+_NOTHING = 1e-6
+#: Steps of Gauss-Newton at most; sizes that change by less than this part of what matters have come to rest.
+_STEPS, _RESTED = 5, 0.02
+
+
+@dataclass(frozen=True)
+class Model:
+    """What the relations are explained by.
+
+    Attributes:
+        sizes: suspect and its size.
+        physics: alternatives that are fitted with free columns.
+    """
+
+    sizes: tuple[tuple[Suspect, float], ...] = ()
+    physics: tuple[Alternative, ...] = ()
+
+
+@dataclass(frozen=True)
+class Case:
+    """All that a judgement needs.
+
+    Attributes:
+        runs: as recorded, smoothed.
+        relations: that the channels allow.
+        specimen: rated.
+        noise: a sample of the noise of each run's channels.
+        mass_error: how far the mass may be from the specimen's [1].
+    """
+
+    runs: list[Held]
+    relations: list[Relation]
+    specimen: Specimen
+    noise: Sequence[Mapping[str, Array]]
+    mass_error: float
+
+    def mended(self, model: Model, *, noisier: bool = False) -> list[Held]:
+        """Give the runs without the faults of a model; with more noise, where noise is to be followed."""
+        runs = adding(self.runs, self.noise, self.runs[0].record.channels) if noisier else self.runs
+        for suspect, size in reversed(model.sizes):
+            runs = with_records(runs, lambda r, s=suspect, z=size: s.mend(r, z))
+        return runs
+
+    def stacked(self, runs: Sequence[Held], constants: Mapping[str, float]) -> Stack:
+        """Evaluate the relations."""
+        return stack(runs, self.relations, self.specimen, constants)
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A joint fit.
+
+    Attributes:
+        model: with fitted sizes.
+        constants: of the rig.
+        mended: runs without the faults of the model.
+        stack: relations of the mended runs at these constants, physics not taken off.
+        held: columns that are fitted: one block for each constant, each size, each alternative.
+        left: relation -> (n,) what the model leaves.
+        scale: relation -> root of the mean square of what is left, not far below its floor.
+        floor: relation -> what noise alone leaves; a gain that is mended scales its noise too.
+        support: relation -> log likelihood.
+        errors: standard errors of the sizes.
+    """
+
+    model: Model
+    constants: dict[str, float]
+    mended: list[Held]
+    stack: Stack
+    held: list[Block]
+    left: dict[str, Array]
+    scale: dict[str, float]
+    floor: dict[str, float]
+    support: dict[str, float]
+    errors: tuple[float, ...]
+
+    @property
+    def score(self) -> float:
+        """Log likelihood over all relations, less what free numbers cost."""
+        numbers = len(self.model.sizes) + sum(a.width for a in self.model.physics)
+        return sum(self.support.values()) - PER_NUMBER * numbers
+
+
+def start(case: Case) -> Fit:
+    """Fit the rig's constants alone."""
+    constants = dict.fromkeys(constants_of(case.relations), 0.0)
+    constants["mass"] = case.specimen.mass
+    return fit(case, Model(), constants)
+
+
+def fit(case: Case, model: Model, constants: Mapping[str, float]) -> Fit:
+    """Fit constants, sizes and physics jointly."""
+    constants = dict(constants)
+    scale: dict[str, float] = {}
+    for step in range(_STEPS):
+        mended = case.mended(model)
+        here = case.stacked(mended, constants)
+        floor = _floor(case, model, here, constants)
+        signatures = [signature(case, suspect, mended, here, constants) for suspect, _ in model.sizes]
+        held: list[Block] = [*here.base.values(), *signatures, *(a.columns for a in model.physics)]
+        parts, first = parts_of(held, here.residual)
+        count, known = int(first[-1]), len(here.base)
+        weight = {n: 1.0 / max(scale.get(n, 0.0), floor[n]) for n in floor}
+        squares, along = weighed(parts, weight, count)
+        for k, (suspect, _) in enumerate(model.sizes):
+            itself = noise_with_itself(case, suspect, mended, here, constants)
+            along[known + k] -= sum(weight[n] ** 2 * power for n, power in itself.items())
+        apart = _rated(case, constants)
+        if "mass" in here.base:
+            number = list(here.base).index("mass")
+            squares[number, number] += 1.0 / (case.mass_error * case.specimen.mass) ** 2 / EVIDENCE
+            along[number] += apart / (case.mass_error * case.specimen.mass) / EVIDENCE
+        spread = inverse(squares)
+        solution = spread @ along
+        scale = {n: max(_SURE * floor[n], float(np.sqrt(left_of(part, solution)))) for n, part in parts.items()}
+        steps = solution[known : known + len(model.sizes)]
+        rested = all(abs(s) < _RESTED * suspect.least for (suspect, _), s in zip(model.sizes, steps, strict=True))
+        if step > 0 and (rested or step == _STEPS - 1):
+            break
+        for i, name in enumerate(here.base):
+            constants[name] -= float(solution[i])
+        sizes = tuple((s, z + float(more)) for (s, z), more in zip(model.sizes, steps, strict=True))
+        model = Model(sizes, model.physics)
+    # constants and sizes stay as they were when the records were mended: what is left must belong to them
+    left = {n: r - predicted(held, n, solution, first) for n, r in here.residual.items()}
+    support = {n: -EVIDENCE * parts[n].count * float(np.log(scale[n] / floor[n])) for n in parts}
+    support["rated mass"] = -0.5 * apart**2
+    errors = np.sqrt(np.maximum(np.diag(spread)[known : known + len(model.sizes)], 0.0) / EVIDENCE)
+    return Fit(model, constants, mended, here, held, left, scale, floor, support, tuple(errors.tolist()))
+
+
+def _rated(case: Case, constants: Mapping[str, float]) -> float:
+    """Say how far the mass is from the rated one, in its standard deviations."""
+    if "mass" not in constants:
+        return 0.0
+    return (constants["mass"] - case.specimen.mass) / (case.mass_error * case.specimen.mass)
+
+
+def predicted(held: Sequence[Block], name: str, solution: Array, first: NDArray[np.int64]) -> Array | float:
+    """Give what a solution predicts for the rows of one relation."""
+    total: Array | float = 0.0
+    for i, block in enumerate(held):
+        if name in block:
+            total = total + block[name] @ solution[first[i] : first[i + 1]]
+    return total
+
+
+def _floor(case: Case, model: Model, here: Stack, constants: Mapping[str, float]) -> dict[str, float]:
+    """Give what noise alone leaves in each relation, mended as the records are."""
+    noisy = case.stacked(case.mended(model, noisier=True), constants)
+    return {n: max(rms(noisy.residual[n] - r), 1e-12) for n, r in here.residual.items()}
+
+
+def rms(values: Array) -> float:
+    """Give the root of the mean square; a constant that is left counts too."""
+    return float(np.sqrt(np.mean(np.square(values)))) if len(values) else 0.0
+
+
+def signature(
+    case: Case, suspect: Suspect, runs: Sequence[Held], here: Stack, constants: Mapping[str, float]
+) -> dict[str, Array]:
+    """Give the change of the residuals for a unit of a suspect's size, relation -> (n, 1)."""
+    spoiled = with_records(runs, lambda record: suspect.spoil(record, suspect.step))
+    found = change(spoiled, case.relations, case.specimen, constants, here, frozenset(suspect.channels))
+    return {name: rows[:, None] / suspect.step for name, rows in found.items()}
+
+
+def noise_with_itself(
+    case: Case, suspect: Suspect, runs: Sequence[Held], here: Stack, constants: Mapping[str, float]
+) -> dict[str, float]:
+    """Give the product of a gain's signature with the residual that comes from the channel's own noise alone.
+
+    The signature of a gain is the channel with its noise, so a gain would "explain" noise by shrinking it. What a
+    delay or an offset makes of noise has nothing to do with the noise itself.
+    """
+    if suspect.effect != "channel_gain":
+        return {}
+    noisy = adding(runs, case.noise, suspect.channels)
+    found = change(noisy, case.relations, case.specimen, constants, here, frozenset(suspect.channels))
+    return {name: float(rows @ rows) for name, rows in found.items()}
+
+
+def supports(
+    fitted: Fit,
+    case: Case,
+    candidates: Sequence[Block],
+    itself: Sequence[Mapping[str, float]],
+    one_sided: Sequence[bool],
+) -> Array:
+    """Give about how much each candidate would add to the score, everything fitted again.
+
+    Args:
+        fitted: the fit so far.
+        case: what is judged.
+        candidates: their columns.
+        itself: for each candidate what `noise_with_itself` gives.
+        one_sided: whether its size cannot be below zero.
+    """
+    parts, first = parts_of([*fitted.held, *candidates], fitted.left)
+    known, count = int(first[len(fitted.held)]), int(first[-1])
+    weight = {n: 1.0 / s for n, s in fitted.scale.items()}
+    squares, along = weighed(parts, weight, count)
+    if "mass" in fitted.stack.base:
+        number = list(fitted.stack.base).index("mass")
+        squares[number, number] += 1.0 / (case.mass_error * case.specimen.mass) ** 2 / EVIDENCE
+    free = inverse(squares[:known, :known])
+    carried = free @ squares[:known, known:]
+    apart, found = _rated(case, fitted.constants), np.zeros(len(candidates))
+    least = {n: _SURE * floor for n, floor in fitted.floor.items()}
+    now = {n: max(float(np.sqrt(part.power / max(part.count, 1))), least[n]) for n, part in parts.items()}
+    for k in range(len(candidates)):
+        own = slice(int(first[len(fitted.held) + k]), int(first[len(fitted.held) + k + 1]))
+        mine = slice(own.start - known, own.stop - known)
+        left = squares[own, own] - squares[own, :known] @ carried[:, mine]
+        # columns that are known already, but for rounding, get no step
+        known_already = np.diag(left) <= _NOTHING * np.maximum(np.diag(squares)[own], 1e-300)
+        if known_already.all():
+            continue
+        left[known_already], left[:, known_already] = 0.0, 0.0
+        noise = sum(weight[n] ** 2 * power for n, power in itself[k].items())
+        step = inverse(left) @ (along[own] - carried[:, mine].T @ along[:known] - noise)
+        if one_sided[k] and step[0] < 0.0:
+            continue
+        solution = np.zeros(count)
+        solution[own] = step
+        solution[:known] = free @ along[:known] - carried[:, mine] @ step
+        for name, part in parts.items():
+            after = max(float(np.sqrt(left_of(part, solution))), least[name])
+            found[k] += EVIDENCE * part.count * np.log(now[name] / after)
+        if "mass" in fitted.stack.base:
+            moved = solution[list(fitted.stack.base).index("mass")] / (case.mass_error * case.specimen.mass)
+            found[k] += 0.5 * (apart**2 - (apart - moved) ** 2)
+        # what shrinking its own noise would gain is no evidence, and every free number costs
+        found[k] -= EVIDENCE * noise * float(np.sum(step)) + PER_NUMBER * (own.stop - own.start)
+    return found

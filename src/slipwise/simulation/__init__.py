@@ -1,0 +1,1 @@
+"""The replay of a table motion in MuJoCo, and the laws driven by measured states."""

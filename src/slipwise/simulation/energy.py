@@ -1,0 +1,111 @@
+"""The energy balance of a simulation, seen from the table.
+
+    change of kinetic energy = work of the table's inertia forces and of gravity - friction - buffers + pads' contacts
+
+Every term is summed from forces and motions by the trapezoidal rule, as a laboratory would from its channels; what does
+not close is the error of the time step. Source: physics of a relative frame, V10 of the validation targets.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.rig import Rig
+from slipwise.simulation.sensor_channels import has_sensor, sensor
+
+Array = NDArray[np.float64]
+
+
+@dataclass
+class EnergyBook:
+    """Running sums over the chunks of a simulation [J].
+
+    Attributes:
+        table: work of the table's acceleration on the girder, in the table's frame.
+        friction: dissipated and stored at the pads, horizontally, per pad (n_pads,).
+        buffers: dissipated and stored in the buffers.
+        others: work of gravity, of the pads' contacts, of drag, of the shear keys' vertical friction and of the bending
+            mode on the girder.
+    """
+
+    rig: Rig
+    table: float = 0.0
+    others: float = 0.0
+    buffers: float = 0.0
+    friction: Array | None = None
+    turning: bool = False
+    kinetic_start: float | None = None
+    kinetic_end: float = 0.0
+    _last: tuple[Array, Array] | None = None
+
+    def add(self, sensordata: Array, control: Array) -> None:
+        """Book a chunk: sensordata (n, n_sensors) and command (n, 4)."""
+        self.turning = self.turning or bool(np.any(control[:, 3]))
+        if not self.rig.specimen.free:
+            return
+        if self._last is not None:
+            sensordata = np.concatenate([self._last[0], sensordata])
+            control = np.concatenate([self._last[1], control])
+        self._last = (sensordata[-1:].copy(), control[-1:].copy())
+        if len(sensordata) < 2:
+            return
+        specimen, rig = self.rig.specimen, self.rig
+        names = ("x", "y", "z", "roll", "pitch", "yaw")
+        at = np.concatenate([sensor(rig, f"at_girder_{n}", sensordata) for n in names], axis=1)
+        rate = np.concatenate([sensor(rig, f"rate_girder_{n}", sensordata) for n in names], axis=1)
+        # The bending mode's mass moves with the girder horizontally and on its own spring vertically.
+        rigid = specimen.mass - specimen.bending_mass
+        mass = np.array([specimen.mass, specimen.mass, rigid])
+        inertia = np.array([*mass, *(i * rigid / specimen.mass for i in specimen.inertia)])
+        user = sensor(rig, "pads", sensordata)
+        steps = np.diff(at, axis=0)
+        push = -mass * control[:, :3]
+        self.table += _work(push, steps[:, :3])
+        self.others += _work(np.full((len(at), 1), -rigid * specimen.gravity), steps[:, 2:3])
+        n_pads = len(specimen.pads)
+        arms = np.array(specimen.pad_places) - [specimen.centre_x, specimen.centre_y]
+        lift = at[:, 2:3] + at[:, 3:4] * arms[:, 1] - at[:, 4:5] * arms[:, 0]
+        self.others += _work(user[:, 0 : 3 * n_pads : 3], np.diff(lift, axis=0))
+        girder = [int(rig.model.joint(f"girder_{n}").dofadr[0]) for n in names]
+        slip = np.diff(at @ rig.jacobian[:, girder].T, axis=0)
+        force = np.empty((len(at), 2 * n_pads))
+        force[:, 0::2], force[:, 1::2] = user[:, 1 : 3 * n_pads : 3], user[:, 2 : 3 * n_pads : 3]
+        per_row = np.sum(0.5 * (force[1:] + force[:-1]) * slip[:, : 2 * n_pads], axis=0)
+        done = per_row[0::2] + per_row[1::2]
+        self.friction = done if self.friction is None else self.friction + done
+        self.buffers += _work(user[:, 3 * n_pads : -3], slip[:, 2 * n_pads :])
+        self.others += _work(user[:, -3:], steps[:, :3])
+        if has_sensor(rig, "at_bending"):
+            self._add_bending(sensordata, at)
+        kinetic = 0.5 * np.sum(inertia * rate[[0, -1]] ** 2, axis=1)
+        if self.kinetic_start is None:
+            self.kinetic_start = float(kinetic[0])
+        self.kinetic_end = float(kinetic[1])
+
+    def _add_bending(self, sensordata: Array, at: Array) -> None:
+        """Book the force of the mode's spring and damper on the girder."""
+        specimen = self.rig.specimen
+        omega = 2.0 * np.pi * specimen.bending_frequency
+        q = sensor(self.rig, "at_bending", sensordata)
+        rate = sensor(self.rig, "rate_bending", sensordata)
+        pull = omega**2 * q - specimen.gravity + 2.0 * specimen.bending_damping * omega * rate
+        spring = specimen.bending_mass * pull
+        self.others += _work(spring, np.diff(at[:, 2:3], axis=0))
+
+    @property
+    def dissipated(self) -> float:
+        """Work against friction of all pads [J]."""
+        return float(self.friction.sum()) if self.friction is not None else 0.0
+
+    def error(self) -> float | None:
+        """What does not close, as a fraction of the input [1]; None where slip is prescribed or the table turns."""
+        if self.kinetic_start is None or self.turning:
+            return None
+        left = self.table + self.others - self.dissipated - self.buffers - (self.kinetic_end - self.kinetic_start)
+        put_in = max(abs(self.table), self.dissipated)
+        return left / put_in if put_in > 0.0 else 0.0
+
+
+def _work(force: Array, steps: Array) -> float:
+    return float(np.sum(0.5 * (force[1:] + force[:-1]) * steps))

@@ -1,0 +1,75 @@
+"""Installs the law as MuJoCo's callbacks, for as long as a simulation runs.
+
+Callbacks are global to the process, and MuJoCo calls them while it compiles a model: they are installed after compiling
+and always removed again. Nesting is refused, for the inner law would silently act on the outer simulation.
+"""
+
+import ctypes
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from slipwise.errors import SettingError
+from slipwise.simulation.kernel.engine import Kernel
+
+_CONTROL = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)
+_SENSOR = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int)
+
+
+@contextmanager
+def installed(law: Kernel) -> Iterator[None]:
+    """Install a law's callbacks; they are gone again when the block ends.
+
+    Raises:
+        SettingError: callbacks are installed already.
+    """
+    if mujoco.get_mjcb_control() is not None or mujoco.get_mjcb_sensor() is not None:
+        raise SettingError("a simulation with callbacks is running in this process already; let it end first")
+    if law.callbacks is not None:
+        control, sensor = _CONTROL(law.callbacks[0]), _SENSOR(law.callbacks[1])
+    else:
+        control, sensor = _python_callbacks(law)
+    try:
+        mujoco.set_mjcb_control(control)
+        mujoco.set_mjcb_sensor(sensor)
+        yield
+    finally:
+        mujoco.set_mjcb_control(None)
+        mujoco.set_mjcb_sensor(None)
+
+
+def _python_callbacks(law: Kernel) -> tuple[Any, Any]:
+    """Make the callbacks of the Python engine: the same law on numpy views."""
+    control_step, sensor_step = law.functions["control_step"], law.functions["sensor_step"]
+    at = law.layout.at
+    acceleration = int(mujoco.mjtStage.mjSTAGE_ACC)
+
+    def control(model: Any, data: Any) -> None:
+        control_step(
+            data.userdata,
+            data.time,
+            data.ten_length,
+            data.ten_velocity,
+            data.qvel,
+            data.efc_frictionloss,
+            data.qfrc_applied,
+        )
+
+    def sensor(model: Any, data: Any, stage: int) -> None:
+        if stage != acceleration:
+            return
+        u = data.userdata
+        loads = np.zeros(4)
+        contact = data.contact
+        geoms = [int(g) for g in u[at["pad_geom"] : at["pad_geom"] + int(u[at["n_pads"]])]]
+        for first, second, row in zip(contact.geom1, contact.geom2, contact.efc_address, strict=True):
+            if row >= 0:
+                for pad, geom in enumerate(geoms):
+                    if geom in (first, second):
+                        loads[pad] += data.efc_force[row]
+        sensor_step(u, loads, data.time, data.ten_length, data.ten_velocity, data.efc_force, data.sensordata)
+
+    return control, sensor

@@ -1,0 +1,140 @@
+"""Component level: the laws driven by measured load, slip and speed, without a simulation."""
+
+import os
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.effects import Effect, catalogue
+from slipwise.model import Model
+from slipwise.simulation.kernel import Kernel, apply_rest, begin_memory, engine_for, fill, kernel
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class PadForces:
+    """What the pads' laws answer to measured states.
+
+    Attributes:
+        force: (n, n_pads, 2) force of the girder on each pad [N]; where a pad sticks and the model has no effect on
+            port `stick`, only its bound is known and the force is the bound along the motion.
+        bound: (n, n_pads) friction force that each pad could carry [N].
+    """
+
+    force: Array
+    bound: Array
+
+
+@dataclass
+class Predictor:
+    """A model's laws with their memory, run after run of a campaign.
+
+    The memory goes on from one call to the next; `rest` lets a pause act on it, `reset` empties it.
+    """
+
+    model: Model
+    law: Kernel
+    numbers: Array
+
+    def pads(self, time: Array, load: Array, velocity: Array, slip: Array) -> PadForces:
+        """Drive the pads' laws.
+
+        Args:
+            time: (n,) [s].
+            load: (n, n_pads) [N].
+            velocity: (n, n_pads, 2) slip rate at each pad [m/s].
+            slip: (n, n_pads, 2) slip at each pad [m].
+        """
+        force, bound = np.zeros(velocity.shape), np.zeros(load.shape)
+        arrays = [np.ascontiguousarray(a, dtype=float) for a in (time, load, velocity, slip)]
+        drive, count = self.law.functions["pads_over_record"], load.shape[1]
+        if self.law.engine == "compiled" and count > 1:
+            half = count // 2
+            other = _other_thread().submit(drive, self.numbers, *arrays, force, bound, half, count)
+            drive(self.numbers, *arrays, force, bound, 0, half)
+            other.result()
+        else:
+            drive(self.numbers, *arrays, force, bound, 0, count)
+        return PadForces(force, bound)
+
+    def buffers(self, time: Array, deflection: Array, rate: Array) -> Array:
+        """Drive the buffers' laws with (n, n_buffers, 2) deflection [m] and rate [m/s]; gives their force [N]."""
+        force = np.zeros(deflection.shape)
+        arrays = [np.ascontiguousarray(a, dtype=float) for a in (time, deflection, rate)]
+        self.law.functions["buffers_over_record"](self.numbers, *arrays, force)
+        return force
+
+    def rest(self, seconds: float) -> None:
+        """Let a pause between two runs act on the memory."""
+        apply_rest(self.law.layout, self.numbers, self.model, seconds)
+
+    def begin(self, load: Array, velocity: Array, slip: Array, force: Array) -> None:
+        """Let what a slider remembers agree with the force that was measured when its record began.
+
+        Args:
+            load: (n_pads,) [N].
+            velocity: (n_pads, 2) [m/s].
+            slip: (n_pads, 2) [m].
+            force: (n_pads, 2) [N].
+        """
+        entries = self.model.with_hook("begin")
+        if not entries:
+            return
+        kept = self.numbers.copy()
+        twice = (np.stack([each, each]) for each in (load, velocity, slip))
+        bound = self.pads(np.array([0.0, 1e-6]), *twice).bound[0]
+        self.numbers[:] = kept
+        begin_memory(self.law.layout, self.numbers, entries, force, bound)
+
+    def reset(self) -> None:
+        """Start from rest, nothing slid and nothing warm."""
+        self.numbers[:] = fill(self.law.layout, self.model, float(self.numbers[self.law.layout.at["dt"]]))
+
+
+@cache
+def _other_thread() -> ThreadPoolExecutor:
+    """Give a thread for half of the pads: the compiled law runs beside the one that asks."""
+    return ThreadPoolExecutor(1)
+
+
+if hasattr(os, "register_at_fork"):  # a child has no thread of its parent's: what it would ask of it never comes
+    os.register_at_fork(after_in_child=_other_thread.cache_clear)
+
+
+def predictor(model: Model, *, engine: str | None = None, dt: float = 0.002) -> Predictor:
+    """Make a model's laws ready for records.
+
+    Args:
+        model: specimen and effects.
+        engine: "compiled" or "python"; the compiled one where a user's effects can be compiled, if not given.
+        dt: only a default for laws that ask for it before a record says it [s].
+    """
+    own = user_effects(model)
+    law = kernel(engine or engine_for(own), own)
+    return Predictor(model, law, fill(law.layout, model, dt))
+
+
+def user_effects(model: Model) -> tuple[Effect, ...]:
+    """Give the effects of a model that the catalogue does not hold."""
+    known = catalogue()
+    return tuple(u.effect for u in model.uses if known.get(u.effect.name) is not u.effect)
+
+
+def shaking(model: Model, acceleration: Array, girder: Array, dt: float) -> Array:
+    """Give what the table does when it is told to move so, (n, 4): x, y, z [m/s^2], pitch [rad/s^2].
+
+    Args:
+        model: whose effects of the table act.
+        acceleration: (n, 3) of the table as commanded or measured [m/s^2].
+        girder: (n,) acceleration of the girder along x, which pushes the table back [m/s^2].
+        dt: step [s].
+    """
+    out = np.zeros((len(acceleration), 4))
+    out[:, :3] = acceleration
+    for entry in model.with_hook("table"):
+        out = entry.effect.hooks["table"](out, dt, girder, **entry.values)
+    return out

@@ -1,0 +1,49 @@
+"""The verb of this package: replay a table motion on a model."""
+
+from collections.abc import Callable
+
+from slipwise.model import Model
+from slipwise.motion.resample import resample
+from slipwise.motion.table_motion import TableMotion
+from slipwise.simulation.simulator import DT, OUTPUT_DT, Memory, Replay, simulate
+
+
+def replay(
+    model: Model,
+    motion: TableMotion,
+    *,
+    dt: float = DT,
+    output_dt: float = OUTPUT_DT,
+    engine: str = "compiled",
+    start: Memory | None = None,
+    rest: float = 0.0,
+    progress: Callable[[float], None] | None = None,
+) -> Replay:
+    """Shake a model with a table motion.
+
+    Args:
+        model: specimen and effects.
+        motion: of the table; it is resampled to the step without aliasing or phase shift.
+        dt: step [s].
+        output_dt: step of the record [s], a multiple of dt.
+        engine: "compiled" or "python" (the same law, to step through with a debugger).
+        start: what pads and buffers remember from the run before.
+        rest: pause since that run, or since the girder was put on its pads [s].
+        progress: called with the fraction done.
+
+    Raises:
+        SettingError: settings that cannot go together; the message says what is possible.
+        SimulationDiverged: the simulation left every bound; the error holds the record so far.
+    """
+    fitted = resample(motion, dt)
+    return simulate(
+        model,
+        fitted.acceleration,
+        dt=dt,
+        output_dt=output_dt,
+        engine=engine,
+        start=start,
+        rest=rest,
+        provenance={"motion": dict(fitted.about())},
+        progress=progress,
+    )

@@ -1,0 +1,268 @@
+"""System level: a table motion in, the record of every channel out."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.errors import SettingError, SimulationError
+from slipwise.model import Model
+from slipwise.record import Record
+from slipwise.rig import Rig, build, check_step
+from slipwise.simulation.energy import EnergyBook
+from slipwise.simulation.kernel import ENGINES, Kernel, apply_rest, engine_for, kernel
+from slipwise.simulation.kernel.layout import buffer_memories, pad_memories
+from slipwise.simulation.predict import shaking, user_effects
+from slipwise.simulation.sensor_channels import to_channels
+from slipwise.simulation.steps import numbers_for, run_compiled, run_python
+
+Array = NDArray[np.float64]
+#: A slip beyond this [m] is no longer a girder on a table.
+_FAR = 5.0
+#: A table that the girder pushes is shaken again by what the girder did, this often at most, until it moves alike [1].
+_PASSES, _SETTLED = 8, 0.01
+DT = 0.0005
+OUTPUT_DT = 0.002
+
+
+class SimulationDiverged(SimulationError):
+    """A simulation that had to be stopped; `replay` holds what was recorded until then."""
+
+    def __init__(self, message: str, replay: "Replay") -> None:
+        super().__init__(message)
+        self.replay = replay
+
+
+@dataclass(frozen=True)
+class Memory:
+    """What pads and buffers remember at the end of a run, for the run that follows.
+
+    Attributes:
+        pads: (4, m) as the kernel lays it out.
+        buffers: (2, 2, k) as the kernel lays it out.
+    """
+
+    pads: Array
+    buffers: Array
+
+
+@dataclass(frozen=True)
+class Replay:
+    """The answer of a model to a table motion.
+
+    Attributes:
+        record: every channel at the output rate.
+        pad_energy: pad -> work against its friction [J], summed at every step.
+        uplift: time during which at least one pad carried no load [s].
+        energy_error: what the energy balance leaves open, as a fraction of the input [1]; None where slip is prescribed
+            or the table turns.
+        slip_range: smallest and largest slip_x, of every step [m].
+        load_range: pad -> smallest and largest load, of every step [N].
+        largest_friction: pad -> largest |F|, of every step [N].
+        memory: at the end, for a run that follows.
+        dt: time step [s].
+        steps: that were made.
+        engine: that made them.
+    """
+
+    record: Record
+    pad_energy: dict[str, float]
+    uplift: float
+    energy_error: float | None
+    slip_range: tuple[float, float]
+    load_range: dict[str, tuple[float, float]]
+    largest_friction: dict[str, float]
+    memory: Memory
+    dt: float
+    steps: int
+    engine: str
+
+
+class _Collector:
+    """Keeps every n-th sample and the sums that need every step."""
+
+    def __init__(self, rig: Rig, control: Array, every: int) -> None:
+        self.rig, self.control, self.every = rig, control, every
+        self.book = EnergyBook(rig)
+        self.parts: list[Array] = []
+        self.done = 0
+        self.uplift_steps = 0
+        count = len(rig.specimen.pads)
+        self.load_low, self.load_high = np.full(count, np.inf), np.full(count, -np.inf)
+        self.friction = np.zeros(count)
+        self.slip_low, self.slip_high = np.inf, -np.inf
+        self.trouble = ""
+
+    def add(self, first: int, sensordata: Array) -> bool:
+        """Take a chunk (n, n_sensors); False when the simulation left all bounds."""
+        fine = np.all(np.isfinite(sensordata), axis=1)
+        if not fine.all():
+            self.trouble = "a value is not a number any more"
+            sensordata = sensordata[: int(np.argmin(fine))]
+        if len(sensordata):
+            self._take(first, sensordata)
+        return not self.trouble
+
+    def _take(self, first: int, sensordata: Array) -> None:
+        control = self.control[first : first + len(sensordata)]
+        channels = to_channels(self.rig, sensordata, control)
+        loads = np.stack([channels[f"pad_{p}_N"] for p in self.rig.specimen.pads], axis=1)
+        frictions = [np.hypot(channels[f"pad_{p}_Fx"], channels[f"pad_{p}_Fy"]).max() for p in self.rig.specimen.pads]
+        self.friction = np.maximum(self.friction, frictions)
+        self.load_low = np.minimum(self.load_low, loads.min(axis=0))
+        self.load_high = np.maximum(self.load_high, loads.max(axis=0))
+        self.uplift_steps += int(np.count_nonzero(np.any(loads <= 0.0, axis=1)))
+        slip = channels["slip_x"]
+        self.slip_low, self.slip_high = min(self.slip_low, slip.min()), max(self.slip_high, slip.max())
+        if max(abs(self.slip_low), abs(self.slip_high)) > _FAR:
+            self.trouble = f"the slip grew beyond {_FAR:g} m"
+        self.book.add(sensordata, control)
+        self.parts.append(sensordata[(-first) % self.every :: self.every])
+        self.done = first + len(sensordata)
+
+    def channels(self) -> dict[str, Array]:
+        """Give every channel at the output rate."""
+        kept = np.concatenate(self.parts) if self.parts else np.empty((0, self.rig.model.nsensordata))
+        return to_channels(self.rig, kept, self.control[: self.done : self.every][: len(kept)])
+
+
+def simulate(
+    model: Model,
+    acceleration: Array,
+    *,
+    dt: float = DT,
+    output_dt: float = OUTPUT_DT,
+    engine: str = "compiled",
+    start: Memory | None = None,
+    rest: float = 0.0,
+    provenance: dict[str, Any] | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> Replay:
+    """Shake a model.
+
+    Args:
+        model: specimen and effects.
+        acceleration: (n, 3) of the table at every step: x, y, z [m/s^2].
+        dt: step [s].
+        output_dt: step of the record [s], a multiple of dt.
+        engine: "compiled" or "python"; a user's effect that cannot be compiled takes the second, with a warning.
+        start: what pads and buffers remember from the run before; nothing when not given.
+        rest: pause since that run, or since the girder was put on its pads [s].
+        provenance: goes into the record as it is.
+        progress: called with the fraction done.
+
+    Raises:
+        SettingError: a step too large for the pads, an output step that is no multiple of it, an unknown engine.
+        SimulationDiverged: it left every bound; the error holds the record so far.
+    """
+    check_step(model.built_specimen(), dt)
+    every = round(output_dt / dt)
+    if every < 1 or abs(every * dt - output_dt) > 1e-9:
+        raise SettingError(f"the output step {output_dt * 1e3:g} ms must be a multiple of the step {dt * 1e3:g} ms")
+    own = user_effects(model)
+    engine = engine_for(own) if engine == ENGINES[0] else engine
+    law = kernel(engine, own)
+    rig = build(model.built_specimen(), dt, law.layout.size)
+    run = run_compiled if engine == ENGINES[0] else run_python
+    told = progress or (lambda share: None)
+
+    def shaken(control: Array, kept: int) -> tuple[_Collector, Array, str]:
+        numbers = _remember(law, model, numbers_for(law, rig, model, dt), start, rest)
+        collector = _Collector(rig, control, kept)
+
+        def each(first: int, sensordata: Array) -> bool:
+            going = collector.add(first, sensordata[0])
+            told(min(1.0, (first + sensordata.shape[1]) / len(control)))
+            return going
+
+        stopped = collector.trouble or run(law, rig, numbers[None], control[None], each) or collector.trouble
+        return collector, numbers, stopped
+
+    girder = np.zeros(len(acceleration))
+    control = shaking(model, acceleration, girder, dt)
+    for _ in range(_PASSES if _feels_girder(model, acceleration, dt) else 0):
+        before, first = control, shaken(control, 1)[0].channels()["girder_ax"]
+        girder[: len(first)] = first
+        control = shaking(model, acceleration, girder, dt)
+        if np.abs(control - before).max() < _SETTLED * np.abs(control).max():
+            break
+    collector, numbers, stopped = shaken(control, every)
+    answer = _answer(model, collector, law, numbers, dt, output_dt, engine, provenance)
+    if stopped:
+        raise SimulationDiverged(
+            f"the simulation was stopped at {collector.done * dt:.3f} s: {stopped}. The record until then is kept. "
+            "Try a smaller step (--dt), a smaller motion (--scale) or check the model's values",
+            answer,
+        )
+    return answer
+
+
+def _feels_girder(model: Model, acceleration: Array, dt: float) -> bool:
+    """Tell whether an effect lets the girder push the table."""
+    pushed, left = (shaking(model, acceleration[:2], np.full(2, push), dt) for push in (1.0, 0.0))
+    return not np.array_equal(pushed, left)
+
+
+def _remember(law: Kernel, model: Model, numbers: Array, start: Memory | None, rest: float) -> Array:
+    if start is not None:
+        pad_memories(law.layout, numbers)[:] = start.pads
+        buffer_memories(law.layout, numbers)[:] = start.buffers
+    if rest > 0.0:
+        apply_rest(law.layout, numbers, model, rest)
+    return numbers
+
+
+def _answer(
+    model: Model,
+    collector: _Collector,
+    law: Kernel,
+    numbers: Array,
+    dt: float,
+    output_dt: float,
+    engine: str,
+    provenance: dict[str, Any] | None,
+) -> Replay:
+    channels = collector.channels()
+    count = len(channels["slip_x"])
+    about = {
+        "made_by": "slipwise replay",
+        "mujoco": mujoco.__version__,
+        "rig": model.specimen.name,
+        "model": {u.label: dict(u.values) for u in model.uses},
+        "settings": {"dt": dt, "output_dt": output_dt, "engine": engine},
+        **(provenance or {}),
+    }
+    record = Record(np.asarray(np.arange(count) * output_dt, dtype=np.float64), channels, about)
+    for entry in model.with_hook("gauge"):
+        record = entry.effect.hooks["gauge"](record, entry.target, **entry.values)
+    pads = model.specimen.pads
+    energy = collector.book.friction if collector.book.friction is not None else _pad_work(record, pads)
+    return Replay(
+        record=record,
+        pad_energy=dict(zip(pads, map(float, energy), strict=True)),
+        uplift=collector.uplift_steps * dt,
+        energy_error=collector.book.error(),
+        slip_range=(float(collector.slip_low), float(collector.slip_high)),
+        load_range={
+            p: (float(a), float(b)) for p, a, b in zip(pads, collector.load_low, collector.load_high, strict=True)
+        },
+        largest_friction=dict(zip(pads, map(float, collector.friction), strict=True)),
+        memory=Memory(pad_memories(law.layout, numbers).copy(), buffer_memories(law.layout, numbers).copy()),
+        dt=dt,
+        steps=collector.done,
+        engine=engine,
+    )
+
+
+def _pad_work(record: Record, pads: tuple[str, ...]) -> Array:
+    """Work against friction from the record, where slip is prescribed."""
+    steps = {axis: np.diff(record[f"slip_{axis}"]) for axis in "xy"}
+    out = np.zeros(len(pads))
+    for i, pad in enumerate(pads):
+        for axis, step in steps.items():
+            force = record[f"pad_{pad}_F{axis}"]
+            out[i] += np.sum(0.5 * (force[1:] + force[:-1]) * step)
+    return out

@@ -1,0 +1,171 @@
+"""One replay of an ensemble: everything that decides it, and the few numbers that are kept of it."""
+
+import hashlib
+import json
+import threading
+from dataclasses import asdict, dataclass, replace
+from functools import cache
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import slipwise
+from slipwise.errors import SimulationError
+from slipwise.model import Model, use
+from slipwise.motion import TableMotion, load_motion
+from slipwise.simulation.replay import replay
+from slipwise.simulation.simulator import Replay
+from slipwise.studies.paper.one_dof import OneDof, one_dof
+from slipwise.studies.paper.settings import PaperSettings, paper_model
+
+#: Energy that a searched motion has to reach lies within this fraction; at most so many replays are tried.
+_CLOSE, _TRIES = 5e-4, 12
+#: MuJoCo's callbacks are global to a process: an executor of threads gains nothing, but it works.
+_ONE_AT_A_TIME = threading.Lock()
+#: Parts of the package whose change makes kept results stale.
+_DECIDING = (
+    "effects/*.py", "kernel/*.py", "motion/**/*.py", "replay/*.py", "rig/*.py", "model.py", "predict.py",
+    "paper/member.py", "paper/one_dof.py",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Member:
+    """One replay.
+
+    Attributes:
+        bridge: "bridge1" or "bridge2".
+        seed: of the earthquake.
+        peak: along x [m/s^2].
+        frequency: predominant [Hz].
+        strong: length of the strong part [s].
+        vertical: peak upwards [m/s^2]; 0 for none.
+        target: energy of the pads that the motion is scaled to reach [J]; 0 to take the peaks as they are.
+        slenderness: h/b instead of the bridge's; 0 to keep it.
+        effects: names of effects that are switched on at their typical size.
+        settings: the assumptions.
+    """
+
+    bridge: str
+    seed: int
+    peak: float
+    frequency: float
+    strong: float
+    vertical: float
+    settings: PaperSettings
+    target: float = 0.0
+    slenderness: float = 0.0
+    effects: tuple[str, ...] = ()
+
+    def motion(self) -> TableMotion:
+        """Make the table motion."""
+        spec = f"quake:seed={self.seed},peak={self.peak!r}m/s^2,f={self.frequency!r}Hz,strong={self.strong!r}s"
+        return load_motion(spec + (f",vertical={self.vertical!r}m/s^2" if self.vertical > 0.0 else ""))
+
+    def model(self) -> Model:
+        """Make the model."""
+        return _model(self.bridge, self.settings, self.effects, self.slenderness)
+
+    def key(self) -> str:
+        """Give a hash of everything that decides the result, the code included."""
+        model = self.model()
+        specimen = {k: v for k, v in asdict(model.specimen).items() if k not in ("path", "sources")}
+        law = {u.label: dict(u.values) for u in model.uses}
+        motion = [self.seed, self.peak, self.frequency, self.strong, self.vertical, self.target]
+        text = json.dumps([specimen, law, motion, version("mujoco"), _code()], sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()[:20]
+
+
+@cache
+def _model(bridge: str, settings: PaperSettings, effects: tuple[str, ...], slenderness: float) -> Model:
+    model = paper_model(bridge, settings).adding(*(use(name) for name in effects))
+    if slenderness > 0.0:
+        height = slenderness * 2.0 * model.specimen.half_spacing[0]
+        model = replace(model, specimen=replace(model.specimen, centre_height=height))
+    return model
+
+
+@cache
+def _code() -> str:
+    """Give a hash of the code that makes a result: results of older code must not be taken for new ones."""
+    package = Path(slipwise.__file__).parent
+    files = sorted(path for part in _DECIDING for path in package.glob(part))
+    return hashlib.sha256(b"".join(path.read_bytes() for path in files)).hexdigest()[:16]
+
+
+def run_member(member: Member) -> dict[str, Any]:
+    """Shake one member and keep its numbers; a simulation that diverges is a result too: "failed" says why.
+
+    Returns:
+        Numbers that JSON holds exactly, all SI.
+    """
+    with _ONE_AT_A_TIME:
+        try:
+            if member.target > 0.0:
+                return _searched(member)
+            return _numbers(*_shaken(member))
+        except SimulationError as error:
+            return {"failed": str(error)}
+
+
+def _shaken(member: Member) -> tuple[Replay, OneDof]:
+    model, motion = member.model(), member.motion()
+    return replay(model, motion), one_dof(model, motion)
+
+
+def _searched(member: Member) -> dict[str, Any]:
+    """Scale a motion until the pads dissipate the target; then shake it without its vertical part too."""
+
+    def energy(factor: float, vertical: bool = True) -> float:
+        scaled = replace(
+            member, peak=member.peak * factor, vertical=member.vertical * factor if vertical else 0.0, target=0.0
+        )
+        return sum(replay(scaled.model(), scaled.motion()).pad_energy.values())
+
+    low, high = 0.0, 1.0
+    at_high = energy(high)
+    while at_high < member.target:
+        low, high = high, high * 1.5
+        at_high = energy(high)
+        if high > 10.0:
+            raise SimulationError(f"ten times this motion still dissipates only {at_high / 10:.0f} kN cm")
+    factor, reached = high, at_high
+    at_low = 0.0 if low == 0.0 else energy(low)
+    for _ in range(_TRIES):
+        if abs(reached / member.target - 1.0) < _CLOSE:
+            break
+        straight = low + (high - low) * (member.target - at_low) / (at_high - at_low)
+        # Regula falsi creeps on a bent curve: keep away from the ends.
+        margin = 0.01 * (high - low)
+        factor = min(max(straight, low + margin), high - margin)
+        reached = energy(factor)
+        if reached < member.target:
+            low, at_low = factor, reached
+        else:
+            high, at_high = factor, reached
+    return {"factor": factor, "energy": reached, "energy_without": energy(factor, vertical=False)}
+
+
+def _numbers(answer: Replay, single: OneDof) -> dict[str, Any]:
+    record = answer.record
+    slip = record["slip_x"]
+    loads = record.stacked("pad_{}_N")
+    one_slip = np.interp(record.time, single.time, single.slip)
+    moved = float(np.ptp(slip))
+    return {
+        "energy": sum(answer.pad_energy.values()),
+        "slip_max": max(abs(v) for v in answer.slip_range),
+        "path": float(np.abs(np.diff(slip)).sum()),
+        "speed_max": float(np.abs(record["slip_vx"]).max()),
+        "girder_max": float(np.abs(record["girder_ax"]).max()),
+        "load_low": min(low for low, _ in answer.load_range.values()),
+        "load_high": max(high for _, high in answer.load_range.values()),
+        "load_swing": [float(v) for v in loads.std(axis=0)],
+        "uplift": answer.uplift,
+        "energy_error": answer.energy_error,
+        "one_dof_energy": single.energy,
+        "one_dof_slip_max": float(np.abs(single.slip).max()),
+        "one_dof_slip_error": float(np.sqrt(np.mean((one_slip - slip) ** 2))) / moved if moved > 0.0 else 0.0,
+    }
