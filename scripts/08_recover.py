@@ -20,13 +20,13 @@ import numpy as np
 
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.diagnosis.candidates import candidates
-from slipwise.diagnosis.hypothesis import account
 from slipwise.diagnosis.screening import screen
 from slipwise.diagnosis.starting_grid import strengths
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit, fit_base, fit_finely
 from slipwise.estimation.intervals import Intervals, intervals
 from slipwise.estimation.parameters import Term
+from slipwise.evidence.residual_summary import summarised
 from slipwise.model import EffectUse, Model, base_model
 from slipwise.motion import load_motion
 from slipwise.record import Record, write_json
@@ -111,7 +111,7 @@ def recover(term: Term, rng: np.random.Generator) -> dict[str, Any]:
 
 def _unexplained(fitted: BaseFit) -> list[str]:
     """Say which relations keep far more than noise although the effect is in: there the fit's law is at fault."""
-    told = account(fitted.problem, fitted.solution)
+    told = summarised(fitted.problem, fitted.solution)
     levels = {r: told.level(r, held_out=False) ** 0.5 for r in told.fitted}
     return [f"{r} is left at {level:.1f} floors with the effect in" for r, level in levels.items() if level > FAULTY]
 

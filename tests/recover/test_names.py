@@ -47,11 +47,11 @@ def test_a_small_lag_is_called_a_filter_only_where_something_was_taken(tmp_path:
 def test_the_ladder_falls_on_runs_that_the_fit_has_not_seen(tmp_path: Path) -> None:
     make_campaign(tmp_path / "made", 7005, effects=("run_in",), size="medium")
     found = ladder(tmp_path / "made", add=("run_in",))
-    first, last = found.rungs
+    first, last = found.steps
     assert (first.effects, last.effects) == ((), ("run_in",))
     assert last.holdout_error < 0.5 * first.holdout_error
     assert np.isnan(last.system_holdout_error)
-    rungs = json.loads(json.dumps(found.as_json(), allow_nan=False))
+    steps = json.loads(json.dumps(found.as_json(), allow_nan=False))
     keys = ["effects", "fit_error", "holdout_error", "system_holdout_error", "floor", "screened", "refitted", "stopped"]
-    assert [list(rung) for rung in rungs] == [keys, keys], "a list of rungs is the contract"
-    assert [rung["stopped"] for rung in rungs] == ["", "these effects were asked for"]
+    assert [list(step) for step in steps] == [keys, keys], "a list of steps is the contract"
+    assert [step["stopped"] for step in steps] == ["", "these effects were asked for"]

@@ -66,8 +66,8 @@ def test_a_simulation_that_fails_is_no_motion_that_tells_nothing(found, monkeypa
 
 def test_the_ladder_and_the_page_of_a_diagnosis_tell_the_same_errors(found):
     climbed = ladder_of(found)
-    assert climbed.rungs[0].holdout_error == pytest.approx(found.base_error)
-    assert climbed.rungs[-1].holdout_error == pytest.approx(found.final_error)
+    assert climbed.steps[0].holdout_error == pytest.approx(found.base_error)
+    assert climbed.steps[-1].holdout_error == pytest.approx(found.final_error)
     page = diagnosis_page(found, climbed)
     assert "run_in" in page
     assert page.count("<svg") >= 3
@@ -77,7 +77,7 @@ def test_the_ladder_and_the_page_of_a_diagnosis_tell_the_same_errors(found):
 def test_a_rung_that_was_not_replayed_has_no_error_of_a_replay(found):
     """Where nothing is named the base model is replayed: its error was shown as that of the search's last model."""
     named = replace(found, system={"base": 4.0, "final": 1.2})
-    assert [r.system_holdout_error for r in ladder_of(named).rungs] == [4.0, 1.2]
+    assert [r.system_holdout_error for r in ladder_of(named).steps] == [4.0, 1.2]
     unknown = replace(named, verdict=replace(found.verdict, effects=()), system={"base": 4.0, "final": 4.0})
-    seen = [r.system_holdout_error for r in ladder_of(unknown).rungs]
+    seen = [r.system_holdout_error for r in ladder_of(unknown).steps]
     assert seen[0] == 4.0 and isnan(seen[1])

@@ -112,7 +112,7 @@ def _tell(found) -> None:  # noqa: ANN001 - a Diagnosis; imported where it is us
     ]  # fmt: skip
     if rows:
         print_table("Hypotheses, in multiples of the noise floor", rows)
-    for run in found.foretold:
+    for run in found.predicted_friction:
         OUT.print(run.words, markup=False, highlight=False, soft_wrap=True)
     for words in found.cannot_tell:
         OUT.print(f"cannot tell {words}", markup=False, highlight=False, soft_wrap=True)
@@ -141,7 +141,7 @@ def ladder(
     system: System = True,
     json: Json = False,
 ) -> None:
-    """Watch the error fall, rung by rung, on runs that no fit has seen, down to the noise floor.
+    """Watch the error fall, step by step, on runs that no fit has seen, down to the noise floor.
 
     Example: `slipwise ladder campaigns/march --out out/march`
     """
@@ -168,15 +168,15 @@ def ladder(
 
 
 def print_rungs(found) -> None:  # noqa: ANN001 - a Ladder; imported where it is used
-    """Print the errors of every rung; nothing where there is none."""
-    from slipwise.view.diagnosis_figures import rung_errors
+    """Print the errors of every step; nothing where there is none."""
+    from slipwise.view.diagnosis_figures import step_errors
     from slipwise.view.terminal import print_table
 
-    errors = rung_errors(found)
+    errors = step_errors(found)
     rows = [
-        {"model": " + ".join(["base", *rung.effects])}
+        {"model": " + ".join(["base", *step.effects])}
         | {runs: values[place] for runs, values in errors.items() if isfinite(values[place])}
-        for place, rung in enumerate(found.rungs)
+        for place, step in enumerate(found.steps)
     ]
     print_table("Error in multiples of the noise floor", rows)
 

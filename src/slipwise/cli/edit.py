@@ -29,7 +29,7 @@ def add(
     measured = load_campaign(campaign)
     with steps() as tell:
         climbed = ladder(measured, [name], start_model(campaign, None), progress=tell)
-    _tell(climbed.rungs[0].relations, climbed.rungs[-1].relations)
+    _tell(climbed.steps[0].relations, climbed.steps[-1].relations)
     _save(_model(climbed.fits[-1]), campaign)
 
 
@@ -41,8 +41,8 @@ def remove(
 
     Example: `slipwise remove run_in --campaign campaigns/march`
     """
-    from slipwise.diagnosis.diagnose import error_of
     from slipwise.diagnosis.hypothesis import base_hypothesis
+    from slipwise.evidence.residual_summary import error_of
 
     measured = load_campaign(campaign)
     before = start_model(campaign, None) or base_model(measured.specimen)
@@ -54,7 +54,7 @@ def remove(
         new = fit_finely(measured, after)
     errors = []
     for fit in (old, new):
-        account = base_hypothesis(fit).account
+        account = base_hypothesis(fit).summary
         errors.append({relation: error_of(account, relation) for relation in account.fitted})
     _tell(*errors)
     _save(_model(new), campaign)

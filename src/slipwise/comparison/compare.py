@@ -20,7 +20,7 @@ from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit, fit_finely
 from slipwise.estimation.girder_balances import BALANCES
 from slipwise.estimation.intervals import intervals
-from slipwise.estimation.prediction_interval import foretold
+from slipwise.estimation.prediction_interval import predicted_friction
 from slipwise.evidence.floor import noise_floor
 from slipwise.instruments.checks import Checks, check_instruments
 from slipwise.model import Model
@@ -103,7 +103,7 @@ def compare(
         system=level,
         intervals=found,
         surface=friction,
-        foretold=foretold(base),
+        predicted_friction=predicted_friction(base),
         cells=cells,
         patterns=patterns,
         parities=parities,

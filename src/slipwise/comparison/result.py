@@ -15,7 +15,7 @@ from slipwise.comparison.system_level import SystemLevel, held_out_channels
 from slipwise.errors import InputError, unknown_name
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Intervals
-from slipwise.estimation.prediction_interval import Foretold
+from slipwise.estimation.prediction_interval import PredictedFriction
 from slipwise.evidence.floor import Floor
 from slipwise.instruments.checks import Checks
 from slipwise.model import Model
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 TABLES: tuple[str, ...] = (
     "audit", "components", "system", "parameters", "correlations", "cells", "places", "parity", "floor",
-    "noise", "foretold",
+    "noise", "predicted_friction",
 )  # fmt: skip
 
 
@@ -45,7 +45,7 @@ class Comparison:
         system: the replays; None where there are none, see `cannot`.
         intervals: of the fitted numbers.
         surface: mu(P, V) with its band; None where no load is known.
-        foretold: mean friction of every run, measured and said.
+        predicted_friction: mean friction of every run, measured and said.
         cells: every part of the samples that was looked at.
         patterns: mean residual over every state of motion.
         parities: relation -> odd and even part.
@@ -66,7 +66,7 @@ class Comparison:
     system: SystemLevel | None
     intervals: Intervals
     surface: Surface | None
-    foretold: tuple[Foretold, ...]
+    predicted_friction: tuple[PredictedFriction, ...]
     cells: tuple[Cell, ...]
     patterns: tuple[Pattern, ...]
     parities: Mapping[str, Parity]
@@ -104,7 +104,7 @@ class Comparison:
 
         Args:
             table: audit, components, system, parameters, correlations, cells, places, parity, floor (by relation),
-                noise (floor by channel and state) or foretold.
+                noise (floor by channel and state) or predicted.
 
         Raises:
             UnknownNameError: no such table.

@@ -61,9 +61,9 @@ def _parity(found: Comparison) -> list[dict[str, Any]]:
     return [{k: getattr(p, k) for k in keys} for p in found.parities.values()]
 
 
-def _foretold(found: Comparison) -> list[dict[str, Any]]:
+def _predicted_friction(found: Comparison) -> list[dict[str, Any]]:
     keys = ("run", "role", "measured", "said", "low", "high", "inside")
-    return [{k: getattr(f, k) for k in keys} for f in found.foretold]
+    return [{k: getattr(f, k) for k in keys} for f in found.predicted_friction]
 
 
 def _floor(found: Comparison) -> list[dict[str, Any]]:
@@ -99,7 +99,7 @@ _MAKERS = {
     "parity": _parity,
     "floor": _floor,
     "noise": lambda found: found.floor.rows(),
-    "foretold": _foretold,
+    "predicted_friction": _predicted_friction,
 }
 
 
@@ -118,7 +118,7 @@ def as_json(found: Comparison) -> dict[str, Any]:
     correlations: [{parameter, other, correlation}], the strongest first
     surface: {pressure, speed, friction, deviation}, mu(P, V), or null
     floor: [{relation, floor, near_reversals, unit, repeated_runs}]
-    foretold: [{run, role, measured, said, low, high, inside}], mean friction of one pad while sliding
+    predicted_friction: [{run, role, measured, said, low, high, inside}], mean friction of one pad while sliding
     noise: {channels: [{channel, unit, level, stuck, near reversal, sliding, basis, correlation_time}], notes: in words}
     parity: [{relation, odd, even, plus, minus}]
     cells: [{relation, kind, label, low, high, error, samples, effective, chance, above}]
@@ -159,7 +159,7 @@ def as_json(found: Comparison) -> dict[str, Any]:
         "surface": surface,
         **{
             name: found.rows(name)
-            for name in ("places", "parameters", "correlations", "floor", "parity", "cells", "foretold")
+            for name in ("places", "parameters", "correlations", "floor", "parity", "cells", "predicted_friction")
         },
         "noise": {"channels": found.rows("noise"), "notes": list(found.floor.notes)},
         "runs": {"components": found.rows("components"), "system": found.rows("system")},

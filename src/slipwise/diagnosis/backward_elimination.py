@@ -1,10 +1,10 @@
 """The end of a search: the needless goes, twins and plainer laws are weighed, and the rest is fitted as reported."""
 
 from slipwise.diagnosis.candidates import ONE_THING
-from slipwise.diagnosis.choice import is_delay
+from slipwise.diagnosis.choice import is_delay, needless
 from slipwise.diagnosis.hypothesis import Hypothesis, as_reported
 from slipwise.diagnosis.search_state import Search, left_with, tried_before, try_one
-from slipwise.evidence.materiality import SAME_SCORE, material, needless, score
+from slipwise.evidence.materiality import SAME_SCORE, material, score
 from slipwise.parallel import on_every_core
 
 #: A filter that takes nothing is a delay though it explains more by this share: true delays lay 0.0024 behind one, and
@@ -22,9 +22,9 @@ def prune(state: Search) -> None:
         for rest in map(whole.without, whole.terms):
             # what was fitted before may do; only if not is it fitted again, from where the whole ended
             known = tried_before(state, rest)
-            spare = next((h for h in known if not material(origin.account, h.account, whole.account)), None)
+            spare = next((h for h in known if not material(origin.summary, h.summary, whole.summary)), None)
             fewer = spare or try_one(state, rest, {}, whole)
-            if not material(origin.account, fewer.account, whole.account):
+            if not material(origin.summary, fewer.summary, whole.summary):
                 state.path.append(fewer)
                 break
         else:
@@ -38,14 +38,14 @@ def settle(state: Search) -> None:
     """
     _try_twin(state)
     _simplify(state)
-    origin = state.path[0].account
+    origin = state.path[0].summary
     state.settled = as_reported(state.best)
     while len(state.best.terms) > 1:
         rests = [left_with(state, state.best.without(t), state.best) for t in state.best.terms]
         fewer = [h for h in rests if h.solution.cost < _FAR_OFF * state.best.solution.cost]
-        accounts = on_every_core(lambda i, of=fewer: as_reported(of[i]).account, len(fewer))
+        accounts = on_every_core(lambda i, of=fewer: as_reported(of[i]).summary, len(fewer))
         pairs = zip(fewer, accounts, strict=True)
-        spare = next((h for h, account in pairs if not material(origin, account, state.settled.account)), None)
+        spare = next((h for h, account in pairs if not material(origin, account, state.settled.summary)), None)
         if spare is None:
             return
         state.path.append(spare)
@@ -54,28 +54,28 @@ def settle(state: Search) -> None:
 
 def _try_twin(state: Search) -> None:
     """Refit what is nearly one thing with an effect in its place: a screen sees little of it beside that effect."""
-    best, origin = state.best, state.path[0].account
+    best, origin = state.best, state.path[0].summary
     for term in best.terms:
         twins = {name for pair in ONE_THING if term.effect.name in pair for name in pair} - set(best.names)
         rest = best.without(term)
         for twin in (t for t in state.terms if t.effect.name in twins):
             typical = {twin.label: twin.effect.typical()}
             again = tried_before(state, [*rest, twin]) or [try_one(state, [*rest, twin], typical, best)]
-            if score(origin, again[0].account) > score(origin, state.best.account):
+            if score(origin, again[0].summary) > score(origin, state.best.summary):
                 state.path.append(again[0])
 
 
 def _simplify(state: Search) -> None:
     """Take a law of far fewer constants, or a delay for a filter that takes nothing, where it does as well."""
-    origin, best = state.path[0].account, state.best
+    origin, best = state.path[0].summary, state.best
     alike = [h for h in state.tried if len(h.terms) == len(best.terms) and set(h.names) != set(best.names)]
     plain = [h for h in alike if needless(h, best, origin)]
     if is_delay(best):
-        top = score(origin, best.account)
+        top = score(origin, best.summary)
         least = top - max(SAME_SCORE, _NO_FILTER * top)
-        plain += [h for h in _with_delays(state, best) if score(origin, h.account) > least]
+        plain += [h for h in _with_delays(state, best) if score(origin, h.summary) > least]
     if plain:
-        state.path.append(max(plain, key=lambda h: score(origin, h.account)))
+        state.path.append(max(plain, key=lambda h: score(origin, h.summary)))
 
 
 def _with_delays(state: Search, found: Hypothesis) -> list[Hypothesis]:

@@ -20,7 +20,7 @@ _LEADING = 12
 _PORTS = ("gauge", "girder")
 
 
-def is_kept(base: BaseFit, found: Screened) -> bool:
+def keeps_its_gain(base: BaseFit, found: Screened) -> bool:
     """Go towards what a screen has found, base parameters within their bounds, and tell whether anything is gained.
 
     Laws of friction are believed: far from straight, they may gain nothing here and all in a fit.
@@ -53,7 +53,7 @@ def is_kept(base: BaseFit, found: Screened) -> bool:
     return False
 
 
-def with_kept(base: BaseFit, found: Sequence[Screened], least: float) -> list[Screened]:
+def with_bounds_checked(base: BaseFit, found: Sequence[Screened], least: float) -> list[Screened]:
     """Give candidates, best first, those of the leading ones that keep nothing of their promise without a gain.
 
     Args:
@@ -62,6 +62,6 @@ def with_kept(base: BaseFit, found: Sequence[Screened], least: float) -> list[Sc
         least: gain that is worth a refit [1].
     """
     leading = [s for s in found if s.gain > least][:_LEADING]
-    kept = on_every_core(lambda i: is_kept(base, leading[i]), len(leading))
+    kept = on_every_core(lambda i: keeps_its_gain(base, leading[i]), len(leading))
     broken = {id(s) for s, keeps in zip(leading, kept, strict=True) if not keeps}
     return sorted((replace(s, gain=0.0) if id(s) in broken else s for s in found), key=lambda s: -s.gain)

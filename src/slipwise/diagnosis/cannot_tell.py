@@ -30,7 +30,7 @@ _NOTHING_LEFT = 3e-5
 _UNFELT = 0.1
 
 
-def untold(state: Search, final: BaseFit) -> list[tuple[str, str]]:
+def cannot_tell(state: Search, final: BaseFit) -> list[tuple[str, str]]:
     """Give what this campaign cannot tell, each with the reason; effects that it cannot test are in `state.cannot`.
 
     Args:

@@ -6,9 +6,14 @@ import numpy as np
 
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.screening import Screened
-from slipwise.evidence.materiality import MATERIAL, material_alone, score, worth
+from slipwise.evidence.materiality import MATERIAL, least_material_drop, material_drop, score
+from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.signals import LowPass
 
+#: What a constant of a law must be worth: the logarithm of some hundred thousand samples (Schwarz 1978).
+_PER_CONSTANT = 12.0
+#: A law with one constant more is no other kind of law: a filter's order, beside a delay.
+_FAR_MORE = 2
 #: Share of the best explanation from which on another gauge's ties with it [1].
 _TIE = 0.99
 
@@ -29,12 +34,12 @@ def best_of(origin: Hypothesis, tried: Sequence[Hypothesis]) -> Hypothesis | Non
 
     Cells of load that all read 4 % less under a girder of 4 % more mass are cells of friction that all read 4 % more.
     """
-    ranked = sorted(((score(origin.account, h.account), h) for h in tried), key=lambda pair: -pair[0])
+    ranked = sorted(((score(origin.summary, h.summary), h) for h in tried), key=lambda pair: -pair[0])
     good = [(gain, h) for gain, h in ranked if gain > 0.0 and material_alone(origin, h)]
     if not good:
         return None
     top, first = good[0]
-    if worth(origin.account, first.account)[0] < MATERIAL and ranked[0][0] > top:
+    if material_drop(origin.summary, first.summary)[0] < MATERIAL and ranked[0][0] > top:
         return None  # a law of so little is not named where what is no finding explains more
     ties = dict[tuple[str, ...], Hypothesis]()
     for gain, h in good:  # one gauge with a worse law is no tie
@@ -58,3 +63,15 @@ def is_delay(found: Hypothesis) -> bool:
     most = run.filtered.frequency if run.filtered else 0.5 / run.dt
     # of a filter of corner f_c the lag is that at 1 Hz over f_c
     return any(LowPass(1.0, round(f["order"]), "causal").lag > most * f["lag"] for f in filters)
+
+
+def material_alone(origin: Hypothesis, found: Hypothesis) -> bool:
+    """Tell whether effects are worth a name as a first step from the base model."""
+    return material_drop(origin.summary, found.summary)[0] >= least_material_drop(found.terms)
+
+
+def needless(plain: Hypothesis, rich: Hypothesis, base: ResidualSummary) -> bool:
+    """Tell whether far more constants say no more: a patch as wide as the stroke is pads that differ."""
+    more = len(rich.solution.free) - len(plain.solution.free)
+    gain = score(base, rich.summary) - score(base, plain.summary)
+    return more >= _FAR_MORE and gain < _PER_CONSTANT * more

@@ -7,7 +7,7 @@ import numpy as np
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.starting_grid import strengths
-from slipwise.evidence.materiality import least_worth
+from slipwise.evidence.materiality import least_material_drop
 
 
 def least_sizes(screened: Sequence[Screened], base: Hypothesis) -> dict[str, tuple[float, str]]:
@@ -40,5 +40,7 @@ def _least(found: Screened, base: Hypothesis) -> tuple[float, str] | None:
     parts, problem = base.solution.residuals.parts, base.problem
     rows = [sum(parts[r][i].size for i in problem.fitted) for r in problem.relations]
     drops = np.add.reduceat(step, np.concatenate([[0], np.cumsum(rows)[:-1]]))
-    counts = np.array([base.account.counts[r][0] for r in problem.relations])
-    return float(size * np.sqrt(least_worth([found.term]) / np.max(drops / np.maximum(counts, 1)))), leading.unit
+    counts = np.array([base.summary.counts[r][0] for r in problem.relations])
+    return float(
+        size * np.sqrt(least_material_drop([found.term]) / np.max(drops / np.maximum(counts, 1)))
+    ), leading.unit

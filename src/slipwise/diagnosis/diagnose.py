@@ -9,21 +9,22 @@ import numpy as np
 
 from slipwise.campaign import Campaign, load_campaign
 from slipwise.diagnosis.candidates import ONE_THING
-from slipwise.diagnosis.cannot_tell import untold
+from slipwise.diagnosis.cannot_tell import cannot_tell
 from slipwise.diagnosis.detectable_size import least_sizes
-from slipwise.diagnosis.hypothesis import Account, Hypothesis
-from slipwise.diagnosis.predicted_friction import foretold
+from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.diagnosis.predicted_friction import predicted_friction
 from slipwise.diagnosis.replays import replayed_errors
 from slipwise.diagnosis.reported_sizes import named_sizes
 from slipwise.diagnosis.result import Candidate, Diagnosis
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.verdict import Verdict, judge, with_faults
-from slipwise.diagnosis.workflow import Explored, explore
+from slipwise.diagnosis.workflow import SelectionResult, select_effects
 from slipwise.effects import Effect
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import jacobian
-from slipwise.evidence.materiality import score, worth
+from slipwise.evidence.materiality import material_drop, score
+from slipwise.evidence.residual_summary import error_of
 from slipwise.model import Model
 
 #: Hypotheses that are listed.
@@ -56,13 +57,13 @@ def diagnose(
     found = campaign if isinstance(campaign, Campaign) else load_campaign(campaign)
     tell("fitting base parameters", 0.02)
     part = 0.7 if system else 1.0
-    explored = explore(found, model, own, lambda words, share: tell(words, part * share))
-    base, state = explored.base, explored.search
+    selected = select_effects(found, model, own, lambda words, share: tell(words, part * share))
+    base, state = selected.base, selected.search
     judged = judge(state)
     shown = state.final if judged.effects else state.path[0]
-    verdict = with_faults(judged, explored.faults, state.best.terms)
+    verdict = with_faults(judged, selected.faults, state.best.terms)
     final = as_fit(base, shown, with_slopes=shown is not state.settled or not shown.problem.balanced)
-    cannot = [f"{name}: {reason}" for name, reason in [*state.cannot.items(), *untold(state, final)]]
+    cannot = [f"{name}: {reason}" for name, reason in [*state.cannot.items(), *cannot_tell(state, final)]]
     replayed: dict[str, float] = {}
     if system:
         tell("replaying", 0.7)
@@ -74,7 +75,7 @@ def diagnose(
         except InputError as error:
             cannot.append(f"system level: {error}")
     relations = _relations(state, shown)
-    before = max(error_of(explored.unmended, r) for r in explored.unmended.fitted)
+    before = max(error_of(selected.unmended, r) for r in selected.unmended.fitted)
     tell("done", 1.0)
     return Diagnosis(
         campaign=found.name,
@@ -84,8 +85,8 @@ def diagnose(
         final_error=max(b for _, b in relations.values()),
         relations=relations,
         system=replayed,
-        candidates=_listed(explored, judged, verdict, final),
-        foretold=foretold(final),
+        candidates=_listed(selected, judged, verdict, final),
+        predicted_friction=predicted_friction(final),
         least=least_sizes([*state.screened, *state.opposed], state.path[0]),
         cannot_tell=tuple(cannot),
         search=state,
@@ -111,14 +112,8 @@ def as_fit(base: BaseFit, found: Hypothesis, *, with_slopes: bool = True) -> Bas
     return BaseFit(base.campaign, base.model, found.problem, solution.free, solution)
 
 
-def error_of(account: Account, relation: str) -> float:
-    """Give the held-out error of a relation in floors; that of the fitted runs where none is held out."""
-    held = account.counts[relation][1] > 0
-    return float(np.sqrt(account.level(relation, held_out=held)))
-
-
 def _relations(state: Search, shown: Hypothesis) -> dict[str, tuple[float, float]]:
-    origin, best = state.path[0].account, shown.account
+    origin, best = state.path[0].summary, shown.summary
     return {r: (error_of(origin, r), error_of(best, r)) for r in origin.fitted}
 
 
@@ -133,13 +128,13 @@ def _component(state: Search, verdict: Verdict) -> str:
     return {"pads": "pad friction", "girder": "girder", "heave": "pad load"}.get(relation, "pad load")
 
 
-def _listed(explored: Explored, judged: Verdict, verdict: Verdict, final: BaseFit) -> tuple[Candidate, ...]:
+def _listed(selected: SelectionResult, judged: Verdict, verdict: Verdict, final: BaseFit) -> tuple[Candidate, ...]:
     """Give hypotheses, and faults of samples: before them where they alone are what is missing."""
-    hypotheses = _candidates(explored.search, judged, final)
-    recorded, kept = explored.unmended, explored.search.path[0].account
+    hypotheses = _candidates(selected.search, judged, final)
+    recorded, kept = selected.unmended, selected.search.path[0].summary
     where = max(recorded.fitted, key=lambda relation: error_of(recorded, relation))
     before, after = error_of(recorded, where), error_of(kept, where)
-    labels = dict.fromkeys(f"{f.effect}[{f.channel}]" for f in explored.faults)
+    labels = dict.fromkeys(f"{f.effect}[{f.channel}]" for f in selected.faults)
     faults = tuple(Candidate(label, verdict.probability, before, after, 0.0, {}) for label in labels)
     return (*hypotheses, *faults) if judged.effects else (*faults, *hypotheses)
 
@@ -147,8 +142,8 @@ def _listed(explored: Explored, judged: Verdict, verdict: Verdict, final: BaseFi
 def _candidates(state: Search, verdict: Verdict, final: BaseFit) -> tuple[Candidate, ...]:
     origin = state.path[0]
     unique: dict[tuple[str, ...], Hypothesis] = {}
-    for h in sorted(state.tried, key=lambda h: -score(origin.account, h.account)):
-        if h.terms and score(origin.account, h.account) > 0.0:
+    for h in sorted(state.tried, key=lambda h: -score(origin.summary, h.summary)):
+        if h.terms and score(origin.summary, h.summary) > 0.0:
             unique.setdefault(h.names, h)
     best = state.best
     unique |= {h.names: h for h in verdict.rivals}
@@ -158,15 +153,15 @@ def _candidates(state: Search, verdict: Verdict, final: BaseFit) -> tuple[Candid
     shares = _shares(state, verdict, listed)
     out = []
     for h, probability in zip(listed, shares, strict=True):
-        _, where = worth(origin.account, h.account)
+        _, where = material_drop(origin.summary, h.summary)
         where = where or "pads"
         shown = state.final if h is best else h
         out.append(
             Candidate(
                 effect=" + ".join(t.label for t in h.terms),
                 probability=probability,
-                holdout_before=error_of(origin.account, where),
-                holdout_after=error_of(shown.account, where),
+                holdout_before=error_of(origin.summary, where),
+                holdout_after=error_of(shown.summary, where),
                 absorbed_by_base=max(absorbed.get(t.label, 0.0) for t in h.terms),
                 parameters=named_sizes(shown, final if verdict.effects and h is best else None),
             )
@@ -180,7 +175,7 @@ def _shares(state: Search, verdict: Verdict, listed: list[Hypothesis]) -> list[f
     if not listed:
         return []
     origin = state.path[0]
-    weights = np.array([max(score(origin.account, h.account), 1e-9) for h in listed])
+    weights = np.array([max(score(origin.summary, h.summary), 1e-9) for h in listed])
     if not named:
         return [float(x) for x in (1.0 - verdict.probability) * weights / weights.sum()]
     rivals = verdict.rivals or [h for h in listed if _is_one_thing(h, state.best)]

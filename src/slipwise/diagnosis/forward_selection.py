@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.diagnosis.backward_elimination import prune, settle
-from slipwise.diagnosis.bound_check import with_kept
+from slipwise.diagnosis.bound_check import with_bounds_checked
 from slipwise.diagnosis.candidates import candidates
-from slipwise.diagnosis.choice import best_of, various
-from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, strained
+from slipwise.diagnosis.choice import best_of, material_alone, various
+from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, strength_at_bound
 from slipwise.diagnosis.pairs import leading_pair
 from slipwise.diagnosis.rescreening import rescreen
 from slipwise.diagnosis.screening import screen, screen_shapes
@@ -19,7 +19,7 @@ from slipwise.diagnosis.starting_grid import places
 from slipwise.diagnosis.starting_values import beginnings, longer_stick, starts_of
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit, at_rated
-from slipwise.evidence.materiality import MATERIAL, MATERIAL_FURTHER, all_down, is_near, material, material_alone, score
+from slipwise.evidence.materiality import MATERIAL, MATERIAL_FURTHER, all_down, is_near, material, score
 
 Array = NDArray[np.float64]
 #: Share of what is worth a name from which on a screen's gain is worth a refit [1].
@@ -36,8 +36,8 @@ _SWAPPED, _HOPELESS = 2, 100.0
 _REFITTED_PHYSICS = 2
 #: Mean squared residual of a base that is bent too far for a screen, and that no effect may leave then before a search
 #: from rated numbers [noise variance].
-_BENT, _ASTRAY = 1000.0, 30.0
-#: Most effects that are added, and how many of them before a logger that nobody knew is heard anew.
+_BENT, _FAR_FROM_NOISE = 1000.0, 30.0
+#: Most effects that are added, and how many of them before a logger that nobody knew is estimated anew.
 MOST_EFFECTS, _FIRST_EFFECTS = 3, 2
 
 
@@ -88,7 +88,7 @@ def finish(state: Search, progress: Callable[[str, float], None] | None = None) 
     tell = progress or _silent
     if len(state.best.terms) == _FIRST_EFFECTS:  # with fewer, nothing more was worth it
         _onward(state, tell, MOST_EFFECTS)
-    if _astray(state):
+    if _restart_from_nominal(state):
         _onward(state, tell, MOST_EFFECTS)
     prune(state)
     if _swap(state):
@@ -111,21 +111,21 @@ def _onward(state: Search, tell: Callable[[str, float], None], most: int) -> Non
             break
 
 
-def _astray(state: Search) -> bool:
+def _restart_from_nominal(state: Search) -> bool:
     """Begin anew from the rated numbers where very much is left; tell if that leads to something better.
 
     A base that is bent that far shows each effect as a straight line that leads elsewhere: a table that rocks by 3 mrad
     was fitted with another pitch of the girder, a hundred floors off, and every fit from there ended beside the truth.
     """
     origin, best = state.path[0], state.best
-    worst, left = (max(h.account.level(r, held_out=False) for r in h.account.fitted) for h in (origin, best))
-    if worst < _BENT or left < _ASTRAY:
+    worst, left = (max(h.summary.level(r, held_out=False) for r in h.summary.fitted) for h in (origin, best))
+    if worst < _BENT or left < _FAR_FROM_NOISE:
         return False
     anew = replace(state, base=at_rated(state.base), path=[origin])
     _screen(anew)
     _first(anew)
     _reshape(anew)
-    if score(origin.account, anew.best.account) <= score(origin.account, best.account):
+    if score(origin.summary, anew.best.summary) <= score(origin.summary, best.summary):
         return False
     state.path.append(anew.best)
     return True
@@ -134,7 +134,7 @@ def _astray(state: Search) -> bool:
 def _screen(state: Search, progress: Callable[[float], None] | None = None) -> None:
     """Screen every candidate against the base of a search."""
     found = screen(state.base, state.terms, progress)
-    found = with_kept(state.base, found, _worth_a_refit(state.path[0], MATERIAL))
+    found = with_bounds_checked(state.base, found, _least_refitted(state.path[0], MATERIAL))
     state.screened, state.opposed = ([s for s in found if (s.gain == 0.0) == against] for against in (False, True))
 
 
@@ -143,7 +143,7 @@ def _first(state: Search, led: Hypothesis | None = None) -> None:
     chosen = various(state.screened, _REFITTED)
     physics = [s for s in state.screened if s.term.effect.component != "instrument"]
     chosen += [s for s in physics[:_REFITTED_PHYSICS] if all(s is not c for c in chosen)]
-    least = _worth_a_refit(origin, MATERIAL)
+    least = _least_refitted(origin, MATERIAL)
     asked = starts_of([s for s in chosen if s.gain > least]) + longer_stick(state, origin)
     best = best_of(origin, [*try_all(state, asked), *([try_one(state, led.terms, {}, led)] if led else [])])
     pair = leading_pair(state.base, state.screened, best, least)
@@ -154,8 +154,8 @@ def _first(state: Search, led: Hypothesis | None = None) -> None:
             alone = [try_one(state, [p.term], {}, both) for p in pair if not tried_before(state, [p.term])]
             best = best_of(origin, [*alone, *([best] if best else [])])
             single = best or origin
-            worth_two = single is origin or material(origin.account, single.account, both.account)
-            if worth_two and score(origin.account, both.account) > score(origin.account, single.account):
+            both_material = single is origin or material(origin.summary, single.summary, both.summary)
+            if both_material and score(origin.summary, both.summary) > score(origin.summary, single.summary):
                 state.path.append(both)
                 return
     if best is not None:
@@ -170,7 +170,7 @@ def _reshape(state: Search) -> None:
     more than 5 % more from three new starts, of 10 laws of a place or frequency three more than twice as much.
     """
     best, origin = state.best, state.path[0]
-    if not best.terms or all_down(best.account):
+    if not best.terms or all_down(best.summary):
         return
     for term in best.terms:
         grid = places(term.effect)
@@ -180,7 +180,7 @@ def _reshape(state: Search) -> None:
         before = left_with(state, rest, best) if rest else origin
         found = screen_shapes(as_base(state, before), term, grid)[:_RESHAPED]
         again = try_all(state, [([*rest, term], {term.label: s.values}) for s in found], before if rest else None)
-        better = [h for h in again if score(origin.account, h.account) > score(origin.account, state.best.account)]
+        better = [h for h in again if score(origin.summary, h.summary) > score(origin.summary, state.best.summary)]
         if better:
             state.path[-1] = better[0]
 
@@ -188,26 +188,26 @@ def _reshape(state: Search) -> None:
 def _further(state: Search) -> bool:
     """Add the effect that helps most beside those found; false when none is worth it."""
     before, origin = state.best, state.path[0]
-    account = before.account
+    account = before.summary
     if all_down(account):
         return False
-    least = _worth_a_refit(before, MATERIAL_FURTHER)
-    found = with_kept(as_base(state, before), rescreen(state.seen, before), least)
+    least = _least_refitted(before, MATERIAL_FURTHER)
+    found = with_bounds_checked(as_base(state, before), rescreen(state.seen, before), least)
     chosen = various([s for s in found if s.gain > least], _REFITTED_PAIRS + 1)
     tried = list[Hypothesis]()
     for asked in beginnings(state, chosen, tried):
-        tried += try_all(state, asked, before, lambda h: is_near(origin.account, account, h.account))
-        sound = [h for h in tried if strained(before) or not strained(h)]
-        good = [h for h in sound if material(origin.account, account, h.account)]
+        tried += try_all(state, asked, before, lambda h: is_near(origin.summary, account, h.summary))
+        sound = [h for h in tried if strength_at_bound(before) or not strength_at_bound(h)]
+        good = [h for h in sound if material(origin.summary, account, h.summary)]
         if good:
-            state.path.append(max(good, key=lambda h: score(before.account, h.account)))
+            state.path.append(max(good, key=lambda h: score(before.summary, h.summary)))
             return True
     return False
 
 
-def _worth_a_refit(before: Hypothesis, drop: float) -> float:
+def _least_refitted(before: Hypothesis, drop: float) -> float:
     """Give the gain from which on a candidate is refitted, for a drop of a relation that is worth a name [1]."""
-    return _HOPEFUL * drop * min(n for n, _ in before.account.counts.values())
+    return _HOPEFUL * drop * min(n for n, _ in before.summary.counts.values())
 
 
 def _swap(state: Search) -> bool:
@@ -215,18 +215,18 @@ def _swap(state: Search) -> bool:
 
     What was best alone may only have stood for two others: two gauges that read less for pads that differ.
     """
-    best, origin = state.best, state.path[0].account
-    if len(best.names) < 2 or all_down(best.account):
+    best, origin = state.best, state.path[0].summary
+    if len(best.names) < 2 or all_down(best.summary):
         return False
-    top = score(origin, best.account)
+    top = score(origin, best.summary)
     for name in best.names:
         rest = [t for t in best.terms if t.effect.name != name]
         kept = left_with(state, rest, best)
         enough = kept.solution.cost - _HOPELESS * best.solution.cost
         others = [s for s in rescreen(state.seen, kept) if s.term.effect.name not in best.names and s.gain > enough]
         chosen = [s for s in others[:_SWAPPED] if not tried_before(state, [*rest, s.term])]
-        better = [h for h in try_all(state, starts_of(chosen, rest), kept) if score(origin, h.account) > top]
+        better = [h for h in try_all(state, starts_of(chosen, rest), kept) if score(origin, h.summary) > top]
         if better:
-            state.path.append(max(better, key=lambda h: score(origin, h.account)))
+            state.path.append(max(better, key=lambda h: score(origin, h.summary)))
             return True
     return False

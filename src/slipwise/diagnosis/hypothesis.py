@@ -11,6 +11,7 @@ from slipwise.estimation.base_fit import BaseFit, settled
 from slipwise.estimation.least_squares import Solution, slopes_of, solve
 from slipwise.estimation.parameters import ZERO, ZEROES, Free, Term, inertia_free
 from slipwise.estimation.problem import Problem
+from slipwise.evidence.residual_summary import ResidualSummary, summarised
 
 Array = NDArray[np.float64]
 #: A fit is over when a step lowers the squared residual by less than this, and by less than this share of what is left
@@ -23,31 +24,6 @@ STICK_LENGTH = "rig.stick_length"
 
 
 @dataclass(frozen=True)
-class Account:
-    """Squared residuals of a solution, by relation.
-
-    Attributes:
-        fitted: relation -> sum over the runs that were fitted.
-        held_out: relation -> sum over the runs that were not.
-        counts: relation -> (samples fitted, samples held out).
-    """
-
-    fitted: dict[str, float]
-    held_out: dict[str, float]
-    counts: dict[str, tuple[int, int]]
-
-    def level(self, relation: str, *, held_out: bool) -> float:
-        """Give the mean squared residual of a relation in units of the noise's variance."""
-        total, count = (self.held_out, 1) if held_out else (self.fitted, 0)
-        return total[relation] / max(self.counts[relation][count], 1)
-
-    @property
-    def total(self) -> float:
-        """Sum over all runs and relations."""
-        return sum(self.fitted.values()) + sum(self.held_out.values())
-
-
-@dataclass(frozen=True)
 class Hypothesis:
     """Effects that were added to the base model, refitted.
 
@@ -55,13 +31,13 @@ class Hypothesis:
         terms: the effects.
         problem: base and effects.
         solution: of the fit.
-        account: of its residuals.
+        summary: of its residuals.
     """
 
     terms: tuple[Term, ...]
     problem: Problem
     solution: Solution
-    account: Account
+    summary: ResidualSummary
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -75,19 +51,6 @@ class Hypothesis:
     def values_of(self, term: Term) -> dict[str, float]:
         """Give the fitted parameters of one effect."""
         return {n: self.solution.values[f"{term.label}.{n}"] for n in term.effect.parameter_names}
-
-
-def account(problem: Problem, solution: Solution) -> Account:
-    """Sum up a solution's squared residuals."""
-    parts = solution.residuals.parts
-    fitted, held_out, counts = {}, {}, {}
-    for name in problem.relations:
-        samples = [int(np.count_nonzero(run.judged[name])) for run in problem.runs]
-        of = [(float(np.sum(part**2)), count) for part, count in zip(parts[name], samples, strict=True)]
-        fitted[name] = sum(of[i][0] for i in problem.fitted)
-        held_out[name] = sum(of[i][0] for i in problem.held_out)
-        counts[name] = (sum(of[i][1] for i in problem.fitted), sum(of[i][1] for i in problem.held_out))
-    return Account(fitted, held_out, counts)
 
 
 def base_hypothesis(base: BaseFit) -> Hypothesis:
@@ -150,7 +113,7 @@ def refit(
 
 
 def _hypothesis(terms: Sequence[Term], problem: Problem, solution: Solution) -> Hypothesis:
-    return Hypothesis(tuple(terms), problem, solution, account(problem, solution))
+    return Hypothesis(tuple(terms), problem, solution, summarised(problem, solution))
 
 
 def polished(found: Hypothesis) -> Hypothesis:
@@ -218,12 +181,12 @@ def _inside(term: Term, start: Mapping[str, float]) -> dict[str, float]:
     return out
 
 
-def strained(found: Hypothesis) -> bool:
+def strength_at_bound(found: Hypothesis) -> bool:
     """Tell whether a strength has run against a bound that is not its absence: a law asked for more than it can be."""
     return any(p.name in _ends(found, t) for t in found.terms for p in strengths(t.effect))
 
 
-def cornered(found: Hypothesis) -> bool:
+def constant_at_bound(found: Hypothesis) -> bool:
     """Tell whether any constant of its laws has run against a bound: a patch wider than the stroke is no patch."""
     return any(_ends(found, t) for t in found.terms)
 

@@ -1,4 +1,4 @@
-"""The ladder: effects added one by one, the error falling rung by rung, on runs the fit has not seen."""
+"""The ladder: effects added one by one, the error falling step by step, on runs the fit has not seen."""
 
 import time
 from collections.abc import Callable, Iterable, Sequence
@@ -11,17 +11,18 @@ import numpy as np
 
 from slipwise.campaign import Campaign, load_campaign
 from slipwise.diagnosis.candidates import SAMPLE_FAULTS, candidates
-from slipwise.diagnosis.diagnose import as_fit, error_of
+from slipwise.diagnosis.diagnose import as_fit
 from slipwise.diagnosis.forward_selection import MOST_EFFECTS
-from slipwise.diagnosis.hypothesis import Account, Hypothesis, base_hypothesis, polished, refit
+from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, polished, refit
 from slipwise.diagnosis.replays import replayed_errors
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.screening import Screened, screen
 from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.workflow import explore, prepared
+from slipwise.diagnosis.workflow import prepared, select_effects
 from slipwise.effects import Effect, find_effect
 from slipwise.errors import InputError, SettingError
 from slipwise.estimation.base_fit import BaseFit, fit_base
+from slipwise.evidence.residual_summary import ResidualSummary, error_of
 from slipwise.model import Model
 
 #: An error below this is down to the floor [floors].
@@ -29,7 +30,7 @@ DOWN = 1.15
 
 
 @dataclass(frozen=True)
-class Rung:
+class LadderStep:
     """One model of the ladder.
 
     Attributes:
@@ -51,35 +52,35 @@ class Rung:
 
 @dataclass(frozen=True)
 class Ladder:
-    """All rungs.
+    """All steps.
 
     Attributes:
         campaign: its name.
-        rungs: base first.
+        steps: base first.
         tried: number of candidates that were screened, and of hypotheses that were refitted.
-        stopped: why no further rung was climbed.
-        fits: the fit of each rung, for model.toml; none where a diagnosis has climbed already.
+        stopped: why no further step was climbed.
+        fits: the fit of each step, for model.toml; none where a diagnosis has climbed already.
         seconds: it took.
     """
 
     campaign: str
-    rungs: tuple[Rung, ...]
+    steps: tuple[LadderStep, ...]
     tried: tuple[int, int]
     stopped: str
     fits: tuple[BaseFit, ...]
     seconds: float
 
     def as_json(self) -> list[dict[str, Any]]:
-        """Give the contract of ladder.json: the rungs; the last one says why no further one was climbed."""
+        """Give the contract of ladder.json: the steps; the last one says why no further one was climbed."""
         screened, refitted = self.tried
-        last = len(self.rungs) - 1
+        last = len(self.steps) - 1
         return [
-            {**rung, "screened": screened, "refitted": refitted, "stopped": self.stopped if place == last else ""}
-            for place, rung in enumerate(self.table())
+            {**step, "screened": screened, "refitted": refitted, "stopped": self.stopped if place == last else ""}
+            for place, step in enumerate(self.table())
         ]
 
     def table(self) -> list[dict[str, Any]]:
-        """Give the errors of every rung; none where there is none."""
+        """Give the errors of every step; none where there is none."""
         return [
             {
                 "effects": list(r.effects),
@@ -88,7 +89,7 @@ class Ladder:
                 "system_holdout_error": _number(r.system_holdout_error),
                 "floor": r.floor,
             }
-            for r in self.rungs
+            for r in self.steps
         ]
 
 
@@ -108,7 +109,7 @@ def ladder(
         add: effects to add in this order instead of searching: names, or paths of a user's files ("./mine.py").
         model: where the ladder stands; the paper's law on the campaign's rig when not given.
         own: effects that are searched beside those of the catalogue.
-        system: replay every rung as well.
+        system: replay every step as well.
         progress: called with what is being done and the share done.
 
     Raises:
@@ -126,8 +127,8 @@ def ladder(
         base = fit_base(whole, model, spoiled)
         path, counts, stopped = _asked(base, asked, lambda share: tell("refitting", part * share))
     else:
-        explored = explore(found, model, own, lambda words, share: tell(words, part * share))
-        base, state = explored.base, explored.search
+        selected = select_effects(found, model, own, lambda words, share: tell(words, part * share))
+        base, state = selected.base, selected.search
         path, counts, stopped = _climbed(state), (len(state.screened), len(state.tried)), _why(state)
     fits = tuple(as_fit(base, h) for h in path)
     errors = [float("nan")] * len(fits)
@@ -135,9 +136,9 @@ def ladder(
         tell("replaying", part)
         with suppress(InputError):  # nothing to replay: the table's motion was not recorded
             errors = replayed_errors(fits, ("holdout",), lambda share: tell("replaying", part + (1.0 - part) * share))
-    rungs = [_rung(h, error) for h, error in zip(path, errors, strict=True)]
+    steps = [_step(h, error) for h, error in zip(path, errors, strict=True)]
     tell("done", 1.0)
-    return Ladder(found.name, tuple(rungs), counts, stopped, fits, time.perf_counter() - began)
+    return Ladder(found.name, tuple(steps), counts, stopped, fits, time.perf_counter() - began)
 
 
 def ladder_of(found: Diagnosis) -> Ladder:
@@ -150,13 +151,13 @@ def ladder_of(found: Diagnosis) -> Ladder:
     ends = {0: found.system.get("base", np.nan)}
     if found.added:
         ends[len(path) - 1] = found.system.get("final", np.nan)
-    rungs = [_rung(h, float(ends.get(i, np.nan))) for i, h in enumerate(path)]
+    steps = [_step(h, float(ends.get(i, np.nan))) for i, h in enumerate(path)]
     counts = (len(search.screened), len(search.tried))
-    return Ladder(search.base.campaign.name, tuple(rungs), counts, _why(search), (), 0.0)
+    return Ladder(search.base.campaign.name, tuple(steps), counts, _why(search), (), 0.0)
 
 
 def _climbed(state: Search) -> list[Hypothesis]:
-    """Give the hypotheses of a search rung by rung, the last one as it is reported."""
+    """Give the hypotheses of a search step by step, the last one as it is reported."""
     return [*state.path[:-1], state.final]
 
 
@@ -188,29 +189,29 @@ def _asked(
 def _why(state: Search) -> str:
     if not state.screened:
         return "no effect of the catalogue can be tested here"
-    account = state.final.account
+    account = state.final.summary
     worst = max(error_of(account, relation) for relation in account.fitted)
     if worst < DOWN:
         return "nothing above the noise floor is left"
     if len(state.best.terms) >= MOST_EFFECTS:
         return f"{MOST_EFFECTS} effects are the most that are added; {worst:.2g} floors are left"
-    return f"no further effect of the catalogue is worth a rung; {worst:.2g} floors are left"
+    return f"no further effect of the catalogue is worth a step; {worst:.2g} floors are left"
 
 
-def _rung(found: Hypothesis, replayed: float) -> Rung:
-    fitted = _errors(found.account, held_out=False)
-    held = _errors(found.account, held_out=True)
-    return Rung(
+def _step(found: Hypothesis, replayed: float) -> LadderStep:
+    fitted = _errors(found.summary, held_out=False)
+    held = _errors(found.summary, held_out=True)
+    return LadderStep(
         effects=tuple(t.label for t in found.terms),
         fit_error=max(fitted.values()),
         holdout_error=max(held.values(), default=float("nan")),
         system_holdout_error=replayed,
         floor=1.0,
-        relations={r: error_of(found.account, r) for r in found.account.fitted},
+        relations={r: error_of(found.summary, r) for r in found.summary.fitted},
     )
 
 
-def _errors(account: Account, *, held_out: bool) -> dict[str, float]:
+def _errors(account: ResidualSummary, *, held_out: bool) -> dict[str, float]:
     counted = {r: c for r, c in account.counts.items() if c[int(held_out)] > 0}
     return {r: float(np.sqrt(account.level(r, held_out=held_out))) for r in counted}
 

@@ -1,7 +1,7 @@
-"""What a model foretells of runs that no fit has seen: one slider's mean friction, with an interval.
+"""What a model predicts of runs that no fit has seen: one slider's mean friction, with an interval.
 
 A girder's balances judge it sample by sample. One slider's material may be far from any law of the catalogue, and then
-what an engineer asks first is whether a load between two that were tested is foretold. Errors of the runs that were
+what an engineer asks first is whether a load between two that were tested is predicted. Errors of the runs that were
 fitted would flatter: three loads are met by any law of three numbers. Each is left out in turn instead, the others are
 fitted, and what it is missed by is what a run not seen may be missed by (Stone 1974):
 
@@ -27,7 +27,7 @@ _ENOUGH = 1.0
 
 
 @dataclass(frozen=True)
-class Foretold:
+class PredictedFriction:
     """Mean friction against the slip, over the samples at which a slider slides.
 
     Attributes:
@@ -49,10 +49,10 @@ class Foretold:
         """Say it."""
         inside = "inside" if self.low <= self.measured <= self.high else "outside"
         said = f"{self.value:.3g} N ({self.low:.3g} to {self.high:.3g} N)"
-        return f"{self.run}: mean friction {self.measured:.3g} N measured, {inside} what was foretold, {said}"
+        return f"{self.run}: mean friction {self.measured:.3g} N measured, {inside} what was predicted, {said}"
 
 
-def foretold(fit: BaseFit) -> tuple[Foretold, ...]:
+def predicted_friction(fit: BaseFit) -> tuple[PredictedFriction, ...]:
     """Foretell the held-out runs of one slider; nothing for a girder, or from a single run.
 
     Args:
@@ -66,7 +66,9 @@ def foretold(fit: BaseFit) -> tuple[Foretold, ...]:
     misses = np.array([measured[i] - _said_without(fit, i) for i in problem.fitted])
     half = float(student.ppf(0.5 + COVERAGE / 2, len(misses)) * np.sqrt(np.mean(misses**2)))
     return tuple(
-        Foretold(problem.runs[i].name, float(measured[i]), float(said[i]), float(said[i]) - half, float(said[i]) + half)
+        PredictedFriction(
+            problem.runs[i].name, float(measured[i]), float(said[i]), float(said[i]) - half, float(said[i]) + half
+        )
         for i in problem.held_out
     )
 
@@ -75,7 +77,7 @@ def _said_without(fit: BaseFit, place: int) -> float:
     """Give what the model says of a run when it is fitted to the others [N]."""
     problem = copy(fit.problem)
     problem.runs = [replace(r, role="holdout") if i == place else r for i, r in enumerate(fit.problem.runs)]
-    # from rated values: where all runs led, two of them may leave the third foretold by heart
+    # from rated values: where all runs led, two of them may leave the third predicted by heart
     start = fit.solution.values | {f.key: f.start for f in fit.solution.free}
     found = solve(problem, start, fit.solution.free, enough=_ENOUGH)
     return float(_said(problem.runs, found.residuals.pad_forces)[place])

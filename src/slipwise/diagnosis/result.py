@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from slipwise.diagnosis.predicted_friction import Foretold
+from slipwise.diagnosis.predicted_friction import PredictedFriction
 from slipwise.diagnosis.rivals import explanations
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.search_state import Search
@@ -52,7 +52,7 @@ class Diagnosis:
         relations: relation -> (base, final) held-out error in floors.
         system: {"base", "final"} held-out error at replay level, in floors; empty where it was not asked for.
         candidates: hypotheses, best first.
-        foretold: mean friction of the held-out runs of one slider, foretold and measured.
+        predicted_friction: mean friction of the held-out runs of one slider, predicted and measured.
         least: effect -> smallest size that this campaign would have shown, and its unit.
         cannot_tell: what this campaign could not test, and why.
         search: everything that was looked at.
@@ -68,7 +68,7 @@ class Diagnosis:
     relations: Mapping[str, tuple[float, float]]
     system: Mapping[str, float]
     candidates: tuple[Candidate, ...]
-    foretold: tuple[Foretold, ...]
+    predicted_friction: tuple[PredictedFriction, ...]
     least: Mapping[str, tuple[float, str]]
     cannot_tell: tuple[str, ...]
     search: Search
@@ -122,7 +122,7 @@ class Diagnosis:
             "screened": [_screened(s) for s in self.search.screened],
             "leftover": verdict.leftover,
             "unknown": _surface(verdict.surface) if verdict.leftover == "unknown" else None,
-            "foretold": [_foretold(f) for f in self.foretold],
+            "predicted_friction": [_predicted_friction(f) for f in self.predicted_friction],
             "least": {k: _number(v) for k, (v, _) in self.least.items()},
             "cannot_tell": list(self.cannot_tell),
             "words": self.sentence,
@@ -145,7 +145,7 @@ def _candidate(found: Candidate) -> dict[str, Any]:
     }
 
 
-def _foretold(found: Foretold) -> dict[str, Any]:
+def _predicted_friction(found: PredictedFriction) -> dict[str, Any]:
     numbers = {"measured": found.measured, "value": found.value, "low": found.low, "high": found.high}
     return {"run": found.run, **{k: _number(v) for k, v in numbers.items()}, "unit": "N"}
 

@@ -3,12 +3,13 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
-from slipwise.diagnosis.hypothesis import Account, Hypothesis, polished, refit
+from slipwise.diagnosis.hypothesis import Hypothesis, polished, refit
 from slipwise.diagnosis.screening import Screened
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.parameters import Term
 from slipwise.evidence.materiality import score
+from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.parallel import on_every_core
 
 #: Hypotheses of one kind that are fitted to the end.
@@ -74,12 +75,12 @@ def try_all(
         before: as of `refit`.
         promising: tells which of the best are; all, if not given.
     """
-    origin, problem = state.path[0].account, state.base.problem
+    origin, problem = state.path[0].summary, state.base.problem
     # what takes longest first, or one core waits for it
     asked = sorted(asked, key=lambda a: -sum(len(t.effect.parameters) for t in a[0]))
     fits = on_every_core(lambda i: _fit(refit(state.base, *asked[i], before)), len(asked))
     found = [Hypothesis(tuple(a[0]), problem.adding(*a[0]), *fit) for a, fit in zip(asked, fits, strict=True)]
-    found.sort(key=lambda h: -score(origin, h.account))
+    found.sort(key=lambda h: -score(origin, h.summary))
     best: dict[tuple[str, ...], int] = {}
     for place, h in enumerate(found):
         best.setdefault(h.names, place)
@@ -91,9 +92,9 @@ def try_all(
     return found
 
 
-def _fit(found: Hypothesis) -> tuple[Solution, Account]:
+def _fit(found: Hypothesis) -> tuple[Solution, ResidualSummary]:
     """Give a hypothesis without its terms, whose functions cannot be sent from one process to another."""
-    return found.solution, found.account
+    return found.solution, found.summary
 
 
 def left_with(state: Search, rest: Sequence[Term], whole: Hypothesis) -> Hypothesis:

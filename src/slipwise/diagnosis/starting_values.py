@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from slipwise.diagnosis.hypothesis import STICK_LENGTH, Hypothesis, strained
+from slipwise.diagnosis.hypothesis import STICK_LENGTH, Hypothesis, strength_at_bound
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.search_state import Search, tried_before
 from slipwise.diagnosis.starting_grid import shapes, strengths, variants
@@ -34,7 +34,7 @@ def beginnings(state: Search, chosen: Sequence[Screened], tried: Sequence[Hypoth
     """
     yield starts_of(chosen, state.best.terms) + longer_stick(state, state.best)
     yield _as_alone(state, chosen, state.best.terms)
-    yield _from_typical([h for h in tried if strained(h)])
+    yield _from_typical([h for h in tried if strength_at_bound(h)])
 
 
 def longer_stick(state: Search, before: Hypothesis) -> list[Start]:
@@ -56,7 +56,7 @@ def _as_alone(state: Search, chosen: Sequence[Screened], beside: Sequence[Term])
     for term in (s.term for s in chosen):
         alone = tried_before(state, [term])
         if alone:
-            best = max(alone, key=lambda h: score(state.path[0].account, h.account))
+            best = max(alone, key=lambda h: score(state.path[0].summary, h.summary))
             out.append(([*beside, term], {term.label: best.values_of(term)}))
     return out
 

@@ -1,6 +1,6 @@
-"""What is left: does a plain surface over measured states, made on fitted runs, foretell the held-out residual?
+"""What is left: does a plain surface over measured states, made on fitted runs, predict the held-out residual?
 
-Noise cannot be foretold, structure can. A surface that explains held-out residual after the best effects of the
+Noise cannot be predicted, structure can. A surface that explains held-out residual after the best effects of the
 catalogue is the shape of something that the catalogue does not have.
 """
 
@@ -21,9 +21,9 @@ _BINS_ONE, _BINS_TWO = 24, 10
 _LEAST = 12
 #: Residuals beyond this many times their median size are cut [1]; noise has one in 20 000 there.
 _OUTLIER = 6.0
-#: Structure counts when a surface foretells this share of the held-out residual, and this much of it.
+#: Structure counts when a surface predicts this share of the held-out residual, and this much of it.
 SHARE, LEVEL = 0.10, 0.10
-#: Most of a balance's noise is that of one accelerometer: a state made of it would foretell itself.
+#: Most of a balance's noise is that of one accelerometer: a state made of it would predict itself.
 _OWN_NOISE = frozenset({("vertical", "heave"), ("acceleration", "girder")})
 WORDS: dict[str, str] = {
     "velocity": "slip velocity [m/s]",
@@ -49,7 +49,7 @@ class Surface:
         mean: mean residual in each bin, in units of `unit`; NaN where too few samples fell.
         band: half width of its 95 % interval.
         unit: of the mean.
-        explained: share of the held-out residual that it foretells [1].
+        explained: share of the held-out residual that it predicts [1].
         level: the same in variances of the noise.
     """
 
@@ -66,11 +66,11 @@ class Surface:
     def words(self) -> str:
         """What it depends on, in a sentence."""
         on = " and ".join(WORDS[s].split(" [")[0] for s in self.states)
-        return f"{self.relation}: depends on {on}; foretells {100 * self.explained:.0f} % of the held-out residual"
+        return f"{self.relation}: depends on {on}; predicts {100 * self.explained:.0f} % of the held-out residual"
 
 
 def leftover(found: Hypothesis, relations: tuple[str, ...] | None = None) -> Surface | None:
-    """Give the surface that foretells most of what a hypothesis leaves on held-out runs; None where none does.
+    """Give the surface that predicts most of what a hypothesis leaves on held-out runs; None where none does.
 
     Args:
         found: a fitted hypothesis.
@@ -81,7 +81,7 @@ def leftover(found: Hypothesis, relations: tuple[str, ...] | None = None) -> Sur
         return None
     best: Surface | None = None
     for name in relations or tuple(r for r in ("pads", "girder", "heave") if r in problem.relations):
-        if max(found.account.level(name, held_out=h) for h in (True, False)) < 1.0 + LEVEL:
+        if max(found.summary.level(name, held_out=h) for h in (True, False)) < 1.0 + LEVEL:
             continue
         samples = [_samples(found, name, i) for i in range(len(problem.runs))]
         for surface in _surfaces(found, name, samples):
@@ -143,9 +143,9 @@ def _surfaces(found: Hypothesis, relation: str, samples: list[dict[str, Array]])
 
 
 def _parted(found: Hypothesis, samples: list[dict[str, Array]]) -> tuple[dict[str, Array], dict[str, Array]]:
-    """Give the samples that make a surface, and those that it must foretell.
+    """Give the samples that make a surface, and those that it must predict.
 
-    Where no run is held out, seconds make it and must be foretold by turns.
+    Where no run is held out, seconds make it and must be predicted by turns.
     """
     fitted = _joined([samples[i] for i in found.problem.fitted])
     if found.problem.held_out:
@@ -171,7 +171,7 @@ def _surface(relation: str, states: tuple[str, ...], fitted: dict[str, Array], h
     squares = np.bincount(place, weights=fitted["left"] ** 2, minlength=len(count))
     mean = total / np.maximum(count, 1)
     spread = np.sqrt(np.maximum(squares / np.maximum(count, 1) - mean**2, 0.0) / np.maximum(count, 1))
-    # a surface of many cells foretells less noise when each mean is shrunk by its own uncertainty
+    # a surface of many cells predicts less noise when each mean is shrunk by its own uncertainty
     shrunk = mean * mean**2 / np.maximum(mean**2 + 3.0 * spread**2, 1e-30)
     told = np.where(count >= _LEAST, shrunk, 0.0)[_place(held, states, edges, shape)]
     before, after = float(np.mean(held["left"] ** 2)), float(np.mean((held["left"] - told) ** 2))

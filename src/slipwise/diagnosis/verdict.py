@@ -6,14 +6,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from slipwise.diagnosis.candidates import ONE_THING, parts_twins
-from slipwise.diagnosis.choice import is_delay
+from slipwise.diagnosis.choice import is_delay, material_alone, needless
 from slipwise.diagnosis.forward_selection import MOST_EFFECTS
-from slipwise.diagnosis.hypothesis import Account, Hypothesis, cornered, strained
+from slipwise.diagnosis.hypothesis import Hypothesis, constant_at_bound, strength_at_bound
 from slipwise.diagnosis.samples import SampleFault
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import Surface, leftover, structured
 from slipwise.estimation.parameters import Term
-from slipwise.evidence.materiality import SAME_SCORE, least_worth, material_alone, needless, score, spoils, worth
+from slipwise.evidence.materiality import SAME_SCORE, least_material_drop, material_drop, score, worsens
+from slipwise.evidence.residual_summary import ResidualSummary
 
 #: A right family explains this share of what the base left, whatever its exact form [1]: 0.87 and more on trials, most
 #: wrong ones 0.69 and less.
@@ -35,7 +36,7 @@ _SURE_SHARE = 1.0
 HALF, _FAINT, _COIN = 0.5, 0.4, 0.6
 #: Beside a fault of samples something else is missing that has no name.
 _COIN_OF_FAULTS = 0.5
-#: A mean squared residual above this is no perfect model's [noise variance], even where no state foretells it.
+#: A mean squared residual above this is no perfect model's [noise variance], even where no state predicts it.
 LOUD = 1.5
 #: Nor can rivals be told apart whose scores differ by less than this share of it, and of what the better one leaves: a
 #: law of not quite the right form leaves something as well.
@@ -71,7 +72,7 @@ class Verdict:
     rivals: tuple[Hypothesis, ...]
 
 
-def excess(of: Account, best: Account) -> float:
+def excess(of: ResidualSummary, best: ResidualSummary) -> float:
     """Give how much squared residual stands above the noise, over all relations and runs.
 
     Args:
@@ -88,7 +89,7 @@ def excess(of: Account, best: Account) -> float:
 def judge(state: Search) -> Verdict:
     """Give the verdict of a search."""
     found = _judged(state)
-    if any(held for _, held in state.path[0].account.counts.values()):
+    if any(held for _, held in state.path[0].summary.counts.values()):
         return found
     return replace(found, probability=min(found.probability, _UNCONFIRMED))
 
@@ -97,24 +98,24 @@ def _judged(state: Search) -> Verdict:
     origin, best = state.path[0], state.best
     surface = leftover(state.final)
     remains = structured(surface)
-    explained = 1.0 - excess(best.account, best.account) / max(excess(origin.account, best.account), 1e-12)
+    explained = 1.0 - excess(best.summary, best.summary) / max(excess(origin.summary, best.summary), 1e-12)
     if not best.terms:
         if remains or _loud(best):
             shown = surface if remains else None
             return Verdict("unknown", (), _unknown_probability(shown, 0.0), "unknown", 0.0, shown, ())
         return Verdict("complete", (), _complete_probability(state), "none", 1.0, surface, ())
     too_many = len(best.terms) >= MOST_EFFECTS
-    drop = worth(origin.account, best.account)[0]
-    family = explained >= _least_share(best, drop) and not spoils(origin.account, best.account)
+    drop = material_drop(origin.summary, best.summary)[0]
+    family = explained >= _least_share(best, drop) and not worsens(origin.summary, best.summary)
     too_little = explained < HALF if len(best.terms) == 1 else not family
     # effects of the wrong family can be bent to the fitted runs until they leave little there: held-out runs tell
-    if (remains and (not family or too_many)) or (too_little and _worst(state.final.account) > LOUD):
+    if (remains and (not family or too_many)) or (too_little and _worst(state.final.summary) > LOUD):
         shown = surface if remains else None
         probability = _unknown_probability(shown, explained)
         whole = leftover(origin)  # what is drawn is all that is missing, not what unnamed effects have left of it
         drawn = whole if structured(whole) else shown
         return Verdict("unknown", (), probability, "unknown", explained, drawn, ())
-    if explained < HALF and not remains and drop < _FAINT and _worst(origin.account) < LOUD:
+    if explained < HALF and not remains and drop < _FAINT and _worst(origin.summary) < LOUD:
         return Verdict("complete", (), _COIN, "none", explained, surface, ())
     rivals = _rivals(state, best)
     names = best.names
@@ -138,7 +139,7 @@ def _least_share(found: Hypothesis, drop: float) -> float:
     """Give the share of what the base left that a right family explains at least."""
     if drop >= _SURE_SHARE and all(t.effect.exact for t in found.terms):
         return EXACT_FAMILY
-    if strained(found):
+    if strength_at_bound(found):
         return STRAINED_FAMILY
     if drop >= _SURE_SHARE and len(found.terms) > 1:
         return SEVERAL_FAMILY
@@ -147,12 +148,12 @@ def _least_share(found: Hypothesis, drop: float) -> float:
 
 def _loud(found: Hypothesis) -> bool:
     """Tell whether a hypothesis leaves more than noise in all runs, whether or not a state organises it."""
-    levels = found.account
+    levels = found.summary
     both = [[levels.level(r, held_out=h) for h in (False, True) if levels.counts[r][h]] for r in levels.fitted]
     return any(min(of) > LOUD for of in both if of)
 
 
-def _worst(of: Account) -> float:
+def _worst(of: ResidualSummary) -> float:
     """Give the largest mean squared residual of any relation, on fitted or held-out runs [noise variance]."""
     return max(of.level(r, held_out=h) for r, counts in of.counts.items() for h in (False, True) if counts[h])
 
@@ -183,19 +184,19 @@ def with_faults(found: Verdict, faults: Sequence[SampleFault], terms: Sequence[T
 def _rivals(state: Search, best: Hypothesis) -> tuple[Hypothesis, ...]:
     """Give other hypotheses of as many effects that explain as much."""
     origin = state.path[0]
-    top = score(origin.account, best.account)
-    unexplained = _SAME_EXCESS * excess(best.account, best.account)
+    top = score(origin.summary, best.summary)
+    unexplained = _SAME_EXCESS * excess(best.summary, best.summary)
     out: dict[tuple[str, ...], Hypothesis] = {}
     for h in state.tried:
         if len(h.terms) != len(best.terms) or set(h.names) == set(best.names):
             continue
-        if (cornered(h) and not cornered(best)) or (is_delay(h) and not is_delay(best)):
+        if (constant_at_bound(h) and not constant_at_bound(best)) or (is_delay(h) and not is_delay(best)):
             continue
-        if needless(best, h, origin.account):
+        if needless(best, h, origin.summary):
             continue
         common = set(h.names) & set(best.names)
-        shared = [score(origin.account, o.account) for o in state.tried if o.names and set(o.names) <= common]
-        behind = top - score(origin.account, h.account)
+        shared = [score(origin.summary, o.summary) for o in state.tried if o.names and set(o.names) <= common]
+        behind = top - score(origin.summary, h.summary)
         # only what is explained beyond the effects that both name can tell the two apart
         share = _SAME_FAULT if _faults_only(h, best) else _SAME_SHARE
         near = max(SAME_SCORE, min(share * (top - max(shared, default=0.0)), unexplained))
@@ -214,9 +215,9 @@ def _faults_only(one: Hypothesis, other: Hypothesis) -> bool:
 def _margin(state: Search, best: Hypothesis) -> float:
     """Give by which share of its score the best hypothesis leads the next of other names."""
     origin = state.path[0]
-    top = score(origin.account, best.account)
+    top = score(origin.summary, best.summary)
     others = [
-        score(origin.account, h.account)
+        score(origin.summary, h.summary)
         for h in state.tried
         if len(h.terms) <= len(best.terms) and not set(h.names) <= set(best.names)
     ]
@@ -253,4 +254,4 @@ def _complete_probability(state: Search) -> float:
 
 
 def _drop(origin: Hypothesis, found: Hypothesis) -> float:
-    return min(worth(origin.account, found.account)[0] / least_worth(found.terms), 1.0)
+    return min(material_drop(origin.summary, found.summary)[0] / least_material_drop(found.terms), 1.0)

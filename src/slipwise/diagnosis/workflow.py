@@ -6,7 +6,7 @@ from inspect import signature
 
 from slipwise.campaign import Campaign, Logger
 from slipwise.diagnosis.forward_selection import begun, finish, search
-from slipwise.diagnosis.hypothesis import Account, Hypothesis, base_hypothesis
+from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis
 from slipwise.diagnosis.samples import SampleFault, mended, sample_faults
 from slipwise.diagnosis.search_state import Search
 from slipwise.effects import Effect
@@ -16,11 +16,12 @@ from slipwise.estimation.measurement_model import shifts
 from slipwise.estimation.parameters import Term
 from slipwise.estimation.run_data import Spoiled
 from slipwise.evidence.materiality import MATERIAL
+from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.model import Model
 
 
 @dataclass(frozen=True)
-class Explored:
+class SelectionResult:
     """A campaign that was searched.
 
     Attributes:
@@ -33,7 +34,7 @@ class Explored:
     base: BaseFit
     search: Search
     faults: tuple[SampleFault, ...]
-    unmended: Account
+    unmended: ResidualSummary
 
 
 def prepared(campaign: Campaign) -> tuple[Campaign, Spoiled, tuple[SampleFault, ...]]:
@@ -42,12 +43,12 @@ def prepared(campaign: Campaign) -> tuple[Campaign, Spoiled, tuple[SampleFault, 
     return (*mended(campaign, faults), faults) if faults else (campaign, {}, ())
 
 
-def explore(
+def select_effects(
     campaign: Campaign,
     model: Model | None = None,
     own: Iterable[Effect] = (),
     progress: Callable[[str, float], None] | None = None,
-) -> Explored:
+) -> SelectionResult:
     """Search what a model lacks.
 
     Args:
@@ -63,9 +64,9 @@ def explore(
     whole, spoiled, faults = prepared(campaign)
     base = fit_base(whole, model, spoiled)
     state = begun(base, own, progress)
-    heard = _heard_anew(whole, base, state.best)
-    if heard is not None:
-        base = fit_base(heard, model, spoiled)
+    estimated = _logger_estimated_again(whole, base, state.best)
+    if estimated is not None:
+        base = fit_base(estimated, model, spoiled)
         state = begun(base, own, progress)
     finish(state, progress)
     # what an effect seems to explain may be a valley that the base fit has missed
@@ -73,11 +74,11 @@ def explore(
     if better is not None:
         base = better
         state = search(base, own, progress, state)
-    unmended = base_hypothesis(fit_base(campaign, model)).account if faults else state.path[0].account
-    return Explored(base, state, faults, unmended)
+    unmended = base_hypothesis(fit_base(campaign, model)).summary if faults else state.path[0].summary
+    return SelectionResult(base, state, faults, unmended)
 
 
-def _heard_anew(campaign: Campaign, base: BaseFit, found: Hypothesis) -> Campaign | None:
+def _logger_estimated_again(campaign: Campaign, base: BaseFit, found: Hypothesis) -> Campaign | None:
     """Give the campaign with its logger's filter as it sounds beside what was found; None where that is no other.
 
     A filter that nobody knew was read from reversals by a law that lacked an effect, and has bent itself to it, if that
@@ -88,7 +89,7 @@ def _heard_anew(campaign: Campaign, base: BaseFit, found: Hypothesis) -> Campaig
     turned = found.problem.kinematics.turns != base.problem.kinematics.turns
     if not turned and not any(_speaks_at_reversals(t) for t in found.terms):
         return None
-    if found.account.level("pads", held_out=False) < 1.0 + MATERIAL:
+    if found.summary.level("pads", held_out=False) < 1.0 + MATERIAL:
         return None
     before = base.campaign.logger.every
     now = estimated_logger(campaign, base.model, found.solution, found.terms, before)

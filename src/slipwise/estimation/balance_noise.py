@@ -152,8 +152,8 @@ def force_noise_in_pitch(run: FitRun, specimen: Specimen, values: Mapping[str, f
     Returns:
         spectrum (m,) at the frequencies of a real transform, as the variance of white noise of that height [N^2].
     """
-    heard = specimen.centre_height / specimen.half_spacing[0] * struck_pitch(run, values)
-    return float(np.sum(run.gauge_noise[0] ** 2)) * np.abs(np.fft.rfft(heard)) ** 2
+    ringing = specimen.centre_height / specimen.half_spacing[0] * struck_pitch(run, values)
+    return float(np.sum(run.gauge_noise[0] ** 2)) * np.abs(np.fft.rfft(ringing)) ** 2
 
 
 def driven_noise_in_pitch(model: Model, runs: Sequence[FitRun], values: Mapping[str, float]) -> list[Array]:
@@ -206,9 +206,9 @@ def noise_of_mending(specimen: Specimen, turning: Array, changed: Array, ringing
     return {"girder": np.sqrt(squared) / specimen.mass, "pitch": lever * np.sqrt(pitch)}
 
 
-def heard_in_balances(model: Model, runs: Sequence[FitRun], values: Mapping[str, float]) -> dict[str, list[Array]]:
+def ringing_noise(model: Model, runs: Sequence[FitRun], values: Mapping[str, float]) -> dict[str, list[Array]]:
     """Give what rings with gauges' noise in pitch and heave: relation -> per run spectrum (m,) [N^2]."""
-    heard = {"pitch": [force_noise_in_pitch(r, model.specimen, values) for r in runs]}
+    ringing = {"pitch": [force_noise_in_pitch(r, model.specimen, values) for r in runs]}
     if model.with_hook("balance"):
-        heard["heave"] = [bent_noise_in_heave(model, r) for r in runs]
-    return heard
+        ringing["heave"] = [bent_noise_in_heave(model, r) for r in runs]
+    return ringing

@@ -4,7 +4,7 @@ At a reversal friction turns round within a fraction of a millisecond. What the 
 filter's own step response, ringing and lag included, so kind, order and frequency can be read from it. They are read
 in the run whose reversals say most, and beside a level and a gain that may wander: a friction that heats up, runs in or
 reads the load too has bent them least there. Of eight campaigns of another simulator whose filter is on record seven
-were found within 7 %, beside heating and cross-talk too; under a washboard no filter was heard.
+were found within 7 %, beside heating and cross-talk too; under a washboard no filter was estimated.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -32,7 +32,7 @@ _FREQUENCIES: tuple[float, ...] = (55.0, 80.0, 115.0, 165.0)
 _STEEP = 3.0
 #: A closer look is in vain where the worst of all is not this much worse than the best: the law is wrong by far more
 #: than a filter could be, and the usual kind is taken [1].
-_HEARD = 1.3
+_DISTINGUISHED = 1.3
 #: A filter is the same to the pads if it leaves no more than this of what the best leaves [1].
 _SAME = 1.02
 #: Ratio of neighbouring frequencies at which the closer look begins and ends; each round takes its square root.
@@ -90,7 +90,7 @@ def _levelled(run: FitRun, said: Array) -> FitRun:
 
 
 @dataclass
-class _Hearing:
+class _FilterTrials:
     """Filters under which one run was fitted.
 
     Attributes:
@@ -143,7 +143,7 @@ def _prepared(campaign: Campaign, kind: LowPass) -> FitRun:
 
 
 def estimated_logger(
-    campaign: Campaign, model: Model, first: Solution, terms: Sequence[Term] = (), heard: LowPass | None = None
+    campaign: Campaign, model: Model, first: Solution, terms: Sequence[Term] = (), earlier: LowPass | None = None
 ) -> LowPass:
     """Give the filter under which the law of friction, fitted anew for each, explains one run's pads best.
 
@@ -154,7 +154,7 @@ def estimated_logger(
         model: its base model.
         first: a fit with a guessed filter; a start.
         terms: effects that this fit has added to the model: what they do at reversals is not the filter's doing.
-        heard: the filter that was found without them; it stays unless another is better by more than a trifle.
+        earlier: the filter that was found without them; it stays unless another is better by more than a trifle.
     """
     chosen = _clearest(campaign, first)
     limit = 0.48 / chosen.record.dt
@@ -167,24 +167,24 @@ def estimated_logger(
     one = replace(campaign, runs=(replace(chosen, role="fit"),))
     coarse = [[LowPass(f, order, phase) for f in _frequencies(limit)] for order, phase in _KINDS]
     steady = next(kind for kinds in coarse for kind in kinds if kind.phase == "zero")
-    hearing = _Hearing(one, model, tuple(terms), own, _prepared(one, steady))
-    hearing.try_all([(kind, start) for kinds in (*coarse, [heard] if heard else []) for kind in kinds], 3)
-    if max(hearing.left.values()) < _HEARD * min(hearing.left.values()):
-        return heard or hearing.best_of(coarse[0])
-    best = _looked_closely(hearing, [hearing.best_of(kinds) for kinds in coarse], limit)
-    return heard if heard and hearing.left[heard] < _SAME * hearing.left[best] else best
+    trials = _FilterTrials(one, model, tuple(terms), own, _prepared(one, steady))
+    trials.try_all([(kind, start) for kinds in (*coarse, [earlier] if earlier else []) for kind in kinds], 3)
+    if max(trials.left.values()) < _DISTINGUISHED * min(trials.left.values()):
+        return earlier or trials.best_of(coarse[0])
+    best = _looked_closely(trials, [trials.best_of(kinds) for kinds in coarse], limit)
+    return earlier if earlier and trials.left[earlier] < _SAME * trials.left[best] else best
 
 
-def _looked_closely(hearing: _Hearing, leaders: list[LowPass], limit: float) -> LowPass:
+def _looked_closely(trials: _FilterTrials, leaders: list[LowPass], limit: float) -> LowPass:
     """Give the best filter of any kind whose leader is near the best, with ever smaller steps in frequency."""
     ratio = _WIDE
     while ratio > _NARROW:
-        least = min(hearing.left[k] for k in leaders)
-        leaders = [k for k in leaders if hearing.left[k] <= ratio**_STEEP * least]
+        least = min(trials.left[k] for k in leaders)
+        leaders = [k for k in leaders if trials.left[k] <= ratio**_STEEP * least]
         beside = [[replace(k, frequency=k.frequency * x) for x in (1.0 / ratio, 1.0, ratio)] for k in leaders]
         beside = [[k for k in kinds if k.frequency < limit] for kinds in beside]
-        asked = [(k, hearing.ended[leader]) for leader, kinds in zip(leaders, beside, strict=True) for k in kinds]
-        hearing.try_all(asked, 2)
-        leaders = [hearing.best_of(kinds) for kinds in beside]
+        asked = [(k, trials.ended[leader]) for leader, kinds in zip(leaders, beside, strict=True) for k in kinds]
+        trials.try_all(asked, 2)
+        leaders = [trials.best_of(kinds) for kinds in beside]
         ratio = float(np.sqrt(ratio))
-    return hearing.best_of(leaders)
+    return trials.best_of(leaders)

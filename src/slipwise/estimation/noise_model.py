@@ -57,18 +57,18 @@ def noise_across(run: FitRun, state: Instants, said: PadForces) -> Array:
     return np.sqrt(gauge**2 + (0.6 * friction * loads) ** 2 + turned**2 + late**2)
 
 
-def whitened(left: Array, run: FitRun, level: float, heard: Array, driven: Array | None = None) -> Array:
+def whitened(left: Array, run: FitRun, level: float, ringing: Array, driven: Array | None = None) -> Array:
     """Bring the residual (n,) of a balance to white noise of its gauges' own level, at every frequency.
 
     Args:
         left: measured less predicted [N].
         run: its times.
         level: noise of the gauges themselves [N].
-        heard: (m,) spectrum of what rings with gauges' noise in it, fixed when the fit was weighed [N^2].
+        ringing: (m,) spectrum of what rings with gauges' noise in it, fixed when the fit was weighed [N^2].
         driven: (m,) spectrum of noise that a hypothesis adds, which hides what was there before [N^2].
     """
-    before = 1.0 / (1.0 + heard / level**2)
-    now = before if driven is None else 1.0 / (1.0 + (heard + driven) / level**2)
+    before = 1.0 / (1.0 + ringing / level**2)
+    now = before if driven is None else 1.0 / (1.0 + (ringing + driven) / level**2)
     frequency = np.fft.rfftfreq(len(left), run.dt)
     white = in_frequency(left, run.dt, lambda f: np.sqrt(np.interp(f, frequency, now)), 256)
     return white if driven is None else with_hidden(white, float(1.0 - np.mean(now / before)))

@@ -1,4 +1,4 @@
-"""Is the mean friction of a run that no fit has seen foretold, within what one run differs from another?
+"""Is the mean friction of a run that no fit has seen predicted, within what one run differs from another?
 
 A fit's own interval is about its numbers; a run of another day, pressure or speed differs by more. How much, the fitted
 runs show: ratio r = measured / predicted of each, and for one further run (prediction interval of a normal sample)
@@ -24,7 +24,7 @@ _LEAST_RUNS = 2
 
 
 @dataclass(frozen=True)
-class Foretold:
+class PredictedFriction:
     """Mean friction of one pad while sliding, in one run.
 
     Attributes:
@@ -50,7 +50,7 @@ class Foretold:
         return None if np.isnan(self.low) else bool(self.low <= self.measured <= self.high)
 
 
-def foretold(base: BaseFit) -> tuple[Foretold, ...]:
+def predicted_friction(base: BaseFit) -> tuple[PredictedFriction, ...]:
     """Give measured and predicted mean friction of every run that slides.
 
     Args:
@@ -70,7 +70,7 @@ def foretold(base: BaseFit) -> tuple[Foretold, ...]:
         if mean is None:
             continue
         ends = _ends(mean[1], scatter) if i in problem.held_out else (float("nan"), float("nan"))
-        out.append(Foretold(run.name, run.role, mean[0], mean[1], *ends))
+        out.append(PredictedFriction(run.name, run.role, mean[0], mean[1], *ends))
     return tuple(out)
 
 

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from slipwise.estimation.balance_noise import (
     driven_noise_in_pitch,
-    heard_in_balances,
     heave_level,
+    ringing_noise,
     shares_of_noise,
     weighed_balances,
 )
@@ -54,7 +54,7 @@ class Problem:
         specimen: rated values.
         terms: effects of the base model, then those of the hypothesis.
         sigmas: relation -> per run noise, broadcastable to the residual; made by `weigh`.
-        heard: relation -> per run spectrum (m,) of gauges' noise that rings in it [N^2]; made by `weigh`.
+        ringing: relation -> per run spectrum (m,) of gauges' noise that rings in it [N^2]; made by `weigh`.
         kinematics: what moved, as the terms understand it.
     """
 
@@ -62,7 +62,7 @@ class Problem:
     specimen: Specimen
     terms: tuple[Term, ...]
     sigmas: dict[str, list[Array]] = field(default_factory=dict[str, list[Array]])
-    heard: dict[str, list[Array]] = field(default_factory=dict[str, list[Array]])
+    ringing: dict[str, list[Array]] = field(default_factory=dict[str, list[Array]])
 
     def __post_init__(self) -> None:
         """Make ready what never changes."""
@@ -204,9 +204,9 @@ class Problem:
                 else:
                     left = (seen[name] - said[name]) / scale.get(name, 1.0)
                     left = evened(left, run, raised, shares.get(name, {}))
-                if name in self.heard:
+                if name in self.ringing:
                     more = driven[i] if name == "pitch" else None
-                    left = whitened(left, run, float(np.min(self.sigmas[name][i])), self.heard[name][i], more)
+                    left = whitened(left, run, float(np.min(self.sigmas[name][i])), self.ringing[name][i], more)
                 parts[name].append(self._over(name, i, left, run.judged[name]))
                 if name == "heave":
                     parts[name][-1] = with_hidden(parts[name][-1], hidden)
@@ -239,13 +239,13 @@ class Problem:
                 forces[i] = forces[i] + on_force(self._on_force, values, run, forces[i])[1]
         turning = [reversal_noise(*each) for each in zip(runs, plain, shifted, strict=True)]
         self.sigmas = {"pads": [pad_noise(*each) for each in zip(runs, plain, turning, strict=True)]}
-        self.heard = {}
+        self.ringing = {}
         if self.balanced:
             changed = [changed_by(self._on_force, values, r) for r in runs] if self._on_force else []
             levels = weighed_balances(model, runs, values, turning, changed)
-            heard = heard_in_balances(model, runs, values)
+            ringing = ringing_noise(model, runs, values)
             self.sigmas |= {name: levels[name] for name in self.relations if name in levels}
-            self.heard = {name: heard[name] for name in self.relations if name in heard}
+            self.ringing = {name: ringing[name] for name in self.relations if name in ringing}
         if "across" in self.relations:
             self.sigmas["across"] = [noise_across(*each) for each in zip(runs, states, said, strict=True)]
 

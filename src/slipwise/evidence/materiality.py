@@ -7,8 +7,8 @@ significant too. They look like lags of gauges, not like laws of pads and buffer
 
 from collections.abc import Iterable
 
-from slipwise.diagnosis.hypothesis import Account, Hypothesis
 from slipwise.estimation.parameters import Term
+from slipwise.evidence.residual_summary import ResidualSummary
 
 #: Least drop of a relation's mean squared residual that is worth a name [noise variance].
 MATERIAL = 0.10
@@ -30,16 +30,12 @@ _NEARLY_ALL = 0.85
 _NEAR = 0.5
 #: What is really there spoils no relation: effects that were rightly named raised the mean squared residual of none by
 #: more than 0.012, curvature and inertia of cells that stood for friction which follows acceleration one by 0.08.
-_SPOILT = 0.03
+_WORSENED = 0.03
 #: Hypotheses whose scores differ by less than this much cannot be told apart [noise variance].
 SAME_SCORE = 60.0
-#: What a constant of a law must be worth: the logarithm of some hundred thousand samples (Schwarz 1978).
-_PER_CONSTANT = 12.0
-#: A law with one constant more is no other kind of law: a filter's order, beside a delay.
-_FAR_MORE = 2
 
 
-def worth(before: Account, after: Account) -> tuple[float, str]:
+def material_drop(before: ResidualSummary, after: ResidualSummary) -> tuple[float, str]:
     """Give the largest material drop of a relation's mean squared residual, and the relation.
 
     The drop on held-out runs counts double, so that it may be half of that on fitted runs but not less; a campaign
@@ -56,7 +52,7 @@ def worth(before: Account, after: Account) -> tuple[float, str]:
     return best, where
 
 
-def least_worth(terms: Iterable[Term]) -> float:
+def least_material_drop(terms: Iterable[Term]) -> float:
     """Give the drop of a relation's mean squared residual from which on a first step is worth a name [1].
 
     Args:
@@ -65,12 +61,7 @@ def least_worth(terms: Iterable[Term]) -> float:
     return MATERIAL if any(t.effect.port in _EVERYWHERE for t in terms) else MATERIAL_LAW
 
 
-def material_alone(origin: Hypothesis, found: Hypothesis) -> bool:
-    """Tell whether effects are worth a name as a first step from the base model."""
-    return worth(origin.account, found.account)[0] >= least_worth(found.terms)
-
-
-def material(base: Account, before: Account, after: Account) -> bool:
+def material(base: ResidualSummary, before: ResidualSummary, after: ResidualSummary) -> bool:
     """Tell whether a step is worth a name.
 
     Args:
@@ -79,7 +70,7 @@ def material(base: Account, before: Account, after: Account) -> bool:
         after: with it.
     """
     if before is base:
-        return worth(before, after)[0] >= MATERIAL
+        return material_drop(before, after)[0] >= MATERIAL
     for name in base.fitted:
         excess = max(base.level(name, held_out=False) - 1.0, 0.0)
         drop, least = _further_drop(base, before, after, name)
@@ -88,7 +79,7 @@ def material(base: Account, before: Account, after: Account) -> bool:
     return False
 
 
-def is_near(base: Account, before: Account, after: Account) -> bool:
+def is_near(base: ResidualSummary, before: ResidualSummary, after: ResidualSummary) -> bool:
     """Tell whether a further step that was fitted with slopes of before may be worth a name once it is fitted on.
 
     Of 15 such steps on the blind bench fitting on added a fifth at most to what any relation had lost.
@@ -97,7 +88,9 @@ def is_near(base: Account, before: Account, after: Account) -> bool:
     return any(drop >= _NEAR * least for drop, least in drops)
 
 
-def _further_drop(base: Account, before: Account, after: Account, name: str) -> tuple[float, float]:
+def _further_drop(
+    base: ResidualSummary, before: ResidualSummary, after: ResidualSummary, name: str
+) -> tuple[float, float]:
     """Give by how much a relation's mean squared residual has fallen, and the drop that is worth a name beside others.
 
     An effect that only repairs what the one before has spoilt explains nothing of the rig.
@@ -109,14 +102,14 @@ def _further_drop(base: Account, before: Account, after: Account, name: str) -> 
     return drop, MATERIAL if _untouched(base, before, name) else MATERIAL_FURTHER
 
 
-def _untouched(base: Account, before: Account, name: str) -> bool:
+def _untouched(base: ResidualSummary, before: ResidualSummary, name: str) -> bool:
     """Tell whether a step has left a relation as it was."""
     kinds = (False, True) if base.counts[name][1] else (False,)
     changes = [abs(before.level(name, held_out=h) - base.level(name, held_out=h)) for h in kinds]
     return all(change < _UNTOUCHED * (1 + h) for h, change in zip(kinds, changes, strict=True))
 
 
-def _nearly_all(before: Account, after: Account, name: str) -> bool:
+def _nearly_all(before: ResidualSummary, after: ResidualSummary, name: str) -> bool:
     """Tell whether a step leaves next to nothing of what a relation had above its noise before it."""
     kinds = (False, True) if before.counts[name][1] else (False,)
     left = [before.level(name, held_out=h) - 1.0 for h in kinds]
@@ -126,12 +119,12 @@ def _nearly_all(before: Account, after: Account, name: str) -> bool:
     )
 
 
-def spoils(before: Account, after: Account) -> bool:
+def worsens(before: ResidualSummary, after: ResidualSummary) -> bool:
     """Tell whether a step repairs some relation at the cost of another, on fitted and half as much on held-out runs."""
-    return worth(after, before)[0] > _SPOILT
+    return material_drop(after, before)[0] > _WORSENED
 
 
-def score(before: Account, after: Account) -> float:
+def score(before: ResidualSummary, after: ResidualSummary) -> float:
     """Give the drop of all squared residuals, held-out runs included; below zero where those get worse."""
     held = sum(before.held_out.values()) - sum(after.held_out.values())
     if held < 0.0:
@@ -139,13 +132,6 @@ def score(before: Account, after: Account) -> float:
     return before.total - after.total
 
 
-def needless(plain: Hypothesis, rich: Hypothesis, base: Account) -> bool:
-    """Tell whether far more constants say no more: a patch as wide as the stroke is pads that differ."""
-    more = len(rich.solution.free) - len(plain.solution.free)
-    gain = score(base, rich.account) - score(base, plain.account)
-    return more >= _FAR_MORE and gain < _PER_CONSTANT * more
-
-
-def all_down(account: Account) -> bool:
+def all_down(account: ResidualSummary) -> bool:
     """Tell whether nothing is left that could be worth a name."""
     return all(account.level(r, held_out=h) < 1.0 + MATERIAL for r in account.fitted for h in (False, True))

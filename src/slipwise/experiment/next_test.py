@@ -21,14 +21,15 @@ import numpy as np
 from slipwise.campaign import Campaign, Run
 from slipwise.comparison.system_level import replayed_model
 from slipwise.diagnosis.candidates import ONE_THING
-from slipwise.diagnosis.hypothesis import Account, Hypothesis, base_hypothesis, polished, refit
+from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, polished, refit
 from slipwise.diagnosis.replays import simulation_step
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.search_state import Search
 from slipwise.errors import InputError, SimulationError, SlipwiseError
 from slipwise.estimation.base_fit import fit_base
 from slipwise.estimation.parameters import Term
-from slipwise.evidence.materiality import MATERIAL, score, worth
+from slipwise.evidence.materiality import MATERIAL, material_drop, score
+from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.experiment.motions import LIBRARY, Limits, motions_for
 from slipwise.model import Model
 from slipwise.motion import parse_motion
@@ -150,7 +151,7 @@ def rivals(found: Diagnosis) -> tuple[Hypothesis, ...]:
     if verdict.kind == "complete" or (not best.terms and verdict.leftover == "none"):
         return base, _strongest(state, ())
     if verdict.kind == "ambiguous":
-        near = sorted(verdict.rivals, key=lambda h: score(base.account, h.account))
+        near = sorted(verdict.rivals, key=lambda h: score(base.summary, h.summary))
         unlike = {frozenset(h.names): h for h in (*near, best)}  # the same effects in another order are no rival
         told = [h for h in reversed(unlike.values()) if h is not best] or _partner(state)
         if told:
@@ -164,7 +165,7 @@ def _strongest(state: Search, beside: Sequence[str]) -> Hypothesis:
     base, named = state.path[0], set(beside)
     tried = [h for h in state.tried if len(h.terms) <= max(len(named), 1) and not set(h.names) <= named]
     if tried:
-        return max(tried, key=lambda h: score(base.account, h.account))
+        return max(tried, key=lambda h: score(base.summary, h.summary))
     fresh = [s.term for s in state.screened if s.term.effect.name not in named]
     if not fresh:
         raise InputError(
@@ -228,20 +229,20 @@ def _separation(
     return *min(pairs), ""
 
 
-def _level(account: Account, relation: str) -> float:
+def _level(account: ResidualSummary, relation: str) -> float:
     return account.level(relation, held_out=False)
 
 
-def _refitted(campaign: Campaign, model: Model, contest: Sequence[Hypothesis]) -> list[Account]:
+def _refitted(campaign: Campaign, model: Model, contest: Sequence[Hypothesis]) -> list[ResidualSummary]:
     """Fit every rival to a campaign, each from where it was; what they leave is weighed alike."""
     base = fit_base(campaign, model)
     out = []
     for h in contest:
         if h.terms:
             known = replace(h, solution=replace(h.solution, values={**base.solution.values, **h.solution.values}))
-            out.append(polished(refit(base, h.terms, {}, known)).account)
+            out.append(polished(refit(base, h.terms, {}, known)).summary)
         else:
-            out.append(base_hypothesis(base).account)
+            out.append(base_hypothesis(base).summary)
     return out
 
 
@@ -270,7 +271,7 @@ def _words(found: Diagnosis, contest: Sequence[Hypothesis], most: float) -> str:
     told = []
     if found.verdict.kind == "ambiguous" and not found.verdict.rivals:
         # effects that the verdict takes for one thing to the rig are one only if the rig is not known well
-        more, where = worth(contest[1].account, contest[0].account)
+        more, where = material_drop(contest[1].summary, contest[0].summary)
         if more >= MATERIAL:
             told.append(
                 f"Refitted to the campaign, {' + '.join(contest[1].names)} leaves {more:.2g} noise variances more in "

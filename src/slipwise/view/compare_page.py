@@ -9,7 +9,7 @@ from slipwise.comparison.sentences import UNITS
 from slipwise.view import compare_figures as figures
 from slipwise.view import error_maps
 from slipwise.view.compare_answers import capital, headline, one_minute, place_words, roles, size, tones
-from slipwise.view.fitted_numbers import fitted_numbers, foretold_runs
+from slipwise.view.fitted_numbers import fitted_numbers, predicted_runs
 from slipwise.view.floor_rows import floor_rows
 from slipwise.view.html import Html, Section, bullets, callout, details, figure, page, paragraph, table, verdict
 
@@ -72,7 +72,7 @@ def _errors(found: Comparison) -> list[Any]:
             }
         )
     pieces.append(details("Every component in every run", [table(rows)]))
-    pieces += foretold_runs(found)
+    pieces += predicted_runs(found)
     if found.system:
         own = [
             {

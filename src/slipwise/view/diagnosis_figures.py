@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from slipwise.diagnosis.ladder import Ladder, Rung
+from slipwise.diagnosis.ladder import Ladder, LadderStep
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.unknown_surface import WORDS, Surface
 from slipwise.view.canvas import new_figure
@@ -20,7 +20,7 @@ _RELATIONS = {
 }  # fmt: skip
 #: Letters that fit under the axes of a ladder.
 _WIDEST = 95
-#: Where a ladder begins so many floors up, its last rungs are told apart on a logarithmic axis only.
+#: Where a ladder begins so many floors up, its last steps are told apart on a logarithmic axis only.
 _FAR = 20.0
 _BEFORE, _AFTER = MODEL_COLOURS[0], MODEL_COLOURS[5]
 
@@ -44,31 +44,31 @@ def balances_figure(found: Diagnosis) -> Figure:
     return figure
 
 
-def rung_errors(found: Ladder) -> dict[str, list[float]]:
-    """Give what is known of the rungs: runs -> error of every rung in floors."""
-    unseen = [r.holdout_error for r in found.rungs]
+def step_errors(found: Ladder) -> dict[str, list[float]]:
+    """Give what is known of the steps: runs -> error of every step in floors."""
+    unseen = [r.holdout_error for r in found.steps]
     held = bool(np.isfinite(unseen).any())
     lines = {
-        "fitted runs": [r.fit_error for r in found.rungs],
+        "fitted runs": [r.fit_error for r in found.steps],
         "held-out runs": unseen,
-        "held-out, replay" if held else "replay": [r.system_holdout_error for r in found.rungs],
+        "held-out, replay" if held else "replay": [r.system_holdout_error for r in found.steps],
     }
     return {label: values for label, values in lines.items() if np.isfinite(values).any()}
 
 
 def ladder_figure(found: Ladder) -> Figure:
-    """Draw the error rung by rung, fitted and held-out, component and system level, and why the ladder ends."""
+    """Draw the error step by step, fitted and held-out, component and system level, and why the ladder ends."""
     figure = new_figure(8.0, 3.9)
     axes = figure.subplots()
-    places = np.arange(len(found.rungs))
+    places = np.arange(len(found.steps))
     looks = {"fitted runs": (EXPECTED, "o"), "held-out runs": (_AFTER, "o")}
-    errors = rung_errors(found)
+    errors = step_errors(found)
     for label, values in errors.items():
         colour, marker = looks.get(label, (_BEFORE, "s"))
         known = np.isfinite(values)  # of a search only the ends are replayed
         axes.plot(places[known], np.array(values)[known], marker=marker, color=colour, label=label, lw=2.0)
     axes.axhline(1.0, color=INK, lw=1.0, ls="--", label="noise floor")
-    axes.set_xticks(places, ["base model", *map(_change, found.rungs, found.rungs[1:])])
+    axes.set_xticks(places, ["base model", *map(_change, found.steps, found.steps[1:])])
     axes.set_xlim(-0.3, len(places) - 0.7)
     largest = max(1.0, *(float(np.nanmax(values)) for values in errors.values()))
     if largest > _FAR:
@@ -85,8 +85,8 @@ def ladder_figure(found: Ladder) -> Figure:
     return figure
 
 
-def _change(before: Rung, after: Rung) -> str:
-    """Name what one rung takes away from the one below it, and what it adds."""
+def _change(before: LadderStep, after: LadderStep) -> str:
+    """Name what one step takes away from the one below it, and what it adds."""
     gone = [f"− {e}" for e in before.effects if e not in after.effects]
     return "\n".join([*gone, *(f"+ {e}" for e in after.effects if e not in before.effects)])
 

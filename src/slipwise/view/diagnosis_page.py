@@ -12,7 +12,7 @@ from slipwise.view.diagnosis_figures import (
     balances_figure,
     ladder_figure,
     loops_figure,
-    rung_errors,
+    step_errors,
     surface_figure,
 )
 from slipwise.view.html import Section, bullets, callout, details, figure, page, paragraph, table, verdict
@@ -92,7 +92,7 @@ def _evidence(found: Diagnosis) -> Section:
             ),
             figure(balances_figure(found), f"{errors}, before and after."),
             figure(loops_figure(found), f"Friction of one pad against slip in {run}."),
-            *(paragraph(f"{run.words}.") for run in found.foretold),
+            *(paragraph(f"{run.words}.") for run in found.predicted_friction),
         ],
     )
 
@@ -102,13 +102,13 @@ def _floors(error: float) -> float | str:
 
 
 def _falling(ladder: Ladder) -> Section:
-    errors = rung_errors(ladder)
+    errors = step_errors(ladder)
     rows = [
-        {"model": " + ".join(("base", *rung.effects)), **{label: _floors(own[i]) for label, own in errors.items()}}
-        for i, rung in enumerate(ladder.rungs)
+        {"model": " + ".join(("base", *step.effects)), **{label: _floors(own[i]) for label, own in errors.items()}}
+        for i, step in enumerate(ladder.steps)
     ]
     return Section(
-        "The error, rung by rung",
+        "The error, step by step",
         [figure(ladder_figure(ladder), "Error in multiples of the floor."), table(rows)],
     )
 

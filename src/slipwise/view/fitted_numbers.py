@@ -1,4 +1,4 @@
-"""What the fit found, for the report: its numbers, the surface they mean, and whether unseen runs are foretold."""
+"""What the fit found, for the report: its numbers, the surface they mean, and whether unseen runs are predicted."""
 
 from typing import Any
 
@@ -73,9 +73,9 @@ def _called(key: str, unit: str) -> tuple[str, str]:
     return _CALLED.get(key, (key, unit))
 
 
-def foretold_runs(found: Comparison) -> list[Any]:
+def predicted_runs(found: Comparison) -> list[Any]:
     """Show the mean friction of runs that no fit has seen beside what the law says; nothing without such runs."""
-    held = [f for f in found.foretold if f.inside is not None]
+    held = [f for f in found.predicted_friction if f.inside is not None]
     rows = [
         {
             "run": f.run,

@@ -19,9 +19,9 @@ def test_the_demo_names_the_hidden_effect_and_the_error_falls_to_the_floor(slipw
     assert said["base_error"] > 2.0
     assert said["final_error"] < 1.15
     assert said["system"]["final"] < said["system"]["base"]
-    rungs = json.loads((tmp_path / "ladder.json").read_text())
-    assert rungs[0]["effects"] == []
-    assert rungs[-1]["effects"] == ["run_in"]
+    steps = json.loads((tmp_path / "ladder.json").read_text())
+    assert steps[0]["effects"] == []
+    assert steps[-1]["effects"] == ["run_in"]
     page = (tmp_path / "report.html").read_text()
     assert "run_in" in page
     assert not re.search(r"""(src|href)=["']https?:""", page)

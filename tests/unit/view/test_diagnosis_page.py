@@ -1,4 +1,4 @@
-"""The page and the pictures of a diagnosis say no more than there is: rivals, held-out runs, rungs."""
+"""The page and the pictures of a diagnosis say no more than there is: rivals, held-out runs, steps."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from slipwise.diagnosis.ladder import Ladder, Rung
+from slipwise.diagnosis.ladder import Ladder, LadderStep
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.verdict import Verdict
 from slipwise.effects import catalogue
@@ -19,12 +19,12 @@ from slipwise.view.style import styled
 NAN = float("nan")
 
 
-def _rung(*effects: str, fit: float = 2.0, held: float = 2.0, replay: float = NAN) -> Rung:
-    return Rung(effects, fit, held, replay, 1.0, {})
+def _step(*effects: str, fit: float = 2.0, held: float = 2.0, replay: float = NAN) -> LadderStep:
+    return LadderStep(effects, fit, held, replay, 1.0, {})
 
 
-def _ladder(*rungs: Rung, stopped: str = "nothing above the noise floor is left") -> Ladder:
-    return Ladder("made up", rungs, (102, 13), stopped, (), 1.0)
+def _ladder(*steps: LadderStep, stopped: str = "nothing above the noise floor is left") -> Ladder:
+    return Ladder("made up", steps, (102, 13), stopped, (), 1.0)
 
 
 def _found(*names: str, kind: str = "ambiguous", held_out: bool = True) -> Diagnosis:
@@ -65,9 +65,9 @@ def test_what_parts_the_rivals_comes_first_and_once(page):
 
 
 def test_nothing_is_called_held_out_where_every_run_was_fitted(page):
-    seen = _ladder(_rung(), _rung("heating"))
+    seen = _ladder(_step(), _step("heating"))
     assert "held-out" in page(_found("heating", kind="named"), seen) and "no fit has seen" in page(_found("heating"))
-    unseen = _ladder(_rung(held=NAN, replay=4.0), _rung("heating", held=NAN, replay=1.1))
+    unseen = _ladder(_step(held=NAN, replay=4.0), _step("heating", held=NAN, replay=1.1))
     found = _found("heating", kind="named", held_out=False)
     for text in (page(found, unseen), found.sentence):
         assert "held-out" not in text.lower() and "no fit has seen" not in text
@@ -78,11 +78,11 @@ def test_a_rung_says_what_it_takes_away_and_what_it_adds():
     with styled():
         (axes,) = ladder_figure(
             _ladder(
-                _rung(),
-                _rung("heating"),
-                _rung("heating", "guide_drag"),
-                _rung("run_in", "guide_drag"),
-                _rung("run_in"),
+                _step(),
+                _step("heating"),
+                _step("heating", "guide_drag"),
+                _step("run_in", "guide_drag"),
+                _step("run_in"),
             )
         ).axes
     labels = [label.get_text() for label in axes.get_xticklabels()]
@@ -91,9 +91,9 @@ def test_a_rung_says_what_it_takes_away_and_what_it_adds():
 
 def test_the_last_rungs_of_a_ladder_that_begins_far_up_are_told_apart():
     def heights(first: float) -> tuple[float, float]:
-        rungs = _ladder(_rung(fit=first, held=first), _rung("heating", held=4.0), _rung("heating", "run_in", held=1.0))
+        steps = _ladder(_step(fit=first, held=first), _step("heating", held=4.0), _step("heating", "run_in", held=1.0))
         with styled():
-            figure = ladder_figure(rungs)
+            figure = ladder_figure(steps)
         figure.canvas.draw()
         (axes,) = figure.axes
         low, high = (axes.transData.transform((0.0, error))[1] for error in (1.0, 4.0))
@@ -106,14 +106,14 @@ def test_the_last_rungs_of_a_ladder_that_begins_far_up_are_told_apart():
 
 def test_a_ladder_says_how_much_was_tried_and_why_it_stops():
     with styled():
-        (axes,) = ladder_figure(_ladder(_rung(), stopped="no further effect is worth a rung")).axes
-    assert axes.get_xlabel() == "102 candidates screened, 13 hypotheses refitted; no further effect is worth a rung"
+        (axes,) = ladder_figure(_ladder(_step(), stopped="no further effect is worth a step")).axes
+    assert axes.get_xlabel() == "102 candidates screened, 13 hypotheses refitted; no further effect is worth a step"
 
 
 def test_a_long_reason_stays_inside_the_picture_and_so_does_a_single_rung():
-    reason = "no further effect of the catalogue is worth a rung; 11 floors are left"
+    reason = "no further effect of the catalogue is worth a step; 11 floors are left"
     with styled():
-        figure = ladder_figure(_ladder(_rung(fit=1.007, held=1.023), stopped=reason))
+        figure = ladder_figure(_ladder(_step(fit=1.007, held=1.023), stopped=reason))
     (axes,) = figure.axes
     figure.canvas.draw()
     label = axes.xaxis.label.get_window_extent()

@@ -8,7 +8,7 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.campaign import Logger
-from slipwise.diagnosis.hypothesis import account, as_reported, polished, refit
+from slipwise.diagnosis.hypothesis import as_reported, polished, refit
 from slipwise.effects import catalogue
 from slipwise.effects._oscillator import oscillator
 from slipwise.estimation.balance_noise import driven_noise_in_pitch
@@ -16,6 +16,7 @@ from slipwise.estimation.base_fit import fit_base
 from slipwise.estimation.girder_balances import through_pitch
 from slipwise.estimation.parameters import PITCH_INERTIA, YAW_INERTIA, Term
 from slipwise.estimation.run_data import fit_runs
+from slipwise.evidence.residual_summary import summarised
 from slipwise.model import base_model, use
 from slipwise.signals import LowPass
 
@@ -28,7 +29,7 @@ def test_yaw_made_from_forces_tells_the_inertia_about_the_vertical() -> None:
     term = Term(catalogue()["buffer_mismatch"])
     found = as_reported(polished(refit(base, [term], {term.label: term.effect.typical()})))
     assert found.solution.values[YAW_INERTIA] == pytest.approx(made.truth.base.inertia_yaw, rel=0.03)
-    assert found.account.level("pads", held_out=True) < 1.5**2
+    assert found.summary.level("pads", held_out=True) < 1.5**2
 
 
 def test_a_table_that_rocks_tells_the_inertia_of_pitch() -> None:
@@ -41,7 +42,7 @@ def test_a_table_that_rocks_tells_the_inertia_of_pitch() -> None:
     start[kind] = hidden["pitch_per_acceleration"]
     found = as_reported(polished(polished(refit(base, [term], {term.label: start}))))
     assert found.solution.values[PITCH_INERTIA] == pytest.approx(made.truth.base.inertia_pitch, rel=0.05)
-    assert found.account.level("pitch", held_out=True) < 1.5**2
+    assert found.summary.level("pitch", held_out=True) < 1.5**2
 
 
 def test_the_noise_that_drives_a_rocking_table_is_counted() -> None:
@@ -50,8 +51,8 @@ def test_the_noise_that_drives_a_rocking_table_is_counted() -> None:
     model = base_model("bridge1").adding(rocking)
     values = {"rig.pitch_frequency": 70.0, "rig.pitch_damping": 0.1}
     power = driven_noise_in_pitch(model, [run], values)[0]
-    heard = np.random.default_rng(3).normal(0.0, run.noise["table_ax"], len(run.time))
-    turning = oscillator((2.0 * np.pi * 13.0) ** 2 * 3e-4 * heard, run.dt, 13.0, 0.35, 2)
+    shaken = np.random.default_rng(3).normal(0.0, run.noise["table_ax"], len(run.time))
+    turning = oscillator((2.0 * np.pi * 13.0) ** 2 * 3e-4 * shaken, run.dt, 13.0, 0.35, 2)
     load = through_pitch(-model.specimen.inertia[1] * turning / model.specimen.half_spacing[0], run.dt, 70.0, 0.1)
     assert np.mean(power) == pytest.approx(np.var(load), rel=0.1)
 
@@ -63,4 +64,4 @@ def test_pitch_is_weighed_with_the_resonance_that_is_there_however_far_from_the_
     stated = Logger(LowPass(chain.lowpass, chain.order, chain.phase), known=True)
     base = fit_base(replace(as_campaign(made), logger=stated))
     assert made.truth.base.inertia_pitch == 1.6e4
-    assert account(base.problem, base.solution).level("pitch", held_out=True) < 1.1
+    assert summarised(base.problem, base.solution).level("pitch", held_out=True) < 1.1

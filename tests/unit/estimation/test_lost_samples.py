@@ -4,9 +4,9 @@ from bench import build_campaign
 from bench.campaign import with_faults
 from bench.faults import Fault
 from measured import as_campaign
-from slipwise.diagnosis.hypothesis import account
 from slipwise.diagnosis.workflow import prepared
 from slipwise.estimation.base_fit import fit_base
+from slipwise.evidence.residual_summary import summarised
 
 
 def test_pitch_does_not_ring_with_samples_that_gauges_of_friction_have_lost() -> None:
@@ -18,5 +18,5 @@ def test_pitch_does_not_ring_with_samples_that_gauges_of_friction_have_lost() ->
     )
     assert {f.channel for f in faults} == set(gauges)
     base = fit_base(whole, None, spoiled)
-    levels = account(base.problem, base.solution)
+    levels = summarised(base.problem, base.solution)
     assert all(levels.level("pitch", held_out=h) < 1.25 for h in (False, True))

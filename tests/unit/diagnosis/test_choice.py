@@ -5,9 +5,10 @@ from types import SimpleNamespace
 from typing import Any, cast
 
 from slipwise.diagnosis.choice import best_of
-from slipwise.diagnosis.hypothesis import Account, Hypothesis
+from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.effects import catalogue
 from slipwise.estimation.parameters import Term
+from slipwise.evidence.residual_summary import ResidualSummary
 
 COUNT, RATED = 10_000, 10_000.0
 
@@ -15,7 +16,7 @@ COUNT, RATED = 10_000, 10_000.0
 def _tried(name: str, group: str, level: float, mass: float) -> Hypothesis:
     """A hypothesis with this mean squared residual, and what mass its fit gave the girder."""
     total = {"pads": level * COUNT}
-    account = Account(total, dict(total), {"pads": (COUNT, COUNT)})
+    account = ResidualSummary(total, dict(total), {"pads": (COUNT, COUNT)})
     problem = SimpleNamespace(specimen=SimpleNamespace(mass=RATED))
     solution = SimpleNamespace(values={"rig.mass": mass})
     terms = (Term(catalogue()[name], (group,), group),) if name else ()
@@ -47,8 +48,8 @@ def test_what_spoils_other_runs_more_than_it_helps_is_not_chosen() -> None:
     base, law = _tried("", "", 3.0, RATED), _tried("heating", "", 1.0, RATED)
     counts = {name: (COUNT, COUNT) for name in ("pads", "girder")}
     before, after = ({"pads": pads * COUNT, "girder": girder * COUNT} for pads, girder in ((3.0, 1.0), (1.0, 9.0)))
-    base = replace(base, account=Account(before, dict(before), counts))
-    assert best_of(base, [replace(law, account=Account(after, dict(after), counts))]) is None
+    base = replace(base, summary=ResidualSummary(before, dict(before), counts))
+    assert best_of(base, [replace(law, summary=ResidualSummary(after, dict(after), counts))]) is None
 
 
 def test_a_law_of_very_little_is_not_chosen_where_a_gauge_explains_more() -> None:

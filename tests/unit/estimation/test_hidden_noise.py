@@ -47,10 +47,10 @@ def test_a_girder_that_bends_rings_with_the_noise_of_its_accelerometer(run: FitR
 
     before, after = [], []
     for _ in range(20):
-        heard = rng.normal(0.0, level, len(run.time))
+        shaken = rng.normal(0.0, level, len(run.time))
         # q'' of q'' + 2 z w q' + w^2 q = -a
-        carried = mass * heard + 0.4 * mass * oscillator(-heard, run.dt, 13.0, 0.01, 2)
-        left = carried + rng.normal(0.0, 80.0, len(heard))
+        carried = mass * shaken + 0.4 * mass * oscillator(-shaken, run.dt, 13.0, 0.01, 2)
+        left = carried + rng.normal(0.0, 80.0, len(shaken))
         before.append(power(left))
         after.append(power(whitened(left, run, own, more)))
     assert np.mean(before) > 5.0 * own**2

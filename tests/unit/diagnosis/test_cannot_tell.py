@@ -9,7 +9,7 @@ from bench import build_campaign
 from measured import as_campaign
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.diagnosis.candidates import candidates
-from slipwise.diagnosis.cannot_tell import untold
+from slipwise.diagnosis.cannot_tell import cannot_tell
 from slipwise.diagnosis.hypothesis import base_hypothesis
 from slipwise.diagnosis.identifiability import alone, unidentified
 from slipwise.diagnosis.screening import Screened
@@ -55,10 +55,10 @@ def slider(swing: float, speed: float = 0.1, noise: float = 5.0, *, pressure: bo
 
 
 def said(base: BaseFit, terms: list[Term] = FADES_AND_LASTS, *, screened: bool = True) -> dict[str, str]:
-    """Say what is untold after a search that has seen something in every term, or in none."""
+    """Say what is cannot_tell after a search that has seen something in every term, or in none."""
     nothing = np.zeros(0)
     found = [Screened(t, {}, 0.0, 0.0, nothing, 0.0) for t in terms] if screened else []
-    return dict(untold(Search(base, found, {}, [base_hypothesis(base)], terms=terms), base))
+    return dict(cannot_tell(Search(base, found, {}, [base_hypothesis(base)], terms=terms), base))
 
 
 def test_a_full_campaign_tells_every_number_and_heat_from_wear(base: BaseFit) -> None:

@@ -6,7 +6,7 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign
-from slipwise.diagnosis.bound_check import is_kept, with_kept
+from slipwise.diagnosis.bound_check import keeps_its_gain, with_bounds_checked
 from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.screening import Screened, screen
 from slipwise.estimation.base_fit import BaseFit, fit_base
@@ -26,20 +26,22 @@ def test_a_gauge_at_midspan_of_a_girder_that_does_not_bend_hides_noise_only(comp
     found = screened(complete, "girder_bending")["girder_bending"]
     samples = len(complete.solution.residuals.parts["heave"][0])
     assert found.gain > 0.1 * samples and found.values["midspan"] == 1.0
-    assert not is_kept(complete, found)
-    assert with_kept(complete, [found], 0.1 * samples)[0].gain == 0.0
-    assert with_kept(complete, [found], 2.0 * found.gain)[0].gain == found.gain, "what is not refitted is not looked at"
+    assert not keeps_its_gain(complete, found)
+    assert with_bounds_checked(complete, [found], 0.1 * samples)[0].gain == 0.0
+    assert with_bounds_checked(complete, [found], 2.0 * found.gain)[0].gain == found.gain, (
+        "what is not refitted is not looked at"
+    )
 
 
 def test_what_is_there_is_kept_and_the_opposite_of_it_is_not() -> None:
     base = fit_base(as_campaign(build_campaign(45005, effects=("girder_bending",), size="medium")))
     found = screened(base, "girder_bending")["girder_bending"]
-    assert is_kept(base, found)
-    assert not is_kept(base, replace(found, values={**found.values, "frequency": 5.0, "share": 0.4}))
+    assert keeps_its_gain(base, found)
+    assert not keeps_its_gain(base, replace(found, values={**found.values, "frequency": 5.0, "share": 0.4}))
 
 
 def test_slopes_of_the_base_that_lead_astray_take_nothing_away() -> None:
     base = fit_base(as_campaign(build_campaign(45005, effects=("girder_bending",), size="medium")))
     found = screened(base, "girder_bending")["girder_bending"]
     astray = replace(base, solution=replace(base.solution, jacobian=1e-6 * base.solution.jacobian))
-    assert is_kept(astray, found)
+    assert keeps_its_gain(astray, found)

@@ -1,4 +1,4 @@
-"""Structure can be foretold on runs that no fit has seen; noise, and one early reversal, cannot."""
+"""Structure can be predicted on runs that no fit has seen; noise, and one early reversal, cannot."""
 
 from types import SimpleNamespace
 from typing import Any, cast

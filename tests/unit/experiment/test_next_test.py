@@ -7,13 +7,14 @@ from typing import Any, cast
 import pytest
 
 from slipwise.cli import main
-from slipwise.diagnosis.hypothesis import Account, Hypothesis
+from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.replays import simulation_step
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.verdict import Verdict
 from slipwise.effects import catalogue
 from slipwise.errors import SettingError, SimulationError, SlipwiseError
 from slipwise.estimation.parameters import Term
+from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.experiment import next_test as module
 from slipwise.experiment.motions import LIBRARY, Limits
 from slipwise.experiment.next_test import next_test, rivals
@@ -26,7 +27,7 @@ SMALL = Limits(stroke=0.02, speed=0.2, acceleration=2.0)
 def fitted(names: tuple[str, ...], pads: float) -> Hypothesis:
     """A hypothesis that leaves this mean squared residual in the pads."""
     levels = {"pads": pads * COUNT, "girder": 1.0 * COUNT}
-    account = Account(levels, dict(levels), {name: (COUNT, COUNT) for name in levels})
+    account = ResidualSummary(levels, dict(levels), {name: (COUNT, COUNT) for name in levels})
     return Hypothesis(tuple(Term(catalogue()[n]) for n in names), cast(Any, None), cast(Any, None), account)
 
 

@@ -72,6 +72,6 @@ def test_a_table_that_rocks_is_found_from_rated_numbers_where_the_base_is_bent_b
     for begun in (base, at_rated(base)):
         values = screen_shapes(begun, term, shapes(term.effect))[0].values
         found = polished(refit(begun, [term], {term.label: values}))
-        left[begun is base] = found.solution.cost / sum(fitted for fitted, _ in found.account.counts.values())
+        left[begun is base] = found.solution.cost / sum(fitted for fitted, _ in found.summary.counts.values())
     assert left[True] > 10.0
     assert left[False] < 1.2

@@ -1,4 +1,4 @@
-"""What is foretold of a slider at a load between two that were tested."""
+"""What is predicted of a slider at a load between two that were tested."""
 
 from pathlib import Path
 
@@ -7,17 +7,17 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.campaign import load_campaign
-from slipwise.diagnosis.predicted_friction import Foretold, foretold
+from slipwise.diagnosis.predicted_friction import PredictedFriction, predicted_friction
 from slipwise.estimation.base_fit import fit_base
 from unit.campaign.slider import write_at_loads
 
 LOADS = {"one": 5.0, "two": 10.0, "three": 20.0, "between": 15.0}  # kN
 
 
-def slider(folder: Path, power: float) -> Foretold:
+def slider(folder: Path, power: float) -> PredictedFriction:
     """Foretell the run at 15 kN from those at 5, 10 and 20 kN; friction grows with a power of the load."""
     write_at_loads(folder, LOADS, power)
-    (found,) = foretold(fit_base(load_campaign(folder)))
+    (found,) = predicted_friction(fit_base(load_campaign(folder)))
     return found
 
 
@@ -27,7 +27,7 @@ def test_a_load_between_is_foretold_inside_the_interval(tmp_path: Path, power: f
     assert found.run == "between"
     assert found.measured == pytest.approx(1000.0 * 1.5**power, rel=0.02)
     assert found.low < found.measured < found.high, found.words
-    assert "inside what was foretold" in found.words
+    assert "inside what was predicted" in found.words
 
 
 def test_a_law_that_fits_foretells_more_closely_than_one_that_does_not(tmp_path: Path) -> None:
@@ -41,4 +41,4 @@ def test_a_law_that_fits_foretells_more_closely_than_one_that_does_not(tmp_path:
 
 
 def test_of_a_girder_nothing_is_foretold_by_its_mean() -> None:
-    assert foretold(fit_base(as_campaign(build_campaign(45048, effects=())))) == ()
+    assert predicted_friction(fit_base(as_campaign(build_campaign(45048, effects=())))) == ()

@@ -6,14 +6,15 @@ from typing import Any, cast
 
 import pytest
 
-from slipwise.diagnosis.choice import is_delay
-from slipwise.diagnosis.hypothesis import Account, Hypothesis
+from slipwise.diagnosis.choice import is_delay, material_alone, needless
+from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.samples import SampleFault
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.verdict import judge, with_faults
 from slipwise.effects import catalogue
 from slipwise.estimation.parameters import Term
-from slipwise.evidence.materiality import is_near, material, material_alone, needless
+from slipwise.evidence.materiality import is_near, material
+from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.signals import LowPass
 
 COUNT = 10_000
@@ -24,7 +25,7 @@ def _tried(
 ) -> Hypothesis:
     """A hypothesis with these mean squared residuals in fitted and held-out runs alike."""
     levels = {"pads": pads * COUNT, "girder": girder * COUNT}
-    account = Account(levels, dict(levels), {name: (COUNT, COUNT) for name in levels})
+    account = ResidualSummary(levels, dict(levels), {name: (COUNT, COUNT) for name in levels})
     terms = tuple(Term(catalogue()[name]) for name in names)
     values = {f"{t.label}.{k}": v for t in terms for k, v in t.effect.typical().items()}
     run = SimpleNamespace(states=SimpleNamespace(has_yaw=False), filtered=LowPass(100.0))
@@ -35,7 +36,7 @@ def _tried(
 
 def _search(base: Hypothesis, *tried: Hypothesis) -> Search:
     """A search that took the best of what it tried, where that is material."""
-    best = min((base, *tried), key=lambda h: h.account.total)
+    best = min((base, *tried), key=lambda h: h.summary.total)
     path = [base, best] if material_alone(base, best) else [base]
     return Search(cast(Any, None), [], {}, path, list(tried))
 
@@ -67,9 +68,9 @@ def test_a_filter_that_takes_nothing_is_no_rival_of_a_delay(lag: float, kind: st
 
 def test_a_law_of_far_more_constants_gives_way_to_one_that_does_as_well() -> None:
     base, plain = _tried((), 20.0), _tried(("pad_spread",), 1.0005)
-    assert needless(plain, _tried(("position_patch",), 1.0, constants=7), base.account)
-    assert not needless(plain, _tried(("position_patch",), 1.0, constants=4), base.account)
-    assert not needless(plain, _tried(("position_patch",), 0.99, constants=7), base.account), "it says more"
+    assert needless(plain, _tried(("position_patch",), 1.0, constants=7), base.summary)
+    assert not needless(plain, _tried(("position_patch",), 1.0, constants=4), base.summary)
+    assert not needless(plain, _tried(("position_patch",), 0.99, constants=7), base.summary), "it says more"
 
 
 def test_nobody_is_sure_of_an_effect_that_leaves_a_quarter() -> None:
@@ -145,8 +146,8 @@ def test_two_laws_that_leave_much_may_be_a_third(monkeypatch, left: float, kind:
 @pytest.mark.parametrize(("held", "kind"), [(1.4, "named"), (168.0, "unknown")])
 def test_two_laws_that_are_bent_to_look_quiet_where_they_were_fitted_are_not_named(held: float, kind: str) -> None:
     base, both = _tried((), 300.0), _tried(("rate_and_state", "breakaway"), 1.4)
-    account = replace(both.account, held_out={**both.account.held_out, "pads": held * COUNT})
-    assert judge(_search(base, replace(both, account=account))).kind == kind
+    account = replace(both.summary, held_out={**both.summary.held_out, "pads": held * COUNT})
+    assert judge(_search(base, replace(both, summary=account))).kind == kind
 
 
 @pytest.mark.parametrize(("girder", "kind"), [(1.01, "named"), (1.08, "unknown")])
@@ -168,7 +169,7 @@ def test_a_second_law_beside_a_huge_one_must_explain_nearly_all_that_is_left(lef
     """Cross-talk of 20 floors leaves 4.4: half of that may be its own wrong form, all of it is another effect."""
     base, first = _tried((), 400.0), _tried(("load_crosstalk",), 8.0)
     both = _tried(("load_crosstalk", "rate_and_state"), left)
-    assert material(base.account, first.account, both.account) == worthy
+    assert material(base.summary, first.summary, both.summary) == worthy
 
 
 @pytest.mark.parametrize(("touched", "worthy"), [(1.15, True), (1.6, False)])
@@ -176,7 +177,7 @@ def test_beside_an_effect_of_buffers_a_law_of_pads_is_worth_a_name_as_it_is_alon
     """Breakaway takes 0.15 from the pads; had the first effect changed them, that might be its own wrong form."""
     base, first = _tried((), touched, girder=3.0), _tried(("buffer_hardening",), 1.15, girder=1.0)
     both = _tried(("buffer_hardening", "breakaway"), 1.0, girder=1.0)
-    assert material(base.account, first.account, both.account) == worthy
+    assert material(base.summary, first.summary, both.summary) == worthy
 
 
 @pytest.mark.parametrize(("left", "near", "worthy"), [(7.95, False, False), (7.88, True, False), (1.02, True, True)])
@@ -184,22 +185,22 @@ def test_a_further_law_is_fitted_on_only_where_half_of_what_is_worth_a_name_is_t
     left: float, near: bool, worthy: bool
 ) -> None:
     base, first, both = _tried((), 9.0), _tried(("heating",), 8.0), _tried(("heating", "run_in"), left)
-    assert is_near(base.account, first.account, both.account) == near
-    assert material(base.account, first.account, both.account) == worthy
+    assert is_near(base.summary, first.summary, both.summary) == near
+    assert material(base.summary, first.summary, both.summary) == worthy
 
 
 def test_any_relation_far_above_its_noise_is_no_complete_model():
     base = _tried((), 1.0)
     levels = {"pads": 1.0, "girder": 1.0, "roll": 4.0}
     total = {name: level * COUNT for name, level in levels.items()}
-    account = Account(total, dict(total), {name: (COUNT, COUNT) for name in levels})
-    assert judge(_search(replace(base, account=account))).kind == "unknown"
+    account = ResidualSummary(total, dict(total), {name: (COUNT, COUNT) for name in levels})
+    assert judge(_search(replace(base, summary=account))).kind == "unknown"
 
 
 def test_nobody_is_sure_of_what_no_held_out_run_has_confirmed():
     def unseen(of: Hypothesis) -> Hypothesis:
-        counts = {name: (fitted, 0) for name, (fitted, _) in of.account.counts.items()}
-        return replace(of, account=replace(of.account, held_out=dict.fromkeys(counts, 0.0), counts=counts))
+        counts = {name: (fitted, 0) for name, (fitted, _) in of.summary.counts.items()}
+        return replace(of, summary=replace(of.summary, held_out=dict.fromkeys(counts, 0.0), counts=counts))
 
     found = judge(_search(unseen(_tried((), 30.0)), unseen(_tried(("heating",), 1.0))))
     assert found.kind == "named" and found.probability <= 0.9

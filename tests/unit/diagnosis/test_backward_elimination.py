@@ -7,17 +7,18 @@ import pytest
 
 from slipwise.diagnosis import backward_elimination as module
 from slipwise.diagnosis.backward_elimination import settle
-from slipwise.diagnosis.hypothesis import Account, Hypothesis
+from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.search_state import Search
 from slipwise.effects import catalogue
 from slipwise.estimation.parameters import Term
+from slipwise.evidence.residual_summary import ResidualSummary
 
 COUNT = 10_000
 
 
 def _tried(names: tuple[str, ...], pads: float) -> Hypothesis:
     """A hypothesis with this mean squared residual in fitted and held-out runs alike."""
-    account = Account({"pads": pads * COUNT}, {"pads": pads * COUNT}, {"pads": (COUNT, COUNT)})
+    account = ResidualSummary({"pads": pads * COUNT}, {"pads": pads * COUNT}, {"pads": (COUNT, COUNT)})
     solution = SimpleNamespace(free=(None,) * 3, cost=pads * COUNT)
     return Hypothesis(tuple(Term(catalogue()[n]) for n in names), cast(Any, None), cast(Any, solution), account)
 

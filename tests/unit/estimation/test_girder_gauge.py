@@ -10,12 +10,13 @@ from bench.campaign import Campaign as Made
 from bench.campaign import with_faults
 from bench.faults import Fault
 from measured import as_campaign
-from slipwise.diagnosis.hypothesis import account, as_reported, polished, refit
+from slipwise.diagnosis.hypothesis import as_reported, polished, refit
 from slipwise.effects import catalogue
 from slipwise.estimation.balance_noise import heave_level
 from slipwise.estimation.base_fit import fit_base
 from slipwise.estimation.parameters import Term
 from slipwise.estimation.run_data import fit_runs
+from slipwise.evidence.residual_summary import summarised
 from slipwise.model import base_model
 
 CUTOFF = 12.0
@@ -33,7 +34,7 @@ def test_a_strong_filter_of_the_girder_is_put_on_what_the_balance_predicts(made:
     term, lag = Term(catalogue()["channel_filter"], ("girder_ax",), "girder_ax"), np.sqrt(2.0) / (2.0 * np.pi * CUTOFF)
     found = as_reported(polished(refit(base, [term], {term.label: {"lag": lag, "order": 2.0}})))
     before, after = (
-        np.sqrt(of.level("girder", held_out=True)) for of in (account(base.problem, base.solution), found.account)
+        np.sqrt(of.level("girder", held_out=True)) for of in (summarised(base.problem, base.solution), found.summary)
     )
     assert before > 5.0 and after < 1.1
     assert found.solution.values[f"{term.label}.lag"] == pytest.approx(lag, rel=0.02)

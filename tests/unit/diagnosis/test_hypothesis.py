@@ -66,6 +66,6 @@ def test_a_least_size_is_one_at_which_a_relation_falls_by_what_is_material(base)
     start, drops = 0, []
     for relation in base.problem.relations:
         rows = sum(base.solution.residuals.parts[relation][i].size for i in base.problem.fitted)
-        drops.append(float(np.sum(step[start : start + rows] ** 2)) / base_hypothesis(base).account.counts[relation][0])
+        drops.append(float(np.sum(step[start : start + rows] ** 2)) / base_hypothesis(base).summary.counts[relation][0])
         start += rows
     assert max(drops) == pytest.approx(MATERIAL_LAW, rel=0.1)

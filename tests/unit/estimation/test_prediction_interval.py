@@ -6,7 +6,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from slipwise.estimation.prediction_interval import foretold
+from slipwise.estimation.prediction_interval import predicted_friction
 
 
 def _fit(ratios: list[float], held: float) -> Any:
@@ -24,7 +24,7 @@ def _fit(ratios: list[float], held: float) -> Any:
 
 
 def test_an_unseen_run_like_the_others_is_foretold():
-    last = foretold(_fit([0.98, 1.0, 1.02], 1.01))[-1]
+    last = predicted_friction(_fit([0.98, 1.0, 1.02], 1.01))[-1]
     assert (last.measured, last.said) == (pytest.approx(101.0), pytest.approx(100.0))
     # t(0.975, 2) = 4.303, scatter 0.02, one further run: 4.303 * 0.02 * sqrt(1 + 1/3)
     assert last.high - last.low == pytest.approx(200.0 * 4.3027 * 0.02 * np.sqrt(4.0 / 3.0), rel=1e-4)
@@ -32,8 +32,8 @@ def test_an_unseen_run_like_the_others_is_foretold():
 
 
 def test_an_unseen_run_far_from_the_others_is_not():
-    assert foretold(_fit([0.98, 1.0, 1.02], 1.3))[-1].inside is False
+    assert predicted_friction(_fit([0.98, 1.0, 1.02], 1.3))[-1].inside is False
 
 
 def test_one_fitted_run_says_nothing_of_scatter():
-    assert foretold(_fit([1.0], 1.3))[-1].inside is None
+    assert predicted_friction(_fit([1.0], 1.3))[-1].inside is None
