@@ -1,4 +1,6 @@
-"""The end of a search: the needless goes, twins and plainer laws are weighed, and the rest is fitted as reported."""
+"""Backward elimination: what is not material goes, rival and plainer laws are weighed, the rest is fitted anew."""
+
+from dataclasses import replace
 
 from slipwise.diagnosis.candidates import ONE_THING
 from slipwise.diagnosis.choice import is_delay, needless
@@ -14,7 +16,7 @@ _NO_FILTER = 0.004
 _FAR_OFF = 3.0
 
 
-def prune(state: Search) -> None:
+def pruned(state: Search) -> Search:
     """Take effects away again whose loss is not material."""
     origin = state.path[0]
     while len(state.best.terms) > 1:
@@ -25,34 +27,33 @@ def prune(state: Search) -> None:
             spare = next((h for h in known if not material(origin.summary, h.summary, whole.summary)), None)
             fewer = spare or try_one(state, rest, {}, whole)
             if not material(origin.summary, fewer.summary, whole.summary):
-                state.path.append(fewer)
+                state = state.stepped_to(fewer)
                 break
         else:
-            return
+            break
+    return state
 
 
-def settle(state: Search) -> None:
+def as_it_is_reported(state: Search) -> Search:
     """Weigh the best against its twins and plainer laws, and fit it as it is reported, without what is immaterial then.
 
     A large first effect leaves the noise near reversals wrong until it is weighed anew, and a second one repairs that.
     """
-    _try_twin(state)
-    _simplify(state)
-    origin = state.path[0].summary
-    state.settled = as_reported(state.best)
+    state = _simplified(_with_twins_tried(state))
+    origin, reported = state.path[0].summary, as_reported(state.best)
     while len(state.best.terms) > 1:
         rests = [left_with(state, state.best.without(t), state.best) for t in state.best.terms]
         fewer = [h for h in rests if h.solution.cost < _FAR_OFF * state.best.solution.cost]
-        accounts = on_every_core(lambda i, of=fewer: as_reported(of[i]).summary, len(fewer))
-        pairs = zip(fewer, accounts, strict=True)
-        spare = next((h for h, account in pairs if not material(origin, account, state.settled.summary)), None)
+        summaries = on_every_core(lambda i, of=fewer: as_reported(of[i]).summary, len(fewer))
+        pairs = zip(fewer, summaries, strict=True)
+        spare = next((h for h, summary in pairs if not material(origin, summary, reported.summary)), None)
         if spare is None:
-            return
-        state.path.append(spare)
-        state.settled = as_reported(spare)
+            break
+        state, reported = state.stepped_to(spare), as_reported(spare)
+    return replace(state, settled=reported)
 
 
-def _try_twin(state: Search) -> None:
+def _with_twins_tried(state: Search) -> Search:
     """Refit what is nearly one thing with an effect in its place: a screen sees little of it beside that effect."""
     best, origin = state.best, state.path[0].summary
     for term in best.terms:
@@ -62,10 +63,11 @@ def _try_twin(state: Search) -> None:
             typical = {twin.label: twin.effect.typical()}
             again = tried_before(state, [*rest, twin]) or [try_one(state, [*rest, twin], typical, best)]
             if score(origin, again[0].summary) > score(origin, state.best.summary):
-                state.path.append(again[0])
+                state = state.stepped_to(again[0])
+    return state
 
 
-def _simplify(state: Search) -> None:
+def _simplified(state: Search) -> Search:
     """Take a law of far fewer constants, or a delay for a filter that takes nothing, where it does as well."""
     origin, best = state.path[0].summary, state.best
     alike = [h for h in state.tried if len(h.terms) == len(best.terms) and set(h.names) != set(best.names)]
@@ -74,8 +76,9 @@ def _simplify(state: Search) -> None:
         top = score(origin, best.summary)
         least = top - max(SAME_SCORE, _NO_FILTER * top)
         plain += [h for h in _with_delays(state, best) if score(origin, h.summary) > least]
-    if plain:
-        state.path.append(max(plain, key=lambda h: score(origin, h.summary)))
+    if not plain:
+        return state
+    return state.stepped_to(max(plain, key=lambda h: score(origin, h.summary)))
 
 
 def _with_delays(state: Search, found: Hypothesis) -> list[Hypothesis]:

@@ -1,4 +1,4 @@
-"""The search for what is missing: one effect after another, pairs one step ahead, and back again."""
+"""Forward selection of what is missing: one effect after another, pairs one step ahead, and back again."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.diagnosis.backward_elimination import prune, settle
+from slipwise.diagnosis.backward_elimination import as_it_is_reported, pruned
 from slipwise.diagnosis.bound_check import with_bounds_checked
 from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.choice import best_of, material_alone, various
@@ -55,12 +55,10 @@ def search(
         progress: called with what is being done and the share done.
         before: from a base fit that was left for this one: where its first effect led, no fit may come from here.
     """
-    state = begun(base, own, progress, before)
-    finish(state, progress)
-    return state
+    return completed(first_effects(base, own, progress, before), progress)
 
 
-def begun(
+def first_effects(
     base: BaseFit,
     own: Iterable[Effect] = (),
     progress: Callable[[str, float], None] | None = None,
@@ -68,51 +66,55 @@ def begun(
 ) -> Search:
     """Find the first effects, two at most, and look no further; arguments as `search`."""
     terms, cannot = candidates(base, own)
-    state = Search(base, [], cannot, [base_hypothesis(base)], terms=terms)
     tell = progress or _silent
-    _screen(state, lambda share: tell("screening", 0.15 + 0.45 * share))
+    state = Search(base, cannot, terms, [], (base_hypothesis(base),))
+    state = _screened(state, lambda share: tell("screening", 0.15 + 0.45 * share))
     tell("refitting", 0.6)
-    _first(state, next((h for h in before.path if len(h.terms) == 1), None) if before else None)
-    _reshape(state)
-    _onward(state, tell, _FIRST_EFFECTS)
-    return state
+    state = _first(state, next((h for h in before.path if len(h.terms) == 1), None) if before else None)
+    return _onward(_reshaped(state), tell, _FIRST_EFFECTS)
 
 
-def finish(state: Search, progress: Callable[[str, float], None] | None = None) -> None:
+def completed(state: Search, progress: Callable[[str, float], None] | None = None) -> Search:
     """Go on from the first effects to the hypothesis that is reported.
 
     Args:
-        state: of a search that was begun.
+        state: with the first effects.
         progress: called with what is being done and the share done.
     """
     tell = progress or _silent
     if len(state.best.terms) == _FIRST_EFFECTS:  # with fewer, nothing more was worth it
-        _onward(state, tell, MOST_EFFECTS)
-    if _restart_from_nominal(state):
-        _onward(state, tell, MOST_EFFECTS)
-    prune(state)
-    if _swap(state):
-        prune(state)
+        state = _onward(state, tell, MOST_EFFECTS)
+    anew = _restarted_from_nominal(state)
+    if anew is not None:
+        state = _onward(anew, tell, MOST_EFFECTS)
+    state = pruned(state)
+    exchanged = _exchanged(state)
+    if exchanged is not None:
+        state = pruned(exchanged)
     if state.best.terms:
-        tell("settling", 0.95)
-        settle(state)
+        tell("weighing", 0.95)
+        state = as_it_is_reported(state)
     tell("done", 1.0)
+    return state
 
 
 def _silent(what: str, share: float) -> None:
     """Tell nobody."""
 
 
-def _onward(state: Search, tell: Callable[[str, float], None], most: int) -> None:
-    """Add effects to the first while one is worth it."""
+def _onward(state: Search, tell: Callable[[str, float], None], most: int) -> Search:
+    """Add effects to the first while one is material."""
     while len(state.path) - 1 and len(state.best.terms) < most:
         tell("refitting", 0.7 + 0.1 * len(state.best.terms))
-        if not _further(state):
+        further = _further(state)
+        if further is None:
             break
+        state = further
+    return state
 
 
-def _restart_from_nominal(state: Search) -> bool:
-    """Begin anew from the rated numbers where very much is left; tell if that leads to something better.
+def _restarted_from_nominal(state: Search) -> Search | None:
+    """Begin anew from the rated numbers where very much is left; None unless that leads to something better.
 
     A base that is bent that far shows each effect as a straight line that leads elsewhere: a table that rocks by 3 mrad
     was fitted with another pitch of the girder, a hundred floors off, and every fit from there ended beside the truth.
@@ -120,25 +122,28 @@ def _restart_from_nominal(state: Search) -> bool:
     origin, best = state.path[0], state.best
     worst, left = (max(h.summary.level(r, held_out=False) for r in h.summary.fitted) for h in (origin, best))
     if worst < _BENT or left < _FAR_FROM_NOISE:
-        return False
-    anew = replace(state, base=at_rated(state.base), path=[origin])
-    _screen(anew)
-    _first(anew)
-    _reshape(anew)
+        return None
+    anew = _reshaped(_first(_screened(replace(state, base=at_rated(state.base), path=(origin,)))))
     if score(origin.summary, anew.best.summary) <= score(origin.summary, best.summary):
-        return False
-    state.path.append(anew.best)
-    return True
+        return None
+    return state.stepped_to(anew.best)
 
 
-def _screen(state: Search, progress: Callable[[float], None] | None = None) -> None:
+def _screened(state: Search, progress: Callable[[float], None] | None = None) -> Search:
     """Screen every candidate against the base of a search."""
     found = screen(state.base, state.terms, progress)
     found = with_bounds_checked(state.base, found, _least_refitted(state.path[0], MATERIAL))
-    state.screened, state.opposed = ([s for s in found if (s.gain == 0.0) == against] for against in (False, True))
+    seen, opposed = ([s for s in found if (s.gain == 0.0) == against] for against in (False, True))
+    return replace(state, screened=seen, opposed=opposed)
 
 
-def _first(state: Search, led: Hypothesis | None = None) -> None:
+def _first(state: Search, led: Hypothesis | None = None) -> Search:
+    """Choose the first effect, or the first two where a pair explains what none of them does alone.
+
+    Args:
+        state: with candidates that were screened.
+        led: a first effect that another base fit led to.
+    """
     origin = state.path[0]
     chosen = various(state.screened, _REFITTED)
     physics = [s for s in state.screened if s.term.effect.component != "instrument"]
@@ -156,13 +161,11 @@ def _first(state: Search, led: Hypothesis | None = None) -> None:
             single = best or origin
             both_material = single is origin or material(origin.summary, single.summary, both.summary)
             if both_material and score(origin.summary, both.summary) > score(origin.summary, single.summary):
-                state.path.append(both)
-                return
-    if best is not None:
-        state.path.append(best)
+                return state.stepped_to(both)
+    return state if best is None else state.stepped_to(best)
 
 
-def _reshape(state: Search) -> None:
+def _reshaped(state: Search) -> Search:
     """Begin a law of a place or a frequency anew from the whole grid of its constants where it leaves something.
 
     Its fit may be in another valley: a patch that was begun at the wrong place became a wide dip beside the narrow rise
@@ -171,7 +174,7 @@ def _reshape(state: Search) -> None:
     """
     best, origin = state.best, state.path[0]
     if not best.terms or all_down(best.summary):
-        return
+        return state
     for term in best.terms:
         grid = places(term.effect)
         if not grid:
@@ -182,27 +185,26 @@ def _reshape(state: Search) -> None:
         again = try_all(state, [([*rest, term], {term.label: s.values}) for s in found], before if rest else None)
         better = [h for h in again if score(origin.summary, h.summary) > score(origin.summary, state.best.summary)]
         if better:
-            state.path[-1] = better[0]
+            state = replace(state, path=(*state.path[:-1], better[0]))
+    return state
 
 
-def _further(state: Search) -> bool:
-    """Add the effect that helps most beside those found; false when none is worth it."""
+def _further(state: Search) -> Search | None:
+    """Add the effect that helps most beside those found; None where none is material."""
     before, origin = state.best, state.path[0]
-    account = before.summary
-    if all_down(account):
-        return False
+    if all_down(before.summary):
+        return None
     least = _least_refitted(before, MATERIAL_FURTHER)
     found = with_bounds_checked(as_base(state, before), rescreen(state.seen, before), least)
     chosen = various([s for s in found if s.gain > least], _REFITTED_PAIRS + 1)
     tried = list[Hypothesis]()
     for asked in beginnings(state, chosen, tried):
-        tried += try_all(state, asked, before, lambda h: is_near(origin.summary, account, h.summary))
+        tried += try_all(state, asked, before, lambda h: is_near(origin.summary, before.summary, h.summary))
         sound = [h for h in tried if strength_at_bound(before) or not strength_at_bound(h)]
-        good = [h for h in sound if material(origin.summary, account, h.summary)]
+        good = [h for h in sound if material(origin.summary, before.summary, h.summary)]
         if good:
-            state.path.append(max(good, key=lambda h: score(before.summary, h.summary)))
-            return True
-    return False
+            return state.stepped_to(max(good, key=lambda h: score(before.summary, h.summary)))
+    return None
 
 
 def _least_refitted(before: Hypothesis, drop: float) -> float:
@@ -210,14 +212,14 @@ def _least_refitted(before: Hypothesis, drop: float) -> float:
     return _HOPEFUL * drop * min(n for n, _ in before.summary.counts.values())
 
 
-def _swap(state: Search) -> bool:
-    """Exchange an effect, and its likes on other gauges, for one that helps more beside the rest; tell if any was.
+def _exchanged(state: Search) -> Search | None:
+    """Exchange an effect, and its likes on other gauges, for one that helps more beside the rest; None if none does.
 
     What was best alone may only have stood for two others: two gauges that read less for pads that differ.
     """
     best, origin = state.best, state.path[0].summary
     if len(best.names) < 2 or all_down(best.summary):
-        return False
+        return None
     top = score(origin, best.summary)
     for name in best.names:
         rest = [t for t in best.terms if t.effect.name != name]
@@ -227,6 +229,5 @@ def _swap(state: Search) -> bool:
         chosen = [s for s in others[:_SWAPPED] if not tried_before(state, [*rest, s.term])]
         better = [h for h in try_all(state, starts_of(chosen, rest), kept) if score(origin, h.summary) > top]
         if better:
-            state.path.append(max(better, key=lambda h: score(origin, h.summary)))
-            return True
-    return False
+            return state.stepped_to(max(better, key=lambda h: score(origin, h.summary)))
+    return None

@@ -5,7 +5,7 @@ change of the residual is its column. What the base parameters could do is proje
 1963), limits of sign are kept, and the drop of the squared residual is the score (Rao 1948).
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -49,7 +49,7 @@ class Screened:
     length: float
 
 
-def screen(base: BaseFit, terms: list[Term], progress: Callable[[float], None] | None = None) -> list[Screened]:
+def screen(base: BaseFit, terms: Sequence[Term], progress: Callable[[float], None] | None = None) -> list[Screened]:
     """Screen candidates against the base fit; best first.
 
     Args:

@@ -1,7 +1,7 @@
-"""What a search has looked at, and how it tries more: refits side by side, the best of them to the end."""
+"""The state of a forward selection, never changed in place, and the refits that it asks for."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from slipwise.diagnosis.hypothesis import Hypothesis, polished, refit
 from slipwise.diagnosis.screening import Screened
@@ -16,28 +16,28 @@ from slipwise.parallel import on_every_core
 _POLISHED = 2
 
 
-@dataclass
+@dataclass(frozen=True)
 class Search:
-    """What a search has looked at.
+    """What a forward selection has found so far; each step gives a new one.
 
     Attributes:
         base: the base fit.
-        screened: candidates by their score against the base.
         cannot: effects that the campaign cannot test, with the reason.
-        path: base first, then the best hypothesis with one, two ... effects.
-        tried: every hypothesis that was refitted.
         terms: every candidate, those that screening sees nothing in included.
+        tried: every hypothesis that was refitted; all states of a selection share the list, `try_all` adds to it.
+        path: base first, then the best hypothesis with one, two ... effects.
+        screened: candidates by their score against the base.
         opposed: candidates of which the residual of the base asks for the opposite, and that cannot be.
         settled: the one at which the search ended, weighed by its own law; None for the base.
     """
 
     base: BaseFit
-    screened: list[Screened]
-    cannot: dict[str, str]
-    path: list[Hypothesis] = field(default_factory=list[Hypothesis])
-    tried: list[Hypothesis] = field(default_factory=list[Hypothesis])
-    terms: list[Term] = field(default_factory=list[Term])
-    opposed: list[Screened] = field(default_factory=list[Screened])
+    cannot: Mapping[str, str]
+    terms: Sequence[Term]
+    tried: list[Hypothesis]
+    path: tuple[Hypothesis, ...]
+    screened: Sequence[Screened] = ()
+    opposed: Sequence[Screened] = ()
     settled: Hypothesis | None = None
 
     @property
@@ -54,6 +54,10 @@ class Search:
     def best(self) -> Hypothesis:
         """The hypothesis at which the search ended."""
         return self.path[-1]
+
+    def stepped_to(self, found: Hypothesis) -> "Search":
+        """Give the state after a step to another hypothesis."""
+        return replace(self, path=(*self.path, found))
 
 
 def try_one(state: Search, terms: Sequence[Term], starts: dict, before: Hypothesis | None = None) -> Hypothesis:
@@ -88,7 +92,7 @@ def try_all(
     fits = on_every_core(lambda i: _fit(polished(found[ended[i]])), len(ended))
     for place, fit in zip(ended, fits, strict=True):
         found[place] = Hypothesis(found[place].terms, found[place].problem, *fit)
-    state.tried += found
+    state.tried.extend(found)
     return found
 
 

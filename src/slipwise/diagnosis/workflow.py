@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from inspect import signature
 
 from slipwise.campaign import Campaign, Logger
-from slipwise.diagnosis.forward_selection import begun, finish, search
+from slipwise.diagnosis.forward_selection import completed, first_effects, search
 from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis
 from slipwise.diagnosis.samples import SampleFault, mended, sample_faults
 from slipwise.diagnosis.search_state import Search
@@ -63,12 +63,12 @@ def select_effects(
     own = tuple(own)
     whole, spoiled, faults = prepared(campaign)
     base = fit_base(whole, model, spoiled)
-    state = begun(base, own, progress)
+    state = first_effects(base, own, progress)
     estimated = _logger_estimated_again(whole, base, state.best)
     if estimated is not None:
         base = fit_base(estimated, model, spoiled)
-        state = begun(base, own, progress)
-    finish(state, progress)
+        state = first_effects(base, own, progress)
+    state = completed(state, progress)
     # what an effect seems to explain may be a valley that the base fit has missed
     better = restarted(base, state.best.solution.values) if state.best.terms else None
     if better is not None:

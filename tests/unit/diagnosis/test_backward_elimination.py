@@ -6,7 +6,7 @@ from typing import Any, cast
 import pytest
 
 from slipwise.diagnosis import backward_elimination as module
-from slipwise.diagnosis.backward_elimination import settle
+from slipwise.diagnosis.backward_elimination import as_it_is_reported
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.search_state import Search
 from slipwise.effects import catalogue
@@ -29,10 +29,9 @@ def test_a_second_effect_stays_only_where_it_is_material_as_reported(
 ) -> None:
     """Before the noise near reversals is weighed anew, a clearance of nothing takes away a floor and a half."""
     base, both = _tried((), 400.0), _tried(("buffer_mismatch", "key_clearance"), 6.0)
-    state = Search(
-        cast(Any, None), [], {}, [base, both], [_tried(("buffer_mismatch",), 8.0), _tried(("key_clearance",), 390.0)]
-    )
+    tried = [_tried(("buffer_mismatch",), 8.0), _tried(("key_clearance",), 390.0)]
+    state = Search(cast(Any, None), {}, [], tried, (base, both))
     weighed = {both.names: 1.0, ("buffer_mismatch",): alone}  # the other leaves so much that nobody asks
     monkeypatch.setattr(module, "as_reported", lambda found: _tried(found.names, weighed[found.names]))
-    settle(state)
-    assert state.final.names == state.best.names == left
+    ended = as_it_is_reported(state)
+    assert ended.final.names == ended.best.names == left

@@ -58,7 +58,7 @@ def said(base: BaseFit, terms: list[Term] = FADES_AND_LASTS, *, screened: bool =
     """Say what is cannot_tell after a search that has seen something in every term, or in none."""
     nothing = np.zeros(0)
     found = [Screened(t, {}, 0.0, 0.0, nothing, 0.0) for t in terms] if screened else []
-    return dict(cannot_tell(Search(base, found, {}, [base_hypothesis(base)], terms=terms), base))
+    return dict(cannot_tell(Search(base, {}, terms, [], (base_hypothesis(base),), screened=found), base))
 
 
 def test_a_full_campaign_tells_every_number_and_heat_from_wear(base: BaseFit) -> None:

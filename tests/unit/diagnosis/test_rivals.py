@@ -17,7 +17,7 @@ def _verdict(*effects: str, kind: str = "ambiguous", rivals: tuple[tuple[str, ..
 
 
 def _search(*best: str) -> Search:
-    return Search(cast(Any, None), [], {}, [cast(Any, SimpleNamespace(names=best))])
+    return Search(cast(Any, None), {}, [], [], (cast(Any, SimpleNamespace(names=best)),))
 
 
 def test_rivals_are_explanations_of_their_own_each_with_all_its_effects():

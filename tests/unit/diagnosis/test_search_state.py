@@ -23,7 +23,7 @@ def test_only_the_promising_are_fitted_to_the_end(monkeypatch: pytest.MonkeyPatc
     base = fit_base(as_campaign(build_campaign(7005, effects=("run_in",), size="medium")))
     terms = {t.label: t for t in candidates(base)[0]}
     asked = [([terms[name]], {name: terms[name].effect.typical()}) for name in ("run_in", "pad_spread", "heating")]
-    state = Search(base, [], {}, [base_hypothesis(base)])
+    state = Search(base, {}, [], [], (base_hypothesis(base),))
     every = try_all(state, asked)
     assert [h.names for h in every[:2]] == ended and every[0].names == ("run_in",)
     ended.clear()

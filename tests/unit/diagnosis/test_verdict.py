@@ -38,7 +38,7 @@ def _search(base: Hypothesis, *tried: Hypothesis) -> Search:
     """A search that took the best of what it tried, where that is material."""
     best = min((base, *tried), key=lambda h: h.summary.total)
     path = [base, best] if material_alone(base, best) else [base]
-    return Search(cast(Any, None), [], {}, path, list(tried))
+    return Search(cast(Any, None), {}, [], list(tried), tuple(path))
 
 
 def test_a_model_that_leaves_noise_is_complete():

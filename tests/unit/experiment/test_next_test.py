@@ -40,7 +40,7 @@ def diagnosis(kind: str, *tried: Hypothesis, near: tuple[Hypothesis, ...] = (), 
     candidates = [
         SimpleNamespace(effect="+".join(h.names), probability=c) for h, c in zip(tried, chances, strict=False)
     ]
-    state = Search(cast(Any, None), [], {}, path, list(tried))
+    state = Search(cast(Any, None), {}, [], list(tried), tuple(path))
     campaign = SimpleNamespace(name="march", rig="bridge1", specimen=SimpleNamespace(free=True))
     final = SimpleNamespace(campaign=campaign)
     return SimpleNamespace(search=state, verdict=verdict, candidates=candidates, final=final)
