@@ -1,4 +1,4 @@
-"""A file imports only what stands above it, and numerics never see pictures."""
+"""A file imports only what stands before it: between packages, between the files of a package, and from no pictures."""
 
 import ast
 import subprocess
@@ -8,64 +8,127 @@ from pathlib import Path
 import pytest
 
 PACKAGE = Path(__file__).parents[2] / "src" / "slipwise"
-LAYERS: tuple[tuple[str, ...], ...] = (
-    ("errors", "units", "params", "channels", "cores"),
-    ("signals", "motion", "record"),
-    ("rig",),
-    ("effects",),
-    ("model", "model_file"),
-    ("kernel", "predict", "replay", "loops", "loads", "pier", "demonstration"),
-    ("campaign", "audit", "floor", "system", "compare", "fit"),
-    ("diagnose", "ladder", "next_motions", "next_test", "paper", "demo"),
-    ("view",),
-    ("cli",),
-)
-#: Within a layer the order in which files may see each other.
-WITHIN = {
-    "errors": 0, "units": 1, "params": 1, "channels": 1, "cores": 1,
-    "signals": 1, "record": 0, "motion": 1,
-    "kernel": 0, "predict": 1, "replay": 2, "loops": 0, "loads": 0, "pier": 0, "demonstration": 2,
-    "campaign": 0, "audit": 1, "floor": 1, "system": 1, "fit": 2, "compare": 3,
-}  # fmt: skip
+#: Package or file -> what it may import, from the inside out. Nothing else is allowed.
+ARROWS: dict[str, str] = {
+    "errors": "",
+    "units": "errors",
+    "params": "errors",
+    "channels": "errors",
+    "parallel": "errors",
+    "signals": "errors",
+    "record": "channels errors units",
+    "motion": "channels errors units",
+    "rig": "channels errors record units",
+    "effects": "channels errors params record rig signals",
+    "model": "channels effects errors rig",
+    "model_file": "effects errors model params record rig units",
+    "simulation": "channels effects errors model motion record rig",
+    "campaign": "channels errors record rig signals units",
+    "instruments": "campaign channels effects errors record rig signals",
+    "estimation": "campaign channels effects errors model parallel record rig signals simulation",
+    "evidence": "campaign channels errors estimation record signals",
+    "comparison": "campaign channels effects errors estimation evidence instruments model motion record signals simulation",
+    "diagnosis": (
+        "campaign channels comparison effects errors estimation evidence instruments model parallel params record"
+        " signals simulation units"
+    ),
+    "experiment": (
+        "campaign comparison diagnosis effects errors estimation evidence model motion record signals simulation units"
+    ),
+    "studies": "channels effects errors model motion parallel record rig signals simulation units",
+    "view": (
+        "channels comparison diagnosis effects errors estimation evidence experiment instruments params record rig"
+        " signals studies units"
+    ),
+    "cli": (
+        "campaign channels comparison diagnosis effects errors estimation evidence experiment instruments model"
+        " model_file motion record rig simulation studies units view"
+    ),
+}
+#: Results draw themselves when they are asked to: the only way from numbers to pictures, and never at import.
+MAY_DRAW = frozenset({"__init__.py"})
+#: No file is longer.
+LONGEST = 300
 FILES = sorted(PACKAGE.rglob("*.py"))
 
 
-def place(part: str) -> int:
-    found = [i for i, names in enumerate(LAYERS) if part in names]
-    assert found, f"{part} has no layer; give it one in {Path(__file__).name}"
-    return found[0]
+def part_of(path: Path) -> str:
+    return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
 
 
-def imported(path: Path) -> set[str]:
-    """Parts of slipwise that a file imports at its top."""
-    out = set()
-    for node in ast.parse(path.read_text(encoding="utf-8")).body:
-        names = []
-        if isinstance(node, ast.ImportFrom) and node.module:
-            names = [node.module] if node.module != "slipwise" else [f"slipwise.{a.name}" for a in node.names]
+def imports(path: Path, *, everywhere: bool) -> list[str]:
+    """Modules of slipwise that a file imports, at its top or also inside its functions."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    nodes = ast.walk(tree) if everywhere else tree.body
+    out = []
+    for node in nodes:
+        if isinstance(node, ast.ImportFrom) and node.module and node.module.split(".")[0] == "slipwise":
+            names = [f"{node.module}.{a.name}" for a in node.names]
+            out += [name if _is_module(name) else node.module for name in names]
         elif isinstance(node, ast.Import):
-            names = [a.name for a in node.names]
-        out |= {name.split(".")[1] for name in names if name.startswith("slipwise.")}
+            out += [a.name for a in node.names if a.name.startswith("slipwise.")]
     return out
 
 
+def _is_module(name: str) -> bool:
+    place = PACKAGE.joinpath(*name.split(".")[1:])
+    return place.with_suffix(".py").exists() or (place / "__init__.py").exists()
+
+
+def circles(arrows: dict[str, set[str]]) -> list[list[str]]:
+    """Names that lead back to themselves, each as the way that does."""
+    done: set[str] = set()
+    found: list[list[str]] = []
+
+    def walk(name: str, way: list[str]) -> None:
+        if name in way:
+            found.append([*way[way.index(name) :], name])
+        elif name not in done:
+            for other in sorted(arrows.get(name, ())):
+                walk(other, [*way, name])
+            done.add(name)
+
+    for name in sorted(arrows):
+        walk(name, [])
+    return found
+
+
+def test_every_package_has_its_place():
+    assert {part_of(path) for path in FILES} - {"__init__"} == set(ARROWS)
+
+
+def test_no_package_leads_back_to_itself():
+    assert not circles({name: set(others.split()) for name, others in ARROWS.items()})
+
+
 @pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(PACKAGE)))
-def test_a_file_imports_only_what_stands_above_it(path):
-    part = path.relative_to(PACKAGE).parts[0].removesuffix(".py")
-    if part == "__init__":
+def test_a_file_imports_only_what_its_package_may(path):
+    part = part_of(path)
+    if path.name in MAY_DRAW and path.parent == PACKAGE:
         return
-    own = place(part)
-    for other in imported(path) - {part}:
-        assert place(other) <= own, f"{path.name} (layer {own}) imports {other} (layer {place(other)})"
-        if place(other) == own and part in WITHIN and other in WITHIN:
-            assert WITHIN[other] <= WITHIN[part], f"{path.name} imports {other}, which stands below it"
+    others = {name.split(".")[1] for name in imports(path, everywhere=True)} - {part}
+    assert others <= set(ARROWS[part].split())
+
+
+@pytest.mark.parametrize("package", sorted(p.name for p in PACKAGE.iterdir() if (p / "__init__.py").exists()))
+def test_no_file_of_a_package_leads_back_to_itself(package):
+    arrows: dict[str, set[str]] = {}
+    for path in sorted((PACKAGE / package).rglob("*.py")):
+        own = "slipwise." + ".".join(path.relative_to(PACKAGE).with_suffix("").parts).removesuffix(".__init__")
+        arrows[own] = set(imports(path, everywhere=False))
+    assert not circles(arrows)
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(PACKAGE)))
+def test_a_file_holds_one_idea(path):
+    assert len(path.read_text(encoding="utf-8").splitlines()) <= LONGEST
 
 
 def test_numerics_pull_in_neither_matplotlib_nor_rerun():
-    numerics = sorted(
-        name for names in LAYERS[:7] for name in names if (PACKAGE / name).exists() or (PACKAGE / f"{name}.py").exists()
-    )
-    code = ";".join(f"import slipwise.{name}" for name in numerics)
-    code += ";import sys;print([m for m in ('matplotlib','rerun','typer') if m in sys.modules])"
+    numerics = [name for name in ARROWS if name not in ("view", "cli")]
+    modules = [".".join(("slipwise", *p.relative_to(PACKAGE).with_suffix("").parts)) for p in FILES]
+    wanted = sorted(m for m in modules if m.split(".")[1] in numerics and not m.endswith("__init__"))
+    code = "\n".join(f"import {name}" for name in wanted)
+    code += "\nimport sys\nprint([m for m in ('matplotlib', 'rerun', 'typer') if m in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"

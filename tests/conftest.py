@@ -1,0 +1,28 @@
+"""What all tests share: the law and the bench's simulator are compiled once, before the workers start."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+TESTS = Path(__file__).parent
+#: What compiles, each for itself: the library's law over records and in a replay, the second simulator.
+COMPILING = (
+    "from slipwise.model import base_model; from slipwise.motion import load_motion;"
+    "from slipwise.simulation.replay import replay; from slipwise.simulation.predict import predictor;"
+    "model = base_model('bridge1'); predictor(model); replay(model, load_motion('sine:5Hz,0.1g,cycles=9'))",
+    "from bench import build_campaign; build_campaign(1, effects=())",
+)
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Compile on both cores at once; else every worker would compile all of it, and wait."""
+    if hasattr(config, "workerinput") or not config.getoption("numprocesses", None) or config.option.collectonly:
+        return
+    paths = os.pathsep.join([str(TESTS), os.environ.get("PYTHONPATH", "")])
+    environment = {**os.environ, "PYTHONPATH": paths}
+    started = [subprocess.Popen([sys.executable, "-c", code], env=environment) for code in COMPILING]
+    for process in started:
+        process.wait()
