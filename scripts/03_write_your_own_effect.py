@@ -24,7 +24,8 @@ from slipwise.view.canvas import save_figure
 from slipwise.view.effects import effect_picture, print_effect
 from slipwise.view.style import styled
 
-# 1. The file. A docstring that a reader learns from, hooks whose arguments say what they need, and EFFECT.
+# 1. The file. A docstring that a reader learns from, hooks whose arguments say what they need, and EFFECT. What hooks
+# cannot say is declared: without a changing load this effect is one with the base law, so a diagnosis must not try it.
 LATE_AREA = '''"""A contact area that follows the load late.
 
     A_r = A_r(P_late),        dP_late/dt = (P - P_late) / t_c
@@ -73,6 +74,7 @@ EFFECT = Effect(
     signature="odd in velocity, in step with the rate of the load",
     confused_with={"channel_delay": "a delay of N shows in the heave balance too"},
     memory=("late_load", "started"),
+    needs=("changing load",),
 )
 '''
 

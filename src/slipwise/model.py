@@ -5,12 +5,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from slipwise.channels import channels_like
-from slipwise.effects import PORTS, Effect, find_effect
+from slipwise.effects import PORTS, Effect, base_effects, find_effect
 from slipwise.errors import SettingError
 from slipwise.rig import Specimen, load_specimen
-
-#: The paper's law, eqs. (7) and (8), and pads as springs: what a model starts from.
-BASE_EFFECTS: tuple[str, ...] = ("contact_area", "shear_rate")
 
 
 @dataclass(frozen=True)
@@ -155,12 +152,13 @@ class Model:
         return specimen
 
 
-def base_model(rig: str | Path | Specimen, effects: Sequence[str | EffectUse] = BASE_EFFECTS) -> Model:
+def base_model(rig: str | Path | Specimen, effects: Sequence[str | Effect | EffectUse] | None = None) -> Model:
     """Make a model of a rig with the paper's law.
 
     Args:
         rig: a name, the path of an MJCF file, or a specimen.
-        effects: names (typical values) or uses; the paper's law when not given.
+        effects: names or effects (typical values) or uses; the paper's law, eqs. (7) and (8), when not given.
     """
+    chosen = base_effects("law") if effects is None else effects
     specimen = rig if isinstance(rig, Specimen) else load_specimen(rig)
-    return Model(specimen, tuple(use(e) if isinstance(e, str) else e for e in effects))
+    return Model(specimen, tuple(e if isinstance(e, EffectUse) else use(e) for e in chosen))

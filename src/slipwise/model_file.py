@@ -29,9 +29,9 @@ import tomlkit
 from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT, Item, Table
 
-from slipwise.effects import Effect, catalogue, find_effect, load_effect
+from slipwise.effects import Effect, base_effects, catalogue, find_effect, load_effect
 from slipwise.errors import InputError, SettingError, unknown_name
-from slipwise.model import BASE_EFFECTS, EffectUse, Model, use
+from slipwise.model import EffectUse, Model, use
 from slipwise.params import Parameter
 from slipwise.record import write_text
 from slipwise.rig import load_specimen
@@ -53,8 +53,8 @@ def draft_model(rig: str) -> str:
         rig: a name, or the path of an MJCF file as seen from the model.toml.
     """
     document = tomlkit.parse(f"{_HEAD}rig = {tomlkit.item(rig).as_string()}\n")
-    for name in BASE_EFFECTS:
-        _append(document, use(name), "")
+    for effect in base_effects("law"):
+        _append(document, use(effect), "")
     return re.sub(r"\n{3,}", "\n\n", tomlkit.dumps(document))
 
 

@@ -21,7 +21,8 @@ every_optional_effect = pytest.mark.parametrize("effect", OPTIONAL, ids=lambda e
 #: What an effect may change at component level, by the hooks it has.
 REACH = {
     "area": {"pads"}, "shear": {"pads"}, "stick": {"pads"}, "pad": {"pads"}, "advance": set(), "rest": set(),
-    "begin": set(), "deflection": {"buffers", "balance heave"}, "spring": {"buffers", "balance heave"},
+    "begin": set(), "flat": set(), "corner": set(), "deflection": {"buffers", "balance heave"},
+    "spring": {"buffers", "balance heave"},
     "settle": {"buffers"}, "lift": {"lift"}, "drag": {"drag"}, "rig": {"specimen"}, "table": {"table"},
     "balance": {"balance *"}, "gauge": {"channels *"}, "undo": set(),
 }  # fmt: skip

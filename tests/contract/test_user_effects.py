@@ -215,6 +215,14 @@ REFUSED = {
     "never off": (MINE.replace("-0.5, 0.5, 0.0,", "-0.5, 0.5, None,"), SettingError, "could never be off"),
     "no channel": (MINE.replace("moves=RESPONSE", 'moves=("pad_*_Q",)'), SettingError, "no channel"),
     "same name twice": (MINE.replace('"length", "m"', '"height", "m"'), SettingError, "share a name"),
+    "unknown need": (MINE.replace("moves=RESPONSE,", 'moves=RESPONSE, needs=("heaven",),'), UnknownNameError, "heave"),
+    "unknown role": (MINE.replace("moves=RESPONSE,", 'moves=RESPONSE, base="laws",'), UnknownNameError, "law"),
+    "no such lag": (MINE.replace("moves=RESPONSE,", 'moves=RESPONSE, lag="delay",'), UnknownNameError, "lag"),
+    "plainer without lag": (
+        MINE.replace("moves=RESPONSE,", 'moves=RESPONSE, plainer="channel_delay",'),
+        SettingError,
+        "lag",
+    ),
     "does not import": (MINE.replace("from math import", "from maths import"), InputError, "cannot be imported"),
 }
 

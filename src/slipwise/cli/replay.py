@@ -117,11 +117,9 @@ def _shaped(
 
 
 def _model(rig: str, law: str, effects: list[str]) -> Model:
-    from slipwise.model import BASE_EFFECTS
-
     if law not in ("paper", "coulomb"):
         raise SettingError(f"--law {law!r}: possible are paper and coulomb")
-    model = base_model(rig, BASE_EFFECTS if law == "paper" else ())
+    model = base_model(rig, None if law == "paper" else ())
     for name in effects:
         model = model.adding(use(name))
     return model

@@ -19,6 +19,7 @@ from scipy.optimize import least_squares
 from slipwise.campaign import States
 from slipwise.channels import PADS
 from slipwise.comparison.measured_replay import SystemRun, replay_runs
+from slipwise.effects import base_effects
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.run_data import FitRun
 from slipwise.model import Model, use
@@ -104,7 +105,7 @@ def replayed_model(base: BaseFit) -> tuple[Model, tuple[str, ...]]:
     # a bristle of this length swings the girder once in some steps: a shorter one is too stiff for them
     stiff = _STIFFEST * DT**2 * model.specimen.gravity
     if not model.with_hook("stick") and length > stiff:
-        model = model.adding(use("presliding", length=length, exponent=1.0))
+        model = model.adding(*(use(e, length=length) for e in base_effects("stick")))
         notes.append(f"pads stick elastically over {length * 1e6:.1f} um, as the base fit found")
     return model, tuple(notes)
 
@@ -129,7 +130,7 @@ def pad_springs(base: BaseFit, model: Model) -> tuple[float, float] | None:
     H = K / (m s^2 + K) exp(-lag s) with K(s) = p (k + c s); the lag between both accelerometers is fitted too, for it
     would pass for damping. None where vertical motion was not measured or too weak, or the model sets the springs.
     """
-    if "pad_compliance" in model or "rig.pitch_frequency" not in base.solution.values:
+    if any(u.effect.base == "springs" for u in model.uses) or "rig.pitch_frequency" not in base.solution.values:
         return None
     runs = [
         run

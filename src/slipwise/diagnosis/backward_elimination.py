@@ -2,10 +2,10 @@
 
 from dataclasses import replace
 
-from slipwise.diagnosis.candidates import ONE_THING
 from slipwise.diagnosis.choice import is_delay, needless
 from slipwise.diagnosis.hypothesis import Hypothesis, as_reported
 from slipwise.diagnosis.search_state import Search, left_with, tried_before, try_one
+from slipwise.diagnosis.twins import known_effects, twins
 from slipwise.evidence.materiality import SAME_SCORE, material, score
 from slipwise.parallel import on_every_core
 
@@ -56,10 +56,11 @@ def as_it_is_reported(state: Search) -> Search:
 def _with_twins_tried(state: Search) -> Search:
     """Refit what is nearly one thing with an effect in its place: a screen sees little of it beside that effect."""
     best, origin = state.best, state.path[0].summary
+    pairs = twins(known_effects(state).values())
     for term in best.terms:
-        twins = {name for pair in ONE_THING if term.effect.name in pair for name in pair} - set(best.names)
+        others = {name for pair in pairs if term.effect.name in pair for name in pair} - set(best.names)
         rest = best.without(term)
-        for twin in (t for t in state.terms if t.effect.name in twins):
+        for twin in (t for t in state.terms if t.effect.name in others):
             typical = {twin.label: twin.effect.typical()}
             again = tried_before(state, [*rest, twin]) or [try_one(state, [*rest, twin], typical, best)]
             if score(origin, again[0].summary) > score(origin, state.best.summary):
@@ -83,10 +84,14 @@ def _simplified(state: Search) -> Search:
 
 def _with_delays(state: Search, found: Hypothesis) -> list[Hypothesis]:
     """Give a hypothesis with delays in the place of its filters, fitted if it was not before."""
-    delays = {t.group: t for t in state.terms if t.effect.name == "channel_delay"}
-    filters = [t for t in found.terms if t.effect.name == "channel_filter" and t.group in delays]
-    if not filters:
+    offered = {(t.effect.name, t.group): t for t in state.terms}
+    delays = {t.label: d for t in found.terms if (d := offered.get((t.effect.plainer, t.group)))}
+    if not delays:
         return []
-    terms = [delays[t.group] if t in filters else t for t in found.terms]
-    starts = {delays[t.group].label: {"delay": found.values_of(t)["lag"]} for t in filters}
+    terms = [delays.get(t.label, t) for t in found.terms]
+    starts = {
+        d.label: {**d.effect.typical(), d.effect.lag: found.values_of(t)[t.effect.lag]}
+        for t in found.terms
+        if (d := delays.get(t.label))
+    }
     return tried_before(state, terms) or [try_one(state, terms, starts, found)]

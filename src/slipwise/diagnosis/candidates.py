@@ -1,31 +1,14 @@
 """What may be missing: every effect of the catalogue that this campaign could show, instruments on equal terms."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from fnmatch import fnmatchcase
 
 import numpy as np
 
-from slipwise.effects import Effect, catalogue
+from slipwise.effects import NEEDS, Effect, catalogue, moved_channels
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.parameters import Term
 from slipwise.estimation.problem import Problem
-
-#: Part of the base fit, never missing by themselves.
-BASE_PARTS: frozenset[str] = frozenset({"pad_compliance"})
-#: Faults of samples rather than of signals: found by looking at the samples, see `samples.py`.
-SAMPLE_FAULTS: frozenset[str] = frozenset({"channel_sign", "channel_clipping", "dropped_samples"})
-#: One thing to a rig that measures neither yaw nor pitch: one acts at the buffers, the other on the whole girder.
-ONE_THING: tuple[frozenset[str], ...] = (frozenset({"buffer_damping", "guide_drag"}),)
-#: Laws of the table's command: the fit is driven by the motion that was measured.
-_COMMAND: dict[str, str] = {
-    "table_gain": "the model is driven by the measured table motion; only the command could show it",
-    "table_cross_axis": "the model is driven by the measured table motion; only the command could show it",
-}
-#: Why these are not looked for where the slip is prescribed, see `samples.py`.
-_OF_A_SLIDER: dict[str, str] = {
-    "channel_sign": "one slider has no balance that says which way a gauge is wired",
-    "channel_clipping": "an actuator may rest at its ends, which looks like a rail",
-    "dropped_samples": "an actuator may rest, and samples then repeat by themselves",
-}
 
 #: Loads are steady in each run when they differ between runs by this many times more than within one [1].
 _STEADY = 3.0
@@ -33,8 +16,6 @@ _STEADY = 3.0
 _STEADY_LOAD = 0.005
 #: Speeds of runs that differ by less count as the same [1].
 _SAME_SPEED = 0.15
-
-_EVEN = ("slide_tilt", "slide_curvature", "direction_asymmetry", "channel_offset", "load_crosstalk")
 
 
 def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], dict[str, str]]:
@@ -48,13 +29,13 @@ def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], d
     terms: list[Term] = []
     cannot: dict[str, str] = {}
     for name, effect in (catalogue() | {e.name: e for e in own}).items():
-        if name in BASE_PARTS or (name in model and not effect.target):
+        if effect.base == "springs" or (name in model and not effect.target):
             continue
-        if name in SAMPLE_FAULTS:
+        if effect.in_samples:
             if not problem.specimen.free:
-                cannot[name] = _OF_A_SLIDER[name]
+                cannot[name] = effect.in_samples
             continue
-        reason = _COMMAND.get(name) or _untestable(effect, problem)
+        reason = _untestable(effect, problem)
         if reason:
             cannot[name] = reason
             continue
@@ -69,11 +50,6 @@ def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], d
         else:
             terms.append(Term(effect))
     return terms, cannot | _confounded(problem)
-
-
-def parts_twins(problem: Problem) -> bool:
-    """Tell whether a campaign measured what parts the effects of `ONE_THING`: yaw, or the girder's pitch."""
-    return problem.runs[0].states.has_yaw or "pitch" in problem.relations
 
 
 def _confounded(problem: Problem) -> dict[str, str]:
@@ -91,23 +67,12 @@ def _confounded(problem: Problem) -> dict[str, str]:
 
 
 def _untestable(effect: Effect, problem: Problem) -> str:
-    relations, run = problem.relations, problem.runs[0]
-    specimen = problem.specimen
-    if effect.component == "buffer" and (not specimen.buffer_stiffness or not {"girder", "pitch"} & set(relations)):
-        return "no buffers, or neither girder_ax nor all pads' loads and friction to see them by"
-    if effect.component in ("girder", "table", "pad load") and not problem.balanced:
-        return "needs the balances of a girder: load and friction of all four pads, and accelerations"
-    if effect.name in ("girder_bending", "key_friction") and "heave" not in relations:
-        return "needs girder_az and the loads of four pads"
-    if effect.name == "anisotropy" and "across" not in relations:
-        return "needs motion across, and friction of the pads along y"
-    if effect.name == "pad_spread" and len(run.pads) < 2:
-        return "one slider only"
-    if effect.name in _EVEN and _one_way(problem):
-        return "the slider moves one way only, so what is even in velocity is one with friction"
-    if effect.name in ("slide_tilt", "slide_curvature", "load_crosstalk", "pressure_law") and not _load_varies(problem):
-        return "the load never changes, so this is one with an offset, an asymmetry or the base law"
-    return ""
+    """Say what an effect needs first that this campaign has not; "" where it can be tested."""
+    return next((NEEDS[need] for need in effect.all_needs if not HAS[need](problem)), "")
+
+
+def _sees_buffers(problem: Problem) -> bool:
+    return bool(problem.specimen.buffer_stiffness) and not {"girder", "pitch"}.isdisjoint(problem.relations)
 
 
 def _one_way(problem: Problem) -> bool:
@@ -121,6 +86,19 @@ def _load_varies(problem: Problem) -> bool:
     means = np.array([float(np.mean(load)) for load in loads])
     within = any(float(np.std(load)) > _STEADY_LOAD * mean for load, mean in zip(loads, means, strict=True))
     return within or float(np.ptp(means)) > _STEADY_LOAD * float(means.max())
+
+
+#: What effects need -> whether a campaign has it.
+HAS: dict[str, Callable[[Problem], bool]] = {
+    "command": lambda problem: False,  # every fit is driven by the motion that was measured
+    "buffers": _sees_buffers,
+    "balances": lambda problem: problem.balanced,
+    "heave": lambda problem: "heave" in problem.relations,
+    "across": lambda problem: "across" in problem.relations,
+    "several pads": lambda problem: len(problem.runs[0].pads) > 1,
+    "both directions": lambda problem: not _one_way(problem),
+    "changing load": _load_varies,
+}
 
 
 def groups(problem: Problem) -> dict[str, tuple[str, ...]]:
@@ -139,21 +117,31 @@ def groups(problem: Problem) -> dict[str, tuple[str, ...]]:
 
 def _aimed(effect: Effect, problem: Problem) -> Iterator[Term]:
     """Give a gauge's fault on every channel or card on which it means something."""
-    free = problem.balanced
+    free, moved = problem.balanced, moved_channels(effect)
     for group, targets in groups(problem).items():
         cell = group.startswith("pad_")
-        if effect.name == "load_crosstalk":
-            crossing = [f"pad_{t[4]}_{'N' if t.endswith('Fx') else 'Fx'}" for t in targets] if cell else []
-            if cell and problem.runs[0].record.has_all(*crossing) and (free or group.endswith("Fx")):
-                yield Term(effect, targets, group)
-        elif effect.name == "cell_inertia":
-            if group in ("pad_*_N", "pad_A_N") and len(targets) == len(problem.runs[0].pads):
+        if not moved.issuperset(targets) or not problem.runs[0].record.has_all(*_read(effect, targets)):
+            continue
+        if effect.gauges.sits == "pads":
+            if group.endswith("_N") and len(targets) == len(problem.runs[0].pads):
                 yield Term(effect, targets, "pad_*")
-        elif effect.name in ("channel_offset", "channel_drift") and len(targets) > 1:
-            continue  # the zeros of several gauges do not move alike
-        elif effect.name == "clock_skew" and len(targets) == 1 and group.startswith("pad_"):
-            continue  # a clock belongs to a card
-        elif free or cell or group == "slip_x":
-            if effect.name == "channel_gain" and not free:
-                continue  # a gain of one slider's gauges is its friction
+        elif _sits(effect, targets, cell=cell) and (free or ((cell or group == "slip_x") and _alone(effect, targets))):
             yield Term(effect, targets, group)
+
+
+def _read(effect: Effect, targets: Iterable[str]) -> list[str]:
+    """Give the other channels of the same cells that a fault needs."""
+    pairs = [(t, ending, other) for t in targets for ending, other in effect.gauges.reads.items()]
+    return [t.removesuffix(ending) + other for t, ending, other in pairs if t.endswith(ending)]
+
+
+def _sits(effect: Effect, targets: tuple[str, ...], *, cell: bool) -> bool:
+    """Tell whether a fault may sit on these gauges: zeros do not move alike, and a clock belongs to a card."""
+    if effect.gauges.sits == "alone":
+        return len(targets) == 1
+    return effect.gauges.sits != "card" or len(targets) > 1 or not cell
+
+
+def _alone(effect: Effect, targets: Iterable[str]) -> bool:
+    """Tell whether a fault shows without the balances of a girder: a gain of one slider's gauges is its friction."""
+    return not any(fnmatchcase(t, pattern) for t in targets for pattern in effect.gauges.balance_only)

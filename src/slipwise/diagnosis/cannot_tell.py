@@ -13,10 +13,11 @@ from slipwise.diagnosis.screening import projector
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.sensitivities import column_of, residual_with, small
 from slipwise.diagnosis.starting_grid import shapes, strengths
+from slipwise.diagnosis.twins import known_effects
 from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.parameters import ZERO, ZEROES, Term
+from slipwise.estimation.parameters import ZERO, Term
 
 Array = NDArray[np.float64]
 #: Two effects look alike when columns of theirs agree so well beside the base; one run gives 0.95, two with a long rest
@@ -42,7 +43,7 @@ def cannot_tell(state: Search, final: BaseFit) -> list[tuple[str, str]]:
         *unidentified(final, state.base),
         *_alike(state, project),
         *_rests_not_given(state),
-        *_zero_not_shown(final),
+        *_zero_not_shown(state, final),
         *_nothing_held_out(state.base),
         *_gauges_not_tried(state),
         *_vanished(state, project),
@@ -64,10 +65,10 @@ def _alike(state: Search, project: Callable[[Array], Array]) -> Iterator[tuple[s
             yield f"{fading.name} against {lasting.name}", f"{reason}; what tells them apart: {apart}"
 
 
-def _zero_not_shown(fit: BaseFit) -> Iterator[tuple[str, str]]:
+def _zero_not_shown(state: Search, fit: BaseFit) -> Iterator[tuple[str, str]]:
     for zero in (f for f in fit.solution.free if f.key == ZERO):
         reason = f"no record of a slider shows its gauge's zero, and up to {zero.high:.2g} N is taken for one"
-        yield ", ".join(ZEROES), reason
+        yield ", ".join(name for name, e in known_effects(state).items() if ZERO in e.stands_for), reason
 
 
 def _parted_by_a_pause(fading: Effect, lasting: Effect) -> bool:

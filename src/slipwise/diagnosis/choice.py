@@ -8,7 +8,6 @@ from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.screening import Screened
 from slipwise.evidence.materiality import MATERIAL, least_material_drop, material_drop, score
 from slipwise.evidence.residual_summary import ResidualSummary
-from slipwise.signals import LowPass
 
 #: What a constant of a law must be worth: the logarithm of some hundred thousand samples (Schwarz 1978).
 _PER_CONSTANT = 12.0
@@ -56,13 +55,12 @@ def _off_rated(found: Hypothesis) -> float:
 
 def is_delay(found: Hypothesis) -> bool:
     """Tell whether a hypothesis has a filter that takes nothing the logger's own let through: a delay by its name."""
-    filters = [found.values_of(t) for t in found.terms if t.effect.name == "channel_filter"]
+    filters = [t for t in found.terms if "corner" in t.effect.hooks]
     if not filters:
         return False
     run = found.problem.runs[0]
     most = run.filtered.frequency if run.filtered else 0.5 / run.dt
-    # of a filter of corner f_c the lag is that at 1 Hz over f_c
-    return any(LowPass(1.0, round(f["order"]), "causal").lag > most * f["lag"] for f in filters)
+    return any(t.effect.hooks["corner"](**found.values_of(t)) > most for t in filters)
 
 
 def material_alone(origin: Hypothesis, found: Hypothesis) -> bool:

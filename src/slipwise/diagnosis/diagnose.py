@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 
 from slipwise.campaign import Campaign, load_campaign
-from slipwise.diagnosis.candidates import ONE_THING
 from slipwise.diagnosis.cannot_tell import cannot_tell
 from slipwise.diagnosis.detectable_size import least_sizes
 from slipwise.diagnosis.hypothesis import Hypothesis
@@ -17,6 +16,7 @@ from slipwise.diagnosis.replays import replayed_errors
 from slipwise.diagnosis.reported_sizes import named_sizes
 from slipwise.diagnosis.result import Candidate, Diagnosis
 from slipwise.diagnosis.search_state import Search
+from slipwise.diagnosis.twins import twins
 from slipwise.diagnosis.verdict import Verdict, judge, with_faults
 from slipwise.diagnosis.workflow import SelectionResult, select_effects
 from slipwise.effects import Effect
@@ -188,4 +188,4 @@ def _shares(state: Search, verdict: Verdict, listed: list[Hypothesis]) -> list[f
 
 
 def _is_one_thing(one: Hypothesis, other: Hypothesis) -> bool:
-    return any(set(one.names) ^ set(other.names) == pair for pair in ONE_THING)
+    return set(one.names) ^ set(other.names) in twins(t.effect for t in (*one.terms, *other.terms))

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from slipwise.diagnosis.starting_grid import REFERENCES, strengths
 from slipwise.estimation.base_fit import BaseFit, settled
 from slipwise.estimation.least_squares import Solution, slopes_of, solve
-from slipwise.estimation.parameters import ZERO, ZEROES, Free, Term, inertia_free
+from slipwise.estimation.parameters import ZERO, Free, Term, inertia_free, numbers_replaced
 from slipwise.estimation.problem import Problem
 from slipwise.evidence.residual_summary import ResidualSummary, summarised
 
@@ -81,11 +81,9 @@ def refit(
         kept = values.keys() | set(problem.kinematics.inertias)
         values |= {k: v for k, v in before.solution.values.items() if k in kept}
     labels = {t.label for t in before.terms} if before is not None else set[str]()
-    free: list[Free] = [f for f in base.free if f.key != STICK_LENGTH or not problem.has_stick]
-    if any(t.effect.name == "shear_rate" for t in terms):
-        free = [f for f in free if f.key != "rig.shear_strength"]
-    if any(t.effect.name in ZEROES for t in terms):
-        free = [f for f in free if f.key != ZERO]
+    gone = numbers_replaced(t.effect for t in terms) | ({STICK_LENGTH} if problem.has_stick else set())
+    free: list[Free] = [f for f in base.free if f.key not in gone]
+    if ZERO in gone:
         values.pop(ZERO, None)
     for term in terms:
         if before is not None and term.label in labels:
@@ -154,7 +152,9 @@ def _several_starts(
     load = np.concatenate([problem.runs[i].load.ravel() for i in problem.fitted])
     usual = float(np.quantile(np.abs(force), 0.8) / max(float(np.mean(load)), 1e-12))
     strength = usual * problem.specimen.plastic_pressure
-    flat = {"shear_rate.strength": 0.0, "shear_rate.slow": usual, "rig.shear_strength": strength}
+    flat = {"rig.shear_strength": strength}
+    for term in (t for t in problem.terms if "flat" in t.effect.hooks):
+        flat |= {f"{term.label}.{n}": v for n, v in term.effect.hooks["flat"](coefficient=usual).items()}
     stroke = max(float(np.ptp(problem.runs[i].slip)) for i in problem.fitted)
     lengths = [f"{t.label}.length" for t in terms if "stick" in t.effect.hooks]
     starts = [dict(values), {**values, **{k: v for k, v in flat.items() if k in values}}]

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from slipwise.campaign import Campaign, load_campaign
-from slipwise.diagnosis.candidates import SAMPLE_FAULTS, candidates
+from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.diagnose import as_fit
 from slipwise.diagnosis.forward_selection import MOST_EFFECTS
 from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, polished, refit
@@ -172,7 +172,7 @@ def _asked(
         own = [t for t in terms if t.effect.name == effect.name]
         if not own:
             faults = "a fault of samples is found by looking at them: `slipwise diagnose` says whether there is one"
-            known = faults if effect.name in SAMPLE_FAULTS else "it is part of the model already"
+            known = faults if effect.in_samples else "it is part of the model already"
             reason = cannot.get(effect.name, known)
             raise SettingError(f"{effect.name} cannot be added here: {reason}")
         before = path[-1]

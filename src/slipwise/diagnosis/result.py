@@ -96,7 +96,7 @@ class Diagnosis:
             case "instrument":
                 return f"A gauge is at fault: {names} ({chance}); {fall}."
             case "ambiguous":
-                rivals = " or ".join(" + ".join(e) for e in explanations(self.verdict, self.search.best.names))
+                rivals = " or ".join(" + ".join(e) for e in explanations(self.verdict, self.search))
                 return f"Either {rivals}: this campaign cannot tell them apart ({chance})."
             case _:
                 surface = self.verdict.surface

@@ -5,12 +5,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from slipwise.diagnosis.candidates import ONE_THING, parts_twins
 from slipwise.diagnosis.choice import is_delay, material_alone, needless
 from slipwise.diagnosis.forward_selection import MOST_EFFECTS
 from slipwise.diagnosis.hypothesis import Hypothesis, constant_at_bound, strength_at_bound
 from slipwise.diagnosis.samples import SampleFault
 from slipwise.diagnosis.search_state import Search
+from slipwise.diagnosis.twins import known_effects, told_apart, twins
 from slipwise.diagnosis.unknown_surface import Surface, leftover, structured
 from slipwise.estimation.parameters import Term
 from slipwise.evidence.materiality import SAME_SCORE, least_material_drop, material_drop, score, worsens
@@ -43,8 +43,6 @@ LOUD = 1.5
 _SAME_SHARE, _SAME_EXCESS = 0.004, 0.5
 #: The same share for two faults of gauges: both have one form only, and nothing but noise between them [1].
 _SAME_FAULT = 5e-4
-#: What lost samples look like where their gap was closed.
-_LATE = ("channel_delay", "channel_filter", "clock_skew")
 #: Nobody is surer than this of what no run has confirmed that was not fitted [1].
 _UNCONFIRMED = 0.9
 
@@ -127,8 +125,8 @@ def _judged(state: Search) -> Verdict:
     if rivals:
         every = tuple(dict.fromkeys(n for h in (best, *rivals) for n in h.names))
         return Verdict("ambiguous", every, probability, left, explained, surface, rivals)
-    for pair in ONE_THING:
-        if len(pair & set(names)) == 1 and not parts_twins(best.problem):
+    for pair, unless in twins(known_effects(state).values()).items():
+        if len(pair & set(names)) == 1 and not told_apart(best.problem, unless):
             every = (*sorted(pair), *(n for n in names if n not in pair))
             return Verdict("ambiguous", every, probability, left, explained, surface, ())
     instruments = all(t.effect.component == "instrument" for t in best.terms)
@@ -175,7 +173,7 @@ def with_faults(found: Verdict, faults: Sequence[SampleFault], terms: Sequence[T
         return replace(found, kind="instrument", effects=names, probability=_COIN_OF_FAULTS)
     moved = {f.channel for f in faults if f.moved}
     # a gauge whose lost samples moved up the rest is late by that
-    same = {t.effect.name for t in terms if t.effect.name in _LATE and moved.issuperset(t.targets)}
+    same = {t.effect.name for t in terms if t.effect.is_late and moved.issuperset(t.targets)}
     same -= {t.effect.name for t in terms if not moved.issuperset(t.targets)}
     named = tuple(n for n in found.effects if n not in same)
     return replace(found, effects=(*named, *(n for n in names if n not in named)))

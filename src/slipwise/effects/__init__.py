@@ -1,16 +1,21 @@
 """The catalogue: one small file per physical or instrument effect."""
 
-from slipwise.effects._catalogue import catalogue, find_effect, load_effect
-from slipwise.effects._effect import COMPONENTS, HOOKS, PORTS, RESPONSE, Effect, moved_channels, read_effect
+from slipwise.effects._catalogue import base_effects, catalogue, find_effect, load_effect
+from slipwise.effects._declared import NEEDS, Gauges
+from slipwise.effects._effect import RESPONSE, Effect, moved_channels, read_effect
+from slipwise.effects._hooks import COMPONENTS, HOOKS, PORTS
 from slipwise.effects._states import BalanceStates
 
 __all__ = [
     "BalanceStates",
     "COMPONENTS",
     "HOOKS",
+    "NEEDS",
     "PORTS",
     "RESPONSE",
     "Effect",
+    "Gauges",
+    "base_effects",
     "catalogue",
     "find_effect",
     "load_effect",

@@ -40,6 +40,11 @@ def catalogue() -> dict[str, Effect]:
     return dict(sorted(found.items()))
 
 
+def base_effects(role: str) -> tuple[Effect, ...]:
+    """Give the effects with a role in the base model: "law", "springs" or "stick"."""
+    return tuple(e for e in catalogue().values() if e.base == role)
+
+
 def load_effect(path: Path) -> Effect:
     """Read a user's effect file.
 

@@ -22,6 +22,15 @@ Hooks of whole arrays (numpy):
     rest(memory, seconds, ...) -> None         what a pause between runs leaves of the memory
     begin(memory, share_x, share_y, bound, ...) -> None    what is remembered where a slider's record begins, by the
                                                share of the bound [1] that its force was then
+
+Hooks that tell what some of its numbers mean:
+
+    flat(coefficient, ...) -> {parameter: value}   at which a law over speed is a constant coefficient of friction
+    corner(...) -> frequency [Hz]                  of a gauge's filter: it takes what is above
+
+`EFFECT` also declares what hooks cannot say: what a campaign needs to test it, what it turns or shifts in time, which
+gauges it sits on, what it is one thing with. No other file knows an effect by its name, so that a user's own file has
+every right that a file of the catalogue has.
 """
 
 import fnmatch
@@ -34,98 +43,15 @@ from types import ModuleType
 from typing import Any
 
 from slipwise.channels import CHANNELS
+from slipwise.effects._declared import BASE_ROLES, COMPONENT_NEEDS, NEEDS, SITS, Gauges
+from slipwise.effects._hooks import COMPONENTS, HOOKS, PORTS, SIDES
 from slipwise.errors import SettingError, unknown_name
 from slipwise.params import Parameter
 
-PAD_INPUTS: dict[str, str] = {
-    "load": "normal load N of the pad [N]",
-    "pressure": "load over apparent area P [Pa]",
-    "apparent_area": "of the pad A [m^2]",
-    "real_area": "real area of contact A_r so far [m^2]",
-    "true_pressure": "load over real area P_r [Pa]",
-    "speed": "slip speed |v| [m/s]",
-    "velocity_x": "slip rate [m/s]",
-    "velocity_y": "slip rate [m/s]",
-    "slip_x": "slip of the girder over the pad [m]",
-    "slip_y": "slip of the girder over the pad [m]",
-    "side_x": "+1 for pads A and C, -1 for B and D [1]",
-    "side_y": "+1 for pads A and B, -1 for C and D [1]",
-    "time": "since the start of the run [s]",
-    "dt": "time since the instant before [s]",
-}
-_FORCE_INPUTS: dict[str, str] = {
-    "bound": "friction force that the pad can carry, s A_r [N]",
-    "friction": "friction force that it carries now [N]",
-}
-BUFFER_INPUTS: dict[str, str] = {
-    "deflection": "of the buffer in the direction at hand [m]",
-    "rate": "of the deflection [m/s]",
-    "stiffness": "of the buffer [N/m]",
-    "side": "+1 for buffer 1, -1 for buffer 2 [1]",
-    "time": "since the start of the run [s]",
-    "dt": "time since the instant before [s]",
-}
-GIRDER_INPUTS: dict[str, str] = {
-    "velocity_x": "girder over table [m/s]",
-    "velocity_y": "girder over table [m/s]",
-    "velocity_z": "girder over table, up [m/s]",
-    "time": "since the start of the run [s]",
-    "dt": "time since the instant before [s]",
-}
-
-
-@dataclass(frozen=True)
-class Hook:
-    """What a hook may ask for, and where its memory lives ("pad", "buffer" or nowhere "")."""
-
-    inputs: frozenset[str]
-    leading: tuple[str, ...]
-    memory: str
-    instant: bool
-
-
-def _hook(inputs: Mapping[str, str], *leading: str, memory: str = "", instant: bool = True) -> Hook:
-    return Hook(frozenset(inputs) | frozenset(leading), leading, memory, instant)
-
-
-#: Real area and true pressure are only known while the bound is being made.
-_AFTERWARDS = {n: words for n, words in PAD_INPUTS.items() if n not in ("real_area", "true_pressure")}
-HOOKS: dict[str, Hook] = {
-    "area": _hook(PAD_INPUTS, "real_area", memory="pad"),
-    "shear": _hook(PAD_INPUTS, "shear", memory="pad"),
-    "stick": _hook(_AFTERWARDS, "bound", memory="pad"),
-    "pad": _hook({**_AFTERWARDS, **_FORCE_INPUTS}, memory="pad"),
-    "advance": _hook({**_AFTERWARDS, **_FORCE_INPUTS}, memory="pad"),
-    "deflection": _hook(BUFFER_INPUTS, "deflection", memory="buffer"),
-    "spring": _hook(BUFFER_INPUTS, "force", memory="buffer"),
-    "settle": _hook({**BUFFER_INPUTS, "force": ""}, memory="buffer"),
-    "lift": _hook(GIRDER_INPUTS, "force_x", "force_y", memory="buffer"),
-    "drag": _hook(GIRDER_INPUTS),
-    "rig": _hook({}, "specimen", instant=False),
-    "table": _hook({}, "acceleration", "dt", "girder", instant=False),
-    "gauge": _hook({}, "record", "target", instant=False),
-    "undo": _hook({}, "record", "target", instant=False),
-    "balance": _hook({}, "states", instant=False),
-    "rest": _hook({}, "memory", "seconds", memory="pad", instant=False),
-    "begin": _hook({}, "memory", "share_x", "share_y", "bound", memory="pad", instant=False),
-}
-#: Ports in the order in which they act, with the hooks that an effect on them may have.
-PORTS: dict[str, tuple[str, ...]] = {
-    "rig": ("rig", "balance"),
-    "table": ("table", "balance"),
-    "area": ("area", "advance", "rest"),
-    "shear": ("shear", "advance", "rest"),
-    "stick": ("stick", "shear", "advance", "rest", "begin"),
-    "pad": ("pad", "advance", "rest"),
-    "buffer": ("deflection", "spring", "settle", "lift", "balance", "rest"),
-    "girder": ("rig", "drag", "lift", "balance"),
-    "gauge": ("gauge", "undo"),
-}
 #: Channels of girder, pads and buffers: what any change of the physics moves. The table follows its command.
 RESPONSE: tuple[str, ...] = (
     "pad_*", "buffer_*", "girder_*", "slip_*", "yaw", "pitch", "roll", "heave",
 )  # fmt: skip
-COMPONENTS: tuple[str, ...] = ("pad friction", "pad load", "buffer", "girder", "table", "instrument")
 
 
 @dataclass(frozen=True)
@@ -146,6 +72,19 @@ class Effect:
         replaces: for a law that takes the place of a simpler one: which; such an effect has no neutral value.
         adds: for a law that brings a share of its own: what scales friction as a whole, heat or wear or a patch of the
             plate, scales that share too, whichever was listed first.
+        needs: what a campaign must have to test it, of `NEEDS`; what its component needs is known.
+        same_unless: other effects that are one thing with it -> what tells them apart where it was measured: "yaw", or
+            a balance of the girder ("pitch").
+        turns: whether it turns the girder about the vertical, so that yaw belongs to its fit; known of effects with a
+            hook that asks for `side` or `side_y`.
+        shifts: whether it moves a channel in time as a whole, and its noise with it.
+        lag: for what lets slow signals come late: the parameter that says by how much [s].
+        plainer: for a filter: the effect that it is where its corner lies above all that was recorded.
+        gauges: on which channels a gauge's fault is looked for.
+        in_samples: for a fault that is found by looking at the samples, and not by a fit: why it cannot be found so
+            where an actuator prescribes the slip.
+        base: its role in the base model, of `BASE_ROLES`; springs are never missing by themselves.
+        stands_for: numbers of the base fit in whose place it comes, e.g. "rig.shear_strength".
         name: the file's name; set when the file is read.
         summary: first line of the file's docstring; set when the file is read.
         text: the whole docstring; set when the file is read.
@@ -165,6 +104,16 @@ class Effect:
     exact: bool = False
     replaces: str = ""
     adds: bool = False
+    needs: tuple[str, ...] = ()
+    same_unless: Mapping[str, tuple[str, ...]] = field(default_factory=dict[str, tuple[str, ...]])
+    turns: bool = False
+    shifts: bool = False
+    lag: str = ""
+    plainer: str = ""
+    gauges: Gauges = field(default_factory=Gauges)
+    in_samples: str = ""
+    base: str = ""
+    stands_for: tuple[str, ...] = ()
     name: str = ""
     summary: str = ""
     text: str = ""
@@ -180,6 +129,17 @@ class Effect:
     def instant_hooks(self) -> dict[str, Callable[..., Any]]:
         """The hooks that are compiled into the step."""
         return {n: f for n, f in self.hooks.items() if HOOKS[n].instant}
+
+    @property
+    def is_late(self) -> bool:
+        """Whether it brings a channel late, as lost samples do whose gap was closed."""
+        return self.shifts or bool(self.lag)
+
+    @property
+    def all_needs(self) -> tuple[str, ...]:
+        """What a campaign must have to test it, its component's needs included, in the order of `NEEDS`."""
+        own = {*self.needs, *COMPONENT_NEEDS.get(self.component, ())}
+        return tuple(n for n in NEEDS if n in own)
 
     def parameter(self, name: str) -> Parameter:
         """Look a parameter up.
@@ -227,6 +187,7 @@ def read_effect(module: ModuleType, path: Path) -> Effect:
         raise unknown_name(f"port (of {path.name})", found.port, PORTS)
     if found.component not in COMPONENTS:
         raise unknown_name(f"component (of {path.name})", found.component, COMPONENTS)
+    _check_declared(path, found)
     if len({p.name for p in found.parameters}) < len(found.parameters):
         raise SettingError(f"{path.name}: two parameters share a name")
     defined = {n: f for n, f in vars(module).items() if inspect.isfunction(f) and f.__module__ == module.__name__}
@@ -250,7 +211,27 @@ def read_effect(module: ModuleType, path: Path) -> Effect:
             raise SettingError(
                 f"{path.name}: 'moves' names {pattern!r}, which is no channel; `slipwise channels` lists them"
             )
-    return replace(found, name=name, summary=text.splitlines()[0], text=text, hooks=hooks, path=path)
+    asked = {argument for function in hooks.values() for argument in inspect.signature(function).parameters}
+    turns = found.turns or bool(SIDES & asked)
+    return replace(found, name=name, summary=text.splitlines()[0], text=text, hooks=hooks, path=path, turns=turns)
+
+
+def _check_declared(path: Path, effect: Effect) -> None:
+    """Refuse words that mean nothing, and a filter that does not say its lag.
+
+    Raises:
+        SettingError: with what is possible.
+    """
+    for what, given, possible in (
+        *(("need", need, NEEDS) for need in effect.needs),
+        *((("role in the base model", effect.base, BASE_ROLES),) if effect.base else ()),
+        ("way to sit on gauges", effect.gauges.sits, SITS),
+        *((("parameter for its lag", effect.lag, effect.parameter_names),) if effect.lag else ()),
+    ):
+        if given not in possible:
+            raise unknown_name(f"{what} (of {path.name})", given, possible)
+    if effect.plainer and not effect.lag:
+        raise SettingError(f"{path.name}: it has a plainer form ({effect.plainer}), so it must name the `lag` of both")
 
 
 def _check_arguments(path: Path, effect: Effect, hook: str, function: Callable[..., Any]) -> None:

@@ -31,4 +31,5 @@ EFFECT = Effect(
     moves=RESPONSE,
     signature="only in force across, in proportion to v_y/|v|; nothing in shaking along x alone",
     confused_with={"channel_gain": "a gain of the cells across also shows while the pads stick"},
+    needs=("across",),
 )  # fmt: skip

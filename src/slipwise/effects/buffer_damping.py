@@ -38,4 +38,5 @@ EFFECT = Effect(
         "buffer_hysteresis": "frequencies: damping grows with rate, hysteresis does not",
         "channel_gain": "a gain of girder_ax follows acceleration: sine and quake differ in speed per slip",
     },
+    same_unless={"guide_drag": ("yaw", "pitch")},
 )  # fmt: skip

@@ -11,6 +11,7 @@ Valid: m_c 20 to 50 kg; cells on the table.
 Source: Newton's second law for the plate; sizes assumed.
 """
 
+from slipwise.effects._declared import Gauges
 from slipwise.effects._effect import Effect
 from slipwise.effects._gauges import aimed
 from slipwise.params import Parameter
@@ -55,4 +56,5 @@ EFFECT = Effect(
     },
     target="channel",
     exact=True,
+    gauges=Gauges(sits="pads"),
 )  # fmt: skip

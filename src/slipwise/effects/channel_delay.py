@@ -39,4 +39,6 @@ EFFECT = Effect(
         "presliding": "a constant distance, and the girder balance stays clean",
     },
     target="channel",
+    shifts=True,
+    lag="delay",
 )  # fmt: skip

@@ -11,6 +11,7 @@ Source: definition; size assumed.
 
 import numpy as np
 
+from slipwise.effects._declared import Gauges
 from slipwise.effects._effect import Effect
 from slipwise.effects._gauges import changed, span
 from slipwise.params import Parameter
@@ -44,4 +45,5 @@ EFFECT = Effect(
         "run_in": "run-in follows slid distance",
     },
     target="channel",
+    gauges=Gauges(sits="alone"),
 )  # fmt: skip

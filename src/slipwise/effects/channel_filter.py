@@ -9,7 +9,7 @@ Valid: signals well below the corner for the lag to be T. There is no inverse: w
 Source: Butterworth (1930); f_c 20 to 50 Hz assumed.
 """
 
-from dataclasses import replace
+from math import inf
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._gauges import changed
@@ -22,9 +22,13 @@ def gauge(record: Record, target: str, lag: float, order: float) -> Record:
     """Filter the channel."""
     if lag == 0.0:
         return record
-    at_one = LowPass(1.0, order=round(order), phase="causal")
-    by = replace(at_one, frequency=at_one.lag / lag)
+    by = LowPass(corner(lag, order), order=round(order), phase="causal")
     return changed(record, target, lambda name, x: lowpass(x, record.dt, by))
+
+
+def corner(lag: float, order: float) -> float:
+    """Give the frequency f_c [Hz]: that of 1 Hz by its lag over T."""
+    return LowPass(1.0, round(order), "causal").lag / lag if lag > 0.0 else inf
 
 
 EFFECT = Effect(
@@ -42,4 +46,6 @@ EFFECT = Effect(
         "presliding": "a constant distance, and the girder balance stays clean",
     },
     target="channel",
+    lag="lag",
+    plainer="channel_delay",
 )  # fmt: skip

@@ -9,6 +9,7 @@ Valid: 1 to 5 % for a calibrated gauge.
 Source: definition; sizes assumed.
 """
 
+from slipwise.effects._declared import Gauges
 from slipwise.effects._effect import Effect
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
@@ -37,4 +38,5 @@ EFFECT = Effect(
         "buffer_damping": "for girder_ax: damping follows velocity, a gain follows acceleration",
     },
     target="channel",
+    gauges=Gauges(balance_only=("*",)),
 )  # fmt: skip

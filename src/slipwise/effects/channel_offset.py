@@ -9,6 +9,7 @@ Valid: below a few per cent of the span.
 Source: definition; spans in `_gauges`; size assumed.
 """
 
+from slipwise.effects._declared import Gauges
 from slipwise.effects._effect import Effect
 from slipwise.effects._gauges import changed, span
 from slipwise.params import Parameter
@@ -38,4 +39,7 @@ EFFECT = Effect(
         "uneven_seating": "for a cell's N: an offset of one cell moves heave as well",
     },
     target="channel",
+    needs=("both directions",),
+    stands_for=("rig.zero_force",),
+    gauges=Gauges(sits="alone"),
 )  # fmt: skip

@@ -34,4 +34,5 @@ EFFECT = Effect(
     signature="odd; balances fail by twice the channel",
     confused_with={"channel_gain": "a gain of -200 % is no gain"},
     target="channel",
+    in_samples="one slider has no balance that says which way a gauge is wired",
 )  # fmt: skip

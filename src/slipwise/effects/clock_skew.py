@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates
 
+from slipwise.effects._declared import Gauges
 from slipwise.effects._effect import Effect
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
@@ -53,4 +54,6 @@ EFFECT = Effect(
     signature="a delay that is nothing at the start and grows through the run",
     confused_with={"channel_delay": "its delay is there from the start"},
     target="channel",
+    shifts=True,
+    gauges=Gauges(sits="card"),
 )  # fmt: skip

@@ -40,4 +40,5 @@ EFFECT = Effect(
     signature="friction grows less than load: odd in velocity, a function of pressure only",
     confused_with={"pressure_law": "sines of equal speed at several pressures"},
     replaces="real area proportional to load, eq. (2)",
+    base="law",
 )  # fmt: skip

@@ -34,4 +34,6 @@ EFFECT = Effect(
         "slide_tilt": "a tilt goes with N, this with mu(V, P) N: it vanishes where friction is low",
         "load_crosstalk": "as slide_tilt; the girder balance moves only with cross-talk",
     },
+    needs=("both directions",),
+    stands_for=("rig.zero_force",),
 )  # fmt: skip

@@ -68,4 +68,5 @@ EFFECT = Effect(
         "key_friction": "that is locked to the buffers' force and does not ring",
         "pad_compliance": "the pads' own frequency shows in pitch as well",
     },
+    needs=("heave",),
 )  # fmt: skip

@@ -47,4 +47,5 @@ EFFECT = Effect(
         "buffer_damping": "only yaw and pitch tell: the drag acts at the centre of gravity, damping at the keys",
         "channel_gain": "a gain of girder_ax follows acceleration",
     },
+    same_unless={"buffer_damping": ("yaw", "pitch")},
 )  # fmt: skip

@@ -60,4 +60,5 @@ EFFECT = Effect(
         "channel_gain": "a gain is in step with a_z",
     },
     memory=("given_way",),
+    needs=("heave",),
 )  # fmt: skip

@@ -11,6 +11,7 @@ Valid: 0.5 to 2 %.
 Source: definition; sizes assumed.
 """
 
+from slipwise.effects._declared import Gauges
 from slipwise.effects._effect import Effect
 from slipwise.effects._gauges import aimed
 from slipwise.params import Parameter
@@ -51,4 +52,6 @@ EFFECT = Effect(
         "direction_asymmetry": "that follows mu N and is nothing at rest",
     },
     target="channel",
+    needs=("both directions", "changing load"),
+    gauges=Gauges(reads={"_Fx": "_N", "_N": "_Fx"}, balance_only=("pad_*_N",)),
 )  # fmt: skip

@@ -48,4 +48,5 @@ EFFECT = Effect(
         "channel_gain": "a gain of one cell moves heave and warp too",
     },
     exact=True,
+    turns=True,
 )  # fmt: skip

@@ -39,4 +39,5 @@ EFFECT = Effect(
     signature="N rings after reversals and amplifies a_z near the heave frequency",
     confused_with={"girder_bending": "that rings in heave only and at another frequency than the pads' pitch"},
     replaces="the specimen's rated springs",
+    base="springs",
 )  # fmt: skip

@@ -34,4 +34,5 @@ EFFECT = Effect(
         "channel_gain": "the girder balance: a gain changes sum F, a spread of friction does not disturb the balance",
         "uneven_seating": "that shows in the loads at rest",
     },
+    needs=("several pads",),
 )  # fmt: skip

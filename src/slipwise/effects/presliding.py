@@ -85,4 +85,5 @@ EFFECT = Effect(
         "channel_filter": "the same; and the girder balance stays clean with pre-sliding",
     },
     memory=("bristle_x", "bristle_y", "last_x", "last_y", "last_time"),
+    base="stick",
 )  # fmt: skip

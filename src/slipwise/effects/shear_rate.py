@@ -22,6 +22,11 @@ def shear(speed: float, true_pressure: float, strength: float, rate: float, slow
     return strength * risen(rate * speed) + slow * true_pressure
 
 
+def flat(coefficient: float) -> dict[str, float]:
+    """Give the parameters at which speed adds nothing to a coefficient of friction."""
+    return {"strength": 0.0, "slow": coefficient}
+
+
 EFFECT = Effect(
     port="shear",
     component="pad friction",
@@ -44,4 +49,6 @@ EFFECT = Effect(
     signature="friction grows with speed up to about 0.1 m/s: odd in velocity, a function of speed only",
     confused_with={"rate_and_state": "constant speeds: a straight line over log V is rate_and_state"},
     replaces="constant shear strength (Coulomb)",
+    base="law",
+    stands_for=("rig.shear_strength",),
 )  # fmt: skip

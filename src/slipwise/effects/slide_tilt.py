@@ -33,4 +33,5 @@ EFFECT = Effect(
         "direction_asymmetry": "that follows mu N, and is small where friction is low",
     },
     exact=True,
+    needs=("both directions", "changing load"),
 )  # fmt: skip

@@ -35,4 +35,5 @@ EFFECT = Effect(
     moves=("table_*", *RESPONSE),
     signature="sum N at the horizontal frequency; disappears with the measured vertical motion",
     confused_with={"table_pitch": "that loads the pads in pitch, this in heave"},
+    needs=("command",),
 )  # fmt: skip

@@ -31,4 +31,5 @@ EFFECT = Effect(
     moves=("table_*", *RESPONSE),
     signature="everything at system level, nothing in pads or balances; disappears with the measured motion",
     confused_with={"channel_gain": "a gain of the table's gauge also breaks slip = girder - table"},
+    needs=("command",),
 )  # fmt: skip

@@ -13,10 +13,11 @@ from slipwise.estimation.parameters import (
     DAMPED_STICK,
     STICK_DAMPING,
     YAW_INERTIA,
-    ZEROES,
+    ZERO,
     Free,
     base_free,
     inertia_free,
+    numbers_replaced,
     terms_of,
 )
 from slipwise.estimation.problem import Problem
@@ -88,7 +89,7 @@ def _free(campaign: Campaign, model: Model, problem: Problem) -> list[Free]:
     free = base_free(model, balances=problem.balanced, logger_known=campaign.logger.known)
     stroke = min(float(np.ptp(problem.runs[i].slip)) for i in problem.fitted)
     most = max(_STICK_SHARE * stroke, 1e-7)
-    if not model.specimen.free and not any(e.effect.name in ZEROES for e in model.uses):
+    if not model.specimen.free and ZERO not in numbers_replaced(u.effect for u in model.uses):
         zero = free_zero([problem.runs[i] for i in problem.fitted])
         free += [zero] if zero else []
     return [

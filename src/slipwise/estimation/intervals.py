@@ -26,7 +26,7 @@ from scipy.stats import t as student
 
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.noise_model import TIMING
-from slipwise.estimation.parameters import LAGGING, Free
+from slipwise.estimation.parameters import Free
 from slipwise.estimation.profile_likelihood import is_strength, upper_limit
 
 Array = NDArray[np.float64]
@@ -116,8 +116,7 @@ def intervals(base: BaseFit) -> Intervals:
     block = np.concatenate(rows)
     shared = _shared(base, len(left))
     found = of_fit(solution.free, solution.values, solution.jacobian, left, block, shared)
-    lagging = [t for t in problem.terms if t.effect.name in LAGGING]
-    own_lag = {f"{t.label}.{p.name}" for t in lagging for p in t.effect.parameters if p.unit == "s"}
+    own_lag = {f"{t.label}.{t.effect.lag}" for t in problem.terms if t.effect.lag}
     ends = {f.key: (f.low, f.high) for f in solution.free}
     entries = (_of_a_card(e, *ends[e.key]) if e.key in own_lag else e for e in found.entries)
     found = replace(found, entries=tuple(entries))

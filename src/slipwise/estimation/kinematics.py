@@ -21,8 +21,6 @@ from slipwise.signals.ends import in_frequency
 from slipwise.simulation.predict import predictor
 
 Array = NDArray[np.float64]
-#: Effects of the catalogue that turn the girder about the vertical.
-_TURNERS = ("buffer_mismatch", "mass_eccentricity", "pad_spread", "position_patch")
 #: Numbers of the rig on which yaw depends.
 _TURNING = ("rig.mass", "rig.buffer_stiffness", YAW_INERTIA)
 
@@ -83,7 +81,7 @@ class Kinematics:
     def _sort(self) -> None:
         self._faults = [t for t in self.terms if t.effect.port == "gauge" and not acts_on_force(t)]
         self._rockers = [t for t in self.terms if t.effect.port == "table" and "balance" in t.effect.hooks]
-        turners = [t for t in self.terms if t.effect.name in _TURNERS]
+        turners = [t for t in self.terms if t.effect.turns]
         self.turns = (self.yaw or bool(turners)) and self.can_turn
         # whose numbers the yaw depends on: how unlike the pads are is in the forces that were measured
         unlike = [t for t in turners if "rig" in t.effect.hooks]

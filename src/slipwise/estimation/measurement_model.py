@@ -14,8 +14,6 @@ from slipwise.model import EffectUse
 from slipwise.record import Record
 
 Array = NDArray[np.float64]
-#: Effects that move a channel in time, and its noise with it.
-_SHIFTING = ("channel_delay", "clock_skew")
 
 
 def acts_on_force(term: Term) -> bool:
@@ -35,7 +33,7 @@ def faulted(terms: Sequence[Term], values: Mapping[str, float], record: Record) 
 
 def shifts(terms: Sequence[Term]) -> bool:
     """Tell whether any of these faults moves noise in time: see `without`."""
-    return any(t.effect.name in _SHIFTING for t in terms)
+    return any(t.effect.shifts for t in terms)
 
 
 def on_force(

@@ -28,7 +28,7 @@ _SMALL: dict[str, tuple[float, float, float, float, str]] = {
     "rig.late_pitch": (0.0, -LATE, LATE, 5e-5, "s"),
     "rig.late_slip": (0.0, -LATE, LATE, 5e-5, "s"),
 }
-#: The lag of these channels is the number; an effect of `LAGGING` on them takes its place.
+#: The lag of these channels is the number; an effect on them that has a `lag` takes its place.
 _LAGS: dict[str, str] = {
     "rig.late_force": "pad_*_Fx",
     "rig.late_load": "pad_*_N",
@@ -36,11 +36,8 @@ _LAGS: dict[str, str] = {
     "rig.late_girder": "girder_ax",
     "rig.late_slip": "slip_x",
 }
-#: Effects that lag slow signals: beside one of them on a card the card's own lag is the same number.
-LAGGING = ("channel_delay", "channel_filter")
-#: The zero of a slider's friction gauge, and effects that push it one way: beside one of them it is the same number.
+#: The zero of a slider's friction gauge.
 ZERO = "rig.zero_force"
-ZEROES = ("channel_offset", "direction_asymmetry")
 #: A girder with weights on it is seldom rated for how hard it is to turn: 8 % more than rated left three floors in the
 #: pads where it yaws. Axis, and the shares of the rated value between which it may be.
 YAW_INERTIA, PITCH_INERTIA = "rig.yaw_inertia", "rig.pitch_inertia"
@@ -130,7 +127,7 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True) -> lis
     if not model.with_hook("stick"):
         out.append(Free("rig.stick_length", *_STICK_LENGTH, "m"))
     specimen = model.specimen
-    if "shear_rate" not in model:
+    if "rig.shear_strength" not in numbers_replaced(u.effect for u in model.uses):
         out.append(_around("rig.shear_strength", specimen.shear_strength, 1e-3, 1e3, "Pa"))
     if balances:
         rated = {"rig.mass": specimen.mass, "rig.centre_height": specimen.centre_height}
@@ -146,13 +143,18 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True) -> lis
         out.append(Free("rig.late_force", 0.0, -late, late, 5e-5, "s"))
         if not logger_known:
             out.append(Free("rig.logger", *_LOGGER, "Hz"))
-    delayed = {entry.target for entry in model.uses if entry.effect.name in LAGGING}
+    delayed = {entry.target for entry in model.uses if entry.effect.lag}
     return [f for f in out if f.key not in _LAGS or not _covered(_LAGS[f.key], delayed, specimen)]
 
 
 def _covered(channels: str, delayed: set[str], specimen: Specimen) -> bool:
     """Tell whether a card lags by effects of its own: as one, or each of its channels."""
     return channels in delayed or {channels.replace("*", pad) for pad in specimen.pads} <= delayed
+
+
+def numbers_replaced(effects: Iterable[Effect]) -> set[str]:
+    """Give the keys of the base fit's numbers in whose place effects come: beside one of them it is the same number."""
+    return {key for effect in effects for key in effect.stands_for}
 
 
 def inertia_free(specimen: Specimen, key: str) -> Free:

@@ -4,7 +4,8 @@ from math import isfinite
 
 from slipwise.diagnosis.ladder import Ladder
 from slipwise.diagnosis.result import Diagnosis
-from slipwise.diagnosis.rivals import explanations, known_effects, partings
+from slipwise.diagnosis.rivals import explanations, partings
+from slipwise.diagnosis.twins import known_effects
 from slipwise.estimation.intervals import Interval
 from slipwise.params import Parameter
 from slipwise.units import convert
@@ -65,7 +66,7 @@ def _page(found: Diagnosis, ladder: Ladder | None) -> str:
 def _headline(found: Diagnosis) -> str:
     kind = found.verdict.kind
     if kind == "ambiguous":
-        rivals = explanations(found.verdict, found.search.best.names)
+        rivals = explanations(found.verdict, found.search)
         words = f"{in_words(len(rivals)).capitalize()} explanations, one measurement"
         return f"{words}: {' or '.join(' + '.join(names) for names in rivals)}"
     names = ", ".join(found.verdict.effects)

@@ -1,5 +1,6 @@
 """What the fit found, for the report: its numbers, the surface they mean, and whether unseen runs are predicted."""
 
+from collections.abc import Mapping
 from typing import Any
 
 from slipwise.comparison.result import Comparison
@@ -7,7 +8,7 @@ from slipwise.units import parse_unit
 from slipwise.view.error_maps import surface_figure
 from slipwise.view.html import figure, paragraph, table
 
-#: Fitted numbers -> what they are called, unit in which they are shown.
+#: Fitted numbers of the rig -> what they are called, unit in which they are shown.
 _CALLED: dict[str, tuple[str, str]] = {
     "rig.mass": ("mass of the girder", "t"),
     "rig.centre_height": ("height of the centre of gravity", "m"),
@@ -22,19 +23,16 @@ _CALLED: dict[str, tuple[str, str]] = {
     "rig.shear_strength": ("shear strength s", "MPa"),
     "rig.zero_force": ("zero of the friction gauge", "N"),
     "rig.logger": ("logger's filter of the friction channels", "Hz"),
-    "shear_rate.strength": ("s' of eq. (5)", "MPa"),
-    "shear_rate.rate": ("n of eq. (5)", "s/m"),
-    "shear_rate.slow": ("alpha of eq. (5)", "1"),
-    "contact_area.saturation": ("k of eq. (3)", "1/MPa"),
 }
 _LATE = "rig.late_"
 
 
 def fitted_numbers(found: Comparison) -> list[Any]:
     """Show every fitted number with its interval, what trades off, and the surface of friction that they mean."""
+    names = {**_CALLED, **_of_effects(found)}
     rows, marked = [], []
     for entry in found.intervals.entries:
-        called, unit = _called(entry.key, entry.unit)
+        called, unit = _called(names, entry.key, entry.unit)
         factor = parse_unit(unit, entry.unit, entry.key)
         row = {"number": called, "unit": unit, "value": f"{entry.value / factor:.5g}"}
         if entry.limit:
@@ -53,7 +51,7 @@ def fitted_numbers(found: Comparison) -> list[Any]:
     pieces: list[Any] = [paragraph(words), table(rows, marked=marked)]
     strong = [(a, b, c) for a, b, c in found.intervals.strongest(8) if abs(c) > 0.7]
     if strong:
-        pairs = [f"{_called(a, '')[0]} and {_called(b, '')[0]} ({c:+.2f})" for a, b, c in strong]
+        pairs = [f"{_called(names, a, '')[0]} and {_called(names, b, '')[0]} ({c:+.2f})" for a, b, c in strong]
         pieces.append(paragraph("Numbers that these runs hardly tell apart (correlation): " + "; ".join(pairs) + "."))
     if found.surface:
         pieces.append(
@@ -67,10 +65,19 @@ def fitted_numbers(found: Comparison) -> list[Any]:
     return pieces
 
 
-def _called(key: str, unit: str) -> tuple[str, str]:
+def _of_effects(found: Comparison) -> dict[str, tuple[str, str]]:
+    """Give what the parameters of the model's effects are called, in their files' own words and units."""
+    return {
+        f"{term.label}.{p.name}": (f"{term.label}, {p.meaning}", p.shown_in or p.unit)
+        for term in found.base.problem.terms
+        for p in term.effect.parameters
+    }
+
+
+def _called(names: Mapping[str, tuple[str, str]], key: str, unit: str) -> tuple[str, str]:
     if key.startswith(_LATE):
         return f"lag of the {key.removeprefix(_LATE)} channels", "us"
-    return _CALLED.get(key, (key, unit))
+    return names.get(key, (key, unit))
 
 
 def predicted_runs(found: Comparison) -> list[Any]:

@@ -1,12 +1,17 @@
 """Yaw that is made from measured forces is the yaw that the girder did."""
 
+import shutil
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from bench import build_campaign
 from measured import as_campaign
+from slipwise.diagnosis.hypothesis import refit
+from slipwise.effects import catalogue, load_effect
 from slipwise.estimation.base_fit import fit_base
-from slipwise.estimation.parameters import YAW_INERTIA
+from slipwise.estimation.parameters import YAW_INERTIA, Term
 from slipwise.model import base_model, use
 
 
@@ -26,3 +31,19 @@ def test_unequal_buffers_turn_the_made_girder_as_far_as_the_true_one(seed: int) 
         assert np.std(angle - there) < 0.04 * np.std(there)
         turning = np.gradient(there, campaign.runs[0].record.dt)
         assert np.std(rate - turning) < 0.03 * np.std(turning)
+
+
+def test_a_users_own_effect_that_turns_the_girder_is_estimated_with_yaw_as_the_catalogues_is(tmp_path: Path) -> None:
+    path = tmp_path / "my_pads.py"
+    shutil.copy(catalogue()["pad_spread"].path, path)
+    ours, theirs = Term(load_effect(path)), Term(catalogue()["pad_spread"])
+    base = fit_base(as_campaign(build_campaign(5001, effects=("pad_spread",), size="medium")))
+    fits = [refit(base, [term], {term.label: term.effect.typical()}, most=2) for term in (ours, theirs)]
+    assert all(YAW_INERTIA in (f.key for f in fit.solution.free) for fit in fits)
+    assert fits[0].solution.cost == fits[1].solution.cost
+    assert fits[0].values_of(ours) == fits[1].values_of(theirs)
+
+
+def test_effects_turn_the_girder_that_know_its_sides_or_say_so() -> None:
+    turning = {name for name, effect in catalogue().items() if effect.turns}
+    assert turning == {"buffer_mismatch", "mass_eccentricity", "pad_spread", "position_patch"}

@@ -1,0 +1,25 @@
+"""Effects that are one thing to a rig, as their files say, unless what tells them apart was measured."""
+
+from collections.abc import Iterable
+
+from slipwise.diagnosis.search_state import Search
+from slipwise.effects import Effect, catalogue
+from slipwise.estimation.problem import Problem
+
+Pairs = dict[frozenset[str], tuple[str, ...]]
+
+
+def known_effects(state: Search) -> dict[str, Effect]:
+    """Give the catalogue and a user's own effects that were looked at, by name."""
+    return {**catalogue(), **{t.effect.name: t.effect for t in state.terms}}
+
+
+def twins(known: Iterable[Effect]) -> Pairs:
+    """Give the names of each two effects that may be one thing, with what tells them apart; one file may say so."""
+    return {frozenset({e.name, other}): unless for e in known for other, unless in e.same_unless.items()}
+
+
+def told_apart(problem: Problem, unless: Iterable[str]) -> bool:
+    """Tell whether a campaign measured any of what tells two effects apart: "yaw", or a balance of the girder."""
+    measured = {*problem.relations, *(("yaw",) if problem.runs[0].states.has_yaw else ())}
+    return not measured.isdisjoint(unless)

@@ -1,0 +1,43 @@
+"""What an effect may declare of itself beside its hooks: what a campaign must have, and on which gauges it sits."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+#: What a campaign must have for an effect to be tested -> why it cannot be, where that is missing.
+NEEDS: dict[str, str] = {
+    "command": "the model is driven by the measured table motion; only the command could show it",
+    "buffers": "no buffers, or neither girder_ax nor all pads' loads and friction to see them by",
+    "balances": "needs the balances of a girder: load and friction of all four pads, and accelerations",
+    "heave": "needs girder_az and the loads of four pads",
+    "across": "needs motion across, and friction of the pads along y",
+    "several pads": "one slider only",
+    "both directions": "the slider moves one way only, so what is even in velocity is one with friction",
+    "changing load": "the load never changes, so this is one with an offset, an asymmetry or the base law",
+}
+#: What every effect of a component needs.
+COMPONENT_NEEDS: dict[str, tuple[str, ...]] = {
+    "buffer": ("buffers",),
+    "girder": ("balances",),
+    "table": ("balances",),
+    "pad load": ("balances",),
+}
+#: Roles in the base model: its law of friction, springs of the pads that it estimates, the elastic stick that it does.
+BASE_ROLES: tuple[str, ...] = ("law", "springs", "stick")
+#: How a fault sits on the gauges of one kind: on each alone or on all alike; on each alone; on a whole card of cells or
+#: a single other gauge; on all cells of all pads at once.
+SITS: tuple[str, ...] = ("either", "alone", "card", "pads")
+
+
+@dataclass(frozen=True)
+class Gauges:
+    """On which of the channels in `moves` a gauge's fault is looked for.
+
+    Attributes:
+        sits: how it sits on gauges of one kind, one of `SITS`.
+        reads: ending of a cell's channel -> ending of the other channel of that cell that it needs, e.g. "_Fx" -> "_N".
+        balance_only: channels on which nothing but a girder's balances would show it, e.g. "pad_*_N"; "*" for all.
+    """
+
+    sits: str = "either"
+    reads: Mapping[str, str] = field(default_factory=dict[str, str])
+    balance_only: tuple[str, ...] = ()
