@@ -27,7 +27,9 @@ ARROWS: dict[str, str] = {
     "instruments": "campaign channels effects errors record rig signals",
     "estimation": "campaign channels effects errors model parallel record rig signals simulation",
     "evidence": "campaign channels errors estimation record signals",
-    "comparison": "campaign channels effects errors estimation evidence instruments model motion record signals simulation",
+    "comparison": (
+        "campaign channels effects errors estimation evidence instruments model motion record signals simulation"
+    ),
     "diagnosis": (
         "campaign channels comparison effects errors estimation evidence instruments model parallel params record"
         " signals simulation units"
