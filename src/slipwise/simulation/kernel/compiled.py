@@ -23,7 +23,7 @@ def module_text(layout: Layout, functions: Sequence[Callable[..., Any]]) -> str:
     """
     # A user's file lies on no path: like all effects it is in `sys.modules`, whence every hook is fetched.
     hooks = [
-        f"{function_name(e, name)} = njit(sys.modules[{function.__module__!r}].{name})"
+        f"{function_name(e, name)} = njit(**INNER)(sys.modules[{function.__module__!r}].{name})"
         for e in layout.effects
         for name, function in e.instant_hooks.items()
     ]
@@ -35,12 +35,13 @@ import sys
 from numba import cfunc, njit, types
 
 from slipwise.simulation.kernel import girder, pads, pointers, records, step
+from slipwise.simulation.kernel.compilable import INNER
 from slipwise.simulation.kernel.pointers import Fields
 
 {chr(10).join(hooks)}
 
 
-{dispatch_text(layout, "@njit(cache=True)" + chr(10))}
+{dispatch_text(layout, "@njit(cache=True, forceinline=True, **INNER)" + chr(10))}
 EFFECTS = sys.modules[__name__]
 FIELDS = {fields(offsets(), layout.size)!r}
 

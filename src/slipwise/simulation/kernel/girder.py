@@ -4,19 +4,19 @@
     F_drag = sum of drag(v)      V = sum of lift(sum |F_bx|, sum |F_by|, v)
 
 All functions take the chosen effects and the array `u` (see `places`); `z` is the place in it of the memory of a
-buffer's direction. They are plain Python; where compiled code calls them, numba compiles them.
+buffer's direction.
 """
 
 import numpy as np
-from numba.extending import register_jitable
 from numpy.typing import NDArray
 
+from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.dispatch import Dispatch
 
 Array = NDArray[np.float64]
 
 
-@register_jitable
+@compilable
 def buffer_spring(
     effects: Dispatch, u: Array, z: int, deflection: float, rate: float, stiffness: float, side: float, time: float,
     dt: float,
@@ -45,7 +45,7 @@ def buffer_spring(
     return force
 
 
-@register_jitable
+@compilable
 def girder_drag(
     effects: Dispatch, u: Array, velocity_x: float, velocity_y: float, velocity_z: float, time: float, dt: float
 ) -> tuple[float, float]:
@@ -53,7 +53,7 @@ def girder_drag(
     return effects.drag(u, velocity_x, velocity_y, velocity_z, time, dt)
 
 
-@register_jitable
+@compilable
 def girder_lift(
     effects: Dispatch, u: Array, force_x: float, force_y: float, velocity_x: float, velocity_y: float,
     velocity_z: float, time: float, dt: float,

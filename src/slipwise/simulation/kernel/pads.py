@@ -7,17 +7,15 @@ All functions take the chosen effects, the array `u` (see `places`) and the plac
 load N [N], slip rate [m/s] and slip [m] along x and y, the side on which the pad stands (+1 or -1 along x and y), time
 and dt [s]. Forces are those of the girder on the pad [N].
 
-They are plain Python; where compiled code calls them, numba compiles them.
-
 Source: paper, eqs. (1) to (5).
 """
 
 from math import sqrt
 
 import numpy as np
-from numba.extending import register_jitable
 from numpy.typing import NDArray
 
+from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.dispatch import Dispatch
 from slipwise.simulation.kernel.places import APPARENT_AREA, FULL_STICK, PLASTIC_PRESSURE, SHEAR_STRENGTH
 
@@ -28,7 +26,7 @@ STICK_SPEED = 1e-4
 FULL_SPEED = 1e3
 
 
-@register_jitable
+@compilable
 def pad_bound(
     effects: Dispatch, u: Array, z: int, load: float, velocity_x: float, velocity_y: float, slip_x: float,
     slip_y: float, side_x: float, side_y: float, time: float, dt: float,
@@ -55,7 +53,7 @@ def pad_bound(
     return max(shear * real_area, 0.0)
 
 
-@register_jitable
+@compilable
 def pad_explicit(
     effects: Dispatch, u: Array, z: int, bound: float, load: float, velocity_x: float, velocity_y: float, slip_x: float,
     slip_y: float, side_x: float, side_y: float, time: float, dt: float,
@@ -70,7 +68,7 @@ def pad_explicit(
     )  # fmt: skip
 
 
-@register_jitable
+@compilable
 def pad_further(
     effects: Dispatch, u: Array, z: int, bound: float, friction: float, load: float, velocity_x: float,
     velocity_y: float, slip_x: float, slip_y: float, side_x: float, side_y: float, time: float, dt: float,
@@ -85,7 +83,7 @@ def pad_further(
     )  # fmt: skip
 
 
-@register_jitable
+@compilable
 def pad_advance(
     effects: Dispatch, u: Array, z: int, bound: float, friction: float, load: float, velocity_x: float,
     velocity_y: float, slip_x: float, slip_y: float, side_x: float, side_y: float, time: float, dt: float,

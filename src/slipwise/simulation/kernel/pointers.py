@@ -10,10 +10,11 @@ import mujoco
 import numpy as np
 from numba import types
 from numba.core import cgutils
-from numba.extending import intrinsic, register_jitable
+from numba.extending import intrinsic
 from numba.np.numpy_support import carray
 from numpy.typing import NDArray
 
+from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.dispatch import Dispatch
 from slipwise.simulation.kernel.mjdata import Offsets
 from slipwise.simulation.kernel.places import MAX_PADS, N_PADS, NEW_LOAD, PAD_GEOM
@@ -72,13 +73,13 @@ def _pointer(typingctx: Any, address: Any) -> Any:  # noqa: ARG001 - numba's sig
 _as_pointer: Any = intrinsic(_pointer)
 
 
-@register_jitable
+@compilable
 def _numbers(address: Any, size: int) -> Array:
     """Give the (size,) floating-point numbers that stand at an address."""
     return carray(_as_pointer(address), (size,), np.float64)
 
 
-@register_jitable
+@compilable
 def control_at(effects: Dispatch, at: Fields, data: int) -> None:
     """Do `control_step` on the `mjData` at the address `data`."""
     words = carray(_as_pointer(data), (at.size,), np.int64)
@@ -94,7 +95,7 @@ def control_at(effects: Dispatch, at: Fields, data: int) -> None:
     )
 
 
-@register_jitable
+@compilable
 def sensor_at(effects: Dispatch, at: Fields, data: int, stage: int) -> None:
     """Do `sensor_step` on the `mjData` at the address `data`, once its accelerations are known.
 

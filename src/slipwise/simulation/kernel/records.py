@@ -1,14 +1,11 @@
-"""The laws driven by measured states over whole records, without a simulation.
-
-Plain Python; where compiled code calls these functions, numba compiles them.
-"""
+"""The laws driven by measured states over whole records, without a simulation."""
 
 from math import sqrt
 
 import numpy as np
-from numba.extending import register_jitable
 from numpy.typing import NDArray
 
+from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.dispatch import Dispatch
 from slipwise.simulation.kernel.girder import buffer_spring
 from slipwise.simulation.kernel.pads import pad_advance, pad_bound, pad_explicit, pad_further
@@ -17,7 +14,7 @@ from slipwise.simulation.kernel.places import BUFFER_STIFFNESS, DT, N_ADVANCE, N
 Array = NDArray[np.float64]
 
 
-@register_jitable
+@compilable
 def pads_over_record(
     effects: Dispatch, u: Array, time: Array, load: Array, velocity: Array, slip: Array, force: Array, bounds: Array,
     first: int, last: int,
@@ -84,7 +81,7 @@ def pads_over_record(
             bounds[i, pad] = bound
 
 
-@register_jitable
+@compilable
 def buffers_over_record(effects: Dispatch, u: Array, time: Array, deflection: Array, rate: Array, force: Array) -> None:
     """Drive every buffer's law with what was measured.
 

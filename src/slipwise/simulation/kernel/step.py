@@ -3,16 +3,14 @@
 Dry friction is a constraint of MuJoCo's: before a step the law sets how much each row of it may carry; the solver finds
 whether a pad slides or sticks. Explicit forces f along a tendon of Jacobian J act on the girder as -J^T f. The load N
 of a step is known only after it, so that the law of the next step uses it.
-
-Plain Python; where compiled code calls these functions, numba compiles them.
 """
 
 from math import sqrt
 
 import numpy as np
-from numba.extending import register_jitable
 from numpy.typing import NDArray
 
+from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.dispatch import Dispatch
 from slipwise.simulation.kernel.girder import buffer_spring, girder_drag, girder_lift
 from slipwise.simulation.kernel.pads import pad_advance, pad_bound, pad_explicit, pad_further
@@ -45,7 +43,7 @@ TINY = 1e-9
 DIRECTION_SPEED = 1e-3
 
 
-@register_jitable
+@compilable
 def control_step(
     effects: Dispatch, u: Array, time: float, ten_length: Array, ten_velocity: Array, qvel: Array, frictionloss: Array,
     applied: Array,
@@ -71,7 +69,7 @@ def control_step(
         push_girder(effects, u, sum_x, sum_y, time, qvel, applied)
 
 
-@register_jitable
+@compilable
 def push_pad(
     effects: Dispatch, u: Array, pad: int, time: float, ten_length: Array, ten_velocity: Array, frictionloss: Array,
     applied: Array,
@@ -114,7 +112,7 @@ def push_pad(
             applied[dof] -= u[j + dof] * force_x + u[j + MAX_DOFS + dof] * force_y
 
 
-@register_jitable
+@compilable
 def split_bound(u: Array, pad: int, bound: float, velocity_x: float, velocity_y: float, frictionloss: Array) -> None:
     """Split a pad's bound [N] over the rows along x and y, so that what it may carry is a circle.
 
@@ -136,7 +134,7 @@ def split_bound(u: Array, pad: int, bound: float, velocity_x: float, velocity_y:
         frictionloss[row_y] = TINY
 
 
-@register_jitable
+@compilable
 def push_buffers(
     effects: Dispatch, u: Array, time: float, ten_length: Array, ten_velocity: Array, applied: Array
 ) -> tuple[float, float]:
@@ -162,7 +160,7 @@ def push_buffers(
     return sum_x, sum_y
 
 
-@register_jitable
+@compilable
 def push_girder(
     effects: Dispatch, u: Array, sum_x: float, sum_y: float, time: float, qvel: Array, applied: Array
 ) -> None:
@@ -202,7 +200,7 @@ def push_girder(
     u[GIRDER_FORCE + 2] = force_z
 
 
-@register_jitable
+@compilable
 def sensor_step(
     effects: Dispatch, u: Array, loads: Array, time: float, ten_length: Array, ten_velocity: Array,
     friction_force: Array, sensordata: Array,
