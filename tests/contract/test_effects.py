@@ -10,7 +10,7 @@ import pytest
 from driven import TARGET, answers, arrays, bridge, motion, record, with_effect
 from slipwise.effects import COMPONENTS, PORTS, Effect, catalogue, moved_channels
 from slipwise.model import EffectUse
-from slipwise.simulation.kernel import kernel
+from slipwise.simulation.kernel import kernel, places
 from slipwise.simulation.predict import predictor
 from slipwise.units import parse_unit
 
@@ -155,7 +155,7 @@ def test_one_instant_after_another_answers_as_the_whole_record(effect: Effect, e
         bound = step["bound"](u, z, load, *state)
         speed = np.hypot(*moving["velocity"][i, 2])
         force = bound * moving["velocity"][i, 2] / speed if speed > 0.0 else np.zeros(2)
-        if u[layout.at["stick"]] > 0.0:
+        if u[places.N_STICK] > 0.0:
             force = np.array(step["explicit"](u, z, bound, load, *state))
         friction = float(np.hypot(*force))
         more = step["further"](u, z, bound, friction, load, *state)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from slipwise.effects import Effect, catalogue
 from slipwise.model import Model
-from slipwise.simulation.kernel import Kernel, apply_rest, begin_memory, engine_for, fill, kernel
+from slipwise.simulation.kernel import Kernel, apply_rest, begin_memory, engine_for, fill, kernel, places
 
 Array = NDArray[np.float64]
 
@@ -92,7 +92,7 @@ class Predictor:
 
     def reset(self) -> None:
         """Start from rest, nothing slid and nothing warm."""
-        self.numbers[:] = fill(self.law.layout, self.model, float(self.numbers[self.law.layout.at["dt"]]))
+        self.numbers[:] = fill(self.law.layout, self.model, float(self.numbers[places.DT]))
 
 
 @cache

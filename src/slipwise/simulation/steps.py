@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from slipwise.model import Model
 from slipwise.rig import Rig
 from slipwise.rig.statics import at_rest
-from slipwise.simulation.kernel import Kernel, fill, installed
-from slipwise.simulation.kernel.layout import MAX_DOFS
+from slipwise.simulation.kernel import Kernel, fill, installed, places
+from slipwise.simulation.kernel.places import MAX_DOFS
 
 Array = NDArray[np.float64]
 #: Steps between two looks at progress and at the health of a simulation.
@@ -23,21 +23,20 @@ CHUNK = 2000
 def numbers_for(law: Kernel, rig: Rig, model: Model, dt: float) -> Array:
     """Fill the law's array with everything that a simulation needs, at rest."""
     numbers = fill(law.layout, model, dt)
-    at = law.layout.at
     n_pads, n_tendons = len(rig.specimen.pads), len(rig.tendons)
-    numbers[at["n_dofs"]] = rig.model.nv
-    numbers[at["user_sensor"]] = rig.user_sensor
+    numbers[places.N_DOFS] = rig.model.nv
+    numbers[places.USER_SENSOR] = rig.user_sensor
     axes = ("x", "y", "z", "roll", "pitch", "yaw")
-    numbers[at["girder_dof"] : at["girder_dof"] + 6] = [_dof(rig.model, f"girder_{axis}") for axis in axes]
+    numbers[places.GIRDER_DOF : places.GIRDER_DOF + 6] = [_dof(rig.model, f"girder_{axis}") for axis in axes]
     if not rig.specimen.free:
-        numbers[at["girder_dof"]] = -1.0
-    numbers[at["pad_geom"] : at["pad_geom"] + n_pads] = rig.pad_geoms
-    numbers[at["tendon"] : at["tendon"] + n_tendons] = rig.tendons
-    numbers[at["friction_row"] : at["friction_row"] + 2 * n_pads] = _friction_rows(rig, 2 * n_pads)
+        numbers[places.GIRDER_DOF] = -1.0
+    numbers[places.PAD_GEOM : places.PAD_GEOM + n_pads] = rig.pad_geoms
+    numbers[places.TENDON : places.TENDON + n_tendons] = rig.tendons
+    numbers[places.FRICTION_ROW : places.FRICTION_ROW + 2 * n_pads] = _friction_rows(rig, 2 * n_pads)
     jacobian = np.zeros((n_tendons, MAX_DOFS))
     jacobian[:, : rig.model.nv] = rig.jacobian
-    numbers[at["jacobian"] : at["jacobian"] + jacobian.size] = jacobian.ravel()
-    numbers[at["load"] : at["load"] + n_pads] = at_rest(rig.specimen).load
+    numbers[places.JACOBIAN : places.JACOBIAN + jacobian.size] = jacobian.ravel()
+    numbers[places.LOAD : places.LOAD + n_pads] = at_rest(rig.specimen).load
     return numbers
 
 

@@ -9,6 +9,7 @@ from scipy.special import erf
 from shaking import needs_shared
 from slipwise.model import base_model, use
 from slipwise.rig import load_specimen
+from slipwise.simulation.kernel import places
 from slipwise.simulation.kernel.layout import pad_memories
 from slipwise.simulation.predict import Predictor, predictor
 
@@ -18,7 +19,7 @@ PRESSURE = 16.882e6
 def _flux(law: Predictor, flux: float, seconds: float, dt: float, slip: float = 0.0) -> np.ndarray:
     """Drive the four pads with a constant heat flux [W/m^2] and give pad A's temperature rise over time."""
     advance, layout, u = law.law.functions["pad_advance"], law.law.layout, law.numbers
-    z, area, speed = layout.at["pad_memory"], u[layout.at["apparent_area"]], 0.1
+    z, area, speed = layout.at["pad_memory"], u[places.APPARENT_AREA], 0.1
     place = z + layout.pad_memory["heating"] + 9
     out = []
     for i in range(round(seconds / dt)):

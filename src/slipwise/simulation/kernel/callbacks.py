@@ -13,6 +13,7 @@ import mujoco
 import numpy as np
 
 from slipwise.errors import SettingError
+from slipwise.simulation.kernel import places
 from slipwise.simulation.kernel.engine import Kernel
 
 _CONTROL = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)
@@ -44,7 +45,6 @@ def installed(law: Kernel) -> Iterator[None]:
 def _python_callbacks(law: Kernel) -> tuple[Any, Any]:
     """Make the callbacks of the Python engine: the same law on numpy views."""
     control_step, sensor_step = law.functions["control_step"], law.functions["sensor_step"]
-    at = law.layout.at
     acceleration = int(mujoco.mjtStage.mjSTAGE_ACC)
 
     def control(model: Any, data: Any) -> None:
@@ -64,7 +64,7 @@ def _python_callbacks(law: Kernel) -> tuple[Any, Any]:
         u = data.userdata
         loads = np.zeros(4)
         contact = data.contact
-        geoms = [int(g) for g in u[at["pad_geom"] : at["pad_geom"] + int(u[at["n_pads"]])]]
+        geoms = [int(g) for g in u[places.PAD_GEOM : places.PAD_GEOM + int(u[places.N_PADS])]]
         for first, second, row in zip(contact.geom1, contact.geom2, contact.efc_address, strict=True):
             if row >= 0:
                 for pad, geom in enumerate(geoms):

@@ -6,30 +6,36 @@ hash of everything it was made from, so that no stale code is ever run.
 
 import hashlib
 import importlib.util
-import math
+import linecache
 import os
 import sys
 import tempfile
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import mujoco
 
+from slipwise import effects
 from slipwise.effects import Effect, catalogue
 from slipwise.errors import SettingError, SlipwiseWarning
+from slipwise.simulation.kernel.compiled import module_text
+from slipwise.simulation.kernel.dispatch import dispatch_text, function_name
+from slipwise.simulation.kernel.girder import buffer_spring, girder_drag, girder_lift
 from slipwise.simulation.kernel.layout import Layout, make_layout
-from slipwise.simulation.kernel.mjdata import offsets
-from slipwise.simulation.kernel.source import function_name, write_source
+from slipwise.simulation.kernel.pads import pad_advance, pad_bound, pad_explicit, pad_further
+from slipwise.simulation.kernel.records import buffers_over_record, pads_over_record
+from slipwise.simulation.kernel.step import control_step, sensor_step
 
 ENGINES: tuple[str, ...] = ("compiled", "python")
-_FUNCTIONS = (
-    "pad_bound", "pad_explicit", "pad_further", "pad_advance", "buffer_spring", "girder_drag", "girder_lift",
-    "control_step", "sensor_step", "pads_over_record", "buffers_over_record",
+#: What is asked for from Python; all else is only called by these.
+_FUNCTIONS: tuple[Callable[..., Any], ...] = (
+    pad_bound, pad_explicit, pad_further, pad_advance, buffer_spring, girder_drag, girder_lift, control_step,
+    sensor_step, pads_over_record, buffers_over_record,
 )  # fmt: skip
 
 
@@ -107,34 +113,33 @@ class _Hidden:
 @cache
 def _made(engine: str, files: tuple[str, ...], user: _Hidden) -> Kernel:
     layout = make_layout([*catalogue().values(), *user.effects])
-    text = write_source(layout)
-    if engine == "python":
-        return _python(layout, text)
-    return _compiled(layout, text)
+    return _python(layout) if engine == "python" else _compiled(layout)
 
 
-def _hooks(layout: Layout) -> list[tuple[str, Effect, str]]:
-    return [(function_name(e, hook), e, hook) for e in layout.effects for hook in e.instant_hooks]
+def _python(layout: Layout) -> Kernel:
+    """Call the law's functions as they stand in their files; only the calls of the hooks are made from text."""
+    text, file = dispatch_text(layout), "<calls of the effects' hooks>"
+    calls = ModuleType("slipwise_kernel_python")
+    vars(calls).update({function_name(e, hook): e.hooks[hook] for e in layout.effects for hook in e.instant_hooks})
+    exec(compile(text, file, "exec"), vars(calls))  # the text is our own: see dispatch.py
+    linecache.cache[file] = (len(text), None, text.splitlines(keepends=True), file)  # a debugger can show it
+    functions = {function.__name__: partial(function, calls) for function in _FUNCTIONS}
+    return Kernel(layout, "python", functions, None)
 
 
-def _python(layout: Layout, text: str) -> Kernel:
-    namespace: dict[str, Any] = {"sqrt": math.sqrt}
-    namespace.update({name: effect.hooks[hook] for name, effect, hook in _hooks(layout)})
-    exec(compile(text, "<slipwise kernel>", "exec"), namespace)  # the text is our own: see source.py
-    return Kernel(layout, "python", {name: namespace[name] for name in _FUNCTIONS}, None)
-
-
-def _compiled(layout: Layout, text: str) -> Kernel:
-    whole = _module_text(layout, text)
-    sources = "".join(effect.path.read_text(encoding="utf-8") for effect in layout.effects)
+def _compiled(layout: Layout) -> Kernel:
+    text = module_text(layout, _FUNCTIONS)
+    deciding = [*Path(__file__).parent.glob("*.py"), *Path(effects.__file__).parent.glob("*.py")]
+    deciding += [effect.path for effect in layout.effects]
+    sources = "".join(path.read_text(encoding="utf-8") for path in sorted(set(deciding)))
     about = f"{mujoco.__version__} {sys.version} {_numba_version()}"
-    digest = hashlib.sha256((whole + sources + about).encode()).hexdigest()[:16]
-    module = _import(f"slipwise_kernel_{digest}", whole)
+    digest = hashlib.sha256((text + sources + about).encode()).hexdigest()[:16]
+    module = _import(f"slipwise_kernel_{digest}", text)
     try:
         addresses = (int(module.control_callback.address), int(module.sensor_callback.address))
     except AttributeError as error:
         raise SettingError(f"the law could not be compiled: {error}") from error
-    return Kernel(layout, "compiled", {name: getattr(module, name) for name in _FUNCTIONS}, addresses)
+    return Kernel(layout, "compiled", {f.__name__: getattr(module, f.__name__) for f in _FUNCTIONS}, addresses)
 
 
 def _numba_version() -> str:
@@ -180,102 +185,3 @@ def _import(name: str, text: str) -> ModuleType:
             "a hook of one instant may use arithmetic, math and memory[...] only. --engine python runs it as it is"
         ) from error
     return module
-
-
-def _module_text(layout: Layout, text: str) -> str:
-    """Wrap the law's text into a module that compiles itself and keeps the machine code on disk."""
-    imports = []
-    for name, effect, hook in _hooks(layout):
-        module = effect.hooks[hook].__module__
-        if module.startswith("slipwise.effects.") or "user_effect" not in module:
-            imports.append(f"from {module} import {hook} as _{name}")
-        else:
-            imports.append(f"_{name} = sys.modules[{module!r}].{hook}")
-        imports.append(f"{name} = njit(_{name})")
-    compiled = "@njit(cache=True, nogil=True)\n"
-    body = "\n".join(compiled + part if part.startswith("def ") else part for part in _split(text))
-    return f'''"""The law of every effect, written and compiled by slipwise.simulation.kernel.engine. Do not edit."""
-
-import sys
-from math import sqrt
-
-import numpy as np
-from numba import carray, cfunc, njit, types
-
-from slipwise.simulation.kernel.pointers import as_pointer
-
-{chr(10).join(imports)}
-
-
-{body}
-
-{_callback_text(layout)}
-'''
-
-
-def _split(text: str) -> list[str]:
-    """Split a module's text at its top-level functions."""
-    parts: list[str] = []
-    for line in text.splitlines(keepends=True):
-        if line.startswith("def ") or not parts:
-            parts.append("")
-        parts[-1] += line
-    return parts
-
-
-def _callback_text(layout: Layout) -> str:
-    found = offsets()
-    data, contact = found.data, found.contact
-
-    def array(field: str, size: str) -> str:
-        return f"carray(as_pointer(words[{data[field] // 8}]), ({size},), np.float64)"
-
-    return f"""
-WORDS = {max(data.values()) // 8 + 1}
-
-
-@cfunc(types.void(types.intp, types.intp), cache=True)
-def control_callback(model, data):
-    words = carray(as_pointer(data), (WORDS,), np.int64)
-    numbers = carray(as_pointer(data), (WORDS,), np.float64)
-    control_step(
-        {array("userdata", str(layout.size))},
-        numbers[{data["time"] // 8}],
-        {array("ten_length", "64")},
-        {array("ten_velocity", "64")},
-        {array("qvel", "64")},
-        {array("efc_frictionloss", "64")},
-        {array("qfrc_applied", "64")},
-    )
-
-
-@cfunc(types.void(types.intp, types.intp, types.intc), cache=True)
-def sensor_callback(model, data, stage):
-    if stage != {int(mujoco.mjtStage.mjSTAGE_ACC)}:
-        return
-    words = carray(as_pointer(data), (WORDS,), np.int64)
-    numbers = carray(as_pointer(data), (WORDS,), np.float64)
-    integers = carray(as_pointer(data), (2 * WORDS,), np.int32)
-    u = {array("userdata", str(layout.size))}
-    force = {array("efc_force", "4096")}
-    loads = u[{layout.at["new_load"]} : {layout.at["new_load"] + 4}]
-    loads[:] = 0.0
-    first = words[{data["contact"] // 8}]
-    for i in range(integers[{data["ncon"] // 4}]):
-        one = carray(as_pointer(first + i * {found.contact_size}), ({found.contact_size // 4},), np.int32)
-        row = one[{contact["efc_address"] // 4}]
-        if row >= 0:
-            for pad in range(int(u[{layout.at["n_pads"]}])):
-                geom = int(u[{layout.at["pad_geom"]} + pad])
-                if one[{contact["geom1"] // 4}] == geom or one[{contact["geom2"] // 4}] == geom:
-                    loads[pad] += force[row]
-    sensor_step(
-        u,
-        loads,
-        numbers[{data["time"] // 8}],
-        {array("ten_length", "64")},
-        {array("ten_velocity", "64")},
-        force,
-        {array("sensordata", "4096")},
-    )
-"""

@@ -1,8 +1,8 @@
-"""Where every number of the law stands in one flat array.
+"""Where every number of the law stands in one flat array, and what a model writes there.
 
-The compiled callback knows no names: parameters, order of effects, memory and the last step's loads stand in
-`data.userdata`, so that many simulations with different parameters share one model and one callback. Loops over records
-use the same array.
+Parameters, order of effects, memory and the last step's loads stand in `data.userdata`, so that many simulations with
+different parameters share one model and one callback. Loops over records use the same array. What every law needs has
+fixed places (see `places`); behind them stands what depends on the effects that there are.
 """
 
 from collections.abc import Sequence
@@ -14,31 +14,17 @@ from numpy.typing import NDArray
 from slipwise.effects import Effect
 from slipwise.errors import SettingError
 from slipwise.model import EffectUse, Model
-
-MAX_PADS = 4
-MAX_BUFFERS = 2
-MAX_DOFS = 11
-#: Hooks whose effects act one after another in the order of the model.
-CHAINS: tuple[str, ...] = ("area", "shear", "stick", "pad", "advance", "deflection", "spring", "settle", "lift", "drag")
-#: Numbers at the head of the array, then blocks: name -> size.
-_HEAD: tuple[tuple[str, int], ...] = (
-    ("dt", 1), ("n_pads", 1), ("n_buffers", 1), ("n_dofs", 1), ("user_sensor", 1), ("girder_dof", 6),
-    ("apparent_area", 1), ("plastic_pressure", 1), ("shear_strength", 1), ("full_stick", 1),
-    ("buffer_stiffness", MAX_BUFFERS), ("side", 2 * MAX_PADS), ("pad_geom", MAX_PADS),
-    ("tendon", 2 * (MAX_PADS + MAX_BUFFERS)), ("friction_row", 2 * MAX_PADS),
-    ("jacobian", 2 * (MAX_PADS + MAX_BUFFERS) * MAX_DOFS),
-    ("load", MAX_PADS), ("new_load", MAX_PADS), ("bound", MAX_PADS), ("explicit", 2 * MAX_PADS),
-    ("force", 2 * MAX_PADS), ("buffer_force", 2 * MAX_BUFFERS), ("girder_force", 3),
-)  # fmt: skip
+from slipwise.simulation.kernel import places
+from slipwise.simulation.kernel.places import CHAINS, MAX_BUFFERS, MAX_PADS
 
 
 @dataclass(frozen=True)
 class Layout:
-    """Offsets into the flat array.
+    """Offsets into the flat array of what depends on the effects that there are.
 
     Attributes:
         effects: the effects that the kernel knows, whether a model uses them or not.
-        at: offset of each block of the head and of each chain.
+        at: offset of the list of effects of each hook of `CHAINS`, of "pad_memory" and of "buffer_memory".
         parameters: effect name -> offset of its first parameter.
         pad_memory: effect name -> offset of its memory within one pad's block.
         buffer_memory: the same within one buffer's direction.
@@ -61,13 +47,10 @@ def make_layout(effects: Sequence[Effect]) -> Layout:
     """Lay out the array for these effects."""
     instant = tuple(e for e in effects if e.instant_hooks)
     at: dict[str, int] = {}
-    offset = 0
-    for name, size in _HEAD:
-        at[name] = offset
-        offset += size
+    offset = places.END
     for chain in CHAINS:
         at[chain] = offset
-        offset += 1 + sum(chain in e.hooks for e in instant)
+        offset += sum(chain in e.hooks for e in instant)
     parameters: dict[str, int] = {}
     for effect in instant:
         parameters[effect.name] = offset
@@ -82,12 +65,12 @@ def make_layout(effects: Sequence[Effect]) -> Layout:
 
 
 def _memory(effects: Sequence[Effect]) -> tuple[dict[str, int], int]:
-    places: dict[str, int] = {}
+    first: dict[str, int] = {}
     offset = 0
     for effect in effects:
-        places[effect.name] = offset
+        first[effect.name] = offset
         offset += len(effect.memory)
-    return places, offset
+    return first, offset
 
 
 def fill(layout: Layout, model: Model, dt: float) -> NDArray[np.float64]:
@@ -106,28 +89,27 @@ def fill(layout: Layout, model: Model, dt: float) -> NDArray[np.float64]:
     """
     array = np.zeros(layout.size)
     specimen = model.built_specimen()
-    at = layout.at
     n_pads, n_buffers = len(specimen.pads), len(specimen.buffer_stiffness)
-    array[at["dt"]] = dt
-    array[at["n_pads"]] = n_pads
-    array[at["n_buffers"]] = n_buffers
-    array[at["apparent_area"]] = specimen.pad_area
-    array[at["plastic_pressure"]] = specimen.plastic_pressure
-    array[at["shear_strength"]] = specimen.shear_strength
-    array[at["full_stick"]] = specimen.stick_capacity == "full"
-    array[at["buffer_stiffness"] : at["buffer_stiffness"] + n_buffers] = specimen.buffer_stiffness
+    array[places.DT] = dt
+    array[places.N_PADS] = n_pads
+    array[places.N_BUFFERS] = n_buffers
+    array[places.APPARENT_AREA] = specimen.pad_area
+    array[places.PLASTIC_PRESSURE] = specimen.plastic_pressure
+    array[places.SHEAR_STRENGTH] = specimen.shear_strength
+    array[places.FULL_STICK] = specimen.stick_capacity == "full"
+    array[places.BUFFER_STIFFNESS : places.BUFFER_STIFFNESS + n_buffers] = specimen.buffer_stiffness
     sides = [
         s for place in specimen.pad_places for s in (1.0 if place[0] >= 0 else -1.0, 1.0 if place[1] >= 0 else -1.0)
     ]
-    array[at["side"] : at["side"] + 2 * n_pads] = sides
+    array[places.SIDE : places.SIDE + 2 * n_pads] = sides
     index = {effect.name: i for i, effect in enumerate(layout.effects)}
     for chain in CHAINS:
         uses = model.with_hook(chain)
         unknown = [u.label for u in uses if u.effect.name not in index]
         if unknown:
             raise SettingError(f"this kernel was not compiled for {', '.join(unknown)}")
-        array[at[chain]] = len(uses)
-        array[at[chain] + 1 : at[chain] + 1 + len(uses)] = [index[u.effect.name] for u in uses]
+        array[places.EFFECT_COUNT + CHAINS.index(chain)] = len(uses)
+        array[layout.at[chain] : layout.at[chain] + len(uses)] = [index[u.effect.name] for u in uses]
     set_values(layout, array, model)
     return array
 
@@ -137,7 +119,7 @@ def set_values(layout: Layout, array: NDArray[np.float64], model: Model) -> None
 
     An effect on how a pad sticks takes the place of the rigid stick: at its neutral value it must not be called at all.
     """
-    array[layout.at["stick"]] = sum("stick" in u.effect.hooks and not u.is_neutral for u in model.uses)
+    array[places.N_STICK] = sum("stick" in u.effect.hooks and not u.is_neutral for u in model.uses)
     for entry in model.uses:
         start = layout.parameters.get(entry.effect.name)
         if start is not None:

@@ -1,17 +1,129 @@
-"""A number as a pointer, for compiled code."""
+"""The law called as MuJoCo calls it from C: with the address of `mjData`.
 
-from typing import Any
+Only compiled code can run these functions; the Python engine reads the same fields through MuJoCo's bindings (see
+`callbacks`).
+"""
 
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
 from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
+from numba.np.numpy_support import carray
+from numpy.typing import NDArray
+
+from slipwise.simulation.kernel.compilable import compilable
+from slipwise.simulation.kernel.dispatch import Dispatch
+from slipwise.simulation.kernel.mjdata import Offsets
+from slipwise.simulation.kernel.places import MAX_PADS, N_PADS, NEW_LOAD, PAD_GEOM
+from slipwise.simulation.kernel.step import control_step, sensor_step
+
+Array = NDArray[np.float64]
+#: Lengths given to arrays whose length MuJoCo knows: along tendons and degrees of freedom, along rows and readings.
+_SHORT, _LONG = 64, 4096
+_ACCELERATION = int(mujoco.mjtStage.mjSTAGE_ACC)
 
 
-@intrinsic
-def as_pointer(typingctx: Any, address: Any) -> Any:  # noqa: ARG001 - numba's signature
+class Fields(NamedTuple):
+    """Where the fields stand: those of `mjData` in words of 8 bytes (`ncon` of 4), those of `mjContact` in 4 bytes."""
+
+    size: int
+    userdata_size: int
+    time: int
+    ncon: int
+    contact: int
+    userdata: int
+    qvel: int
+    qfrc_applied: int
+    ten_length: int
+    ten_velocity: int
+    efc_frictionloss: int
+    efc_force: int
+    sensordata: int
+    contact_size: int
+    geom1: int
+    geom2: int
+    efc_address: int
+
+
+def fields(found: Offsets, userdata_size: int) -> Fields:
+    """Count the offsets of MuJoCo's structs in words; `userdata_size` is the length of the law's array."""
+    data = {name: offset // (4 if name == "ncon" else 8) for name, offset in found.data.items()}
+    contact = {name: offset // 4 for name, offset in found.contact.items()}
+    return Fields(
+        size=max(found.data.values()) // 8 + 1,
+        userdata_size=userdata_size,
+        contact_size=found.contact_size // 4,
+        **data,
+        **contact,
+    )
+
+
+def _pointer(typingctx: Any, address: Any) -> Any:  # noqa: ARG001 - numba's signature
     """Turn an integer address into a pointer that `numba.carray` takes."""
 
     def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         return builder.inttoptr(arguments[0], cgutils.voidptr_t)
 
     return types.voidptr(types.intp), codegen
+
+
+_as_pointer: Any = intrinsic(_pointer)
+
+
+@compilable
+def _numbers(address: Any, size: int) -> Array:
+    """Give the (size,) floating-point numbers that stand at an address."""
+    return carray(_as_pointer(address), (size,), np.float64)
+
+
+@compilable
+def control_at(effects: Dispatch, at: Fields, data: int) -> None:
+    """Do `control_step` on the `mjData` at the address `data`."""
+    words = carray(_as_pointer(data), (at.size,), np.int64)
+    control_step(
+        effects,
+        _numbers(words[at.userdata], at.userdata_size),
+        _numbers(data, at.size)[at.time],
+        _numbers(words[at.ten_length], _SHORT),
+        _numbers(words[at.ten_velocity], _SHORT),
+        _numbers(words[at.qvel], _SHORT),
+        _numbers(words[at.efc_frictionloss], _SHORT),
+        _numbers(words[at.qfrc_applied], _SHORT),
+    )
+
+
+@compilable
+def sensor_at(effects: Dispatch, at: Fields, data: int, stage: int) -> None:
+    """Do `sensor_step` on the `mjData` at the address `data`, once its accelerations are known.
+
+    The load of a pad is the sum of the forces of its contacts. Only a contact that has rows of constraints bears any.
+    """
+    if stage != _ACCELERATION:
+        return
+    words = carray(_as_pointer(data), (at.size,), np.int64)
+    u = _numbers(words[at.userdata], at.userdata_size)
+    force = _numbers(words[at.efc_force], _LONG)
+    loads = u[NEW_LOAD : NEW_LOAD + MAX_PADS]
+    loads[:] = 0.0
+    ncon = carray(_as_pointer(data), (2 * at.size,), np.int32)[at.ncon]
+    for i in range(ncon):
+        contact = carray(_as_pointer(words[at.contact] + 4 * i * at.contact_size), (at.contact_size,), np.int32)
+        row = contact[at.efc_address]
+        if row >= 0:
+            for pad in range(int(u[N_PADS])):
+                geom = int(u[PAD_GEOM + pad])
+                if contact[at.geom1] == geom or contact[at.geom2] == geom:
+                    loads[pad] += force[row]
+    sensor_step(
+        effects,
+        u,
+        loads,
+        _numbers(data, at.size)[at.time],
+        _numbers(words[at.ten_length], _SHORT),
+        _numbers(words[at.ten_velocity], _SHORT),
+        force,
+        _numbers(words[at.sensordata], _LONG),
+    )

@@ -1,0 +1,72 @@
+"""The module that numba compiles and keeps on disk: the effects' hooks, their calls, the law bound to them.
+
+Machine code is kept by file, so the module is written to a file of its own. Only the functions that stand in it are
+kept; the law's functions are compiled into them.
+"""
+
+import inspect
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from slipwise.simulation.kernel.dispatch import dispatch_text, function_name
+from slipwise.simulation.kernel.layout import Layout
+from slipwise.simulation.kernel.mjdata import offsets
+from slipwise.simulation.kernel.pointers import fields
+
+
+def module_text(layout: Layout, functions: Sequence[Callable[..., Any]]) -> str:
+    """Write the module.
+
+    Args:
+        layout: of the effects that there are.
+        functions: of the law, which take `Dispatch` first; the module holds them bound to the effects' hooks.
+    """
+    # A user's file lies on no path: like all effects it is in `sys.modules`, whence every hook is fetched.
+    hooks = [
+        f"{function_name(e, name)} = njit(**INNER)(sys.modules[{function.__module__!r}].{name})"
+        for e in layout.effects
+        for name, function in e.instant_hooks.items()
+    ]
+    bound = [line for function in functions for line in _bound(function)]
+    return f'''"""Written by slipwise.simulation.kernel.compiled. Do not edit."""
+
+import sys
+
+from numba import cfunc, njit, types
+
+from slipwise.simulation.kernel import girder, pads, pointers, records, step
+from slipwise.simulation.kernel.compilable import INNER
+from slipwise.simulation.kernel.pointers import Fields
+
+{chr(10).join(hooks)}
+
+
+{dispatch_text(layout, "@njit(cache=True, forceinline=True, **INNER)" + chr(10))}
+EFFECTS = sys.modules[__name__]
+FIELDS = {fields(offsets(), layout.size)!r}
+
+{chr(10).join(bound)}
+
+
+@cfunc(types.void(types.intp, types.intp), cache=True)
+def control_callback(model, data):
+    pointers.control_at(EFFECTS, FIELDS, data)
+
+
+@cfunc(types.void(types.intp, types.intp, types.intc), cache=True)
+def sensor_callback(model, data, stage):
+    pointers.sensor_at(EFFECTS, FIELDS, data, stage)
+'''
+
+
+def _bound(function: Callable[..., Any]) -> list[str]:
+    """Write a function of the law without its first argument."""
+    arguments = ", ".join(list(inspect.signature(function).parameters)[1:])
+    home = function.__module__.rpartition(".")[2]
+    return [
+        "",
+        "",
+        "@njit(cache=True, nogil=True)",
+        f"def {function.__name__}({arguments}):",
+        f"    return {home}.{function.__name__}(EFFECTS, {arguments})",
+    ]

@@ -1,0 +1,142 @@
+"""The one part of the law that a program writes: the calls of the effects' hooks by the names of their arguments.
+
+For every hook there is one function that lets the effects of the model act one after another, in the order in which
+the array `u` lists them:
+
+    def area(u, z, real_area, true_pressure, load, ...):
+        for place in range(283, 283 + int(u[276])):
+            which = int(u[place])
+            if which == 6:
+                real_area = contact_area__area(real_area, pressure, u[311])
+        return real_area
+
+Which effects act, and in which order, is data, so one compilation serves every model.
+"""
+
+import inspect
+from collections.abc import Callable
+from typing import NamedTuple, Protocol
+
+from slipwise.effects import Effect
+from slipwise.simulation.kernel.layout import Layout
+from slipwise.simulation.kernel.places import CHAINS, EFFECT_COUNT
+
+
+class Dispatch(Protocol):
+    """The module of that text: what the effects do, hook by hook, and where their memory stands.
+
+    Every function takes the array `u`, then the place `z` of the memory of the pad or buffer at hand (not `drag`), then
+    what `_HOOKS` lists. It is a module, because numba resolves a module's functions and numbers while it compiles.
+
+    Attributes:
+        area: gives the real area of contact [m^2].
+        shear: gives the shear strength of the contact [Pa].
+        stick: gives the force of what says how a pad sticks, along x and y [N].
+        pad: gives the sum of the further forces at a pad, along x and y [N].
+        advance: lets the memory of a pad go on.
+        deflection: gives what is left of a buffer's deflection [m].
+        spring: gives a buffer's force [N].
+        settle: lets the memory of a buffer go on.
+        lift: gives the vertical force at the shear keys [N].
+        drag: gives the force against the girder's motion, along x and y [N].
+        pad_memory: place in `u` of the first pad's memory.
+        pad_block: size of one pad's memory.
+        buffer_memory: place in `u` of the memory of the first buffer along x.
+        buffer_block: size of the memory of one buffer and direction.
+    """
+
+    area: Callable[..., float]
+    shear: Callable[..., float]
+    stick: Callable[..., tuple[float, float]]
+    pad: Callable[..., tuple[float, float]]
+    advance: Callable[..., None]
+    deflection: Callable[..., float]
+    spring: Callable[..., float]
+    settle: Callable[..., None]
+    lift: Callable[..., float]
+    drag: Callable[..., tuple[float, float]]
+    pad_memory: int
+    pad_block: int
+    buffer_memory: int
+    buffer_block: int
+
+
+_PAD = (
+    "load", "pressure", "apparent_area", "speed", "velocity_x", "velocity_y", "slip_x", "slip_y", "side_x", "side_y",
+    "time", "dt",
+)  # fmt: skip
+_BUFFER = ("deflection", "rate", "stiffness", "side", "time", "dt")
+_GIRDER = ("velocity_x", "velocity_y", "velocity_z", "time", "dt")
+
+
+class _Hook(NamedTuple):
+    """How the calls of a hook's effects become one answer: arguments, answer before the first, {call}, answer."""
+
+    arguments: tuple[str, ...]
+    begin: tuple[str, ...]
+    each: tuple[str, ...]
+    answer: str
+
+
+_NOTHING = ("force_x = 0.0", "force_y = 0.0")
+_ADD = ("more_x, more_y = {call}", "force_x += more_x", "force_y += more_y")
+_FORCES = "force_x, force_y"
+_HOOKS: dict[str, _Hook] = {
+    "area": _Hook(("u", "z", "real_area", "true_pressure", *_PAD), (), ("real_area = {call}",), "real_area"),
+    "shear": _Hook(("u", "z", "shear", "real_area", "true_pressure", *_PAD), (), ("shear = {call}",), "shear"),
+    "stick": _Hook(("u", "z", "bound", *_PAD), _NOTHING, ("force_x, force_y = {call}",), _FORCES),
+    "pad": _Hook(("u", "z", "bound", "friction", *_PAD), _NOTHING, _ADD, _FORCES),
+    "advance": _Hook(("u", "z", "bound", "friction", *_PAD), (), ("{call}",), "None"),
+    "deflection": _Hook(("u", "z", *_BUFFER), (), ("deflection = {call}",), "deflection"),
+    "spring": _Hook(("u", "z", "force", *_BUFFER), (), ("force = {call}",), "force"),
+    "settle": _Hook(("u", "z", "force", *_BUFFER), (), ("{call}",), "None"),
+    "lift": _Hook(("u", "z", "force_x", "force_y", *_GIRDER), ("force_z = 0.0",), ("force_z += {call}",), "force_z"),
+    "drag": _Hook(("u", *_GIRDER), _NOTHING, _ADD, _FORCES),
+}
+
+
+def function_name(effect: Effect, hook: str) -> str:
+    """Name of an effect's hook among the functions of all effects."""
+    return f"{effect.name}__{hook}"
+
+
+def dispatch_text(layout: Layout, decorator: str = "") -> str:
+    """Write the module that is a `Dispatch`; the effects' hooks stand in it under `function_name`."""
+    functions = "\n\n\n".join(decorator + _function(layout, hook) for hook in CHAINS)
+    return f"""pad_memory, pad_block = {layout.at["pad_memory"]}, {layout.pad_block}
+buffer_memory, buffer_block = {layout.at["buffer_memory"]}, {layout.buffer_block}
+
+
+{functions}
+"""
+
+
+def _function(layout: Layout, hook: str) -> str:
+    """Write the function that lets the effects which have a hook act one after another."""
+    how = _HOOKS[hook]
+    lines = [f"def {hook}({', '.join(how.arguments)}):", *(f"    {line}" for line in how.begin)]
+    users = [(i, effect) for i, effect in enumerate(layout.effects) if hook in effect.hooks]
+    if users:
+        first = layout.at[hook]
+        lines.append(f"    for place in range({first}, {first} + int(u[{EFFECT_COUNT + CHAINS.index(hook)}])):")
+        lines.append("        which = int(u[place])")
+    for n, (i, effect) in enumerate(users):
+        lines.append(f"        {'if' if n == 0 else 'elif'} which == {i}:")
+        lines.extend(f"            {line.replace('{call}', _call(layout, effect, hook))}" for line in how.each)
+    return "\n".join([*lines, f"    return {how.answer}"])
+
+
+def _call(layout: Layout, effect: Effect, hook: str) -> str:
+    """Write the call of an effect's hook: its parameters and its memory stand in `u`."""
+    arguments = []
+    start = layout.parameters[effect.name]
+    for name in inspect.signature(effect.hooks[hook]).parameters:
+        if name in effect.parameter_names:
+            arguments.append(f"u[{start + effect.parameter_names.index(name)}]")
+        elif name == "memory":
+            place = layout.pad_memory if effect.name in layout.pad_memory else layout.buffer_memory
+            first = place[effect.name]
+            arguments.append(f"u[z + {first} : z + {first + len(effect.memory)}]")
+        else:
+            arguments.append(name)
+    return f"{function_name(effect, hook)}({', '.join(arguments)})"

@@ -1,0 +1,66 @@
+"""What acts on the girder besides its pads: buffers, drag, and what the shear keys hold.
+
+    F_b = k d                    per buffer and direction; d and then F_b changed by the effects on them, in turn
+    F_drag = sum of drag(v)      V = sum of lift(sum |F_bx|, sum |F_by|, v)
+
+All functions take the chosen effects and the array `u` (see `places`); `z` is the place in it of the memory of a
+buffer's direction.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.simulation.kernel.compilable import compilable
+from slipwise.simulation.kernel.dispatch import Dispatch
+
+Array = NDArray[np.float64]
+
+
+@compilable
+def buffer_spring(
+    effects: Dispatch, u: Array, z: int, deflection: float, rate: float, stiffness: float, side: float, time: float,
+    dt: float,
+) -> float:  # fmt: skip
+    """Give the force of the girder on a buffer in one direction [N]; its memory goes on by dt.
+
+    A buffer that the girder does not touch (a clearance leaves nothing of its deflection) does not deform: its rate is
+    zero.
+
+    Args:
+        effects: the chosen effects.
+        u: the law's numbers.
+        z: place of the memory of this buffer and direction.
+        deflection: [m].
+        rate: of the deflection [m/s].
+        stiffness: [N/m].
+        side: +1 for buffer 1, -1 for buffer 2.
+        time: since the start of the run [s].
+        dt: step [s].
+    """
+    left = effects.deflection(u, z, deflection, rate, stiffness, side, time, dt)
+    if left == 0.0 and deflection != 0.0:
+        rate = 0.0
+    force = effects.spring(u, z, stiffness * left, left, rate, stiffness, side, time, dt)
+    effects.settle(u, z, force, left, rate, stiffness, side, time, dt)
+    return force
+
+
+@compilable
+def girder_drag(
+    effects: Dispatch, u: Array, velocity_x: float, velocity_y: float, velocity_z: float, time: float, dt: float
+) -> tuple[float, float]:
+    """Give the horizontal force against the girder's motion along x and y [N], at its velocity over the table [m/s]."""
+    return effects.drag(u, velocity_x, velocity_y, velocity_z, time, dt)
+
+
+@compilable
+def girder_lift(
+    effects: Dispatch, u: Array, force_x: float, force_y: float, velocity_x: float, velocity_y: float,
+    velocity_z: float, time: float, dt: float,
+) -> float:  # fmt: skip
+    """Give the vertical force on the girder at the shear keys, whose horizontal force is given [N].
+
+    Their memory goes on by dt. All keys rise together: their memory is that of the first buffer. Each holds by its
+    share of the horizontal force.
+    """
+    return effects.lift(u, effects.buffer_memory, force_x, force_y, velocity_x, velocity_y, velocity_z, time, dt)

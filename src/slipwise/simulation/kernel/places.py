@@ -1,0 +1,60 @@
+"""Where the numbers that every law needs stand in the flat array `u`; each place is the one before plus its size.
+
+The compiled callback knows no names: everything that it needs stands in `data.userdata`. What depends on the effects
+that there are (their parameters, their order, their memory) follows behind `END`: see `layout`.
+"""
+
+MAX_PADS = 4
+MAX_BUFFERS = 2
+MAX_DOFS = 11
+#: Hooks whose effects act one after another in the order of the model.
+CHAINS: tuple[str, ...] = ("area", "shear", "stick", "pad", "advance", "deflection", "spring", "settle", "lift", "drag")
+
+#: Step [s].
+DT = 0
+N_PADS = DT + 1
+N_BUFFERS = N_PADS + 1
+N_DOFS = N_BUFFERS + 1
+#: First place in `sensordata` of what the law writes there.
+USER_SENSOR = N_DOFS + 1
+#: Degrees of freedom of the girder: x, y, z, roll, pitch, yaw; the first is -1 where the girder is prescribed.
+GIRDER_DOF = USER_SENSOR + 1
+#: Of one pad [m^2].
+APPARENT_AREA = GIRDER_DOF + 6
+#: Load over real area of contact, H [Pa].
+PLASTIC_PRESSURE = APPARENT_AREA + 1
+#: Friction over real area of contact, s [Pa].
+SHEAR_STRENGTH = PLASTIC_PRESSURE + 1
+#: Above 0: a pad that sticks bears as much as one that slides fast.
+FULL_STICK = SHEAR_STRENGTH + 1
+#: [N/m].
+BUFFER_STIFFNESS = FULL_STICK + 1
+#: Per pad: on which side of the middle it stands, along x and y (+1 or -1).
+SIDE = BUFFER_STIFFNESS + MAX_BUFFERS
+PAD_GEOM = SIDE + 2 * MAX_PADS
+#: Per pad, then per buffer: the tendons along x and y, whose lengths are slip and deflection.
+TENDON = PAD_GEOM + MAX_PADS
+#: Per pad: the constraint rows of dry friction along x and y.
+FRICTION_ROW = TENDON + 2 * (MAX_PADS + MAX_BUFFERS)
+#: Per tendon: its rate over the rate of each degree of freedom.
+JACOBIAN = FRICTION_ROW + 2 * MAX_PADS
+#: Per pad: normal load of the step before [N].
+LOAD = JACOBIAN + 2 * (MAX_PADS + MAX_BUFFERS) * MAX_DOFS
+#: Per pad: normal load of the step at hand while it is summed up [N].
+NEW_LOAD = LOAD + MAX_PADS
+#: Per pad: friction force that it can carry, s A_r [N].
+BOUND = NEW_LOAD + MAX_PADS
+#: Per pad: force of the girder on it that is not dry friction, along x and y [N].
+EXPLICIT = BOUND + MAX_PADS
+#: Per pad: dry friction of the step before, along x and y [N].
+FORCE = EXPLICIT + 2 * MAX_PADS
+#: Per buffer: force of the girder on it along x and y [N].
+BUFFER_FORCE = FORCE + 2 * MAX_PADS
+#: Further force on the girder along x, y, z [N].
+GIRDER_FORCE = BUFFER_FORCE + 2 * MAX_BUFFERS
+#: Per hook in the order of `CHAINS`: how many of the model's effects have it.
+EFFECT_COUNT = GIRDER_FORCE + 3
+N_STICK = EFFECT_COUNT + CHAINS.index("stick")
+N_PAD = EFFECT_COUNT + CHAINS.index("pad")
+N_ADVANCE = EFFECT_COUNT + CHAINS.index("advance")
+END = EFFECT_COUNT + len(CHAINS)

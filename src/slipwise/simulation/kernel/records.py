@@ -1,0 +1,106 @@
+"""The laws driven by measured states over whole records, without a simulation."""
+
+from math import sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.simulation.kernel.compilable import compilable
+from slipwise.simulation.kernel.dispatch import Dispatch
+from slipwise.simulation.kernel.girder import buffer_spring
+from slipwise.simulation.kernel.pads import pad_advance, pad_bound, pad_explicit, pad_further
+from slipwise.simulation.kernel.places import BUFFER_STIFFNESS, DT, N_ADVANCE, N_PAD, N_STICK, SIDE
+
+Array = NDArray[np.float64]
+
+
+@compilable
+def pads_over_record(
+    effects: Dispatch, u: Array, time: Array, load: Array, velocity: Array, slip: Array, force: Array, bounds: Array,
+    first: int, last: int,
+) -> None:  # fmt: skip
+    """Drive the law of pads first..last-1 with what was measured.
+
+    Pads share nothing, so that several threads may each drive some. Where a pad sticks and no effect says how, the law
+    gives only the bound: force is then the bound along the motion, F = s A_r v/|v|.
+
+    Args:
+        effects: the chosen effects.
+        u: the law's numbers; the pads' memory in them goes on.
+        time: (n,) [s].
+        load: (n, p) [N].
+        velocity: (n, p, 2) slip rate [m/s].
+        slip: (n, p, 2) [m].
+        force: (n, p, 2) of the girder on the pads [N]; filled.
+        bounds: (n, p) friction force that each can carry [N]; filled.
+        first: of the pads to drive.
+        last: the one behind the last of them.
+    """
+    bristle, further, remembers = u[N_STICK] > 0.0, u[N_PAD] > 0.0, u[N_ADVANCE] > 0.0
+    first_dt = time[1] - time[0] if len(time) > 1 else u[DT]
+    for pad in range(first, last):
+        z = effects.pad_memory + pad * effects.pad_block
+        side_x = u[SIDE + 2 * pad]
+        side_y = u[SIDE + 2 * pad + 1]
+        for i in range(len(time)):
+            dt = time[i] - time[i - 1] if i > 0 else first_dt
+            velocity_x = velocity[i, pad, 0]
+            velocity_y = velocity[i, pad, 1]
+            slip_x = slip[i, pad, 0]
+            slip_y = slip[i, pad, 1]
+            bound = pad_bound(
+                effects, u, z, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time[i], dt
+            )
+            if bristle:
+                force_x, force_y = pad_explicit(
+                    effects, u, z, bound, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y,
+                    time[i], dt,
+                )  # fmt: skip
+            else:
+                speed = sqrt(velocity_x * velocity_x + velocity_y * velocity_y)
+                share = bound / speed if speed > 0.0 else 0.0
+                force_x = share * velocity_x
+                force_y = share * velocity_y
+            friction = sqrt(force_x * force_x + force_y * force_y) if further or remembers else 0.0
+            if further:
+                more_x, more_y = pad_further(
+                    effects, u, z, bound, friction, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x,
+                    side_y, time[i], dt,
+                )  # fmt: skip
+                force_x += more_x
+                force_y += more_y
+            if remembers and i + 1 < len(time):
+                # Half a step of speed makes an old contact look young: it is worn out over some micrometres.
+                pad_advance(
+                    effects, u, z, bound, friction, load[i, pad], 0.5 * (velocity_x + velocity[i + 1, pad, 0]),
+                    0.5 * (velocity_y + velocity[i + 1, pad, 1]), slip_x, slip_y, side_x, side_y, time[i],
+                    time[i + 1] - time[i],
+                )  # fmt: skip
+            force[i, pad, 0] = force_x
+            force[i, pad, 1] = force_y
+            bounds[i, pad] = bound
+
+
+@compilable
+def buffers_over_record(effects: Dispatch, u: Array, time: Array, deflection: Array, rate: Array, force: Array) -> None:
+    """Drive every buffer's law with what was measured.
+
+    Args:
+        effects: the chosen effects.
+        u: the law's numbers; the buffers' memory in them goes on.
+        time: (n,) [s].
+        deflection: (n, b, 2) [m].
+        rate: (n, b, 2) of the deflection [m/s].
+        force: (n, b, 2) of the girder on the buffers [N]; filled.
+    """
+    first_dt = time[1] - time[0] if len(time) > 1 else u[DT]
+    for buffer in range(deflection.shape[1]):
+        stiffness = u[BUFFER_STIFFNESS + buffer]
+        side = 1.0 - 2.0 * buffer
+        for axis in range(2):
+            z = effects.buffer_memory + (2 * buffer + axis) * effects.buffer_block
+            for i in range(len(time)):
+                dt = time[i] - time[i - 1] if i > 0 else first_dt
+                force[i, buffer, axis] = buffer_spring(
+                    effects, u, z, deflection[i, buffer, axis], rate[i, buffer, axis], stiffness, side, time[i], dt
+                )

@@ -1,0 +1,246 @@
+"""What MuJoCo calls in every step: bounds and forces before it is solved, loads and friction after it.
+
+Dry friction is a constraint of MuJoCo's: before a step the law sets how much each row of it may carry; the solver finds
+whether a pad slides or sticks. Explicit forces f along a tendon of Jacobian J act on the girder as -J^T f. The load N
+of a step is known only after it, so that the law of the next step uses it.
+"""
+
+from math import sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.simulation.kernel.compilable import compilable
+from slipwise.simulation.kernel.dispatch import Dispatch
+from slipwise.simulation.kernel.girder import buffer_spring, girder_drag, girder_lift
+from slipwise.simulation.kernel.pads import pad_advance, pad_bound, pad_explicit, pad_further
+from slipwise.simulation.kernel.places import (
+    BOUND,
+    BUFFER_FORCE,
+    BUFFER_STIFFNESS,
+    DT,
+    EXPLICIT,
+    FORCE,
+    FRICTION_ROW,
+    GIRDER_DOF,
+    GIRDER_FORCE,
+    JACOBIAN,
+    LOAD,
+    MAX_DOFS,
+    N_BUFFERS,
+    N_DOFS,
+    N_PADS,
+    N_STICK,
+    SIDE,
+    TENDON,
+    USER_SENSOR,
+)
+
+Array = NDArray[np.float64]
+#: A bound that MuJoCo accepts and nobody feels [N].
+TINY = 1e-9
+#: Speed [m/s] from which on friction points along the velocity rather than along the friction of the step before.
+DIRECTION_SPEED = 1e-3
+
+
+@compilable
+def control_step(
+    effects: Dispatch, u: Array, time: float, ten_length: Array, ten_velocity: Array, qvel: Array, frictionloss: Array,
+    applied: Array,
+) -> None:  # fmt: skip
+    """Set the friction bounds and the explicit forces of a step; what `mjcb_control` does.
+
+    Args:
+        effects: the chosen effects.
+        u: the law's numbers; memory and forces in them go on.
+        time: since the start of the run [s].
+        ten_length: of MuJoCo's tendons: slip and deflection [m].
+        ten_velocity: their rates [m/s].
+        qvel: rates of the degrees of freedom [m/s, rad/s].
+        frictionloss: what each constraint row of dry friction may carry [N]; set.
+        applied: generalised forces [N, N m]; set.
+    """
+    for dof in range(int(u[N_DOFS])):
+        applied[dof] = 0.0
+    for pad in range(int(u[N_PADS])):
+        push_pad(effects, u, pad, time, ten_length, ten_velocity, frictionloss, applied)
+    sum_x, sum_y = push_buffers(effects, u, time, ten_length, ten_velocity, applied)
+    if int(u[GIRDER_DOF]) >= 0:
+        push_girder(effects, u, sum_x, sum_y, time, qvel, applied)
+
+
+@compilable
+def push_pad(
+    effects: Dispatch, u: Array, pad: int, time: float, ten_length: Array, ten_velocity: Array, frictionloss: Array,
+    applied: Array,
+) -> None:  # fmt: skip
+    """Set what one pad's friction may carry and add its explicit forces; arguments as `control_step`."""
+    dt = u[DT]
+    z = effects.pad_memory + pad * effects.pad_block
+    tendon_x = int(u[TENDON + 2 * pad])
+    tendon_y = int(u[TENDON + 2 * pad + 1])
+    load = u[LOAD + pad]
+    velocity_x = ten_velocity[tendon_x]
+    velocity_y = ten_velocity[tendon_y]
+    slip_x = ten_length[tendon_x]
+    slip_y = ten_length[tendon_y]
+    side_x = u[SIDE + 2 * pad]
+    side_y = u[SIDE + 2 * pad + 1]
+    bound = pad_bound(effects, u, z, load, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt)
+    u[BOUND + pad] = bound
+    force_x = 0.0
+    force_y = 0.0
+    if u[N_STICK] > 0.0:
+        force_x, force_y = pad_explicit(
+            effects, u, z, bound, load, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt
+        )
+        frictionloss[int(u[FRICTION_ROW + 2 * pad])] = TINY
+        frictionloss[int(u[FRICTION_ROW + 2 * pad + 1])] = TINY
+    else:
+        split_bound(u, pad, bound, velocity_x, velocity_y, frictionloss)
+    friction = sqrt(u[FORCE + 2 * pad] ** 2 + u[FORCE + 2 * pad + 1] ** 2)
+    more_x, more_y = pad_further(
+        effects, u, z, bound, friction, load, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt
+    )
+    force_x += more_x
+    force_y += more_y
+    u[EXPLICIT + 2 * pad] = force_x
+    u[EXPLICIT + 2 * pad + 1] = force_y
+    if force_x != 0.0 or force_y != 0.0:
+        j = JACOBIAN + 2 * pad * MAX_DOFS
+        for dof in range(int(u[N_DOFS])):
+            applied[dof] -= u[j + dof] * force_x + u[j + MAX_DOFS + dof] * force_y
+
+
+@compilable
+def split_bound(u: Array, pad: int, bound: float, velocity_x: float, velocity_y: float, frictionloss: Array) -> None:
+    """Split a pad's bound [N] over the rows along x and y, so that what it may carry is a circle.
+
+    bound_i = bound |e_i|,    e along v / (1 mm/s) + F / bound
+
+    Along the velocity where it slides, along the last friction F where it sticks: a circle in both.
+    """
+    row_x = int(u[FRICTION_ROW + 2 * pad])
+    row_y = int(u[FRICTION_ROW + 2 * pad + 1])
+    last = max(bound, 1.0)
+    toward_x = velocity_x / DIRECTION_SPEED + u[FORCE + 2 * pad] / last
+    toward_y = velocity_y / DIRECTION_SPEED + u[FORCE + 2 * pad + 1] / last
+    length = sqrt(toward_x * toward_x + toward_y * toward_y)
+    if length > 1e-9:
+        frictionloss[row_x] = max(bound * abs(toward_x) / length, TINY)
+        frictionloss[row_y] = max(bound * abs(toward_y) / length, TINY)
+    else:
+        frictionloss[row_x] = max(bound, TINY)
+        frictionloss[row_y] = TINY
+
+
+@compilable
+def push_buffers(
+    effects: Dispatch, u: Array, time: float, ten_length: Array, ten_velocity: Array, applied: Array
+) -> tuple[float, float]:
+    """Add the buffers' forces; gives the sums of their sizes along x and y [N]. Arguments as `control_step`."""
+    n_pads = int(u[N_PADS])
+    sum_x = 0.0
+    sum_y = 0.0
+    for buffer in range(int(u[N_BUFFERS])):
+        stiffness = u[BUFFER_STIFFNESS + buffer]
+        side = 1.0 - 2.0 * buffer
+        for axis in range(2):
+            tendon = int(u[TENDON + 2 * (n_pads + buffer) + axis])
+            z = effects.buffer_memory + (2 * buffer + axis) * effects.buffer_block
+            force = buffer_spring(effects, u, z, ten_length[tendon], ten_velocity[tendon], stiffness, side, time, u[DT])
+            u[BUFFER_FORCE + 2 * buffer + axis] = force
+            j = JACOBIAN + (2 * (n_pads + buffer) + axis) * MAX_DOFS
+            for dof in range(int(u[N_DOFS])):
+                applied[dof] -= u[j + dof] * force
+            if axis == 0:
+                sum_x += abs(force)
+            else:
+                sum_y += abs(force)
+    return sum_x, sum_y
+
+
+@compilable
+def push_girder(
+    effects: Dispatch, u: Array, sum_x: float, sum_y: float, time: float, qvel: Array, applied: Array
+) -> None:
+    """Add drag and what the shear keys hold.
+
+    A key holds its share of the vertical force, V |F_b| / sum |F_b|, where it stands: it rolls and pitches the girder.
+
+    Args:
+        effects: the chosen effects.
+        u: the law's numbers.
+        sum_x: sum of the sizes of the buffers' forces along x [N].
+        sum_y: the same along y [N].
+        time: since the start of the run [s].
+        qvel: rates of the degrees of freedom [m/s, rad/s].
+        applied: generalised forces [N, N m]; added to.
+    """
+    dof_x = int(u[GIRDER_DOF])
+    dof_y = int(u[GIRDER_DOF + 1])
+    dof_z = int(u[GIRDER_DOF + 2])
+    force_x, force_y = girder_drag(effects, u, qvel[dof_x], qvel[dof_y], qvel[dof_z], time, u[DT])
+    applied[dof_x] -= force_x
+    applied[dof_y] -= force_y
+    force_z = girder_lift(effects, u, sum_x, sum_y, qvel[dof_x], qvel[dof_y], qvel[dof_z], time, u[DT])
+    applied[dof_z] += force_z
+    if force_z != 0.0 and sum_x + sum_y > 0.0:
+        # The column of yaw in a tendon's Jacobian is the distance of the key from the middle.
+        dof_yaw = int(u[GIRDER_DOF + 5])
+        for buffer in range(int(u[N_BUFFERS])):
+            own_x = u[BUFFER_FORCE + 2 * buffer]
+            own_y = u[BUFFER_FORCE + 2 * buffer + 1]
+            held = force_z * (abs(own_x) + abs(own_y)) / (sum_x + sum_y)
+            j = JACOBIAN + 2 * (int(u[N_PADS]) + buffer) * MAX_DOFS + dof_yaw
+            applied[int(u[GIRDER_DOF + 3])] -= u[j] * held
+            applied[int(u[GIRDER_DOF + 4])] -= u[j + MAX_DOFS] * held
+    u[GIRDER_FORCE] = -force_x
+    u[GIRDER_FORCE + 1] = -force_y
+    u[GIRDER_FORCE + 2] = force_z
+
+
+@compilable
+def sensor_step(
+    effects: Dispatch, u: Array, loads: Array, time: float, ten_length: Array, ten_velocity: Array,
+    friction_force: Array, sensordata: Array,
+) -> None:  # fmt: skip
+    """Keep loads and friction for the next step and write them as channels; what `mjcb_sensor` does.
+
+    Args:
+        effects: the chosen effects.
+        u: the law's numbers; memory and forces in them go on.
+        loads: (n_pads,) normal loads of this step [N].
+        time: since the start of the run [s].
+        ten_length: of MuJoCo's tendons: slip and deflection [m].
+        ten_velocity: their rates [m/s].
+        friction_force: of the constraint rows, on the girder [N].
+        sensordata: MuJoCo's readings [N]; set from the place of the law's own sensor on: load and forces along x and y
+            per pad, forces along x and y per buffer, further force on the girder along x, y, z.
+    """
+    n_pads = int(u[N_PADS])
+    first = int(u[USER_SENSOR])
+    for pad in range(n_pads):
+        tendon_x = int(u[TENDON + 2 * pad])
+        tendon_y = int(u[TENDON + 2 * pad + 1])
+        friction_x = -friction_force[int(u[FRICTION_ROW + 2 * pad])]
+        friction_y = -friction_force[int(u[FRICTION_ROW + 2 * pad + 1])]
+        force_x = friction_x + u[EXPLICIT + 2 * pad]
+        force_y = friction_y + u[EXPLICIT + 2 * pad + 1]
+        friction = sqrt(force_x * force_x + force_y * force_y)
+        z = effects.pad_memory + pad * effects.pad_block
+        pad_advance(
+            effects, u, z, u[BOUND + pad], friction, u[LOAD + pad], ten_velocity[tendon_x], ten_velocity[tendon_y],
+            ten_length[tendon_x], ten_length[tendon_y], u[SIDE + 2 * pad], u[SIDE + 2 * pad + 1], time, u[DT],
+        )  # fmt: skip
+        u[FORCE + 2 * pad] = friction_x
+        u[FORCE + 2 * pad + 1] = friction_y
+        u[LOAD + pad] = loads[pad]
+        sensordata[first + 3 * pad] = loads[pad]
+        sensordata[first + 3 * pad + 1] = force_x
+        sensordata[first + 3 * pad + 2] = force_y
+    n_forces = 2 * int(u[N_BUFFERS])
+    for i in range(n_forces):
+        sensordata[first + 3 * n_pads + i] = u[BUFFER_FORCE + i]
+    for axis in range(3):
+        sensordata[first + 3 * n_pads + n_forces + axis] = u[GIRDER_FORCE + axis]
