@@ -188,4 +188,5 @@ def _shares(state: Search, verdict: Verdict, listed: list[Hypothesis]) -> list[f
 
 
 def _is_one_thing(one: Hypothesis, other: Hypothesis) -> bool:
-    return set(one.names) ^ set(other.names) in twins(t.effect for t in (*one.terms, *other.terms))
+    apart = frozenset(one.names) ^ frozenset(other.names)
+    return apart in twins(t.effect for t in (*one.terms, *other.terms))
