@@ -1,1 +1,158 @@
-"""Slipwise: which physical effect does the model of a structure on sliding bearings lack?"""
+"""Slipwise: which physical effect does the model of a structure on sliding bearings lack?
+
+Everything that the command line does is here too:
+
+    import slipwise as sw
+
+    measured = sw.load_campaign("campaigns/march")
+    sw.audit(measured)                  # do the instruments tell the truth?
+    sw.compare(measured)                # where does the model fail?
+    found = sw.diagnose(measured)       # which effect does it lack?
+    found.plot()
+    sw.replay("bridge1", "quake:seed=1,peak=0.7g,vertical=0.3g").to_pandas()
+
+Names are loaded when they are first used, so that the import itself costs nothing.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from slipwise import channels, effects, motion, rig
+    from slipwise.campaign import Campaign, load_campaign
+    from slipwise.campaign.draft import init_campaign
+    from slipwise.comparison.compare import compare
+    from slipwise.comparison.result import Comparison
+    from slipwise.diagnosis.diagnose import diagnose
+    from slipwise.diagnosis.ladder import Ladder, ladder
+    from slipwise.diagnosis.model_change import ModelChange, add, remove
+    from slipwise.diagnosis.result import Diagnosis
+    from slipwise.effects import Effect
+    from slipwise.errors import SlipwiseError
+    from slipwise.experiment.motions import Limits
+    from slipwise.experiment.next_test import NextTest, next_test
+    from slipwise.instruments.checks import Checks, corrected_campaign
+    from slipwise.instruments.checks import check_instruments as audit
+    from slipwise.instruments.report import AuditReport
+    from slipwise.model import Model, base_model, use
+    from slipwise.model_file import load_model, save_model
+    from slipwise.motion import TableMotion, load_motion
+    from slipwise.params import Parameter
+    from slipwise.record import Record, read_record, write_record
+    from slipwise.simulation.pier import pier_top
+    from slipwise.simulation.replay import replay
+    from slipwise.simulation.simulator import Replay, SimulationDiverged
+    from slipwise.studies import paper
+    from slipwise.units import quantity
+
+    __version__: str
+
+#: Name -> the module that holds it, and its name there; a name without one is that module.
+_PLACES: dict[str, tuple[str, str]] = {
+    "Model": ("model", "Model"),
+    "base_model": ("model", "base_model"),
+    "use": ("model", "use"),
+    "load_model": ("model_file", "load_model"),
+    "save_model": ("model_file", "save_model"),
+    "load_motion": ("motion", "load_motion"),
+    "pier_top": ("simulation.pier", "pier_top"),
+    "replay": ("simulation.replay", "replay"),
+    "init_campaign": ("campaign.draft", "init_campaign"),
+    "load_campaign": ("campaign", "load_campaign"),
+    "audit": ("instruments.checks", "check_instruments"),
+    "corrected_campaign": ("instruments.checks", "corrected_campaign"),
+    "compare": ("comparison.compare", "compare"),
+    "diagnose": ("diagnosis.diagnose", "diagnose"),
+    "ladder": ("diagnosis.ladder", "ladder"),
+    "add": ("diagnosis.model_change", "add"),
+    "remove": ("diagnosis.model_change", "remove"),
+    "next_test": ("experiment.next_test", "next_test"),
+    "read_record": ("record", "read_record"),
+    "write_record": ("record", "write_record"),
+    "quantity": ("units", "quantity"),
+    "AuditReport": ("instruments.report", "AuditReport"),
+    "Campaign": ("campaign", "Campaign"),
+    "Checks": ("instruments.checks", "Checks"),
+    "Comparison": ("comparison.result", "Comparison"),
+    "Diagnosis": ("diagnosis.result", "Diagnosis"),
+    "Effect": ("effects", "Effect"),
+    "Ladder": ("diagnosis.ladder", "Ladder"),
+    "Limits": ("experiment.motions", "Limits"),
+    "ModelChange": ("diagnosis.model_change", "ModelChange"),
+    "NextTest": ("experiment.next_test", "NextTest"),
+    "Parameter": ("params", "Parameter"),
+    "Record": ("record", "Record"),
+    "Replay": ("simulation.simulator", "Replay"),
+    "SimulationDiverged": ("simulation.simulator", "SimulationDiverged"),
+    "SlipwiseError": ("errors", "SlipwiseError"),
+    "TableMotion": ("motion", "TableMotion"),
+    "channels": ("channels", ""),
+    "effects": ("effects", ""),
+    "motion": ("motion", ""),
+    "paper": ("studies.paper", ""),
+    "rig": ("rig", ""),
+}
+
+__all__ = [
+    "AuditReport",
+    "Campaign",
+    "Checks",
+    "Comparison",
+    "Diagnosis",
+    "Effect",
+    "Ladder",
+    "Limits",
+    "Model",
+    "ModelChange",
+    "NextTest",
+    "Parameter",
+    "Record",
+    "Replay",
+    "SimulationDiverged",
+    "SlipwiseError",
+    "TableMotion",
+    "__version__",
+    "add",
+    "audit",
+    "base_model",
+    "channels",
+    "compare",
+    "corrected_campaign",
+    "diagnose",
+    "effects",
+    "init_campaign",
+    "ladder",
+    "load_campaign",
+    "load_model",
+    "load_motion",
+    "motion",
+    "next_test",
+    "paper",
+    "pier_top",
+    "quantity",
+    "read_record",
+    "remove",
+    "replay",
+    "rig",
+    "save_model",
+    "use",
+    "write_record",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Load a name where it lives (PEP 562); nothing is kept here, so that a patch at its home is seen here too."""
+    if name == "__version__":
+        from importlib.metadata import version
+
+        return version("slipwise")
+    if name not in _PLACES:
+        raise AttributeError(f"module 'slipwise' has no attribute {name!r}; it has: {', '.join(__all__)}")
+    place, inside = _PLACES[name]
+    module = import_module(f"slipwise.{place}")
+    return getattr(module, inside) if inside else module
+
+
+def __dir__() -> list[str]:
+    """Give the names, for completion in a notebook."""
+    return sorted(__all__)

@@ -3,15 +3,17 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from slipwise.channels import channels_like
 from slipwise.effects import PORTS, Effect, base_effects, find_effect
 from slipwise.errors import SettingError
 from slipwise.rig import Specimen, load_specimen
+from slipwise.shown import Tabular
 
 
-@dataclass(frozen=True)
-class EffectUse:
+@dataclass(frozen=True, repr=False)
+class EffectUse(Tabular):
     """One effect in a model.
 
     Attributes:
@@ -52,27 +54,39 @@ class EffectUse:
         """Name with target, e.g. "channel_gain[pad_A_N]"."""
         return f"{self.effect.name}[{self.target}]" if self.target else self.effect.name
 
+    def _headline(self) -> str:
+        values = (f"{p.name} = {self.values[p.name]:.4g} {p.unit}".removesuffix(" 1") for p in self.effect.parameters)
+        return f"{self.label}({', '.join(values)})"
 
-def use(effect: Effect | str, target: str = "", **values: float) -> EffectUse:
+    def _rows(self) -> list[dict[str, Any]]:
+        return [{"effect": self.label, **p.row(), "value": self.values[p.name]} for p in self.effect.parameters]
+
+
+def use(effect: Effect | str, target: str = "", **values: float | str) -> EffectUse:
     """Make an effect ready for a model; parameters that are not given take their typical values.
 
     Args:
         effect: itself, its name, or the path of a user's file ("./mine.py").
         target: the channel, for effects that need one.
-        values: parameter -> value [SI].
+        values: parameter -> number [SI], or text with a unit ("5 %", "2 mm").
 
     Raises:
         UnknownNameError: no such effect or parameter.
-        SettingError: a value out of bounds.
+        UnitError: a unit of the wrong dimension, or none.
+        SettingError: a value out of bounds, or something else than an effect.
     """
     found = find_effect(effect) if isinstance(effect, str) else effect
-    for name in values:
-        found.parameter(name)
-    return EffectUse(found, {**found.typical(), **values}, target)
+    if not isinstance(found, Effect):
+        raise SettingError(f"an effect is a name, the path of a file or an Effect; got {type(found).__name__}")
+    return EffectUse(found, {**found.typical(), **_read(found, values)}, target)
 
 
-@dataclass(frozen=True)
-class Model:
+def _read(effect: Effect, values: Mapping[str, float | str]) -> dict[str, float]:
+    return {name: effect.parameter(name).read(value, effect.name) for name, value in values.items()}
+
+
+@dataclass(frozen=True, repr=False)
+class Model(Tabular):
     """A specimen with effects.
 
     Attributes:
@@ -138,10 +152,10 @@ class Model:
         gone = {self[name].label for name in names}
         return replace(self, uses=tuple(u for u in self.uses if u.label not in gone))
 
-    def setting(self, name: str, **values: float) -> "Model":
-        """Give a model with other parameter values of one effect."""
+    def setting(self, name: str, **values: float | str) -> "Model":
+        """Give a model with other parameter values of one effect: numbers in SI, or texts with a unit."""
         old = self[name]
-        new = replace(old, values={**old.values, **values})
+        new = replace(old, values={**old.values, **_read(old.effect, values)})
         return replace(self, uses=tuple(new if u is old else u for u in self.uses))
 
     def built_specimen(self) -> Specimen:
@@ -150,6 +164,12 @@ class Model:
         for entry in self.with_hook("rig"):
             specimen = entry.effect.hooks["rig"](specimen, **entry.values)
         return specimen
+
+    def _headline(self) -> str:
+        return f"{self.specimen.name} with {', '.join(u.label for u in self.uses) or 'no effect'}"
+
+    def _rows(self) -> list[dict[str, Any]]:
+        return [row for entry in self.uses for row in entry._rows()]
 
 
 def base_model(rig: str | Path | Specimen, effects: Sequence[str | Effect | EffectUse] | None = None) -> Model:

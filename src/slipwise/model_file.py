@@ -31,12 +31,12 @@ from tomlkit.items import AoT, Item, Table
 
 from slipwise.effects import Effect, base_effects, catalogue, find_effect, load_effect
 from slipwise.errors import InputError, SettingError, unknown_name
-from slipwise.model import EffectUse, Model, use
+from slipwise.model import EffectUse, Model, base_model, use
 from slipwise.params import Parameter
 from slipwise.record import write_text
 from slipwise.rig import load_specimen
 from slipwise.rig.known import SPECIMEN_UNITS, better_known, known_better, read_known
-from slipwise.rig.specimen import RIGS
+from slipwise.rig.specimen import RIGS, Specimen
 from slipwise.units import parse_unit, quantity
 
 _TOP = ("rig", "specimen", "effect")
@@ -58,7 +58,7 @@ def draft_model(rig: str) -> str:
     return re.sub(r"\n{3,}", "\n\n", tomlkit.dumps(document))
 
 
-def load_model(path: Path) -> Model:
+def load_model(path: Path | str) -> Model:
     """Read a model.toml.
 
     Raises:
@@ -67,15 +67,35 @@ def load_model(path: Path) -> Model:
         UnitError: a value without a unit or of the wrong dimension.
         SettingError: a value out of bounds, or effects that cannot go together.
     """
-    return _model(_read(path), path)
+    return _model(_read(Path(path)), Path(path))
 
 
-def save_model(model: Model, path: Path) -> None:
+def as_model(given: Model | Specimen | Path | str) -> Model:
+    """Give the model that a user means: itself, a model.toml, or a rig, which stands for the paper's law on it.
+
+    Raises:
+        SettingError: something else.
+        SlipwiseError: a file or a rig that cannot be read.
+    """
+    if isinstance(given, Model):
+        return given
+    if isinstance(given, Specimen):
+        return base_model(given)
+    if not isinstance(given, Path | str):
+        raise SettingError(
+            "a model is what base_model or load_model gives, the path of a model.toml, or the name of a rig "
+            f"({', '.join(RIGS)}); got {type(given).__name__}"
+        )
+    return load_model(given) if Path(given).suffix == ".toml" else base_model(given)
+
+
+def save_model(model: Model, path: Path | str) -> None:
     """Write a model; a file that is there keeps its comments, and its order as far as the model has it.
 
     Raises:
         SettingError: the file is of another rig.
     """
+    path = Path(path)
     rig = model.specimen.name if model.specimen.name in RIGS else str(model.specimen.path)
     document = _read(path) if path.is_file() else tomlkit.parse(f"{_HEAD}rig = {tomlkit.item(rig).as_string()}\n")
     rated = load_specimen(str(document["rig"]), path.parent)
@@ -192,16 +212,8 @@ def _made(effect: Effect, target: str, values: Mapping[str, Any], where: str) ->
         # A number of a TOML file must have a unit; one that a program gives is SI.
         plain = isinstance(value, float | int) and not isinstance(value, Item)
         found = float(value) if plain else quantity(value, parameter.unit, f"{where}, {name}")
-        si[name] = _snapped(found, parameter)
+        si[name] = parameter.snapped(found)
     return use(effect, target, **si)
-
-
-def _snapped(value: float, parameter: Parameter) -> float:
-    """Undo what the conversion from "300 mm" did to the last digit of a bound or of the neutral value."""
-    for exact in (parameter.neutral, parameter.typical, parameter.low, parameter.high):
-        if exact is not None and _same(value, exact):
-            return exact
-    return value
 
 
 def _same(value: float, other: float) -> bool:

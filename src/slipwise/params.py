@@ -1,8 +1,9 @@
 """A parameter: a value with its unit, its bounds and its source."""
 
 from dataclasses import dataclass
+from typing import Any
 
-from slipwise.errors import SettingError
+from slipwise.errors import SettingError, UnitError
 
 
 @dataclass(frozen=True)
@@ -64,4 +65,45 @@ class Parameter:
                 f"{prefix}{self.name} = {value:g} {self.unit} is out of bounds: "
                 f"{self.low:g} to {self.high:g} {self.unit}"
             )
+        return value
+
+    def read(self, given: Any, owner: str = "") -> float:
+        """Turn what a person gives into SI: a number is SI already, a text has its unit ("5 %", "2 mm").
+
+        Args:
+            given: the value.
+            owner: whose parameter it is, for the message.
+
+        Raises:
+            SettingError: neither a number nor a text.
+            UnitError: a text without a number, or with a unit of another dimension.
+        """
+        name = f"{owner}.{self.name}" if owner else self.name
+        possible = f"{self.low:g} to {self.high:g} {self.unit}"
+        if isinstance(given, str):
+            from slipwise.units import quantity  # pint takes a while to load: only where a text is given
+
+            try:
+                return self.snapped(quantity(given, self.unit, name))
+            except UnitError as error:
+                raise UnitError(f"{error}; possible are {possible}") from None
+        if isinstance(given, int | float):
+            return given
+        try:
+            return float(given)
+        except (TypeError, ValueError):
+            raise SettingError(
+                f"{name} is a number in SI or a text with its unit, {possible}; got {type(given).__name__}"
+            ) from None
+
+    def row(self) -> dict[str, str | float | None]:
+        """Give what a table says of it, SI."""
+        numbers = {"typical": self.typical, "low": self.low, "high": self.high, "neutral": self.neutral}
+        return {"parameter": self.name, **numbers, "unit": self.unit, "meaning": self.meaning}
+
+    def snapped(self, value: float) -> float:
+        """Undo what the conversion from "300 mm" did to the last digit of a bound or of the neutral value."""
+        for exact in (self.neutral, self.typical, self.low, self.high):
+            if exact is not None and abs(value - exact) <= 1e-13 * abs(exact):
+                return exact
         return value

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 import pyarrow as pa
@@ -21,13 +21,17 @@ from numpy.typing import NDArray
 
 from slipwise.channels import PADS, channel
 from slipwise.errors import InputError, SettingError
+from slipwise.shown import Drawn, frame
 from slipwise.units import parse_unit
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Record:
+@dataclass(frozen=True, repr=False)
+class Record(Drawn):
     """Channels that share one time axis.
 
     Attributes:
@@ -86,6 +90,26 @@ class Record:
         """Give the part with start <= time <= end [s]."""
         inside = (self.time >= start) & (self.time <= end)
         return Record(self.time[inside], {n: v[inside] for n, v in self.channels.items()}, self.provenance)
+
+    def to_pandas(self) -> "DataFrame":
+        """Give time and channels as the columns of a pandas frame, SI.
+
+        Raises:
+            InputError: pandas is not installed.
+        """
+        return frame({"time": self.time, **self.channels})
+
+    def _headline(self) -> str:
+        if len(self) < 2:
+            return f"{len(self.channels)} channels, {len(self)} samples"
+        return f"{len(self.channels)} channels, {len(self)} samples of {self.dt:.4g} s"
+
+    def _rows(self) -> list[dict[str, Any]]:
+        return [
+            {"channel": n, "unit": channel(n).unit, "smallest": float(v.min()), "largest": float(v.max())}
+            for n, v in self.channels.items()
+            if len(v)
+        ]
 
 
 @contextmanager

@@ -5,11 +5,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 from slipwise.campaign.rest_noise import Gauge, noise_of_gauges
 from slipwise.errors import SettingError
 from slipwise.record import Record
 from slipwise.rig import Specimen
+from slipwise.shown import Drawn, Tabular
 from slipwise.signals import LowPass
 
 ROLES: tuple[str, ...] = ("fit", "repeat", "holdout")
@@ -62,8 +64,8 @@ class Run:
     sha256: str
 
 
-@dataclass(frozen=True)
-class Campaign:
+@dataclass(frozen=True, repr=False)
+class Campaign(Drawn, Tabular):
     """Runs of one specimen.
 
     Attributes:
@@ -110,3 +112,20 @@ class Campaign:
         """Give a campaign with other records for some runs, and say so in its notes."""
         runs = tuple(replace(run, record=records.get(run.name, run.record)) for run in self.runs)
         return replace(self, runs=runs, notes=(*self.notes, note))
+
+    def _headline(self) -> str:
+        return f"{self.name}, {len(self.runs)} runs on {self.rig}"
+
+    def _rows(self) -> list[dict[str, Any]]:
+        return [
+            {
+                "run": run.name,
+                "role": run.role,
+                "seconds": float(run.record.time[-1] - run.record.time[0]),
+                "step": run.record.dt,
+                "channels": len(run.record.channels),
+                "rest_before": run.rest_before,
+                "file": run.file,
+            }
+            for run in self.runs
+        ]

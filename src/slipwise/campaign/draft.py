@@ -10,6 +10,7 @@ from pathlib import Path
 from slipwise.campaign.table import SUFFIXES, open_table
 from slipwise.channels import CHANNELS, PADS, channel
 from slipwise.errors import InputError, SlipwiseError
+from slipwise.record import write_text
 from slipwise.units import parse_unit
 
 #: "disp (in)", "force [kip]": a name and its unit.
@@ -27,6 +28,22 @@ _WORDS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("table",), "table_ax"),
     (("acc", "accel", "acceleration", "girder"), "girder_ax"),
 )
+
+
+def init_campaign(folder: Path | str) -> Path:
+    """Write a first campaign.toml into a folder of measured runs; what only a person knows is marked in it.
+
+    Returns:
+        The file.
+
+    Raises:
+        InputError: the file exists, or there is nothing to draft it from.
+    """
+    path = Path(folder) / "campaign.toml"
+    if path.exists():
+        raise InputError(f"{path} exists and is not overwritten; move it away to draft a new one")
+    write_text(path, draft_campaign(Path(folder)))
+    return path
 
 
 def draft_campaign(folder: Path) -> str:

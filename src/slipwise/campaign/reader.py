@@ -74,6 +74,21 @@ def load_campaign(folder: Path | str) -> Campaign:
     return replace(campaign, notes=(*notes, *check_same_specimen(campaign)))
 
 
+def as_campaign(given: Campaign | Path | str) -> Campaign:
+    """Give the campaign that a user means: itself, or that of a folder.
+
+    Raises:
+        InputError: something else, or a folder that cannot be read.
+    """
+    if isinstance(given, Campaign):
+        return given
+    if not isinstance(given, Path | str):
+        raise InputError(
+            f"a campaign is a folder with campaign.toml or what load_campaign gives; got {type(given).__name__}"
+        )
+    return load_campaign(given)
+
+
 def _better_known(specimen: Specimen, known: Mapping[str, float | str]) -> Specimen:
     values: dict[str, object] = dict(known)
     if "buffer_stiffness" in values:

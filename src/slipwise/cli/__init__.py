@@ -2,9 +2,11 @@
 
 import sys
 import warnings
+from typing import Annotated
 
 import typer
 
+import slipwise as sw
 from slipwise.cli import campaign, demo, diagnose, edit, effects, lists, next_test, paper, replay, view
 from slipwise.errors import SlipwiseError, SlipwiseWarning
 
@@ -26,6 +28,21 @@ paper.register(app)
 view.register(app)
 lists.register(app)
 effects.register(app)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        print(f"slipwise {sw.__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version and exit.")
+    ] = False,
+) -> None:
+    """Take what stands before the command."""
 
 
 def _show_warning(message: Warning | str, category: type[Warning], *_: object, **__: object) -> None:

@@ -5,11 +5,9 @@ from typing import Annotated
 
 import typer
 
-from slipwise.campaign import load_campaign
+import slipwise as sw
 from slipwise.cli.console import OUT, out_folder, print_json
 from slipwise.cli.diagnose import CampaignFolder, Json, ModelFile, System, start_model, steps
-from slipwise.errors import InputError
-from slipwise.record import write_json, write_text
 
 Correct = Annotated[
     list[str] | None,
@@ -22,12 +20,7 @@ def init(folder: Annotated[Path, typer.Argument(help="Folder with the files of t
 
     Example: `slipwise init campaigns/march`
     """
-    from slipwise.campaign.draft import draft_campaign
-
-    path = folder / "campaign.toml"
-    if path.exists():
-        raise InputError(f"{path} exists and is not overwritten; move it away to draft a new one")
-    write_text(path, draft_campaign(folder))
+    path = sw.init_campaign(folder)
     OUT.print(f"wrote {path}; read it, and decide what is marked in it", markup=False, highlight=False, soft_wrap=True)
 
 
@@ -36,24 +29,20 @@ def audit(campaign: CampaignFolder, correct: Correct = None, json: Json = False)
 
     Example: `slipwise audit campaigns/march`
     """
-    from slipwise.instruments.checks import check_instruments, corrected_campaign
     from slipwise.view.terminal import print_table
 
-    measured = load_campaign(campaign)
+    measured = sw.load_campaign(campaign)
     with steps() as tell:
         tell("auditing the instruments", 0.2)
-        found = check_instruments(measured)
+        found = sw.audit(measured)
         notes: tuple[str, ...] = ()
         if correct:
-            mended = corrected_campaign(measured, found, correct)
+            mended = sw.corrected_campaign(measured, found, correct)
             notes = mended.notes[len(measured.notes) :]
             tell("auditing once more", 0.6)
-            found = check_instruments(mended)
+            found = sw.audit(mended)
     if json:
-        content = {"schema": 1, "campaign": measured.name, "accused": found.accused, "words": found.words}
-        notes = (*notes, *found.notes)
-        content |= {"findings": found.report.rows(), "cannot": list(found.cannot), "notes": list(notes)}
-        print_json(content)
+        print_json({**found.as_json(), "notes": [*notes, *found.notes]})
         return
     for words in (*notes, found.words):
         OUT.print(words, markup=False, highlight=False, soft_wrap=True)
@@ -80,23 +69,20 @@ def compare(
 
     Example: `slipwise compare campaigns/march --out out/march`
     """
-    from slipwise.comparison.compare import compare as run_comparison
-    from slipwise.comparison.tables import as_json
-    from slipwise.instruments.checks import check_instruments, corrected_campaign
     from slipwise.view.compare_page import compare_page
+    from slipwise.view.files import save_json, save_page
 
-    measured = load_campaign(campaign)
+    measured = sw.load_campaign(campaign)
     start = start_model(campaign, model)
     folder = out_folder(out)
     with steps() as tell:
         if correct:
-            measured = corrected_campaign(measured, check_instruments(measured), correct)
-        found = run_comparison(measured, start, system=system, progress=tell)
+            measured = sw.corrected_campaign(measured, sw.audit(measured), correct)
+        found = sw.compare(measured, start, system=system, progress=tell)
         tell("writing the report", 0.97)
-        content = as_json(found)
-        write_text(folder / "report.html", compare_page(found))
-        write_json(folder / "compare.json", content)
-        files = [folder / "compare.json", folder / "report.html"]
+        content = found.as_json()
+        page = save_page(compare_page(found), folder / "report.html")
+        files = [save_json(content, folder / "compare.json"), page]
         if recording:
             from slipwise.view.compare_recording import write_compare_recording
 

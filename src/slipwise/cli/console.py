@@ -7,7 +7,6 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from slipwise.errors import InputError
 
@@ -38,6 +37,8 @@ def out_folder(path: Path) -> Path:
 @contextmanager
 def progress(words: str) -> Iterator[Callable[[float], None]]:
     """Show the progress of long work on the terminal; call what it gives with the fraction done."""
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),
@@ -47,3 +48,14 @@ def progress(words: str) -> Iterator[Callable[[float], None]]:
     with Progress(*columns, console=ERR, transient=True, disable=not ERR.is_terminal) as bar:
         task = bar.add_task(words, total=1.0)
         yield lambda fraction: bar.update(task, completed=fraction)
+
+
+@contextmanager
+def steps() -> Iterator[Callable[[str, float], None]]:
+    """Show what is being done, and how far it is."""
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description:32s}"), BarColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=ERR, transient=True, disable=not ERR.is_terminal) as bar:
+        task = bar.add_task("reading", total=1.0)
+        yield lambda words, share: bar.update(task, description=words, completed=share)

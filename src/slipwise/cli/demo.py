@@ -4,16 +4,13 @@ import shutil
 import time
 from importlib.resources import files
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from slipwise.cli.console import OUT, out_folder
-from slipwise.cli.diagnose import print_rungs, steps
-from slipwise.record import write_json, write_text
-
-if TYPE_CHECKING:
-    from slipwise.diagnosis.result import Diagnosis
+import slipwise as sw
+from slipwise.cli.console import OUT, out_folder, steps
+from slipwise.cli.diagnose import print_rungs
 
 #: Worst places of the error that are told.
 _TOLD = 3
@@ -28,14 +25,9 @@ def demo(
 
     Example: `slipwise demo`
     """
-    from slipwise.campaign import load_campaign
-    from slipwise.comparison.compare import compare
-    from slipwise.diagnosis.diagnose import diagnose
-    from slipwise.diagnosis.ladder import ladder_of
-    from slipwise.diagnosis.replays import replays
-    from slipwise.model_file import save_model
     from slipwise.view.comparison import write_comparison
     from slipwise.view.diagnosis_page import diagnosis_page
+    from slipwise.view.files import save_json, save_page
     from slipwise.view.geometry import geometry_of
     from slipwise.view.numbers import counted, in_words
     from slipwise.view.terminal import print_table
@@ -44,7 +36,7 @@ def demo(
     folder = out_folder(out)
     campaign = folder / "campaign"
     _copy(campaign)
-    measured = load_campaign(campaign)
+    measured = sw.load_campaign(campaign)
     rig, unseen = measured.specimen, len(measured.with_role("holdout"))
     fitted = len(measured.runs) - unseen
     _say(
@@ -57,7 +49,7 @@ def demo(
     runs = [{"run": r.name, "role": r.role, "seconds": round(float(r.record.time[-1]), 1)} for r in measured.runs]
     print_table("Runs", runs)
     with steps() as tell:
-        compared = compare(measured, system=False, progress=tell)
+        compared = sw.compare(measured, system=False, progress=tell)
     _say(
         f"2  The paper's model, fitted to {counted(fitted, 'run')}, is held against the {in_words(unseen)} that it has "
         "not seen",
@@ -70,8 +62,8 @@ def demo(
     for place in compared.places[:_TOLD]:
         OUT.print(f"  - {place.words}", markup=False, highlight=False, soft_wrap=True)
     with steps() as tell:
-        found = diagnose(measured, system=True, progress=tell)
-    climbed = ladder_of(found)
+        found = sw.diagnose(measured, system=True, progress=tell)
+    climbed = found.ladder()
     _say("3  What is missing?", found.sentence)
     hypotheses = [{"hypothesis": c.effect, "probability": round(c.probability, 3)} for c in found.candidates]
     print_table(f"{climbed.tried[0]} candidates screened, {climbed.tried[1]} refitted", hypotheses)
@@ -81,17 +73,17 @@ def demo(
         f"{counted(unseen, 'held-out run')}, which no fit has seen. It stops here: {climbed.stopped}.",
     )
     print_rungs(climbed)
-    save_model(found.final.problem.model(found.final.solution.values), campaign / "model.toml")
-    write_json(folder / "diagnosis.json", found.as_json())
-    write_json(folder / "ladder.json", climbed.as_json())
-    write_text(folder / "report.html", diagnosis_page(found, climbed))
-    seen, simulated = replays(found)
+    sw.save_model(found.model, campaign / "model.toml")
+    save_json(found.as_json(), folder / "diagnosis.json")
+    save_json(climbed.as_json(), folder / "ladder.json")
+    save_page(diagnosis_page(found, climbed), folder / "report.html")
+    seen, simulated = found.replays()
     write_comparison(seen, simulated, geometry_of(rig), folder / "before_and_after.rrd", found.sentence)
     _say("5  Look at it", "The report opens in any browser, the recording in the rerun viewer:")
     for line in (
         f"{folder / 'report.html'}",
         f"slipwise view {folder}",
-        f"slipwise diagnose {campaign} --model {campaign / 'model.toml'}   ({_left(found)})",
+        f"slipwise diagnose {campaign} --model {campaign / 'model.toml'}   ({found.left_over})",
         *(f"slipwise effects {name}   (what it is, and where it comes from)" for name in found.verdict.effects),
     ):
         OUT.print(f"  {line}", markup=False, highlight=False, soft_wrap=True)
@@ -109,20 +101,6 @@ def _copy(campaign: Path) -> None:
 def _say(title: str, words: str) -> None:
     OUT.print(f"\n[bold]{title}[/bold]")
     OUT.print(words, markup=False, highlight=False)
-
-
-def _left(found: "Diagnosis") -> str:
-    """Say what is left above the noise when the named effects are in the model."""
-    from slipwise.comparison.component_level import NAMES
-    from slipwise.diagnosis.ladder import DOWN
-
-    over = [f"{NAMES[name][0]} {after:.2f}" for name, (_, after) in found.relations.items() if after >= DOWN]
-    if over:
-        return f"still above the noise, in floors: {', '.join(over)}"
-    if found.verdict.leftover != "none":
-        surface = found.verdict.surface
-        return f"what is left: {surface.words if surface else 'no state that was measured organises it'}"
-    return "nothing is missing any more"
 
 
 def _rounded(value: float | None) -> float | None:

@@ -1,21 +1,14 @@
 """`slipwise diagnose` and `slipwise ladder`: name what is missing, and watch the error fall."""
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from math import isfinite
 from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-from slipwise.campaign import load_campaign
-from slipwise.cli.console import ERR, OUT, out_folder, print_json
-from slipwise.effects import Effect, find_effect
+import slipwise as sw
+from slipwise.cli.console import ERR, OUT, out_folder, print_json, steps
 from slipwise.errors import InputError
-from slipwise.model import Model
-from slipwise.model_file import load_model
-from slipwise.record import write_json, write_text
 
 CampaignFolder = Annotated[Path, typer.Argument(help="Folder with campaign.toml and the measured runs.")]
 System = Annotated[bool, typer.Option(help="Replay the models in MuJoCo as well (system level).")]
@@ -29,26 +22,17 @@ Own = Annotated[
 Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON for a program to read.")]
 
 
-@contextmanager
-def steps() -> Iterator[Callable[[str, float], None]]:
-    """Show what is being done, and how far it is."""
-    columns = (TextColumn("{task.description:32s}"), BarColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=ERR, transient=True, disable=not ERR.is_terminal) as bar:
-        task = bar.add_task("reading", total=1.0)
-        yield lambda words, share: bar.update(task, description=words, completed=share)
-
-
-def start_model(campaign: Path, given: Path | None) -> Model | None:
+def start_model(campaign: Path, given: Path | None) -> "sw.Model | None":
     """Give the user's model: the file named, or model.toml beside campaign.toml, or nothing."""
     beside = campaign / "model.toml"
     if given is not None:
-        return load_model(given)
-    return load_model(beside) if beside.is_file() else None
+        return sw.load_model(given)
+    return sw.load_model(beside) if beside.is_file() else None
 
 
-def own_effects(given: list[str] | None) -> tuple[Effect, ...]:
+def own_effects(given: list[str] | None) -> "tuple[sw.Effect, ...]":
     """Give the effects of a user's own files."""
-    return tuple(find_effect(path) for path in given or [])
+    return tuple(sw.effects.find_effect(path) for path in given or [])
 
 
 def diagnose(
@@ -68,13 +52,11 @@ def diagnose(
 
     Example: `slipwise diagnose campaigns/march --out out/march`
     """
-    from slipwise.diagnosis.diagnose import diagnose as run_diagnosis
-
-    measured = load_campaign(campaign)
+    measured = sw.load_campaign(campaign)
     folder = out_folder(out)
     with steps() as tell:
         start = start_model(campaign, model)
-        found = run_diagnosis(measured, start, own=own_effects(effect), system=system, progress=tell)
+        found = sw.diagnose(measured, start, own=own_effects(effect), system=system, progress=tell)
     try:
         if not json:  # before anything is drawn: who waits, waits for this
             _tell(found)
@@ -86,25 +68,24 @@ def diagnose(
         _wrote(files)
 
 
-def _write(found, folder: Path, recording: bool) -> list[Path]:  # noqa: ANN001 - a Diagnosis; imported where it is used
+def _write(found: "sw.Diagnosis", folder: Path, recording: bool) -> list[Path]:
     """Write the diagnosis, its page and, if asked for, its recording."""
-    from slipwise.diagnosis.ladder import ladder_of
     from slipwise.view.diagnosis_page import diagnosis_page
+    from slipwise.view.files import save_json, save_page
 
-    write_json(folder / "diagnosis.json", found.as_json())
-    write_text(folder / "report.html", diagnosis_page(found, ladder_of(found)))
-    return [folder / "diagnosis.json", folder / "report.html", *(_record(found, folder) if recording else [])]
+    files = [save_json(found.as_json(), folder / "diagnosis.json")]
+    files.append(save_page(diagnosis_page(found, found.ladder()), folder / "report.html"))
+    return [*files, *(_record(found, folder) if recording else [])]
 
 
-def _tell(found) -> None:  # noqa: ANN001 - a Diagnosis; imported where it is used
+def _tell(found: "sw.Diagnosis") -> None:
     """Print the verdict, its rivals and what it rests on."""
-    from slipwise.diagnosis.rivals import partings
     from slipwise.view.terminal import print_table
 
     OUT.print(found.sentence, markup=False, highlight=False)
-    for words in partings(found.verdict, found.search):
+    for words in found.partings:
         OUT.print(f"to tell apart: {words}", markup=False, highlight=False, soft_wrap=True)
-    before = "held-out before" if found.search.base.problem.held_out else "fitted runs before"
+    before = "held-out before" if found.held_out else "fitted runs before"
     rows = [
         {"hypothesis": c.effect, "probability": round(c.probability, 3), before: round(c.holdout_before, 2),
          "after": round(c.holdout_after, 2)}
@@ -118,13 +99,12 @@ def _tell(found) -> None:  # noqa: ANN001 - a Diagnosis; imported where it is us
         OUT.print(f"cannot tell {words}", markup=False, highlight=False, soft_wrap=True)
 
 
-def _record(found, folder: Path) -> list[Path]:  # noqa: ANN001 - a Diagnosis; imported where it is used
-    from slipwise.diagnosis.replays import replays
+def _record(found: "sw.Diagnosis", folder: Path) -> list[Path]:
     from slipwise.view.comparison import write_comparison
     from slipwise.view.geometry import geometry_of
 
     try:
-        measured, simulated = replays(found)
+        measured, simulated = found.replays()
     except InputError as error:
         ERR.print(f"no recording: {error}", markup=False, highlight=False, soft_wrap=True)
         return []
@@ -145,17 +125,17 @@ def ladder(
 
     Example: `slipwise ladder campaigns/march --out out/march`
     """
-    from slipwise.diagnosis.ladder import ladder as climb
     from slipwise.view.canvas import save_figure
     from slipwise.view.diagnosis_figures import ladder_figure
+    from slipwise.view.files import save_json
     from slipwise.view.style import styled
 
-    measured = load_campaign(campaign)
+    measured = sw.load_campaign(campaign)
     folder = out_folder(out)
     with steps() as tell:
         start = start_model(campaign, model)
-        found = climb(measured, add or [], start, own=own_effects(effect), system=system, progress=tell)
-    write_json(folder / "ladder.json", found.as_json())
+        found = sw.ladder(measured, add or [], start, own=own_effects(effect), system=system, progress=tell)
+    content = save_json(found.as_json(), folder / "ladder.json")
     with styled():
         picture = save_figure(ladder_figure(found), folder / "ladder.png")
     if json:
@@ -164,10 +144,10 @@ def ladder(
     print_rungs(found)
     screened, refitted = found.tried
     OUT.print(f"{screened} candidates screened, {refitted} hypotheses refitted, {found.seconds:.0f} s; {found.stopped}")
-    _wrote([folder / "ladder.json", picture])
+    _wrote([content, picture])
 
 
-def print_rungs(found) -> None:  # noqa: ANN001 - a Ladder; imported where it is used
+def print_rungs(found: "sw.Ladder") -> None:
     """Print the errors of every step; nothing where there is none."""
     from slipwise.view.diagnosis_figures import step_errors
     from slipwise.view.terminal import print_table

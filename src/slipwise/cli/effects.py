@@ -5,8 +5,8 @@ from typing import Annotated
 
 import typer
 
+import slipwise as sw
 from slipwise.cli.console import OUT, print_json
-from slipwise.effects import find_effect
 
 
 def effects(
@@ -30,7 +30,7 @@ def effects(
         else:
             print_effects(console=OUT)
         return
-    effect = find_effect(name)
+    effect = sw.effects.find_effect(name)
     if json:
         print_json(effect_rows([effect])[0])
     elif source:

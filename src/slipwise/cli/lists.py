@@ -4,12 +4,8 @@ from typing import Annotated
 
 import typer
 
-from slipwise.channels import CHANNELS
+import slipwise as sw
 from slipwise.cli.console import print_json
-from slipwise.motion import synthetic_motions
-from slipwise.motion.formats import FORMATS
-from slipwise.rig import RIGS, load_specimen
-from slipwise.view.terminal import print_table
 
 Json = Annotated[bool, typer.Option("--json", help="Print JSON for a program to read.")]
 
@@ -20,8 +16,8 @@ def rigs(json: Json = False) -> None:
     Example: `slipwise rigs`
     """
     rows = []
-    for name in RIGS:
-        specimen = load_specimen(name)
+    for name in sw.rig.RIGS:
+        specimen = sw.rig.load_specimen(name)
         rows.append(
             {
                 "rig": name,
@@ -42,7 +38,8 @@ def channels(json: Json = False) -> None:
 
     Example: `slipwise channels`
     """
-    rows = [{"channel": c.name, "unit": c.shown_in, "where": c.place, "positive": c.sign} for c in CHANNELS.values()]
+    known = sw.channels.CHANNELS.values()
+    rows = [{"channel": c.name, "unit": c.shown_in, "where": c.place, "positive": c.sign} for c in known]
     _show("Channels", rows, json)
 
 
@@ -51,10 +48,13 @@ def motions(json: Json = False) -> None:
 
     Example: `slipwise motions`
     """
+    from slipwise.view.terminal import print_table
+
     made = [
-        {"motion": m.name, "syntax": m.syntax, "meaning": m.meaning, "example": m.example} for m in synthetic_motions()
+        {"motion": m.name, "syntax": m.syntax, "meaning": m.meaning, "example": m.example}
+        for m in sw.motion.synthetic_motions()
     ]
-    read = [{"format": f.name, "note": f.note} for f in FORMATS]
+    read = [{"format": f.name, "note": f.note} for f in sw.motion.FORMATS]
     if json:
         print_json({"synthetic": made, "formats": read})
         return
@@ -63,6 +63,8 @@ def motions(json: Json = False) -> None:
 
 
 def _show(title: str, rows: list[dict], json: bool) -> None:
+    from slipwise.view.terminal import print_table
+
     if json:
         print_json(rows)
     else:

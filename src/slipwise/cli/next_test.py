@@ -1,18 +1,13 @@
 """`slipwise next`: which table motion would tell the rivals apart."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from slipwise.campaign import load_campaign
-from slipwise.cli.console import OUT, out_folder, print_json
-from slipwise.cli.diagnose import CampaignFolder, Json, ModelFile, Own, own_effects, start_model, steps
-from slipwise.record import write_json
-from slipwise.units import quantity
-
-if TYPE_CHECKING:
-    from slipwise.experiment.next_test import NextTest
+import slipwise as sw
+from slipwise.cli.console import OUT, out_folder, print_json, steps
+from slipwise.cli.diagnose import CampaignFolder, Json, ModelFile, Own, own_effects, start_model
 
 
 def next_motion(
@@ -32,55 +27,30 @@ def next_motion(
 
     Example: `slipwise next campaigns/march --stroke "150 mm"`
     """
-    from slipwise.diagnosis.diagnose import diagnose
-    from slipwise.experiment.motions import Limits
-    from slipwise.experiment.next_test import next_test, refuse_prescribed
+    from slipwise.view.files import save_json
 
-    limits = Limits(
-        quantity(stroke, "m", "--stroke"),
-        quantity(speed, "m/s", "--speed"),
-        quantity(acceleration, "m/s^2", "--acceleration"),
+    limits = sw.Limits(
+        sw.quantity(stroke, "m", "--stroke"),
+        sw.quantity(speed, "m/s", "--speed"),
+        sw.quantity(acceleration, "m/s^2", "--acceleration"),
     )
-    measured = load_campaign(campaign)
-    refuse_prescribed(measured)
+    measured = sw.load_campaign(campaign)
     start, own = start_model(campaign, model), own_effects(effect)
     folder = None if out is None else out_folder(out)
     with steps() as tell:
-        found = diagnose(measured, start, own=own, progress=lambda words, share: tell(words, 0.5 * share))
-        ranked = next_test(found, limits, progress=lambda words, share: tell(words, 0.5 + 0.5 * share))
-    rows = [
-        {
-            "motion": p.motion,
-            "separation": round(p.separation, 3),
-            "in": p.relation,
-            "probability then": round(p.probability, 3),
-            "table": p.refused or "can make it",
-            "failed": p.failed,
-        }
-        for p in ranked.proposals
-    ]
-    content = {
-        "best": list(ranked.rivals[0]),
-        "rival": list(ranked.rivals[1]),
-        "probability": round(ranked.chances[0], 3),
-        "rivals": [
-            {"effects": list(names), "probability": round(chance, 3)}
-            for names, chance in zip(ranked.rivals, ranked.chances, strict=True)
-        ],
-        "words": ranked.words,
-        "motions": rows,
-    }
+        ranked = sw.next_test(measured, limits, progress=tell, model=start, own=own)
+    content = ranked.as_json()
     if folder is not None:
-        write_json(folder / "next.json", content)
+        save_json(content, folder / "next.json")
     if json:
         print_json(content)
     else:
-        _tell(found.sentence, ranked)
+        _tell(ranked)
         if folder is not None:
             OUT.print(f"wrote {folder / 'next.json'}", markup=False, highlight=False, soft_wrap=True)
 
 
-def _tell(sentence: str, ranked: "NextTest") -> None:
+def _tell(ranked: "sw.NextTest") -> None:
     """Print the verdict, what is held against what, and the motions; those that cannot be made or judged apart."""
     from slipwise.view.terminal import print_table
 
@@ -96,7 +66,7 @@ def _tell(sentence: str, ranked: "NextTest") -> None:
         for p in ranked.proposals
         if not p.refused and not p.failed
     ]
-    OUT.print(f"{sentence}\n{told}:", markup=False, highlight=False, soft_wrap=True)
+    OUT.print(f"{ranked.sentence}\n{told}:", markup=False, highlight=False, soft_wrap=True)
     if rows:
         print_table("What each motion would tell; separation in variances of the noise", rows)
     left = [f"the table cannot make {p.motion}: {p.refused}" for p in ranked.proposals if p.refused]

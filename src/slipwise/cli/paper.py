@@ -9,11 +9,9 @@ from typing import Annotated
 
 import typer
 
+import slipwise as sw
 from slipwise.cli.console import OUT, out_folder, print_json, progress
 from slipwise.errors import InputError
-from slipwise.motion import load_motion
-from slipwise.record import write_json
-from slipwise.studies.paper import PaperSettings, as_json, change, reenact
 
 #: Motions of the ensemble in quick mode.
 _QUICK = 8
@@ -44,26 +42,30 @@ def paper(
 
     Example: `slipwise paper --out out/paper --readings n_unit=s/mm`
     """
-    settings = change(replace(PaperSettings(), members=_QUICK if quick else members, seed=seed), readings or [])
+    settings = sw.paper.change(
+        replace(sw.paper.PaperSettings(), members=_QUICK if quick else members, seed=seed), readings or []
+    )
     shaking = None
     if ground:
-        shaking = load_motion(ground)
+        shaking = sw.load_motion(ground)
         settings = replace(settings, ground=shaking.title)
     folder = out_folder(out)
     with ExitStack() as stack:
         executor = stack.enter_context(_cluster(cluster)) if cluster else None
         report = stack.enter_context(progress("re-enacting the paper"))
-        result = reenact(
+        result = sw.paper.reenact(
             settings, folder, quick=quick, ground=shaking, executor=executor, workers=workers, progress=report
         )
     # Pictures take a second to load: only when there is something to draw.
+    from slipwise.view.files import save_json
     from slipwise.view.paper_page import write_page
     from slipwise.view.terminal import print_table
 
-    write_json(folder / "paper.json", as_json(result))
+    content = sw.paper.as_json(result)
+    save_json(content, folder / "paper.json")
     page = write_page(result, folder / "paper.html")
     if json:
-        print_json(as_json(result))
+        print_json(content)
         return
     for study in result.studies:
         rows = [{"where": f.place, "we get": f.brief, "verdict": f.verdict} for f in study.findings]

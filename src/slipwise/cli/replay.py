@@ -2,21 +2,13 @@
 
 import time
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
+import slipwise as sw
 from slipwise.cli.console import OUT, out_folder, print_json, progress
 from slipwise.errors import SettingError
-from slipwise.model import Model, base_model, use
-from slipwise.motion import TableMotion, load_motion, scale, scale_time, scale_to_peak, trim, warn_beyond_stroke
-from slipwise.record import write_json, write_record
-from slipwise.rig import LENGTH_SCALE
-from slipwise.simulation.pier import pier_top
-from slipwise.simulation.replay import replay as run_replay
-from slipwise.simulation.simulator import DT, OUTPUT_DT, Replay, SimulationDiverged
-from slipwise.simulation.summary import summary
-from slipwise.units import quantity
 
 
 def replay(
@@ -64,74 +56,76 @@ def replay(
 
     Example: `slipwise replay quake:seed=1,peak=0.7g,vertical=0.3g --rig bridge1 --out out/quake`
     """
+    from slipwise.view.files import save_json
+
     began = time.perf_counter()
-    seconds = None if motion_dt is None else quantity(motion_dt, "s", "--motion-dt")
-    shaking = load_motion(motion, x=x, y=y, z=z, dt=seconds, unit=unit, baseline=baseline)  # type: ignore[arg-type]
+    seconds = None if motion_dt is None else sw.quantity(motion_dt, "s", "--motion-dt")
+    shaking = sw.load_motion(motion, x=x, y=y, z=z, dt=seconds, unit=unit, baseline=baseline)  # type: ignore[arg-type]
     if pier is not None and similarity is not None:
         raise SettingError("--pier shortens time by itself, as the model's; leave --similarity out")
     shaking = _shaped(shaking, amplitude, peak, similarity, start, end)
     if pier is not None:
-        shaking = pier_top(shaking, pier)
+        shaking = sw.pier_top(shaking, pier)
     if stroke is not None:
-        warn_beyond_stroke(shaking, quantity(stroke, "m", "--stroke"))
+        sw.motion.warn_beyond_stroke(shaking, sw.quantity(stroke, "m", "--stroke"))
     model = _model(rig, law, effect or [])
     folder = out_folder(out)
-    settings = {
-        "dt": quantity(step, "s", "--step") if step else DT,
-        "output_dt": quantity(output_step, "s", "--output-step") if output_step else OUTPUT_DT,
-        "engine": engine,
-    }
+    given = {"dt": (step, "--step"), "output_dt": (output_step, "--output-step")}
+    settings: dict[str, Any] = {name: sw.quantity(text, "s", option) for name, (text, option) in given.items() if text}
     try:
         with progress("replay") as report:
-            answer = run_replay(model, shaking, progress=report, **settings)
-    except SimulationDiverged as error:
+            answer = sw.replay(model, shaking, engine=engine, progress=report, **settings)
+    except sw.SimulationDiverged as error:
         _write_record(error.replay, folder, csv)
         raise
     files = [_write_record(answer, folder, csv)]
     files += _draw(answer, model, folder, shaking.title, pictures, recording)
-    numbers = summary(answer, shaking, time.perf_counter() - began)
-    write_json(folder / "summary.json", numbers)
+    numbers = answer.summary(shaking, time.perf_counter() - began)
+    files.append(save_json(numbers, folder / "summary.json"))
     if json:
         print_json(numbers)
     else:
-        _tell(numbers, shaking, [*files, folder / "summary.json"])
+        _tell(numbers, shaking, files)
 
 
 def _shaped(
-    motion: TableMotion, amplitude: float, peak: str | None, similarity: str | None, start: str, end: str | None
-) -> TableMotion:
-    first, last = quantity(start, "s", "--start"), None if end is None else quantity(end, "s", "--end")
+    motion: "sw.TableMotion", amplitude: float, peak: str | None, similarity: str | None, start: str, end: str | None
+) -> "sw.TableMotion":
+    first, last = sw.quantity(start, "s", "--start"), None if end is None else sw.quantity(end, "s", "--end")
+    scales = sw.rig.LENGTH_SCALE
     if first > 0.0 or last is not None:
-        motion = trim(motion, first, last)
+        motion = sw.motion.trim(motion, first, last)
     if similarity is not None:
         try:
-            motion = scale_time(motion, LENGTH_SCALE[similarity] if similarity in LENGTH_SCALE else float(similarity))
+            motion = sw.motion.scale_time(motion, scales[similarity] if similarity in scales else float(similarity))
         except ValueError:
-            possible = ", ".join(LENGTH_SCALE)
+            possible = ", ".join(scales)
             raise SettingError(
                 f"--similarity {similarity!r}: give {possible} or a scale of length, e.g. 10.69"
             ) from None
     if peak is not None:
-        motion = scale_to_peak(motion, quantity(peak, "m/s^2", "--peak"))
-    return motion if amplitude == 1.0 else scale(motion, amplitude)
+        motion = sw.motion.scale_to_peak(motion, sw.quantity(peak, "m/s^2", "--peak"))
+    return motion if amplitude == 1.0 else sw.motion.scale(motion, amplitude)
 
 
-def _model(rig: str, law: str, effects: list[str]) -> Model:
+def _model(rig: str, law: str, effects: list[str]) -> "sw.Model":
     if law not in ("paper", "coulomb"):
         raise SettingError(f"--law {law!r}: possible are paper and coulomb")
-    model = base_model(rig, None if law == "paper" else ())
+    model = sw.base_model(rig, None if law == "paper" else ())
     for name in effects:
-        model = model.adding(use(name))
+        model = model.adding(sw.use(name))
     return model
 
 
-def _write_record(answer: Replay, folder: Path, csv: bool) -> Path:
+def _write_record(answer: "sw.Replay", folder: Path, csv: bool) -> Path:
     path = folder / ("record.csv" if csv else "record.parquet")
-    write_record(answer.record, path)
+    sw.write_record(answer.record, path)
     return path
 
 
-def _draw(answer: Replay, model: Model, folder: Path, title: str, pictures: bool, recording: bool) -> list[Path]:
+def _draw(
+    answer: "sw.Replay", model: "sw.Model", folder: Path, title: str, pictures: bool, recording: bool
+) -> list[Path]:
     """Import pictures and recordings only where they are wanted: they take a second to load."""
     files: list[Path] = []
     if not (pictures or recording):
@@ -151,7 +145,7 @@ def _draw(answer: Replay, model: Model, folder: Path, title: str, pictures: bool
     return files
 
 
-def _tell(numbers: dict, motion: TableMotion, files: list[Path]) -> None:
+def _tell(numbers: dict, motion: "sw.TableMotion", files: list[Path]) -> None:
     from slipwise.view.terminal import print_summary
 
     print_summary(numbers)

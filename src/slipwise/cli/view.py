@@ -5,14 +5,14 @@ from typing import Annotated
 
 import typer
 
-from slipwise.view.viewer import open_viewer
-
 
 def view(folder: Annotated[Path, typer.Argument(help="A folder that a command wrote, or an .rrd file.")]) -> None:
     """Open a folder's recording in the rerun viewer, which listens on this machine only.
 
     Example: `slipwise view out/replay`
     """
+    from slipwise.view.viewer import open_viewer
+
     open_viewer(folder)
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from slipwise.campaign import Campaign, load_campaign
+from slipwise.campaign import Campaign, as_campaign
 from slipwise.comparison.cells import cells_of, corrected, gather
 from slipwise.comparison.component_level import component_errors, repeat_errors
 from slipwise.comparison.friction_surface import surface
@@ -24,6 +24,7 @@ from slipwise.estimation.prediction_interval import predicted_friction
 from slipwise.evidence.floor import noise_floor
 from slipwise.instruments.checks import Checks, check_instruments
 from slipwise.model import Model
+from slipwise.model_file import as_model
 
 #: Noise that the replay is fed with is the same in every comparison, so that two of them can be compared.
 _SEED = 1
@@ -31,7 +32,7 @@ _SEED = 1
 
 def compare(
     campaign: Campaign | Path | str,
-    model: Model | None = None,
+    model: Model | Path | str | None = None,
     *,
     system: bool = True,
     checks: Checks | None = None,
@@ -43,7 +44,7 @@ def compare(
 
     Args:
         campaign: or its folder.
-        model: the user's current model; the paper's law on the campaign's rig when not given.
+        model: the user's current model, or its model.toml; the paper's law on the campaign's rig when not given.
         system: replay the runs as well.
         checks: the audit of the instruments, where it was made already.
         progress: called with what is being done and the fraction done.
@@ -54,12 +55,12 @@ def compare(
     began = time.perf_counter()
     tell = progress or (lambda words, done: None)
     tell("reading", 0.0)
-    if not isinstance(campaign, Campaign):
-        campaign = load_campaign(campaign)
+    campaign = as_campaign(campaign)
+    start = None if model is None else as_model(model)
     tell("auditing the instruments", 0.05)
     checks = checks or check_instruments(campaign)
     tell("fitting base parameters", 0.25)
-    base = fit_finely(campaign, model)
+    base = fit_finely(campaign, start)
     tell("locating errors", 0.5)
     residuals = {r: base.solution.residuals.parts[r] for r in base.problem.relations}
     components = component_errors(base)

@@ -12,13 +12,14 @@ from slipwise.comparison.parity import Parity
 from slipwise.comparison.patterns import Pattern
 from slipwise.comparison.sentences import Place
 from slipwise.comparison.system_level import SystemLevel, held_out_channels
-from slipwise.errors import InputError, unknown_name
+from slipwise.errors import unknown_name
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Intervals
 from slipwise.estimation.prediction_interval import PredictedFriction
 from slipwise.evidence.floor import Floor
 from slipwise.instruments.checks import Checks
 from slipwise.model import Model
+from slipwise.shown import Drawn, frame
 
 if TYPE_CHECKING:
     import pandas
@@ -29,8 +30,8 @@ TABLES: tuple[str, ...] = (
 )  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Comparison:
+@dataclass(frozen=True, repr=False)
+class Comparison(Drawn):
     """A model held against a campaign.
 
     Attributes:
@@ -122,11 +123,20 @@ class Comparison:
             UnknownNameError: no such table.
             InputError: pandas is not installed.
         """
-        rows = self.rows(table)
-        try:
-            import pandas
-        except ModuleNotFoundError:
-            raise InputError(
-                "pandas is not installed; `pip install pandas`, or use rows(), which needs nothing else"
-            ) from None
-        return pandas.DataFrame(rows)
+        return frame(self.rows(table))
+
+    def as_json(self) -> dict[str, Any]:
+        """Give what compare.json holds."""
+        from slipwise.comparison.tables import as_json
+
+        return as_json(self)
+
+    def _headline(self) -> str:
+        relation, error = self.worst
+        return f"{self.campaign.name}: worst in {relation}, {error:.3g} times the noise floor"
+
+    def _rows(self) -> list[dict[str, Any]]:
+        return [
+            {"relation": r, "fitted": self.error(r, held_out=False), "held out": self.error(r, held_out=True)}
+            for r in self.relations
+        ]

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from slipwise.campaign import Campaign, load_campaign
+from slipwise.campaign import Campaign, as_campaign
 from slipwise.diagnosis.cannot_tell import cannot_tell
 from slipwise.diagnosis.detectable_size import least_sizes
 from slipwise.diagnosis.hypothesis import Hypothesis
@@ -26,6 +26,7 @@ from slipwise.estimation.least_squares import jacobian
 from slipwise.evidence.materiality import material_drop, score
 from slipwise.evidence.residual_summary import error_of
 from slipwise.model import Model
+from slipwise.model_file import as_model
 
 #: Hypotheses that are listed.
 _LISTED = 6
@@ -33,7 +34,7 @@ _LISTED = 6
 
 def diagnose(
     campaign: Campaign | Path | str,
-    model: Model | None = None,
+    model: Model | Path | str | None = None,
     *,
     own: Iterable[Effect] = (),
     system: bool = False,
@@ -43,7 +44,7 @@ def diagnose(
 
     Args:
         campaign: or its folder.
-        model: the user's current model; the paper's law on the campaign's rig when not given.
+        model: the user's current model, or its model.toml; the paper's law on the campaign's rig when not given.
         own: effects beside those of the catalogue, as `slipwise.effects.find_effect` gives them.
         system: replay base and final model as well.
         progress: called with what is being done and the share done.
@@ -54,10 +55,11 @@ def diagnose(
     began = time.perf_counter()
     tell = progress or (lambda words, share: None)
     tell("reading", 0.0)
-    found = campaign if isinstance(campaign, Campaign) else load_campaign(campaign)
+    found = as_campaign(campaign)
+    start = None if model is None else as_model(model)
     tell("fitting base parameters", 0.02)
     part = 0.7 if system else 1.0
-    selected = select_effects(found, model, own, lambda words, share: tell(words, part * share))
+    selected = select_effects(found, start, own, lambda words, share: tell(words, part * share))
     base, state = selected.base, selected.search
     judged = judge(state)
     shown = state.final if judged.effects else state.path[0]

@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from slipwise.campaign import Campaign, load_campaign
+from slipwise.campaign import Campaign, as_campaign
+from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.diagnose import as_fit
 from slipwise.diagnosis.forward_selection import MOST_EFFECTS
@@ -24,6 +25,8 @@ from slipwise.errors import InputError, SettingError
 from slipwise.estimation.base_fit import BaseFit, fit_base
 from slipwise.evidence.residual_summary import ResidualSummary, error_of
 from slipwise.model import Model
+from slipwise.model_file import as_model
+from slipwise.shown import Drawn, Tabular
 
 #: An error below this is down to the floor [floors].
 DOWN = 1.15
@@ -50,8 +53,8 @@ class LadderStep:
     relations: dict[str, float]
 
 
-@dataclass(frozen=True)
-class Ladder:
+@dataclass(frozen=True, repr=False)
+class Ladder(Drawn, Tabular):
     """All steps.
 
     Attributes:
@@ -92,11 +95,18 @@ class Ladder:
             for r in self.steps
         ]
 
+    def _headline(self) -> str:
+        added = ", ".join(self.steps[-1].effects) or "nothing"
+        return f"{self.campaign}: {added} added to the base model; {self.stopped}"
+
+    def _rows(self) -> list[dict[str, Any]]:
+        return [{**row, "effects": " + ".join(["base", *row["effects"]])} for row in self.table()]
+
 
 def ladder(
     campaign: Campaign | Path | str,
     add: Sequence[str] = (),
-    model: Model | None = None,
+    model: Model | Path | str | None = None,
     *,
     own: Iterable[Effect] = (),
     system: bool = False,
@@ -107,7 +117,7 @@ def ladder(
     Args:
         campaign: or its folder.
         add: effects to add in this order instead of searching: names, or paths of a user's files ("./mine.py").
-        model: where the ladder stands; the paper's law on the campaign's rig when not given.
+        model: where the ladder stands, or its model.toml; the paper's law on the campaign's rig when not given.
         own: effects that are searched beside those of the catalogue.
         system: replay every step as well.
         progress: called with what is being done and the share done.
@@ -119,15 +129,16 @@ def ladder(
     began = time.perf_counter()
     tell = progress or (lambda words, share: None)
     asked = [find_effect(name) for name in add]
-    found = campaign if isinstance(campaign, Campaign) else load_campaign(campaign)
+    found = as_campaign(campaign)
+    start = None if model is None else as_model(model)
     tell("fitting base parameters", 0.02)
     part = 0.6 if system else 1.0
     if asked:
         whole, spoiled, _ = prepared(found)
-        base = fit_base(whole, model, spoiled)
+        base = fit_base(whole, start, spoiled)
         path, counts, stopped = _asked(base, asked, lambda share: tell("refitting", part * share))
     else:
-        selected = select_effects(found, model, own, lambda words, share: tell(words, part * share))
+        selected = select_effects(found, start, own, lambda words, share: tell(words, part * share))
         base, state = selected.base, selected.search
         path, counts, stopped = _climbed(state), (len(state.screened), len(state.tried)), _why(state)
     fits = tuple(as_fit(base, h) for h in path)
@@ -154,6 +165,17 @@ def ladder_of(found: Diagnosis) -> Ladder:
     steps = [_step(h, float(ends.get(i, np.nan))) for i, h in enumerate(path)]
     counts = (len(search.screened), len(search.tried))
     return Ladder(search.base.campaign.name, tuple(steps), counts, _why(search), (), 0.0)
+
+
+def left_over(found: Diagnosis) -> str:
+    """Say what is left above the noise when the named effects are in the model."""
+    over = [f"{NAMES[name][0]} {after:.2f}" for name, (_, after) in found.relations.items() if after >= DOWN]
+    if over:
+        return f"still above the noise, in floors: {', '.join(over)}"
+    if found.verdict.leftover != "none":
+        surface = found.verdict.surface
+        return f"what is left: {surface.words if surface else 'no state that was measured organises it'}"
+    return "nothing is missing any more"
 
 
 def _climbed(state: Search) -> list[Hypothesis]:

@@ -2,18 +2,24 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from slipwise.diagnosis.predicted_friction import PredictedFriction
-from slipwise.diagnosis.rivals import explanations
+from slipwise.diagnosis.rivals import explanations, partings
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import Surface
 from slipwise.diagnosis.verdict import Verdict
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Interval
+from slipwise.model import Model
+from slipwise.record import Record
+from slipwise.shown import Drawn, Tabular
+
+if TYPE_CHECKING:
+    from slipwise.diagnosis.ladder import Ladder
 
 SCHEMA = 1
 
@@ -39,8 +45,8 @@ class Candidate:
     parameters: Mapping[str, Interval]
 
 
-@dataclass(frozen=True)
-class Diagnosis:
+@dataclass(frozen=True, repr=False)
+class Diagnosis(Drawn, Tabular):
     """The answer.
 
     Attributes:
@@ -79,6 +85,44 @@ class Diagnosis:
     def added(self) -> tuple[str, ...]:
         """Effects that the final model has beside the base's; none where the verdict names none."""
         return self.search.best.names if self.verdict.effects else ()
+
+    @property
+    def held_out(self) -> bool:
+        """Whether the campaign has a run that no fit has seen."""
+        return bool(self.search.base.problem.held_out)
+
+    @property
+    def model(self) -> Model:
+        """The model with the named effects, fitted."""
+        return self.final.problem.model(self.final.solution.values)
+
+    @property
+    def partings(self) -> tuple[str, ...]:
+        """What would tell two explanations of an ambiguous verdict apart; nothing for another verdict."""
+        return partings(self.verdict, self.search)
+
+    def ladder(self) -> "Ladder":
+        """Give the ladder that the diagnosis has climbed already."""
+        from slipwise.diagnosis.ladder import ladder_of
+
+        return ladder_of(self)
+
+    @property
+    def left_over(self) -> str:
+        """What is left above the noise when the named effects are in the model, in words."""
+        from slipwise.diagnosis.ladder import left_over
+
+        return left_over(self)
+
+    def replays(self) -> tuple[Record, list[tuple[str, Record]]]:
+        """Replay the first held-out run with the model before and after: measured record, then label and record.
+
+        Raises:
+            InputError: the table's motion was not recorded.
+        """
+        from slipwise.diagnosis.replays import replays
+
+        return replays(self)
 
     @property
     def sentence(self) -> str:
@@ -128,6 +172,21 @@ class Diagnosis:
             "words": self.sentence,
             "seconds": round(self.seconds, 1),
         }
+
+    def _headline(self) -> str:
+        return f"{self.campaign}: {self.sentence}"
+
+    def _rows(self) -> list[dict[str, Any]]:
+        return [
+            {
+                "hypothesis": c.effect,
+                "probability": c.probability,
+                "before": c.holdout_before,
+                "after": c.holdout_after,
+                "absorbed_by_base": c.absorbed_by_base,
+            }
+            for c in self.candidates
+        ]
 
 
 def _number(value: float, figures: int = 4) -> float | None:

@@ -47,6 +47,7 @@ from slipwise.effects._declared import BASE_ROLES, COMPONENT_NEEDS, NEEDS, SITS,
 from slipwise.effects._hooks import COMPONENTS, HOOKS, PORTS, SIDES
 from slipwise.errors import SettingError, unknown_name
 from slipwise.params import Parameter
+from slipwise.shown import Drawn, Tabular
 
 #: Channels of girder, pads and buffers: what any change of the physics moves. The table follows its command.
 RESPONSE: tuple[str, ...] = (
@@ -54,8 +55,8 @@ RESPONSE: tuple[str, ...] = (
 )  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Effect:
+@dataclass(frozen=True, repr=False)
+class Effect(Drawn, Tabular):
     """What a person and the fit need to know of an effect.
 
     Attributes:
@@ -161,6 +162,12 @@ class Effect:
     def typical(self) -> dict[str, float]:
         """A first guess for the reference rig."""
         return {p.name: p.typical for p in self.parameters}
+
+    def _headline(self) -> str:
+        return f"{self.name}: {self.summary}"
+
+    def _rows(self) -> list[dict[str, Any]]:
+        return [p.row() for p in self.parameters]
 
 
 def read_effect(module: ModuleType, path: Path) -> Effect:

@@ -12,25 +12,29 @@ the effect explains at no size. Of three rivals the two that are hardest to tell
 The specimen is taken as new: what pads and buffers remember of the campaign's runs is not carried on.
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from itertools import combinations, product
+from pathlib import Path
 
 import numpy as np
 
-from slipwise.campaign import Campaign, Run
+from slipwise.campaign import Campaign, Run, as_campaign
 from slipwise.comparison.system_level import replayed_model
+from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, polished, refit
 from slipwise.diagnosis.replays import simulation_step
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.twins import known_effects, twins
+from slipwise.effects import Effect
 from slipwise.errors import InputError, SimulationError, SlipwiseError
 from slipwise.estimation.base_fit import fit_base
 from slipwise.estimation.parameters import Term
 from slipwise.evidence.materiality import MATERIAL, material_drop, score
 from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.experiment.motions import LIBRARY, Limits, motions_for
+from slipwise.experiment.result import NextTest, Proposal
 from slipwise.model import Model
 from slipwise.motion import parse_motion
 from slipwise.record import Record
@@ -43,57 +47,23 @@ _SUREST = 0.99
 _MOST = 3
 
 
-@dataclass(frozen=True)
-class Proposal:
-    """What a motion would tell.
-
-    Attributes:
-        motion: as `slipwise replay` takes it.
-        separation: mean squared residual that the wrong one of two rivals would leave beyond the right one, mean of
-            both ways; of the two that are hardest to tell apart [noise variance].
-        relation: where.
-        probability: expected of the best hypothesis afterwards, if it is right [1].
-        refused: why the table cannot make it; "" where it can.
-        failed: why it could not be judged; "" where it was.
-    """
-
-    motion: str
-    separation: float
-    relation: str
-    probability: float
-    refused: str
-    failed: str = ""
-
-
-@dataclass(frozen=True)
-class NextTest:
-    """Motions, the best first.
-
-    Attributes:
-        rivals: names of the effects of each hypothesis, the best first; none for the base model.
-        chances: probability of each today [1].
-        proposals: sorted by what they would tell.
-        words: what else tells the rivals apart, or would, where no motion does.
-    """
-
-    rivals: tuple[tuple[str, ...], ...]
-    chances: tuple[float, ...]
-    proposals: tuple[Proposal, ...]
-    words: str
-
-
 def next_test(
-    found: Diagnosis,
+    found: Diagnosis | Campaign | Path | str,
     limits: Limits | None = None,
     library: Sequence[str] = LIBRARY,
     progress: Callable[[str, float], None] | None = None,
+    *,
+    model: Model | Path | str | None = None,
+    own: Iterable[Effect] = (),
 ) -> NextTest:
     """Rank table motions by how well they would tell the rivals of a diagnosis apart.
 
     Args:
-        found: the diagnosis.
+        found: the diagnosis; or a campaign or its folder, which is diagnosed first.
         limits: of the table.
         library: motions as `slipwise motions` describes them.
+        model: where that diagnosis starts, see `diagnose`.
+        own: effects beside those of the catalogue, for that diagnosis.
         progress: called with what is being done and the share done.
 
     Raises:
@@ -101,8 +71,13 @@ def next_test(
         SimulationError: no motion could be judged.
         SlipwiseError: a motion of the library cannot be read.
     """
-    refuse_prescribed(found.final.campaign)
     tell = progress or (lambda words, share: None)
+    if isinstance(found, Campaign | Path | str):
+        measured, half = as_campaign(found), tell
+        _refuse_prescribed(measured)
+        found = diagnose(measured, model, own=own, progress=lambda words, share: half(words, 0.5 * share))
+        tell = lambda words, share: half(words, 0.5 + 0.5 * share)  # noqa: E731
+    _refuse_prescribed(found.final.campaign)
     asked = motions_for(library, limits or Limits())
     tell("rivals", 0.0)
     every = rivals(found)
@@ -121,10 +96,10 @@ def next_test(
         )
     ranked = sorted(out, key=lambda p: (bool(p.refused), bool(p.failed), -p.separation))
     words = _words(found, contest, max((p.separation for p in judged), default=np.inf))
-    return NextTest(tuple(h.names for h in contest), chances, tuple(ranked), words)
+    return NextTest(tuple(h.names for h in contest), chances, tuple(ranked), words, found.sentence)
 
 
-def refuse_prescribed(campaign: Campaign) -> None:
+def _refuse_prescribed(campaign: Campaign) -> None:
     """Refuse one slider on an actuator: a simulation knows neither its load nor what the actuator can do.
 
     Raises:

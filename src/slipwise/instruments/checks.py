@@ -6,17 +6,19 @@ Nothing is corrected unless a finding is named: then the records are mended by i
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
-from slipwise.campaign import Campaign
+from slipwise.campaign import Campaign, as_campaign
 from slipwise.instruments.audit import audit
 from slipwise.instruments.corrections import correct
 from slipwise.instruments.report import AuditReport, Finding, LoggerEstimate
 from slipwise.instruments.sentences import shown
+from slipwise.shown import Drawn, Tabular
 
 
-@dataclass(frozen=True)
-class Checks:
+@dataclass(frozen=True, repr=False)
+class Checks(Drawn, Tabular):
     """What the audit of the instruments says, for tables and pages.
 
     Attributes:
@@ -50,11 +52,29 @@ class Checks:
         logger = self.report.logger
         return self.report.notes if logger is None else (_logger(logger), *self.report.notes)
 
+    def as_json(self) -> dict[str, Any]:
+        """Give the findings as `slipwise audit --json` prints them."""
+        return {
+            "schema": 1,
+            "campaign": self.report.campaign,
+            "accused": self.accused,
+            "words": self.words,
+            "findings": self.report.rows(),
+            "cannot": list(self.cannot),
+            "notes": list(self.notes),
+        }
 
-def check_instruments(campaign: Campaign) -> Checks:
-    """Audit a campaign without any law of friction."""
+    def _headline(self) -> str:
+        return self.words
+
+    def _rows(self) -> list[dict[str, Any]]:
+        return self.report.rows()
+
+
+def check_instruments(campaign: Campaign | Path | str) -> Checks:
+    """Audit a campaign, or that of a folder, without any law of friction."""
     began = time.perf_counter()
-    report = audit(campaign)
+    report = audit(as_campaign(campaign))
     held = [b for b in report.balances if not b.relation.startswith("rest_")]
     if report.findings:
         words = f"No: {'; '.join(f.words for f in report.findings)}. No law of friction was needed to see it."

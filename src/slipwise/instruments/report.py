@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from slipwise.shown import Drawn, Tabular
 from slipwise.signals import LowPass
 
 
@@ -83,8 +84,8 @@ class LoggerEstimate:
     why: str
 
 
-@dataclass(frozen=True)
-class AuditReport:
+@dataclass(frozen=True, repr=False)
+class AuditReport(Drawn, Tabular):
     """Result of an audit. It changes no data.
 
     Attributes:
@@ -124,3 +125,10 @@ class AuditReport:
             }
             for f in self.findings
         ]
+
+    def _headline(self) -> str:
+        found = "; ".join(f.words for f in self.findings) or "no gauge is accused"
+        return f"{self.campaign}: {found}"
+
+    def _rows(self) -> list[dict[str, Any]]:
+        return self.rows()

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from slipwise.errors import InputError
+from slipwise.errors import InputError, SettingError
 from slipwise.motion.components import read_motion
 from slipwise.motion.synthetic import looks_synthetic, parse_motion, synthetic_motions
 from slipwise.motion.table_motion import TableMotion
@@ -55,6 +55,23 @@ def load_motion(
             "(vertical=..., across=...)"
         )
     return parse_motion(described[0])
+
+
+def as_motion(given: TableMotion | str | Path | Sequence[str | Path]) -> TableMotion:
+    """Give the table motion that a user means: itself, a description ("sine:2Hz,0.3g"), or files.
+
+    Raises:
+        SettingError: something else.
+        SlipwiseError: a description or file that cannot be read.
+    """
+    if isinstance(given, TableMotion):
+        return given
+    if not isinstance(given, str | Path | list | tuple):
+        raise SettingError(
+            "a motion is what load_motion gives, a description such as 'sine:2Hz,0.3g', or the path of a file; "
+            f"got {type(given).__name__}"
+        )
+    return load_motion(given)
 
 
 def _is_description(spec: str | Path) -> bool:

@@ -2,12 +2,16 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.errors import InputError
+from slipwise.shown import Drawn, frame
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 Array = NDArray[np.float64]
 
@@ -39,8 +43,8 @@ class Steady:
     period: float
 
 
-@dataclass(frozen=True, eq=False)
-class TableMotion:
+@dataclass(frozen=True, eq=False, repr=False)
+class TableMotion(Drawn):
     """Acceleration of the table over time.
 
     Attributes:
@@ -102,6 +106,23 @@ class TableMotion:
     def peaks(self) -> Array:
         """Largest absolute acceleration of x, y, z (3,) [m/s^2]."""
         return np.abs(self.acceleration).max(axis=0)
+
+    def to_pandas(self) -> "DataFrame":
+        """Give time and acceleration as the columns of a pandas frame, SI.
+
+        Raises:
+            InputError: pandas is not installed.
+        """
+        return frame({"time": self.time, **{f"table_a{n}": self.acceleration[:, i] for i, n in enumerate(AXES)}})
+
+    def _headline(self) -> str:
+        return f"{self.title}, {self.duration:.4g} s in steps of {self.dt:.4g} s"
+
+    def _rows(self) -> list[dict[str, Any]]:
+        return [
+            {"axis": axis, "component": name or "at rest", "peak [m/s^2]": float(peak)}
+            for axis, name, peak in zip(AXES, self.components, self.peaks, strict=True)
+        ]
 
     def about(self) -> Mapping[str, Any]:
         """Tell what it is, as JSON can hold it: for the provenance of a record."""

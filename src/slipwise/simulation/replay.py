@@ -1,16 +1,19 @@
 """The verb of this package: replay a table motion on a model."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from pathlib import Path
 
 from slipwise.model import Model
+from slipwise.model_file import as_model
+from slipwise.motion.load import as_motion
 from slipwise.motion.resample import resample
 from slipwise.motion.table_motion import TableMotion
 from slipwise.simulation.simulator import DT, OUTPUT_DT, Memory, Replay, simulate
 
 
 def replay(
-    model: Model,
-    motion: TableMotion,
+    model: Model | Path | str,
+    motion: TableMotion | str | Path | Sequence[str | Path],
     *,
     dt: float = DT,
     output_dt: float = OUTPUT_DT,
@@ -22,8 +25,9 @@ def replay(
     """Shake a model with a table motion.
 
     Args:
-        model: specimen and effects.
-        motion: of the table; it is resampled to the step without aliasing or phase shift.
+        model: specimen and effects; or a model.toml; or a rig, which is replayed with the paper's law.
+        motion: of the table, or what `load_motion` makes one of; it is resampled to the step without aliasing or
+            phase shift.
         dt: step [s].
         output_dt: step of the record [s], a multiple of dt.
         engine: "compiled" or "python" (the same law, to step through with a debugger).
@@ -35,9 +39,9 @@ def replay(
         SettingError: settings that cannot go together; the message says what is possible.
         SimulationDiverged: the simulation left every bound; the error holds the record so far.
     """
-    fitted = resample(motion, dt)
+    fitted = resample(as_motion(motion), dt)
     return simulate(
-        model,
+        as_model(model),
         fitted.acceleration,
         dt=dt,
         output_dt=output_dt,

@@ -1,14 +1,13 @@
 """System level: a table motion in, the record of every channel out."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.errors import SettingError, SimulationError
+from slipwise.errors import SettingError
 from slipwise.model import Model
 from slipwise.record import Record
 from slipwise.rig import Rig, build, check_step
@@ -16,6 +15,7 @@ from slipwise.simulation.energy import EnergyBook
 from slipwise.simulation.kernel import ENGINES, Kernel, apply_rest, engine_for, kernel
 from slipwise.simulation.kernel.layout import buffer_memories, pad_memories
 from slipwise.simulation.predict import shaking, user_effects
+from slipwise.simulation.result import Memory, Replay, SimulationDiverged
 from slipwise.simulation.sensor_channels import to_channels
 from slipwise.simulation.steps import numbers_for, run_compiled, run_python
 
@@ -26,59 +26,6 @@ _FAR = 5.0
 _PASSES, _SETTLED = 8, 0.01
 DT = 0.0005
 OUTPUT_DT = 0.002
-
-
-class SimulationDiverged(SimulationError):
-    """A simulation that had to be stopped; `replay` holds what was recorded until then."""
-
-    def __init__(self, message: str, replay: "Replay") -> None:
-        super().__init__(message)
-        self.replay = replay
-
-
-@dataclass(frozen=True)
-class Memory:
-    """What pads and buffers remember at the end of a run, for the run that follows.
-
-    Attributes:
-        pads: (4, m) as the kernel lays it out.
-        buffers: (2, 2, k) as the kernel lays it out.
-    """
-
-    pads: Array
-    buffers: Array
-
-
-@dataclass(frozen=True)
-class Replay:
-    """The answer of a model to a table motion.
-
-    Attributes:
-        record: every channel at the output rate.
-        pad_energy: pad -> work against its friction [J], summed at every step.
-        uplift: time during which at least one pad carried no load [s].
-        energy_error: what the energy balance leaves open, as a fraction of the input [1]; None where slip is prescribed
-            or the table turns.
-        slip_range: smallest and largest slip_x, of every step [m].
-        load_range: pad -> smallest and largest load, of every step [N].
-        largest_friction: pad -> largest |F|, of every step [N].
-        memory: at the end, for a run that follows.
-        dt: time step [s].
-        steps: that were made.
-        engine: that made them.
-    """
-
-    record: Record
-    pad_energy: dict[str, float]
-    uplift: float
-    energy_error: float | None
-    slip_range: tuple[float, float]
-    load_range: dict[str, tuple[float, float]]
-    largest_friction: dict[str, float]
-    memory: Memory
-    dt: float
-    steps: int
-    engine: str
 
 
 class _Collector:

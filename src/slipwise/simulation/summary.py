@@ -6,7 +6,7 @@ import numpy as np
 
 from slipwise.motion.table_motion import Steady, TableMotion
 from slipwise.record import Record
-from slipwise.simulation.simulator import Replay
+from slipwise.simulation.result import Replay
 
 _CYCLES = 4
 

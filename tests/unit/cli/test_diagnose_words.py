@@ -5,17 +5,17 @@ from typing import Any
 
 import pytest
 
-from slipwise.cli.demo import _left
 from slipwise.cli.diagnose import _record, diagnose
+from slipwise.diagnosis.ladder import left_over
 from slipwise.errors import InputError
 
 
-def test_a_recording_that_cannot_be_made_is_told_beside_the_output_that_a_program_reads(monkeypatch, capsys, tmp_path):
-    def refuse(found):
+def test_a_recording_that_cannot_be_made_is_told_beside_the_output_that_a_program_reads(capsys, tmp_path):
+    def refuse():
         raise InputError("the table was not measured")
 
-    monkeypatch.setattr("slipwise.diagnosis.replays.replays", refuse)
-    assert _record(SimpleNamespace(), tmp_path) == []
+    found: Any = SimpleNamespace(replays=refuse)
+    assert _record(found, tmp_path) == []
     said = capsys.readouterr()
     assert said.out == "" and "no recording: the table was not measured" in said.err
 
@@ -26,12 +26,11 @@ def test_who_listens_to_the_first_lines_only_finds_all_files(monkeypatch, tmp_pa
     def left(found):
         raise BrokenPipeError
 
-    found = SimpleNamespace(as_json=lambda: {"verdict": "named"}, search=None, system=None)
+    found = SimpleNamespace(as_json=lambda: {"verdict": "named"}, ladder=lambda: None)
     monkeypatch.setattr(
-        "slipwise.cli.diagnose.load_campaign", lambda _: SimpleNamespace(specimen=SimpleNamespace(free=True))
+        "slipwise.campaign.load_campaign", lambda _: SimpleNamespace(specimen=SimpleNamespace(free=True))
     )
     monkeypatch.setattr("slipwise.diagnosis.diagnose.diagnose", lambda *_, **__: found)
-    monkeypatch.setattr("slipwise.diagnosis.ladder.ladder_of", lambda *_: None)
     monkeypatch.setattr("slipwise.view.diagnosis_page.diagnosis_page", lambda *_: "the page")
     monkeypatch.setattr("slipwise.cli.diagnose._record", lambda _, folder: [folder / "before_and_after.rrd"])
     monkeypatch.setattr("slipwise.cli.diagnose._tell", left)
@@ -51,4 +50,4 @@ def test_who_listens_to_the_first_lines_only_finds_all_files(monkeypatch, tmp_pa
 def test_the_demo_says_what_is_left(after, leftover, words):
     verdict = SimpleNamespace(leftover=leftover, surface=SimpleNamespace(words="a force that goes with slip"))
     found: Any = SimpleNamespace(relations={"pads": (3.8, after), "girder": (1.0, 1.0)}, verdict=verdict)
-    assert _left(found) == words
+    assert left_over(found) == words

@@ -43,7 +43,7 @@ def diagnosis(kind: str, *tried: Hypothesis, near: tuple[Hypothesis, ...] = (), 
     state = Search(cast(Any, None), {}, [], list(tried), tuple(path))
     campaign = SimpleNamespace(name="march", rig="bridge1", specimen=SimpleNamespace(free=True))
     final = SimpleNamespace(campaign=campaign)
-    return SimpleNamespace(search=state, verdict=verdict, candidates=candidates, final=final)
+    return SimpleNamespace(search=state, verdict=verdict, candidates=candidates, final=final, sentence="")
 
 
 def telling(monkeypatch: pytest.MonkeyPatch, separation: float, failed: str = "") -> None:
