@@ -12,43 +12,43 @@ PACKAGE = Path(__file__).parents[2] / "src" / "slipwise"
 ARROWS: dict[str, str] = {
     "errors": "",
     "units": "errors",
-    "params": "errors",
+    "params": "errors units",
     "channels": "errors",
     "parallel": "errors",
+    "shown": "errors",
     "signals": "errors",
-    "record": "channels errors units",
-    "motion": "channels errors units",
+    "record": "channels errors shown units",
+    "motion": "channels errors shown units",
     "rig": "channels errors record units",
-    "effects": "channels errors params record rig signals",
-    "model": "channels effects errors rig",
+    "effects": "channels errors params record rig shown signals",
+    "model": "channels effects errors rig shown",
     "model_file": "effects errors model params record rig units",
-    "simulation": "channels effects errors model motion record rig",
-    "campaign": "channels errors record rig signals units",
-    "instruments": "campaign channels effects errors record rig signals",
+    "simulation": "channels effects errors model model_file motion record rig shown",
+    "campaign": "channels errors record rig shown signals units",
+    "instruments": "campaign channels effects errors record rig shown signals",
     "estimation": "campaign channels effects errors model parallel record rig signals simulation",
     "evidence": "campaign channels errors estimation record signals",
     "comparison": (
-        "campaign channels effects errors estimation evidence instruments model motion record signals simulation"
+        "campaign channels effects errors estimation evidence instruments model model_file motion record"
+        " shown signals simulation"
     ),
     "diagnosis": (
-        "campaign channels comparison effects errors estimation evidence instruments model parallel params record"
-        " signals simulation units"
+        "campaign channels comparison effects errors estimation evidence instruments model model_file"
+        " parallel params record shown signals simulation units"
     ),
     "experiment": (
-        "campaign comparison diagnosis effects errors estimation evidence model motion record signals simulation units"
+        "campaign comparison diagnosis effects errors estimation evidence model motion record shown signals"
+        " simulation units"
     ),
     "studies": "channels effects errors model motion parallel record rig signals simulation units",
     "view": (
-        "channels comparison diagnosis effects errors estimation evidence experiment instruments params record rig"
-        " signals studies units"
+        "channels comparison diagnosis effects errors estimation evidence experiment instruments params"
+        " record rig signals studies units"
     ),
-    "cli": (
-        "campaign channels comparison diagnosis effects errors estimation evidence experiment instruments model"
-        " model_file motion record rig simulation studies units view"
-    ),
+    "cli": "errors view",
 }
 #: Results draw themselves when they are asked to: the only way from numbers to pictures, and never at import.
-MAY_DRAW = frozenset({"__init__.py"})
+MAY_DRAW = frozenset({"__init__.py", "shown.py"})
 #: No file is longer.
 LONGEST = 300
 FILES = sorted(PACKAGE.rglob("*.py"))
