@@ -26,8 +26,8 @@ _CLOSE, _TRIES = 5e-4, 12
 _ONE_AT_A_TIME = threading.Lock()
 #: Parts of the package whose change makes kept results stale.
 _DECIDING = (
-    "effects/*.py", "kernel/*.py", "motion/**/*.py", "replay/*.py", "rig/*.py", "model.py", "predict.py",
-    "paper/member.py", "paper/one_dof.py",
+    "effects/*.py", "motion/**/*.py", "rig/*.py", "model.py", "simulation/**/*.py",
+    "studies/paper/member.py", "studies/paper/one_dof.py",
 )  # fmt: skip
 
 
