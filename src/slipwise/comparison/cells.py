@@ -6,7 +6,7 @@ at the floor would make of it, with an honest number of samples: neighbours in t
 independent. Their memory is that of the residual, but no longer than noise can have: a missing force has a long one of
 its own, which must not speak for its innocence.
 
-Source: methods.md D4; Benjamini and Hochberg (1995) for the number of cells.
+Source: docs/theory.md, section 3.2; Benjamini and Hochberg (1995) for the number of cells.
 """
 
 from collections.abc import Iterable, Mapping, Sequence

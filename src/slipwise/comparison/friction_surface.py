@@ -1,6 +1,6 @@
 """The friction surface mu(P, V) that a fit means, with its band: parameters trade off, the surface does not.
 
-Source: physics.md 1.6: "compare mu(P, V) surfaces, not parameters"; band by first-order propagation.
+Source: docs/theory.md, section 2.3; band by first-order propagation.
 """
 
 from collections.abc import Mapping

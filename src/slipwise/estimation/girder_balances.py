@@ -9,7 +9,7 @@
 P(s) = (2 z w s + w^2) / (s^2 + 2 z w s + w^2) is the girder's pitch on its pads: taken as quasi-static, the balance
 leaves 2.5 times the noise. Effects add to each by their `balance`, `spring`, `drag` and `lift` hooks.
 
-Source: physics.md 1.2, 1.7; Harris' Shock and Vibration Handbook, base-excited oscillator.
+Source: docs/theory.md, sections 1.2 and 1.4; Harris' Shock and Vibration Handbook, base-excited oscillator.
 """
 
 from collections.abc import Mapping

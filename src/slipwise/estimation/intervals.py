@@ -14,7 +14,7 @@ do to a number is added:
 
 A gauge that lags, by a delay or a filter, stands on a card that may lag by itself: its timing is added too.
 
-Source: White (1980), Newey and West (1987); blocks as clusters: Liang and Zeger (1986); methods.md D9.
+Source: White (1980), Newey and West (1987); blocks as clusters: Liang and Zeger (1986); docs/theory.md, section 3.3.
 """
 
 from collections.abc import Mapping, Sequence

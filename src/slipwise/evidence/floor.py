@@ -5,7 +5,8 @@ hum while it shakes), the top of the spectrum (only if noise is white). Two runs
 noise: friction has run in or warmed up, reversals have moved. What is in step with the channel itself, with its rate,
 or constant is therefore taken out of the difference first, and said.
 
-Source: methods.md D2; Draper, Smith, Applied Regression Analysis (pure error); Rice (1984), Annals of Statistics 12.
+Source: docs/theory.md, section 3.1; Draper, Smith, Applied Regression Analysis (pure error); Rice (1984), Annals of
+Statistics 12.
 """
 
 from collections.abc import Mapping, Sequence

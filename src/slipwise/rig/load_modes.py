@@ -71,7 +71,7 @@ def load_modes(loads: Array) -> LoadModes:
     Args:
         loads: (n, 4) compression [N].
 
-    Source: physics.md 1.7; signs here are those of the pads' places, so pitch is positive with the +x side loaded.
+    Source: docs/theory.md, section 1.4; signs here are those of the pads' places, so pitch is positive with the +x side loaded.
     """
     heave, pitch, roll, warp = _MODES @ loads.T
     return LoadModes(heave, pitch, roll, warp)
@@ -122,7 +122,7 @@ def load_factors(record: Record, mass: float, gravity: float, shares: Array | No
     Raises:
         InputError: the record lacks a channel.
 
-    Source: paper, "Factor A" and "Factor B"; physics.md 1.7.
+    Source: paper, "Factor A" and "Factor B"; docs/theory.md, section 1.4.
     """
     loads = record.stacked("pad_{}_N")
     shares = rest_shares(record) if shares is None else np.asarray(shares, dtype=float)
@@ -157,7 +157,7 @@ def rigid_modes(
     Raises:
         InputError: the record lacks a channel.
 
-    Source: physics.md 1.2 and 1.7 with zb = 0.
+    Source: docs/theory.md, sections 1.2 and 1.4, with z_b = 0.
     """
     nothing = np.zeros(len(record))
     heave = mass * (gravity + vertical_acceleration(record))

@@ -101,7 +101,7 @@ def loop_shape(slip: Array, force: Array, fast: float = 0.5) -> LoopShape:
         SettingError: `fast` is not within 0 to 1, or slip and force differ in length.
         InputError: nothing slid both ways, so that there is no loop.
 
-    Source: physics.md 1.2 (trapezoid of one pad) and 1.3 (rectangle of the sum).
+    Source: docs/theory.md, sections 1.2 (trapezoid of one pad) and 1.3 (rectangle of the sum).
     """
     if not 0.0 <= fast < 1.0:
         raise SettingError(f"fast = {fast:g} is a fraction of the largest speed: 0 or more, below 1")

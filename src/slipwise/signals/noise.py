@@ -79,7 +79,7 @@ def noise(values: Array, quiet: NDArray[np.bool_] | None = None) -> Noise:
         values: (n,) of one run.
         quiet: (n,) samples during which nothing moved; None or fewer than 50 of them: not known.
 
-    Source: methods.md D2; quiet stretches are a lower bound where the table hums while it shakes.
+    Source: docs/theory.md, section 3.1; quiet stretches are a lower bound where the table hums while it shakes.
     """
     top = white_level(values)
     step = quantum(values)

@@ -1,4 +1,4 @@
-"""The catalogue as people read it: rows, a table for the terminal, one for the README, and a picture of each effect."""
+"""The catalogue as people read it: rows, a table for the terminal, one in Markdown, and a picture of each effect."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -98,7 +98,7 @@ def print_effect(effect: Effect, console: Console | None = None) -> None:
     out.print(f"File: {effect.path}", markup=False, highlight=False, soft_wrap=True)
 
 
-def readme_table() -> str:
+def effects_table() -> str:
     """Write the catalogue as Markdown: a table of name, equation, meaning and rivals for each component."""
     lines = []
     rows = effect_rows()

@@ -1,0 +1,173 @@
+"""Write the pages of the documentation that come from elsewhere: effects, validation, command line.
+
+    python scripts/make_docs.py            writes the table of effects and the page of validation, which are committed
+    python scripts/make_docs.py --check    writes nothing; exit 1 if one of them is not current
+
+A page for every effect with its picture, and the page of the command line, are made by `mkdocs build`.
+"""
+
+import json
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import typer
+
+from slipwise.cli import app
+from slipwise.effects import catalogue
+from slipwise.record import write_text
+from slipwise.view.canvas import save_figure
+from slipwise.view.effects import effect_picture, effect_rows, effects_table
+from slipwise.view.style import styled
+
+DOCS = Path(__file__).parents[1] / "docs"
+_MADE = "<!-- made by scripts/make_docs.py -->\n\n"
+
+
+def effects_index() -> str:
+    """Write the page that lists the catalogue."""
+    return (
+        f"{_MADE}# Effects\n\nWhat a model can lack. Each effect is one file in `src/slipwise/effects/`; at its neutral "
+        "value it changes nothing. `slipwise effects NAME` prints the same in a terminal, and an effect of your own "
+        f"competes by `--effect ./mine.py`.\n\n{effects_table()}"
+    )
+
+
+def linked(index: str) -> str:
+    """Let every name in the list of effects lead to its page, which is there in the site only."""
+    for name in catalogue():
+        index = index.replace(f"| `{name}` |", f"| [`{name}`]({name}.md) |")
+    return index
+
+
+def effect_page(row: dict[str, Any]) -> str:
+    """Write the page of one effect.
+
+    Args:
+        row: of `effect_rows`.
+    """
+    name = row["name"]
+    parameters = [
+        [f"`{p['name']}`", p["meaning"], p["unit"], *(_number(p[k]) for k in ("typical", "low", "high", "neutral")),
+         p["source"]]
+        for p in row["parameters"]
+    ]  # fmt: skip
+    known = catalogue()
+    rivals = [
+        [f"[`{rival}`]({rival}.md)" if rival in known else f"`{rival}`", test]
+        for rival, test in row["confused_with"].items()
+    ]
+    target = f", on one {row['target']}" if row["target"] else ""
+    parts = [
+        f"# {name}\n\n{row['summary']}\n\n```text\n{row['equation']}\n```",
+        f"Acts on port `{row['port']}`{target}; in a verdict it belongs to *{row['component']}*.",
+        f"![What {name} does at typical size, and below what it adds](pictures/{name}.png)",
+    ]
+    if parameters:
+        heads = ["parameter", "meaning", "unit", "typical", "lowest", "highest", "neutral", "source"]
+        parts += ["## Parameters", _table(heads, parameters)]
+    parts += [
+        f"## How it shows\n\n{_sentence(row['signature'])}",
+        "## What it is confused with",
+        _table(["effect", "what tells them apart"], rivals) if rivals else "Nothing known.",
+        f"## Valid\n\n{_sentence(row['valid'])}\n\n## Source\n\n{_sentence(row['source'])}",
+    ]
+    return "\n\n".join(parts) + "\n"
+
+
+def validation_page(stored: dict[str, Any]) -> str:
+    """Write the page of what was measured.
+
+    Args:
+        stored: content of validation.json.
+    """
+    parts = [f"{_MADE}# Validation", stored["note"]]
+    for entry in stored["measurements"]:
+        recorded = f"Recorded {entry['date']} with commit {entry['commit']}."
+        parts += [f"## {entry['title']}", f"*{_sentence(entry['how'])} {recorded}*"]
+        parts.append(_table(entry["columns"], entry["rows"]))
+        if entry["remarks"]:
+            parts.append("\n".join(f"- {words}" for words in entry["remarks"]))
+    parts += ["## Known limits", "\n".join(f"- {words}" for words in stored["limits"])]
+    return "\n\n".join(parts) + "\n"
+
+
+def command_line_page() -> str:
+    """Write the page of all commands with their options, from the commands themselves."""
+    parts = [
+        f"{_MADE}# Command line",
+        "Every command has `--help`. It exits with 0 when it is done, with 2 and one clear message when something that "
+        "was given cannot be used, and with 130 when it was interrupted.",
+    ]
+    commands: dict[str, Any] = getattr(typer.main.get_command(app), "commands", {})
+    for name, command in commands.items():
+        options = [
+            [", ".join(f"`{o}`" for o in (*p.opts, *p.secondary_opts)) if p.opts[0].startswith("-") else f"`{p.name.upper()}`",
+             getattr(p, "help", "") or ""]
+            for p in command.params
+        ]  # fmt: skip
+        parts += [f"## {name}", command.help or ""]
+        if options:
+            parts.append(_table(["argument", "meaning"], options))
+    return "\n\n".join(parts) + "\n"
+
+
+def committed_pages() -> dict[Path, str]:
+    """Give the made pages that are kept in the repository, as they should be."""
+    stored = json.loads((DOCS / "validation.json").read_text(encoding="utf-8"))
+    return {DOCS / "effects" / "index.md": effects_index(), DOCS / "validation.md": validation_page(stored)}
+
+
+def write_site_pages() -> list[str]:
+    """Write the pages that only the site has, and their pictures.
+
+    Returns:
+        The pages of the effects as the site's navigation names them, in the order of the catalogue's list.
+    """
+    _write(DOCS / "command_line.md", command_line_page())
+    pages = []
+    for row in effect_rows():
+        name = row["name"]
+        _write(DOCS / "effects" / f"{name}.md", effect_page(row))
+        picture = DOCS / "effects" / "pictures" / f"{name}.png"
+        if not picture.is_file() or picture.stat().st_mtime < catalogue()[name].path.stat().st_mtime:
+            with styled():
+                save_figure(effect_picture(catalogue()[name]), picture)
+        pages.append(f"effects/{name}.md")
+    return pages
+
+
+def _write(path: Path, text: str) -> None:
+    """Leave a file alone that is current: `mkdocs serve` builds anew for every file that is written."""
+    if not path.is_file() or path.read_text(encoding="utf-8") != text:
+        write_text(path, text)
+
+
+def _table(heads: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
+    heads = list(heads)
+    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
+    lines += ["| " + " | ".join(cell.replace("|", "\\|").replace("\n", " ") for cell in row) + " |" for row in rows]
+    return "\n".join(lines)
+
+
+def _number(value: float | None) -> str:
+    return "" if value is None else f"{value:g}"
+
+
+def _sentence(words: str) -> str:
+    return words if words.endswith(".") else f"{words}."
+
+
+def main() -> int:
+    """Write the committed pages, or check them."""
+    stale = [p for p, text in committed_pages().items() if not p.is_file() or p.read_text(encoding="utf-8") != text]
+    if "--check" in sys.argv:
+        return int(bool(stale))
+    for path, text in committed_pages().items():
+        _write(path, text)
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
