@@ -28,8 +28,8 @@ _MADE = "<!-- made by scripts/make_docs.py -->\n\n"
 def effects_index() -> str:
     """Write the page that lists the catalogue."""
     return (
-        f"{_MADE}# Effects\n\nWhat a model can lack. Each effect is one file in `src/slipwise/effects/`; at its neutral "
-        "value it changes nothing. `slipwise effects NAME` prints the same in a terminal, and an effect of your own "
+        f"{_MADE}# Effects\n\nWhat a model can lack. Each effect is one file in `src/slipwise/effects/`; at its "
+        "neutral value it changes nothing. `slipwise effects NAME` prints the same in a terminal, and an effect of your own "
         f"competes by `--effect ./mine.py`.\n\n{effects_table()}"
     )
 
@@ -102,11 +102,7 @@ def command_line_page() -> str:
     ]
     commands: dict[str, Any] = getattr(typer.main.get_command(app), "commands", {})
     for name, command in commands.items():
-        options = [
-            [", ".join(f"`{o}`" for o in (*p.opts, *p.secondary_opts)) if p.opts[0].startswith("-") else f"`{p.name.upper()}`",
-             getattr(p, "help", "") or ""]
-            for p in command.params
-        ]  # fmt: skip
+        options = [[_written(p), getattr(p, "help", "") or ""] for p in command.params]
         parts += [f"## {name}", command.help or ""]
         if options:
             parts.append(_table(["argument", "meaning"], options))
@@ -149,6 +145,13 @@ def _table(heads: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
     lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
     lines += ["| " + " | ".join(cell.replace("|", "\\|").replace("\n", " ") for cell in row) + " |" for row in rows]
     return "\n".join(lines)
+
+
+def _written(argument: Any) -> str:
+    """Give an argument as it is typed: all spellings of an option, the name of what has none."""
+    if not argument.opts[0].startswith("-"):
+        return f"`{argument.name.upper()}`"
+    return ", ".join(f"`{option}`" for option in (*argument.opts, *argument.secondary_opts))
 
 
 def _number(value: float | None) -> str:

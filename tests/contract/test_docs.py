@@ -20,7 +20,7 @@ def test_the_made_pages_are_current() -> None:
 def test_every_section_that_a_docstring_cites_exists() -> None:
     cited = set()
     for path in (ROOT / "src").rglob("*.py"):
-        for words in re.findall(r"docs/theory\.md, sections? ([^;:]*)", path.read_text(encoding="utf-8")):
+        for words in re.findall(r"docs/theory\.md, sections? ([^;:\n]*)", path.read_text(encoding="utf-8")):
             cited |= {(path.name, number) for number in re.findall(r"\d\.\d", words)}
     assert cited
     for name, number in sorted(cited):

@@ -15,7 +15,8 @@ Every relation is a residual that is zero for true channels, linear in a few con
 Pairs only tell which of two cells; they accuse nobody, for pads differ. Warp does not accuse either: equilibrium does
 not determine it.
 
-Source: docs/theory.md, section 1.5; parity relations: Gertler, Fault Detection and Diagnosis in Engineering Systems, 1998.
+Source: docs/theory.md, section 1.5; parity relations: Gertler, Fault Detection and Diagnosis in Engineering Systems,
+1998.
 """
 
 from collections.abc import Callable, Mapping

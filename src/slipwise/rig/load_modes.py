@@ -71,7 +71,8 @@ def load_modes(loads: Array) -> LoadModes:
     Args:
         loads: (n, 4) compression [N].
 
-    Source: docs/theory.md, section 1.4; signs here are those of the pads' places, so pitch is positive with the +x side loaded.
+    Source: docs/theory.md, section 1.4; signs here are those of the pads' places, so pitch is positive with the +x
+    side loaded.
     """
     heave, pitch, roll, warp = _MODES @ loads.T
     return LoadModes(heave, pitch, roll, warp)
