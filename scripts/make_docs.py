@@ -29,8 +29,8 @@ def effects_index() -> str:
     """Write the page that lists the catalogue."""
     return (
         f"{_MADE}# Effects\n\nWhat a model can lack. Each effect is one file in `src/slipwise/effects/`; at its "
-        "neutral value it changes nothing. `slipwise effects NAME` prints the same in a terminal, and an effect of your "
-        f"own competes by `--effect ./mine.py`.\n\n{effects_table()}"
+        "neutral value it changes nothing. `slipwise effects NAME` prints the same in a terminal, and an effect of "
+        f"your own competes by `--effect ./mine.py`.\n\n{effects_table()}"
     )
 
 

@@ -9,7 +9,7 @@ from rich.console import Console
 
 from slipwise.effects import Effect, catalogue
 from slipwise.studies.demonstration import demonstrate
-from slipwise.view.effects import effect_picture, effect_rows, print_effect, print_effects, readme_table
+from slipwise.view.effects import effect_picture, effect_rows, print_effect, print_effects, effects_table
 from slipwise.view.style import styled
 
 every_effect = pytest.mark.parametrize("effect", catalogue().values(), ids=list(catalogue()))
@@ -58,16 +58,16 @@ def test_the_terminal_says_equation_numbers_and_rivals() -> None:
     assert all(name in out.getvalue() for name in catalogue())
 
 
-def test_the_readme_table_has_a_row_for_every_effect() -> None:
-    table = readme_table()
+def test_the_table_of_effects_has_a_row_for_every_effect() -> None:
+    table = effects_table()
     for name in catalogue():
         assert f"| `{name}` |" in table
     rows = [line for line in table.splitlines() if line.startswith("|")]
     assert all(line.replace("\\|", "").count("|") == 5 for line in rows), "bars inside a cell are escaped"
 
 
-def test_the_readme_table_says_which_effects_are_confused_with_which() -> None:
-    rows = {line.split("`")[1]: line for line in readme_table().splitlines() if line.startswith("| `")}
+def test_the_table_of_effects_says_which_effects_are_confused_with_which() -> None:
+    rows = {line.split("`")[1]: line for line in effects_table().splitlines() if line.startswith("| `")}
     for name, effect in catalogue().items():
         told = rows[name].rsplit("|", 2)[1]
         assert told.strip() == ", ".join(f"`{rival}`" for rival in effect.confused_with)
