@@ -9,7 +9,7 @@ from rich.console import Console
 
 from slipwise.effects import Effect, catalogue
 from slipwise.studies.demonstration import demonstrate
-from slipwise.view.effects import effect_picture, effect_rows, print_effect, print_effects, effects_table
+from slipwise.view.effects import effect_picture, effect_rows, effects_table, print_effect, print_effects
 from slipwise.view.style import styled
 
 every_effect = pytest.mark.parametrize("effect", catalogue().values(), ids=list(catalogue()))
