@@ -9,9 +9,11 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import lfilter
 
 from slipwise.channels import PADS
 from slipwise.record import Record
+from slipwise.signals import derivative
 
 Array = NDArray[np.float64]
 #: What one free number adds: relation -> a signal for each record.
@@ -64,3 +66,16 @@ def turning(values: Array, length: float) -> Array:
         last = side - (side - last) * fade
         force[i + 1] = last
     return force
+
+
+def swing_of(base: Array, dt: float, frequency: float, damping: float) -> Array:
+    """Give the acceleration of an oscillator relative to its shaken base (n,).
+
+    q'' + 2 z w q' + w^2 q = -a; the displacement is the recursion of the sampled impulse response.
+    """
+    turn = 2.0 * np.pi * frequency
+    free = turn * np.sqrt(1.0 - damping**2)
+    fade = np.exp(-damping * turn * dt)
+    ahead, behind = [0.0, dt * fade * np.sin(free * dt) / free], [1.0, -2.0 * fade * np.cos(free * dt), fade**2]
+    displacement = np.asarray(lfilter(ahead, behind, -base))
+    return derivative(derivative(displacement, dt), dt)

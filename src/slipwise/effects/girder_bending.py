@@ -20,16 +20,14 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
-from slipwise.effects._disturbances import Number
+from slipwise.effects._disturbances import Number, swing_of
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.effects._oscillator import oscillator
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
 from slipwise.record import Record
 from slipwise.rig import Specimen
-from slipwise.signals import derivative
 from slipwise.signals.ends import in_frequency
 
 Array = NDArray[np.float64]
@@ -65,22 +63,11 @@ def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
     shakes = [next((r[n] for n in _VERTICAL if n in r), None) for r in records]
     for frequency in _FREQUENCIES:
         for damping in _DAMPINGS:
-            bent = [_swing(a, r.dt, frequency, damping) for a, r in zip(shakes, records, strict=True) if a is not None]
+            bent = [
+                swing_of(a, r.dt, frequency, damping) for a, r in zip(shakes, records, strict=True) if a is not None
+            ]
             if len(bent) == len(records):
                 yield [{"heave": bent}, {"upright": bent}]
-
-
-def _swing(base: Array, dt: float, frequency: float, damping: float) -> Array:
-    """Give the acceleration of an oscillator relative to its shaken base (n,).
-
-    q'' + 2 z w q' + w^2 q = -a; the displacement is the recursion of the sampled impulse response.
-    """
-    turn = 2.0 * np.pi * frequency
-    free = turn * np.sqrt(1.0 - damping**2)
-    fade = np.exp(-damping * turn * dt)
-    ahead, behind = [0.0, dt * fade * np.sin(free * dt) / free], [1.0, -2.0 * fade * np.cos(free * dt), fade**2]
-    displacement = np.asarray(lfilter(ahead, behind, -base))
-    return derivative(derivative(displacement, dt), dt)
 
 
 EFFECT = Effect(
