@@ -24,7 +24,7 @@ REACH = {
     "begin": set(), "flat": set(), "corner": set(), "deflection": {"buffers", "balance heave"},
     "spring": {"buffers", "balance heave"},
     "settle": {"buffers"}, "lift": {"lift"}, "drag": {"drag"}, "rig": {"specimen"}, "table": {"table"},
-    "balance": {"balance *"}, "gauge": {"channels *"}, "undo": set(),
+    "balance": {"balance *"}, "gauge": {"channels *"}, "undo": set(), "sharpen": set(), "disturb": set(),
 }  # fmt: skip
 
 #: design.md, section 7: these names are a contract.

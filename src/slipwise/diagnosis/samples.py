@@ -1,7 +1,7 @@
 """Faults of samples: a wrong sign, a rail, lost samples. They are seen in the samples, before any fit.
 
 Signs are told by balances that no law of friction enters: slip against accelerometers, heave, friction against motion.
-A rail is a stretch of equal extreme values; lost samples repeat the one before more often than rounding does.
+Rails and samples that repeat or were lost are those that the audit of the instruments finds.
 """
 
 from collections.abc import Mapping
@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 
 from slipwise.campaign import Campaign
 from slipwise.channels import PADS, VELOCITY_CHANNELS
+from slipwise.instruments import sample_faults as samples
+from slipwise.instruments.suspects import effect_of
 from slipwise.record import Record
 from slipwise.signals import LowPass, lowpass, white_level
 from slipwise.signals.ends import in_frequency
@@ -20,11 +22,6 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 #: A correlation below this says that a sign is wrong.
 _AGAINST = -0.3
-#: Equal samples at an extreme that make a rail; share of repeated samples above chance that means lost ones.
-_PLATEAU, _REPEATED = 4, 0.002
-#: So many repeats at the ends of the runs, some in each, mean it too where chance repeats at most this share: records
-#: that had to be filled up, for what was lost had moved all that came after.
-_FILLED, _RARELY = 8, 0.1
 #: Spoiled before and after a bad sample; more where the velocity is made of the channel [samples].
 _REACH, _REACH_OF_MOTION = 6, 40
 
@@ -34,46 +31,42 @@ class SampleFault:
     """A fault that the samples show.
 
     Attributes:
-        effect: "channel_sign", "channel_clipping" or "dropped_samples".
+        effect: name in the catalogue.
         channel: name.
         share: of the samples that it touches [1].
         moved: whether samples were lost for good, so that all that came after is late.
+        seen: what the audit's look at the samples found; empty for a wrong sign.
     """
 
     effect: str
     channel: str
     share: float
     moved: bool = False
+    seen: tuple[samples.SampleFault, ...] = ()
 
 
 def sample_faults(campaign: Campaign) -> tuple[SampleFault, ...]:
-    """Find the faults of samples of a campaign."""
-    found = [SampleFault("channel_sign", c, 1.0) for c in _wrong_signs(campaign)]
+    """Find the faults of samples of a campaign, as the audit of the instruments finds them."""
+    found = [SampleFault(effect_of("turned").name, c, 1.0) for c in _wrong_signs(campaign)]
     if not campaign.specimen.free:
         return tuple(found)  # a slider's actuator may rest at its ends as long as it likes
-    names = [n for n in campaign.runs[0].record.channels if not n.startswith("table_d")]
-    # what every channel repeats at its end is a record that was cut, no gauge's loss
-    cut = [min(_filled_up(r.record[n]) for n in names if n in r.record) for r in campaign.runs]
-    for name in names:
-        here = zip(campaign.runs, cut, strict=True)
-        runs = [r.record[name][: len(r.record) - c] for r, c in here if name in r.record]
-        if any(_coarse(values) for values in runs):
-            continue  # rounding makes equal samples of its own
-        rails = [_at_rail(values) for values in runs]
-        held = [_repeats(values) for values in runs]
-        # a peak that is held looks like a rail, but then other samples are held as well
-        elsewhere = [_repeats(values[~rail]) for values, rail in zip(runs, rails, strict=True)]
-        filled = [_filled_up(values) for values in runs]
-        moved = min(filled) > 0 and sum(filled) >= _FILLED
-        lost = all(h > _REPEATED for h in held) or moved
-        total = sum(len(values) for values in runs)
-        clipped = sum(int(np.count_nonzero(r)) for r in rails)
-        if clipped >= _PLATEAU and not (lost and all(h > _REPEATED for h in elsewhere)):
-            found.append(SampleFault("channel_clipping", name, clipped / total))
-        elif lost:
-            share = max(float(np.mean(held)), sum(filled) / total)
-            found.append(SampleFault("dropped_samples", name, share, moved))
+    for (effect, channel), faults in _by_channel(samples.sample_faults(campaign)).items():
+        runs = [run.record[channel] for run in campaign.runs if channel in run.record]
+        bad = [_bad_samples(faults, run.name, run.record[channel]) for run in campaign.runs if channel in run.record]
+        moved = any(fault.kind == "lost" for fault in faults)
+        share = faults[0].size if moved else sum(int(b.sum()) for b in bad) / sum(len(v) for v in runs)
+        found.append(SampleFault(effect, channel, share, moved, faults))
     return tuple(found)
+
+
+def _by_channel(faults: list[samples.SampleFault]) -> dict[tuple[str, str], tuple[samples.SampleFault, ...]]:
+    """Give the faults of every channel that a fit must know: both rails together; a gap is the clock's, no gauge's."""
+    out: dict[tuple[str, str], tuple[samples.SampleFault, ...]] = {}
+    for fault in (f for f in faults if f.kind in (*samples.RAILS, "held", "lost")):
+        for name in fault.channels:
+            key = effect_of(fault.kind).name, name
+            out[key] = (*out.get(key, ()), fault)
+    return out
 
 
 def mended(campaign: Campaign, faults: tuple[SampleFault, ...]) -> tuple[Campaign, dict[str, dict[str, Mask]]]:
@@ -89,12 +82,11 @@ def mended(campaign: Campaign, faults: tuple[SampleFault, ...]) -> tuple[Campaig
         record, spoilt = run.record, dict[str, Mask]()
         for fault in (f for f in faults if f.channel in record):
             values = record[fault.channel]
-            if fault.effect == "channel_sign":
+            if not fault.seen:
                 record = record.replaced(**{fault.channel: -values})
                 continue
-            bad = _at_rail(values)
-            if fault.effect == "dropped_samples":
-                bad[1:] |= values[1:] == values[:-1]
+            bad = _bad_samples(fault.seen, run.name, run.record[fault.channel])
+            if all(one.kind not in samples.RAILS for one in fault.seen):
                 between = np.interp(record.time, record.time[~bad], values[~bad])
                 record = record.replaced(**{fault.channel: between})
             reach = _REACH_OF_MOTION if fault.channel in VELOCITY_CHANNELS else _REACH
@@ -103,6 +95,17 @@ def mended(campaign: Campaign, faults: tuple[SampleFault, ...]) -> tuple[Campaig
         spoiled[run.name] = spoilt
     runs = tuple(replace(r, record=records[r.name]) for r in campaign.runs)
     return replace(campaign, runs=runs), spoiled
+
+
+def _bad_samples(faults: tuple[samples.SampleFault, ...], run: str, values: Array) -> Mask:
+    """Give the samples (n,) that are no measurement; of a channel that lost some, those that repeat the one before."""
+    bad = np.zeros(len(values), dtype=bool)
+    for fault in faults:
+        if fault.kind == "lost":
+            bad[1:] |= values[1:] == values[:-1]
+        else:
+            bad |= fault.bad.get(run, False)
+    return bad
 
 
 def _wrong_signs(campaign: Campaign) -> list[str]:
@@ -150,53 +153,3 @@ def _signs(record: Record) -> Mapping[str, float]:
         if strong:
             out["girder_az"] = float(np.corrcoef(total, vertical)[0, 1])
     return out
-
-
-def _coarse(values: Array) -> bool:
-    """Tell whether a channel is rounded so much that equal neighbours are usual."""
-    steps = np.abs(np.diff(values))
-    steps = steps[steps > 0.0]
-    return steps.size < 32 or float(steps.min()) > 0.3 * white_level(values)
-
-
-def _at_rail(values: Array) -> Mask:
-    """Tell which samples stand at the largest or smallest value, in stretches of equal ones."""
-    out = np.zeros(len(values), dtype=bool)
-    if float(np.ptp(values)) == 0.0:
-        return out
-    for rail in (values.max(), values.min()):
-        here = values == rail
-        joined = here & (np.roll(here, 1) | np.roll(here, -1))
-        if np.count_nonzero(joined) >= _PLATEAU:
-            out |= here
-    return out
-
-
-def _repeats(values: Array) -> float:
-    """Give the share of samples that repeat the one before, above what rounding makes of noise."""
-    same, expected = _same(values), _by_chance(values)
-    if expected == 1.0:
-        return 0.0
-    return max(float(np.mean(same)) - expected - 4.0 * np.sqrt(expected / len(same)), 0.0)
-
-
-def _filled_up(values: Array) -> int:
-    """Give how often the last value was repeated to fill up the record; 0 where rounding may have done it."""
-    other = np.flatnonzero(~_same(values))
-    return len(values) - 2 - int(other[-1]) if other.size and _by_chance(values) < _RARELY else 0
-
-
-def _same(values: Array) -> Mask:
-    return np.diff(values) == 0.0
-
-
-def _by_chance(values: Array) -> float:
-    """Give the share of samples that repeat the one before because of rounding; 1 where nothing changes [1]."""
-    steps = np.diff(values)
-    finite = np.abs(steps[steps != 0.0])
-    if finite.size < 32:
-        return 1.0
-    quantum = float(finite.min())
-    spread = np.hypot(1.4142 * white_level(values), quantum)
-    slope = np.convolve(steps, np.ones(15) / 15.0, mode="same")
-    return float(np.mean(np.minimum(quantum / (2.5066 * spread) * np.exp(-0.5 * (slope / spread) ** 2), 1.0)))

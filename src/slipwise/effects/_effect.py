@@ -18,6 +18,9 @@ Hooks of whole arrays (numpy):
 
     rig(specimen, ...) -> Specimen             table(acceleration (n, 4), dt, ...) -> acceleration
     gauge(record, target, ...) -> Record       undo(record, target, ...) -> Record (its inverse, where `gauge` has one)
+    sharpen(record, target, ...) -> Record (its inverse as far as noise bears it, where there is no exact one)
+    disturb(records) -> forms, each a list of free numbers: what each adds to the balances by which an audit holds
+                        gauges against each other, in every record; see `_disturbances`
     balance(states, ...) -> {"heave" | "pitch" | "roll" | "warp": (n,), "girder": (n,)} added to what is predicted
     rest(memory, seconds, ...) -> None         what a pause between runs leaves of the memory
     begin(memory, share_x, share_y, bound, ...) -> None    what is remembered where a slider's record begins, by the
@@ -44,6 +47,7 @@ from typing import Any
 
 from slipwise.channels import CHANNELS
 from slipwise.effects._declared import BASE_ROLES, COMPONENT_NEEDS, NEEDS, SITS, Gauges
+from slipwise.effects._fault import SAMPLE_FAULTS, GaugeFault
 from slipwise.effects._hooks import COMPONENTS, HOOKS, PORTS, SIDES
 from slipwise.errors import SettingError, unknown_name
 from slipwise.params import Parameter
@@ -69,6 +73,7 @@ class Effect(Drawn, Tabular):
         confused_with: other effects -> the test that tells them apart.
         memory: names of the numbers it remembers, per pad or per buffer and direction; they start at zero.
         target: "channel" where the effect must be told which channel it acts on, else "".
+        fault: of a gauge's fault: what the audit of the instruments needs to know of it.
         exact: whether geometry leaves no other form of it than this: what it does not explain is then something else.
         replaces: for a law that takes the place of a simpler one: which; such an effect has no neutral value.
         adds: for a law that brings a share of its own: what scales friction as a whole, heat or wear or a patch of the
@@ -102,6 +107,7 @@ class Effect(Drawn, Tabular):
     confused_with: Mapping[str, str]
     memory: tuple[str, ...] = ()
     target: str = ""
+    fault: GaugeFault | None = None
     exact: bool = False
     replaces: str = ""
     adds: bool = False
@@ -237,6 +243,9 @@ def _check_declared(path: Path, effect: Effect) -> None:
     ):
         if given not in possible:
             raise unknown_name(f"{what} (of {path.name})", given, possible)
+    for kind in effect.fault.samples if effect.fault else ():
+        if kind not in SAMPLE_FAULTS:
+            raise unknown_name(f"fault of samples (of {path.name})", kind, SAMPLE_FAULTS)
     if effect.plainer and not effect.lag:
         raise SettingError(f"{path.name}: it has a plainer form ({effect.plainer}), so it must name the `lag` of both")
 

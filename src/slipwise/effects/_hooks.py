@@ -73,7 +73,9 @@ HOOKS: dict[str, Hook] = {
     "table": _hook({}, "acceleration", "dt", "girder", instant=False),
     "gauge": _hook({}, "record", "target", instant=False),
     "undo": _hook({}, "record", "target", instant=False),
+    "sharpen": _hook({}, "record", "target", instant=False),
     "corner": _hook({}, instant=False),
+    "disturb": _hook({}, "records", instant=False),
     "flat": _hook({}, "coefficient", instant=False),
     "balance": _hook({}, "states", instant=False),
     "rest": _hook({}, "memory", "seconds", memory="pad", instant=False),
@@ -81,15 +83,15 @@ HOOKS: dict[str, Hook] = {
 }
 #: Ports in the order in which they act, with the hooks that an effect on them may have.
 PORTS: dict[str, tuple[str, ...]] = {
-    "rig": ("rig", "balance"),
-    "table": ("table", "balance"),
+    "rig": ("rig", "balance", "disturb"),
+    "table": ("table", "balance", "disturb"),
     "area": ("area", "advance", "rest"),
-    "shear": ("shear", "advance", "rest", "flat"),
+    "shear": ("shear", "advance", "rest", "flat", "disturb"),
     "stick": ("stick", "shear", "advance", "rest", "begin"),
-    "pad": ("pad", "advance", "rest"),
-    "buffer": ("deflection", "spring", "settle", "lift", "balance", "rest"),
-    "girder": ("rig", "drag", "lift", "balance"),
-    "gauge": ("gauge", "undo", "corner"),
+    "pad": ("pad", "advance", "rest", "disturb"),
+    "buffer": ("deflection", "spring", "settle", "lift", "balance", "rest", "disturb"),
+    "girder": ("rig", "drag", "lift", "balance", "disturb"),
+    "gauge": ("gauge", "undo", "sharpen", "corner"),
 }
 #: What an effect belongs to in a verdict.
 COMPONENTS: tuple[str, ...] = ("pad friction", "pad load", "buffer", "girder", "table", "instrument")

@@ -10,10 +10,16 @@ Valid: rates of 0.01 to 1 m/s; c is per buffer.
 Source: Kelvin & Voigt; damping ratios assumed; 7.45 kN s/m each is 4 % of critical on Bridge 1.
 """
 
+from collections.abc import Iterator, Sequence
 from math import copysign
 
+import numpy as np
+
+from slipwise.effects._disturbances import Number, axes, channel
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
+from slipwise.record import Record
+from slipwise.signals import derivative
 
 REFERENCE = 0.1
 
@@ -21,6 +27,13 @@ REFERENCE = 0.1
 def spring(force: float, rate: float, damping: float, exponent: float) -> float:
     """Add the dashpot's force [N]."""
     return force + damping * copysign(REFERENCE * (abs(rate) / REFERENCE) ** exponent, rate)
+
+
+def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
+    """Give a force that is linear and square in the slip rate."""
+    for axis in axes(records):
+        rates = [derivative(x, r.dt) for x, r in zip(channel(records, f"slip_{axis}"), records, strict=True)]
+        yield [{f"girder_{axis}": rates}, {f"girder_{axis}": [v * np.abs(v) for v in rates]}]
 
 
 EFFECT = Effect(

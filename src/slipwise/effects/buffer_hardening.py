@@ -9,8 +9,12 @@ Valid: the first upturn of the curve; not near rupture.
 Source: 5 to 50 % above 150 to 200 % of shear, assumed.
 """
 
+from collections.abc import Iterator, Sequence
+
+from slipwise.effects._disturbances import Number, axes, channel
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
+from slipwise.record import Record
 
 COUNTED_AT = 0.03
 
@@ -18,6 +22,12 @@ COUNTED_AT = 0.03
 def spring(force: float, deflection: float, gain: float, power: float) -> float:
     """Stiffen the force [N]."""
     return force * (1.0 + gain * (abs(deflection) / COUNTED_AT) ** power)
+
+
+def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
+    """Give a force that is cubic, or of fifth power, in the slip."""
+    for axis in axes(records):
+        yield [{f"girder_{axis}": [x**p for x in channel(records, f"slip_{axis}")]} for p in (3, 5)]
 
 
 EFFECT = Effect(

@@ -12,15 +12,20 @@ Valid: strains for which the backbone is still a straight line; u 1 to 5 mm.
 Source: Bouc (1967), Wen (1976), Dahl (1968); sizes assumed.
 """
 
+from collections.abc import Iterator, Sequence
 from math import exp
 
 import numpy as np
 
+from slipwise.effects._disturbances import Number, axes, channel, turning
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
+from slipwise.record import Record
 
 CREEP = 60.0
 ANYWHERE = 1e9
+#: Lengths over which a force turns that an audit tries [m].
+_TURNS = (2e-4, 1e-3, 3e-3)
 
 
 def spring(
@@ -42,6 +47,13 @@ def rest(memory: np.ndarray, seconds: float) -> None:
     """Let the chains creep back through a pause, after which the girder may stand anywhere."""
     memory[0] *= exp(-seconds / CREEP)
     memory[1] = ANYWHERE
+
+
+def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
+    """Give a force that turns over a length."""
+    for axis in axes(records):
+        for length in _TURNS:
+            yield [{f"girder_{axis}": [turning(x, length) for x in channel(records, f"slip_{axis}")]}]
 
 
 EFFECT = Effect(

@@ -10,18 +10,36 @@ Valid: m 0.1 to 0.3. Rubber recovers in part over days, which is left out.
 Source: Mullins (1969); Ogden and Roxburgh (1999) for an end; sizes and the decay over x_0 assumed.
 """
 
+from collections.abc import Iterator, Sequence
 from math import exp
 
 import numpy as np
 
+from slipwise.effects._disturbances import Number, axes, channel
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
+from slipwise.record import Record
+
+#: Lengths that an audit tries [m].
+_LENGTHS = (3e-3, 1e-2, 3e-2)
 
 
 def spring(force: float, deflection: float, memory: np.ndarray, rise: float, length: float, shape: float) -> float:
     """Stiffen the force [N] by what the largest excursion leaves."""
     memory[0] = max(memory[0], abs(deflection))
     return force * (1.0 + rise * exp(-((memory[0] / length) ** shape)))
+
+
+def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
+    """Give what fresh buffers carry more, until they were stretched so far."""
+    for axis in axes(records):
+        for length in _LENGTHS:
+            largest, softer = 0.0, []
+            for x in channel(records, f"slip_{axis}"):
+                reached = np.maximum.accumulate(np.maximum(np.abs(x), largest))
+                largest = float(reached[-1])
+                softer.append(x * np.exp(-reached / length))
+            yield [{f"girder_{axis}": softer}]
 
 
 EFFECT = Effect(

@@ -13,6 +13,7 @@ Source: Newton's second law for the plate; sizes assumed.
 
 from slipwise.effects._declared import Gauges
 from slipwise.effects._effect import Effect
+from slipwise.effects._fault import GaugeFault
 from slipwise.effects._gauges import aimed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -47,6 +48,17 @@ EFFECT = Effect(
         Parameter("mass", "kg", 30.0, 0.0, 200.0, 0.0, "20 to 50 kg, assumed", "m_c: between pad and cell"),
         Parameter("horizontal", "1", 1.0, -1.5, 1.5, None, "1 by Newton for these signs", "h: horizontal share"),
         Parameter("weighed", "1", 0.0, 0.0, 1.0, None, "assumed: in the zero", "w: share of its weight that is read"),
+    ),
+    fault=GaugeFault(
+        says="read the inertia of {size} between pad and cell",
+        settled_by="a sine below slip (0.03 g): what the cells read there in step with the table is inertia",
+        unit="kg",
+        least={"*": 6.0},
+        step=10.0,
+        forms={
+            "all cells": {"horizontal": 1.0, "weighed": 0.0},
+            "all cells, added": {"horizontal": -1.0, "weighed": 0.0},
+        },
     ),
     moves=("pad_*_F?", "pad_*_N"),
     signature="even, in step with the table's acceleration, also while the pads stick; the same mass in heave",

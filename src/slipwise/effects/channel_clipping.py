@@ -13,6 +13,7 @@ Source: definition; the rail's place assumed.
 import numpy as np
 
 from slipwise.effects._effect import Effect
+from slipwise.effects._fault import GaugeFault
 from slipwise.effects._gauges import changed, span
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -30,6 +31,11 @@ EFFECT = Effect(
     parameters=(
         Parameter("upper", "1", 0.25, 0.005, 1000.0, 1000.0, "assumed", "q: in spans of the gauge", "%"),
         Parameter("lower", "1", 0.25, 0.005, 1000.0, 1000.0, "assumed", "r: in spans of the gauge", "%"),
+    ),
+    fault=GaugeFault(
+        says="is cut off at {size}",
+        settled_by="the gauge's range, and a run of smaller amplitude",
+        samples=("upper rail", "lower rail"),
     ),
     moves=("*",),
     signature="plateaus of equal height at the peaks",

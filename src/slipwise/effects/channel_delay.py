@@ -11,6 +11,7 @@ Source: definition; 1 to 10 ms assumed.
 """
 
 from slipwise.effects._effect import Effect
+from slipwise.effects._fault import GaugeFault
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -32,6 +33,13 @@ EFFECT = Effect(
     component="instrument",
     equation="y(t) = x(t - tau)",
     parameters=(Parameter("delay", "s", 2e-3, -0.05, 0.05, 0.0, "1 to 10 ms, assumed", "tau: late by", "ms"),),
+    fault=GaugeFault(
+        says="comes {size} late",
+        settled_by="one tap with a hammer on the girder at rest shows every channel's delay and filter",
+        unit="s",
+        least={"*": 0.4e-3},
+        step=5e-4,
+    ),
     moves=("*",),
     signature="residual goes with the channel's rate of change: biggest at reversals, a constant time",
     confused_with={

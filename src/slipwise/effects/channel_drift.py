@@ -13,6 +13,7 @@ import numpy as np
 
 from slipwise.effects._declared import Gauges
 from slipwise.effects._effect import Effect
+from slipwise.effects._fault import GaugeFault
 from slipwise.effects._gauges import changed, span
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -37,6 +38,13 @@ EFFECT = Effect(
     parameters=(
         Parameter("drift", "1/s", 2e-4, -0.02, 0.02, 0.0, "assumed: 1.2 % a minute", "d: spans a second", "%/min"),
         Parameter("settling", "1/s", 0.0, 0.0, 5.0, None, "assumed: straight", "w: 0 straight, else it settles"),
+    ),
+    fault=GaugeFault(
+        says="drifts by {size}",
+        settled_by="a record of some minutes in which nothing moves",
+        unit="channel/s",
+        least={"m/s^2": 0.01, "m": 2e-5, "N": 20.0, "rad": 3e-5},
+        forms={"": {"settling": 0.0}, ", settling": {"settling": 0.33}},
     ),
     moves=("*",),
     signature="even, grows with time also while nothing moves",

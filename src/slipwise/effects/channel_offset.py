@@ -11,6 +11,7 @@ Source: definition; spans in `_gauges`; size assumed.
 
 from slipwise.effects._declared import Gauges
 from slipwise.effects._effect import Effect
+from slipwise.effects._fault import GaugeFault
 from slipwise.effects._gauges import changed, span
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -31,6 +32,12 @@ EFFECT = Effect(
     component="instrument",
     equation="y = x + o S",
     parameters=(Parameter("offset", "1", 0.002, -0.2, 0.2, 0.0, "assumed", "o: in spans of the gauge", "%"),),
+    fault=GaugeFault(
+        says="has its zero off by {size}",
+        settled_by="zero readings before and after, with the girder lifted for load cells",
+        unit="channel",
+        least={"m/s^2": 0.03, "m": 1e-4, "N": 40.0, "rad": 1e-4},
+    ),
     moves=("*",),
     signature="even and constant, at rest too; zero readings before and after show it",
     confused_with={

@@ -10,6 +10,7 @@ Source: definition.
 """
 
 from slipwise.effects._effect import Effect
+from slipwise.effects._fault import GaugeFault
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -30,6 +31,11 @@ EFFECT = Effect(
     component="instrument",
     equation="y = -x",
     parameters=(Parameter("sign", "1", -1.0, -1.0, 1.0, 1.0, "definition", "below zero: turned"),),
+    fault=GaugeFault(
+        says="has the wrong sign",
+        settled_by="one push by hand in a known direction",
+        samples=("turned",),
+    ),
     moves=("*",),
     signature="odd; balances fail by twice the channel",
     confused_with={"channel_gain": "a gain of -200 % is no gain"},

@@ -16,6 +16,7 @@ from scipy.ndimage import map_coordinates
 
 from slipwise.effects._declared import Gauges
 from slipwise.effects._effect import Effect
+from slipwise.effects._fault import GaugeFault
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -50,6 +51,13 @@ EFFECT = Effect(
     component="instrument",
     equation="y(t) = x(t (1 - e))",
     parameters=(Parameter("skew", "1", 1e-4, -2e-3, 2e-3, 0.0, "10 to 200 ppm, assumed", "e: of the clock", "ppm"),),
+    fault=GaugeFault(
+        says="runs by a clock of its own, {size} slow",
+        settled_by="one tap at the start and one at the end of a long record",
+        shown=(1e6, "ppm"),
+        least={"*": 6e-5},
+        step=1e-4,
+    ),
     moves=("*",),
     signature="a delay that is nothing at the start and grows through the run",
     confused_with={"channel_delay": "its delay is there from the start"},

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.effects._effect import Effect
+from slipwise.effects._fault import GaugeFault
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -39,6 +40,11 @@ EFFECT = Effect(
     parameters=(
         Parameter("share", "1", 0.02, 0.0, 0.5, 0.0, "assumed", "of samples lost", "%"),
         Parameter("burst", "1", 1.0, 1.0, 100.0, None, "assumed", "samples lost at a time"),
+    ),
+    fault=GaugeFault(
+        says="repeats or misses {size} of its samples",
+        settled_by="the logger's own counter of samples",
+        samples=("held", "lost", "gap"),
     ),
     moves=("*",),
     signature="runs of equal values; spikes in the rate",

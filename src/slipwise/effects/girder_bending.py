@@ -15,21 +15,27 @@ Source: paper, "Factor C"; modal analysis of a beam; frequency and share assumed
 acceleration that is straight between samples.
 """
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.effects._disturbances import Number, swing_of
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.effects._oscillator import oscillator
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
+from slipwise.record import Record
 from slipwise.rig import Specimen
 from slipwise.signals.ends import in_frequency
 
 Array = NDArray[np.float64]
 #: Swing of the middle of a simple beam for a unit of its first mode [1], and how far ends are carried on [s].
 _MIDDLE, _BEYOND = 4.0 / np.pi, 2.0
+#: Frequencies [Hz] and damping [1] of a mode that an audit tries, and what shakes it, by preference.
+_FREQUENCIES, _DAMPINGS = tuple(np.geomspace(4.0, 36.0, 36)), (0.01, 0.03)
+_VERTICAL = ("table_az", "girder_az", "girder_az_1")
 
 
 def rig(specimen: Specimen, share: float, frequency: float, damping: float) -> Specimen:
@@ -50,6 +56,18 @@ def balance(states: BalanceStates, share: float, frequency: float, damping: floa
 
     read = in_frequency(states.girder_acceleration[:, 2], dt, swing, round(_BEYOND / dt))
     return {"heave": (share - _MIDDLE) * mass * read}
+
+
+def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
+    """Give the acceleration of a mode that vertical shaking excites."""
+    shakes = [next((r[n] for n in _VERTICAL if n in r), None) for r in records]
+    for frequency in _FREQUENCIES:
+        for damping in _DAMPINGS:
+            bent = [
+                swing_of(a, r.dt, frequency, damping) for a, r in zip(shakes, records, strict=True) if a is not None
+            ]
+            if len(bent) == len(records):
+                yield [{"heave": bent}, {"upright": bent}]
 
 
 EFFECT = Effect(

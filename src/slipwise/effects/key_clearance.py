@@ -10,10 +10,18 @@ Valid: c 0.2 to 3 mm. 0.5 mm changes the slip by 17 %, 2 mm by 59 % (Bridge 1 ne
 Source: dead zone of a pin in a hole; impact damping after Hunt & Crossley (1975) with a Hertz exponent; sizes assumed.
 """
 
+from collections.abc import Iterator, Sequence
 from math import sqrt
 
+import numpy as np
+
+from slipwise.effects._disturbances import Number, axes, channel
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
+from slipwise.record import Record
+
+#: Clearances that an audit tries [m].
+_CLEARANCES = (1e-4, 2e-4, 4e-4, 7e-4, 1.2e-3, 2e-3, 3e-3)
 
 
 def deflection(deflection: float, clearance: float) -> float:
@@ -35,6 +43,13 @@ def spring(force: float, deflection: float, rate: float, impact: float, release:
     if deflection < 0.0:
         return force + min(blow, -min(force, 0.0))
     return force
+
+
+def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
+    """Give what buffers lack that take up clearance first."""
+    for axis in axes(records):
+        for gap in _CLEARANCES:
+            yield [{f"girder_{axis}": [-np.clip(x, -gap, gap) for x in channel(records, f"slip_{axis}")]}]
 
 
 EFFECT = Effect(

@@ -12,15 +12,21 @@ Source: Endo, Okada, Unjoh (2008): "shear keys at rubber buffers might affect ve
 elastic-plastic element; sizes assumed.
 """
 
+from collections.abc import Iterator, Sequence
 from math import hypot, tanh
 
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.effects._disturbances import Number, channel, recorded, total_loads, turning
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.effects._prandtl import prandtl
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
+from slipwise.record import Record
+
+#: Travel of the pads' load over which the force turns that an audit tries, in mean loads [1].
+_TURNS = (0.02, 0.1)
 
 
 def lift(
@@ -41,6 +47,19 @@ def balance(states: BalanceStates, friction: float, slow: float, elastic: float)
     held = friction * states.buffer_size * share[:, None]
     levers = np.reshape(states.specimen.buffer_places, (-1, 2)) / states.specimen.half_spacing
     return {"heave": held.sum(axis=1), "pitch": held @ levers[:, 0], "roll": held @ levers[:, 1]}
+
+
+def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
+    """Give a vertical force in step with the buffers' that turns with the direction of heave."""
+    loads = total_loads(records)
+    if not loads or not recorded(records, "slip_x"):
+        return
+    slips = [np.abs(x) for x in channel(records, "slip_x")]
+    for length in _TURNS:
+        # the girder's height over the pads is -sum N / (4 k): its direction is that of -d(sum N)/dt
+        turns = [turning(-n / n.mean(), length) for n in loads]
+        rubbing = [x * t for x, t in zip(slips, turns, strict=True)]
+        yield [{"heave": rubbing}, {"pitch": rubbing}]
 
 
 EFFECT = Effect(

@@ -13,6 +13,7 @@ Source: definition; sizes assumed.
 
 from slipwise.effects._declared import Gauges
 from slipwise.effects._effect import Effect
+from slipwise.effects._fault import GaugeFault
 from slipwise.effects._gauges import aimed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -44,6 +45,12 @@ EFFECT = Effect(
         Parameter("share", "1", 0.01, -0.3, 0.3, 0.0, "0.5 to 2 %, assumed", "c: of N in F", "%"),
         Parameter("zeroed", "1", 0.0, 0.0, 1.0, None, "assumed", "z: 1 if zeroed under load"),
     ),
+    fault=GaugeFault(
+        says="feels {size} of the other direction's force",
+        settled_by="zero readings with the girder lifted, or a weight put on each cell alone",
+        least={"pad_*_N": 0.012, "*": 0.0015},
+        forms={"": {"zeroed": 0.0}, ", zeroed": {"zeroed": 1.0}},
+    ),
     moves=("pad_*_F?", "pad_*_N"),
     signature="even in velocity, in step with N, at rest too; moves the girder balance",
     confused_with={
@@ -53,5 +60,5 @@ EFFECT = Effect(
     },
     target="channel",
     needs=("both directions", "changing load"),
-    gauges=Gauges(reads={"_Fx": "_N", "_N": "_Fx"}, balance_only=("pad_*_N",)),
+    gauges=Gauges(reads={"_Fx": "_N", "_Fy": "_N", "_N": "_Fx"}, balance_only=("pad_*_N",)),
 )  # fmt: skip

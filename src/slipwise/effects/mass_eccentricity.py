@@ -9,14 +9,17 @@ Valid: a few centimetres on a spacing of metres.
 Source: equilibrium of moments; 0.01 to 0.1 m assumed.
 """
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.effects._disturbances import Number, total_loads
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
+from slipwise.record import Record
 from slipwise.rig import Specimen
 
 
@@ -30,6 +33,14 @@ def balance(states: BalanceStates, along: float, across: float) -> dict[str, NDA
     weight = states.specimen.mass * (states.specimen.gravity + states.girder_acceleration[:, 2])
     half_x, half_y = states.specimen.half_spacing
     return {"pitch": weight * along / half_x, "roll": weight * across / half_y}
+
+
+def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
+    """Give the share of all that the pads carry by which one end, or one side, carries more."""
+    if carried := total_loads(records):
+        yield [{"pitch": carried}]
+        yield [{"roll": carried}]
+        yield [{"pitch": carried}, {"roll": carried}]
 
 
 EFFECT = Effect(

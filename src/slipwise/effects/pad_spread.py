@@ -10,13 +10,24 @@ Valid: a few per cent each; the sum of the three below 100 %.
 Source: 3 % of spread between pads of one batch, assumed.
 """
 
+from collections.abc import Iterator, Sequence
+
+from slipwise.effects._disturbances import Number, paired
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
+from slipwise.record import Record
 
 
 def shear(shear: float, side_x: float, side_y: float, along: float, across: float, diagonal: float) -> float:
     """Scale the shear strength [Pa] of this pad."""
     return shear * (1.0 + along * side_x + across * side_y + diagonal * side_x * side_y)
+
+
+def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
+    """Give the friction of each side, of which one pad has more than the other."""
+    for axis in "xy":
+        if pairs := paired(records, axis):
+            yield [{name: forces} for name, (forces, _) in pairs.items()]
 
 
 EFFECT = Effect(

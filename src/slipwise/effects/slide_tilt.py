@@ -9,13 +9,30 @@ Valid: small angles; 0.0005 to 0.005 rad (1/300 is 3.3 mm in 1 m).
 Source: equilibrium on an incline; 1/300 is a usual tolerance of erection, assumed.
 """
 
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from slipwise.effects._disturbances import Number, paired
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
+from slipwise.record import Record
 
 
 def pad(load: float, tilt: float) -> tuple[float, float]:
     """Give the load's share along the slope (force_x, force_y) [N]."""
     return load * tilt, 0.0
+
+
+def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
+    """Give the load and the size of friction of each side, of which unlike tilts make a difference of the pads."""
+    for axis in "xy":
+        if pairs := paired(records, axis):
+            yield [
+                number
+                for name, (forces, loads) in pairs.items()
+                for number in ({name: loads}, {name: [np.abs(f) for f in forces]})
+            ]
 
 
 EFFECT = Effect(

@@ -13,13 +13,17 @@ Valid: 0.01 to 0.1 degree; small angles.
 Source: table-specimen interaction, 0.01 to 0.1 degree at 5 m/s2 assumed; resonance 10 to 30 Hz and its damping assumed.
 """
 
+from collections.abc import Iterator, Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.effects._disturbances import Number, channel, recorded
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.effects._oscillator import oscillator
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
+from slipwise.record import Record
 
 Array = NDArray[np.float64]
 
@@ -51,6 +55,13 @@ def balance(
     pull = gravity * states.load.sum(axis=1) * angle
     moment = rig.centre_height * pull - rig.inertia[1] * turning
     return {"girder": -pull, "pitch": moment / rig.half_spacing[0], "motion": rig.centre_height * turning}
+
+
+def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
+    """Give forces along and around the girder that follow the table."""
+    if recorded(records, "table_ax", "slip_x", "girder_ax"):
+        pushes = channel(records, "table_ax")
+        yield [{"girder_x": pushes}, {"pitch": pushes}]
 
 
 EFFECT = Effect(

@@ -11,14 +11,17 @@ Valid: while every pad carries; e below N/k_v.
 Source: stiffness times height; sizes assumed.
 """
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.effects._disturbances import Number
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
+from slipwise.record import Record
 from slipwise.rig import Specimen
 
 
@@ -31,6 +34,11 @@ def rig(specimen: Specimen, warp: float) -> Specimen:
 def balance(states: BalanceStates, warp: float) -> dict[str, NDArray[np.float64]]:
     """Give what the diagonal A, D carries more (n,) [N]."""
     return {"warp": np.full(len(states.time), 4.0 * states.specimen.pad_stiffness * warp)}
+
+
+def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
+    """Give a load that one diagonal carries more all the time."""
+    yield [{"warp": [np.ones(len(record)) for record in records]}]
 
 
 EFFECT = Effect(

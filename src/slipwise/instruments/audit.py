@@ -18,7 +18,7 @@ from slipwise.instruments.rows import hold, noise_of_channels, noise_of_runs
 from slipwise.instruments.sample_faults import RAILS, SampleFault, coarse, repaired, sample_faults
 from slipwise.instruments.sentences import as_sentence, confusable, how_to_settle, nearest, sentence
 from slipwise.instruments.signs import turned_gauges
-from slipwise.instruments.suspects import Suspect
+from slipwise.instruments.suspects import Suspect, effect_of
 from slipwise.signals import white_level
 from slipwise.signals.noise import quantum
 
@@ -26,8 +26,6 @@ from slipwise.signals.noise import quantum
 _SUREST = 0.99
 #: A rounding step above this many standard deviations of noise is worth a word [1].
 _COARSE = 2.0
-#: Sample faults -> effect of the catalogue, and how sure they are.
-_SAMPLE = {"dead": "channel_gain", **dict.fromkeys(RAILS, "channel_clipping")}
 
 
 def audit(campaign: Campaign) -> AuditReport:
@@ -97,15 +95,15 @@ def _same_fault(rival: str, suspect: Suspect) -> bool:
 
 def _of_sign(suspect: Suspect) -> Finding:
     return Finding(
-        "channel_sign",
+        suspect.effect,
         suspect.target,
         -1.0,
         -1.0,
         -1.0,
         "1",
         _SUREST,
-        confusable("channel_sign"),
-        how_to_settle("channel_sign", ()),
+        confusable(suspect.effect),
+        how_to_settle(suspect.effect, ()),
         as_sentence(suspect, -1.0),
         suspect.target,
         suspect.values(-1.0),
@@ -114,7 +112,7 @@ def _of_sign(suspect: Suspect) -> Finding:
 
 def _of_samples(fault: SampleFault) -> Finding:
     """Turn bad samples into a finding."""
-    effect = _SAMPLE.get(fault.kind, "dropped_samples")
+    effect = effect_of(fault.kind).name
     place = _place(fault.channels)
     unit = channel(fault.channels[0]).unit if fault.kind in RAILS else "1"
     words = {
@@ -124,7 +122,8 @@ def _of_samples(fault: SampleFault) -> Finding:
     }.get(fault.kind, sentence(effect, place, fault.size, unit))
     if fault.kind in RAILS:
         upper = fault.kind == RAILS[0]
-        values = {"upper" if upper else "lower": (1.0 if upper else -1.0) * fault.size / span(fault.channels[0])}
+        place_of_rail = catalogue()[effect].parameters[0 if upper else 1].name
+        values = {place_of_rail: (1.0 if upper else -1.0) * fault.size / span(fault.channels[0])}
     else:
         values = {catalogue()[effect].parameters[0].name: fault.size}
     return Finding(

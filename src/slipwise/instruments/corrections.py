@@ -9,7 +9,7 @@ from slipwise.effects import catalogue
 from slipwise.errors import InputError, unknown_name
 from slipwise.instruments.report import AuditReport, Finding
 from slipwise.instruments.sample_faults import bridged, sample_faults
-from slipwise.instruments.suspects import sharpened
+from slipwise.instruments.suspects import declared
 from slipwise.record import Record
 
 
@@ -46,15 +46,14 @@ def correct(campaign: Campaign, report: AuditReport, names: Iterable[str]) -> tu
 
 def _mended(record: Record, finding: Finding, campaign: Campaign, run: str) -> Record:
     hooks = catalogue()[finding.what].hooks
-    if finding.what == "channel_gain" and finding.size <= -1.0:
+    if declared(finding.what).scales and finding.size <= -1.0:
         raise InputError(f"{finding.channel} is dead: there is nothing that could be corrected; leave the channel out")
-    if finding.what == "dropped_samples":
+    if "held" in declared(finding.what).samples:
         return _bridged(record, finding, campaign, run)
-    if finding.what == "channel_filter":
-        return sharpened(record, finding.target, **finding.values)
-    if "undo" not in hooks:
+    undo = hooks.get("undo", hooks.get("sharpen"))
+    if undo is None:
         raise InputError(f"{finding.words}: what it has cut away cannot be brought back; leave the channel or run out")
-    return hooks["undo"](record, finding.target, **finding.values)
+    return undo(record, finding.target, **finding.values)
 
 
 def _bridged(record: Record, finding: Finding, campaign: Campaign, run: str) -> Record:

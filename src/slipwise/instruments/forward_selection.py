@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.effects import catalogue
 from slipwise.instruments.acceptance import Evidence, possible, weigh
 from slipwise.instruments.joint_fit import Case, Fit, fit, noise_with_itself, signature, start, supports
 from slipwise.instruments.physical_alternatives import Alternative, alternatives
@@ -140,12 +141,13 @@ def _as_fitted_last(evidence: Sequence[Evidence], last: Fit) -> tuple[Evidence, 
 
 
 def _plainer(candidates: Sequence[Suspect | Alternative], found: Array, fits: Mapping[int, Fit], best: int) -> int:
-    """Take the delay where a slower filter explains hardly more: below the band's edge they are nearly one."""
+    """Take the plainer form where the best explains hardly more: below the band's edge filter and delay are one."""
     who = candidates[best]
-    if isinstance(who, Suspect) and who.effect == "channel_filter":
+    plainer = catalogue()[who.effect].plainer if isinstance(who, Suspect) else ""
+    if isinstance(who, Suspect) and plainer:
         for i in fits:
             other = candidates[i]
-            if isinstance(other, Suspect) and (other.effect, other.target) == ("channel_delay", who.target):
+            if isinstance(other, Suspect) and (other.effect, other.target) == (plainer, who.target):
                 if found[i] > found[best] - _ALIKE:
                     return i
     return best

@@ -203,7 +203,7 @@ def noise_with_itself(
     The signature of a gain is the channel with its noise, so a gain would "explain" noise by shrinking it. What a
     delay or an offset makes of noise has nothing to do with the noise itself.
     """
-    if suspect.effect != "channel_gain":
+    if not suspect.fault.scales:
         return {}
     noisy = adding(runs, case.noise, suspect.channels)
     found = change(noisy, case.relations, case.specimen, constants, here, frozenset(suspect.channels))

@@ -1,6 +1,6 @@
 """Single samples that no gauge would give: dead channels, rails, samples that repeat, samples that are lost."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,8 +24,8 @@ _FAST, _STEPS = 0.2, 1.5
 #: Samples repeat when so many more of them equal their neighbour than rounding explains (standard deviations), and
 #: this part of all [1].
 _SURE, _REPEATED = 6.0, 0.002
-#: Equal values at the end of a channel, where single ones are rare: as many were lost before.
-_TAIL, _RARE = 4, 0.15
+#: Equal values at the end of a run, and of all runs, where single ones are rare: as many were lost before.
+_TAIL, _TAILS, _RARE = 4, 8, 0.15
 #: Steps are of one size within this; a size that more than this part of all steps have shows coarse rounding [1].
 _LIKE, _COMMON = 0.02, 0.08
 #: Samples over which noise is taken to be the same.
@@ -57,6 +57,8 @@ def sample_faults(campaign: Campaign) -> list[SampleFault]:
     """Look for bad samples in every channel of every run."""
     found: list[SampleFault] = []
     names = list(dict.fromkeys(name for run in campaign.runs for name in run.record.channels))
+    # what every channel repeats at its end is a record that was cut, no gauge's loss
+    cut = {run.name: min(_tail(values) for values in run.record.channels.values()) for run in campaign.runs}
     for name in names:
         runs = [run for run in campaign.runs if name in run.record]
         fault = _dead(name, runs)
@@ -65,7 +67,7 @@ def sample_faults(campaign: Campaign) -> list[SampleFault]:
             continue
         # an actuator holds its stroke's end: no rail
         rails = [] if name.startswith("slip") and not campaign.specimen.free else _rails(name, runs)
-        found += rails or [f for f in (_held(name, runs), _lost(name, runs)) if f]
+        found += rails or [f for f in (_held(name, runs), _lost(name, runs, cut)) if f]
     return [*_gaps(campaign), *_together(found)]
 
 
@@ -173,11 +175,11 @@ def _tail(values: Array) -> int:
     return len(values) - 1 - int(different[-1]) - 1 if len(different) else 0
 
 
-def _lost(name: str, runs: Sequence[Run]) -> SampleFault | None:
-    tails = {run.name: _tail(run.record[name]) for run in runs}
-    chance = {run.name: float(np.mean(chance_of_equal(run.record[name])[-_NEAR - tails[run.name] :])) for run in runs}
-    shown = [n for n, tail in tails.items() if tail >= _TAIL and chance[n] < _RARE]
-    if not shown or any(coarse(run.record[name]) for run in runs):
+def _lost(name: str, runs: Sequence[Run], cut: Mapping[str, int]) -> SampleFault | None:
+    tails = {run.name: _tail(run.record[name]) - cut[run.name] for run in runs}
+    ends = {run.name: chance_of_equal(run.record[name])[-_NEAR - tails[run.name] - cut[run.name] :] for run in runs}
+    shown = [n for n, tail in tails.items() if tail >= _TAIL and float(np.mean(ends[n])) < _RARE]
+    if sum(tails[n] for n in shown) < _TAILS or any(coarse(run.record[name]) for run in runs):
         return None
     bad = {run.name: np.ones(len(run.record), dtype=bool) for run in runs if run.name in shown}
     count = sum(len(run.record) for run in runs)

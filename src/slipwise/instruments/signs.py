@@ -5,10 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from slipwise.effects import catalogue
 from slipwise.instruments.joint_fit import Case, Fit, start
 from slipwise.instruments.rows import with_records
-from slipwise.instruments.suspects import Suspect, groups_of
+from slipwise.instruments.suspects import Suspect, effect_of, groups_of
 
 #: A relation is broken when it leaves more than this part of the scatter of what it is made of [1].
 _BROKEN = 0.15
@@ -41,8 +40,9 @@ def turned_gauges(case: Case) -> tuple[list[Suspect], Case, Fit]:
 
 
 def _sign(place: str, channels: tuple[str, ...]) -> Suspect:
-    sign = catalogue()["channel_sign"].parameters[0].name
-    return Suspect("channel_sign", place, place, channels, "1", -1.0, 0.0, lambda size: {sign: size})
+    effect = effect_of("turned")
+    sign = effect.parameters[0].name
+    return Suspect(effect.name, place, place, channels, "1", -1.0, 0.0, lambda size: {sign: size})
 
 
 def _broken(case: Case, here: Fit) -> list[str]:
