@@ -7,9 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.instruments.acceptance import Evidence, possible, weigh
-from slipwise.instruments.joint_fit import Case, Fit, fit, noise_with_itself, signature, start, supports
+from slipwise.instruments.joint_fit import Case, Fit, fit, noise_with_itself, signature, start
 from slipwise.instruments.physical_alternatives import Alternative, alternatives
 from slipwise.instruments.rows import Block
+from slipwise.instruments.support import supports
 from slipwise.instruments.suspects import Suspect, suspects
 
 Array = NDArray[np.float64]
