@@ -24,6 +24,8 @@ Array = NDArray[np.float64]
 RATED_MASS, KNOWN_MASS = 0.01, 0.003
 #: Rows of one band are not quite independent, and misfit is less so: evidence counts this part of each row [1].
 EVIDENCE = 0.2
+#: What an explanation pays for each number it may choose freely, in units of the score (half of log n).
+PER_NUMBER = 4.0
 #: A floor is known well enough that no explanation is paid for going below this part of it [1].
 LEAST_FLOOR = 0.7
 #: Steps of Gauss-Newton at most; sizes that change by less than this part of what matters have come to rest.

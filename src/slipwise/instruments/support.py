@@ -5,12 +5,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.instruments.joint_fit import EVIDENCE, LEAST_FLOOR, Case, Fit, off_rated
+from slipwise.instruments.joint_fit import EVIDENCE, LEAST_FLOOR, PER_NUMBER, Case, Fit, off_rated
 from slipwise.statistics.normal_equations import Block, inverse, left_of, parts_of, weighed
 
 Array = NDArray[np.float64]
-#: What an explanation pays for each number it may choose freely, in units of the score (half of log n).
-_PER_NUMBER = 4.0
 #: Part of a column's power below which what is left of it is rounding [1].
 _NOTHING = 1e-6
 
@@ -66,5 +64,5 @@ def supports(
             moved = solution[list(fitted.stack.base).index("mass")] / (case.mass_error * case.specimen.mass)
             found[k] += 0.5 * (apart**2 - (apart - moved) ** 2)
         # what shrinking its own noise would gain is no evidence, and every free number costs
-        found[k] -= EVIDENCE * noise * float(np.sum(step)) + _PER_NUMBER * (own.stop - own.start)
+        found[k] -= EVIDENCE * noise * float(np.sum(step)) + PER_NUMBER * (own.stop - own.start)
     return found
