@@ -17,6 +17,7 @@ ARROWS: dict[str, str] = {
     "parallel": "errors",
     "shown": "errors",
     "signals": "errors",
+    "statistics": "",
     "record": "channels errors shown units",
     "motion": "channels errors shown units",
     "rig": "channels errors record units",
@@ -25,12 +26,12 @@ ARROWS: dict[str, str] = {
     "model_file": "effects errors model params record rig units",
     "simulation": "channels effects errors model model_file motion record rig shown",
     "campaign": "channels errors record rig shown signals units",
-    "instruments": "campaign channels effects errors record rig shown signals",
-    "estimation": "campaign channels effects errors model parallel record rig signals simulation",
+    "instruments": "campaign channels effects errors record rig shown signals statistics",
+    "estimation": "campaign channels effects errors model parallel record rig signals statistics simulation",
     "evidence": "campaign channels errors estimation record signals",
     "comparison": (
         "campaign channels effects errors estimation evidence instruments model model_file motion record"
-        " shown signals simulation"
+        " shown signals statistics simulation"
     ),
     "diagnosis": (
         "campaign channels comparison effects errors estimation evidence instruments model model_file"

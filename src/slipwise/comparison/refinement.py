@@ -15,7 +15,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import lsq_linear
 
 from slipwise.channels import channel
 from slipwise.comparison.measured_replay import SystemRun, replay_models
@@ -25,6 +24,7 @@ from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import BLOCK, Interval, of_fit
 from slipwise.estimation.parameters import Free, fitted_model
 from slipwise.model import Model
+from slipwise.statistics.least_squares import Bounds, Move, gauss_newton, shortened_step
 
 Array = NDArray[np.float64]
 #: Numbers of the rig that a replay has; all others belong to the measurement, or to the springs that are fitted apart.
@@ -60,6 +60,13 @@ class Refined:
     rounds: int
 
 
+@dataclass(frozen=True)
+class _Point:
+    values: Array
+    answer: list[SystemRun]
+    residual: Array
+
+
 def refine(base: BaseFit, keys: Sequence[str], *, rounds: int = 5, threads: int = 2) -> Refined:
     """Refine numbers of a component-level fit against the replay.
 
@@ -82,28 +89,35 @@ def refine(base: BaseFit, keys: Sequence[str], *, rounds: int = 5, threads: int 
         )
     replayed, _ = replayed_model(base)
     fitted, held = base.problem.fitted, base.problem.held_out
-    values = {f.key: base.solution.values[f.key] for f in free}
-    now = begun = _replay(base, [_model(base, replayed, values)], threads)[0]
-    spread = _spread(base, now)
-    left = _left(base, now, fitted, spread)
-    slopes, done = np.zeros((len(left), len(free))), 0
-    for _ in range(rounds):
+    bounds = Bounds(*(np.array([getattr(f, end) for f in free]) for end in ("low", "high", "scale")))
+    first = np.array([base.solution.values[f.key] for f in free])
+    begun = _replay(base, [_model(base, replayed, free, first)], threads)[0]
+    spread = _spread(base, begun)
+
+    def evaluate(tried: Sequence[Array]) -> list[tuple[_Point, Array]]:
+        answers = _replay(base, [_model(base, replayed, free, v) for v in tried], threads)
+        points = [_Point(v, a, _left(base, a, fitted, spread)) for v, a in zip(tried, answers, strict=True)]
+        return [(point, point.residual) for point in points]
+
+    def linearise(point: _Point) -> Array:
+        nonlocal done
         done += 1
-        steps = [_STEP * f.scale * (1.0 if values[f.key] + _STEP * f.scale <= f.high else -1.0) for f in free]
-        moved = [{**values, f.key: values[f.key] + step} for f, step in zip(free, steps, strict=True)]
-        answers = _replay(base, [_model(base, replayed, v) for v in moved], threads)
-        for j, (f, step, answer) in enumerate(zip(free, steps, answers, strict=True)):
-            slopes[:, j] = (_left(base, answer, fitted, spread) - left) * (f.scale / step)
-        tried = [_stepped(free, values, slopes, left, part) for part in _PARTS]
-        answers = _replay(base, [_model(base, replayed, v) for v in tried], threads)
-        ends = [_left(base, answer, fitted, spread) for answer in answers]
-        best = min(range(len(ends)), key=lambda i: float(ends[i] @ ends[i]))
-        gained = float(left @ left - ends[best] @ ends[best])
-        if gained <= 0.0:
-            break
-        values, left, now = tried[best], ends[best], answers[best]
-        if gained < _ENOUGH * float(left @ left):
-            break
+        steps = _STEP * bounds.scale * np.where(point.values + _STEP * bounds.scale <= bounds.high, 1.0, -1.0)
+        moved = evaluate([point.values + step for step in np.diag(steps)])
+        columns = [
+            (r - point.residual) * (s / step) for (_, r), s, step in zip(moved, bounds.scale, steps, strict=True)
+        ]
+        return np.stack(columns, axis=1)
+
+    def move(point: _Point, slopes: Array) -> Move[_Point]:
+        end, gained = shortened_step(bounds, point.values, point.residual, slopes, evaluate, _PARTS)
+        left = float(end.residual @ end.residual)
+        return Move(end, finished=gained < _ENOUGH * left) if gained > 0.0 else Move(None)
+
+    done = 0
+    end, slopes = gauss_newton(_Point(first, begun, _left(base, begun, fitted, spread)), linearise, move, most=rounds)
+    now, values = end.answer, {f.key: float(v) for f, v in zip(free, end.values, strict=True)}
+    left = end.residual
     found = of_fit(free, values, slopes, left, _blocks(now, fitted))
 
     def error(answer: Sequence[SystemRun], which: Sequence[int]) -> float:
@@ -111,7 +125,7 @@ def refine(base: BaseFit, keys: Sequence[str], *, rounds: int = 5, threads: int 
         return float(np.sqrt(np.sum(squared) / max(np.count_nonzero(squared), 1)))
 
     return Refined(
-        _model(base, replayed, values), found.entries, error(begun, fitted), error(now, fitted),
+        _model(base, replayed, free, end.values), found.entries, error(begun, fitted), error(now, fitted),
         (error(begun, held), error(now, held)) if held else None, done,
     )  # fmt: skip
 
@@ -135,8 +149,9 @@ def _possible(known: Mapping[str, Free]) -> list[str]:
     return [key for key in known if key in _REPLAYED or not key.startswith("rig.")]
 
 
-def _model(base: BaseFit, replayed: Model, values: Mapping[str, float]) -> Model:
+def _model(base: BaseFit, replayed: Model, free: Sequence[Free], numbers: Array) -> Model:
     """Give the replayed model with other numbers; its springs, inertia and stick stay as they were found."""
+    values = {f.key: float(v) for f, v in zip(free, numbers, strict=True)}
     model = fitted_model(base.problem.specimen, base.problem.terms, {**base.solution.values, **values})
     kept = replayed.specimen
     specimen = replace(
@@ -190,18 +205,3 @@ def _blocks(answer: Sequence[SystemRun], which: Sequence[int]) -> NDArray[np.int
         parts += [of_sample] * len(answer[i].simulated)
         first = int(of_sample[-1]) + 1
     return np.concatenate(parts)
-
-
-def _stepped(
-    free: Sequence[Free], values: Mapping[str, float], slopes: Array, left: Array, part: float
-) -> dict[str, float]:
-    """Give the numbers a part of the way to where straight slopes would end, inside their bounds."""
-    room = [((f.low - values[f.key]) / f.scale, (f.high - values[f.key]) / f.scale) for f in free]
-    low, high = np.array(room).T
-    wide = high > low
-    step = np.zeros(len(free))
-    step[wide] = lsq_linear(slopes[:, wide], -left, bounds=(low[wide] - 1e-12, high[wide] + 1e-12)).x
-    return {
-        f.key: float(np.clip(values[f.key] + part * s * f.scale, f.low, f.high))
-        for f, s in zip(free, step, strict=True)
-    }

@@ -1,4 +1,4 @@
-"""Bounded least squares on a problem: Levenberg-Marquardt with finite differences and kept-inside steps."""
+"""Bounded least squares on a problem: Levenberg-Marquardt with finite differences into the bounds."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -10,15 +10,12 @@ from numpy.typing import NDArray
 from slipwise.estimation.parameters import Free
 from slipwise.estimation.problem import Problem
 from slipwise.estimation.residuals import Residuals
+from slipwise.statistics.least_squares import Bounds, LevenbergMarquardt, Move, Slopes, gauss_newton
 
 Array = NDArray[np.float64]
 #: A fit is over when a step promises less than this much of the squared residual [1].
 _ENOUGH = 0.05
 _STEP = 1e-3
-#: A number whose bounds are this far apart changes at most by this factor in one step: slopes taken a decade away lie.
-_DECADES, _LEAP = 100.0, 3.0
-#: Slopes are used again while steps keep this share of what they promise [1].
-_KEPT_SLOPES = 0.8
 
 
 @dataclass(frozen=True)
@@ -58,6 +55,17 @@ class Solution:
         """Columns of the Jacobian of the numbers that ended inside their bounds: the others make up for nothing."""
         ends = set(self.at_bounds)
         return self.jacobian[:, [f.key not in ends for f in self.free]]
+
+
+@dataclass(frozen=True)
+class _Point:
+    values: Mapping[str, float]
+    residuals: Residuals
+    stacked: Array
+
+    @cached_property
+    def cost(self) -> float:
+        return float(self.stacked @ self.stacked)
 
 
 def slopes_of(solution: Solution) -> dict[str, Array]:
@@ -114,73 +122,37 @@ def solve(
         begin: the same, but until a step does not keep what they promise.
     """
     which = problem.fitted
-    values = dict(start)
-    scale = np.array([f.scale for f in free])
-    low, high = np.array([f.low for f in free]), np.array([f.high for f in free])
-    wide = (low > 0.0) & (high > _DECADES * low)
-    now = problem.residuals(values, fitted_only=True)
-    left = now.stacked(which, problem.relations)
-    cost = float(left @ left)
-    damping, evaluations = 1e-6, 1
-    normal = np.zeros((len(free), len(free)))
-    slopes = np.zeros((len(left), len(free)))
-    stale = True
-    for _ in range(most):
-        if stale:
-            taken = begin or known
-            slopes = jacobian(problem, values, free, now, taken)
-            evaluations += len(free) - len(taken or ())
-            normal = slopes.T @ slopes
-            begin = None
-        gradient = slopes.T @ left
-        here = np.array([values[f.key] for f in free])
-        better = False
-        for _ in range(8):
-            nearest, farthest = np.where(wide, here / _LEAP, low), np.where(wide, here * _LEAP, high)
-            nearest, farthest = np.maximum(nearest, low), np.minimum(farthest, high)
-            step = _bounded_step(normal, gradient, damping, here, nearest, farthest, scale)
-            end = np.clip(here + step * scale, nearest, farthest)
-            trial = {**values, **{f.key: float(v) for f, v in zip(free, end, strict=True)}}
-            moved = problem.residuals(trial, fitted_only=True)
+    bounds = Bounds(*(np.array([getattr(f, end) for f in free]) for end in ("low", "high", "scale")))
+    rule = LevenbergMarquardt(bounds)
+    evaluations = 1
+    taken = [begin or known]
+
+    def at(values: Mapping[str, float]) -> _Point:
+        now = problem.residuals(values, fitted_only=True)
+        return _Point(values, now, now.stacked(which, problem.relations))
+
+    def linearise(point: _Point) -> Slopes:
+        nonlocal evaluations
+        columns = taken.pop() if taken else known
+        evaluations += len(free) - len(columns or ())
+        slopes = jacobian(problem, point.values, free, point.residuals, columns)
+        return Slopes(slopes, slopes.T @ slopes)
+
+    def move(point: _Point, slopes: Slopes) -> Move[_Point]:
+        def evaluate(end: Array) -> tuple[_Point, Array]:
+            nonlocal evaluations
             evaluations += 1
-            trial_left = moved.stacked(which, problem.relations)
-            trial_cost = float(trial_left @ trial_left)
-            if trial_cost < cost:
-                better = True
-                break
-            damping = max(10.0 * damping, 1e-3)
-        if not better:
-            if stale:
-                break
-            stale = True
-            continue
-        gained = cost - trial_cost
-        promised = -float(gradient @ step) - 0.5 * float(step @ normal @ step)
-        stale = gained < _KEPT_SLOPES * 2.0 * promised
-        values, now, left, cost = trial, moved, trial_left, trial_cost
-        damping = max(damping / 10.0, 1e-6)
-        if gained < enough + rough * max(cost - len(left), 0.0):
-            break
-    return Solution(values, tuple(free), problem.residuals(values), slopes, cost, evaluations)
+            trial = at({**point.values, **{f.key: float(v) for f, v in zip(free, end, strict=True)}})
+            return trial, trial.stacked
 
+        here = np.array([point.values[f.key] for f in free])
+        found = rule.step(here, point.stacked, slopes, evaluate)
+        if found is None:
+            return Move(None)
+        end, gained, good = found
+        above = max(end.cost - len(end.stacked), 0.0)
+        return Move(end, finished=gained < enough + rough * above, keep_slopes=good)
 
-def _bounded_step(
-    normal: Array, gradient: Array, damping: float, here: Array, low: Array, high: Array, scale: Array
-) -> Array:
-    """Solve the damped normal equations; numbers that would leave their bounds are put on them and left out."""
-    free = np.ones(len(here), dtype=bool)
-    step = np.zeros(len(here))
-    weight = np.maximum(np.diag(normal), 1e-12 * max(np.diag(normal).max(), 1e-300))
-    for _ in range(len(here)):
-        if not free.any():
-            break
-        part = normal[np.ix_(free, free)] + damping * np.diag(weight[free])
-        right = -gradient[free] - normal[np.ix_(free, ~free)] @ step[~free]
-        step[free] = np.linalg.lstsq(part, right, rcond=1e-12)[0]
-        end = here + step * scale
-        out = free & ((end < low) | (end > high))
-        if not out.any():
-            break
-        step[out] = (np.clip(end, low, high) - here)[out] / scale[out]
-        free &= ~out
-    return step
+    end, slopes = gauss_newton(at(dict(start)), linearise, move, most=most)
+    residuals = problem.residuals(end.values)
+    return Solution(dict(end.values), tuple(free), residuals, slopes.jacobian, end.cost, evaluations)

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.instruments.joint_fit import EVIDENCE, Case, Fit, predicted
-from slipwise.instruments.normal_equations import inverse, parts_of, weighed
 from slipwise.instruments.suspects import Suspect
+from slipwise.statistics.normal_equations import inverse, parts_of, weighed
 
 Array = NDArray[np.float64]
 #: A fault explains at least this part of what its relations show above their floors, and of what they showed at first.

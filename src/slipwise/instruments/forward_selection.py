@@ -8,9 +8,10 @@ from numpy.typing import NDArray
 
 from slipwise.effects import catalogue
 from slipwise.instruments.acceptance import Evidence, possible, weigh
-from slipwise.instruments.joint_fit import Case, Fit, fit, noise_with_itself, signature, start, supports
+from slipwise.instruments.joint_fit import Case, Fit, fit, noise_with_itself, signature, start
 from slipwise.instruments.physical_alternatives import Alternative, alternatives
 from slipwise.instruments.rows import Block
+from slipwise.instruments.support import supports
 from slipwise.instruments.suspects import Suspect, suspects
 
 Array = NDArray[np.float64]

@@ -12,11 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.instruments.balances import Relation
-from slipwise.instruments.normal_equations import inverse, left_of, parts_of, weighed
 from slipwise.instruments.physical_alternatives import Alternative
-from slipwise.instruments.rows import Block, Held, Stack, adding, change, constants_of, stack, with_records
+from slipwise.instruments.rows import Held, Stack, adding, change, constants_of, stack, with_records
 from slipwise.instruments.suspects import Suspect
 from slipwise.rig import Specimen
+from slipwise.statistics.least_squares import Move, gauss_newton
+from slipwise.statistics.normal_equations import Block, Part, inverse, left_of, parts_of, weighed
 
 Array = NDArray[np.float64]
 #: A rated mass is taken to be right within this, a mass that the campaign gives within that [1].
@@ -26,11 +27,9 @@ EVIDENCE = 0.2
 #: What an explanation pays for each number it may choose freely, in units of the score (half of log n).
 PER_NUMBER = 4.0
 #: A floor is known well enough that no explanation is paid for going below this part of it [1].
-_SURE = 0.7
-#: Part of a column's power below which what is left of it is rounding [1].
-_NOTHING = 1e-6
+LEAST_FLOOR = 0.7
 #: Steps of Gauss-Newton at most; sizes that change by less than this part of what matters have come to rest.
-_STEPS, _RESTED = 5, 0.02
+_STEPS, _RESTED = 4, 0.02
 
 
 @dataclass(frozen=True)
@@ -120,46 +119,84 @@ def start(case: Case) -> Fit:
 
 def fit(case: Case, model: Model, constants: Mapping[str, float]) -> Fit:
     """Fit constants, sizes and physics jointly."""
-    constants = dict(constants)
-    scale: dict[str, float] = {}
-    for step in range(_STEPS):
-        mended = case.mended(model)
-        here = case.stacked(mended, constants)
-        floor = _floor(case, model, here, constants)
-        signatures = [signature(case, suspect, mended, here, constants) for suspect, _ in model.sizes]
-        held: list[Block] = [*here.base.values(), *signatures, *(a.columns for a in model.physics)]
-        parts, first = parts_of(held, here.residual)
-        count, known = int(first[-1]), len(here.base)
-        weight = {n: 1.0 / max(scale.get(n, 0.0), floor[n]) for n in floor}
-        squares, along = weighed(parts, weight, count)
-        for k, (suspect, _) in enumerate(model.sizes):
-            itself = noise_with_itself(case, suspect, mended, here, constants)
-            along[known + k] -= sum(weight[n] ** 2 * power for n, power in itself.items())
-        apart = _rated(case, constants)
-        if "mass" in here.base:
-            number = list(here.base).index("mass")
-            squares[number, number] += 1.0 / (case.mass_error * case.specimen.mass) ** 2 / EVIDENCE
-            along[number] += apart / (case.mass_error * case.specimen.mass) / EVIDENCE
-        spread = inverse(squares)
-        solution = spread @ along
-        scale = {n: max(_SURE * floor[n], float(np.sqrt(left_of(part, solution)))) for n, part in parts.items()}
-        steps = solution[known : known + len(model.sizes)]
-        rested = all(abs(s) < _RESTED * suspect.least for (suspect, _), s in zip(model.sizes, steps, strict=True))
-        if step > 0 and (rested or step == _STEPS - 1):
-            break
-        for i, name in enumerate(here.base):
-            constants[name] -= float(solution[i])
-        sizes = tuple((s, z + float(more)) for (s, z), more in zip(model.sizes, steps, strict=True))
-        model = Model(sizes, model.physics)
+    start = _Point(model, dict(constants), {})
+    point, found = gauss_newton(
+        start, lambda here: _linearised(case, here), _moved, most=_STEPS, linearised_end=True
+    )  # fmt: skip
     # constants and sizes stay as they were when the records were mended: what is left must belong to them
-    left = {n: r - predicted(held, n, solution, first) for n, r in here.residual.items()}
-    support = {n: -EVIDENCE * parts[n].count * float(np.log(scale[n] / floor[n])) for n in parts}
-    support["rated mass"] = -0.5 * apart**2
-    errors = np.sqrt(np.maximum(np.diag(spread)[known : known + len(model.sizes)], 0.0) / EVIDENCE)
-    return Fit(model, constants, mended, here, held, left, scale, floor, support, tuple(errors.tolist()))
+    left = {n: r - predicted(found.held, n, found.solution, found.first) for n, r in found.here.residual.items()}
+    scale, floor = found.scale, found.floor
+    support = {n: -EVIDENCE * part.count * float(np.log(scale[n] / floor[n])) for n, part in found.parts.items()}
+    support["rated mass"] = -0.5 * off_rated(case, point.constants) ** 2
+    known = len(found.here.base)
+    errors = np.sqrt(np.maximum(np.diag(found.spread)[known : known + len(model.sizes)], 0.0) / EVIDENCE)
+    return Fit(
+        point.model, point.constants, found.mended, found.here, found.held, left, scale, floor, support,
+        tuple(errors.tolist()),
+    )  # fmt: skip
 
 
-def _rated(case: Case, constants: Mapping[str, float]) -> float:
+@dataclass(frozen=True)
+class _Point:
+    """Where a fit stands: model, constants, and the scale of what the step before left in each relation."""
+
+    model: Model
+    constants: dict[str, float]
+    scale: Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class _Linear:
+    """The normal equations at a point, solved."""
+
+    mended: list[Held]
+    here: Stack
+    floor: dict[str, float]
+    held: list[Block]
+    parts: dict[str, Part]
+    first: NDArray[np.int64]
+    spread: Array
+    solution: Array
+    scale: dict[str, float]
+
+
+def _linearised(case: Case, point: _Point) -> _Linear:
+    model, constants = point.model, point.constants
+    mended = case.mended(model)
+    here = case.stacked(mended, constants)
+    floor = _floor(case, model, here, constants)
+    signatures = [signature(case, suspect, mended, here, constants) for suspect, _ in model.sizes]
+    held: list[Block] = [*here.base.values(), *signatures, *(a.columns for a in model.physics)]
+    parts, first = parts_of(held, here.residual)
+    weight = {n: 1.0 / max(point.scale.get(n, 0.0), floor[n]) for n in floor}
+    squares, along = weighed(parts, weight, int(first[-1]))
+    for k, (suspect, _) in enumerate(model.sizes, start=len(here.base)):
+        itself = noise_with_itself(case, suspect, mended, here, constants)
+        along[k] -= sum(weight[n] ** 2 * power for n, power in itself.items())
+    if "mass" in here.base:
+        number = list(here.base).index("mass")
+        squares[number, number] += 1.0 / (case.mass_error * case.specimen.mass) ** 2 / EVIDENCE
+        along[number] += off_rated(case, constants) / (case.mass_error * case.specimen.mass) / EVIDENCE
+    spread = inverse(squares)
+    solution = spread @ along
+    scale = {n: max(LEAST_FLOOR * floor[n], float(np.sqrt(left_of(part, solution)))) for n, part in parts.items()}
+    return _Linear(mended, here, floor, held, parts, first, spread, solution, scale)
+
+
+def _moved(point: _Point, found: _Linear) -> Move[_Point]:
+    """Take the full step: weights change with what is left, so that costs of two steps do not compare."""
+    known = len(found.here.base)
+    steps = found.solution[known : known + len(point.model.sizes)]
+    rested = all(abs(s) < _RESTED * suspect.least for (suspect, _), s in zip(point.model.sizes, steps, strict=True))
+    if point.scale and rested:
+        return Move(None)
+    moved = {name: float(found.solution[i]) for i, name in enumerate(found.here.base)}
+    constants = {name: value - moved.get(name, 0.0) for name, value in point.constants.items()}
+    sizes = tuple((s, z + float(more)) for (s, z), more in zip(point.model.sizes, steps, strict=True))
+    return Move(_Point(Model(sizes, point.model.physics), constants, found.scale))
+
+
+def off_rated(case: Case, constants: Mapping[str, float]) -> float:
     """Say how far the mass is from the rated one, in its standard deviations."""
     if "mass" not in constants:
         return 0.0
@@ -208,58 +245,3 @@ def noise_with_itself(
     noisy = adding(runs, case.noise, suspect.channels)
     found = change(noisy, case.relations, case.specimen, constants, here, frozenset(suspect.channels))
     return {name: float(rows @ rows) for name, rows in found.items()}
-
-
-def supports(
-    fitted: Fit,
-    case: Case,
-    candidates: Sequence[Block],
-    itself: Sequence[Mapping[str, float]],
-    one_sided: Sequence[bool],
-) -> Array:
-    """Give about how much each candidate would add to the score, everything fitted again.
-
-    Args:
-        fitted: the fit so far.
-        case: what is judged.
-        candidates: their columns.
-        itself: for each candidate what `noise_with_itself` gives.
-        one_sided: whether its size cannot be below zero.
-    """
-    parts, first = parts_of([*fitted.held, *candidates], fitted.left)
-    known, count = int(first[len(fitted.held)]), int(first[-1])
-    weight = {n: 1.0 / s for n, s in fitted.scale.items()}
-    squares, along = weighed(parts, weight, count)
-    if "mass" in fitted.stack.base:
-        number = list(fitted.stack.base).index("mass")
-        squares[number, number] += 1.0 / (case.mass_error * case.specimen.mass) ** 2 / EVIDENCE
-    free = inverse(squares[:known, :known])
-    carried = free @ squares[:known, known:]
-    apart, found = _rated(case, fitted.constants), np.zeros(len(candidates))
-    least = {n: _SURE * floor for n, floor in fitted.floor.items()}
-    now = {n: max(float(np.sqrt(part.power / max(part.count, 1))), least[n]) for n, part in parts.items()}
-    for k in range(len(candidates)):
-        own = slice(int(first[len(fitted.held) + k]), int(first[len(fitted.held) + k + 1]))
-        mine = slice(own.start - known, own.stop - known)
-        left = squares[own, own] - squares[own, :known] @ carried[:, mine]
-        # columns that are known already, but for rounding, get no step
-        known_already = np.diag(left) <= _NOTHING * np.maximum(np.diag(squares)[own], 1e-300)
-        if known_already.all():
-            continue
-        left[known_already], left[:, known_already] = 0.0, 0.0
-        noise = sum(weight[n] ** 2 * power for n, power in itself[k].items())
-        step = inverse(left) @ (along[own] - carried[:, mine].T @ along[:known] - noise)
-        if one_sided[k] and step[0] < 0.0:
-            continue
-        solution = np.zeros(count)
-        solution[own] = step
-        solution[:known] = free @ along[:known] - carried[:, mine] @ step
-        for name, part in parts.items():
-            after = max(float(np.sqrt(left_of(part, solution))), least[name])
-            found[k] += EVIDENCE * part.count * np.log(now[name] / after)
-        if "mass" in fitted.stack.base:
-            moved = solution[list(fitted.stack.base).index("mass")] / (case.mass_error * case.specimen.mass)
-            found[k] += 0.5 * (apart**2 - (apart - moved) ** 2)
-        # what shrinking its own noise would gain is no evidence, and every free number costs
-        found[k] -= EVIDENCE * noise * float(np.sum(step)) + PER_NUMBER * (own.stop - own.start)
-    return found

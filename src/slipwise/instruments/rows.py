@@ -13,11 +13,10 @@ from slipwise.instruments.balances import Relation
 from slipwise.record import Record
 from slipwise.rig import Specimen
 from slipwise.signals import LowPass, lowpass, white_level
+from slipwise.statistics.normal_equations import Block
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-#: Columns over the rows of relations: relation -> (n, q). A relation that is not named has zeros.
-Block = Mapping[str, Array]
 #: Band in which channels are compared [Hz]: below the loggers' filters, above what the rig does.
 _BAND = 40.0
 #: and as a part of the slowest filter of the logger and of the sampling rate [1].

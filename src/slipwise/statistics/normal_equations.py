@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.instruments.rows import Block
-
 Array = NDArray[np.float64]
+#: Columns (n, k) of one explanation in the relations that it touches.
+Block = Mapping[str, Array]
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,1 @@
+"""Statistics that every part shares: least squares, effective samples, prediction intervals."""
