@@ -37,6 +37,7 @@ def test_folder_has_the_contracts_form_and_not_the_answer(tmp_path):
     assert float(first.split(",")[6]) == pytest.approx(24.5, abs=0.6)
 
 
+@pytest.mark.slow
 def test_one_seed_gives_one_campaign(complete):
     again = build_campaign(21, effects=(), rig="bridge1")
     other = build_campaign(24, effects=(), rig="bridge1")

@@ -115,6 +115,7 @@ def test_model_toml_takes_a_file_of_ones_own(tmp_path: Path) -> None:
 NOT_COMPILABLE = MINE.replace("return shear *", "return shear * {'one': 1.0, 2: 'two'}['one'] *")
 
 
+@pytest.mark.slow
 def test_an_effect_that_cannot_be_compiled_runs_on_the_python_engine_and_says_so(tmp_path: Path) -> None:
     effect = load_effect(written(tmp_path, NOT_COMPILABLE, "dictionary.py"))
     same = load_effect(written(tmp_path, MINE, "compilable.py"))
@@ -134,6 +135,7 @@ def test_an_effect_that_cannot_be_compiled_runs_on_the_python_engine_and_says_so
             np.testing.assert_allclose(slow[name], fast[name], rtol=1e-7, atol=1e-7)
 
 
+@pytest.mark.slow
 def test_the_command_line_replays_it_and_says_so(tmp_path: Path) -> None:
     path = written(tmp_path, NOT_COMPILABLE, "dictionary.py")
     asked = [

@@ -17,6 +17,8 @@ from slipwise.errors import InputError
 from slipwise.studies.paper import Member, PaperSettings, run_ensemble, run_member
 from slipwise.studies.paper.member import _CLOSE
 
+pytestmark = pytest.mark.slow
+
 SETTINGS = PaperSettings()
 #: Short earthquakes: 1.7 s each.
 MEMBERS = [

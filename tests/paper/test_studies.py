@@ -13,6 +13,8 @@ from slipwise.studies.paper.plan import LATER, MAP_SCALES, MAP_SLENDERNESS, Plan
 from slipwise.studies.paper.reenact import _studies
 from slipwise.studies.paper.settings import SETTINGS, paper_model
 
+pytestmark = pytest.mark.slow
+
 CHOSEN = PaperSettings(
     members=2, strong_low=1.4, strong_high=1.4, ground="quake:seed=1,peak=0.4g,f=1.2Hz,strong=4s,vertical=0.16g,2.4Hz"
 )

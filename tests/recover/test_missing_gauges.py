@@ -12,6 +12,8 @@ from slipwise.errors import InputError
 from slipwise.estimation.base_fit import fit_base
 from slipwise.record import Record
 
+pytestmark = pytest.mark.slow
+
 
 def _without(campaign: Campaign, *gauges: str) -> Campaign:
     def left(record: Record) -> Record:

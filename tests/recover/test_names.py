@@ -10,6 +10,8 @@ from bench import make_campaign
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.ladder import ladder
 
+pytestmark = pytest.mark.slow
+
 
 def test_a_complete_model_is_not_accused(tmp_path: Path) -> None:
     make_campaign(tmp_path / "made", 7001, effects=())

@@ -16,6 +16,8 @@ from slipwise.experiment.next_test import next_test, rivals
 from slipwise.simulation.simulator import SimulationDiverged
 from slipwise.view.diagnosis_page import diagnosis_page
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def found():

@@ -2,10 +2,14 @@
 
 from dataclasses import replace
 
+import pytest
+
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.model import Model
+
+pytestmark = pytest.mark.slow
 
 
 def test_coulomb_lacks_the_real_area_of_contact_and_the_shear_rate():

@@ -8,6 +8,8 @@ from slipwise.diagnosis.diagnose import diagnose
 from slipwise.effects.presliding import RATED
 from unit.campaign.slider import HEADER, RUNS, text
 
+pytestmark = pytest.mark.slow
+
 LENGTH = 2.0  # mm
 
 

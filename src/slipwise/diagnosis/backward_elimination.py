@@ -4,8 +4,8 @@ from dataclasses import replace
 
 from slipwise.diagnosis.choice import is_delay, needless
 from slipwise.diagnosis.hypothesis import Hypothesis, as_reported
+from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects
 from slipwise.diagnosis.search_state import Search, left_with, tried_before, try_one
-from slipwise.diagnosis.twins import known_effects, twins
 from slipwise.evidence.materiality import SAME_SCORE, material, score
 from slipwise.parallel import on_every_core
 
@@ -35,11 +35,11 @@ def pruned(state: Search) -> Search:
 
 
 def as_it_is_reported(state: Search) -> Search:
-    """Weigh the best against its twins and plainer laws, and fit it as it is reported, without what is immaterial then.
+    """Weigh the best against rival and plainer laws, and fit it anew, without what is immaterial then.
 
     A large first effect leaves the noise near reversals wrong until it is weighed anew, and a second one repairs that.
     """
-    state = _simplified(_with_twins_tried(state))
+    state = _simplified(_with_rivals_tried(state))
     origin, reported = state.path[0].summary, as_reported(state.best)
     while len(state.best.terms) > 1:
         rests = [left_with(state, state.best.without(t), state.best) for t in state.best.terms]
@@ -53,10 +53,10 @@ def as_it_is_reported(state: Search) -> Search:
     return replace(state, settled=reported)
 
 
-def _with_twins_tried(state: Search) -> Search:
+def _with_rivals_tried(state: Search) -> Search:
     """Refit what is nearly one thing with an effect in its place: a screen sees little of it beside that effect."""
     best, origin = state.best, state.path[0].summary
-    pairs = twins(known_effects(state).values())
+    pairs = alike_pairs(known_effects(state).values())
     for term in best.terms:
         others = {name for pair in pairs if term.effect.name in pair for name in pair} - set(best.names)
         rest = best.without(term)

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from slipwise.campaign import Run
 from slipwise.diagnosis.identifiability import unidentified
+from slipwise.diagnosis.indistinguishable import known_effects
 from slipwise.diagnosis.screening import projector
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.sensitivities import column_of, residual_with, small
 from slipwise.diagnosis.starting_grid import shapes, strengths
-from slipwise.diagnosis.twins import known_effects
 from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit

@@ -11,14 +11,14 @@ from slipwise.campaign import Campaign, as_campaign
 from slipwise.diagnosis.cannot_tell import cannot_tell
 from slipwise.diagnosis.detectable_size import least_sizes
 from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.diagnosis.indistinguishable import alike_pairs
 from slipwise.diagnosis.predicted_friction import predicted_friction
 from slipwise.diagnosis.replays import replayed_errors
 from slipwise.diagnosis.reported_sizes import named_sizes
 from slipwise.diagnosis.result import Candidate, Diagnosis
 from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.twins import twins
+from slipwise.diagnosis.selection import SelectionResult, select_effects
 from slipwise.diagnosis.verdict import Verdict, judge, with_faults
-from slipwise.diagnosis.workflow import SelectionResult, select_effects
 from slipwise.effects import Effect
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit
@@ -77,7 +77,7 @@ def diagnose(
         except InputError as error:
             cannot.append(f"system level: {error}")
     relations = _relations(state, shown)
-    before = max(error_of(selected.unmended, r) for r in selected.unmended.fitted)
+    before = max(error_of(selected.uncorrected, r) for r in selected.uncorrected.fitted)
     tell("done", 1.0)
     return Diagnosis(
         campaign=found.name,
@@ -133,7 +133,7 @@ def _component(state: Search, verdict: Verdict) -> str:
 def _listed(selected: SelectionResult, judged: Verdict, verdict: Verdict, final: BaseFit) -> tuple[Candidate, ...]:
     """Give hypotheses, and faults of samples: before them where they alone are what is missing."""
     hypotheses = _candidates(selected.search, judged, final)
-    recorded, kept = selected.unmended, selected.search.path[0].summary
+    recorded, kept = selected.uncorrected, selected.search.path[0].summary
     where = max(recorded.fitted, key=lambda relation: error_of(recorded, relation))
     before, after = error_of(recorded, where), error_of(kept, where)
     labels = dict.fromkeys(f"{f.effect}[{f.channel}]" for f in selected.faults)
@@ -191,4 +191,4 @@ def _shares(state: Search, verdict: Verdict, listed: list[Hypothesis]) -> list[f
 
 def _is_one_thing(one: Hypothesis, other: Hypothesis) -> bool:
     apart = frozenset(one.names) ^ frozenset(other.names)
-    return apart in twins(t.effect for t in (*one.terms, *other.terms))
+    return apart in alike_pairs(t.effect for t in (*one.terms, *other.terms))

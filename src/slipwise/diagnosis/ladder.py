@@ -19,7 +19,7 @@ from slipwise.diagnosis.replays import replayed_errors
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.screening import Screened, screen
 from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.workflow import prepared, select_effects
+from slipwise.diagnosis.selection import prepared, select_effects
 from slipwise.effects import Effect, find_effect
 from slipwise.errors import InputError, SettingError
 from slipwise.estimation.base_fit import BaseFit, fit_base

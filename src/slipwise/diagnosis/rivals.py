@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from itertools import combinations, product
 
+from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects
 from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.twins import known_effects, twins
 from slipwise.diagnosis.verdict import Verdict
 from slipwise.effects import Effect
 
@@ -27,7 +27,7 @@ def explanations(found: Verdict, state: Search) -> tuple[Explanation, ...]:
             if set(names) not in map(set, told):  # the same effects in another order are no other explanation
                 told.append(names)
     else:
-        pair = next((p for p in twins(known_effects(state).values()) if p & set(best)), frozenset(found.effects))
+        pair = next((p for p in alike_pairs(known_effects(state).values()) if p & set(best)), frozenset(found.effects))
         told = [(name,) for name in found.effects if name in pair]
     rivals = {name for names in told for name in names}
     sure = tuple(name for name in found.effects if name not in rivals)

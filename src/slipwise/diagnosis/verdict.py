@@ -8,9 +8,9 @@ import numpy as np
 from slipwise.diagnosis.choice import is_delay, material_alone, needless
 from slipwise.diagnosis.forward_selection import MOST_EFFECTS
 from slipwise.diagnosis.hypothesis import Hypothesis, constant_at_bound, strength_at_bound
+from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects, parted
 from slipwise.diagnosis.samples import SampleFault
 from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.twins import known_effects, told_apart, twins
 from slipwise.diagnosis.unknown_surface import Surface, leftover, structured
 from slipwise.estimation.parameters import Term
 from slipwise.evidence.materiality import SAME_SCORE, least_material_drop, material_drop, score, worsens
@@ -125,8 +125,8 @@ def _judged(state: Search) -> Verdict:
     if rivals:
         every = tuple(dict.fromkeys(n for h in (best, *rivals) for n in h.names))
         return Verdict("ambiguous", every, probability, left, explained, surface, rivals)
-    for pair, unless in twins(known_effects(state).values()).items():
-        if len(pair & set(names)) == 1 and not told_apart(best.problem, unless):
+    for pair, unless in alike_pairs(known_effects(state).values()).items():
+        if len(pair & set(names)) == 1 and not parted(best.problem, unless):
             every = (*sorted(pair), *(n for n in names if n not in pair))
             return Verdict("ambiguous", every, probability, left, explained, surface, ())
     instruments = all(t.effect.component == "instrument" for t in best.terms)

@@ -23,10 +23,10 @@ from slipwise.campaign import Campaign, Run, as_campaign
 from slipwise.comparison.system_level import replayed_model
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, polished, refit
+from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects
 from slipwise.diagnosis.replays import simulation_step
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.twins import known_effects, twins
 from slipwise.effects import Effect
 from slipwise.errors import InputError, SimulationError, SlipwiseError
 from slipwise.estimation.base_fit import fit_base
@@ -153,7 +153,7 @@ def _strongest(state: Search, beside: Sequence[str]) -> Hypothesis:
 def _partner(state: Search) -> list[Hypothesis]:
     """Give the effect that is one thing with the best to this rig, fitted if it was not yet."""
     named = set(state.best.names)
-    names = {name for pair in twins(known_effects(state).values()) if pair & named for name in pair - named}
+    names = {name for pair in alike_pairs(known_effects(state).values()) if pair & named for name in pair - named}
     known = [h for h in state.tried if h.terms and set(h.names) <= names]
     return known[:1] or [_fitted(state, term) for term in state.terms if term.effect.name in names]
 

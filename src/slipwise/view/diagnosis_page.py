@@ -2,10 +2,10 @@
 
 from math import isfinite
 
+from slipwise.diagnosis.indistinguishable import known_effects
 from slipwise.diagnosis.ladder import Ladder
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.rivals import explanations, partings
-from slipwise.diagnosis.twins import known_effects
 from slipwise.estimation.intervals import Interval
 from slipwise.params import Parameter
 from slipwise.units import convert

@@ -35,6 +35,7 @@ def without(campaign, *names: str):
     return campaign.with_records(records, "channels left out")
 
 
+@pytest.mark.slow
 def test_every_sample_is_in_one_state(states):
     assert np.all(states.stuck.astype(int) + states.near_reversal + states.sliding == 1)
     assert states.stuck.any() and states.near_reversal.any() and states.sliding.any()
@@ -137,6 +138,7 @@ def test_a_clipped_accelerometer_is_no_other_rig(made, tmp_path):
         (60206, ("channel_drift",), "medium", True),  # a cell that drifts
     ],
 )
+@pytest.mark.slow
 def test_faults_of_gauges_and_a_table_that_rocks_are_no_other_rig(
     seed: int, effects: tuple[str, ...], size: str, rich: bool
 ) -> None:

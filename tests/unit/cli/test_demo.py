@@ -11,6 +11,7 @@ import pytest
 from slipwise.model_file import load_model
 
 
+@pytest.mark.slow
 def test_the_demo_names_the_hidden_effect_and_the_error_falls_to_the_floor(slipwise, tmp_path):
     code, out, err = slipwise("demo", "--out", tmp_path)
     assert (code, err) == (0, "")
@@ -32,6 +33,7 @@ def test_the_demo_names_the_hidden_effect_and_the_error_falls_to_the_floor(slipw
     assert "five runs" in told and "fitted to four runs" in told and "slipwise effects run_in" in told
 
 
+@pytest.mark.slow
 def test_add_and_remove_edit_the_model_and_print_the_error_before_and_after(slipwise, tmp_path):
     campaign = tmp_path / "campaign"
     shutil.copytree(Path(str(files("slipwise"))) / "demo_data", campaign)

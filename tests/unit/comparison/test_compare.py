@@ -65,6 +65,7 @@ def test_fitted_numbers_carry_intervals_of_sensible_width(complete):
     assert np.all(band < 0.02)
 
 
+@pytest.mark.slow
 def test_a_hidden_breakaway_is_found_in_the_pads_and_not_in_the_girder(breaking_away):
     assert breaking_away.places[0].relation == "pads"
     assert breaking_away.error("pads", held_out=True) > 2.0

@@ -61,6 +61,7 @@ def said(base: BaseFit, terms: list[Term] = FADES_AND_LASTS, *, screened: bool =
     return dict(cannot_tell(Search(base, {}, terms, [], (base_hypothesis(base),), screened=found), base))
 
 
+@pytest.mark.slow
 def test_a_full_campaign_tells_every_number_and_heat_from_wear(base: BaseFit) -> None:
     assert unidentified(base, base) == []
     assert [key.partition(" ")[0] for key in said(base)] == ["faults"]

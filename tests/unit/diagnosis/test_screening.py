@@ -67,6 +67,7 @@ def test_a_patch_is_looked_for_everywhere_with_an_edge_of_one_kind() -> None:
     assert places(catalogued["heating"]) == places(catalogued["channel_delay"]) == []
 
 
+@pytest.mark.slow
 def test_a_lag_of_many_milliseconds_is_found_at_its_size_though_a_straight_line_sees_a_tenth_of_it() -> None:
     made = build_campaign(46178, effects=("channel_delay",), size="large")
     base = fit_base(as_campaign(made))
@@ -78,6 +79,7 @@ def test_a_lag_of_many_milliseconds_is_found_at_its_size_though_a_straight_line_
     assert best.gain > 0.5 * base.solution.cost
 
 
+@pytest.mark.slow
 def test_unlike_buffers_are_found_where_friction_holds_the_girder_until_they_are_unlike_enough() -> None:
     made = build_campaign(48062, effects=("buffer_mismatch",), size="large")
     base = fit_base(as_campaign(made))

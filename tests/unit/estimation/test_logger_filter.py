@@ -10,7 +10,7 @@ from bench import build_campaign
 from bench.truth import Truth
 from bench.write import write_campaign
 from slipwise.campaign import load_campaign
-from slipwise.diagnosis.workflow import _speaks_at_reversals
+from slipwise.diagnosis.selection import _speaks_at_reversals
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import fit_base
 from slipwise.estimation.logger_filter import _frequencies, _levelled
@@ -28,12 +28,14 @@ def heard_and_true(folder: Path, seed: int, effect: str, size: str, rig: str) ->
     return found, made.truth
 
 
+@pytest.mark.slow
 def test_an_unknown_filter_is_found_within_ten_percent(tmp_path):
     found, truth = heard_and_true(tmp_path, 71002, "buffer_hardening", "medium", "bridge2")
     assert found.frequency == pytest.approx(truth.logger.lowpass, rel=0.10)
     assert found.phase.replace("aligned", "causal") == truth.logger.phase
 
 
+@pytest.mark.slow
 def test_friction_that_heats_up_does_not_bend_the_filter_that_is_heard(tmp_path):
     found, truth = heard_and_true(tmp_path, 71021, "heating", "large", "bridge1")
     assert found.frequency == pytest.approx(truth.logger.lowpass, rel=0.10)

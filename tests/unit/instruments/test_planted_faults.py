@@ -35,6 +35,7 @@ def test_a_sound_campaign_accuses_nobody_and_every_balance_leaves_only_noise(sou
     ],
     ids=lambda value: f"{value.effect} {value.channels[0]}" if isinstance(value, Fault) else "",
 )
+@pytest.mark.slow
 def test_a_planted_fault_is_the_only_finding_with_its_size(measured_with, fault, channel):
     report = audit(measured_with(fault))
     (finding,) = report.findings

@@ -1,4 +1,4 @@
-"""From a campaign to a finished search: samples mended, base fitted, and both done anew where the search says so."""
+"""From a campaign to a finished selection: samples corrected, base fitted, and both done anew where need be."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
@@ -28,13 +28,13 @@ class SelectionResult:
         base: the base fit.
         search: what was looked at.
         faults: of samples, which were mended or left out before.
-        unmended: residuals of the base fit of the campaign as it was recorded.
+        uncorrected: residuals of the base fit of the campaign as it was recorded.
     """
 
     base: BaseFit
     search: Search
     faults: tuple[SampleFault, ...]
-    unmended: ResidualSummary
+    uncorrected: ResidualSummary
 
 
 def prepared(campaign: Campaign) -> tuple[Campaign, Spoiled, tuple[SampleFault, ...]]:
@@ -74,8 +74,8 @@ def select_effects(
     if better is not None:
         base = better
         state = search(base, own, progress, state)
-    unmended = base_hypothesis(fit_base(campaign, model)).summary if faults else state.path[0].summary
-    return SelectionResult(base, state, faults, unmended)
+    uncorrected = base_hypothesis(fit_base(campaign, model)).summary if faults else state.path[0].summary
+    return SelectionResult(base, state, faults, uncorrected)
 
 
 def _logger_estimated_again(campaign: Campaign, base: BaseFit, found: Hypothesis) -> Campaign | None:

@@ -14,12 +14,12 @@ def known_effects(state: Search) -> dict[str, Effect]:
     return {**catalogue(), **{t.effect.name: t.effect for t in state.terms}}
 
 
-def twins(known: Iterable[Effect]) -> Pairs:
+def alike_pairs(known: Iterable[Effect]) -> Pairs:
     """Give the names of each two effects that may be one thing, with what tells them apart; one file may say so."""
     return {frozenset({e.name, other}): unless for e in known for other, unless in e.same_unless.items()}
 
 
-def told_apart(problem: Problem, unless: Iterable[str]) -> bool:
+def parted(problem: Problem, unless: Iterable[str]) -> bool:
     """Tell whether a campaign measured any of what tells two effects apart: "yaw", or a balance of the girder."""
     measured = {*problem.relations, *(("yaw",) if problem.runs[0].states.has_yaw else ())}
     return not measured.isdisjoint(unless)
