@@ -81,19 +81,29 @@ def _dead(name: str, runs: Sequence[Run]) -> SampleFault | None:
 
 
 def _rails(name: str, runs: Sequence[Run]) -> list[SampleFault]:
-    """An amplifier has two rails, and a gauge may meet either of them or both."""
+    """An amplifier has two rails, and a gauge may meet either of them or both; its range may change between runs."""
     found = []
     for kind, side in (("upper rail", 1.0), ("lower rail", -1.0)):
-        top = max(float((side * run.record[name]).max()) for run in runs)
-        bad = {run.name: side * run.record[name] >= top for run in runs}
-        count = sum(int(b.sum()) for b in bad.values())
-        beside = sum(int((b[1:] & b[:-1]).sum()) for b in bad.values())
-        # one burst of repeated samples at the peak is no rail
-        met = count - beside
-        if (met >= 2 or count >= _LONG_RAIL) and count >= _RAIL and beside >= _BESIDE * count:
-            if _cut(name, runs, bad, side):
-                found.append(SampleFault(kind, (name,), side * top, bad, tuple(n for n, b in bad.items() if b.any())))
+        bad = _at_rail(name, runs, side)
+        for run in (r for r in runs if not bad.get(r.name, np.zeros(1)).any()):
+            bad |= _at_rail(name, [run], side)
+        touched = [run for run in runs if bad.get(run.name, np.zeros(1)).any()]
+        if touched:
+            top = max(float((side * run.record[name]).max()) for run in touched)
+            found.append(SampleFault(kind, (name,), side * top, bad, tuple(run.name for run in touched)))
     return found
+
+
+def _at_rail(name: str, runs: Sequence[Run], side: float) -> dict[str, Mask]:
+    """Give the samples of each run (n,) at the largest value of all, where that is a rail; else nothing."""
+    top = max(float((side * run.record[name]).max()) for run in runs)
+    bad = {run.name: side * run.record[name] >= top for run in runs}
+    count = sum(int(b.sum()) for b in bad.values())
+    beside = sum(int((b[1:] & b[:-1]).sum()) for b in bad.values())
+    # one burst of repeated samples at the peak is no rail
+    met = count - beside
+    enough = (met >= 2 or count >= _LONG_RAIL) and count >= _RAIL and beside >= _BESIDE * count
+    return bad if enough and _cut(name, runs, bad, side) else {}
 
 
 def _cut(name: str, runs: Sequence[Run], bad: dict[str, Mask], side: float) -> bool:

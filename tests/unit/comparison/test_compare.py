@@ -106,7 +106,7 @@ def test_without_pandas_the_error_names_it_and_the_way_round(complete, monkeypat
         return real(name, *rest, **more)
 
     monkeypatch.setattr(builtins, "__import__", without)
-    with pytest.raises(InputError, match="pip install pandas"):
+    with pytest.raises(InputError, match=r"slipwise\[notebook\]"):
         complete.to_pandas()
 
 
