@@ -27,7 +27,9 @@ ARROWS: dict[str, str] = {
     "simulation": "channels effects errors model model_file motion record rig shown",
     "campaign": "channels errors record rig shown signals units",
     "instruments": "campaign channels effects errors record rig shown signals statistics",
-    "estimation": "campaign channels effects errors model parallel record rig signals statistics simulation",
+    "estimation": (
+        "campaign channels effects errors instruments model parallel record rig signals statistics simulation"
+    ),
     "evidence": "campaign channels errors estimation record signals",
     "comparison": (
         "campaign channels effects errors estimation evidence instruments model model_file motion record"

@@ -25,6 +25,7 @@ from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import jacobian
 from slipwise.evidence.materiality import material_drop, score
 from slipwise.evidence.residual_summary import error_of
+from slipwise.instruments.suspects import effect_of
 from slipwise.model import Model
 from slipwise.model_file import as_model
 
@@ -136,7 +137,7 @@ def _listed(selected: SelectionResult, judged: Verdict, verdict: Verdict, final:
     recorded, kept = selected.uncorrected, selected.search.path[0].summary
     where = max(recorded.fitted, key=lambda relation: error_of(recorded, relation))
     before, after = error_of(recorded, where), error_of(kept, where)
-    labels = dict.fromkeys(f"{f.effect}[{f.channel}]" for f in selected.faults)
+    labels = dict.fromkeys(f"{effect_of(f.kind).name}[{name}]" for f in selected.faults for name in f.channels)
     faults = tuple(Candidate(label, verdict.probability, before, after, 0.0, {}) for label in labels)
     return (*hypotheses, *faults) if judged.effects else (*faults, *hypotheses)
 

@@ -134,8 +134,8 @@ def ladder(
     tell("fitting base parameters", 0.02)
     part = 0.6 if system else 1.0
     if asked:
-        whole, spoiled, _ = prepared(found)
-        base = fit_base(whole, start, spoiled)
+        whole, invalid, _ = prepared(found)
+        base = fit_base(whole, start, invalid)
         path, counts, stopped = _asked(base, asked, lambda share: tell("refitting", part * share))
     else:
         selected = select_effects(found, start, own, lambda words, share: tell(words, part * share))

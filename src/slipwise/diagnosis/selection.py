@@ -7,17 +7,20 @@ from inspect import signature
 from slipwise.campaign import Campaign, Logger
 from slipwise.diagnosis.forward_selection import completed, first_effects, search
 from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis
-from slipwise.diagnosis.samples import SampleFault, mended, sample_faults
 from slipwise.diagnosis.search_state import Search
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit, fit_base, restarted
 from slipwise.estimation.logger_filter import estimated_logger
 from slipwise.estimation.measurement_model import shifts
 from slipwise.estimation.parameters import Term
-from slipwise.estimation.run_data import Spoiled
 from slipwise.evidence.materiality import MATERIAL
 from slipwise.evidence.residual_summary import ResidualSummary
+from slipwise.instruments.repairs import InvalidSamples, for_fits
+from slipwise.instruments.sample_faults import RAILS, SampleFault, sample_faults
 from slipwise.model import Model
+
+#: Faults of samples that a gauge has; a gap is the clock's.
+_OF_GAUGES = ("turned", *RAILS, "held", "lost")
 
 
 @dataclass(frozen=True)
@@ -27,7 +30,7 @@ class SelectionResult:
     Attributes:
         base: the base fit.
         search: what was looked at.
-        faults: of samples, which were mended or left out before.
+        faults: of samples, which were turned back, bridged or left out before.
         uncorrected: residuals of the base fit of the campaign as it was recorded.
     """
 
@@ -37,10 +40,10 @@ class SelectionResult:
     uncorrected: ResidualSummary
 
 
-def prepared(campaign: Campaign) -> tuple[Campaign, Spoiled, tuple[SampleFault, ...]]:
-    """Give a campaign with wrong signs turned round, the samples that must not be judged, and the faults found."""
-    faults = sample_faults(campaign)
-    return (*mended(campaign, faults), faults) if faults else (campaign, {}, ())
+def prepared(campaign: Campaign) -> tuple[Campaign, InvalidSamples, tuple[SampleFault, ...]]:
+    """Give a campaign with wrong signs turned back, the samples that must not be judged, and the faults found."""
+    faults = tuple(fault for fault in sample_faults(campaign) if fault.kind in _OF_GAUGES)
+    return (*for_fits(campaign, faults), faults) if faults else (campaign, {}, ())
 
 
 def select_effects(
@@ -61,12 +64,12 @@ def select_effects(
         InputError: the campaign lacks what every fit needs.
     """
     own = tuple(own)
-    whole, spoiled, faults = prepared(campaign)
-    base = fit_base(whole, model, spoiled)
+    whole, invalid, faults = prepared(campaign)
+    base = fit_base(whole, model, invalid)
     state = first_effects(base, own, progress)
     estimated = _logger_estimated_again(whole, base, state.best)
     if estimated is not None:
-        base = fit_base(estimated, model, spoiled)
+        base = fit_base(estimated, model, invalid)
         state = first_effects(base, own, progress)
     state = completed(state, progress)
     # what an effect seems to explain may be a valley that the base fit has missed

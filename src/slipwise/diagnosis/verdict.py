@@ -9,12 +9,13 @@ from slipwise.diagnosis.choice import is_delay, material_alone, needless
 from slipwise.diagnosis.forward_selection import MOST_EFFECTS
 from slipwise.diagnosis.hypothesis import Hypothesis, constant_at_bound, strength_at_bound
 from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects, parted
-from slipwise.diagnosis.samples import SampleFault
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import Surface, leftover, structured
 from slipwise.estimation.parameters import Term
 from slipwise.evidence.materiality import SAME_SCORE, least_material_drop, material_drop, score, worsens
 from slipwise.evidence.residual_summary import ResidualSummary
+from slipwise.instruments.sample_faults import SampleFault
+from slipwise.instruments.suspects import effect_of
 
 #: A right family explains this share of what the base left, whatever its exact form [1]: 0.87 and more on trials, most
 #: wrong ones 0.69 and less.
@@ -157,7 +158,7 @@ def _worst(of: ResidualSummary) -> float:
 
 
 def with_faults(found: Verdict, faults: Sequence[SampleFault], terms: Sequence[Term] = ()) -> Verdict:
-    """Add faults of samples to a verdict on what is left when they are mended.
+    """Add faults of samples to a verdict on what is left without them.
 
     Args:
         found: the verdict on the rest.
@@ -166,12 +167,12 @@ def with_faults(found: Verdict, faults: Sequence[SampleFault], terms: Sequence[T
     """
     if not faults:
         return found
-    names = tuple(dict.fromkeys(f.effect for f in faults))
+    names = tuple(dict.fromkeys(effect_of(f.kind).name for f in faults))
     if found.kind == "complete":
         return replace(found, kind="instrument", effects=names, probability=max(found.probability, 0.9))
     if found.kind == "unknown":
         return replace(found, kind="instrument", effects=names, probability=_COIN_OF_FAULTS)
-    moved = {f.channel for f in faults if f.moved}
+    moved = {name for f in faults if f.kind == "lost" for name in f.channels}
     # a gauge whose lost samples moved up the rest is late by that
     same = {t.effect.name for t in terms if t.effect.is_late and moved.issuperset(t.targets)}
     same -= {t.effect.name for t in terms if not moved.issuperset(t.targets)}

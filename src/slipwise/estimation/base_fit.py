@@ -21,7 +21,8 @@ from slipwise.estimation.parameters import (
     terms_of,
 )
 from slipwise.estimation.problem import Problem
-from slipwise.estimation.run_data import Spoiled, fit_runs
+from slipwise.estimation.run_data import fit_runs
+from slipwise.instruments.repairs import InvalidSamples
 from slipwise.model import Model, base_model
 
 #: Noise near reversals depends on the fit and the fit on the noise: each is made anew, and every fit ends where a step
@@ -63,25 +64,25 @@ class BaseFit:
     solution: Solution
 
 
-def fit_base(campaign: Campaign, model: Model | None = None, spoiled: Spoiled | None = None) -> BaseFit:
+def fit_base(campaign: Campaign, model: Model | None = None, invalid: InvalidSamples | None = None) -> BaseFit:
     """Fit a campaign's base parameters on its runs of role fit and repeat.
 
     Args:
         campaign: with at least one run that is not held out.
         model: the user's current model; the paper's law on the campaign's rig when not given.
-        spoiled: run -> channel -> samples (n,) at which its gauge does not tell the truth.
+        invalid: run -> channel -> samples (n,) at which it is no measurement.
 
     Raises:
         InputError: a run lacks what every fit needs.
     """
     model = model or base_model(campaign.specimen)
-    runs = fit_runs(campaign, spoiled)
+    runs = fit_runs(campaign, invalid)
     problem = Problem(runs, model.specimen, terms_of(model))
     if campaign.logger.known or not model.specimen.free:  # of one slider no filter is told from a law
         return _fitted(campaign, model, problem)
     guessed = _roughly(problem, _free(campaign, model, problem), {})
     known = replace(campaign, logger=Logger(estimated_logger(campaign, model, guessed), known=True))
-    problem = Problem(fit_runs(known, spoiled), model.specimen, terms_of(model))
+    problem = Problem(fit_runs(known, invalid), model.specimen, terms_of(model))
     return _fitted(known, model, problem, guessed.values)
 
 

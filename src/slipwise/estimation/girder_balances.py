@@ -147,8 +147,8 @@ def _total(run: FitRun, force: Array, mass: float, buffers: Array) -> Array:
     Such samples are not judged, but pitch rings on with them.
     """
     total = force.sum(axis=1)
-    lies = [bad for name, bad in run.spoiled.items() if name.startswith("pad_") and name.endswith("_Fx")]
-    if not lies or "girder_ax" not in run.record or "girder_ax" in run.spoiled:
+    lies = [bad for name, bad in run.invalid.items() if name.startswith("pad_") and name.endswith("_Fx")]
+    if not lies or "girder_ax" not in run.record or "girder_ax" in run.invalid:
         return total
     moved = -mass * run.record["girder_ax"] - buffers
     off = np.abs(total - moved) > _TELLING * mass * run.noise["girder_ax"]

@@ -27,7 +27,7 @@ _CUT = 0.12
 
 
 def judged(
-    grounded: Mask, sliding: Mask, fast: Mask, whole: Mask, pads: tuple[str, ...], spoiled: Mapping[str, Mask]
+    grounded: Mask, sliding: Mask, fast: Mask, whole: Mask, pads: tuple[str, ...], invalid: Mapping[str, Mask]
 ) -> dict[str, Mask]:
     """Give the samples by which each relation is judged: (n,), or (n, p) for pads and friction across.
 
@@ -37,11 +37,11 @@ def judged(
         fast: (n,) the direction of sliding is known.
         whole: (n,) what was before is known, see `away_from_cuts`.
         pads: those measured.
-        spoiled: channel -> samples (n,) at which its gauge does not tell the truth.
+        invalid: channel -> samples (n,) at which it is no measurement.
     """
 
     def truthful(*names: str) -> Mask:
-        bad = [mask for channel, mask in spoiled.items() if any(fnmatchcase(channel, n) for n in names)]
+        bad = [mask for channel, mask in invalid.items() if any(fnmatchcase(channel, n) for n in names)]
         return ~np.any(bad, axis=0) if bad else np.ones(len(grounded), dtype=bool)
 
     out = {name: grounded & truthful(*names) for name, names in _USES.items()}

@@ -211,7 +211,7 @@ def values_of(terms: Sequence[Term], values: Mapping[str, float]) -> Key:
 def _whole(run: FitRun, mass: float, buffers: Array) -> Array:
     """Give the pads' forces (n, p) [N]; where one gauge lies, what the girder's balance leaves it."""
     force = run.force
-    bad = np.stack([run.spoiled.get(f"pad_{p}_Fx", np.zeros(len(force), dtype=bool)) for p in run.pads], axis=1)
+    bad = np.stack([run.invalid.get(f"pad_{p}_Fx", np.zeros(len(force), dtype=bool)) for p in run.pads], axis=1)
     alone = bad & (bad.sum(axis=1, keepdims=True) == 1)
     if not alone.any():
         return force

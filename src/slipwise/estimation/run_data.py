@@ -13,6 +13,7 @@ from slipwise.campaign.states import States, measured_states
 from slipwise.channels import PADS
 from slipwise.errors import InputError
 from slipwise.estimation.judged_samples import away_from_cuts, judged
+from slipwise.instruments.repairs import InvalidSamples
 from slipwise.record import Record
 from slipwise.signals import LowPass, lowpass
 from slipwise.signals.ends import in_frequency
@@ -20,8 +21,6 @@ from slipwise.signals.shift import shift
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-#: Run -> channel -> samples (n,) at which its gauge does not tell the truth.
-Spoiled = Mapping[str, Mapping[str, Mask]]
 #: Masked before and after a stuck stretch [s].
 _STUCK_MARGIN = 0.016
 #: Slower pads point nowhere [m/s].
@@ -47,7 +46,7 @@ class FitRun:
         across: (n, p) along y [N]; empty (n, 0) where it was not measured.
         sliding: (n,) samples at which the law says the force of a pad.
         judged: relation -> samples by which it is judged, see `judged`.
-        spoiled: channel -> samples (n,) at which its gauge does not tell the truth.
+        invalid: channel -> samples (n,) at which it is no measurement.
         noise: channel -> standard deviation of one sample.
         no_slip: part of the girder's acceleration over the table that is no slip, (n,) or 0 [m/s^2].
         fine: instants per sample at which the laws are evaluated.
@@ -64,7 +63,7 @@ class FitRun:
     across: Array
     sliding: Mask
     judged: Mapping[str, Mask]
-    spoiled: Mapping[str, Mask] = field(default_factory=dict[str, Mask])
+    invalid: Mapping[str, Mask] = field(default_factory=dict[str, Mask])
     noise: dict[str, float] = field(default_factory=dict[str, float])
     no_slip: Array | float = 0.0
     fine: int = FINE
@@ -180,22 +179,22 @@ class FitRun:
         return change("slip_x"), change("girder_ax") - change("table_ax")
 
 
-def fit_runs(campaign: Campaign, spoiled: Spoiled | None = None) -> list[FitRun]:
+def fit_runs(campaign: Campaign, invalid: InvalidSamples | None = None) -> list[FitRun]:
     """Prepare every run of a campaign.
 
     Args:
         campaign: the runs.
-        spoiled: run -> channel -> samples (n,) at which its gauge does not tell the truth.
+        invalid: run -> channel -> samples (n,) at which it is no measurement.
 
     Raises:
         InputError: a run lacks slip, or a pad's friction.
     """
-    runs = [_fit_run(run, campaign, (spoiled or {}).get(run.name, {})) for run in campaign.runs]
+    runs = [_fit_run(run, campaign, (invalid or {}).get(run.name, {})) for run in campaign.runs]
     levels = {channel: gauge.level for channel, gauge in campaign.gauges.items()}
     return [replace(r, noise=levels) for r in runs]
 
 
-def _fit_run(run: Run, campaign: Campaign, spoiled: Mapping[str, Mask]) -> FitRun:
+def _fit_run(run: Run, campaign: Campaign, invalid: Mapping[str, Mask]) -> FitRun:
     states = measured_states(run, campaign)
     loaded = [p for p, load in zip(states.pads, states.load.T, strict=True) if np.isfinite(load).any()]
     pads = tuple(p for p in loaded if f"pad_{p}_Fx" in states.record)
@@ -219,7 +218,7 @@ def _fit_run(run: Run, campaign: Campaign, spoiled: Mapping[str, Mask]) -> FitRu
     across = _stacked(states.record, pads, "Fy", nothing) if states.has_y else nothing
     fast = np.hypot(*states.velocity.T) > FAST
     # samples were looked at as recorded; a gap of theirs is filled on the axis of the states
-    bad = {c: np.interp(states.time, run.record.time, m.astype(float)) > 0.0 for c, m in spoiled.items()}
+    bad = {c: np.interp(states.time, run.record.time, m.astype(float)) > 0.0 for c, m in invalid.items()}
     kept = judged(grounded, sliding, fast, away_from_cuts(states.at_rest, states.dt), pads, bad)
     return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, across, sliding, kept, bad)
 

@@ -11,13 +11,13 @@ from slipwise.effects._gauges import span
 from slipwise.instruments.acceptance import Evidence
 from slipwise.instruments.balances import relations
 from slipwise.instruments.forward_selection import judge
-from slipwise.instruments.joint_fit import KNOWN_MASS, RATED_MASS, Case, Fit
+from slipwise.instruments.joint_fit import KNOWN_MASS, RATED_MASS, Case, Fit, start
 from slipwise.instruments.logger_spectrum import estimate_logger
+from slipwise.instruments.repairs import for_balances
 from slipwise.instruments.report import AuditReport, Balance, Finding
 from slipwise.instruments.rows import hold, noise_of_channels, noise_of_runs
-from slipwise.instruments.sample_faults import RAILS, SampleFault, coarse, repaired, sample_faults
+from slipwise.instruments.sample_faults import RAILS, SampleFault, coarse, sample_faults
 from slipwise.instruments.sentences import as_sentence, confusable, how_to_settle, nearest, sentence
-from slipwise.instruments.signs import turned_gauges
 from slipwise.instruments.suspects import Suspect, effect_of
 from slipwise.signals import white_level
 from slipwise.signals.noise import quantum
@@ -35,8 +35,8 @@ def audit(campaign: Campaign) -> AuditReport:
         campaign: whose logger may be unknown: then its filter is estimated too.
     """
     samples = sample_faults(campaign)
-    records, left_out = repaired(campaign, samples)
-    clean = campaign.with_records(records, "bad samples left out") if samples else campaign
+    records, left_out = for_balances(campaign, samples)
+    clean = campaign.with_records(records, "wrong signs turned back, bad samples left out") if samples else campaign
     runs, band = hold(clean, left_out)
     held, cannot = relations(runs[0].record, campaign.specimen)
     noise = noise_of_runs(runs, noise_of_channels(clean, runs, band), band)
@@ -46,9 +46,9 @@ def audit(campaign: Campaign) -> AuditReport:
     plain = AuditReport(campaign.name, tuple(findings), (), (), {}, logger, tuple(cannot), tuple(notes))
     if not any(relation.accuses and relation.rows in ("moving", "inner") for relation in held):
         return plain
-    turned, case, first = turned_gauges(Case(runs, held, campaign.specimen, noise, mass_error))
+    case = Case(runs, held, campaign.specimen, noise, mass_error)
+    first = start(case)
     verdict = judge(case, first)
-    findings += [_of_sign(suspect) for suspect in turned]
     findings += [_of_evidence(evidence) for evidence in verdict.accepted]
     notes += [f"{as_sentence(e.suspect, e.size)}: too little to matter" for e in verdict.small]
     notes += [f"{as_sentence(e.suspect, e.size)} would explain something, but {e.why_not}" for e in verdict.refused]
@@ -93,23 +93,6 @@ def _same_fault(rival: str, suspect: Suspect) -> bool:
     return effect == suspect.effect and place.startswith(suspect.target)
 
 
-def _of_sign(suspect: Suspect) -> Finding:
-    return Finding(
-        suspect.effect,
-        suspect.target,
-        -1.0,
-        -1.0,
-        -1.0,
-        "1",
-        _SUREST,
-        confusable(suspect.effect),
-        how_to_settle(suspect.effect, ()),
-        as_sentence(suspect, -1.0),
-        suspect.target,
-        suspect.values(-1.0),
-    )
-
-
 def _of_samples(fault: SampleFault) -> Finding:
     """Turn bad samples into a finding."""
     effect = effect_of(fault.kind).name
@@ -139,7 +122,7 @@ def _of_samples(fault: SampleFault) -> Finding:
         words=words,
         target=fault.channels[0] if len(fault.channels) == 1 else place,
         values=values,
-        runs=fault.runs,
+        runs=() if fault.kind == "turned" else fault.runs,
     )
 
 

@@ -7,8 +7,9 @@ import numpy as np
 from slipwise.campaign import Campaign
 from slipwise.effects import catalogue
 from slipwise.errors import InputError, unknown_name
+from slipwise.instruments.repairs import bridged
 from slipwise.instruments.report import AuditReport, Finding
-from slipwise.instruments.sample_faults import bridged, sample_faults
+from slipwise.instruments.sample_faults import sample_faults
 from slipwise.instruments.suspects import declared
 from slipwise.record import Record
 

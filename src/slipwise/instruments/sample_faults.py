@@ -1,16 +1,15 @@
-"""Single samples that no gauge would give: dead channels, rails, samples that repeat, samples that are lost."""
+"""What samples show by themselves: wrong signs, dead channels, rails, samples that repeat, samples that are lost."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 from scipy.ndimage import uniform_filter1d
 
 from slipwise.campaign import Campaign, Run
-from slipwise.campaign.aligned import spread
-from slipwise.record import Record
+from slipwise.channels import PADS
+from slipwise.instruments.signs import wrong_signs
 from slipwise.signals import white_level
 from slipwise.signals.noise import quantum
 
@@ -39,10 +38,10 @@ class SampleFault:
     """Bad samples of one channel, or of several at the same instants.
 
     Attributes:
-        kind: "dead", "upper rail", "lower rail", "held", "lost" or "gap".
+        kind: "turned", "dead", "upper rail", "lower rail", "held", "lost" or "gap".
         channels: that show it.
-        size: rail in the channel's unit; else share of all samples [1].
-        bad: run -> samples that are no measurement (n,).
+        size: rail in the channel's unit; -1 for a wrong sign; else share of all samples [1].
+        bad: run -> samples that are no measurement (n,); none of a wrong sign, which is turned back.
         runs: names of the runs that show it.
     """
 
@@ -54,8 +53,8 @@ class SampleFault:
 
 
 def sample_faults(campaign: Campaign) -> list[SampleFault]:
-    """Look for bad samples in every channel of every run."""
-    found: list[SampleFault] = []
+    """Look for wrong signs and bad samples in every channel of every run."""
+    found = _turned(campaign)
     names = list(dict.fromkeys(name for run in campaign.runs for name in run.record.channels))
     # what every channel repeats at its end is a record that was cut, no gauge's loss
     cut = {run.name: min(_tail(values) for values in run.record.channels.values()) for run in campaign.runs}
@@ -65,10 +64,19 @@ def sample_faults(campaign: Campaign) -> list[SampleFault]:
         if fault is not None:
             found.append(fault)
             continue
-        # an actuator holds its stroke's end: no rail
-        rails = [] if name.startswith("slip") and not campaign.specimen.free else _rails(name, runs)
-        found += rails or [f for f in (_held(name, runs), _lost(name, runs, cut)) if f]
+        if name.startswith("slip") and not campaign.specimen.free:
+            continue  # an actuator rests as long as it likes: no rail, and samples repeat by themselves
+        found += _rails(name, runs) or [f for f in (_held(name, runs), _lost(name, runs, cut)) if f]
     return [*_gaps(campaign), *_together(found)]
+
+
+def _turned(campaign: Campaign) -> list[SampleFault]:
+    """Wrong signs; four cells of a kind are one card."""
+    every, wrong = tuple(run.name for run in campaign.runs), wrong_signs(campaign)
+    cards = [tuple(f"pad_{pad}_{kind}" for pad in PADS) for kind in ("N", "Fx", "Fy")]
+    whole = [card for card in cards if set(card) <= set(wrong)]
+    alone = [(name,) for name in wrong if not any(name in card for card in whole)]
+    return [SampleFault("turned", channels, -1.0, {}, every) for channels in (*whole, *alone)]
 
 
 def _dead(name: str, runs: Sequence[Run]) -> SampleFault | None:
@@ -231,38 +239,3 @@ def _alike(one: SampleFault, other: SampleFault) -> bool:
     both = sum(int((one.bad[n] & other.bad[n]).sum()) for n in one.bad if len(one.bad[n]) == len(other.bad[n]))
     most = max(sum(int(b.sum()) for b in f.bad.values()) for f in (one, other))
     return both > 0.7 * most and abs(one.size - other.size) < 0.3 * max(one.size, other.size)
-
-
-def repaired(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[dict[str, Record], dict[str, Mask]]:
-    """Give records in which bad samples do no harm to the balances, and the samples to leave out, by run.
-
-    Repeated samples are bridged; around rails and gaps rows are left out; a channel that is dead, or has lost samples
-    and so its place in time, is taken out.
-    """
-    records, out = {}, {}
-    for run in campaign.runs:
-        channels = dict(run.record.channels)
-        leave = np.zeros(len(run.record), dtype=bool)
-        for fault in faults:
-            bad = fault.bad.get(run.name)
-            if bad is None:
-                continue
-            if fault.kind in (*RAILS, "gap"):
-                leave |= bad
-            for name in fault.channels:
-                if fault.kind == "held" and name in channels:
-                    channels[name] = bridged(channels[name], bad)
-        for fault in faults:
-            if fault.kind in ("lost", "dead"):
-                for name in fault.channels:
-                    channels.pop(name, None)
-        reach = max(int(0.03 / run.record.dt), 1)
-        records[run.name] = Record(run.record.time, channels, run.record.provenance)
-        out[run.name] = spread(leave, reach, reach) if leave.any() else leave
-    return records, out
-
-
-def bridged(values: Array, bad: Mask) -> Array:
-    """Give the values with bad samples interpolated between their good neighbours, by cubic splines."""
-    good = np.flatnonzero(~bad)
-    return np.where(bad, CubicSpline(good, values[good])(np.arange(len(values))), values)

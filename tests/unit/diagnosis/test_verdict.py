@@ -5,10 +5,10 @@ from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
+from slipwise.diagnosis.samples import SampleFault
 
 from slipwise.diagnosis.choice import is_delay, material_alone, needless
 from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.diagnosis.samples import SampleFault
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.verdict import judge, with_faults
 from slipwise.effects import catalogue

@@ -7,11 +7,12 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign
-from slipwise.diagnosis.samples import mended, sample_faults
 from slipwise.estimation.judged_samples import away_from_cuts, judged
 from slipwise.estimation.kinematics import Kinematics
 from slipwise.estimation.recent_results import Recent
 from slipwise.estimation.run_data import FitRun, fit_runs
+from slipwise.instruments.repairs import for_fits
+from slipwise.instruments.sample_faults import sample_faults
 
 COUNT = 6
 ALL = np.ones(COUNT, dtype=bool)
@@ -47,8 +48,8 @@ def test_the_yaw_of_unequal_pads_is_seen_though_one_of_their_gauges_is_clipped()
         rail = 0.5 * float(np.abs(force).max())
         runs.append(replace(run, record=run.record.replaced(pad_C_Fx=np.clip(force, -rail, rail))))
     clipped = replace(campaign, runs=tuple(runs))
-    whole, spoiled = mended(clipped, sample_faults(clipped))
-    ready = fit_runs(whole, spoiled)
+    whole, invalid = for_fits(clipped, sample_faults(clipped))
+    ready = fit_runs(whole, invalid)
     assert all(r.judged["pads"][:, 0].sum() > 1.5 * r.judged["pads"][:, 2].sum() for r in ready)
     specimen, truth = campaign.specimen, made.truth.as_dict()["settings"]
     fitted = {"rig.mass": truth["mass"], "rig.centre_height": truth["h"], "rig.buffer_stiffness": 2.0 * truth["Kb"]}

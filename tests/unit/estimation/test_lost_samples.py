@@ -13,10 +13,10 @@ def test_pitch_does_not_ring_with_samples_that_gauges_of_friction_have_lost() ->
     """At a reversal a held sample is off by kilonewtons, and pitch rings with it: by 8.6 noise variances once."""
     made = build_campaign(61, effects=(), rig="bridge2")
     gauges = tuple(f"pad_{p}_Fx" for p in "ABCD")
-    whole, spoiled, faults = prepared(
+    whole, invalid, faults = prepared(
         as_campaign(with_faults(made, [Fault("dropped_samples", gauges, 0.06, "held")], 5))
     )
-    assert {f.channel for f in faults} == set(gauges)
-    base = fit_base(whole, None, spoiled)
+    assert {name for f in faults for name in f.channels} == set(gauges)
+    base = fit_base(whole, None, invalid)
     levels = summarised(base.problem, base.solution)
     assert all(levels.level("pitch", held_out=h) < 1.25 for h in (False, True))

@@ -1,0 +1,101 @@
+"""Records without the harm that bad samples do: balances leave rows out, fits leave samples out.
+
+A wrong sign is turned back in both. A balance looks at all channels at one instant, so that one bad sample costs a row;
+a fit judges channel by channel.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from slipwise.campaign import Campaign
+from slipwise.campaign.aligned import spread
+from slipwise.channels import VELOCITY_CHANNELS
+from slipwise.instruments.sample_faults import RAILS, SampleFault
+from slipwise.record import Record
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+#: run -> channel -> samples (n,) at which the channel is no measurement.
+InvalidSamples = Mapping[str, Mapping[str, Mask]]
+#: Invalid before and after a bad sample; more where the velocity is made of the channel [samples].
+_REACH, _REACH_OF_MOTION = 6, 40
+#: Rows left out before and after a rail or a gap [s].
+_AROUND = 0.03
+
+
+def for_balances(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[dict[str, Record], dict[str, Mask]]:
+    """Give records in which bad samples do no harm to the balances, and the samples to leave out, by run.
+
+    Wrong signs are turned back, repeated samples bridged; around rails and gaps rows are left out; a channel that is
+    dead, or has lost samples and so its place in time, is taken out.
+    """
+    records, out = {}, {}
+    for run in campaign.runs:
+        channels = dict(_with_signs(run.record, faults).channels)
+        leave = np.zeros(len(run.record), dtype=bool)
+        for fault in faults:
+            bad = fault.bad.get(run.name)
+            if bad is None:
+                continue
+            if fault.kind in (*RAILS, "gap"):
+                leave |= bad
+            for name in fault.channels:
+                if fault.kind == "held" and name in channels:
+                    channels[name] = bridged(channels[name], bad)
+        for fault in faults:
+            if fault.kind in ("lost", "dead"):
+                for name in fault.channels:
+                    channels.pop(name, None)
+        reach = max(int(_AROUND / run.record.dt), 1)
+        records[run.name] = Record(run.record.time, channels, run.record.provenance)
+        out[run.name] = spread(leave, reach, reach) if leave.any() else leave
+    return records, out
+
+
+def for_fits(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[Campaign, InvalidSamples]:
+    """Turn wrong signs back, bridge repeated samples, and tell which samples of each channel must not be judged.
+
+    Args:
+        campaign: as recorded.
+        faults: found in it.
+    """
+    records: dict[str, Record] = {}
+    invalid: dict[str, dict[str, Mask]] = {}
+    for run in campaign.runs:
+        record, found = _with_signs(run.record, faults), dict[str, Mask]()
+        for name in dict.fromkeys(name for fault in faults for name in fault.channels if name in record):
+            values = run.record[name]
+            own = [fault for fault in faults if name in fault.channels and fault.kind in (*RAILS, "held", "lost")]
+            if not own:
+                continue
+            bad = np.any([_bad_samples(fault, run.name, values) for fault in own], axis=0)
+            if all(fault.kind not in RAILS for fault in own):
+                between = np.interp(record.time, record.time[~bad], record[name][~bad])
+                record = record.replaced(**{name: between})
+            reach = _REACH_OF_MOTION if name in VELOCITY_CHANNELS else _REACH
+            found[name] = np.convolve(bad, np.ones(2 * reach + 1), mode="same") > 0.5
+        records[run.name] = record
+        invalid[run.name] = found
+    return replace(campaign, runs=tuple(replace(r, record=records[r.name]) for r in campaign.runs)), invalid
+
+
+def _with_signs(record: Record, faults: Sequence[SampleFault]) -> Record:
+    wrong = [name for fault in faults if fault.kind == "turned" for name in fault.channels if name in record]
+    return record.replaced(**{name: -record[name] for name in wrong})
+
+
+def _bad_samples(fault: SampleFault, run: str, values: Array) -> Mask:
+    """Give the samples (n,) that are no measurement; of a channel that lost some, those that repeat the one before."""
+    if fault.kind == "lost":
+        return np.concatenate([[False], values[1:] == values[:-1]])
+    return fault.bad.get(run, np.zeros(len(values), dtype=bool))
+
+
+def bridged(values: Array, bad: Mask) -> Array:
+    """Give the values with bad samples interpolated between their good neighbours, by cubic splines."""
+    good = np.flatnonzero(~bad)
+    return np.where(bad, CubicSpline(good, values[good])(np.arange(len(values))), values)
