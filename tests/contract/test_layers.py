@@ -30,7 +30,7 @@ ARROWS: dict[str, str] = {
     "estimation": (
         "campaign channels effects errors instruments model parallel record rig signals statistics simulation"
     ),
-    "evidence": "campaign channels errors estimation record signals",
+    "evidence": "campaign channels errors estimation record signals statistics",
     "comparison": (
         "campaign channels effects errors estimation evidence instruments model model_file motion record"
         " shown signals statistics simulation"

@@ -18,6 +18,7 @@ from scipy.stats import chi2
 
 from slipwise.comparison.motion_states import STATES, MotionStates
 from slipwise.estimation.run_data import FitRun
+from slipwise.statistics.effective_samples import correlation_sum
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -216,7 +217,7 @@ def _round(value: float) -> float:
 
 def _spread(parts: Sequence[Array]) -> float:
     """Give the number of samples for one independent one: memory of the squared residual, and likeness of pads."""
-    memory, count, likeness = np.zeros(1), np.zeros(1), []
+    centred, likeness = [], []
     for part in parts:
         wide = part if part.ndim == 2 else part[:, None]
         judged = wide != 0.0
@@ -224,26 +225,13 @@ def _spread(parts: Sequence[Array]) -> float:
             continue
         # extremes would make every memory look short
         squares = np.minimum(wide**2, np.quantile(wide[judged] ** 2, 0.99))
-        squares = np.where(judged, squares - squares[judged].mean(), 0.0)
-        size = 2 * len(wide)
-        power = np.abs(np.fft.rfft(squares, size, axis=0)) ** 2
-        pairs = np.abs(np.fft.rfft(judged.astype(float), size, axis=0)) ** 2
-        longest = max(len(memory), len(wide))
-        memory = np.pad(memory, (0, longest - len(memory)))
-        count = np.pad(count, (0, longest - len(count)))
-        memory[: len(wide)] += np.fft.irfft(power, size, axis=0)[: len(wide)].sum(axis=1)
-        count[: len(wide)] += np.fft.irfft(pairs, size, axis=0)[: len(wide)].sum(axis=1)
+        centred.append(np.where(judged, squares - squares[judged].mean(), 0.0))
         if wide.shape[1] > 1:
-            together = np.corrcoef(squares.T)
+            together = np.corrcoef(centred[-1].T)
             likeness.append(float(np.mean(together[np.triu_indices(wide.shape[1], 1)])))
-    correlation = memory / np.maximum(count, 1.0)
-    correlation = correlation / max(correlation[0], 1e-300)
-    negative = np.flatnonzero(correlation < 0.02)
-    last = int(negative[0]) if len(negative) else len(correlation)
-    along = 1.0 + 2.0 * float(correlation[1:last].sum())
     pads = parts[0].shape[1] if parts[0].ndim == 2 else 1
     across = 1.0 + (pads - 1) * max(float(np.mean(likeness)), 0.0) if likeness else 1.0
-    return along * across
+    return correlation_sum(centred) * across
 
 
 def _spectrum(parts: Sequence[Array], steps: Sequence[float]) -> tuple[Array, Array]:

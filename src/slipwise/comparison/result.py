@@ -46,7 +46,7 @@ class Comparison(Drawn):
         system: the replays; None where there are none, see `cannot`.
         intervals: of the fitted numbers.
         surface: mu(P, V) with its band; None where no load is known.
-        predicted_friction: mean friction of every run, measured and said.
+        predicted_friction: mean friction of every run, measured and predicted.
         cells: every part of the samples that was looked at.
         patterns: mean residual over every state of motion.
         parities: relation -> odd and even part.

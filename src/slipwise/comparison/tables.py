@@ -62,7 +62,7 @@ def _parity(found: Comparison) -> list[dict[str, Any]]:
 
 
 def _predicted_friction(found: Comparison) -> list[dict[str, Any]]:
-    keys = ("run", "role", "measured", "said", "low", "high", "inside")
+    keys = ("run", "role", "measured", "value", "low", "high", "inside")
     return [{k: getattr(f, k) for k in keys} for f in found.predicted_friction]
 
 
@@ -118,7 +118,7 @@ def as_json(found: Comparison) -> dict[str, Any]:
     correlations: [{parameter, other, correlation}], the strongest first
     surface: {pressure, speed, friction, deviation}, mu(P, V), or null
     floor: [{relation, floor, near_reversals, unit, repeated_runs}]
-    predicted_friction: [{run, role, measured, said, low, high, inside}], mean friction of one pad while sliding
+    predicted_friction: [{run, role, measured, value, low, high, inside}], mean friction of one pad while sliding
     noise: {channels: [{channel, unit, level, stuck, near reversal, sliding, basis, correlation_time}], notes: in words}
     parity: [{relation, odd, even, plus, minus}]
     cells: [{relation, kind, label, low, high, error, samples, effective, chance, above}]

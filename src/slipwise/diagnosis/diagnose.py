@@ -12,7 +12,6 @@ from slipwise.diagnosis.cannot_tell import cannot_tell
 from slipwise.diagnosis.detectable_size import least_sizes
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.indistinguishable import alike_pairs
-from slipwise.diagnosis.predicted_friction import predicted_friction
 from slipwise.diagnosis.replays import replayed_errors
 from slipwise.diagnosis.reported_sizes import named_sizes
 from slipwise.diagnosis.result import Candidate, Diagnosis
@@ -23,6 +22,7 @@ from slipwise.effects import Effect
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import jacobian
+from slipwise.estimation.prediction_interval import PredictedFriction, predicted_friction
 from slipwise.evidence.materiality import material_drop, score
 from slipwise.evidence.residual_summary import error_of
 from slipwise.instruments.suspects import effect_of
@@ -89,13 +89,20 @@ def diagnose(
         relations=relations,
         system=replayed,
         candidates=_listed(selected, judged, verdict, final),
-        predicted_friction=predicted_friction(final),
+        predicted_friction=_predicted_friction(final),
         least=least_sizes([*state.screened, *state.opposed], state.path[0]),
         cannot_tell=tuple(cannot),
         search=state,
         final=final,
         seconds=time.perf_counter() - began,
     )
+
+
+def _predicted_friction(final: BaseFit) -> tuple[PredictedFriction, ...]:
+    """Give what is predicted of one slider's held-out runs; a girder's balances judge those sample by sample."""
+    if final.problem.balanced:
+        return ()
+    return tuple(found for found in predicted_friction(final) if found.inside is not None)
 
 
 def as_fit(base: BaseFit, found: Hypothesis, *, with_slopes: bool = True) -> BaseFit:

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from slipwise.diagnosis.predicted_friction import PredictedFriction
 from slipwise.diagnosis.rivals import explanations, partings
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.search_state import Search
@@ -14,6 +13,7 @@ from slipwise.diagnosis.unknown_surface import Surface
 from slipwise.diagnosis.verdict import Verdict
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Interval
+from slipwise.estimation.prediction_interval import PredictedFriction
 from slipwise.model import Model
 from slipwise.record import Record
 from slipwise.shown import Drawn, Tabular

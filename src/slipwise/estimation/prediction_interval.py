@@ -1,15 +1,19 @@
 """Is the mean friction of a run that no fit has seen predicted, within what one run differs from another?
 
-A fit's own interval is about its numbers; a run of another day, pressure or speed differs by more. How much, the fitted
-runs show: ratio r = measured / predicted of each, and for one further run (prediction interval of a normal sample)
+A fit's own interval is about its numbers; a run of another day, pressure or speed differs by more. How much is seen by
+what each fitted run is missed by (Stone 1974), and for one further run
 
-    said [mean(r) +- t(0.975, n - 1) std(r) sqrt(1 + 1/n)].
+    F +- t(0.975, n) sqrt[mean(e^2)],        e: measured less predicted mean friction of each of n fitted runs
 
-Source: Hahn & Meeker (1991), Statistical Intervals, section 4.7.
+Of one slider each run is left out in turn and the others are fitted: three loads are met by any law of three numbers,
+and what a fit leaves of them would flatter. A girder's runs are thousands of samples of several balances against some
+twenty numbers, so that what the fit leaves of a run is what a run is missed by.
+
+Source: Stone (1974), Journal of the Royal Statistical Society B 36:111-147; Hahn & Meeker, Statistical Intervals, 1991.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,22 +21,26 @@ from scipy.stats import t as student
 
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import COVERAGE
+from slipwise.estimation.least_squares import solve
+from slipwise.estimation.run_data import FitRun
 
 Array = NDArray[np.float64]
-#: Fitted runs below which their scatter is unknown.
+#: Fitted runs below which nothing is known of how runs differ.
 _LEAST_RUNS = 2
+#: Where a fit of all runs but one ends [1].
+_ENOUGH = 1.0
 
 
 @dataclass(frozen=True)
 class PredictedFriction:
-    """Mean friction of one pad while sliding, in one run.
+    """Mean friction of one pad against the slip, over the samples at which it slides, in one run.
 
     Attributes:
         run: name.
         role: "fit", "repeat" or "holdout".
-        measured: along the motion [N].
-        said: by the fitted law [N].
-        low: lower end of the 95 % interval for a run that was not fitted [N]; NaN for a fitted run, or where fewer than
+        measured: [N].
+        value: predicted by the fitted law [N].
+        low: lower end of the 95 % prediction interval of a held-out run [N]; NaN for a fitted run, or where fewer than
             two runs were fitted.
         high: upper end [N].
     """
@@ -40,7 +48,7 @@ class PredictedFriction:
     run: str
     role: str
     measured: float
-    said: float
+    value: float
     low: float
     high: float
 
@@ -49,36 +57,55 @@ class PredictedFriction:
         """Whether the measured value lies in the interval; None where there is none."""
         return None if np.isnan(self.low) else bool(self.low <= self.measured <= self.high)
 
+    @property
+    def words(self) -> str:
+        """Say it."""
+        predicted = f"{self.value:.3g} N"
+        if self.inside is None:
+            return f"{self.run}: mean friction {self.measured:.3g} N measured, {predicted} predicted, interval unknown"
+        where, interval = "inside" if self.inside else "outside", f"{predicted} ({self.low:.3g} to {self.high:.3g} N)"
+        return f"{self.run}: mean friction {self.measured:.3g} N measured, {where} what was predicted, {interval}"
 
-def predicted_friction(base: BaseFit) -> tuple[PredictedFriction, ...]:
+
+def predicted_friction(fit: BaseFit) -> tuple[PredictedFriction, ...]:
     """Give measured and predicted mean friction of every run that slides.
 
     Args:
-        base: a fit.
+        fit: of any model.
     """
-    problem = base.problem
-    means: list[tuple[float, ...] | None] = []
-    for run, said in zip(problem.runs, base.solution.residuals.pad_forces, strict=True):
-        kept = run.sliding & (run.velocity != 0.0)
-        along = np.sign(run.velocity[kept])[:, None]
-        both = (float(np.mean(f[kept] * along)) for f in (run.force, said)) if kept.any() else ()
-        means.append(tuple(both) or None)
-    scatter = [m[0] / m[1] for i in problem.fitted if (m := means[i]) is not None and m[1] != 0.0]
-    out = []
-    for i, run in enumerate(problem.runs):
-        mean = means[i]
-        if mean is None:
-            continue
-        ends = _ends(mean[1], scatter) if i in problem.held_out else (float("nan"), float("nan"))
-        out.append(PredictedFriction(run.name, run.role, mean[0], mean[1], *ends))
-    return tuple(out)
+    problem = fit.problem
+    measured = [_mean(run, run.force) for run in problem.runs]
+    predicted = [_mean(*both) for both in zip(problem.runs, fit.solution.residuals.pad_forces, strict=True)]
+    slid = [i for i in problem.fitted if np.isfinite(measured[i])]
+    half = float("nan")
+    if problem.held_out and len(slid) >= _LEAST_RUNS:
+        alone = not problem.balanced
+        misses = [measured[i] - (_predicted_without(fit, i) if alone else predicted[i]) for i in slid]
+        half = float(student.ppf(0.5 + COVERAGE / 2.0, len(misses)) * np.sqrt(np.mean(np.square(misses))))
+    return tuple(
+        PredictedFriction(
+            run.name,
+            run.role,
+            measured[i],
+            predicted[i],
+            *((predicted[i] - half, predicted[i] + half) if run.role == "holdout" else (float("nan"),) * 2),
+        )
+        for i, run in enumerate(problem.runs)
+        if np.isfinite(measured[i])
+    )
 
 
-def _ends(said: float, ratios: Sequence[float]) -> tuple[float, float]:
-    count = len(ratios)
-    if count < _LEAST_RUNS:
-        return float("nan"), float("nan")
-    reach = float(student.ppf(0.5 + COVERAGE / 2.0, count - 1) * np.std(ratios, ddof=1) * np.sqrt(1.0 + 1.0 / count))
-    middle = float(np.mean(ratios))
-    low, high = sorted((said * (middle - reach), said * (middle + reach)))
-    return low, high
+def _predicted_without(fit: BaseFit, place: int) -> float:
+    """Give the mean friction of a run when the law is fitted to the others [N]."""
+    problem = copy(fit.problem)
+    problem.runs = [replace(r, role="holdout") if i == place else r for i, r in enumerate(fit.problem.runs)]
+    # from rated values: where all runs led, two of them may leave the third predicted by heart
+    start = fit.solution.values | {f.key: f.start for f in fit.solution.free}
+    found = solve(problem, start, fit.solution.free, enough=_ENOUGH)
+    return _mean(problem.runs[place], found.residuals.pad_forces[place])
+
+
+def _mean(run: FitRun, force: Array) -> float:
+    """Give the mean of one pad's friction (n, p) against the slip while it slides [N]; NaN where it never does."""
+    kept = run.sliding & (run.velocity != 0.0)
+    return float(np.mean(force[kept] * np.sign(run.velocity[kept])[:, None])) if kept.any() else float("nan")

@@ -23,6 +23,7 @@ from slipwise.errors import SettingError
 from slipwise.record import Record
 from slipwise.signals import derivative, white_level
 from slipwise.signals.noise import quantum
+from slipwise.statistics.effective_samples import correlation_sum
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -37,7 +38,6 @@ _SAME = 0.95
 _MORE = 1.5
 #: A change of friction between two runs that is worth a word [1].
 _CHANGED = 0.01
-_HIGHEST_ORDER = 6
 #: Quiet stretches from which a level is taken: the calmest fifth [1].
 _CALMER = 0.2
 
@@ -52,7 +52,6 @@ class ChannelFloor:
         by_state: state -> level [SI]; NaN when that state has no basis.
         basis: state -> "repeat", "quiet stretch", "top of the spectrum" or the reason why the floor is unknown.
         rounding: what the steps of the channel contribute, step / sqrt(12) [SI].
-        autoregression: (p,) coefficients a_k of e_i = sum a_k e_(i-k) + white; empty for white noise.
         correlation_time: the sum over all lags of the noise's correlation, times the step [s]: dt for white noise.
     """
 
@@ -61,7 +60,6 @@ class ChannelFloor:
     by_state: Mapping[str, float]
     basis: Mapping[str, str]
     rounding: float
-    autoregression: tuple[float, ...]
     correlation_time: float
 
     @property
@@ -200,14 +198,13 @@ def _channel(
             by_state[state], basis[state] = lowest, source
         else:
             by_state[state], basis[state] = float("nan"), "no repeat, no quiet stretch and no signal-free band"
-    coefficients, times = _autoregression(still)
     rounding = quantum(states[0].record[name]) / np.sqrt(12.0)
-    return ChannelFloor(name, lowest, by_state, basis, float(rounding), coefficients, times * dt)
+    return ChannelFloor(name, lowest, by_state, basis, float(rounding), correlation_sum(still) * dt)
 
 
 def _unknown(name: str, why: str) -> ChannelFloor:
     nothing = float("nan")
-    return ChannelFloor(name, nothing, dict.fromkeys(STATES, nothing), dict.fromkeys(STATES, why), 0.0, (), nothing)
+    return ChannelFloor(name, nothing, dict.fromkeys(STATES, nothing), dict.fromkeys(STATES, why), 0.0, nothing)
 
 
 def _stretches(values: Array, quiet: Mask) -> list[Array]:
@@ -248,25 +245,3 @@ def _masks(one: States, other: States, count: int) -> dict[str, Mask]:
         "near reversal": one.near_reversal[:count] & other.near_reversal[:count],
         "sliding": one.sliding[:count] & other.sliding[:count],
     }
-
-
-def _autoregression(still: Sequence[Array]) -> tuple[tuple[float, ...], float]:
-    """Fit AR(p) to quiet stretches by Yule and Walker, order by BIC; give it and the sum of correlations over lags."""
-    if not still:
-        return (), 1.0
-    count = sum(len(x) for x in still)
-    lags = range(_HIGHEST_ORDER + 1)
-    covariance = np.array([sum(float(x[: len(x) - k] @ x[k:]) for x in still) / count for k in lags])
-    if covariance[0] <= 0.0:
-        return (), 1.0
-    best, chosen = count * np.log(covariance[0]), np.zeros(0)
-    for order in range(1, _HIGHEST_ORDER + 1):
-        matrix = covariance[np.abs(np.subtract.outer(np.arange(order), np.arange(order)))]
-        coefficients = np.linalg.solve(matrix, covariance[1 : order + 1])
-        variance = max(covariance[0] - float(coefficients @ covariance[1 : order + 1]), 1e-300)
-        cost = count * np.log(variance) + order * np.log(count)
-        if cost < best:
-            best, chosen = cost, coefficients
-    # variance of a mean of n samples is level^2 / n times this sum; for AR(p): (1 - sum a)^-2 var(white) / var
-    white = 1.0 - float(chosen @ covariance[1 : len(chosen) + 1]) / covariance[0]
-    return tuple(chosen.tolist()), float(white / max(1.0 - float(chosen.sum()), 1e-3) ** 2)

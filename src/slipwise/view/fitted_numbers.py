@@ -87,14 +87,15 @@ def predicted_runs(found: Comparison) -> list[Any]:
         {
             "run": f.run,
             "mean friction [N]": f"{f.measured:.4g}",
-            "the law says": f"{f.said:.4g}",
+            "the law says": f"{f.value:.4g}",
             "95 % interval": f"{f.low:.4g} to {f.high:.4g}",
             "inside": "yes" if f.inside else "no",
         }
         for f in held
     ]
     words = (
-        "Mean friction of one pad while it slides, in runs that the fit has not seen. The interval holds what the "
-        "fitted runs differ from the law by, one from another: with few or unlike runs it is wide."
+        "Mean friction of one pad while it slides, in runs that the fit has not seen. The interval is "
+        "what the fitted runs are missed by, those of one slider each when the others are fitted: with few or unlike "
+        "runs it is wide."
     )
     return [paragraph(words), table(rows)] if rows else []
