@@ -37,8 +37,8 @@ _REFITTED_PHYSICS = 2
 #: Mean squared residual of a base that is bent too far for a screen, and that no effect may leave then before a search
 #: from rated numbers [noise variance].
 _BENT, _FAR_FROM_NOISE = 1000.0, 30.0
-#: Most effects that are added, and how many of them before a logger that nobody knew is estimated anew.
-MOST_EFFECTS, _FIRST_EFFECTS = 3, 2
+#: Most effects that are added.
+MOST_EFFECTS = 3
 
 
 def search(
@@ -55,38 +55,16 @@ def search(
         progress: called with what is being done and the share done.
         before: from a base fit that was left for this one: where its first effect led, no fit may come from here.
     """
-    return completed(first_effects(base, own, progress, before), progress)
-
-
-def first_effects(
-    base: BaseFit,
-    own: Iterable[Effect] = (),
-    progress: Callable[[str, float], None] | None = None,
-    before: Search | None = None,
-) -> Search:
-    """Find the first effects, two at most, and look no further; arguments as `search`."""
     terms, cannot = candidates(base, own)
     tell = progress or _silent
     state = Search(base, cannot, terms, [], (base_hypothesis(base),))
     state = _screened(state, lambda share: tell("screening", 0.15 + 0.45 * share))
     tell("refitting", 0.6)
     state = _first(state, next((h for h in before.path if len(h.terms) == 1), None) if before else None)
-    return _onward(_reshaped(state), tell, _FIRST_EFFECTS)
-
-
-def completed(state: Search, progress: Callable[[str, float], None] | None = None) -> Search:
-    """Go on from the first effects to the hypothesis that is reported.
-
-    Args:
-        state: with the first effects.
-        progress: called with what is being done and the share done.
-    """
-    tell = progress or _silent
-    if len(state.best.terms) == _FIRST_EFFECTS:  # with fewer, nothing more was worth it
-        state = _onward(state, tell, MOST_EFFECTS)
+    state = _onward(_reshaped(state), tell)
     anew = _restarted_from_nominal(state)
     if anew is not None:
-        state = _onward(anew, tell, MOST_EFFECTS)
+        state = _onward(anew, tell)
     state = pruned(state)
     exchanged = _exchanged(state)
     if exchanged is not None:
@@ -102,9 +80,9 @@ def _silent(what: str, share: float) -> None:
     """Tell nobody."""
 
 
-def _onward(state: Search, tell: Callable[[str, float], None], most: int) -> Search:
+def _onward(state: Search, tell: Callable[[str, float], None]) -> Search:
     """Add effects to the first while one is material."""
-    while len(state.path) - 1 and len(state.best.terms) < most:
+    while len(state.path) - 1 and len(state.best.terms) < MOST_EFFECTS:
         tell("refitting", 0.7 + 0.1 * len(state.best.terms))
         further = _further(state)
         if further is None:

@@ -8,7 +8,6 @@ import numpy as np
 from slipwise.campaign import Campaign, Logger
 from slipwise.estimation.gauge_zero import free_zero
 from slipwise.estimation.least_squares import Solution, jacobian, slopes_of, solve
-from slipwise.estimation.logger_filter import estimated_logger
 from slipwise.estimation.parameters import (
     DAMPED_STICK,
     STICK_DAMPING,
@@ -22,8 +21,10 @@ from slipwise.estimation.parameters import (
 )
 from slipwise.estimation.problem import Problem
 from slipwise.estimation.run_data import fit_runs
+from slipwise.instruments.logger_spectrum import estimate_logger
 from slipwise.instruments.repairs import InvalidSamples
 from slipwise.model import Model, base_model
+from slipwise.signals import LowPass
 
 #: Noise near reversals depends on the fit and the fit on the noise: each is made anew, and every fit ends where a step
 #: promises less than this much of the squared residual. One halfwidth of an interval is worth four [1].
@@ -76,14 +77,15 @@ def fit_base(campaign: Campaign, model: Model | None = None, invalid: InvalidSam
         InputError: a run lacks what every fit needs.
     """
     model = model or base_model(campaign.specimen)
-    runs = fit_runs(campaign, invalid)
-    problem = Problem(runs, model.specimen, terms_of(model))
-    if campaign.logger.known or not model.specimen.free:  # of one slider no filter is told from a law
-        return _fitted(campaign, model, problem)
-    guessed = _roughly(problem, _free(campaign, model, problem), {})
-    known = replace(campaign, logger=Logger(estimated_logger(campaign, model, guessed), known=True))
-    problem = Problem(fit_runs(known, invalid), model.specimen, terms_of(model))
-    return _fitted(known, model, problem, guessed.values)
+    start: Mapping[str, float] = {}
+    if not campaign.logger.known and model.specimen.free:  # of one slider no filter is told from a law
+        estimated = estimate_logger(campaign).likeliest
+        if estimated is None:  # the usual kind, at the frequency that a fit finds beside the law
+            problem = Problem(fit_runs(campaign, invalid), model.specimen, terms_of(model))
+            start = _roughly(problem, _free(campaign, model, problem), {}).values
+            estimated = Logger(LowPass(start["rig.logger"]), known=True)
+        campaign = replace(campaign, logger=estimated)
+    return _fitted(campaign, model, Problem(fit_runs(campaign, invalid), model.specimen, terms_of(model)), start)
 
 
 def _free(campaign: Campaign, model: Model, problem: Problem) -> list[Free]:
@@ -105,9 +107,9 @@ def _roughly(problem: Problem, free: list[Free], start: Mapping[str, float]) -> 
     return solve(problem, values, free, most=6, enough=_TO_WEIGH)
 
 
-def _fitted(campaign: Campaign, model: Model, problem: Problem, start: Mapping[str, float] | None = None) -> BaseFit:
+def _fitted(campaign: Campaign, model: Model, problem: Problem, start: Mapping[str, float]) -> BaseFit:
     free = _free(campaign, model, problem)
-    solution = _roughly(problem, free, start or {})
+    solution = _roughly(problem, free, start)
     weighed = solution.values
     for enough in _ENOUGH:
         weighed = solution.values

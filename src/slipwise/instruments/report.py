@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from slipwise.campaign import Logger
 from slipwise.shown import Drawn, Tabular
 from slipwise.signals import LowPass
 
@@ -72,16 +73,18 @@ class LoggerEstimate:
     """What the data say of the logger's filter.
 
     Attributes:
-        lowpass: the filter, None when the data do not tell.
+        lowpass: the filter, None when the data do not tell it within the interval that matters.
         low: lower end of the 95 % interval of its frequency [Hz].
         high: upper end.
         why: how it was found, or why it was not.
+        likeliest: what a fit takes the logger for, sure or not; None where nothing is known of it.
     """
 
     lowpass: LowPass | None
     low: float
     high: float
     why: str
+    likeliest: Logger | None = None
 
 
 @dataclass(frozen=True, repr=False)
