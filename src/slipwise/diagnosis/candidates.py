@@ -5,10 +5,11 @@ from fnmatch import fnmatchcase
 
 import numpy as np
 
-from slipwise.effects import NEEDS, Effect, catalogue, moved_channels
+from slipwise.effects import NEEDS, Effect, catalogue
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.parameters import Term
 from slipwise.estimation.problem import Problem
+from slipwise.instruments.gauge_groups import places_of
 
 #: Loads are steady in each run when they differ between runs by this many times more than within one [1].
 _STEADY = 3.0
@@ -88,6 +89,10 @@ def _load_varies(problem: Problem) -> bool:
     return within or float(np.ptp(means)) > _STEADY_LOAD * float(means.max())
 
 
+#: Channels beside the pads' that the relations of a fit look at: what lies across, and the table's vertical motion, are
+#: held against others by the audit alone.
+LOOKED_AT = ("slip_x", "girder_ax", "girder_az", "table_ax")
+
 #: What effects need -> whether a campaign has it.
 HAS: dict[str, Callable[[Problem], bool]] = {
     "command": lambda problem: False,  # every fit is driven by the motion that was measured
@@ -101,45 +106,18 @@ HAS: dict[str, Callable[[Problem], bool]] = {
 }
 
 
-def groups(problem: Problem) -> dict[str, tuple[str, ...]]:
-    """Give the channels on which one fault may act together: a whole card, or one gauge."""
-    run = problem.runs[0]
-    out: dict[str, tuple[str, ...]] = {}
-    for kind in ("Fx", "N"):
-        names = tuple(f"pad_{p}_{kind}" for p in run.pads if f"pad_{p}_{kind}" in run.record)
-        if len(names) > 1:
-            out[f"pad_*_{kind}"] = names
-        out.update({n: (n,) for n in names})
-    singles = ("slip_x", "girder_ax", "girder_az", "table_ax")
-    out.update({n: (n,) for n in singles if n in run.record})
-    return out
-
-
 def _aimed(effect: Effect, problem: Problem) -> Iterator[Term]:
-    """Give a gauge's fault on every channel or card on which it means something."""
-    free, moved = problem.balanced, moved_channels(effect)
-    for group, targets in groups(problem).items():
-        cell = group.startswith("pad_")
-        if not moved.issuperset(targets) or not problem.runs[0].record.has_all(*_read(effect, targets)):
+    """Give a gauge's fault on every channel or card on which it means something to the relations of a fit."""
+    places = places_of(effect, problem.runs[0].record)
+    for place in sorted(places, key=lambda name: "*" not in name):
+        targets = places[place]
+        if any(name not in LOOKED_AT and not name.startswith("pad_") or name.endswith("_Fy") for name in targets):
             continue
         if effect.gauges.sits == "pads":
-            if group.endswith("_N") and len(targets) == len(problem.runs[0].pads):
+            if len(targets) == len(problem.runs[0].pads):
                 yield Term(effect, targets, "pad_*")
-        elif _sits(effect, targets, cell=cell) and (free or ((cell or group == "slip_x") and _alone(effect, targets))):
-            yield Term(effect, targets, group)
-
-
-def _read(effect: Effect, targets: Iterable[str]) -> list[str]:
-    """Give the other channels of the same cells that a fault needs."""
-    pairs = [(t, ending, other) for t in targets for ending, other in effect.gauges.reads.items()]
-    return [t.removesuffix(ending) + other for t, ending, other in pairs if t.endswith(ending)]
-
-
-def _sits(effect: Effect, targets: tuple[str, ...], *, cell: bool) -> bool:
-    """Tell whether a fault may sit on these gauges: zeros do not move alike, and a clock belongs to a card."""
-    if effect.gauges.sits == "alone":
-        return len(targets) == 1
-    return effect.gauges.sits != "card" or len(targets) > 1 or not cell
+        elif problem.balanced or ((place.startswith("pad_") or place == "slip_x") and _alone(effect, targets)):
+            yield Term(effect, targets, place)
 
 
 def _alone(effect: Effect, targets: Iterable[str]) -> bool:

@@ -8,9 +8,10 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from slipwise.channels import PADS, channel
-from slipwise.effects import Effect, catalogue, moved_channels
+from slipwise.effects import Effect, catalogue
 from slipwise.effects._fault import GaugeFault
 from slipwise.effects._gauges import span
+from slipwise.instruments.gauge_groups import places_of
 from slipwise.record import Record
 
 #: The table's vertical motion is tied to the girder only through the pads' springs: its faults must be larger [1].
@@ -78,18 +79,6 @@ def effect_of(kind: str) -> Effect:
     return next(e for e in catalogue().values() if e.fault and kind in e.fault.samples)
 
 
-def groups_of(record: Record) -> dict[str, tuple[str, ...]]:
-    """Give the channels, and the cards of four cells, that a fault may touch together."""
-    single = [n for n in record.channels if n.startswith(("slip_x", "slip_y", "girder_a", "table_a", "yaw"))]
-    single += [n for n in record.channels if n.startswith("pad_") and n[6:] in ("N", "Fx", "Fy")]
-    groups: dict[str, tuple[str, ...]] = {name: (name,) for name in single}
-    for kind in ("N", "Fx", "Fy"):
-        names = tuple(f"pad_{pad}_{kind}" for pad in PADS)
-        if record.has_all(*names):
-            groups[f"pad_*_{kind}"] = names
-    return groups
-
-
 def suspects(record: Record) -> list[Suspect]:
     """Give all suspects for the channels of a record."""
     faults = [e for e in catalogue().values() if e.fault and e.fault.least and e.hooks.keys() & {"undo", "sharpen"}]
@@ -97,20 +86,13 @@ def suspects(record: Record) -> list[Suspect]:
 
 
 def _of_effect(effect: Effect, record: Record) -> Iterator[Suspect]:
-    if effect.gauges.sits == "pads":
-        cells = [f"pad_{pad}_{kind}" for pad in PADS for kind in ("N", "Fx")]
-        if record.has_all(*cells, "table_ax", "table_az"):
-            channels = tuple(n for n in record.channels if n.startswith("pad_") and n[6:] in ("N", "Fx", "Fy"))
-            yield from _forms(effect, "all", "", channels)
-        return
-    moved = moved_channels(effect)
-    for place, channels in groups_of(record).items():
-        alone = len(channels) == 1
-        if not moved.issuperset(channels) or (effect.gauges.sits == "alone" and not alone):
-            continue
-        if effect.gauges.sits == "card" and alone and place.startswith("pad_"):
-            continue  # a clock belongs to a card
-        if not effect.gauges.reads:
+    for place, channels in places_of(effect, record).items():
+        if effect.gauges.sits == "pads":
+            cells = [f"pad_{pad}_{kind}" for pad in PADS for kind in ("N", "Fx")]
+            if record.has_all(*cells, "table_ax", "table_az"):
+                every = tuple(n for n in record.channels if n.startswith("pad_") and n[6:] in ("N", "Fx", "Fy"))
+                yield from _forms(effect, "all", "", every)
+        elif not effect.gauges.reads:
             yield from _forms(effect, place, place, channels)
         for ending, other in effect.gauges.reads.items():
             # with fewer than four cells no balance says whose reading it is
