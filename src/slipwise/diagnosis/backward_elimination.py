@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from slipwise.diagnosis.choice import is_delay, needless
+from slipwise.diagnosis.choice import has_delay_for_filter, needless
 from slipwise.diagnosis.hypothesis import Hypothesis, as_reported
 from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects
 from slipwise.diagnosis.search_state import Search, left_with, tried_before, try_one
@@ -73,7 +73,7 @@ def _simplified(state: Search) -> Search:
     origin, best = state.path[0].summary, state.best
     alike = [h for h in state.tried if len(h.terms) == len(best.terms) and set(h.names) != set(best.names)]
     plain = [h for h in alike if needless(h, best, origin)]
-    if is_delay(best):
+    if has_delay_for_filter(best):
         top = score(origin, best.summary)
         least = top - max(SAME_SCORE, _NO_FILTER * top)
         plain += [h for h in _with_delays(state, best) if score(origin, h.summary) > least]

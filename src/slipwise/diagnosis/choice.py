@@ -8,6 +8,7 @@ from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.screening import Screened
 from slipwise.evidence.materiality import MATERIAL, least_material_drop, material_drop, score
 from slipwise.evidence.residual_summary import ResidualSummary
+from slipwise.instruments.delay_or_filter import is_delay, passed
 
 #: What a constant of a law must be worth: the logarithm of some hundred thousand samples (Schwarz 1978).
 _PER_CONSTANT = 12.0
@@ -53,14 +54,11 @@ def _off_rated(found: Hypothesis) -> float:
     return abs(np.log(found.solution.values.get("rig.mass", rated) / rated))
 
 
-def is_delay(found: Hypothesis) -> bool:
+def has_delay_for_filter(found: Hypothesis) -> bool:
     """Tell whether a hypothesis has a filter that takes nothing the logger's own let through: a delay by its name."""
-    filters = [t for t in found.terms if "corner" in t.effect.hooks]
-    if not filters:
-        return False
     run = found.problem.runs[0]
-    most = run.filtered.frequency if run.filtered else 0.5 / run.dt
-    return any(t.effect.hooks["corner"](**found.values_of(t)) > most for t in filters)
+    highest = passed(run.filtered, run.dt)
+    return any(is_delay(t.effect, found.values_of(t), highest) for t in found.terms)
 
 
 def material_alone(origin: Hypothesis, found: Hypothesis) -> bool:

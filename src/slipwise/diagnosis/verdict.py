@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from slipwise.diagnosis.choice import is_delay, material_alone, needless
+from slipwise.diagnosis.choice import has_delay_for_filter, material_alone, needless
 from slipwise.diagnosis.forward_selection import MOST_EFFECTS
 from slipwise.diagnosis.hypothesis import Hypothesis, constant_at_bound, strength_at_bound
 from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects, parted
@@ -189,7 +189,9 @@ def _rivals(state: Search, best: Hypothesis) -> tuple[Hypothesis, ...]:
     for h in state.tried:
         if len(h.terms) != len(best.terms) or set(h.names) == set(best.names):
             continue
-        if (constant_at_bound(h) and not constant_at_bound(best)) or (is_delay(h) and not is_delay(best)):
+        if (constant_at_bound(h) and not constant_at_bound(best)) or (
+            has_delay_for_filter(h) and not has_delay_for_filter(best)
+        ):
             continue
         if needless(best, h, origin.summary):
             continue

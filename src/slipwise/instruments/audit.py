@@ -10,6 +10,7 @@ from slipwise.effects import catalogue
 from slipwise.effects._gauges import span
 from slipwise.instruments.acceptance import Evidence
 from slipwise.instruments.balances import relations
+from slipwise.instruments.delay_or_filter import passed
 from slipwise.instruments.forward_selection import judge
 from slipwise.instruments.joint_fit import KNOWN_MASS, RATED_MASS, Case, Fit, start
 from slipwise.instruments.logger_spectrum import estimate_logger
@@ -46,7 +47,9 @@ def audit(campaign: Campaign) -> AuditReport:
     plain = AuditReport(campaign.name, tuple(findings), (), (), {}, logger, tuple(cannot), tuple(notes))
     if not any(relation.accuses and relation.rows in ("moving", "inner") for relation in held):
         return plain
-    case = Case(runs, held, campaign.specimen, noise, mass_error)
+    likeliest = campaign.logger if logger is None else logger.likeliest
+    highest = passed(likeliest.every if likeliest else None, clean.runs[0].record.dt)
+    case = Case(runs, held, campaign.specimen, noise, mass_error, highest)
     first = start(case)
     verdict = judge(case, first)
     findings += [_of_evidence(evidence) for evidence in verdict.accepted]

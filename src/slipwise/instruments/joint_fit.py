@@ -55,6 +55,7 @@ class Case:
         specimen: rated.
         noise: a sample of the noise of each run's channels.
         mass_error: how far the mass may be from the specimen's [1].
+        passed: highest frequency that reached the records [Hz].
     """
 
     runs: list[Held]
@@ -62,6 +63,7 @@ class Case:
     specimen: Specimen
     noise: Sequence[Mapping[str, Array]]
     mass_error: float
+    passed: float
 
     def mended(self, model: Model, *, noisier: bool = False) -> list[Held]:
         """Give the runs without the faults of a model; with more noise, where noise is to be followed."""
