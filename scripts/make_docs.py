@@ -38,10 +38,10 @@ def effects_index() -> str:
     return (
         f"{_MADE}# Effects\n\nWhat a model can lack. Each effect is one file in `src/slipwise/effects/`; at its "
         "neutral value it changes nothing. `slipwise effects NAME` prints the same in a terminal, and an effect of "
-        "your own competes by `--effect ./mine.py`. In the equations x is the slip, v its rate, V the speed, N the load "
-        "of a pad, P its pressure, F its friction, mu = F/N, F_b the force of the buffers, y what a gauge reads; side_x "
-        "and side_y are ±1 by the place of a pad, b_x and b_y half the distances of the pads, and `*=`, `+=` mean that "
-        f"the effect scales or adds to what was there before it.\n\n{effects_table()}"
+        "your own competes by `--effect ./mine.py`. In the equations x is the slip, v its rate, V the speed, N the "
+        "load of a pad, P its pressure, F its friction, mu = F/N, F_b the force of the buffers, y what a gauge reads; "
+        "side_x and side_y are ±1 by the place of a pad, b_x and b_y half the distances of the pads, and `*=`, `+=` "
+        f"mean that the effect scales or adds to what was there before it.\n\n{effects_table()}"
     )
 
 
