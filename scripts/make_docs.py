@@ -118,10 +118,10 @@ def command_line_page() -> str:
     ]
     commands: dict[str, Any] = getattr(typer.main.get_command(app), "commands", {})
     for name, command in commands.items():
-        options = [[_written(p), getattr(p, "help", "") or ""] for p in command.params]
+        options = [[_written(p), getattr(p, "help", "") or "", _default(p)] for p in command.params]
         parts += [f"## {name}", command.help or ""]
         if options:
-            parts.append(_table(["argument", "meaning"], options))
+            parts.append(_table(["argument", "meaning", "default"], options))
     return "\n\n".join(parts) + "\n"
 
 
@@ -167,7 +167,7 @@ def _readable(figure: Figure) -> Figure:
     elif np.ptp(added) < _NOTHING * largest:
         below.set_ylim(min(0.0, 2.0 * added[0]), max(0.0, 2.0 * added[0]))
     below.ticklabel_format(axis="y", useOffset=False)
-    above.set_title(textwrap.fill(above.get_title(), 70), fontsize=9.0, fontweight="normal")
+    above.set_title("")  # the equation stands above the picture already
     for axes, width in ((above, 26), (below, 20)):
         axes.set_ylabel(textwrap.fill(axes.get_ylabel(), width))
     return figure
@@ -197,6 +197,14 @@ def _written(argument: Any) -> str:
     if not argument.opts[0].startswith("-"):
         return f"`{argument.name.upper()}`"
     return ", ".join(f"`{option}`" for option in (*argument.opts, *argument.secondary_opts))
+
+
+def _default(argument: Any) -> str:
+    """Give what holds if an option is not given; nothing for a switch that is off, and for what has no default."""
+    value = argument.default
+    if value is True:
+        return f"`{argument.opts[0]}`"
+    return f"`{value}`" if isinstance(value, str | int | float | Path) and value not in (False, "") else ""
 
 
 def _number(value: float | None) -> str:
