@@ -7,8 +7,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-#: A table with as many columns is folded into cards where the screen is narrow.
-_WIDE = 4
+#: A table with as many columns, or with one of this name, is folded into cards where the screen is narrow.
+_WIDE, _FOLDED = 4, "default"
 
 
 @cache
@@ -42,7 +42,7 @@ def on_page_content(html: str, **_: Any) -> str:
 
 def _folding(table: str) -> str:
     heads = [re.sub(r"<[^>]+>", "", head) for head in re.findall(r"<th[^>]*>(.*?)</th>", table, re.DOTALL)]
-    if len(heads) < _WIDE:
+    if len(heads) < _WIDE and _FOLDED not in heads:
         return table
 
     def row(found: re.Match[str]) -> str:
