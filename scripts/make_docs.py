@@ -7,15 +7,19 @@ A page for every effect with its picture, and the page of the command line, are 
 """
 
 import json
+import re
 import sys
+import textwrap
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import typer
+from matplotlib.figure import Figure
 
 from slipwise.cli import app
-from slipwise.effects import catalogue
+from slipwise.effects import Effect, base_effects, catalogue
 from slipwise.record import write_text
 from slipwise.view.canvas import save_figure
 from slipwise.view.effects import effect_picture, effect_rows, effects_table
@@ -23,6 +27,10 @@ from slipwise.view.style import styled
 
 DOCS = Path(__file__).parents[1] / "docs"
 _MADE = "<!-- made by scripts/make_docs.py -->\n\n"
+#: What an effect adds counts as nothing below this share of what it is added to [1].
+_NOTHING = 1e-6
+#: Symbols that begin a sentence stay as they are.
+_SYMBOLS = ("mu", "dmu")
 
 
 def effects_index() -> str:
@@ -30,15 +38,20 @@ def effects_index() -> str:
     return (
         f"{_MADE}# Effects\n\nWhat a model can lack. Each effect is one file in `src/slipwise/effects/`; at its "
         "neutral value it changes nothing. `slipwise effects NAME` prints the same in a terminal, and an effect of "
-        f"your own competes by `--effect ./mine.py`.\n\n{effects_table()}"
+        "your own competes by `--effect ./mine.py`. In the equations x is the slip, v its rate, V the speed, N the "
+        "load of a pad, P its pressure, F its friction, mu = F/N, F_b the force of the buffers, y what a gauge reads; "
+        "side_x and side_y are ±1 by the place of a pad, b_x and b_y half the distances of the pads, and `*=`, `+=` "
+        f"mean that the effect scales or adds to what was there before it.\n\n{effects_table()}"
     )
 
 
 def linked(index: str) -> str:
-    """Let every name in the list of effects lead to its page, which is there in the site only."""
+    """Let every name in the list lead to its page and every component be a heading: in the site only."""
+    index = re.sub(r"^\*\*(.+)\*\*$", r"## \1", index, flags=re.MULTILINE)
     for name in catalogue():
-        index = index.replace(f"| `{name}` |", f"| [`{name}`]({name}.md) |")
-    return index
+        index = index.replace(f"`{name}`", f"[`{name}`]({name}.md)")
+    # the site's Markdown shows the backslash that GitHub's needs before a bar in code
+    return re.sub(r"`[^`\n]*`", lambda found: found[0].replace("\\|", "|"), index)
 
 
 def effect_page(row: dict[str, Any]) -> str:
@@ -61,8 +74,11 @@ def effect_page(row: dict[str, Any]) -> str:
     target = f", on one {row['target']}" if row["target"] else ""
     parts = [
         f"# {name}\n\n{row['summary']}\n\n```text\n{row['equation']}\n```",
-        f"Acts on port `{row['port']}`{target}; in a verdict it belongs to *{row['component']}*.",
+        f"It acts on [port](../contributing.md#ports) `{row['port']}`{target}; in a verdict it belongs to "
+        f"*{row['component']}*.",
         f"![What {name} does at typical size, and below what it adds](pictures/{name}.png)",
+        "*At typical size on Bridge 1 with the paper's law: slip of 10 mm at 1.25 Hz along x and 1 mm across, 1.5 m/s² "
+        f"at 5 Hz upwards.{_added(catalogue()[name])}*",
     ]
     if parameters:
         heads = ["parameter", "meaning", "unit", "typical", "lowest", "highest", "neutral", "source"]
@@ -71,7 +87,7 @@ def effect_page(row: dict[str, Any]) -> str:
         f"## How it shows\n\n{_sentence(row['signature'])}",
         "## What it is confused with",
         _table(["effect", "what tells them apart"], rivals) if rivals else "Nothing known.",
-        f"## Valid\n\n{_sentence(row['valid'])}\n\n## Source\n\n{_sentence(row['source'])}",
+        f"## Range of validity\n\n{_sentence(row['valid'])}\n\n## Source\n\n{_sentence(row['source'])}",
     ]
     return "\n\n".join(parts) + "\n"
 
@@ -102,10 +118,10 @@ def command_line_page() -> str:
     ]
     commands: dict[str, Any] = getattr(typer.main.get_command(app), "commands", {})
     for name, command in commands.items():
-        options = [[_written(p), getattr(p, "help", "") or ""] for p in command.params]
+        options = [[_written(p), getattr(p, "help", "") or "", _default(p)] for p in command.params]
         parts += [f"## {name}", command.help or ""]
         if options:
-            parts.append(_table(["argument", "meaning"], options))
+            parts.append(_table(["argument", "meaning", "default"], options))
     return "\n\n".join(parts) + "\n"
 
 
@@ -127,11 +143,40 @@ def write_site_pages() -> list[str]:
         name = row["name"]
         _write(DOCS / "effects" / f"{name}.md", effect_page(row))
         picture = DOCS / "effects" / "pictures" / f"{name}.png"
-        if not picture.is_file() or picture.stat().st_mtime < catalogue()[name].path.stat().st_mtime:
+        newest = max(path.stat().st_mtime for path in (catalogue()[name].path, Path(__file__)))
+        if not picture.is_file() or picture.stat().st_mtime < newest:
             with styled():
-                save_figure(effect_picture(catalogue()[name]), picture)
+                save_figure(_readable(effect_picture(catalogue()[name])), picture)
         pages.append(f"effects/{name}.md")
     return pages
+
+
+def _readable(figure: Figure) -> Figure:
+    """Keep the legend off the curves, and let an axis of what is constant, or nothing, be read."""
+    above, below = figure.axes
+    handles, labels = above.get_legend_handles_labels()
+    legend = above.get_legend()
+    if legend is not None:
+        legend.remove()
+    figure.legend(handles, labels, loc="outside lower center", ncols=2)
+    added = np.asarray(below.lines[0].get_ydata(), dtype=float)
+    largest, size = float(np.abs(added).max()), float(np.abs(np.asarray(above.lines[0].get_ydata(), dtype=float)).max())
+    if largest < _NOTHING * size:
+        below.lines[0].set_ydata(np.zeros_like(added))
+        below.set_ylim(-0.01 * size, 0.01 * size)
+    elif np.ptp(added) < _NOTHING * largest:
+        below.set_ylim(min(0.0, 2.0 * added[0]), max(0.0, 2.0 * added[0]))
+    below.ticklabel_format(axis="y", useOffset=False)
+    above.set_title("")  # the equation stands above the picture already
+    for axes, width in ((above, 26), (below, 20)):
+        axes.set_ylabel(textwrap.fill(axes.get_ylabel(), width))
+    return figure
+
+
+def _added(effect: Effect) -> str:
+    """Say where the lower curve is nothing, and why."""
+    springs = {e.name for e in base_effects("springs")}
+    return " The base model's pads are these springs, so nothing is added." if effect.name in springs else ""
 
 
 def _write(path: Path, text: str) -> None:
@@ -154,11 +199,22 @@ def _written(argument: Any) -> str:
     return ", ".join(f"`{option}`" for option in (*argument.opts, *argument.secondary_opts))
 
 
+def _default(argument: Any) -> str:
+    """Give what holds if an option is not given; nothing for a switch that is off, and for what has no default."""
+    value = argument.default
+    if value is True:
+        return f"`{argument.opts[0]}`"
+    return f"`{value}`" if isinstance(value, str | int | float | Path) and value not in (False, "") else ""
+
+
 def _number(value: float | None) -> str:
     return "" if value is None else f"{value:g}"
 
 
 def _sentence(words: str) -> str:
+    first = re.match(r"[a-z]{2,}(?=[- ,;.]|$)", words)
+    if first and first[0] not in _SYMBOLS:
+        words = words[0].upper() + words[1:]
     return words if words.endswith(".") else f"{words}."
 
 

@@ -1,10 +1,14 @@
-"""What `mkdocs` does before it builds: write the site's own pages, and list the effects in the navigation."""
+"""What `mkdocs` does before it builds: write the site's own pages, list the effects, let wide tables fold up."""
 
 import importlib.util
+import re
 from functools import cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any
+
+#: A table with as many columns, or with one of this name, is folded into cards where the screen is narrow.
+_WIDE, _FOLDED = 4, "default"
 
 
 @cache
@@ -29,3 +33,20 @@ def on_config(config: Any) -> Any:
 def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
     """Let the list of effects lead to their pages."""
     return _make_docs().linked(markdown) if page.file.src_uri == "effects/index.md" else markdown
+
+
+def on_page_content(html: str, **_: Any) -> str:
+    """Write the head of its column beside every cell of a wide table, for the stylesheet to show on a narrow screen."""
+    return re.sub(r"<table>.*?</table>", lambda found: _folding(found[0]), html, flags=re.DOTALL)
+
+
+def _folding(table: str) -> str:
+    heads = [re.sub(r"<[^>]+>", "", head) for head in re.findall(r"<th[^>]*>(.*?)</th>", table, re.DOTALL)]
+    if len(heads) < _WIDE and _FOLDED not in heads:
+        return table
+
+    def row(found: re.Match[str]) -> str:
+        names = iter(heads)
+        return re.sub(r"<td", lambda _: f'<td data-head="{next(names)}"', found[0])
+
+    return re.sub(r"<tr>.*?</tr>", row, table, flags=re.DOTALL).replace("<table>", "<table data-wide>", 1)

@@ -105,7 +105,7 @@ class Comparison(Drawn):
 
         Args:
             table: audit, components, system, parameters, correlations, cells, places, parity, floor (by relation),
-                noise (floor by channel and state) or predicted.
+                noise (floor by channel and state) or predicted_friction.
 
         Raises:
             UnknownNameError: no such table.

@@ -6,7 +6,7 @@ The zero was taken under load, or not at all. S is the span of a usual gauge of 
 pad, 100 mm, 1 m/s, 2 g, 20 mrad), so that o reads as instrument makers write it: in per cent of full scale.
 
 Valid: below a few per cent of the span.
-Source: definition; spans in `_gauges`; size assumed.
+Source: definition; spans of usual gauges and size assumed.
 """
 
 from slipwise.effects._declared import Gauges

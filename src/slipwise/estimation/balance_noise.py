@@ -79,7 +79,7 @@ def heave_level(model: Model, run: FitRun, scale: Mapping[str, float]) -> float:
     Args:
         model: with the numbers of the fit.
         run: its gauges.
-        scale: of `fit.faults.noise_scale`, by which the balance is divided.
+        scale: of `measurement_model.noise_scale`, by which the balance is divided.
     """
     loads = float(np.linalg.norm(run.gauge_noise[1])) * scale.get("loads", 1.0)
     vertical = model.specimen.mass * run.noise.get("girder_az", 0.0) * scale.get("girder_az", 1.0)

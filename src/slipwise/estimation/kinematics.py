@@ -39,7 +39,7 @@ class Kinematics:
         lost: per run (f, p) velocity that the logger's filter took at reversals [m/s].
         bounds: per run (n, p) friction of the pads whichever way they slide [N]; what was measured until it is known.
         late: by which the slip gauge lags behind the accelerometers, as the fit was weighed [s].
-        around: values from which slopes are taken, where faults move noise in time; see `fit.faults.without`.
+        around: values from which slopes are taken, where faults move noise in time; see `measurement_model.without`.
     """
 
     runs: list[FitRun]
