@@ -77,6 +77,7 @@ def _problem(*gauges: str, held_out: bool) -> Problem:
     return problem
 
 
+@cache
 def base(*gauges: str, held_out: bool = True, **left: float) -> BaseFit:
     """Give a base fit of that campaign that leaves so much in each relation, and noise where nothing is said.
 
