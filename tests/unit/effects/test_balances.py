@@ -130,7 +130,7 @@ def test_keys_that_are_pressed_unlike_tip_the_girder() -> None:
 
 
 def test_keys_above_the_sliding_plane_turn_the_girder_by_their_force() -> None:
-    """physics.md 1.2: dN = -F_b z_b / (2 b) per pad."""
+    """docs/theory.md, section 1.2: a buffer at height z_b adds dN = -F_b z_b / (2 b) per pad."""
     left, _ = open_balances(base_model("bridge1").adding(use("buffer_height", height=0.2)))
     assert rms(left["pitch"]) < 1.1 * rms(base()["pitch"])
     record = shaken(base_model("bridge1").adding(use("buffer_height", height=0.366)), shaking(), dt=DT).record
