@@ -115,7 +115,7 @@ def left_by(
         of: the base fit.
         held_out: relation -> mean squared residual on held-out runs, where that is something else.
         values: key -> value where its parameters or the rig's are not typical.
-        over: state of a run (n,) on which depends what the pads have above noise; nothing foretells it if not given.
+        over: state of a run (n,) on which depends what the pads have above noise; no state predicts it if not given.
         left: relation -> mean squared residual [noise variance].
     """
     every = tuple(t if isinstance(t, Term) else Term(catalogue()[t]) for t in terms)

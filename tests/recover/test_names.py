@@ -29,8 +29,8 @@ def test_a_hidden_effect_is_named(tmp_path: Path, effect: str, seed: int, kind: 
     found = diagnose(tmp_path / "made")
     assert (found.verdict.kind, found.verdict.effects) == (kind, (effect,)), found.sentence
     assert found.final_error < found.base_error
-    said = json.loads(json.dumps(found.as_json(), allow_nan=False))
-    assert said["candidates"][0]["effect"].startswith(effect)
+    written = json.loads(json.dumps(found.as_json(), allow_nan=False))
+    assert written["candidates"][0]["effect"].startswith(effect)
 
 
 @pytest.mark.parametrize(

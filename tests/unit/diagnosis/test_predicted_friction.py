@@ -22,7 +22,7 @@ def slider(folder: Path, power: float) -> PredictedFriction:
 
 
 @pytest.mark.parametrize("power", [1.0, 0.5])
-def test_a_load_between_is_foretold_inside_the_interval(tmp_path: Path, power: float) -> None:
+def test_a_load_between_is_predicted_inside_the_interval(tmp_path: Path, power: float) -> None:
     found = slider(tmp_path, power)
     assert found.run == "between"
     assert found.measured == pytest.approx(1000.0 * 1.5**power, rel=0.02)
@@ -30,7 +30,7 @@ def test_a_load_between_is_foretold_inside_the_interval(tmp_path: Path, power: f
     assert "inside what was predicted" in found.words
 
 
-def test_a_law_that_fits_foretells_more_closely_than_one_that_does_not(tmp_path: Path) -> None:
+def test_a_law_that_fits_predicts_more_closely_than_one_that_does_not(tmp_path: Path) -> None:
     spans = []
     for power in (1.0, 0.2):
         folder = tmp_path / str(power)
@@ -40,5 +40,5 @@ def test_a_law_that_fits_foretells_more_closely_than_one_that_does_not(tmp_path:
     assert spans[0] < 0.1 < spans[1]
 
 
-def test_of_a_girder_nothing_is_foretold_by_its_mean() -> None:
+def test_of_a_girder_nothing_is_predicted_by_its_mean() -> None:
     assert predicted_friction(fit_base(as_campaign(build_campaign(45048, effects=())))) == ()

@@ -49,7 +49,7 @@ def test_one_early_reversal_in_each_run_is_no_structure() -> None:
     assert not structured(leftover(with_left(left_by(of=of, pads=1.5), "pads", left)))
 
 
-def test_the_noise_of_the_vertical_accelerometer_does_not_foretell_itself_in_heave() -> None:
+def test_the_noise_of_the_vertical_accelerometer_does_not_predict_itself_in_heave() -> None:
     of = base(heave=2.0)
     left = []
     for run in of.problem.runs:

@@ -22,7 +22,7 @@ def _judged(of: BaseFit, *tried: Hypothesis) -> Verdict:
 
 
 def _speed(run: FitRun) -> np.ndarray:
-    """A state that foretells what is left."""
+    """A state that predicts what is left."""
     return run.velocity
 
 
@@ -33,12 +33,12 @@ def test_a_model_that_leaves_noise_is_complete():
 
 
 @pytest.mark.parametrize("relation", ["pads", "girder", "roll"])
-def test_what_stands_far_above_the_noise_is_unknown_even_if_no_state_foretells_it(relation: str) -> None:
+def test_what_stands_far_above_the_noise_is_unknown_even_if_no_state_predicts_it(relation: str) -> None:
     found = _judged(base(**{relation: 12.0}))
     assert found.kind == "unknown" and found.surface is None
 
 
-def test_what_a_state_foretells_is_shown_over_that_state():
+def test_what_a_state_predicts_is_shown_over_that_state():
     of = base(pads=6.0)
     little = left_by("heating", of=of, pads=5.0, over=_speed)
     found = _judged(of, little)

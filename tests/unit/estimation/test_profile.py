@@ -52,16 +52,16 @@ class Line:
 
     def residuals(self, values, *, fitted_only=False):
         strength = values["heating.share"]
-        said = COLUMNS @ [values["rig.mass"], strength + self.bent * strength**2]
+        predicted = COLUMNS @ [values["rig.mass"], strength + self.bent * strength**2]
         steady = np.zeros((COUNT, 1))  # a force that does not change knows no timing
-        return Residuals({"pads": [(self.measured - said)[:, None]]}, [steady])
+        return Residuals({"pads": [(self.measured - predicted)[:, None]]}, [steady])
 
 
 def fitted(rng: np.random.Generator, truth: float, bent: float = 0.0) -> BaseFit:
     term = Term(find_effect("heating"))
     strength = Free("heating.share", 0.1, 0.0, 2.0, 0.1, "1")
-    said = COLUMNS @ [0.3, truth + bent * truth**2]
-    line = Line(said + SIGMA * rng.standard_normal(COUNT), term, bent)
+    predicted = COLUMNS @ [0.3, truth + bent * truth**2]
+    line = Line(predicted + SIGMA * rng.standard_normal(COUNT), term, bent)
     free = (LEVEL, strength)
     found = solve(line, {"rig.mass": 0.0, "heating.share": 0.1}, free, enough=1e-6)
     slopes = jacobian(line, found.values, free, found.residuals)
