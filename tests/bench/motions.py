@@ -54,7 +54,7 @@ def _ramps(time: Array, start: float, end: float, ramp: float) -> Array:
 
 
 def draw_sine(rig: str, rng: np.random.Generator, across: bool = False) -> Motion:
-    """Give a horizontal and a vertical sine of unlike frequency, away from the buffers' resonance (physics 1.4)."""
+    """Give a horizontal and a vertical sine of unlike frequency, away from the buffers' resonance."""
     natural = {"bridge1": 2.96, "bridge2": 2.39}.get(rig, 1.0)
     low = rng.uniform(0.52, 0.68) * natural
     high = rng.uniform(1.4, 1.75) * natural

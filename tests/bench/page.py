@@ -86,9 +86,9 @@ def _of(flags: Sequence[bool]) -> str:
 
 
 def _rates(results: Sequence[Result]) -> list[dict[str, str]]:
-    told = rates(list(map(dict, results)))
-    by_group = told.pop("exactly right")
-    every = {f"exactly right: {words}": by_group[name] for name, words in _GROUPS.items() if name in by_group} | told
+    shares = rates(list(map(dict, results)))
+    by_group = shares.pop("exactly right")
+    every = {f"exactly right: {words}": by_group[name] for name, words in _GROUPS.items() if name in by_group} | shares
     return [{"campaigns": name, "count": f"{count} of {total}"} for name, (count, total) in every.items()]
 
 

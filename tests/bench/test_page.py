@@ -68,8 +68,8 @@ def test_a_bench_without_a_mistake_says_so(results):
 
 
 def test_every_rate_has_a_row(results):
-    told = rates(results)["exactly right"]
-    assert set(told) <= set(_GROUPS)
+    shares = rates(results)["exactly right"]
+    assert set(shares) <= set(_GROUPS)
 
 
 def test_the_page_lists_what_is_wrong_and_what_lies_outside(results):

@@ -1,4 +1,4 @@
-"""The second simulator against closed forms and golden numbers of physics section 5.
+"""The second simulator against closed forms and golden numbers.
 
 Its stick is elastic over `stick_length`: 4 um in most campaigns, 1 um or less here where a closed form knows none.
 """
@@ -113,7 +113,7 @@ def test_coulomb_on_a_spring_answers_as_den_hartog_v5(ratio, friction, response)
     push = 0.113085 * settings.mass * GRAVITY / friction
     motion = steady_sine(frequency, push / settings.mass, 45)
     soft, stiff = (half_range(simulate(settings.changed(stick_length=u), motion), frequency) for u in (1e-6, 1e-7))
-    # the elastic stick's error goes with the root of its length (V8): taken out by Richardson's rule
+    # the elastic stick's error goes with the root of its length: taken out by Richardson's rule
     rigid = (np.sqrt(10.0) * stiff - soft) / (np.sqrt(10.0) - 1.0)
     assert rigid * settings.buffer_stiffness / push == pytest.approx(response, rel=2e-3)
 
@@ -131,7 +131,7 @@ def test_a_free_block_slides_as_far_as_v6():
         ("bridge2", 4.0, 0.5, 11.3766, 11.4747),
     ],
 )
-def test_golden_cases_v7_of_coulomb_and_of_the_papers_law(rig, frequency, peak, constant, paper):
+def test_golden_cases_of_coulomb_and_of_the_papers_law(rig, frequency, peak, constant, paper):
     motion = steady_sine(frequency, peak * GRAVITY, int(8 * frequency))
     law = simulate(rated(rig), motion)
     assert half_range(law, frequency) == pytest.approx(1e-3 * paper, rel=2e-3)

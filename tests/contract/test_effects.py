@@ -27,7 +27,7 @@ REACH = {
     "balance": {"balance *"}, "gauge": {"channels *"}, "undo": set(), "sharpen": set(), "disturb": set(),
 }  # fmt: skip
 
-#: design.md, section 7: these names are a contract.
+#: These names are a contract: users write them in model.toml, and diagnosis.json gives them.
 NAMES = """
 contact_area shear_rate breakaway presliding heating run_in rate_and_state pressure_law direction_asymmetry anisotropy
 position_patch pad_spread slide_tilt slide_curvature

@@ -46,7 +46,7 @@ def test_intervals_hold_the_truth_as_often_as_they_say():
 
 
 def test_strength_is_tied_to_slow_friction_and_to_saturation():
-    # physics 1.6: corr(s', alpha) = -0.94, corr(s', k) = -0.90 with pressures of 5 to 25 MPa and speeds up to 0.3 m/s.
+    # corr(s', alpha) = -0.94, corr(s', k) = -0.90 with pressures of 5 to 25 MPa and speeds up to 0.3 m/s.
     noisy = with_noise(sweep(4000), 0.0, 0.0, 0.02 * 2.8e3, np.random.default_rng(1))
     correlation = identify(noisy, AREA, TRUE).correlation
     assert correlation[0, 3] == pytest.approx(-0.94, abs=0.04)
@@ -54,7 +54,7 @@ def test_strength_is_tied_to_slow_friction_and_to_saturation():
 
 
 def test_a_small_swing_of_pressure_hides_k():
-    # physics 1.6: sd(k) is about four times larger with +-10 % than with 5 to 25 MPa.
+    # sd(k) is about four times larger with +-10 % than with 5 to 25 MPa.
     rms = 0.02 * 2.8e3
     wide, narrow = (
         identify(with_noise(sweep(800, low, high), 0.0, 0.0, rms, np.random.default_rng(2)), AREA, TRUE)

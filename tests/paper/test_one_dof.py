@@ -27,12 +27,11 @@ def half_range(model, spec):
      ("block", "sine:2Hz,0.3g,cycles=24", 15.0134e-3)],
 )  # fmt: skip
 def test_coulomb_friction_slides_as_far_as_an_event_driven_integrator_says(rig, spec, expected):
-    # V7 of the validation targets, column Coulomb.
     assert half_range(coulomb(rig, 0.113085), spec) == pytest.approx(expected, rel=2e-3)
 
 
 def test_the_papers_law_slides_as_far_as_with_rocking_because_rocking_cancels():
-    # V7, column eq. (7) with rocking, which one degree of freedom has not.
+    # Eq. (7); the rocking of the rig is what one degree of freedom has not.
     assert half_range(base_model("bridge1"), "sine:2Hz,0.3g,cycles=24") == pytest.approx(14.4045e-3, rel=3e-3)
 
 
@@ -77,7 +76,7 @@ def test_half_the_step_changes_little():
 
 
 def test_a_push_that_ends_leaves_it_stuck_within_the_band_of_alpha():
-    # V9: it stops where the buffers cannot overcome alpha N, |x| <= 1.303 mm.
+    # It stops where the buffers cannot overcome alpha N, |x| <= 1.303 mm.
     values = np.zeros((8000, 3))
     values[200:600, 0] = 0.6 * G
     answer = one_dof(base_model("bridge1"), TableMotion(5e-4, values, "a push", ("", "", "")))

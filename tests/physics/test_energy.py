@@ -1,4 +1,4 @@
-"""Energy closes (V10), whatever acts on the girder."""
+"""Energy closes, whatever acts on the girder."""
 
 from dataclasses import replace
 

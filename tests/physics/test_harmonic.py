@@ -1,4 +1,4 @@
-"""Harmonic shaking against closed forms and an event-driven integrator (V5, V6, V7, V9)."""
+"""Harmonic shaking against closed forms and an event-driven integrator; docs/theory.md, section 4."""
 
 from dataclasses import replace
 
@@ -31,7 +31,7 @@ def test_coulomb_reaches_the_event_driven_answer_within_half_a_percent(rig, freq
 
 @pytest.mark.parametrize(("mu", "amplitude", "frequency"), [(0.1, 0.5, 2.0), (0.1, 0.3, 2.0), (0.05, 0.4, 3.0)])
 def test_a_free_block_slides_as_its_closed_form_says(mu, amplitude, frequency):
-    # Continuous sliding (V6): half range sqrt(a0^2 - (pi mu g / 2)^2) / w^2, energy per cycle 4 mu m g x0.
+    # Continuous sliding: half range sqrt(a0^2 - (pi mu g / 2)^2) / w^2, energy per cycle 4 mu m g x0.
     replay = shaken(coulomb("block", mu), sine(frequency, amplitude * G, 16.0))
     expected = np.sqrt((amplitude * G) ** 2 - (np.pi * mu * G / 2) ** 2) / (2 * np.pi * frequency) ** 2
     window = last_cycles(replay, frequency)
@@ -65,7 +65,7 @@ def _den_hartog(r: float, ratio: float) -> float:
     ],
 )
 def test_a_girder_on_buffers_moves_as_den_hartog_says(r, ratio, table):
-    # V5: base motion of amplitude a0 = F / (ratio m); a low centre of gravity, as his oscillator does not rock.
+    # Base motion of amplitude a0 = F / (ratio m); a low centre of gravity, as his oscillator does not rock.
     assert _den_hartog(r, ratio) == pytest.approx(table, abs=1e-5)
     low = coulomb("bridge1", FAST, centre_height=0.01)
     amplitude = FAST * G / ratio
@@ -77,7 +77,7 @@ def test_a_girder_on_buffers_moves_as_den_hartog_says(r, ratio, table):
 
 
 def test_free_decay_loses_four_friction_forces_over_stiffness_per_cycle_and_keeps_its_period():
-    # V9: a kick of the table sets the girder swinging on its buffers.
+    # A kick of the table sets the girder swinging on its buffers.
     low = coulomb("bridge1", FAST, centre_height=0.01)
     dt = 1e-4
     acceleration = np.zeros((round(2.0 / dt), 3))

@@ -1,4 +1,4 @@
-"""The paper's law in its limits (V1)."""
+"""The paper's law in its limits."""
 
 import numpy as np
 import pytest

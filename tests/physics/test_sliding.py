@@ -1,4 +1,4 @@
-"""Free sliding, weight and rocking (V2, V3, V4, V11)."""
+"""Free sliding, weight and rocking."""
 
 from dataclasses import replace
 
@@ -43,7 +43,7 @@ def test_vertical_shaking_moves_the_loads_by_inertia_alone(rig):
 
 
 def closed_form(v0, rate=19.7):
-    """Stop time [s] and distance [m] of a block under eq. (7) without rocking (V3)."""
+    """Stop time [s] and distance [m] of a block under eq. (7) without rocking."""
     pressure = load_specimen("block").rated_pressure
     a1 = 1.379e6 * (1 - np.exp(-0.102e-6 * pressure)) * G / pressure
     d = a1 + 0.046 * G
@@ -81,7 +81,7 @@ def test_a_sliding_block_stops_when_and_where_eq7_says(v0):
     [("bridge1", 0.113069, 25.193, 23.840), ("bridge2", 0.113020, 25.869, 23.164)],
 )
 def test_while_it_slides_the_leading_pads_carry_more(rig, deceleration, leading, trailing):
-    # V4; without buffers and without P-delta (pads travel with the girder). The kick makes the girder nod on its
+    # Without buffers and without P-delta (pads travel with the girder). The kick makes the girder nod on its
     # pads at first: the mean over the slide counts.
     model = base_model(rig)
     specimen = replace(model.specimen, buffer_stiffness=(1e-3, 1e-3), pads_on="girder", pad_damping=3e5)
@@ -94,7 +94,7 @@ def test_while_it_slides_the_leading_pads_carry_more(rig, deceleration, leading,
 
 @pytest.mark.parametrize(("rig", "ratio"), [("bridge1", 0.122), ("bridge2", 0.244)])
 def test_a_pad_lifts_when_rocking_takes_its_whole_load(rig, ratio):
-    # V11: 2 (a/g)(h/b) = 1. Locked to the table by a huge friction, slowly shaken by a growing acceleration.
+    # docs/theory.md, section 4: 2 (a/g)(h/b) = 1, the girder locked to the table by a huge friction
     locked = coulomb(rig, 50.0)
     limit = 1.0 / (2.0 * ratio)
     t = np.arange(round(3.0 / 5e-4)) * 5e-4
@@ -118,7 +118,7 @@ def test_all_pads_lift_when_the_table_falls_away():
 
 @pytest.mark.parametrize("shift", [(0.05, 0.0), (0.0, 0.1), (-0.03, 0.07)])
 def test_an_eccentric_weight_loads_the_pads_as_statics_say(shift):
-    # V14: N_i = m g / 4 (1 +- x_c / (b/2) +- y_c / (l/2)).
+    # N_i = m g / 4 (1 +- x_c / (b/2) +- y_c / (l/2)).
     specimen = replace(load_specimen("bridge1"), centre_x=shift[0], centre_y=shift[1])
     sides = np.array([[1, 1], [-1, 1], [1, -1], [-1, -1]])
     expected = MASS * G / 4 * (1 + sides @ [shift[0] / 1.5, shift[1] / 2.5])
@@ -128,7 +128,7 @@ def test_an_eccentric_weight_loads_the_pads_as_statics_say(shift):
 
 
 def test_a_constant_friction_coefficient_gives_no_torque_about_an_eccentric_centre():
-    # V14: friction is then proportional to mass; eq. (7) is concave in N and turns the girder.
+    # Friction is then proportional to mass; eq. (7) is concave in N and turns the girder.
     turned = {}
     for name, model in {"coulomb": coulomb("block", FAST), "eq7": base_model("block")}.items():
         specimen = replace(model.specimen, centre_y=0.3, pads_on="girder", centre_height=1e-3)
@@ -138,7 +138,7 @@ def test_a_constant_friction_coefficient_gives_no_torque_about_an_eccentric_cent
 
 
 def test_warp_changes_no_motion_with_coulomb_friction_and_little_with_eq7():
-    # V15: seating moves load from one diagonal to the other; equilibrium does not see it.
+    # Seating moves load from one diagonal to the other; equilibrium does not see it.
     from shaking import half_range, sine
 
     motion = sine(2.0, 0.3 * G, 6.0)

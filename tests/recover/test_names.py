@@ -29,15 +29,15 @@ def test_a_hidden_effect_is_named(tmp_path: Path, effect: str, seed: int, kind: 
     found = diagnose(tmp_path / "made")
     assert (found.verdict.kind, found.verdict.effects) == (kind, (effect,)), found.sentence
     assert found.final_error < found.base_error
-    said = json.loads(json.dumps(found.as_json(), allow_nan=False))
-    assert said["candidates"][0]["effect"].startswith(effect)
+    written = json.loads(json.dumps(found.as_json(), allow_nan=False))
+    assert written["candidates"][0]["effect"].startswith(effect)
 
 
 @pytest.mark.parametrize(
     ("effect", "seed"),
     [
-        ("channel_delay", 50151),  # 0.87 ms: a filter of 260 Hz behind the logger's 100 Hz explained 0.24 % more
-        ("channel_filter", 53009),  # 75 Hz before the logger's 80 Hz: the base fit had bent the girder's pitch to it
+        ("channel_delay", 50151),  # 0.87 ms: a filter of that lag takes nothing that the logger's 100 Hz let through
+        ("channel_filter", 53009),  # 75 Hz, below the logger's 80 Hz: it takes something
     ],
 )
 def test_a_small_lag_is_called_a_filter_only_where_something_was_taken(tmp_path: Path, effect: str, seed: int) -> None:

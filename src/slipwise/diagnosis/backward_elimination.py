@@ -9,8 +9,7 @@ from slipwise.diagnosis.search_state import Search, left_with, tried_before, try
 from slipwise.evidence.materiality import SAME_SCORE, material, score
 from slipwise.parallel import on_every_core
 
-#: A filter that takes nothing is a delay though it explains more by this share: true delays lay 0.0024 behind one, and
-#: 0.015 behind filters that do take something [1].
+#: Share by which a delay may lie behind a filter that takes nothing: true delays lay 0.0024 behind, filters 0.015 [1].
 _NO_FILTER = 0.004
 #: What leaves so many times as much is not as good when it is weighed anew: of 14 such none changed by 1 % [1].
 _FAR_OFF = 3.0

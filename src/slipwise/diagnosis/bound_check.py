@@ -15,8 +15,7 @@ from slipwise.parallel import on_every_core
 _PARTS, _ENOUGH = (1.0, 0.25), 0.1
 #: Candidates that are looked at so.
 _LEADING = 12
-#: Where promises were not kept: a filter on a vertical gauge that loads 2.5 ms late would make up for, where they
-#: may be 0.15 ms late; a gauge at midspan that reads other noise however little the girder bends.
+#: Where promises are not kept: other numbers would have to leave their bounds, or only another gauge's noise is read.
 _PORTS = ("gauge", "girder")
 
 

@@ -20,8 +20,7 @@ from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.parameters import ZERO, Term
 
 Array = NDArray[np.float64]
-#: Two effects look alike when columns of theirs agree so well beside the base; one run gives 0.95, two with a long rest
-#: between them 0.6 to 0.8, and 0.9 where that rest is taken as none [1].
+#: Two effects look alike when their columns agree so well: one run gives 0.95, two after a long rest 0.8 at most [1].
 _ALIKE = 0.85
 #: Runs that are named one by one.
 _NAMED = 3

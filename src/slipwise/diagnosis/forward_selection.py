@@ -94,8 +94,7 @@ def _onward(state: Search, tell: Callable[[str, float], None]) -> Search:
 def _restarted_from_nominal(state: Search) -> Search | None:
     """Begin anew from the rated numbers where very much is left; None unless that leads to something better.
 
-    A base that is bent that far shows each effect as a straight line that leads elsewhere: a table that rocks by 3 mrad
-    was fitted with another pitch of the girder, a hundred floors off, and every fit from there ended beside the truth.
+    A base that is bent that far shows each effect as a straight line that leads elsewhere.
     """
     origin, best = state.path[0], state.best
     worst, left = (max(h.summary.level(r, held_out=False) for r in h.summary.fitted) for h in (origin, best))
@@ -146,9 +145,8 @@ def _first(state: Search, led: Hypothesis | None = None) -> Search:
 def _reshaped(state: Search) -> Search:
     """Begin a law of a place or a frequency anew from the whole grid of its constants where it leaves something.
 
-    Its fit may be in another valley: a patch that was begun at the wrong place became a wide dip beside the narrow rise
-    that was there. Lengths and times a fit finds from where the coarse grid has led it: of 15 such laws none was worth
-    more than 5 % more from three new starts, of 10 laws of a place or frequency three more than twice as much.
+    Its fit may be in another valley: of 10 laws of a place or frequency three were worth more than twice as much from
+    new starts, of 15 laws of a length or time none more than 5 % more.
     """
     best, origin = state.best, state.path[0]
     if not best.terms or all_down(best.summary):

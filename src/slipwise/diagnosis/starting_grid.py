@@ -7,8 +7,7 @@ import numpy as np
 from slipwise.effects import Effect
 from slipwise.params import Parameter
 
-#: Constants that only say at which value a law is neutral: free, they would be one with its strength. Nor are they
-#: moved on a grid: a law of pressure that began at a third of the rated pressure began with a slope at its bound.
+#: Constants that only say where a law is neutral: free, they are one with its strength; a grid puts that at a bound.
 REFERENCES: frozenset[str] = frozenset({"rated"})
 #: Most points of the grid over shape constants, and of the one over places that is looked at where a fit leaves some.
 _MOST_POINTS, _MOST_POINTS_AGAIN = 5, 60
@@ -44,8 +43,7 @@ def is_placed(effect: Effect) -> bool:
 def places(effect: Effect) -> list[dict[str, float]]:
     """Give the grid over where a law acts and how widely, where that is finer than its first; empty for other laws.
 
-    Its pure numbers stay typical, a fit finds them: of 24 patches and rocking tables that were begun anew, four were
-    fitted better by a grid over them too, by 0.07 % at most, and five worse.
+    Its pure numbers stay typical, a fit finds them: of 24 laws a grid over them too made none better by over 0.07 %.
     """
     whole = shapes(effect, _MOST_POINTS_AGAIN)
     if not is_placed(effect) or len(whole) <= len(shapes(effect)):

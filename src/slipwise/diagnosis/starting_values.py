@@ -25,7 +25,7 @@ def starts_of(chosen: Sequence[Screened], beside: Sequence[Term] = ()) -> list[S
 def beginnings(state: Search, chosen: Sequence[Screened], tried: Sequence[Hypothesis]) -> Iterator[list[Start]]:
     """Ask for effects beside those found, each time from elsewhere, for as long as the caller finds none of them good.
 
-    A screen saw them through a base that may be bent: softening rubber was begun in a valley that no fit could leave.
+    A screen saw them through a base that may be bent: a law may begin in a valley that no fit can leave.
 
     Args:
         state: of a search.

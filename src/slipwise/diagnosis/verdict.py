@@ -17,19 +17,15 @@ from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.instruments.sample_faults import SampleFault
 from slipwise.instruments.suspects import effect_of
 
-#: A right family explains this share of what the base left, whatever its exact form [1]: 0.87 and more on trials, most
-#: wrong ones 0.69 and less.
+#: A right family explains this share, whatever its form: 0.87 and more on trials, most wrong ones 0.69 and less [1].
 RIGHT_FAMILY = 0.70
-#: Up to the first share it is right as often as not, from the second on it is as sure as its lead says [1]: drags with
-#: the cube of speed passed for rate and state with 0.72 and 0.79, pre-sliding of a measured band brake explained 0.78.
+#: Right as often as not up to the first share, as sure as its lead from the second on: wrong laws reached 0.79 [1].
 _COIN_FAMILY, _SURE_FAMILY = 0.80, 0.92
 #: What it must explain when its strength has run against a bound: more of the same, not something else.
 STRAINED_FAMILY = 0.90
-#: What effects must explain that have one form only, geometry: curvature and inertia of cells in the place of friction
-#: that follows acceleration explained 0.96. Where they were right (36 campaigns), nothing with structure was left.
+#: The same for geometry, which has one form only: wrong ones reached 0.96, right ones left no structure (36 campaigns).
 EXACT_FAMILY = 0.98
-#: What two or more must explain: together they take many forms. 0.92 and more on the blind bench, the best wrong two
-#: 0.87.
+#: The same for two or more, which take many forms together: 0.92 and more on the blind bench, the best wrong two 0.87.
 SEVERAL_FAMILY = 0.90
 #: Below this drop of the mean squared residual the share is itself uncertain, and half is enough [noise variance].
 _SURE_SHARE = 1.0
@@ -228,8 +224,7 @@ def _margin(state: Search, best: Hypothesis) -> float:
 def _named_probability(margin: float, explained: float, best: Hypothesis, left: str) -> float:
     """Give the chance that these names are right; logistic in lead and share explained.
 
-    Like the other two, set on 495 campaigns of the blind bench: pairs were right in 42 of 44, what lies outside the
-    catalogue in 37 of 38, complete models in 167 of 167.
+    Like the other two, set on 495 campaigns of the blind bench.
     """
     lead = np.clip(margin, 0.0, 0.5)
     odds = 0.6 + 5.0 * lead / 0.5 + 2.0 * (np.clip(explained, 0.4, 1.0) - 0.7) / 0.3

@@ -30,13 +30,12 @@ from slipwise.signals import LowPass
 #: promises less than this much of the squared residual. One halfwidth of an interval is worth four [1].
 _ENOUGH = (1.0, 0.1)
 #: Both are made anew more often, so often at most, where the resonance of the girder's pitch has moved by more than
-#: this share of its width, and noise is louder there by more than this share of the squared residual: from 80 Hz to
-#: 54 Hz noise had counted as half as loud.
+#: this share of its width, and noise is louder there by more than this share of the squared residual.
 _MORE_ROUNDS, _AT_REST, _LOUDER = 3, 0.1, 0.02
 #: The same as a share of what is left above the noise: a law that is wrong needs no fine fit [1].
 _ROUGH = 1e-5
 #: Where a fit that is reported ends, and where one that is only to be weighed by [1]; both also at a share of what is
-#: left above the noise: a law that left 16 floors settled for four seconds and got nowhere.
+#: left above the noise: a law that is wrong needs no fine fit.
 _SETTLED, _TO_WEIGH, _MUCH_LEFT = 0.1, 50.0, 5e-4
 #: A stick longer than this share of the stroke is no detail of the rig [1].
 _STICK_SHARE = 0.01

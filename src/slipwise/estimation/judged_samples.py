@@ -21,8 +21,7 @@ _USES: dict[str, tuple[str, ...]] = {
 }
 #: Relations that ring on with what was before.
 _FROM_BEFORE = ("motion", "pitch")
-#: How far a cut through the motion is felt in the difference of slip and accelerometers: 300 noise variances in the
-#: first 20 ms, 20 after 50, none after 100 [s].
+#: How far a cut is felt in slip against accelerometers: 20 noise variances after 50 ms, none after 100 [s].
 _CUT = 0.12
 
 

@@ -38,8 +38,7 @@ _LAGS: dict[str, str] = {
 }
 #: The zero of a slider's friction gauge.
 ZERO = "rig.zero_force"
-#: A girder with weights on it is seldom rated for how hard it is to turn: 8 % more than rated left three floors in the
-#: pads where it yaws. Axis, and the shares of the rated value between which it may be.
+#: Axis, and the shares of the rated inertia between which it may be: 8 % more leave three floors in pads that yaw.
 YAW_INERTIA, PITCH_INERTIA = "rig.yaw_inertia", "rig.pitch_inertia"
 _INERTIAS: dict[str, tuple[int, tuple[float, float]]] = {YAW_INERTIA: (2, (0.6, 1.7)), PITCH_INERTIA: (1, (0.4, 3.0))}
 #: Slip over which a pad's friction turns round without any effect of its own [m]; longer than that it is `presliding`.

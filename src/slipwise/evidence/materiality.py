@@ -28,8 +28,7 @@ _UNTOUCHED = 0.05
 _NEARLY_ALL = 0.85
 #: Share of what is worth a name that a further step has reached where it is worth a fit to the end [1].
 _NEAR = 0.5
-#: What is really there spoils no relation: effects that were rightly named raised the mean squared residual of none by
-#: more than 0.012, curvature and inertia of cells that stood for friction which follows acceleration one by 0.08.
+#: What is really there worsens no relation: right effects raised none by more than 0.012, wrong ones one by 0.08.
 _WORSENED = 0.03
 #: Hypotheses whose scores differ by less than this much cannot be told apart [noise variance].
 SAME_SCORE = 60.0

@@ -3,7 +3,7 @@
     change of kinetic energy = work of the table's inertia forces and of gravity - friction - buffers + pads' contacts
 
 Every term is summed from forces and motions by the trapezoidal rule, as a laboratory would from its channels; what does
-not close is the error of the time step. Source: mechanics in the table's accelerated frame; docs/theory.md, section 4.
+not close is the error of the time step. Source: work and energy in a frame that moves with the table.
 """
 
 from dataclasses import dataclass

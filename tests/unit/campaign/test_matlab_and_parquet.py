@@ -73,14 +73,14 @@ def test_version_7_3_is_read_with_its_extra(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("content", "told"), [({"word": "hello", "n": 1.0}, "no vector or matrix"), (None, "not a readable MATLAB file")]
+    ("content", "message"), [({"word": "hello", "n": 1.0}, "no vector or matrix"), (None, "not a readable MATLAB file")]
 )
-def test_a_matlab_file_without_numbers_is_refused(tmp_path, content, told):
+def test_a_matlab_file_without_numbers_is_refused(tmp_path, content, message):
     path = tmp_path / "run.mat"
     path.write_bytes(b"no such thing " * 40)
     if content is not None:
         savemat(path, content)
-    with pytest.raises(InputError, match=told):
+    with pytest.raises(InputError, match=message):
         matlab_variables(path)
 
 
@@ -101,10 +101,10 @@ def test_a_parquet_column_of_words_is_no_channel(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("name", "told"),
+    ("name", "message"),
     [("run.xlsx", "no format of a data file; possible: .csv"), ("run.parquet", "not a readable parquet file")],
 )
-def test_a_format_that_cannot_be_read_says_which_ones_can(tmp_path, name, told):
+def test_a_format_that_cannot_be_read_says_which_ones_can(tmp_path, name, message):
     (tmp_path / name).write_bytes(b"PK\x03\x04 nothing")
-    with pytest.raises(InputError, match=told):
+    with pytest.raises(InputError, match=message):
         open_table(tmp_path / name)

@@ -66,7 +66,7 @@ def test_arithmetic_of_channels(campaign, expression, value):
 
 
 @pytest.mark.parametrize(
-    ("expression", "told"),
+    ("expression", "message"),
     [
         ("pad_A_N + slip_x", "adds"),
         ("pad_A_N * slip_x", "cannot be turned into 'N'"),
@@ -78,8 +78,8 @@ def test_arithmetic_of_channels(campaign, expression, value):
         ("__import__('os')", "."),
     ],
 )
-def test_arithmetic_that_makes_no_sense_is_refused_and_nothing_is_run_as_python(campaign, expression, told):
-    with pytest.raises(SlipwiseError, match=told) as caught:
+def test_arithmetic_that_makes_no_sense_is_refused_and_nothing_is_run_as_python(campaign, expression, message):
+    with pytest.raises(SlipwiseError, match=message) as caught:
         load_campaign(campaign(f'[derived]\npad_B_N = "{expression}"', ONE))
     assert "pad_B_N" in str(caught.value)
 
@@ -136,7 +136,7 @@ def test_windows_that_overlap_are_refused_as_copies(campaign):
 
 
 @pytest.mark.parametrize(
-    ("header", "error", "told"),
+    ("header", "error", "message"),
     [
         (HEADER.replace("[kN]", "[mm]", 1), UnitError, r"one\.csv, column 'pad_A_N \[mm\]'.*wrong dimension"),
         (HEADER.replace("[kN]", "[kNN]", 1), UnitError, r"'kNN' is not known"),
@@ -145,34 +145,34 @@ def test_windows_that_overlap_are_refused_as_copies(campaign):
         (HEADER.replace("pad_A_Fx", "pad_A_N"), InputError, r"pad_A_N stands in two columns.*number 3.*number 4"),
     ],
 )
-def test_a_header_that_cannot_be_used_names_file_column_and_cure(campaign, header, error, told):
-    with pytest.raises(error, match=told):
+def test_a_header_that_cannot_be_used_names_file_column_and_cure(campaign, header, error, message):
+    with pytest.raises(error, match=message):
         load_campaign(campaign(runs=ONE, one=text(slider(1), header)))
 
 
-def spoiled(row: int, column: int, value: float) -> str:
+def with_bad_value(row: int, column: int, value: float) -> str:
     table = slider(1)
     table[row, column] = value
     return text(table)
 
 
 @pytest.mark.parametrize(
-    ("content", "told"),
+    ("content", "message"),
     [
-        (spoiled(5, 0, 0.04), "the time repeats 1 times"),
-        (spoiled(5, 0, 0.01), "the time runs backwards"),
-        (spoiled(5, 0, np.nan), "1 values of the time are missing"),
-        (spoiled(9, 1, np.nan), "slip_x has 1 missing values, the first at 0.09 s"),
+        (with_bad_value(5, 0, 0.04), "the time repeats 1 times"),
+        (with_bad_value(5, 0, 0.01), "the time runs backwards"),
+        (with_bad_value(5, 0, np.nan), "1 values of the time are missing"),
+        (with_bad_value(9, 1, np.nan), "slip_x has 1 missing values, the first at 0.09 s"),
         (text(slider(1)[:1]), "1 row of data is no record"),
     ],
 )
-def test_samples_that_cannot_be_used_say_where_they_are(campaign, content, told):
-    with pytest.raises(InputError, match=told):
+def test_samples_that_cannot_be_used_say_where_they_are(campaign, content, message):
+    with pytest.raises(InputError, match=message):
         load_campaign(campaign(runs=ONE, one=content))
 
 
 @pytest.mark.parametrize(
-    ("more", "runs", "told"),
+    ("more", "runs", "message"),
     [
         ("", ONE.replace("one.csv", "uno.csv"), r"uno\.csv: no such file; data files in that folder: one\.csv"),
         ("", ONE + 'window = ["2 s", "9 s"]', r"from 2 s to 9 s lies outside the data.*0 s to 3.99 s"),
@@ -181,8 +181,8 @@ def test_samples_that_cannot_be_used_say_where_they_are(campaign, content, told)
         ('[constants]\npad_A_N = "1 kN"', ONE, "both a column and one of .constants."),
     ],
 )
-def test_what_is_missing_outside_or_doubled_is_said(campaign, more, runs, told):
-    with pytest.raises(InputError, match=told):
+def test_what_is_missing_outside_or_doubled_is_said(campaign, more, runs, message):
+    with pytest.raises(InputError, match=message):
         load_campaign(campaign(more, runs))
 
 

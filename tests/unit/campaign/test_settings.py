@@ -10,7 +10,7 @@ COLUMN = '[columns]\n"slip_x [mm]" = '
 
 
 @pytest.mark.parametrize(
-    ("more", "runs", "told"),
+    ("more", "runs", "message"),
     [
         ("[colums]", RUNS, "key in campaign.toml .*'colums'.*did you mean columns"),
         ("", RUNS.replace("role", "roll", 1), "number 1.*'roll'.*did you mean role"),
@@ -27,13 +27,13 @@ COLUMN = '[columns]\n"slip_x [mm]" = '
         (COLUMN + '{chanel = "slip_x", unit = "mm"}', RUNS, "did you mean channel"),
     ],
 )
-def test_a_name_that_does_not_exist_is_answered_with_the_nearest(campaign, more, runs, told):
-    with pytest.raises(UnknownNameError, match=told):
+def test_a_name_that_does_not_exist_is_answered_with_the_nearest(campaign, more, runs, message):
+    with pytest.raises(UnknownNameError, match=message):
         load_campaign(campaign(more, runs))
 
 
 @pytest.mark.parametrize(
-    ("more", "runs", "error", "told"),
+    ("more", "runs", "error", "message"),
     [
         (COLUMN + '{channel = "slip_x"}', RUNS, InputError, "'unit' is missing.*mm"),
         (COLUMN + '{unit = "mm"}', RUNS, InputError, "'channel' is missing"),
@@ -52,8 +52,8 @@ def test_a_name_that_does_not_exist_is_answered_with_the_nearest(campaign, more,
         ("[columns", RUNS, InputError, "not valid TOML"),
     ],
 )
-def test_what_is_missing_or_impossible_is_said_with_an_example(campaign, more, runs, error, told):
-    with pytest.raises(error, match=told):
+def test_what_is_missing_or_impossible_is_said_with_an_example(campaign, more, runs, error, message):
+    with pytest.raises(error, match=message):
         load_campaign(campaign(more, runs))
 
 

@@ -78,16 +78,16 @@ def test_what_was_not_measured_is_said(made):
     campaign = without(as_campaign(made), "girder_ax")
     states = measured_states(campaign.runs[0], campaign)
     assert np.isnan(states.girder_acceleration[:, 0]).all()
-    said = " ".join(states.missing)
-    assert "slip gauge alone" in said and "slip_y" in said and "yaw" in said
+    missing = " ".join(states.missing)
+    assert "slip gauge alone" in missing and "slip_y" in missing and "yaw" in missing
     assert not states.has_y and not states.has_yaw
 
 
 def test_a_run_without_slip_or_without_any_pad_has_no_states(made):
     every = [f"pad_{pad}_{kind}" for pad in "ABCD" for kind in ("N", "Fx")]
-    for names, told in ((("slip_x",), "slip_x is needed"), (every, "no pad has a load")):
+    for names, message in ((("slip_x",), "slip_x is needed"), (every, "no pad has a load")):
         campaign = without(as_campaign(made), *names)
-        with pytest.raises(InputError, match=told):
+        with pytest.raises(InputError, match=message):
             measured_states(campaign.runs[0], campaign)
 
 

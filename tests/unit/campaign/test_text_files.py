@@ -69,7 +69,7 @@ def test_empty_and_nan_cells_are_missing_values(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("content", "told"),
+    ("content", "message"),
     [
         ("", "empty"),
         ("\n\n ,, \n", "empty"),
@@ -78,18 +78,18 @@ def test_empty_and_nan_cells_are_missing_values(tmp_path):
     ],
     ids=["nothing", "blanks", "no header", "prose"],
 )
-def test_a_file_that_is_no_table_is_refused_with_what_is_needed(tmp_path, content, told):
+def test_a_file_that_is_no_table_is_refused_with_what_is_needed(tmp_path, content, message):
     path = tmp_path / "run.csv"
     path.write_text(content, encoding="utf-8")
-    with pytest.raises(InputError, match=told):
+    with pytest.raises(InputError, match=message):
         inspect_text(path)
 
 
 @pytest.mark.parametrize(
-    ("row", "told"),
+    ("row", "message"),
     [("0.03,5", "2 columns where the header has 3"), ("0.03,oops,1", "'slip_x \\[mm\\]'.*oops")],
     ids=["short row", "word in a cell"],
 )
-def test_a_bad_row_says_where_it_is_and_what_it_holds(tmp_path, row, told):
-    with pytest.raises(InputError, match=told):
+def test_a_bad_row_says_where_it_is_and_what_it_holds(tmp_path, row, message):
+    with pytest.raises(InputError, match=message):
         read(tmp_path / "run.csv", (written(",") + row + "\n").encode())

@@ -52,8 +52,8 @@ def test_compare_says_where_a_slider_differs_and_writes_page_numbers_and_recordi
     assert code == 0
     assert "after reversals, both directions" in words.replace("\n", " ")
     assert {p.name for p in out.iterdir()} == {"compare.json", "report.html", "compare.rrd"}
-    told = " ".join(words.split())
-    assert "Noise floor of one sample" in told and "top of the spectrum" in told
+    printed = " ".join(words.split())
+    assert "Noise floor of one sample" in printed and "top of the spectrum" in printed
     content = json.loads((out / "compare.json").read_text(encoding="utf-8"))
     assert any("no repeated run" in note for note in content["noise"]["notes"])
     assert content["schema"] == 1
@@ -101,37 +101,37 @@ def test_init_maps_foreign_headers_by_word_and_unit_and_marks_them(slipwise, tmp
 
 
 @pytest.mark.parametrize(
-    ("before", "after", "told"),
+    ("before", "after", "message"),
     [
         ('rig = "pad"', 'rgi = "pad"', "'rig'|did you mean rig"),
         ('role = "holdout"', 'role = "houldout"', "did you mean holdout"),
         ('file = "held.csv"', 'file = "hold.csv"', "no such file"),
     ],
 )
-def test_a_typo_in_campaign_toml_is_one_clear_message(slipwise, campaign, before, after, told):
+def test_a_typo_in_campaign_toml_is_one_clear_message(slipwise, campaign, before, after, message):
     path = campaign / "campaign.toml"
     path.write_text(path.read_text(encoding="utf-8").replace(before, after), encoding="utf-8")
     code, _, error = slipwise("compare", campaign, "--out", campaign / "out")
     assert code == 2
-    assert re.search(told, error)
+    assert re.search(message, error)
     assert "Traceback" not in error and len(error.strip().splitlines()) == 1
 
 
 @pytest.mark.parametrize(
-    ("header", "told"),
+    ("header", "message"),
     [
         ("pad_A_Fx [mm]", r"slow\.csv.*pad_A_Fx.*N"),
         ("pad_A_Fx", r"slow\.csv.*no unit.*kN"),
         ("force [kN]", r"slow\.csv: no pad_\*_Fx was measured"),
     ],
 )
-def test_a_wrong_unit_or_a_missing_channel_names_file_and_cure(slipwise, campaign, header, told):
+def test_a_wrong_unit_or_a_missing_channel_names_file_and_cure(slipwise, campaign, header, message):
     for seed, name in enumerate(("slow", "fast", "held")):
         write_run(campaign / f"{name}.csv", 0.7, seed, header)
     code, _, error = slipwise("compare", campaign, "--out", campaign / "out")
     assert code == 2
     assert "Traceback" not in error and len(error.strip().splitlines()) == 1
-    assert re.search(told, error)
+    assert re.search(message, error)
     assert not (campaign / "out" / "report.html").exists()
 
 

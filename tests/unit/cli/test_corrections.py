@@ -19,9 +19,9 @@ def late(tmp_path_factory):
 
 def test_the_audit_names_the_fault_with_interval_rivals_and_what_would_settle_it(slipwise, late):
     code, words, _ = slipwise("audit", late, "--json")
-    said = json.loads(words)
-    assert code == 0 and said["accused"] is True
-    (finding,) = said["findings"]
+    report = json.loads(words)
+    assert code == 0 and report["accused"] is True
+    (finding,) = report["findings"]
     assert (finding["what"], finding["channel"]) == ("channel_delay", "slip_x")
     assert finding["low"] < 4e-3 < finding["high"]
     assert "hammer" in finding["settle_by"] and finding["mistaken_for"]
@@ -31,12 +31,12 @@ def test_compare_with_the_named_correction_is_held_against_mended_records_and_sa
     options = ("--no-system", "--no-recording", "--json", "--out", tmp_path / "out")
     errors = {}
     for words in ((), ("--correct", "channel_delay:slip_x")):
-        code, told, _ = slipwise("compare", late, *words, *options)
+        code, printed, _ = slipwise("compare", late, *words, *options)
         assert code == 0
-        said = json.loads(told)
-        assert said["audit"]["accused"] is not bool(words)
-        assert any("corrected" in note and "slip_x" in note for note in said["notes"]) is bool(words)
-        errors[bool(words)] = said["components"]["girder"]["holdout"]
+        report = json.loads(printed)
+        assert report["audit"]["accused"] is not bool(words)
+        assert any("corrected" in note and "slip_x" in note for note in report["notes"]) is bool(words)
+        errors[bool(words)] = report["components"]["girder"]["holdout"]
     assert errors[True] < 1.2 < errors[False]
 
 

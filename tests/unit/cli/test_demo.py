@@ -15,11 +15,11 @@ from slipwise.model_file import load_model
 def test_the_demo_names_the_hidden_effect_and_the_error_falls_to_the_floor(slipwise, tmp_path):
     code, out, err = slipwise("demo", "--out", tmp_path)
     assert (code, err) == (0, "")
-    said = json.loads((tmp_path / "diagnosis.json").read_text())
-    assert (said["verdict"], said["effects"]) == ("named", ["run_in"])
-    assert said["base_error"] > 2.0
-    assert said["final_error"] < 1.15
-    assert said["system"]["final"] < said["system"]["base"]
+    written = json.loads((tmp_path / "diagnosis.json").read_text())
+    assert (written["verdict"], written["effects"]) == ("named", ["run_in"])
+    assert written["base_error"] > 2.0
+    assert written["final_error"] < 1.15
+    assert written["system"]["final"] < written["system"]["base"]
     steps = json.loads((tmp_path / "ladder.json").read_text())
     assert steps[0]["effects"] == []
     assert steps[-1]["effects"] == ["run_in"]
@@ -28,9 +28,9 @@ def test_the_demo_names_the_hidden_effect_and_the_error_falls_to_the_floor(slipw
     assert not re.search(r"""(src|href)=["']https?:""", page)
     assert (tmp_path / "before_and_after.rrd").stat().st_size > 100_000
     assert "run_in" in load_model(tmp_path / "campaign" / "model.toml")
-    told = " ".join(out.split())
-    assert "nothing above the noise floor is left" in told and "nothing is missing any more" in told
-    assert "five runs" in told and "fitted to four runs" in told and "slipwise effects run_in" in told
+    printed = " ".join(out.split())
+    assert "nothing above the noise floor is left" in printed and "nothing is missing any more" in printed
+    assert "five runs" in printed and "fitted to four runs" in printed and "slipwise effects run_in" in printed
 
 
 @pytest.mark.slow
@@ -61,7 +61,7 @@ def test_a_file_of_ones_own_is_added_fitted_and_written_to_the_model(slipwise, t
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [
         (("add", "nowhere.py", "--campaign", "."), "campaign.toml"),
         (("add", "run_inn", "--campaign", "."), "campaign.toml"),
@@ -69,11 +69,11 @@ def test_a_file_of_ones_own_is_added_fitted_and_written_to_the_model(slipwise, t
         (("ladder", "nowhere"), "nowhere"),
     ],
 )
-def test_bad_input_is_one_clear_message_and_exit_2(slipwise, tmp_path, monkeypatch, words, said):
+def test_bad_input_is_one_clear_message_and_exit_2(slipwise, tmp_path, monkeypatch, words, message):
     monkeypatch.chdir(tmp_path)
     code, _, err = slipwise(*words)
     assert code == 2
-    assert said in err
+    assert message in err
     assert "Traceback" not in err
 
 

@@ -1,23 +1,31 @@
 """What `diagnose` and `demo` print: JSON stays alone, and nothing is called found or finished that is not."""
 
-from types import SimpleNamespace
-from typing import Any
+from dataclasses import replace
 
 import pytest
 
+from hypotheses import base, diagnosed, left_by, searched
+from slipwise.campaign import Campaign
 from slipwise.cli.diagnose import _record, diagnose
 from slipwise.diagnosis.ladder import left_over
-from slipwise.errors import InputError
+from slipwise.record import Record
 
 
-def test_a_recording_that_cannot_be_made_is_told_beside_the_output_that_a_program_reads(capsys, tmp_path):
-    def refuse():
-        raise InputError("the table was not measured")
+def without_table(campaign: Campaign) -> Campaign:
+    """The campaign as if nobody had measured the table."""
 
-    found: Any = SimpleNamespace(replays=refuse)
+    def left(record: Record) -> Record:
+        return Record(record.time, {n: v for n, v in record.channels.items() if not n.startswith("table")})
+
+    return replace(campaign, runs=tuple(replace(run, record=left(run.record)) for run in campaign.runs))
+
+
+def test_a_recording_that_cannot_be_made_is_reported_beside_the_output_that_a_program_reads(capsys, tmp_path):
+    found = diagnosed(searched(base()))
+    found = replace(found, final=replace(found.final, campaign=without_table(found.final.campaign)))
     assert _record(found, tmp_path) == []
-    said = capsys.readouterr()
-    assert said.out == "" and "no recording: the table was not measured" in said.err
+    printed = capsys.readouterr()
+    assert printed.out == "" and "no recording: " in printed.err and "table" in printed.err
 
 
 def test_who_listens_to_the_first_lines_only_finds_all_files(monkeypatch, tmp_path):
@@ -26,10 +34,8 @@ def test_who_listens_to_the_first_lines_only_finds_all_files(monkeypatch, tmp_pa
     def left(found):
         raise BrokenPipeError
 
-    found = SimpleNamespace(as_json=lambda: {"verdict": "named"}, ladder=lambda: None)
-    monkeypatch.setattr(
-        "slipwise.campaign.load_campaign", lambda _: SimpleNamespace(specimen=SimpleNamespace(free=True))
-    )
+    found = diagnosed(searched(base()))
+    monkeypatch.setattr("slipwise.campaign.load_campaign", lambda _: found.final.campaign)
     monkeypatch.setattr("slipwise.diagnosis.diagnose.diagnose", lambda *_, **__: found)
     monkeypatch.setattr("slipwise.view.diagnosis_page.diagnosis_page", lambda *_: "the page")
     monkeypatch.setattr("slipwise.cli.diagnose._record", lambda _, folder: [folder / "before_and_after.rrd"])
@@ -39,15 +45,11 @@ def test_who_listens_to_the_first_lines_only_finds_all_files(monkeypatch, tmp_pa
     assert sorted(f.name for f in (tmp_path / "out").iterdir()) == ["diagnosis.json", "report.html"]
 
 
-@pytest.mark.parametrize(
-    ("after", "leftover", "words"),
-    [
-        (1.02, "none", "nothing is missing any more"),
-        (2.3, "none", "still above the noise, in floors: pad friction 2.30"),
-        (1.02, "unknown", "what is left: a force that goes with slip"),
-    ],
-)
-def test_the_demo_says_what_is_left(after, leftover, words):
-    verdict = SimpleNamespace(leftover=leftover, surface=SimpleNamespace(words="a force that goes with slip"))
-    found: Any = SimpleNamespace(relations={"pads": (3.8, after), "girder": (1.0, 1.0)}, verdict=verdict)
-    assert left_over(found) == words
+def test_the_demo_says_what_is_left():
+    of = base(pads=20.0)
+    quiet = diagnosed(searched(of, left_by("heating", of=of)))
+    assert left_over(quiet) == "nothing is missing any more"
+    shaped = diagnosed(searched(of, left_by("heating", of=of, pads=1.3, over=lambda run: run.velocity)))
+    assert left_over(shaped).startswith("what is left: pads: depends on slip velocity")
+    loud = diagnosed(searched(of, left_by("heating", of=of, pads=2.3**2)))
+    assert left_over(loud) == "still above the noise, in floors: pad friction 2.30"

@@ -43,7 +43,7 @@ def test_an_effect_is_switched_on_by_name_and_by_file(slipwise, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [
         (("replay", "nothing.at2"), "no such file"),
         (("replay", "sine:2Hz,0.3g", "--rig", "bridg1"), "bridge1"),
@@ -58,11 +58,11 @@ def test_an_effect_is_switched_on_by_name_and_by_file(slipwise, tmp_path):
         (("view", "nowhere"), "nowhere"),
     ],
 )
-def test_bad_input_is_one_clear_message_and_exit_2(slipwise, tmp_path, monkeypatch, words, said):
+def test_bad_input_is_one_clear_message_and_exit_2(slipwise, tmp_path, monkeypatch, words, message):
     monkeypatch.chdir(tmp_path)
     code, _, err = slipwise(*words)
     assert code == 2
-    assert said in err
+    assert message in err
     assert "Traceback" not in err
     assert not list(tmp_path.rglob("*.parquet"))
 

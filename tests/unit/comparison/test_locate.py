@@ -35,7 +35,7 @@ def motion():
     return since, direction, rng.uniform(0.0, 0.3, COUNT), rng.standard_normal(COUNT)
 
 
-def told(one):
+def located(one):
     cells = corrected(cells_of(one))
     found = {p.relation: p for p in [parity(one)] if p is not None}
     return cells, places(cells, patterns_of(one), found, {one.relation: float(np.sqrt(one.squared.mean()))})
@@ -43,47 +43,47 @@ def told(one):
 
 def test_noise_at_the_floor_accuses_no_cell(motion):
     since, direction, speed, noise = motion
-    cells, found = told(samples(noise, since, direction, speed))
+    cells, found = located(samples(noise, since, direction, speed))
     assert not any(c.above for c in cells)
     assert found == ()
 
 
 def test_noise_twenty_percent_above_the_floor_is_within_what_is_known_of_the_floor(motion):
     since, direction, speed, noise = motion
-    assert told(samples(1.2 * noise, since, direction, speed))[1] == ()
+    assert located(samples(1.2 * noise, since, direction, speed))[1] == ()
 
 
 def test_error_after_reversals_is_found_there_and_nowhere_else(motion):
     since, direction, speed, noise = motion
     residual = np.where(since < 0.004, 5.0, 1.0) * noise
-    cells, found = told(samples(residual, since, direction, speed))
+    cells, found = located(samples(residual, since, direction, speed))
     assert found[0].words.startswith("pad friction, both directions, equal: above the floor only within 4 mm after a")
     assert found[0].share > 0.95
     beyond = [c for c in cells if c.kind == "since reversal" and c.low >= 0.004]
     assert beyond and not any(c.above for c in beyond)
 
 
-def test_friction_that_the_law_lacks_after_reversals_is_told_with_its_sign(motion):
+def test_friction_that_the_law_lacks_after_reversals_is_reported_with_its_sign(motion):
     since, direction, speed, noise = motion
     residual = noise - 6.0 * direction * (since < 0.004)
-    _, found = told(samples(residual, since, direction, speed))
+    _, found = located(samples(residual, since, direction, speed))
     words = found[0].words
     assert "after reversals" in words and "both directions, equal" in words and "below the model's" in words
     assert "within 4 mm" in words
 
 
-def test_a_force_in_one_direction_only_is_told_so(motion):
+def test_a_force_in_one_direction_only_is_reported_so(motion):
     since, direction, speed, noise = motion
     residual = noise + 6.0 * (direction > 0) * (speed < 0.05)
-    _, found = told(samples(residual, since, direction, speed))
+    _, found = located(samples(residual, since, direction, speed))
     assert found[0].direction == "only sliding to +x"
     assert found[0].kind == "speed"
 
 
-def test_unequal_directions_are_told_so(motion):
+def test_unequal_directions_are_reported_so(motion):
     since, direction, speed, noise = motion
     residual = noise + np.where(direction > 0, -4.0, 8.0) * (since < 0.004)
-    _, found = told(samples(residual, since, direction, speed))
+    _, found = located(samples(residual, since, direction, speed))
     assert "after reversals, both directions, unequal" in found[0].words
 
 
@@ -99,6 +99,7 @@ def test_a_single_run_of_bad_luck_among_many_cells_is_not_named(motion):
     since, direction, speed, _ = motion
     rng = np.random.default_rng(11)
     named = [
-        any(c.above for c in told(samples(rng.standard_normal(COUNT), since, direction, speed))[0]) for _ in range(20)
+        any(c.above for c in located(samples(rng.standard_normal(COUNT), since, direction, speed))[0])
+        for _ in range(20)
     ]
     assert sum(named) == 0

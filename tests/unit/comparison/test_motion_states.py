@@ -1,26 +1,35 @@
 """States of motion of a sine: it turns where it turns, and the way since then is what geometry says."""
 
-from types import SimpleNamespace
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from hypotheses import base
 from slipwise.comparison.motion_states import STATES, motion_states
+from slipwise.estimation.run_data import FitRun
+from slipwise.record import Record
 
 AMPLITUDE, FREQUENCY, DT = 0.02, 1.0, 0.002
 
 
 @pytest.fixture
-def sine():
-    time = np.arange(5000) * DT
+def sine() -> FitRun:
+    """A run of bridge 1 that slides as a sine from its first sample on, and never sticks."""
+    run, time = base().problem.runs[0], np.arange(5000) * DT
     phase = 2.0 * np.pi * FREQUENCY * time
-    none = np.zeros(len(time), dtype=bool)
-    return SimpleNamespace(
+    slip = AMPLITUDE * np.cos(phase)
+    velocity = -AMPLITUDE * 2.0 * np.pi * FREQUENCY * np.sin(phase)
+    states = replace(
+        run.states,
         time=time,
-        velocity=-AMPLITUDE * 2.0 * np.pi * FREQUENCY * np.sin(phase),
-        slip=AMPLITUDE * np.cos(phase),
-        states=SimpleNamespace(stuck=none, uplift=none.copy()),
+        record=Record(time, {"slip_x": slip}),
+        slip=np.stack([slip, 0.0 * slip], axis=1),
+        velocity=np.stack([velocity, 0.0 * velocity], axis=1),
+        stuck=np.zeros(len(time), dtype=bool),
+        uplift=np.zeros(len(time), dtype=bool),
     )
+    return replace(run, states=states)
 
 
 def test_the_way_since_a_reversal_is_what_the_slip_has_gone(sine):
@@ -45,7 +54,7 @@ def test_fast_samples_are_steady_in_their_direction_and_turning_ones_are_reversa
     assert set(label[slow]) == {STATES.index("reversal")}
 
 
-def test_stuck_and_lifted_samples_are_told_as_such(sine):
+def test_stuck_and_lifted_samples_are_labelled_as_such(sine):
     sine.states.stuck[1000:1200] = True
     sine.states.uplift[3000:3100] = True
     label = motion_states(sine).label

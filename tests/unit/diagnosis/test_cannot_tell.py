@@ -54,7 +54,7 @@ def slider(swing: float, speed: float = 0.1, noise: float = 5.0, *, pressure: bo
     return Campaign("made", "pad", specimen, Logger(known=True), (run,), specimen.path.parent)
 
 
-def said(base: BaseFit, terms: list[Term] = FADES_AND_LASTS, *, screened: bool = True) -> dict[str, str]:
+def reasons(base: BaseFit, terms: list[Term] = FADES_AND_LASTS, *, screened: bool = True) -> dict[str, str]:
     """Say what is cannot_tell after a search that has seen something in every term, or in none."""
     nothing = np.zeros(0)
     found = [Screened(t, {}, 0.0, 0.0, nothing, 0.0) for t in terms] if screened else []
@@ -64,20 +64,20 @@ def said(base: BaseFit, terms: list[Term] = FADES_AND_LASTS, *, screened: bool =
 @pytest.mark.slow
 def test_a_full_campaign_tells_every_number_and_heat_from_wear(base: BaseFit) -> None:
     assert unidentified(base, base) == []
-    assert [key.partition(" ")[0] for key in said(base)] == ["faults"]
+    assert [key.partition(" ")[0] for key in reasons(base)] == ["faults"]
 
 
 def test_heat_looks_like_wear_where_nothing_is_repeated_after_a_pause(whole: Campaign) -> None:
-    one = said(fit_base(replace(whole, runs=whole.runs[1:2])))
+    one = reasons(fit_base(replace(whole, runs=whole.runs[1:2])))
     assert "no run has the role repeat" in one["heating against run_in"]
     assert "repeat at once and after a long rest" in one["heating against run_in"]
     several = replace(whole, runs=tuple(replace(r, rest_before=None) for r in whole.runs[:2]))
-    assert "no rest between runs is given" in said(fit_base(several))["heating against run_in"]
+    assert "no rest between runs is given" in reasons(fit_base(several))["heating against run_in"]
 
 
 def test_rests_that_are_not_given_are_named(base: BaseFit) -> None:
     def with_rests(*runs: Run) -> dict[str, str]:
-        return said(replace(base, campaign=replace(base.campaign, runs=runs)))
+        return reasons(replace(base, campaign=replace(base.campaign, runs=runs)))
 
     runs = [replace(r, rest_before=None) for r in base.campaign.runs]
     names = [r.name for r in runs]
@@ -90,30 +90,30 @@ def test_rests_that_are_not_given_are_named(base: BaseFit) -> None:
 def test_two_windows_of_one_file_have_no_rest_between_them(base: BaseFit) -> None:
     first = base.campaign.runs[0]
     two = [replace(first, rest_before=None, window=w) for w in ((0.0, 4.0), (4.0, 8.0))]
-    assert RESTS not in said(replace(base, campaign=replace(base.campaign, runs=tuple(two))))
+    assert RESTS not in reasons(replace(base, campaign=replace(base.campaign, runs=tuple(two))))
     apart = (two[0], replace(two[1], window=(5.0, 8.0)))
-    assert RESTS in said(replace(base, campaign=replace(base.campaign, runs=apart)))
+    assert RESTS in reasons(replace(base, campaign=replace(base.campaign, runs=apart)))
 
 
 def test_a_verdict_without_a_held_out_run_is_said_to_be_one(whole: Campaign, base: BaseFit) -> None:
-    assert "verdict" not in said(base)
-    assert "fitted" in said(fit_base(replace(whole, runs=whole.runs[:1])))["verdict"]
+    assert "verdict" not in reasons(base)
+    assert "fitted" in reasons(fit_base(replace(whole, runs=whole.runs[:1])))["verdict"]
 
 
 def test_gauges_on_which_no_fault_is_a_candidate_are_named_on_one_line(base: BaseFit) -> None:
-    lines = [key for key in said(base, candidates(base)[0]) if key.startswith("faults of")]
+    lines = [key for key in reasons(base, candidates(base)[0]) if key.startswith("faults of")]
     assert lines == ["faults of table_az"]
-    lines = [key for key in said(base, []) if key.startswith("faults of")]
+    lines = [key for key in reasons(base, []) if key.startswith("faults of")]
     assert len(lines) == 1 and "pad_*_N, pad_*_Fx" in lines[0]
 
 
-def test_pressure_is_not_told_under_a_load_that_stays() -> None:
+def test_pressure_is_not_identified_under_a_load_that_stays() -> None:
     steady, swinging = (dict(unidentified(b, b)) for b in map(fit_base, (slider(0.0), slider(0.3))))
     assert "the load hardly changes (0 %)" in steady["contact_area.saturation (k)"]
     assert "contact_area.saturation (k)" not in swinging
 
 
-def test_a_number_on_its_bound_is_not_told() -> None:
+def test_a_number_on_its_bound_is_not_identified() -> None:
     base = fit_base(slider(0.3))
     key = "shear_rate.strength"
     high = next(f.high for f in base.free if f.key == key)
@@ -121,7 +121,7 @@ def test_a_number_on_its_bound_is_not_told() -> None:
     assert dict(unidentified(ended, base))[f"{key} (s')"].startswith("the fit ended on its upper bound, 10 MPa")
 
 
-def test_a_column_that_others_can_make_is_not_told_however_long_it_is() -> None:
+def test_a_column_that_others_can_make_is_not_identified_however_long_it_is() -> None:
     rng = np.random.default_rng(2)
     slopes = rng.normal(size=(400, 3))
     slopes[:, 2] = 5.0 * slopes[:, 0]
@@ -134,7 +134,7 @@ def test_a_candidate_that_cannot_be_evaluated_is_said_with_the_error() -> None:
     base = fit_base(slider(0.3, pressure=True))
     terms = [t for t in candidates(base)[0] if t.effect.name == "slide_tilt"]
     unfit = Term(catalogue()["load_crosstalk"], ("pad_A_Fx",), "pad_A_Fx")
-    found = said(base, [*terms, unfit], screened=False)
+    found = reasons(base, [*terms, unfit], screened=False)
     assert found["load_crosstalk"].startswith("it could not be evaluated: ") and "pad_A_N" in found["load_crosstalk"]
     assert "slide_tilt" not in found
 
@@ -146,7 +146,7 @@ def test_cross_talk_is_not_tried_where_no_load_was_recorded() -> None:
 
 
 def test_an_effect_that_changes_nothing_that_was_measured_is_said() -> None:
-    hot, cold = (said(fit_base(slider(0.3, *each)), screened=False) for each in ((0.1, 5.0), (1e-3, 500.0)))
+    hot, cold = (reasons(fit_base(slider(0.3, *each)), screened=False) for each in ((0.1, 5.0), (1e-3, 500.0)))
     assert "heating" not in hot
     assert cold["heating"] == "at its usual size it changes nothing that was measured"
 

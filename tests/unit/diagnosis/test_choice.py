@@ -1,58 +1,47 @@
 """Among fits that explain nearly as much: one gauge's best law, and of several gauges the one that leaves the mass."""
 
-from dataclasses import replace
-from types import SimpleNamespace
-from typing import Any, cast
-
+from hypotheses import base, left_by, on
 from slipwise.diagnosis.choice import best_of
-from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.effects import catalogue
-from slipwise.estimation.parameters import Term
-from slipwise.evidence.residual_summary import ResidualSummary
-
-COUNT, RATED = 10_000, 10_000.0
+from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis
+from slipwise.estimation.base_fit import BaseFit
 
 
-def _tried(name: str, group: str, level: float, mass: float) -> Hypothesis:
-    """A hypothesis with this mean squared residual, and what mass its fit gave the girder."""
-    total = {"pads": level * COUNT}
-    account = ResidualSummary(total, dict(total), {"pads": (COUNT, COUNT)})
-    problem = SimpleNamespace(specimen=SimpleNamespace(mass=RATED))
-    solution = SimpleNamespace(values={"rig.mass": mass})
-    terms = (Term(catalogue()[name], (group,), group),) if name else ()
-    return Hypothesis(terms, cast(Any, problem), cast(Any, solution), account)
+def with_mass(share: float, fault: str, group: str, of: BaseFit, pads: float) -> Hypothesis:
+    """A fault of gauges beside which the fit gave the girder this share of its rated mass."""
+    return left_by(on(fault, group), of=of, pads=pads, values={"rig.mass": share * of.problem.specimen.mass})
 
 
 def test_a_gauge_keeps_its_best_law_though_another_is_nearer_to_the_rated_mass() -> None:
-    base = _tried("", "", 700.0, RATED)
-    right = _tried("channel_filter", "slip_x", 1.0, 1.001 * RATED)
-    other_order = _tried("channel_filter", "slip_x", 1.5, RATED)
-    assert best_of(base, [other_order, right]) is right
+    of = base(pads=700.0)
+    right = with_mass(1.001, "channel_filter", "slip_x", of, 1.0)
+    other_order = with_mass(1.0, "channel_filter", "slip_x", of, 1.5)
+    assert best_of(base_hypothesis(of), [other_order, right]) is right
 
 
 def test_of_gauges_that_tie_the_one_that_leaves_the_girder_its_mass_is_taken() -> None:
-    base = _tried("", "", 700.0, RATED)
-    heavy = _tried("channel_gain", "pad_*_N", 1.0, 1.04 * RATED)
-    rated = _tried("channel_gain", "pad_*_Fx", 1.1, RATED)
-    far = _tried("channel_gain", "girder_ax", 30.0, RATED)
-    assert best_of(base, [heavy, rated, far]) is rated
-    assert best_of(base, [far, base]) is far
+    """Cells of load that all read 4 % less under a heavier girder are cells of friction that all read 4 % more."""
+    of = base(pads=700.0)
+    heavy = with_mass(1.04, "channel_gain", "pad_*_N", of, 1.0)
+    rated = with_mass(1.0, "channel_gain", "pad_*_Fx", of, 1.1)
+    far = with_mass(1.0, "channel_gain", "girder_ax", of, 30.0)
+    assert best_of(base_hypothesis(of), [heavy, rated, far]) is rated
+    assert best_of(base_hypothesis(of), [far, base_hypothesis(of)]) is far
 
 
 def test_what_is_worth_nothing_is_not_chosen() -> None:
-    assert best_of(_tried("", "", 1.0, RATED), [_tried("heating", "", 0.99, RATED)]) is None
+    of = base()
+    assert best_of(base_hypothesis(of), [left_by("heating", of=of, pads=0.99)]) is None
 
 
-def test_what_spoils_other_runs_more_than_it_helps_is_not_chosen() -> None:
-    """Slip whose lost samples had moved it: every law that helped the pads a little spoilt other balances far more."""
-    base, law = _tried("", "", 3.0, RATED), _tried("heating", "", 1.0, RATED)
-    counts = {name: (COUNT, COUNT) for name in ("pads", "girder")}
-    before, after = ({"pads": pads * COUNT, "girder": girder * COUNT} for pads, girder in ((3.0, 1.0), (1.0, 9.0)))
-    base = replace(base, summary=ResidualSummary(before, dict(before), counts))
-    assert best_of(base, [replace(law, summary=ResidualSummary(after, dict(after), counts))]) is None
+def test_what_worsens_other_relations_more_than_it_helps_is_not_chosen() -> None:
+    """Slip whose lost samples had moved it: laws helped the pads a little and made other balances far worse."""
+    of = base(pads=3.0)
+    assert best_of(base_hypothesis(of), [left_by("heating", of=of, girder=30.0)]) is None
 
 
 def test_a_law_of_very_little_is_not_chosen_where_a_gauge_explains_more() -> None:
-    base, law = _tried("", "", 1.07, RATED), _tried("buffer_height", "", 1.0, RATED)
-    assert best_of(base, [law, _tried("channel_gain", "pad_*_N", 1.02, RATED)]) is law
-    assert best_of(base, [law, _tried("channel_gain", "pad_*_N", 0.99, RATED)]) is None
+    of = base(pads=1.07)
+    law = left_by("buffer_height", of=of)
+    less, more = (left_by(on("channel_gain", "pad_*_N"), of=of, pads=left) for left in (1.02, 0.985))
+    assert best_of(base_hypothesis(of), [law, less]) is law
+    assert best_of(base_hypothesis(of), [law, more]) is None

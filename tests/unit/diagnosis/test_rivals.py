@@ -1,10 +1,8 @@
 """An ambiguous verdict as a list of explanations, and what would tell each two of them apart."""
 
-from types import SimpleNamespace
-from typing import Any, cast
-
 import pytest
 
+from hypotheses import base, left_by, searched
 from slipwise.diagnosis.rivals import explanations, partings
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.verdict import Verdict
@@ -12,12 +10,12 @@ from slipwise.effects import catalogue
 
 
 def _verdict(*effects: str, kind: str = "ambiguous", rivals: tuple[tuple[str, ...], ...] = ()) -> Verdict:
-    told = tuple(SimpleNamespace(names=names) for names in rivals)
-    return Verdict(kind, effects, 0.5, "none", 1.0, None, cast(Any, told))
+    near = tuple(left_by(*names, of=base()) for names in rivals)
+    return Verdict(kind, effects, 0.5, "none", 1.0, None, near)
 
 
 def _search(*best: str) -> Search:
-    return Search(cast(Any, None), {}, [], [], (cast(Any, SimpleNamespace(names=best)),))
+    return searched(base(), *([left_by(*best, of=base())] if best else []))
 
 
 def test_rivals_are_explanations_of_their_own_each_with_all_its_effects():

@@ -1,52 +1,59 @@
 """Structure can be predicted on runs that no fit has seen; noise, and one early reversal, cannot."""
 
-from types import SimpleNamespace
-from typing import Any, cast
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from slipwise.diagnosis.unknown_surface import _surfaces, structured
+from hypotheses import base, left_by
+from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.diagnosis.unknown_surface import leftover, structured
 
 
-def _best(relation: str, left: Any, states: dict[str, Any]) -> Any:
-    """Hold a residual over some states of a fitted and a held-out run, half of the samples each."""
-    count = len(left) // 2
-    whole = {"left": left, "sigma": np.ones_like(left), **states}
-    halves = [{k: v[part] for k, v in whole.items()} for part in (slice(count), slice(count, None))]
-    problem = SimpleNamespace(fitted=[0], held_out=[1])
-    found = _surfaces(cast(Any, SimpleNamespace(problem=problem)), relation, halves)
-    return max(found, key=lambda s: s.level)
+def with_left(found: Hypothesis, relation: str, left: list[np.ndarray]) -> Hypothesis:
+    """The hypothesis with another residual of one relation in every run."""
+    parts = {**found.solution.residuals.parts, relation: left}
+    residuals = replace(found.solution.residuals, parts=parts)
+    return replace(found, solution=replace(found.solution, residuals=residuals))
 
 
-@pytest.fixture
-def noise() -> np.random.Generator:
-    return np.random.default_rng(3)
+@pytest.mark.parametrize("state", ["velocity", "slip"])
+def test_a_force_is_found_over_the_state_on_which_it_depends(state: str) -> None:
+    of = base(pads=6.0)
+    found = leftover(left_by("heating", of=of, pads=5.0, over=lambda run: getattr(run, state)))
+    assert structured(found)
+    assert found is not None and found.relation == "pads" and state in found.states
 
 
-def test_a_force_over_speed_is_found_where_it_depends_on_speed(noise):
-    speed, slip = noise.normal(size=8000), noise.normal(size=8000)
-    left = noise.normal(size=8000) + 2.0 * np.tanh(speed)
-    best = _best("pads", left, {"velocity": speed, "slip": slip})
-    assert structured(best)
-    assert "velocity" in best.states
+@pytest.mark.parametrize("held_out", [True, False])
+def test_noise_is_no_structure_however_loud(held_out: bool) -> None:
+    of = base(held_out=held_out, pads=6.0)
+    found = leftover(left_by("heating", of=of, pads=6.0))
+    assert found is not None and not structured(found)
 
 
-def test_noise_is_no_structure(noise):
-    assert not structured(_best("pads", noise.normal(size=8000), {"velocity": noise.normal(size=8000)}))
+def test_a_force_is_found_where_every_run_was_fitted() -> None:
+    of = base(held_out=False, pads=6.0)
+    found = leftover(left_by("heating", of=of, pads=5.0, over=lambda run: run.velocity))
+    assert structured(found)
+    assert found is not None and "velocity" in found.states
 
 
-def test_one_early_reversal_in_each_run_is_no_structure(noise):
-    speed = noise.normal(size=8000)
-    left = noise.normal(size=8000)
-    early = np.r_[100:106, 5000:5006]
-    left[early], speed[early] = 90.0, -4.0
-    assert not structured(_best("pads", left, {"velocity": speed}))
+def test_one_early_reversal_in_each_run_is_no_structure() -> None:
+    of = base(pads=1.5)
+    noise = left_by(of=of)
+    left = [part.copy() for part in noise.solution.residuals.parts["pads"]]
+    for part, run in zip(left, of.problem.runs, strict=True):
+        first = np.flatnonzero(run.judged["pads"][:, 0])[:6]
+        part[first] = 90.0
+    assert not structured(leftover(with_left(left_by(of=of, pads=1.5), "pads", left)))
 
 
-def test_the_noise_of_the_vertical_accelerometer_does_not_foretell_itself_in_heave(noise):
-    gauge = noise.normal(size=8000)
-    load = 0.1 * noise.normal(size=8000)
-    assert not structured(
-        _best("heave", -gauge, {"vertical": gauge, "load": load, "velocity": noise.normal(size=8000)})
-    )
+def test_the_noise_of_the_vertical_accelerometer_does_not_predict_itself_in_heave() -> None:
+    of = base(heave=2.0)
+    left = []
+    for run in of.problem.runs:
+        gauge = run.states.girder_acceleration[:, 2]
+        around = np.convolve(gauge, np.ones(5) / 5.0, mode="same")
+        left.append(np.where(run.judged["heave"], -(gauge - around) / np.std(gauge - around), 0.0))
+    assert not structured(leftover(with_left(left_by(of=of, heave=2.0), "heave", left)))

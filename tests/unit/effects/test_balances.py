@@ -77,12 +77,12 @@ def open_balances(model: Model) -> tuple[dict[str, np.ndarray], dict[str, np.nda
     lean = height * np.gradient(np.gradient(record["pitch"], DT), DT)
     slipping = np.gradient(record["slip_vx"], DT)
     left["motion"] = specimen.mass * (acceleration[:, 0] - record["table_ax"] - slipping - lean)
-    said: dict[str, np.ndarray] = {}
+    predicted: dict[str, np.ndarray] = {}
     for entry in model.with_hook("balance"):
-        said |= entry.effect.hooks["balance"](seen, **entry.values)
-    if "motion" in said:
-        said["motion"] = specimen.mass * said["motion"]
-    return left, said
+        predicted |= entry.effect.hooks["balance"](seen, **entry.values)
+    if "motion" in predicted:
+        predicted["motion"] = specimen.mass * predicted["motion"]
+    return left, predicted
 
 
 def rms(values: np.ndarray) -> float:
@@ -114,23 +114,23 @@ def test_the_balances_close_without_effects() -> None:
 @pytest.mark.parametrize("name", CLOSED)
 def test_what_a_hook_adds_closes_the_balances_again(name: str) -> None:
     values = {"along": 0.02, "across": 0.03} if name == "mass_eccentricity" else {}
-    left, said = open_balances(base_model("bridge1").adding(use(name, **values)))
-    assert {balance for balance, more in said.items() if rms(more) > 1e-6} == set(CLOSED[name])
+    left, predicted = open_balances(base_model("bridge1").adding(use(name, **values)))
+    assert {balance for balance, more in predicted.items() if rms(more) > 1e-6} == set(CLOSED[name])
     for balance, share in CLOSED[name].items():
-        opened, still = rms(left[balance]), rms(left[balance] - said[balance])
+        opened, still = rms(left[balance]), rms(left[balance] - predicted[balance])
         assert opened > 10.0, "it must be seen at all"
         assert still < share * opened, f"{balance}: {still:.1f} of {opened:.1f} N"
 
 
 def test_keys_that_are_pressed_unlike_tip_the_girder() -> None:
     both = base_model("bridge1").adding(use("key_friction")).adding(use("buffer_mismatch", difference=0.3))
-    left, said = open_balances(both)
+    left, predicted = open_balances(both)
     assert rms(left["roll"]) > 50.0
-    assert rms(left["roll"] - said["roll"]) < 0.1 * rms(left["roll"])
+    assert rms(left["roll"] - predicted["roll"]) < 0.1 * rms(left["roll"])
 
 
 def test_keys_above_the_sliding_plane_turn_the_girder_by_their_force() -> None:
-    """physics.md 1.2: dN = -F_b z_b / (2 b) per pad."""
+    """docs/theory.md, section 1.2: a buffer at height z_b adds dN = -F_b z_b / (2 b) per pad."""
     left, _ = open_balances(base_model("bridge1").adding(use("buffer_height", height=0.2)))
     assert rms(left["pitch"]) < 1.1 * rms(base()["pitch"])
     record = shaken(base_model("bridge1").adding(use("buffer_height", height=0.366)), shaking(), dt=DT).record
@@ -188,8 +188,8 @@ def test_a_girder_may_push_the_table_over() -> None:
     rocking = use("table_pitch", compliance=0.0, specimen=1.5e-4, frequency=14.0, damping=0.35)
     model = base_model("bridge1").adding(rocking)
     record = shaken(model, shaking(), dt=DT).record
-    left, said = open_balances(model)
-    turned = _through_pitch(said["pitch"], model)
+    left, predicted = open_balances(model)
+    turned = _through_pitch(predicted["pitch"], model)
     assert rms(left["pitch"] - turned) < 0.1 * rms(left["pitch"]) > 10.0
     w = 2.0 * np.pi * 14.0
     angle = oscillator(1.5e-4 * w**2 * record["girder_ax"], float(record.time[1] - record.time[0]), 14.0, 0.35, 0)

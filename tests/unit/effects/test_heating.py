@@ -30,7 +30,7 @@ def _flux(law: Predictor, flux: float, seconds: float, dt: float, slip: float = 
 
 @pytest.mark.parametrize(("flux", "rise"), [(0.191e6, 56.3), (0.382e6, 112.7)])
 def test_a_constant_flux_warms_the_face_as_the_half_space_does(flux: float, rise: float) -> None:
-    """physics.md, V13: dT = 2 q sqrt(D t / pi) / k_s after 5 s."""
+    """docs/theory.md, section 2.5: dT = 2 q sqrt(D t / pi) / k_s after 5 s."""
     warm = _flux(predictor(base_model("bridge1").adding(use("heating"))), flux, 5.0, 0.002)
     assert warm[-1] == pytest.approx(rise, rel=0.01)
     time = 0.002 * np.arange(1, len(warm) + 1)

@@ -36,8 +36,8 @@ def test_the_step_says_the_same_as_the_balance(engine: str) -> None:
     law = predictor(model, engine=engine)
     lift = law.law.functions["girder_lift"]
     rate = np.gradient(WAY, DT) / elastic
-    said = np.array([lift(law.numbers, 3e4, 4e4, 0.0, 0.0, w, t, DT) for w, t in zip(rate, TIME, strict=True)])
-    np.testing.assert_allclose(said, -0.2 * 5e4 * _share(WAY), atol=0.02 * 1e4)
+    force = np.array([lift(law.numbers, 3e4, 4e4, 0.0, 0.0, w, t, DT) for w, t in zip(rate, TIME, strict=True)])
+    np.testing.assert_allclose(force, -0.2 * 5e4 * _share(WAY), atol=0.02 * 1e4)
 
 
 def test_a_rigid_key_keeps_no_memory() -> None:

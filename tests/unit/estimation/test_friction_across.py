@@ -27,8 +27,8 @@ def test_a_complete_model_leaves_noise_and_anisotropy_shows_there_only(campaign)
     assert "across" in problem.relations
     left = [part[part != 0.0] for part in fit.solution.residuals.parts["across"]]
     assert np.mean(np.concatenate(left) ** 2) == pytest.approx(1.0, abs=0.15)
-    told = [e for e in component_errors(fit) if e.relation == "across"]
-    assert len(told) == 5 and all(0.9 < e.error < 1.1 and e.share < 0.1 for e in told)
+    errors = [e for e in component_errors(fit) if e.relation == "across"]
+    assert len(errors) == 5 and all(0.9 < e.error < 1.1 and e.share < 0.1 for e in errors)
     term = Term(catalogue()["anisotropy"])
     moved = problem.adding(term).residuals({**fit.solution.values, f"{term.label}.ratio": 1.1})
     assert np.mean(np.concatenate(moved.parts["across"]) ** 2) > 5.0

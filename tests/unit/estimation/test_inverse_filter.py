@@ -61,9 +61,9 @@ def test_the_motion_of_a_filtered_slip_gauge_is_judged_by_the_noise_that_it_has(
     rng = np.random.default_rng(6)
     channels = {name: run.noise[name] * rng.normal(size=len(run.time)) for name in ("girder_ax", "table_ax", "slip_x")}
     quiet = replace(run, states=replace(run.states, record=run.record.replaced(**channels)))
-    mended = without(term, values, quiet)
+    corrected = without(term, values, quiet)
     inside = slice(300, -300)
-    plain = motion_residual(mended, 0.0, {}, {})[inside]
-    known = motion_residual(mended, 0.0, {}, raised_noise([term], values, run))[inside]
+    plain = motion_residual(corrected, 0.0, {}, {})[inside]
+    known = motion_residual(corrected, 0.0, {}, raised_noise([term], values, run))[inside]
     assert np.std(plain) > 1.05
     assert np.std(known) == pytest.approx(1.0, rel=0.04)

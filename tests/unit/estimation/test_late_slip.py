@@ -22,9 +22,9 @@ def test_a_lag_of_a_tenth_of_a_millisecond_is_taken_out_of_the_velocity(made):
     true = made.at_samples(run.name)["slip_vx"][: len(run.time)]
     late = shift(run.record["slip_x"], run.dt, LATE)
     lagging = run.with_record(run.record.replaced(slip_x=late), moved=True)
-    mended = lagging.without_late_slip(LATE)
+    corrected = lagging.without_late_slip(LATE)
     sliding = run.states.valid & (run.velocity != 0.0)
-    before, lagged, after = (float(np.std((r.velocity - true)[sliding])) for r in (run, lagging, mended))
+    before, lagged, after = (float(np.std((r.velocity - true)[sliding])) for r in (run, lagging, corrected))
     assert lagged > 1.1 * before, "it must matter"
     assert after == pytest.approx(before, rel=0.02)
 

@@ -18,12 +18,12 @@ def run():
 
 def test_the_inertia_of_a_plate_is_taken_out_of_load_and_friction(run):
     term = Term(catalogue()["cell_inertia"], tuple(f"pad_{p}_N" for p in "ABCD"), "pad_*")
-    mended = without(
+    corrected = without(
         term, {f"{term.label}.mass": 40.0, f"{term.label}.horizontal": 1.0, f"{term.label}.weighed": 0.0}, run
     )
     vertical, along = run.record["table_az"], run.record["table_ax"]
-    assert mended.load - run.load == pytest.approx(np.repeat(-40.0 * vertical[:, None], 4, axis=1))
-    assert mended.force - run.force == pytest.approx(np.repeat(40.0 * along[:, None], 4, axis=1))
+    assert corrected.load - run.load == pytest.approx(np.repeat(-40.0 * vertical[:, None], 4, axis=1))
+    assert corrected.force - run.force == pytest.approx(np.repeat(40.0 * along[:, None], 4, axis=1))
 
 
 @pytest.mark.parametrize(("name", "value"), [("channel_delay", 2e-3), ("clock_skew", 2e-4)])

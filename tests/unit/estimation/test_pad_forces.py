@@ -49,7 +49,7 @@ def test_a_reversal_between_two_samples_is_timed_to_a_fraction_of_a_sample() -> 
 
 @pytest.mark.parametrize("order", [2, 4])
 @pytest.mark.parametrize("fine", [FINE, 2 * FINE])
-def test_what_the_samples_of_a_causal_filter_fold_is_foretold(order: int, fine: int) -> None:
+def test_what_the_samples_of_a_causal_filter_fold_is_predicted(order: int, fine: int) -> None:
     """Friction of 1 turns round behind 150 Hz, 500 samples a second: without the folding it was 0.15 and 0.03 off."""
     once, dt, parts = LowPass(150.0, order, "causal"), 0.002, 48
     time = np.arange(0.0, 2.0, dt / parts)

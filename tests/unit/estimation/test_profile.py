@@ -1,23 +1,34 @@
 """A strength that may be absent: its interval is one-sided, from the profile, and holds where the usual one cannot."""
 
-from dataclasses import dataclass, field
-from types import SimpleNamespace
+from dataclasses import dataclass, field, replace
+from functools import cache
 
 import numpy as np
 import pytest
 
+from hypotheses import base
 from slipwise.effects import find_effect
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import intervals
 from slipwise.estimation.least_squares import jacobian, solve
 from slipwise.estimation.parameters import Free, Term
 from slipwise.estimation.residuals import Residuals
+from slipwise.estimation.run_data import FitRun
+from slipwise.record import Record
 
 DT, COUNT, SIGMA = 0.01, 4000, 1.0
 LEVEL = Free("rig.mass", 0.0, -9.0, 9.0, 0.1, "kg")
 TIME = DT * np.arange(COUNT)
 ALL = np.ones((COUNT, 1), dtype=bool)
 COLUMNS = np.stack([np.ones(COUNT), 1.0 + np.sin(1.7 * TIME) + 0.5 * np.sin(11.0 * TIME)], axis=1)
+
+
+@cache
+def only_run() -> list[FitRun]:
+    """A run as long as the line, all of whose samples are judged."""
+    run = base().problem.runs[0]
+    states = replace(run.states, time=TIME, record=Record(TIME, {"slip_x": 0.0 * TIME}))
+    return [replace(run, states=states, judged={"pads": ALL})]
 
 
 @dataclass
@@ -29,7 +40,7 @@ class Line:
     bent: float = 0.0
     fitted: tuple[int, ...] = (0,)
     relations: tuple[str, ...] = ("pads",)
-    runs: list[object] = field(default_factory=lambda: [SimpleNamespace(time=TIME, dt=DT, judged={"pads": ALL})])
+    runs: list[FitRun] = field(default_factory=only_run)
     sigmas: dict[str, list[np.ndarray]] = field(default_factory=lambda: {"pads": [np.ones((COUNT, 1))]})
 
     @property
@@ -41,16 +52,16 @@ class Line:
 
     def residuals(self, values, *, fitted_only=False):
         strength = values["heating.share"]
-        said = COLUMNS @ [values["rig.mass"], strength + self.bent * strength**2]
+        predicted = COLUMNS @ [values["rig.mass"], strength + self.bent * strength**2]
         steady = np.zeros((COUNT, 1))  # a force that does not change knows no timing
-        return Residuals({"pads": [(self.measured - said)[:, None]]}, [steady])
+        return Residuals({"pads": [(self.measured - predicted)[:, None]]}, [steady])
 
 
 def fitted(rng: np.random.Generator, truth: float, bent: float = 0.0) -> BaseFit:
     term = Term(find_effect("heating"))
     strength = Free("heating.share", 0.1, 0.0, 2.0, 0.1, "1")
-    said = COLUMNS @ [0.3, truth + bent * truth**2]
-    line = Line(said + SIGMA * rng.standard_normal(COUNT), term, bent)
+    predicted = COLUMNS @ [0.3, truth + bent * truth**2]
+    line = Line(predicted + SIGMA * rng.standard_normal(COUNT), term, bent)
     free = (LEVEL, strength)
     found = solve(line, {"rig.mass": 0.0, "heating.share": 0.1}, free, enough=1e-6)
     slopes = jacobian(line, found.values, free, found.residuals)
@@ -75,7 +86,7 @@ def test_near_zero_the_limit_lies_above_the_truth_in_ninety_five_of_a_hundred(tr
     assert np.median([e.high for e in near]) < truth + 0.1, "a limit that says nothing covers everything"
 
 
-def test_a_strength_that_ended_on_its_bound_is_told_how_large_it_may_be() -> None:
+def test_of_a_strength_that_ended_on_its_bound_it_is_said_how_large_it_may_be() -> None:
     rng = np.random.default_rng(3)
     on_bound = next(e for e in (intervals(fitted(rng, 0.0)).entries[1] for _ in range(20)) if e.bound == "lower")
     assert on_bound.limit == "upper"

@@ -1,53 +1,44 @@
 """What the next test is chosen from: which rivals, which motions, and what is said where none tells them apart."""
 
 import sys
-from types import SimpleNamespace
-from typing import Any, cast
+from dataclasses import replace
 
 import pytest
 
+from hypotheses import base, diagnosed, left_by, searched
 from slipwise.cli import main
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.replays import simulation_step
-from slipwise.diagnosis.search_state import Search
+from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.verdict import Verdict
-from slipwise.effects import catalogue
 from slipwise.errors import SettingError, SimulationError, SlipwiseError
-from slipwise.estimation.parameters import Term
-from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.experiment import next_test as module
 from slipwise.experiment.motions import LIBRARY, Limits
 from slipwise.experiment.next_test import next_test, rivals
 from slipwise.motion import displacement_peak, parse_motion, velocity_peak
+from slipwise.rig import load_specimen
 
-COUNT = 10_000
 SMALL = Limits(stroke=0.02, speed=0.2, acceleration=2.0)
 
 
 def fitted(names: tuple[str, ...], pads: float) -> Hypothesis:
     """A hypothesis that leaves this mean squared residual in the pads."""
-    levels = {"pads": pads * COUNT, "girder": 1.0 * COUNT}
-    account = ResidualSummary(levels, dict(levels), {name: (COUNT, COUNT) for name in levels})
-    return Hypothesis(tuple(Term(catalogue()[n]) for n in names), cast(Any, None), cast(Any, None), account)
+    return left_by(*names, of=base(pads=9.0), pads=pads)
 
 
-def diagnosis(kind: str, *tried: Hypothesis, near: tuple[Hypothesis, ...] = (), probability: float = 0.9) -> Any:
+def diagnosis(kind: str, *tried: Hypothesis, near: tuple[Hypothesis, ...] = (), probability: float = 0.9) -> Diagnosis:
     """A finished search whose best is the first that was tried; for a complete verdict the base."""
-    base = fitted((), 9.0)
-    path = [base] if kind == "complete" else [base, tried[0]]
-    verdict = Verdict(kind, (), probability, "unknown" if kind == "unknown" else "none", 1.0, None, near)
+    state = searched(base(pads=9.0), *tried)
+    if kind == "complete":
+        state = replace(state, path=state.path[:1])
+    effects = () if kind == "complete" or not tried else tried[0].names
+    verdict = Verdict(kind, effects, probability, "unknown" if kind == "unknown" else "none", 1.0, None, near)
     chances = [0.9, 0.06, 0.04] if kind != "complete" else [0.06, 0.04, 0.0]
-    candidates = [
-        SimpleNamespace(effect="+".join(h.names), probability=c) for h, c in zip(tried, chances, strict=False)
-    ]
-    state = Search(cast(Any, None), {}, [], list(tried), tuple(path))
-    campaign = SimpleNamespace(name="march", rig="bridge1", specimen=SimpleNamespace(free=True))
-    final = SimpleNamespace(campaign=campaign)
-    return SimpleNamespace(search=state, verdict=verdict, candidates=candidates, final=final, sentence="")
+    return diagnosed(state, verdict, chances)
 
 
-def telling(monkeypatch: pytest.MonkeyPatch, separation: float, failed: str = "") -> None:
-    """Let every motion separate the rivals by this much, or fail."""
+def separate_by(monkeypatch: pytest.MonkeyPatch, separation: float, failed: str = "") -> None:
+    """Let every motion separate the rivals by this much, or fail: no motion is shaken."""
     monkeypatch.setattr(module, "_as_shaken", lambda *_: None)
     monkeypatch.setattr(module, "_separation", lambda *_: (separation, "pads", failed))
 
@@ -103,7 +94,7 @@ def test_where_no_effect_can_be_tested_there_is_nothing_to_tell_apart():
 @pytest.mark.parametrize(("count", "now"), [(1, 0.45), (2, 0.3), (3, 0.225)])
 def test_rivals_of_an_ambiguous_verdict_share_its_probability(monkeypatch, count: int, now: float) -> None:
     best, *others = (fitted((n,), 1.0) for n in ("heating", "run_in", "breakaway", "presliding"))
-    telling(monkeypatch, 5.0)
+    separate_by(monkeypatch, 5.0)
     ranked = next_test(diagnosis("ambiguous", best, near=tuple(others[:count])), library=LIBRARY[:1])
     assert ranked.chances == pytest.approx((now,) * min(count + 1, 3))
     # the one that is right gets what those that were held against it had; that none is right stays as likely
@@ -111,14 +102,14 @@ def test_rivals_of_an_ambiguous_verdict_share_its_probability(monkeypatch, count
 
 
 def test_a_motion_that_tells_nothing_leaves_the_probability_as_it_is(monkeypatch):
-    telling(monkeypatch, 0.0)
+    separate_by(monkeypatch, 0.0)
     ranked = next_test(diagnosis("named", fitted(("heating",), 1.0), fitted(("run_in",), 2.0)), library=LIBRARY[:1])
     assert ranked.chances == (0.9, 0.06)
     assert ranked.proposals[0].probability == pytest.approx(0.9)
 
 
 def test_motions_beyond_the_table_are_refused_and_made_smaller_until_it_can_make_them(monkeypatch):
-    telling(monkeypatch, 1.0)
+    separate_by(monkeypatch, 1.0)
     ranked = next_test(diagnosis("named", fitted(("heating",), 1.0), fitted(("run_in",), 2.0)), SMALL)
     refused = {p.motion for p in ranked.proposals if p.refused}
     made = [p.motion for p in ranked.proposals if not p.refused]
@@ -132,7 +123,7 @@ def test_motions_beyond_the_table_are_refused_and_made_smaller_until_it_can_make
 
 
 def test_a_smaller_motion_keeps_its_frequencies_and_the_proportion_of_its_parts(monkeypatch):
-    telling(monkeypatch, 1.0)
+    separate_by(monkeypatch, 1.0)
     found = diagnosis("named", fitted(("heating",), 1.0), fitted(("run_in",), 2.0))
     text = "sine:4.2Hz,0.5g,cycles=24,vertical=6.5Hz,0.25g"
     smaller, refused = next_test(found, Limits(acceleration=1.0), library=(text,)).proposals
@@ -140,8 +131,8 @@ def test_a_smaller_motion_keeps_its_frequencies_and_the_proportion_of_its_parts(
     assert smaller.motion == "sine:4.2Hz,0.101g,cycles=24,vertical=6.5Hz,0.0507g"
 
 
-def test_why_a_motion_failed_is_told_and_it_ranks_behind_those_that_tell_nothing(monkeypatch):
-    telling(monkeypatch, 0.0)
+def test_why_a_motion_failed_is_said_and_it_ranks_behind_those_that_tell_nothing(monkeypatch):
+    separate_by(monkeypatch, 0.0)
     answers = iter([(0.0, "", "the slip grew beyond 5 m"), (0.0, "pads", ""), (2.0, "pads", "")])
     monkeypatch.setattr(module, "_separation", lambda *_: next(answers))
     found = diagnosis("named", fitted(("heating",), 1.0), fitted(("run_in",), 2.0))
@@ -151,22 +142,22 @@ def test_why_a_motion_failed_is_told_and_it_ranks_behind_those_that_tell_nothing
 
 
 def test_if_every_motion_fails_the_reason_is_an_error(monkeypatch):
-    telling(monkeypatch, 0.0, "the slip grew beyond 5 m")
+    separate_by(monkeypatch, 0.0, "the slip grew beyond 5 m")
     with pytest.raises(SimulationError, match="none of 2 motions .* beyond 5 m"):
         next_test(diagnosis("named", fitted(("heating",), 1.0), fitted(("run_in",), 2.0)), library=LIBRARY[:2])
 
 
 @pytest.mark.parametrize("separation", [0.01, 0.5])
 def test_where_no_motion_tells_the_catalogue_says_what_would(monkeypatch, separation: float) -> None:
-    telling(monkeypatch, separation)
+    separate_by(monkeypatch, separation)
     best, partner = fitted(("buffer_damping",), 1.0), fitted(("guide_drag",), 1.01)
     words = next_test(diagnosis("ambiguous", best, partner), library=LIBRARY[:1]).words
     assert ("only yaw and pitch tell" in words) == (separation < 0.1)
     assert "tell them apart." not in words, "they leave the same"
 
 
-def test_effects_that_are_one_thing_to_the_verdict_but_not_to_the_runs_are_told(monkeypatch):
-    telling(monkeypatch, 0.01)
+def test_effects_that_are_one_thing_to_the_verdict_but_not_to_the_runs_are_named(monkeypatch):
+    separate_by(monkeypatch, 0.01)
     best, partner = fitted(("buffer_damping",), 1.0), fitted(("guide_drag",), 4.0)
     words = next_test(diagnosis("ambiguous", best, partner), library=LIBRARY[:1]).words
     assert "guide_drag leaves 3 noise variances more in pads than buffer_damping" in words
@@ -187,6 +178,7 @@ def test_an_unreadable_motion_is_refused_before_any_work():
 
 def test_one_slider_on_an_actuator_has_no_table_motion():
     found = diagnosis("named", fitted(("heating",), 1.0), fitted(("run_in",), 2.0))
-    found.final.campaign.specimen.free = False
+    slider = replace(found.final.campaign, name="march", rig="pad", specimen=load_specimen("pad"))
+    found = replace(found, final=replace(found.final, campaign=slider))
     with pytest.raises(SlipwiseError, match="march: the slip of rig .* is prescribed"):
         next_test(found)

@@ -49,7 +49,7 @@ def test_a_rigid_girder_leaves_nothing_beside_inertia_and_rocking() -> None:
 
 
 def test_rocking_swing_is_twice_the_acceleration_in_g_times_slenderness() -> None:
-    """physics.md 1.2: |dN| / N0 = 2 (|a| / g) (h / b)."""
+    """docs/theory.md, section 1.2: |dN| / N0 = 2 (|a| / g) (h / b)."""
     factors = load_factors(rig(AZ, AX), MASS, GRAVITY)
     expected = 2.0 * (np.ptp(AX) / 2 / GRAVITY) * HEIGHT / (2 * HALF[0])
     np.testing.assert_allclose(factors.rocking_swing, expected, rtol=1e-9)
@@ -83,7 +83,7 @@ def test_equilibrium_predicts_the_modes_of_a_rigid_girder() -> None:
 
 
 def test_weight_moves_over_pads_that_stand_on_the_table() -> None:
-    """physics.md 1.7: dN = m g x / (2 b) = 0.33 kN a pad at 20 mm and b = 3 m."""
+    """The slipped girder weighs on one side: dN = m g x / (2 b) = 0.33 kN a pad at 20 mm and b = 3 m."""
     still = rig(0.0 * AZ, 0.0 * AX).replaced(slip_x=np.full(len(AZ), 0.020))
     moved = rigid_modes(still, MASS, GRAVITY, HEIGHT, HALF)
     assert moved.pitch[0] / 4 == pytest.approx(0.02 * MASS * GRAVITY / (2 * 3.0))

@@ -82,13 +82,13 @@ def test_a_filter_refuses_missing_samples_rather_than_spreading_them():
 
 
 @pytest.mark.parametrize(
-    ("setting", "error", "told"),
+    ("setting", "error", "message"),
     [
         ({"frequency": 0.0}, SettingError, "above zero"),
         ({"frequency": 50.0, "order": 17}, SettingError, "1 to 16"),
         ({"frequency": 50.0, "phase": "casual"}, UnknownNameError, "did you mean causal"),
     ],
 )
-def test_a_filter_that_cannot_be_is_refused(setting, error, told):
-    with pytest.raises(error, match=told):
+def test_a_filter_that_cannot_be_is_refused(setting, error, message):
+    with pytest.raises(error, match=message):
         LowPass(**setting)

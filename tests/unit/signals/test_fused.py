@@ -78,11 +78,11 @@ def test_missing_samples_of_the_gauge_are_bridged():
 
 
 @pytest.mark.parametrize(
-    ("count", "gap", "told"), [(6, None, "too few"), (400, 17, "cannot be integrated")], ids=["short", "gap"]
+    ("count", "gap", "message"), [(6, None, "too few"), (400, 17, "cannot be integrated")], ids=["short", "gap"]
 )
-def test_what_cannot_be_fused_is_refused(count, gap, told):
+def test_what_cannot_be_fused_is_refused(count, gap, message):
     time, position, _, acceleration = sine(1e-5, count)
     if gap is not None:
         acceleration[gap] = np.nan
-    with pytest.raises(InputError, match=told):
+    with pytest.raises(InputError, match=message):
         fuse(time, position, acceleration)

@@ -1,16 +1,12 @@
 """The page and the pictures of a diagnosis say no more than there is: rivals, held-out runs, steps."""
 
 from dataclasses import replace
-from types import SimpleNamespace
-from typing import Any
 
-import pytest
-
+from hypotheses import base, diagnosed, left_by, searched
 from slipwise.diagnosis.ladder import Ladder, LadderStep
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.verdict import Verdict
 from slipwise.effects import catalogue
-from slipwise.view.canvas import new_figure
 from slipwise.view.diagnosis_figures import balances_figure, ladder_figure
 from slipwise.view.diagnosis_page import diagnosis_page
 from slipwise.view.numbers import counted, in_words
@@ -29,34 +25,22 @@ def _ladder(*steps: LadderStep, stopped: str = "nothing above the noise floor is
 
 def _found(*names: str, kind: str = "ambiguous", held_out: bool = True) -> Diagnosis:
     """A diagnosis in which each name is an explanation of its own."""
-    rivals: Any = tuple(SimpleNamespace(names=(n,)) for n in names[1:]) if kind == "ambiguous" else ()
-    verdict = Verdict(kind, names, 0.5, "none", 1.0, None, rivals)
-    best = SimpleNamespace(names=names[:1], terms=names[:1])
-    base = SimpleNamespace(problem=SimpleNamespace(held_out=[4] if held_out else []))
-    search: Any = SimpleNamespace(screened=[], base=base, best=best, terms=())
-    relations = {"pads": (3.0, 1.0), "girder": (1.0, 1.0)}
-    return Diagnosis(
-        "made up", verdict, "pad friction", 3.0, 1.0, relations, {"base": 4.0, "final": 1.1}, (), (), {}, (), search,
-        None, 1.0,  # pyright: ignore[reportArgumentType]
-    )  # fmt: skip
+    of = base(held_out=held_out, pads=9.0)
+    best, *others = (left_by(name, of=of) for name in names)
+    rivals = tuple(others) if kind == "ambiguous" else ()
+    found = diagnosed(searched(of, best, *others), Verdict(kind, names, 0.5, "none", 1.0, None, rivals))
+    return replace(found, system={"base": 4.0, "final": 1.1})
 
 
-@pytest.fixture
-def page(monkeypatch):
-    """Make the page without its loops, which need a measured run."""
-    monkeypatch.setattr("slipwise.view.diagnosis_page.loops_figure", lambda found: new_figure(1.0, 1.0))
-    return diagnosis_page
+def test_the_headline_counts_the_rivals():
+    text = diagnosis_page(_found("heating", "run_in", "channel_drift"))
+    assert "Three explanations, one measurement: heating or run_in or channel_drift<" in text
+    assert "Either heating or run_in or channel_drift:" in text
 
 
-def test_the_headline_counts_the_rivals(page):
-    two, three = _found("heating", "run_in"), _found("heating", "run_in", "channel_drift")
-    assert "Two explanations, one measurement: heating or run_in<" in page(two)
-    assert "Three explanations, one measurement: heating or run_in or channel_drift<" in page(three)
-    assert "Either heating or run_in or channel_drift:" in page(three)
-
-
-def test_what_parts_the_rivals_comes_first_and_once(page):
-    text = page(_found("heating", "run_in"))
+def test_what_parts_the_rivals_comes_first_and_once():
+    text = diagnosis_page(_found("heating", "run_in"))
+    assert "Two explanations, one measurement: heating or run_in<" in text
     parts = "run_in instead of heating: "
     first = text.split('<section id="what-would-change-our-mind">')[1].split("<li>")[1]
     assert first.startswith(parts) and text.count(parts) == 1
@@ -64,12 +48,14 @@ def test_what_parts_the_rivals_comes_first_and_once(page):
     assert catalogue()["run_in"].confused_with["buffer_softening"] in text
 
 
-def test_nothing_is_called_held_out_where_every_run_was_fitted(page):
+def test_nothing_is_called_held_out_where_every_run_was_fitted():
     seen = _ladder(_step(), _step("heating"))
-    assert "held-out" in page(_found("heating", kind="named"), seen) and "no fit has seen" in page(_found("heating"))
+    assert "held-out" in diagnosis_page(_found("heating", kind="named"), seen) and "no fit has seen" in diagnosis_page(
+        _found("heating")
+    )
     unseen = _ladder(_step(held=NAN, replay=4.0), _step("heating", held=NAN, replay=1.1))
     found = _found("heating", kind="named", held_out=False)
-    for text in (page(found, unseen), found.sentence):
+    for text in (diagnosis_page(found, unseen), found.sentence):
         assert "held-out" not in text.lower() and "no fit has seen" not in text
         assert "the runs that were fitted" in text
 

@@ -69,5 +69,5 @@ def test_the_table_of_effects_has_a_row_for_every_effect() -> None:
 def test_the_table_of_effects_says_which_effects_are_confused_with_which() -> None:
     rows = {line.split("`")[1]: line for line in effects_table().splitlines() if line.startswith("| `")}
     for name, effect in catalogue().items():
-        told = rows[name].rsplit("|", 2)[1]
-        assert told.strip() == ", ".join(f"`{rival}`" for rival in effect.confused_with)
+        written = rows[name].rsplit("|", 2)[1]
+        assert written.strip() == ", ".join(f"`{rival}`" for rival in effect.confused_with)

@@ -41,15 +41,15 @@ def test_a_pad_has_its_own_colour_on_the_loops(files):
 
 
 def test_axes_are_labelled_in_the_units_of_the_laboratory(record, geometry):
-    said = words(loops_figure(record)) + words(loads_figure(record, geometry)) + words(histories_figure(record))
+    shown = words(loops_figure(record)) + words(loads_figure(record, geometry)) + words(histories_figure(record))
     for label in ("slip x [mm]", "friction F [kN]", "N [kN]", "m/s²", "time [s]", "kN cm", "kN/mm"):
-        assert label in said
+        assert label in shown
 
 
 def test_loads_show_factor_a_factor_b_the_rest_and_uplift(record, geometry):
-    said = words(loads_figure(record, geometry))
+    shown = words(loads_figure(record, geometry))
     for label in ("Factor A: inertia", "Factor B: rocking", "the rest", "uplift"):
-        assert label in said
+        assert label in shown
 
 
 def test_modes_stand_beside_what_a_rigid_girder_asks_for(record, geometry):

@@ -1,0 +1,206 @@
+"""Hypotheses of one small campaign whose residuals are chosen: what is judged is real, but nothing has to be fitted."""
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.campaign import Campaign, Logger, Run
+from slipwise.diagnosis.diagnose import as_fit
+from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis
+from slipwise.diagnosis.result import Candidate, Diagnosis
+from slipwise.diagnosis.search_state import Search
+from slipwise.diagnosis.verdict import Verdict, judge
+from slipwise.effects import catalogue
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.least_squares import Solution
+from slipwise.estimation.parameters import Free, Term, base_free, terms_of
+from slipwise.estimation.problem import Problem
+from slipwise.estimation.residuals import Residuals
+from slipwise.estimation.run_data import FitRun, fit_runs
+from slipwise.evidence.residual_summary import error_of, summarised
+from slipwise.model import base_model
+from slipwise.record import Record
+from slipwise.signals import LowPass
+
+Array = NDArray[np.float64]
+DT, SECONDS, REST = 0.002, 6.0, 1.0
+NOISE = {"slip_x": 2e-5, "table_ax": 0.01, "table_az": 0.01, "girder_ax": 0.01, "girder_az": 0.01, "yaw": 1e-5}
+FORCE_NOISE = 20.0
+
+
+def shaken(frequency: float, seed: int, gauges: tuple[str, ...] = ()) -> Record:
+    """Give the usual channels of bridge 1 after a rest: slip is a sine, forces and accelerations follow from it."""
+    rng, specimen = np.random.default_rng(seed), base_model("bridge1").specimen
+    time = np.arange(round(SECONDS / DT)) * DT
+    turn, moving = 2.0 * np.pi * frequency, np.clip(time - REST, 0.0, None)
+    slip, velocity = 0.01 * (1.0 - np.cos(turn * moving)), 0.01 * turn * np.sin(turn * moving)
+    acceleration = 0.01 * turn**2 * np.cos(turn * moving) * (time > REST)
+    vertical = 1.5 * np.sin(2.0 * np.pi * 3.1 * moving)
+    loads = np.tile((specimen.weight + specimen.mass * vertical)[:, None] / 4.0, 4)
+    forces = 0.11 * loads * np.tanh(velocity / 5e-3)[:, None]
+    girder = -(forces.sum(axis=1) + sum(specimen.buffer_stiffness) * slip) / specimen.mass
+    channels = {"slip_x": slip, "table_ax": girder - acceleration, "table_az": vertical}
+    channels |= {"girder_ax": girder, "girder_az": vertical}
+    channels |= {"yaw": 1e-4 * slip} if "yaw" in gauges else {}
+    channels |= {f"pad_{p}_N": loads[:, i] for i, p in enumerate("ABCD")}
+    channels |= {f"pad_{p}_Fx": forces[:, i] for i, p in enumerate("ABCD")}
+    return Record(time, {k: v + rng.normal(0.0, NOISE.get(k, FORCE_NOISE), len(time)) for k, v in channels.items()})
+
+
+@cache
+def measured(*gauges: str, held_out: bool = True) -> Campaign:
+    """Give a campaign of a fitted run and another, behind a logger of 100 Hz.
+
+    Args:
+        gauges: beside the usual ones: "yaw".
+        held_out: whether the other run is kept from every fit.
+    """
+    roles = ("fit", "holdout" if held_out else "fit")
+    shakes = zip(roles, (1.5, 2.0), strict=True)
+    runs = tuple(
+        Run(f"sine_{role}_{f:g}", role, shaken(f, i, gauges), 1800.0, None, f"{f:g}.csv", f"{i}")
+        for i, (role, f) in enumerate(shakes)
+    )
+    specimen = base_model("bridge1").specimen
+    return Campaign("made", "bridge1", specimen, Logger(LowPass(100.0), known=True), runs, Path())
+
+
+@cache
+def _problem(*gauges: str, held_out: bool) -> Problem:
+    model = base_model("bridge1")
+    problem = Problem(fit_runs(measured(*gauges, held_out=held_out)), model.specimen, terms_of(model))
+    for name in problem.relations:
+        problem.sigmas[name] = [np.full((1,) * run.judged[name].ndim, FORCE_NOISE) for run in problem.runs]
+    return problem
+
+
+@cache
+def base(*gauges: str, held_out: bool = True, **left: float) -> BaseFit:
+    """Give a base fit of that campaign that leaves so much in each relation, and noise where nothing is said.
+
+    Args:
+        gauges: as in `measured`.
+        held_out: as in `measured`.
+        left: relation -> mean squared residual [noise variance].
+    """
+    campaign, model, problem = (
+        measured(*gauges, held_out=held_out),
+        base_model("bridge1"),
+        _problem(*gauges, held_out=held_out),
+    )
+    free = tuple(base_free(model, balances=problem.balanced))
+    return BaseFit(campaign, model, problem, free, _solution(problem, {f.key: f.start for f in free}, free, left))
+
+
+def on(name: str, group: str) -> Term:
+    """Give a fault on one channel, or on a group of the pads' channels: "pad_*_N"."""
+    return Term(catalogue()[name], tuple(group.replace("*", p) for p in "ABCD") if "*" in group else (group,), group)
+
+
+def left_by(
+    *terms: Term | str,
+    of: BaseFit,
+    held_out: Mapping[str, float] | None = None,
+    values: Mapping[str, float] | None = None,
+    over: Callable[[FitRun], Array] | None = None,
+    **left: float,
+) -> Hypothesis:
+    """Give the hypothesis of these effects that leaves so much in each relation, and noise where nothing is said.
+
+    Args:
+        terms: effects, by name or with their channels.
+        of: the base fit.
+        held_out: relation -> mean squared residual on held-out runs, where that is something else.
+        values: key -> value where its parameters or the rig's are not typical.
+        over: state of a run (n,) on which depends what the pads have above noise; no state predicts it if not given.
+        left: relation -> mean squared residual [noise variance].
+    """
+    every = tuple(t if isinstance(t, Term) else Term(catalogue()[t]) for t in terms)
+    problem = of.problem.adding(*every)
+    new = [f for t in every for f in t.free(t.effect.typical())]
+    start = {**of.solution.values, **{f.key: _inside(f) for f in new}, **(values or {})}
+    solution = _solution(problem, start, (*of.free, *new), left, held_out or {}, over)
+    return Hypothesis(every, problem, solution, summarised(problem, solution))
+
+
+def _inside(free: Free) -> float:
+    """Give where a number begins, but not on a bound: a law that has run against one is weighed as such."""
+    margin = 0.05 * (free.high - free.low)
+    return (
+        free.start
+        if free.low < free.start < free.high
+        else float(np.clip(free.start, free.low + margin, free.high - margin))
+    )
+
+
+def searched(of: BaseFit, *tried: Hypothesis) -> Search:
+    """Give a search from this base fit that ended at the first of what it tried."""
+    terms = {t.label: t for h in tried for t in h.terms}
+    return Search(of, {}, list(terms.values()), list(tried), (base_hypothesis(of), *tried[:1]))
+
+
+def diagnosed(state: Search, verdict: Verdict | None = None, probabilities: Sequence[float] = ()) -> Diagnosis:
+    """Give the diagnosis of a search.
+
+    Args:
+        state: of the search.
+        verdict: where it is another than the search's own.
+        probabilities: of the hypotheses that were tried; those that have none are not listed.
+    """
+    verdict = verdict or judge(state)
+    shown = state.final if verdict.effects else state.path[0]
+    errors = {r: tuple(error_of(h.summary, r) for h in (state.path[0], shown)) for r in shown.summary.fitted}
+    listed = tuple(
+        Candidate(" + ".join(t.label for t in h.terms), chance, *errors["pads"], 0.0, {})
+        for h, chance in zip(state.tried, probabilities, strict=False)
+    )
+    before, after = (max(each) for each in zip(*errors.values(), strict=True))
+    return Diagnosis(
+        campaign=state.base.campaign.name,
+        verdict=verdict,
+        component="pad friction",
+        base_error=before,
+        final_error=after,
+        relations=errors,
+        system={},
+        candidates=listed,
+        predicted_friction=(),
+        least={},
+        cannot_tell=(),
+        search=state,
+        final=as_fit(state.base, shown, with_slopes=False),
+        seconds=1.0,
+    )
+
+
+def _solution(
+    problem: Problem,
+    values: dict[str, float],
+    free: tuple[Free, ...],
+    left: Mapping[str, float],
+    held_out: Mapping[str, float] | None = None,
+    over: Callable[[FitRun], Array] | None = None,
+) -> Solution:
+    parts: dict[str, list[Array]] = {}
+    for name in problem.relations:
+        levels = [left.get(name, 1.0)] * len(problem.runs)
+        for place in problem.held_out:
+            levels[place] = (held_out or {}).get(name, levels[place])
+        by = over if name == "pads" else None
+        parts[name] = [_residual(run, name, i, levels[i], by) for i, run in enumerate(problem.runs)]
+    residuals = Residuals(parts, [0.9 * run.force for run in problem.runs])
+    stacked = residuals.stacked(problem.fitted, problem.relations)
+    return Solution(values, free, residuals, np.zeros((len(stacked), len(free))), float(stacked @ stacked), 1)
+
+
+def _residual(run: FitRun, name: str, place: int, level: float, over: Callable[[FitRun], Array] | None) -> Array:
+    """Give a residual of this mean square over what is judged: noise, and on top of it a step over a state."""
+    kept = run.judged[name]
+    noise = np.random.default_rng([place, len(name)]).normal(size=kept.shape)
+    if over is not None and level > 1.0:
+        step = np.sign(over(run) - np.median(over(run)))
+        noise = noise + np.sqrt(level - 1.0) * (step[:, None] if kept.ndim == 2 else step)
+    return np.where(kept, noise * np.sqrt(level / np.mean(noise[kept] ** 2)), 0.0)
