@@ -6,15 +6,21 @@ from typing import Any
 import numpy as np
 
 from slipwise.comparison.component_level import NAMES
-from slipwise.comparison.result import Comparison
+from slipwise.comparison.data import ComparisonData
+from slipwise.comparison.system_level import pooled_system
+
+TABLES: tuple[str, ...] = (
+    "audit", "components", "system", "parameters", "correlations", "cells", "places", "parity", "floor",
+    "noise", "predicted_friction",
+)  # fmt: skip
 
 
-def rows_of(found: Comparison, table: str) -> list[dict[str, Any]]:
+def rows_of(found: ComparisonData, table: str) -> list[dict[str, Any]]:
     """Give a table as rows of plain values, SI."""
     return _MAKERS[table](found)
 
 
-def _components(found: Comparison) -> list[dict[str, Any]]:
+def _components(found: ComparisonData) -> list[dict[str, Any]]:
     return [
         {
             "relation": e.relation,
@@ -31,42 +37,42 @@ def _components(found: Comparison) -> list[dict[str, Any]]:
     ]
 
 
-def _system(found: Comparison) -> list[dict[str, Any]]:
+def _system(found: ComparisonData) -> list[dict[str, Any]]:
     keys = ("run", "role", "channel", "error", "rms", "floor", "gauge", "fed", "step", "share")
     return [{k: getattr(e, k) for k in keys} for e in (found.system.errors if found.system else ())]
 
 
-def _parameters(found: Comparison) -> list[dict[str, Any]]:
+def _parameters(found: ComparisonData) -> list[dict[str, Any]]:
     keys = ("value", "low", "high", "rated", "unit", "bound", "limit")
     return [{"parameter": e.key, **{k: getattr(e, k) for k in keys}} for e in found.intervals.entries]
 
 
-def _correlations(found: Comparison) -> list[dict[str, Any]]:
+def _correlations(found: ComparisonData) -> list[dict[str, Any]]:
     pairs = found.intervals.strongest(len(found.intervals.keys) ** 2)
     return [{"parameter": a, "other": b, "correlation": value} for a, b, value in pairs]
 
 
-def _cells(found: Comparison) -> list[dict[str, Any]]:
+def _cells(found: ComparisonData) -> list[dict[str, Any]]:
     keys = ("relation", "kind", "label", "low", "high", "error", "samples", "effective", "chance", "above")
     return [{k: getattr(c, k) for k in keys} for c in found.cells]
 
 
-def _places(found: Comparison) -> list[dict[str, Any]]:
+def _places(found: ComparisonData) -> list[dict[str, Any]]:
     keys = ("relation", "words", "error", "elsewhere", "share", "part", "kind", "direction")
     return [{k: getattr(p, k) for k in keys} for p in found.places]
 
 
-def _parity(found: Comparison) -> list[dict[str, Any]]:
+def _parity(found: ComparisonData) -> list[dict[str, Any]]:
     keys = ("relation", "odd", "even", "plus", "minus")
     return [{k: getattr(p, k) for k in keys} for p in found.parities.values()]
 
 
-def _predicted_friction(found: Comparison) -> list[dict[str, Any]]:
+def _predicted_friction(found: ComparisonData) -> list[dict[str, Any]]:
     keys = ("run", "role", "measured", "value", "low", "high", "inside")
     return [{k: getattr(f, k) for k in keys} for f in found.predicted_friction]
 
 
-def _floor(found: Comparison) -> list[dict[str, Any]]:
+def _floor(found: ComparisonData) -> list[dict[str, Any]]:
     problem = found.base.problem
     out = []
     for relation in found.relations:
@@ -103,7 +109,7 @@ _MAKERS = {
 }
 
 
-def as_json(found: Comparison) -> dict[str, Any]:
+def as_json(found: ComparisonData) -> dict[str, Any]:
     """Give a comparison as compare.json holds it: SI, errors in multiples of the floor, null where unknown.
 
     schema: 1
@@ -126,8 +132,6 @@ def as_json(found: Comparison) -> dict[str, Any]:
     cannot, notes: in words
     seconds: that it took
     """
-    from slipwise.comparison.system_level import pooled_system
-
     worst, error = found.worst
     system = {}
     if found.system:

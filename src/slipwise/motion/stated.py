@@ -98,15 +98,17 @@ def settle_step(stated: float | None, given: Given, source: SourceFile) -> tuple
     elif given.dt is not None:
         dt, words = given.dt, "as given"
     else:
-        raise InputError(f"{source.name}: the file does not state its time step; give it, for example --dt '0.005 s'")
+        raise InputError(
+            f"{source.name}: the file does not state its time step; give it, for example --motion-dt '0.005 s'"
+        )
     if stated is not None and given.dt is not None and abs(given.dt - stated) > 1e-4 * abs(stated):
         raise InputError(
             f"{source.name}: the file states a step of {stated:g} s, {given.dt:g} s was given; "
-            "leave --dt out, or correct the file's header"
+            "leave --motion-dt out, or correct the file's header"
         )
     if not _STEP_RANGE[0] <= dt <= _STEP_RANGE[1]:
         raise InputError(
             f"{source.name}: a step of {dt:g} s is not possible; steps of {_STEP_RANGE[0]:g} s to "
-            f"{_STEP_RANGE[1]:g} s are read, check the header or --dt"
+            f"{_STEP_RANGE[1]:g} s are read, check the header or --motion-dt"
         )
     return dt, f"step {dt:g} s, {words}"

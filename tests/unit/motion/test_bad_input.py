@@ -111,7 +111,7 @@ def test_times_that_run_backwards_repeat_or_leave_gaps(load, times, words):
 def test_a_step_or_unit_that_nobody_states_is_asked_for(load):
     column, two = samples.one_column(WAVE), samples.columns(WAVE, head="")
     for data in (column, two):
-        with pytest.raises(InputError, match="does not state its time step; give it, for example --dt"):
+        with pytest.raises(InputError, match="does not state its time step; give it, for example --motion-dt"):
             load(data, unit="g")
         with pytest.raises(UnitError, match="does not state the unit of its acceleration; give it"):
             load(data, dt=0.01)

@@ -37,7 +37,7 @@ FORMATS: tuple[Format, ...] = (
     Format("PEER AT2", "one component a file", peer_at2.recognise, peer_at2.read),
     Format(
         "text columns",
-        "acceleration, or time and acceleration; give --dt and --unit where the file does not state them",
+        "acceleration, or time and acceleration; give --motion-dt and --unit where the file does not state them",
         columns.recognise,
         columns.read,
     ),
