@@ -37,10 +37,10 @@ def audit(campaign: CampaignFolder, correct: Correct = None, json: Json = False)
         found = sw.audit(measured)
         notes: tuple[str, ...] = ()
         if correct:
-            mended = sw.corrected_campaign(measured, found, correct)
-            notes = mended.notes[len(measured.notes) :]
+            corrected = sw.corrected_campaign(measured, found, correct)
+            notes = corrected.notes[len(measured.notes) :]
             tell("auditing once more", 0.6)
-            found = sw.audit(mended)
+            found = sw.audit(corrected)
     if json:
         print_json({**found.as_json(), "notes": [*notes, *found.notes]})
         return

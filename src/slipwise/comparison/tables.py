@@ -158,15 +158,15 @@ def as_json(found: ComparisonData) -> dict[str, Any]:
             for r in found.relations
         },
         "system": system,
-        "audit": {"accused": found.checks.accused, "words": found.checks.words, "findings": found.rows("audit")},
+        "audit": {"accused": found.checks.accused, "words": found.checks.words, "findings": rows_of(found, "audit")},
         "worst": {"relation": worst, "error": error},
         "surface": surface,
         **{
-            name: found.rows(name)
+            name: rows_of(found, name)
             for name in ("places", "parameters", "correlations", "floor", "parity", "cells", "predicted_friction")
         },
-        "noise": {"channels": found.rows("noise"), "notes": list(found.floor.notes)},
-        "runs": {"components": found.rows("components"), "system": found.rows("system")},
+        "noise": {"channels": rows_of(found, "noise"), "notes": list(found.floor.notes)},
+        "runs": {"components": rows_of(found, "components"), "system": rows_of(found, "system")},
         "cannot": list(found.cannot),
         "notes": list(found.notes),
         "seconds": found.seconds,

@@ -1,7 +1,7 @@
 """Numbers of the base model that a campaign does not tell: known badly, made up for by another, or on a bound.
 
-How badly is told beside whatever effects were found: a law that lacks something leaves a residual that blurs every
-number. Why is looked for in what the laws were fed with: a law that asks for pressure needs a load that changes.
+How badly they are identified is asked beside whatever effects were found: a law that lacks something leaves a residual
+that blurs every number. Why is looked for in what the laws were fed with: a law of pressure needs a load that changes.
 """
 
 import inspect
@@ -35,7 +35,7 @@ _LOADS, _SPEEDS = {"load", "pressure", "true_pressure"}, {"speed", "velocity_x"}
 
 
 @dataclass(frozen=True)
-class Told:
+class Identified:
     """How well a campaign tells a number inside its bounds.
 
     Attributes:
@@ -57,7 +57,7 @@ def unidentified(final: BaseFit, base: BaseFit) -> list[tuple[str, str]]:
         base: the base fit; only its numbers are looked at.
     """
     solution, keys = final.solution, {f.key for f in base.free}
-    told = how_told(_inside(final))
+    identified = how_identified(_inside(final))
     out: list[tuple[str, str]] = []
     tied: set[str] = set()
     for free in (f for f in solution.free if f.key in keys):
@@ -69,10 +69,10 @@ def unidentified(final: BaseFit, base: BaseFit) -> list[tuple[str, str]]:
                 end = "lower" if value - free.low < free.high - value else "upper"
                 said = f"the fit ended on its {end} bound, {number.amount(value)}"
                 out.append((number.title, f"{said}: the data want another law, or do not show it"))
-        elif free.key not in told:
+        elif free.key not in identified:
             out.append((number.title, "nothing that was measured here depends on it"))
         else:
-            one = told[free.key]
+            one = identified[free.key]
             share = one.error / max(abs(value), number.usual)
             if share > _BADLY:
                 said = f"{number.amount(value)} with a standard error of {number.amount(one.error)}"
@@ -93,8 +93,8 @@ def _inside(final: BaseFit) -> BaseFit:
     return replace(final, solution=replace(solution, free=free, jacobian=solution.jacobian[:, kept]))
 
 
-def how_told(fit: BaseFit) -> dict[str, Told]:
-    """Say of every number of a fit on which a residual depends how well it is told."""
+def how_identified(fit: BaseFit) -> dict[str, Identified]:
+    """Say of every number of a fit on which a residual depends how well it is identified."""
     found = intervals(fit)
     scale = {f.key: f.scale for f in fit.solution.free}
     inside = [j for j, f in enumerate(fit.solution.free) if f.key in found.keys]
@@ -103,10 +103,10 @@ def how_told(fit: BaseFit) -> dict[str, Told]:
     errors = np.sqrt(np.maximum(np.diag(found.covariance), 0.0))
     out = {}
     for i, key in enumerate(found.keys):
-        # a pseudo-inverse leaves out what is not told at all, as if it were known
+        # a pseudo-inverse leaves out what is not identified at all, as if it were known
         error = max(float(errors[i]), scale[key] / float(own[i]))
         j = int(np.argmax(np.abs(tie[i])))
-        out[key] = Told(error, found.keys[j] if tie[i, j] else "", float(tie[i, j]))
+        out[key] = Identified(error, found.keys[j] if tie[i, j] else "", float(tie[i, j]))
     return out
 
 
@@ -161,14 +161,14 @@ def _named(base: BaseFit, free: Free) -> _Number | None:
     return None
 
 
-def _why(base: BaseFit, effect: Effect | None, told: Told) -> str:
+def _why(base: BaseFit, effect: Effect | None, identified: Identified) -> str:
     """Say why a number is known badly: what its law asks for hardly changes, or another makes up for it; or ""."""
     hooks = effect.hooks.values() if effect else ()
     asked = {name for hook in hooks for name in inspect.signature(hook).parameters}
-    leans = abs(told.correlation) > _LEANS
+    leans = abs(identified.correlation) > _LEANS
     found = [_steady(base)] if asked & _LOADS and leans else []
     found += [_one_speed(base)] if asked & _SPEEDS else []
-    tie = f"{told.partner} makes up for it (correlation {told.correlation:.3f})" if leans else ""
+    tie = f"{identified.partner} makes up for it (correlation {identified.correlation:.3f})" if leans else ""
     return " and ".join(r for r in found if r) or tie
 
 

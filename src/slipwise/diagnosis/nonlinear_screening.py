@@ -1,4 +1,4 @@
-"""Candidates at their full size: where much is amiss, a straight line from a small one lies."""
+"""Candidates at their full size: where much is wrong, a straight line from a small one lies."""
 
 from collections.abc import Callable, Mapping
 
@@ -24,7 +24,7 @@ WORTH_A_LOOK = 0.02
 
 def at_full_size(
     base: BaseFit, term: Term, shape: Mapping[str, float], residual: Array, project: Callable[[Array], Array],
-    *, turns: bool, hopeful: bool,
+    *, turns: bool, promising: bool,
 ) -> tuple[dict[str, float], Array] | None:  # fmt: skip
     """Look for the size at which a gauge's lag, or what turns the girder, explains most, base projected out.
 
@@ -38,13 +38,13 @@ def at_full_size(
         residual: (m,) of the fitted runs, base projected out.
         project: the projection.
         turns: whether the girder turns with the candidate, and does not without.
-        hopeful: whether a straight line from a small size explains anything worth a look.
+        promising: whether a straight line from a small size explains anything worth a look.
 
     Returns:
         parameters and the residual (m,) with them, base not projected out; None where nothing helps.
     """
     sizes, whole = _crooked(term.effect, shape, turns), float(residual @ residual)
-    if not sizes or whole < (_AMISS if hopeful else _MUCH_AMISS) * len(residual):
+    if not sizes or whole < (_AMISS if promising else _MUCH_AMISS) * len(residual):
         return None
     best: tuple[float, dict[str, float], Array] | None = None
 

@@ -20,18 +20,18 @@ def explanations(found: Verdict, state: Search) -> tuple[Explanation, ...]:
     """
     if found.kind != "ambiguous":
         return (found.effects,) if found.effects else ()
-    told: list[Explanation] = []
+    unlike: list[Explanation] = []
     best = state.best.names
     if found.rivals:
         for names in (best, *(h.names for h in found.rivals)):
-            if set(names) not in map(set, told):  # the same effects in another order are no other explanation
-                told.append(names)
+            if set(names) not in map(set, unlike):  # the same effects in another order are no other explanation
+                unlike.append(names)
     else:
         pair = next((p for p in alike_pairs(known_effects(state).values()) if p & set(best)), frozenset(found.effects))
-        told = [(name,) for name in found.effects if name in pair]
-    rivals = {name for names in told for name in names}
+        unlike = [(name,) for name in found.effects if name in pair]
+    rivals = {name for names in unlike for name in names}
     sure = tuple(name for name in found.effects if name not in rivals)
-    return tuple((*names, *sure) for names in told)
+    return tuple((*names, *sure) for names in unlike)
 
 
 def partings(found: Verdict, state: Search) -> tuple[str, ...]:
@@ -40,9 +40,11 @@ def partings(found: Verdict, state: Search) -> tuple[str, ...]:
     out = []
     for one, other in combinations(explanations(found, state), 2):
         ours, theirs = (tuple(n for n in a if n not in b) for a, b in ((one, other), (other, one)))
-        told = [words for pair in product(ours, theirs) if (words := _told_apart(*pair, known))]
+        sentences = [words for pair in product(ours, theirs) if (words := _told_apart(*pair, known))]
         swap = f"{' + '.join(theirs) or 'nothing'} instead of {' + '.join(ours) or 'nothing'}"
-        out.append("; ".join(told) or f"{swap}: no effect's file names a test; `slipwise next` ranks table motions")
+        out.append(
+            "; ".join(sentences) or f"{swap}: no effect's file names a test; `slipwise next` ranks table motions"
+        )
     return tuple(out)
 
 

@@ -141,8 +141,8 @@ def _at_shapes(
                 break
             starts = [(p, {**v, p.name: found.values[p.name]} if p.name in far else v) for p, v in starts]
             found = _mixed(base, term, shape, starts, left, residual, project)
-        hopeful = found is not None and found.gain >= WORTH_A_LOOK * float(residual @ residual)
-        whole = at_full_size(base, term, shape, residual, project, turns=turns, hopeful=hopeful)
+        promising = found is not None and found.gain >= WORTH_A_LOOK * float(residual @ residual)
+        whole = at_full_size(base, term, shape, residual, project, turns=turns, promising=promising)
         if whole is not None and left is not None:
             values, there = whole
             step = project(there) - residual

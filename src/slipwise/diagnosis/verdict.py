@@ -20,7 +20,7 @@ from slipwise.instruments.suspects import effect_of
 #: A right family explains this share, whatever its form: 0.87 and more on trials, most wrong ones 0.69 and less [1].
 RIGHT_FAMILY = 0.70
 #: Right as often as not up to the first share, as sure as its lead from the second on: wrong laws reached 0.79 [1].
-_COIN_FAMILY, _SURE_FAMILY = 0.80, 0.92
+_EVEN_ODDS_FAMILY, _SURE_FAMILY = 0.80, 0.92
 #: What it must explain when its strength has run against a bound: more of the same, not something else.
 STRAINED_FAMILY = 0.90
 #: The same for geometry, which has one form only: wrong ones reached 0.96, right ones left no structure (36 campaigns).
@@ -30,11 +30,11 @@ SEVERAL_FAMILY = 0.90
 #: Below this drop of the mean squared residual the share is itself uncertain, and half is enough [noise variance].
 _SURE_SHARE = 1.0
 #: An effect that explains less than half of little, and leaves nothing with structure, is no finding.
-HALF, _FAINT, _COIN = 0.5, 0.4, 0.6
+HALF, _FAINT, _EVEN_ODDS = 0.5, 0.4, 0.6
 #: Beside a fault of samples something else is missing that has no name.
-_COIN_OF_FAULTS = 0.5
+_EVEN_ODDS_OF_FAULTS = 0.5
 #: A mean squared residual above this is no perfect model's [noise variance], even where no state predicts it.
-LOUD = 1.5
+ABOVE_NOISE = 1.5
 #: Nor can rivals be told apart whose scores differ by less than this share of it, and of what the better one leaves: a
 #: law of not quite the right form leaves something as well.
 _SAME_SHARE, _SAME_EXCESS = 0.004, 0.5
@@ -95,7 +95,7 @@ def _judged(state: Search) -> Verdict:
     remains = structured(surface)
     explained = 1.0 - excess(best.summary, best.summary) / max(excess(origin.summary, best.summary), 1e-12)
     if not best.terms:
-        if remains or _loud(best):
+        if remains or _above_noise(best):
             shown = surface if remains else None
             return Verdict("unknown", (), _unknown_probability(shown, 0.0), "unknown", 0.0, shown, ())
         return Verdict("complete", (), _complete_probability(state), "none", 1.0, surface, ())
@@ -104,17 +104,17 @@ def _judged(state: Search) -> Verdict:
     family = explained >= _least_share(best, drop) and not worsens(origin.summary, best.summary)
     too_little = explained < HALF if len(best.terms) == 1 else not family
     # effects of the wrong family can be bent to the fitted runs until they leave little there: held-out runs tell
-    if (remains and (not family or too_many)) or (too_little and _worst(state.final.summary) > LOUD):
+    if (remains and (not family or too_many)) or (too_little and _worst(state.final.summary) > ABOVE_NOISE):
         shown = surface if remains else None
         probability = _unknown_probability(shown, explained)
         whole = leftover(origin)  # what is drawn is all that is missing, not what unnamed effects have left of it
         drawn = whole if structured(whole) else shown
         return Verdict("unknown", (), probability, "unknown", explained, drawn, ())
-    if explained < HALF and not remains and drop < _FAINT and _worst(origin.summary) < LOUD:
-        return Verdict("complete", (), _COIN, "none", explained, surface, ())
+    if explained < HALF and not remains and drop < _FAINT and _worst(origin.summary) < ABOVE_NOISE:
+        return Verdict("complete", (), _EVEN_ODDS, "none", explained, surface, ())
     rivals = _rivals(state, best)
     names = best.names
-    left = "unknown" if remains or _loud(state.final) else "none"
+    left = "unknown" if remains or _above_noise(state.final) else "none"
     margin = _margin(state, best)
     probability = _named_probability(margin, explained, best, left)
     if drop >= _SURE_SHARE:
@@ -141,11 +141,11 @@ def _least_share(found: Hypothesis, drop: float) -> float:
     return RIGHT_FAMILY if drop >= _SURE_SHARE else HALF
 
 
-def _loud(found: Hypothesis) -> bool:
+def _above_noise(found: Hypothesis) -> bool:
     """Tell whether a hypothesis leaves more than noise in all runs, whether or not a state organises it."""
     levels = found.summary
     both = [[levels.level(r, held_out=h) for h in (False, True) if levels.counts[r][h]] for r in levels.fitted]
-    return any(min(of) > LOUD for of in both if of)
+    return any(min(of) > ABOVE_NOISE for of in both if of)
 
 
 def _worst(of: ResidualSummary) -> float:
@@ -167,7 +167,7 @@ def with_faults(found: Verdict, faults: Sequence[SampleFault], terms: Sequence[T
     if found.kind == "complete":
         return replace(found, kind="instrument", effects=names, probability=max(found.probability, 0.9))
     if found.kind == "unknown":
-        return replace(found, kind="instrument", effects=names, probability=_COIN_OF_FAULTS)
+        return replace(found, kind="instrument", effects=names, probability=_EVEN_ODDS_OF_FAULTS)
     moved = {name for f in faults if f.kind == "lost" for name in f.channels}
     # a gauge whose lost samples moved up the rest is late by that
     same = {t.effect.name for t in terms if t.effect.is_late and moved.issuperset(t.targets)}
@@ -234,7 +234,7 @@ def _named_probability(margin: float, explained: float, best: Hypothesis, left: 
 
 def _family_probability(explained: float) -> float:
     """Give the chance that a family is right by the share that it explains."""
-    return float(np.interp(explained, (_COIN_FAMILY, _SURE_FAMILY), (0.5, 0.99)))
+    return float(np.interp(explained, (_EVEN_ODDS_FAMILY, _SURE_FAMILY), (0.5, 0.99)))
 
 
 def _unknown_probability(surface: Surface | None, explained: float) -> float:

@@ -55,11 +55,11 @@ def on_force(
     if not terms:
         return run.force, np.zeros_like(force)
     names = [f"pad_{p}_Fx" for p in run.pads]
-    mended = run
+    corrected = run
     for term in terms:
-        mended = without(term, values, mended, around)
+        corrected = without(term, values, corrected, around)
     # while a pad sticks the law does not say its force
-    stuck = np.stack([mended.record[n] for n in names], axis=1)
+    stuck = np.stack([corrected.record[n] for n in names], axis=1)
     clean = np.where(run.sliding[:, None], force, stuck)
     record = run.record.replaced(**{n: clean[:, i] for i, n in enumerate(names)})
     record = record.replaced(**{f"pad_{p}_N": run.load[:, i] for i, p in enumerate(run.pads)})

@@ -128,9 +128,9 @@ def rivals(found: Diagnosis) -> tuple[Hypothesis, ...]:
     if verdict.kind == "ambiguous":
         near = sorted(verdict.rivals, key=lambda h: score(base.summary, h.summary))
         unlike = {frozenset(h.names): h for h in (*near, best)}  # the same effects in another order are no rival
-        told = [h for h in reversed(unlike.values()) if h is not best] or _partner(state)
-        if told:
-            return best, *told
+        others = [h for h in reversed(unlike.values()) if h is not best] or _partner(state)
+        if others:
+            return best, *others
     first = best if best.terms else _strongest(state, ())
     return first, _strongest(state, first.names)
 
@@ -243,20 +243,20 @@ def _measured(found: Diagnosis, model: Model, text: str) -> Campaign:
 
 def _words(found: Diagnosis, contest: Sequence[Hypothesis], most: float) -> str:
     """Say what else tells the rivals apart: the campaign itself, or a gauge where no motion separates them by more."""
-    told = []
+    sentences = []
     if found.verdict.kind == "ambiguous" and not found.verdict.rivals:
         # effects that the verdict takes for one thing to the rig are one only if the rig is not known well
         more, where = material_drop(contest[1].summary, contest[0].summary)
         if more >= MATERIAL:
-            told.append(
+            sentences.append(
                 f"Refitted to the campaign, {' + '.join(contest[1].names)} leaves {more:.2g} noise variances more in "
                 f"{where} than {' + '.join(contest[0].names)}: if the rig is as rated, these runs tell them apart."
             )
     if most < MATERIAL:
-        told.append(
+        sentences.append(
             f"No table motion of these tells them apart: {most:.2g} noise variances at most, {MATERIAL:g} is needed."
         )
         for one, other in combinations(contest, 2):
             pairs = product((t.effect for t in one.terms), (t.effect for t in other.terms))
-            told += [f"{b.name} instead of {a.name}: {t}." for a, b in pairs if (t := a.confused_with.get(b.name))]
-    return " ".join(dict.fromkeys(told))
+            sentences += [f"{b.name} instead of {a.name}: {t}." for a, b in pairs if (t := a.confused_with.get(b.name))]
+    return " ".join(dict.fromkeys(sentences))

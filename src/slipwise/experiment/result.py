@@ -49,6 +49,7 @@ class NextTest(Drawn, Tabular):
     def as_json(self) -> dict[str, Any]:
         """Give what next.json holds."""
         return {
+            "schema": 1,
             "best": list(self.rivals[0]),
             "rival": list(self.rivals[1]),
             "probability": round(self.chances[0], 3),
@@ -61,8 +62,8 @@ class NextTest(Drawn, Tabular):
         }
 
     def _headline(self) -> str:
-        told = " against ".join(" + ".join(names) or "the base model" for names in self.rivals)
-        return f"{told}: best told apart by {self.proposals[0].motion}" if self.proposals else told
+        rivals = " against ".join(" + ".join(names) or "the base model" for names in self.rivals)
+        return f"{rivals}: best told apart by {self.proposals[0].motion}" if self.proposals else rivals
 
     def _rows(self) -> list[dict[str, Any]]:
         return [

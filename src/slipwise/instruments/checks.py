@@ -1,6 +1,6 @@
 """The audit of the instruments in words and rows: what lies, on which channel, how large, how sure, what else it is.
 
-Nothing is corrected unless a finding is named: then the records are mended by its size, and the campaign says so.
+Nothing is corrected unless a finding is named: then the records are corrected by its size, and the campaign says so.
 """
 
 import time

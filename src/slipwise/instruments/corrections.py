@@ -39,13 +39,13 @@ def correct(campaign: Campaign, report: AuditReport, names: Iterable[str]) -> tu
             raise unknown_name("finding", name, known, "`slipwise audit` lists them.")
         for finding in chosen:
             words = f"corrected: {finding.words}"
-            records = {run.name: _mended(run.record, finding, campaign, run.name) for run in campaign.runs}
+            records = {run.name: _corrected(run.record, finding, campaign, run.name) for run in campaign.runs}
             campaign = campaign.with_records(records, words)
             done.append(words)
     return campaign, done
 
 
-def _mended(record: Record, finding: Finding, campaign: Campaign, run: str) -> Record:
+def _corrected(record: Record, finding: Finding, campaign: Campaign, run: str) -> Record:
     hooks = catalogue()[finding.what].hooks
     if declared(finding.what).scales and finding.size <= -1.0:
         raise InputError(f"{finding.channel} is dead: there is nothing that could be corrected; leave the channel out")

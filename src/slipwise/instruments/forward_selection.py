@@ -62,8 +62,8 @@ def judge(case: Case, begun: Fit | None = None) -> Verdict:
     one_sided: list[bool] = []
     for who in candidates:
         assert isinstance(who, Suspect)
-        blocks.append(signature(case, who, first.mended, first.stack, first.constants))
-        itself.append(noise_with_itself(case, who, first.mended, first.stack, first.constants))
+        blocks.append(signature(case, who, first.corrected, first.stack, first.constants))
+        itself.append(noise_with_itself(case, who, first.corrected, first.stack, first.constants))
         one_sided.append(who.one_sided)
     for alternative in alternatives(case.runs, case.relations):
         candidates.append(alternative)

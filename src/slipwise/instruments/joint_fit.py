@@ -65,11 +65,11 @@ class Case:
     mass_error: float
     passed: float
 
-    def mended(self, model: Model, *, noisier: bool = False) -> list[Held]:
+    def corrected(self, model: Model, *, noisier: bool = False) -> list[Held]:
         """Give the runs without the faults of a model; with more noise, where noise is to be followed."""
         runs = adding(self.runs, self.noise, self.runs[0].record.channels) if noisier else self.runs
         for suspect, size in reversed(model.sizes):
-            runs = with_records(runs, lambda r, s=suspect, z=size: s.mend(r, z))
+            runs = with_records(runs, lambda r, s=suspect, z=size: s.correct(r, z))
         return runs
 
     def stacked(self, runs: Sequence[Held], constants: Mapping[str, float]) -> Stack:
@@ -84,19 +84,19 @@ class Fit:
     Attributes:
         model: with fitted sizes.
         constants: of the rig.
-        mended: runs without the faults of the model.
-        stack: relations of the mended runs at these constants, physics not taken off.
+        corrected: runs without the faults of the model.
+        stack: relations of the corrected runs at these constants, physics not taken off.
         held: columns that are fitted: one block for each constant, each size, each alternative.
         left: relation -> (n,) what the model leaves.
         scale: relation -> root of the mean square of what is left, not far below its floor.
-        floor: relation -> what noise alone leaves; a gain that is mended scales its noise too.
+        floor: relation -> what noise alone leaves; a gain that is corrected scales its noise too.
         support: relation -> log likelihood.
         errors: standard errors of the sizes.
     """
 
     model: Model
     constants: dict[str, float]
-    mended: list[Held]
+    corrected: list[Held]
     stack: Stack
     held: list[Block]
     left: dict[str, Array]
@@ -125,7 +125,7 @@ def fit(case: Case, model: Model, constants: Mapping[str, float]) -> Fit:
     point, found = gauss_newton(
         start, lambda here: _linearised(case, here), _moved, most=_STEPS, linearised_end=True
     )  # fmt: skip
-    # constants and sizes stay as they were when the records were mended: what is left must belong to them
+    # constants and sizes stay as they were when the records were corrected: what is left must belong to them
     left = {n: r - predicted(found.held, n, found.solution, found.first) for n, r in found.here.residual.items()}
     scale, floor = found.scale, found.floor
     support = {n: -EVIDENCE * part.count * float(np.log(scale[n] / floor[n])) for n, part in found.parts.items()}
@@ -133,7 +133,7 @@ def fit(case: Case, model: Model, constants: Mapping[str, float]) -> Fit:
     known = len(found.here.base)
     errors = np.sqrt(np.maximum(np.diag(found.spread)[known : known + len(model.sizes)], 0.0) / EVIDENCE)
     return Fit(
-        point.model, point.constants, found.mended, found.here, found.held, left, scale, floor, support,
+        point.model, point.constants, found.corrected, found.here, found.held, left, scale, floor, support,
         tuple(errors.tolist()),
     )  # fmt: skip
 
@@ -151,7 +151,7 @@ class _Point:
 class _Linear:
     """The normal equations at a point, solved."""
 
-    mended: list[Held]
+    corrected: list[Held]
     here: Stack
     floor: dict[str, float]
     held: list[Block]
@@ -164,16 +164,16 @@ class _Linear:
 
 def _linearised(case: Case, point: _Point) -> _Linear:
     model, constants = point.model, point.constants
-    mended = case.mended(model)
-    here = case.stacked(mended, constants)
+    corrected = case.corrected(model)
+    here = case.stacked(corrected, constants)
     floor = _floor(case, model, here, constants)
-    signatures = [signature(case, suspect, mended, here, constants) for suspect, _ in model.sizes]
+    signatures = [signature(case, suspect, corrected, here, constants) for suspect, _ in model.sizes]
     held: list[Block] = [*here.base.values(), *signatures, *(a.columns for a in model.physics)]
     parts, first = parts_of(held, here.residual)
     weight = {n: 1.0 / max(point.scale.get(n, 0.0), floor[n]) for n in floor}
     squares, along = weighed(parts, weight, int(first[-1]))
     for k, (suspect, _) in enumerate(model.sizes, start=len(here.base)):
-        itself = noise_with_itself(case, suspect, mended, here, constants)
+        itself = noise_with_itself(case, suspect, corrected, here, constants)
         along[k] -= sum(weight[n] ** 2 * power for n, power in itself.items())
     if "mass" in here.base:
         number = list(here.base).index("mass")
@@ -182,7 +182,7 @@ def _linearised(case: Case, point: _Point) -> _Linear:
     spread = inverse(squares)
     solution = spread @ along
     scale = {n: max(LEAST_FLOOR * floor[n], float(np.sqrt(left_of(part, solution)))) for n, part in parts.items()}
-    return _Linear(mended, here, floor, held, parts, first, spread, solution, scale)
+    return _Linear(corrected, here, floor, held, parts, first, spread, solution, scale)
 
 
 def _moved(point: _Point, found: _Linear) -> Move[_Point]:
@@ -215,8 +215,8 @@ def predicted(held: Sequence[Block], name: str, solution: Array, first: NDArray[
 
 
 def _floor(case: Case, model: Model, here: Stack, constants: Mapping[str, float]) -> dict[str, float]:
-    """Give what noise alone leaves in each relation, mended as the records are."""
-    noisy = case.stacked(case.mended(model, noisier=True), constants)
+    """Give what noise alone leaves in each relation, corrected as the records are."""
+    noisy = case.stacked(case.corrected(model, noisier=True), constants)
     return {n: max(rms(noisy.residual[n] - r), 1e-12) for n, r in here.residual.items()}
 
 
@@ -229,8 +229,8 @@ def signature(
     case: Case, suspect: Suspect, runs: Sequence[Held], here: Stack, constants: Mapping[str, float]
 ) -> dict[str, Array]:
     """Give the change of the residuals for a unit of a suspect's size, relation -> (n, 1)."""
-    spoiled = with_records(runs, lambda record: suspect.spoil(record, suspect.step))
-    found = change(spoiled, case.relations, case.specimen, constants, here, frozenset(suspect.channels))
+    distorted = with_records(runs, lambda record: suspect.distort(record, suspect.step))
+    found = change(distorted, case.relations, case.specimen, constants, here, frozenset(suspect.channels))
     return {name: rows[:, None] / suspect.step for name, rows in found.items()}
 
 

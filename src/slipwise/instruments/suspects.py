@@ -1,7 +1,7 @@
 """The suspects: every fault that a gauge can have, on every channel or card that can have it.
 
-A suspect's signature is not written down: it is what the relations make of a record that the fault has spoiled, and the
-fault is the effect of that name in the catalogue.
+A suspect's signature is not written down: it is what the relations make of a record that the fault has distorted, and
+the fault is the effect of that name in the catalogue.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -57,11 +57,11 @@ class Suspect:
         """Name of fault and place."""
         return self.effect, self.label
 
-    def spoil(self, record: Record, size: float) -> Record:
+    def distort(self, record: Record, size: float) -> Record:
         """Give the record with the fault."""
         return catalogue()[self.effect].hooks["gauge"](record, self.target, **self.values(size))
 
-    def mend(self, record: Record, size: float) -> Record:
+    def correct(self, record: Record, size: float) -> Record:
         """Give the record without the fault; where it has no inverse, as far as noise allows."""
         hooks = catalogue()[self.effect].hooks
         return hooks["undo" if "undo" in hooks else "sharpen"](record, self.target, **self.values(size))
