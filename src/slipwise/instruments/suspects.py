@@ -87,6 +87,8 @@ def suspects(record: Record) -> list[Suspect]:
 
 def _of_effect(effect: Effect, record: Record) -> Iterator[Suspect]:
     for place, channels in places_of(effect, record).items():
+        if "*" in place and len(channels) < len(PADS):
+            continue  # no balance holds part of a card
         if effect.gauges.sits == "pads":
             cells = [f"pad_{pad}_{kind}" for pad in PADS for kind in ("N", "Fx")]
             if record.has_all(*cells, "table_ax", "table_az"):
