@@ -21,6 +21,7 @@ def sweep(count=800, lowest=5e6, highest=25e6, fastest=0.3, seed=3):
     return PadData(load, speed, friction_law(load, speed, AREA, TRUE))
 
 
+@pytest.mark.slow
 def test_the_law_that_is_fitted_is_the_law_of_the_effects():
     data = sweep()
     assert friction_law(data.load, data.speed, AREA, TRUE) == pytest.approx(

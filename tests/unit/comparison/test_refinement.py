@@ -56,6 +56,7 @@ def off(base: BaseFit, **shares: float) -> BaseFit:
     return replace(base, solution=replace(base.solution, values=values))
 
 
+@pytest.mark.slow
 def test_numbers_some_percent_off_are_recovered_from_the_replay(fitted: BaseFit) -> None:
     wrong = off(fitted, **{"run_in.rise": 0.85, "rig.buffer_stiffness": 1.06})
     found = refine(wrong, ("run_in.rise", "rig.buffer_stiffness"))

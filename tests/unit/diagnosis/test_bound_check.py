@@ -33,6 +33,7 @@ def test_a_gauge_at_midspan_of_a_girder_that_does_not_bend_hides_noise_only(comp
     )
 
 
+@pytest.mark.slow
 def test_what_is_there_is_kept_and_the_opposite_of_it_is_not() -> None:
     base = fit_base(as_campaign(build_campaign(45005, effects=("girder_bending",), size="medium")))
     found = screened(base, "girder_bending")["girder_bending"]
@@ -40,6 +41,7 @@ def test_what_is_there_is_kept_and_the_opposite_of_it_is_not() -> None:
     assert not keeps_its_gain(base, replace(found, values={**found.values, "frequency": 5.0, "share": 0.4}))
 
 
+@pytest.mark.slow
 def test_slopes_of_the_base_that_lead_astray_take_nothing_away() -> None:
     base = fit_base(as_campaign(build_campaign(45005, effects=("girder_bending",), size="medium")))
     found = screened(base, "girder_bending")["girder_bending"]

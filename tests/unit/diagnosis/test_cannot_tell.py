@@ -67,6 +67,7 @@ def test_a_full_campaign_tells_every_number_and_heat_from_wear(base: BaseFit) ->
     assert [key.partition(" ")[0] for key in reasons(base)] == ["faults"]
 
 
+@pytest.mark.slow
 def test_heat_looks_like_wear_where_nothing_is_repeated_after_a_pause(whole: Campaign) -> None:
     one = reasons(fit_base(replace(whole, runs=whole.runs[1:2])))
     assert "no run has the role repeat" in one["heating against run_in"]

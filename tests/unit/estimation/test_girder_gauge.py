@@ -27,6 +27,7 @@ def made() -> Made:
     return build_campaign(61, effects=(), rig="bridge1")
 
 
+@pytest.mark.slow
 def test_a_strong_filter_of_the_girder_is_put_on_what_the_balance_predicts(made: Made) -> None:
     """12 Hz takes reversals out of the accelerometer for good: sharpening it left 2.7 floors in the balance."""
     fault = Fault("channel_filter", ("girder_ax",), CUTOFF, form="second order")

@@ -21,6 +21,7 @@ from slipwise.model import base_model, use
 from slipwise.signals import LowPass
 
 
+@pytest.mark.slow
 def test_yaw_made_from_forces_tells_the_inertia_about_the_vertical() -> None:
     made = build_campaign(36154, effects=("buffer_mismatch",), size="medium", rig="bridge1")
     chain = made.truth.logger
@@ -32,6 +33,7 @@ def test_yaw_made_from_forces_tells_the_inertia_about_the_vertical() -> None:
     assert found.summary.level("pads", held_out=True) < 1.5**2
 
 
+@pytest.mark.slow
 def test_a_table_that_rocks_tells_the_inertia_of_pitch() -> None:
     made = build_campaign(36206, effects=("table_pitch",), size="large", rig="bridge1")
     hidden = made.truth.as_dict()["details"]["table_pitch"]
@@ -57,6 +59,7 @@ def test_the_noise_that_drives_a_rocking_table_is_counted() -> None:
     assert np.mean(power) == pytest.approx(np.var(load), rel=0.1)
 
 
+@pytest.mark.slow
 def test_pitch_is_weighed_with_the_resonance_that_is_there_however_far_from_the_rated_one() -> None:
     """54 Hz where 80 Hz is rated: weighed where the fit had passed by, its noise counted half."""
     made = build_campaign(59174, effects=())

@@ -39,6 +39,7 @@ def test_a_law_that_fits_predicts_more_closely_than_one_that_does_not(tmp_path: 
     assert spans[0] < 0.1 < spans[1]
 
 
+@pytest.mark.slow
 def test_a_girder_s_held_out_runs_are_inside_what_its_fitted_runs_are_missed_by() -> None:
     found = predicted_friction(fit_base(as_campaign(build_campaign(45048, effects=()))))
     assert all(run.inside is (None if run.role != "holdout" else True) for run in found)

@@ -15,6 +15,7 @@ from slipwise.estimation.parameters import YAW_INERTIA, Term
 from slipwise.model import base_model, use
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [5001, 5003])
 def test_unequal_buffers_turn_the_made_girder_as_far_as_the_true_one(seed: int) -> None:
     made = build_campaign(seed, effects=("buffer_mismatch",), size="medium")
@@ -33,6 +34,7 @@ def test_unequal_buffers_turn_the_made_girder_as_far_as_the_true_one(seed: int) 
         assert np.std(rate - turning) < 0.03 * np.std(turning)
 
 
+@pytest.mark.slow
 def test_a_users_own_effect_that_turns_the_girder_is_estimated_with_yaw_as_the_catalogues_is(tmp_path: Path) -> None:
     path = tmp_path / "my_pads.py"
     shutil.copy(catalogue()["pad_spread"].path, path)
