@@ -91,7 +91,7 @@ def _load_varies(problem: Problem) -> bool:
 
 #: Channels beside the pads' that the relations of a fit look at: what lies across, and the table's vertical motion, are
 #: held against others by the audit alone.
-LOOKED_AT = ("slip_x", "girder_ax", "girder_az", "table_ax")
+_LOOKED_AT = ("slip_x", "girder_ax", "girder_az", "table_ax")
 
 #: What effects need -> whether a campaign has it.
 HAS: dict[str, Callable[[Problem], bool]] = {
@@ -111,7 +111,7 @@ def _aimed(effect: Effect, problem: Problem) -> Iterator[Term]:
     places = places_of(effect, problem.runs[0].record)
     for place in sorted(places, key=lambda name: "*" not in name):
         targets = places[place]
-        if any(name not in LOOKED_AT and not name.startswith("pad_") or name.endswith("_Fy") for name in targets):
+        if any(name not in _LOOKED_AT and not name.startswith("pad_") or name.endswith("_Fy") for name in targets):
             continue
         if effect.gauges.sits == "pads":
             if len(targets) == len(problem.runs[0].pads):

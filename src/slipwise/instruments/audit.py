@@ -125,7 +125,7 @@ def _of_samples(fault: SampleFault) -> Finding:
         words=words,
         target=fault.channels[0] if len(fault.channels) == 1 else place,
         values=values,
-        runs=() if fault.kind == "turned" else fault.runs,
+        runs=fault.runs,
     )
 
 

@@ -85,9 +85,9 @@ def judge(case: Case, begun: Fit | None = None) -> Verdict:
         best, fuller = _plainer(case, here, candidates, found, fits, best), best
         chosen, worth = candidates[best], float(found[best])
         others = [(c, worth - float(g)) for c, g in zip(candidates, found, strict=True)]
-        rivals = sorted(
-            ((_called(c), loss) for c, loss in others if not _is_fuller(c, chosen, fuller != best)), key=_loss
-        )
+        # a fuller form that gave way is no rival
+        against = [(_called(c), loss) for c, loss in others if fuller == best or not _is_fuller(c, chosen)]
+        rivals = sorted(against, key=_loss)
         for pile in (candidates, blocks, itself, one_sided):
             del pile[best]
         if worth < _WORTH:
@@ -154,11 +154,8 @@ def _plainer(
     Below the band's edge filter and delay are nearly one.
     """
     who = candidates[best]
-    plainer = catalogue()[who.effect].plainer if isinstance(who, Suspect) else ""
-    if not isinstance(who, Suspect) or not plainer:
-        return best
     for i, other in enumerate(candidates):
-        if isinstance(other, Suspect) and (other.effect, other.target) == (plainer, who.target):
+        if isinstance(who, Suspect) and _is_fuller(who, other):
             if i not in fits:
                 fits[i] = _with(case, here, other)
                 found[i] = fits[i].score - here.score
@@ -168,11 +165,11 @@ def _plainer(
     return best
 
 
-def _is_fuller(who: Suspect | Alternative, chosen: Suspect | Alternative, gave_way: bool) -> bool:
-    """Tell whether a candidate is the fuller form of what was chosen, and gave way to it: it is no rival then."""
-    if not gave_way or not isinstance(who, Suspect) or not isinstance(chosen, Suspect):
+def _is_fuller(who: Suspect | Alternative, other: Suspect | Alternative) -> bool:
+    """Tell whether a suspect is the fuller form of another on the same gauges: a filter of a delay."""
+    if not isinstance(who, Suspect) or not isinstance(other, Suspect):
         return False
-    return (catalogue()[who.effect].plainer, who.target) == (chosen.effect, chosen.target)
+    return (catalogue()[who.effect].plainer, who.target) == (other.effect, other.target)
 
 
 def _loss(rival: tuple[str, float]) -> float:

@@ -5,9 +5,9 @@ bends down from that power and reaches the noise is the logger's doing. Fitted t
 
     S(f) = A f^-q |H(f; fc, order)|^2 + noise          (Whittle likelihood)
 
-No law of friction enters, so that an effect which the model lacks does not bend it: of 60 campaigns of another
-simulator, most with a hidden effect, 54 are found within 7 % and 58 with their order and phase. Fits of the law under
-many filters read 48 Hz where 80 Hz hid behind a presliding bristle, and took half a minute.
+No law of friction enters, so that an effect which the model lacks hardly bends it: of 60 campaigns of another
+simulator, most with a hidden effect, 58 show a bend, of these 54 within 7 % and 57 with their order and phase. Fits of
+the law under many filters read 48 Hz where 80 Hz hid behind a presliding bristle, and took half a minute.
 
 Source: Whittle (1953), Arkiv Matematik 2:423-434.
 """
