@@ -12,7 +12,7 @@ from slipwise.diagnosis.diagnose import as_fit
 from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis
 from slipwise.diagnosis.result import Candidate, Diagnosis
 from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.verdict import Verdict, judge
+from slipwise.diagnosis.verdict import Verdict, decide_verdict
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import Solution
@@ -150,7 +150,7 @@ def diagnosed(state: Search, verdict: Verdict | None = None, probabilities: Sequ
         verdict: where it is another than the search's own.
         probabilities: of the hypotheses that were tried; those that have none are not listed.
     """
-    verdict = verdict or judge(state)
+    verdict = verdict or decide_verdict(state)
     shown = state.final if verdict.effects else state.path[0]
     errors = {r: tuple(error_of(h.summary, r) for h in (state.path[0], shown)) for r in shown.summary.fitted}
     listed = tuple(

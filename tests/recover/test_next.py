@@ -1,4 +1,4 @@
-"""What a diagnosis says of the next test, of rivals, and of the ladder that it climbed."""
+"""What a diagnosis says of the next test, of rivals, and of the ladder."""
 
 from dataclasses import replace
 from importlib.resources import files
@@ -67,10 +67,10 @@ def test_a_simulation_that_fails_is_no_motion_that_tells_nothing(found, monkeypa
 
 
 def test_the_ladder_and_the_page_of_a_diagnosis_tell_the_same_errors(found):
-    climbed = ladder_of(found)
-    assert climbed.steps[0].holdout_error == pytest.approx(found.base_error)
-    assert climbed.steps[-1].holdout_error == pytest.approx(found.final_error)
-    page = diagnosis_page(found, climbed)
+    ladder = ladder_of(found)
+    assert ladder.steps[0].holdout_error == pytest.approx(found.base_error)
+    assert ladder.steps[-1].holdout_error == pytest.approx(found.final_error)
+    page = diagnosis_page(found, ladder)
     assert "run_in" in page
     assert page.count("<svg") >= 3
     assert "<script" not in page

@@ -63,20 +63,20 @@ def demo(
         OUT.print(f"  - {place.words}", markup=False, highlight=False, soft_wrap=True)
     with steps() as tell:
         found = sw.diagnose(measured, system=True, progress=tell)
-    climbed = found.ladder()
+    ladder = found.ladder()
     _say("3  What is missing?", found.sentence)
     hypotheses = [{"hypothesis": c.effect, "probability": round(c.probability, 3)} for c in found.candidates]
-    print_table(f"{climbed.tried[0]} candidates screened, {climbed.tried[1]} refitted", hypotheses)
+    print_table(f"{ladder.tried[0]} candidates screened, {ladder.tried[1]} refitted", hypotheses)
     _say(
         "4  Add it, and watch the error fall",
         f"Refitted with {' and '.join(found.added) or 'nothing more'}, and judged by "
-        f"{counted(unseen, 'held-out run')}, which no fit has seen. It stops here: {climbed.stopped}.",
+        f"{counted(unseen, 'held-out run')}, which no fit has seen. It stops here: {ladder.stopped}.",
     )
-    print_rungs(climbed)
+    print_rungs(ladder)
     sw.save_model(found.model, campaign / "model.toml")
     save_json(found.as_json(), folder / "diagnosis.json")
-    save_json(climbed.as_json(), folder / "ladder.json")
-    save_page(diagnosis_page(found, climbed), folder / "report.html")
+    save_json(ladder.as_json(), folder / "ladder.json")
+    save_page(diagnosis_page(found, ladder), folder / "report.html")
     seen, simulated = found.replays()
     write_comparison(seen, simulated, geometry_of(rig), folder / "before_and_after.rrd", found.sentence)
     _say("5  Look at it", "The report opens in any browser, the recording in the rerun viewer:")

@@ -83,7 +83,7 @@ def _tell(found: "sw.Diagnosis") -> None:
     from slipwise.view.terminal import print_table
 
     OUT.print(found.sentence, markup=False, highlight=False)
-    for words in found.partings:
+    for words in found.discriminating_tests:
         OUT.print(f"to tell apart: {words}", markup=False, highlight=False, soft_wrap=True)
     before = "held-out before" if found.held_out else "fitted runs before"
     rows = [

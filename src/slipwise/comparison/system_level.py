@@ -158,8 +158,8 @@ def pad_springs(base: BaseFit, model: Model) -> tuple[float, float] | None:
                 spring = pads * (stiffness + damping * turn)
                 return spring / (mass * turn**2 + spring) * np.exp(-_LAG * scaled[1] * turn)
 
-            said = in_frequency(run.record["table_az"], run.dt, answer, 256)
-            out.append((run.record["girder_az"] - said)[run.judged["heave"]] / run.noise["girder_az"])
+            predicted = in_frequency(run.record["table_az"], run.dt, answer, 256)
+            out.append((run.record["girder_az"] - predicted)[run.judged["heave"]] / run.noise["girder_az"])
         return np.concatenate(out)
 
     found = least_squares(left, np.array([1.0, 0.0]), bounds=([0.2, -1.0], [5.0, 1.0]), loss="soft_l1")

@@ -2,8 +2,8 @@
 
 from dataclasses import replace
 
-from slipwise.diagnosis.choice import has_delay_for_filter, needless
-from slipwise.diagnosis.hypothesis import Hypothesis, as_reported
+from slipwise.diagnosis.choice import has_delay_for_filter, overparameterised
+from slipwise.diagnosis.hypothesis import Hypothesis, final_refit_of
 from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects
 from slipwise.diagnosis.search_state import Search, left_with, tried_before, try_one
 from slipwise.evidence.materiality import SAME_SCORE, material, score
@@ -23,8 +23,8 @@ def pruned(state: Search) -> Search:
         for rest in map(whole.without, whole.terms):
             # what was fitted before may do; only if not is it fitted again, from where the whole ended
             known = tried_before(state, rest)
-            spare = next((h for h in known if not material(origin.summary, h.summary, whole.summary)), None)
-            fewer = spare or try_one(state, rest, {}, whole)
+            sufficient = next((h for h in known if not material(origin.summary, h.summary, whole.summary)), None)
+            fewer = sufficient or try_one(state, rest, {}, whole)
             if not material(origin.summary, fewer.summary, whole.summary):
                 state = state.stepped_to(fewer)
                 break
@@ -33,23 +33,23 @@ def pruned(state: Search) -> Search:
     return state
 
 
-def as_it_is_reported(state: Search) -> Search:
+def with_final_refit(state: Search) -> Search:
     """Weigh the best against rival and plainer laws, and fit it anew, without what is immaterial then.
 
     A large first effect leaves the noise near reversals wrong until it is weighed anew, and a second one repairs that.
     """
     state = _simplified(_with_rivals_tried(state))
-    origin, reported = state.path[0].summary, as_reported(state.best)
+    origin, reported = state.path[0].summary, final_refit_of(state.best)
     while len(state.best.terms) > 1:
         rests = [left_with(state, state.best.without(t), state.best) for t in state.best.terms]
         fewer = [h for h in rests if h.solution.cost < _FAR_OFF * state.best.solution.cost]
-        summaries = on_every_core(lambda i, of=fewer: as_reported(of[i]).summary, len(fewer))
+        summaries = on_every_core(lambda i, of=fewer: final_refit_of(of[i]).summary, len(fewer))
         pairs = zip(fewer, summaries, strict=True)
-        spare = next((h for h, summary in pairs if not material(origin, summary, reported.summary)), None)
-        if spare is None:
+        sufficient = next((h for h, summary in pairs if not material(origin, summary, reported.summary)), None)
+        if sufficient is None:
             break
-        state, reported = state.stepped_to(spare), as_reported(spare)
-    return replace(state, settled=reported)
+        state, reported = state.stepped_to(sufficient), final_refit_of(sufficient)
+    return replace(state, final_refit=reported)
 
 
 def _with_rivals_tried(state: Search) -> Search:
@@ -59,9 +59,9 @@ def _with_rivals_tried(state: Search) -> Search:
     for term in best.terms:
         others = {name for pair in pairs if term.effect.name in pair for name in pair} - set(best.names)
         rest = best.without(term)
-        for twin in (t for t in state.terms if t.effect.name in others):
-            typical = {twin.label: twin.effect.typical()}
-            again = tried_before(state, [*rest, twin]) or [try_one(state, [*rest, twin], typical, best)]
+        for equivalent in (t for t in state.terms if t.effect.name in others):
+            typical = {equivalent.label: equivalent.effect.typical()}
+            again = tried_before(state, [*rest, equivalent]) or [try_one(state, [*rest, equivalent], typical, best)]
             if score(origin, again[0].summary) > score(origin, state.best.summary):
                 state = state.stepped_to(again[0])
     return state
@@ -71,7 +71,7 @@ def _simplified(state: Search) -> Search:
     """Take a law of far fewer constants, or a delay for a filter that takes nothing, where it does as well."""
     origin, best = state.path[0].summary, state.best
     alike = [h for h in state.tried if len(h.terms) == len(best.terms) and set(h.names) != set(best.names)]
-    plain = [h for h in alike if needless(h, best, origin)]
+    plain = [h for h in alike if overparameterised(h, best, origin)]
     if has_delay_for_filter(best):
         top = score(origin, best.summary)
         least = top - max(SAME_SCORE, _NO_FILTER * top)

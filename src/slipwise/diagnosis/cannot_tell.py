@@ -26,8 +26,8 @@ _ALIKE = 0.85
 _NAMED = 3
 #: A column of which the base leaves a smaller share does what the base does [1].
 _NOTHING_LEFT = 3e-5
-#: A column that is shorter than this is not felt: noise alone is as long as the root of the number of samples.
-_UNFELT = 0.1
+#: A shorter column counts as no response: noise alone is as long as the root of the number of samples [1].
+_MIN_COLUMN_LENGTH = 0.1
 
 
 def cannot_tell(state: Search, final: BaseFit) -> list[tuple[str, str]]:
@@ -45,7 +45,7 @@ def cannot_tell(state: Search, final: BaseFit) -> list[tuple[str, str]]:
         *_zero_not_shown(state, final),
         *_nothing_held_out(state.base),
         *_gauges_not_tried(state),
-        *_vanished(state, project),
+        *_without_response(state, project),
     ]
 
 
@@ -53,13 +53,13 @@ def _alike(state: Search, project: Callable[[Array], Array]) -> Iterator[tuple[s
     """Find pairs of which one fades in a pause and the other does not, and which look alike in these runs."""
     base = state.base
     effects = {t.effect.name: t.effect for t in state.terms if t.effect.memory and not t.effect.target}
-    pairs = [(a, b) for a in effects.values() for b in effects.values() if _parted_by_a_pause(a, b)]
+    pairs = [(a, b) for a in effects.values() for b in effects.values() if _distinguished_by_a_rest(a, b)]
     for fading, lasting in pairs:
         one, other = (_traces(base, effect, project) for effect in (fading, lasting))
         likeness = max((abs(float(a @ b)) for a in one for b in other), default=0.0)
         if likeness > _ALIKE:
-            said = f"what they do in these runs is {likeness:.0%} alike"
-            reason = ", and ".join([*_lacking(base.campaign.runs), said])
+            message = f"what they do in these runs is {likeness:.0%} alike"
+            reason = ", and ".join([*_lacking(base.campaign.runs), message])
             apart = fading.confused_with[lasting.name]
             yield f"{fading.name} against {lasting.name}", f"{reason}; what tells them apart: {apart}"
 
@@ -70,14 +70,14 @@ def _zero_not_shown(state: Search, fit: BaseFit) -> Iterator[tuple[str, str]]:
         yield ", ".join(name for name, e in known_effects(state).items() if ZERO in e.stands_for), reason
 
 
-def _parted_by_a_pause(fading: Effect, lasting: Effect) -> bool:
+def _distinguished_by_a_rest(fading: Effect, lasting: Effect) -> bool:
     confused = lasting.name in fading.confused_with and fading.name in lasting.confused_with
     return confused and "rest" in fading.hooks and "rest" not in lasting.hooks
 
 
 def _traces(base: BaseFit, effect: Effect, project: Callable[[Array], Array]) -> list[Array]:
-    """Give what an effect that is felt does beside the base, of unit length, for a grid of its constants."""
-    columns = [c for c in _columns(base, Term(effect)) if c is not None and _length(c) > _UNFELT]
+    """Give what an effect with a response does beside the base, of unit length, for a grid of its constants."""
+    columns = [c for c in _columns(base, Term(effect)) if c is not None and _length(c) > _MIN_COLUMN_LENGTH]
     clean = [(project(c), _length(c)) for c in columns]
     return [c / _length(c) for c, whole in clean if _length(c) > _NOTHING_LEFT * whole]
 
@@ -136,12 +136,11 @@ def _gauges_not_tried(state: Search) -> Iterator[tuple[str, str]]:
         yield f"faults of {named}", f"never tried{but}"
 
 
-def _vanished(state: Search, project: Callable[[Array], Array]) -> Iterator[tuple[str, str]]:
+def _without_response(state: Search, project: Callable[[Array], Array]) -> Iterator[tuple[str, str]]:
     """Say why nothing came of the candidates that screening saw nothing in; that a sign was wrong is no reason."""
-    seen = {s.term.effect.name for s in (*state.screened, *state.opposed)}
-    gone = [t for t in state.terms if t.effect.name not in seen]
+    with_response = {s.term.effect.name for s in state.all_screened}
     reasons: dict[str, set[str]] = {}
-    for term in gone:
+    for term in (t for t in state.terms if t.effect.name not in with_response):
         reasons.setdefault(term.effect.name, set()).add(_reason(state.base, term, project))
     for name, found in reasons.items():
         if "" not in found:
@@ -151,12 +150,12 @@ def _vanished(state: Search, project: Callable[[Array], Array]) -> Iterator[tupl
 def _reason(base: BaseFit, term: Term, project: Callable[[Array], Array]) -> str:
     """Say why a candidate could not be tested; "" where it could, and explained nothing."""
     columns = _columns(base, term)
-    felt = [c for c in columns if c is not None and _length(c) > _UNFELT]
+    with_response = [c for c in columns if c is not None and _length(c) > _MIN_COLUMN_LENGTH]
     if not columns or all(c is None for c in columns):
         return _failure(base, term)
-    if not felt:
+    if not with_response:
         return "at its usual size it changes nothing that was measured"
-    if all(_length(project(c)) < _NOTHING_LEFT * _length(c) for c in felt):
+    if all(_length(project(c)) < _NOTHING_LEFT * _length(c) for c in with_response):
         return "the base's own numbers do all that it does here"
     return ""
 

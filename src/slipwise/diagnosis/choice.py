@@ -18,7 +18,7 @@ _FAR_MORE = 2
 _TIE = 0.99
 
 
-def various(found: Sequence[Screened], count: int) -> list[Screened]:
+def limit_per_effect(found: Sequence[Screened], count: int) -> list[Screened]:
     """Give the best candidates, each effect at most twice: a card and a single gauge."""
     out: list[Screened] = []
     for s in found:
@@ -66,8 +66,14 @@ def material_alone(origin: Hypothesis, found: Hypothesis) -> bool:
     return material_drop(origin.summary, found.summary)[0] >= least_material_drop(found.terms)
 
 
-def needless(plain: Hypothesis, rich: Hypothesis, base: ResidualSummary) -> bool:
-    """Tell whether far more constants say no more: a patch as wide as the stroke is pads that differ."""
-    more = len(rich.solution.free) - len(plain.solution.free)
-    gain = score(base, rich.summary) - score(base, plain.summary)
+def overparameterised(simple: Hypothesis, complex_hypothesis: Hypothesis, base: ResidualSummary) -> bool:
+    """Tell whether a hypothesis of far more constants explains no more, as a patch as wide as the stroke does.
+
+    Args:
+        simple: of fewer constants.
+        complex_hypothesis: of more.
+        base: residuals of the base model.
+    """
+    more = len(complex_hypothesis.solution.free) - len(simple.solution.free)
+    gain = score(base, complex_hypothesis.summary) - score(base, simple.summary)
     return more >= _FAR_MORE and gain < _PER_CONSTANT * more

@@ -17,7 +17,7 @@ from slipwise.diagnosis.reported_sizes import named_sizes
 from slipwise.diagnosis.result import Candidate, Diagnosis
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.selection import SelectionResult, select_effects
-from slipwise.diagnosis.verdict import Verdict, judge, with_faults
+from slipwise.diagnosis.verdict import Verdict, decide_verdict, with_faults
 from slipwise.effects import Effect
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit
@@ -56,16 +56,16 @@ def diagnose(
     began = time.perf_counter()
     tell = progress or (lambda words, share: None)
     tell("reading", 0.0)
-    found = as_campaign(campaign)
+    measured = as_campaign(campaign)
     start = None if model is None else as_model(model)
     tell("fitting base parameters", 0.02)
     part = 0.7 if system else 1.0
-    selected = select_effects(found, start, own, lambda words, share: tell(words, part * share))
+    selected = select_effects(measured, start, own, lambda words, share: tell(words, part * share))
     base, state = selected.base, selected.search
-    judged = judge(state)
-    shown = state.final if judged.effects else state.path[0]
-    verdict = with_faults(judged, selected.faults, state.best.terms)
-    final = as_fit(base, shown, with_slopes=shown is not state.settled or not shown.problem.balanced)
+    decided = decide_verdict(state)
+    shown = state.final if decided.effects else state.path[0]
+    verdict = with_faults(decided, selected.faults, state.best.terms)
+    final = as_fit(base, shown, with_slopes=shown is not state.final_refit or not shown.problem.balanced)
     cannot = [f"{name}: {reason}" for name, reason in [*state.cannot.items(), *cannot_tell(state, final)]]
     replayed: dict[str, float] = {}
     if system:
@@ -81,16 +81,16 @@ def diagnose(
     before = max(error_of(selected.uncorrected, r) for r in selected.uncorrected.fitted)
     tell("done", 1.0)
     return Diagnosis(
-        campaign=found.name,
+        campaign=measured.name,
         verdict=verdict,
         component=_component(state, verdict),
         base_error=before,
         final_error=max(b for _, b in relations.values()),
         relations=relations,
         system=replayed,
-        candidates=_listed(selected, judged, verdict, final),
+        candidates=_listed(selected, decided, verdict, final),
         predicted_friction=_predicted_friction(final),
-        least=least_sizes([*state.screened, *state.opposed], state.path[0]),
+        least=least_sizes(state.all_screened, state.path[0]),
         cannot_tell=tuple(cannot),
         search=state,
         final=final,
@@ -111,7 +111,7 @@ def as_fit(base: BaseFit, found: Hypothesis, *, with_slopes: bool = True) -> Bas
     Args:
         base: the base fit.
         found: the hypothesis.
-        with_slopes: take its slopes, those that it has are of a fit nearby; `as_reported` has taken its own.
+        with_slopes: take its slopes, those that it has are of a fit nearby; `final_refit_of` has taken its own.
     """
     if not found.terms:
         return base
@@ -138,15 +138,15 @@ def _component(state: Search, verdict: Verdict) -> str:
     return {"pads": "pad friction", "girder": "girder", "heave": "pad load"}.get(relation, "pad load")
 
 
-def _listed(selected: SelectionResult, judged: Verdict, verdict: Verdict, final: BaseFit) -> tuple[Candidate, ...]:
+def _listed(selected: SelectionResult, decided: Verdict, verdict: Verdict, final: BaseFit) -> tuple[Candidate, ...]:
     """Give hypotheses, and faults of samples: before them where they alone are what is missing."""
-    hypotheses = _candidates(selected.search, judged, final)
+    hypotheses = _candidates(selected.search, decided, final)
     recorded, kept = selected.uncorrected, selected.search.path[0].summary
     where = max(recorded.fitted, key=lambda relation: error_of(recorded, relation))
     before, after = error_of(recorded, where), error_of(kept, where)
     labels = dict.fromkeys(f"{effect_of(f.kind).name}[{name}]" for f in selected.faults for name in f.channels)
     faults = tuple(Candidate(label, verdict.probability, before, after, 0.0, {}) for label in labels)
-    return (*hypotheses, *faults) if judged.effects else (*faults, *hypotheses)
+    return (*hypotheses, *faults) if decided.effects else (*faults, *hypotheses)
 
 
 def _candidates(state: Search, verdict: Verdict, final: BaseFit) -> tuple[Candidate, ...]:
@@ -193,7 +193,7 @@ def _shares(state: Search, verdict: Verdict, listed: list[Hypothesis]) -> list[f
     tied = np.array(alike) if verdict.kind == "ambiguous" else np.array([h is state.best for h in listed])
     weights[tied] = 0.0
     rest = (1.0 - verdict.probability) * weights / max(weights.sum(), 1e-12)
-    sharing = max(int(tied.sum()), 2 if verdict.kind == "ambiguous" else 1)  # a twin may not have been refitted
+    sharing = max(int(tied.sum()), 2 if verdict.kind == "ambiguous" else 1)  # the equivalent may not be refitted
     return [float(x) for x in np.where(tied, verdict.probability / sharing, rest)]
 
 

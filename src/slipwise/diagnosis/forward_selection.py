@@ -6,24 +6,24 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.diagnosis.backward_elimination import as_it_is_reported, pruned
+from slipwise.diagnosis.backward_elimination import pruned, with_final_refit
 from slipwise.diagnosis.bound_check import with_bounds_checked
 from slipwise.diagnosis.candidates import candidates
-from slipwise.diagnosis.choice import best_of, material_alone, various
+from slipwise.diagnosis.choice import best_of, limit_per_effect, material_alone
 from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, strength_at_bound
 from slipwise.diagnosis.pairs import leading_pair
 from slipwise.diagnosis.rescreening import rescreen
 from slipwise.diagnosis.screening import screen, screen_shapes
 from slipwise.diagnosis.search_state import Search, as_base, left_with, tried_before, try_all, try_one
 from slipwise.diagnosis.starting_grid import places
-from slipwise.diagnosis.starting_values import beginnings, longer_stick, starts_of
+from slipwise.diagnosis.starting_values import longer_stick, starting_points, starts_of
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit, at_rated
 from slipwise.evidence.materiality import MATERIAL, MATERIAL_FURTHER, all_down, is_near, material, score
 
 Array = NDArray[np.float64]
 #: Share of what is worth a name from which on a screen's gain is worth a refit [1].
-_HOPEFUL = 0.4
+_MIN_REFIT_SHARE = 0.4
 #: Candidates that are refitted at each step.
 _REFITTED = 4
 _REFITTED_PAIRS = 2
@@ -31,12 +31,12 @@ _REFITTED_PAIRS = 2
 _RESHAPED = 2
 #: Candidates that are tried in the place of an effect, if their columns leave less than so many times what the whole
 #: has left [1].
-_SWAPPED, _HOPELESS = 2, 100.0
+_SWAPPED, _MAX_COST_RATIO = 2, 100.0
 #: The best physics is refitted even where faults of gauges screen better, and far from its best shape.
 _REFITTED_PHYSICS = 2
-#: Mean squared residual of a base that is bent too far for a screen, and that no effect may leave then before a search
-#: from rated numbers [noise variance].
-_BENT, _FAR_FROM_NOISE = 1000.0, 30.0
+#: Mean squared residual of a base that is too far from the data for a screen, and residual above which the best
+#: hypothesis must then be for a search to begin anew from rated numbers [noise variance].
+_BASE_MISFIT, _FAR_FROM_NOISE = 1000.0, 30.0
 #: Most effects that are added.
 MOST_EFFECTS = 3
 
@@ -71,13 +71,13 @@ def search(
         state = pruned(exchanged)
     if state.best.terms:
         tell("weighing", 0.95)
-        state = as_it_is_reported(state)
+        state = with_final_refit(state)
     tell("done", 1.0)
     return state
 
 
 def _silent(what: str, share: float) -> None:
-    """Tell nobody."""
+    """Ignore progress."""
 
 
 def _onward(state: Search, tell: Callable[[str, float], None]) -> Search:
@@ -94,11 +94,11 @@ def _onward(state: Search, tell: Callable[[str, float], None]) -> Search:
 def _restarted_from_nominal(state: Search) -> Search | None:
     """Begin anew from the rated numbers where very much is left; None unless that leads to something better.
 
-    A base that is bent that far shows each effect as a straight line that leads elsewhere.
+    With a base so far from the data a straight line through an effect's column leads elsewhere.
     """
     origin, best = state.path[0], state.best
     worst, left = (max(h.summary.level(r, held_out=False) for r in h.summary.fitted) for h in (origin, best))
-    if worst < _BENT or left < _FAR_FROM_NOISE:
+    if worst < _BASE_MISFIT or left < _FAR_FROM_NOISE:
         return None
     anew = _reshaped(_first(_screened(replace(state, base=at_rated(state.base), path=(origin,)))))
     if score(origin.summary, anew.best.summary) <= score(origin.summary, best.summary):
@@ -110,24 +110,27 @@ def _screened(state: Search, progress: Callable[[float], None] | None = None) ->
     """Screen every candidate against the base of a search."""
     found = screen(state.base, state.terms, progress)
     found = with_bounds_checked(state.base, found, _least_refitted(state.path[0], MATERIAL))
-    seen, opposed = ([s for s in found if (s.gain == 0.0) == against] for against in (False, True))
-    return replace(state, screened=seen, opposed=opposed)
+    screened, wrong_sign = ([s for s in found if (s.gain == 0.0) == wrong] for wrong in (False, True))
+    return replace(state, screened=screened, wrong_sign=wrong_sign)
 
 
-def _first(state: Search, led: Hypothesis | None = None) -> Search:
+def _first(state: Search, start_hypothesis: Hypothesis | None = None) -> Search:
     """Choose the first effect, or the first two where a pair explains what none of them does alone.
 
     Args:
         state: with candidates that were screened.
-        led: a first effect that another base fit led to.
+        start_hypothesis: a first effect that another base fit led to.
     """
     origin = state.path[0]
-    chosen = various(state.screened, _REFITTED)
+    chosen = limit_per_effect(state.screened, _REFITTED)
     physics = [s for s in state.screened if s.term.effect.component != "instrument"]
     chosen += [s for s in physics[:_REFITTED_PHYSICS] if all(s is not c for c in chosen)]
     least = _least_refitted(origin, MATERIAL)
     asked = starts_of([s for s in chosen if s.gain > least]) + longer_stick(state, origin)
-    best = best_of(origin, [*try_all(state, asked), *([try_one(state, led.terms, {}, led)] if led else [])])
+    tried = try_all(state, asked)
+    if start_hypothesis is not None:
+        tried.append(try_one(state, start_hypothesis.terms, {}, start_hypothesis))
+    best = best_of(origin, tried)
     pair = leading_pair(state.base, state.screened, best, least)
     if pair is not None:
         both = try_one(state, [p.term for p in pair], {p.term.label: p.values for p in pair})
@@ -145,8 +148,8 @@ def _first(state: Search, led: Hypothesis | None = None) -> Search:
 def _reshaped(state: Search) -> Search:
     """Begin a law of a place or a frequency anew from the whole grid of its constants where it leaves something.
 
-    Its fit may be in another valley: of 10 laws of a place or frequency three were worth more than twice as much from
-    new starts, of 15 laws of a length or time none more than 5 % more.
+    Its fit may be in another local minimum: of 10 laws of a place or frequency three were worth more than twice as much
+    from new starts, of 15 laws of a length or time none more than 5 % more.
     """
     best, origin = state.best, state.path[0]
     if not best.terms or all_down(best.summary):
@@ -171,10 +174,10 @@ def _further(state: Search) -> Search | None:
     if all_down(before.summary):
         return None
     least = _least_refitted(before, MATERIAL_FURTHER)
-    found = with_bounds_checked(as_base(state, before), rescreen(state.seen, before), least)
-    chosen = various([s for s in found if s.gain > least], _REFITTED_PAIRS + 1)
+    found = with_bounds_checked(as_base(state, before), rescreen(state.all_screened, before), least)
+    chosen = limit_per_effect([s for s in found if s.gain > least], _REFITTED_PAIRS + 1)
     tried = list[Hypothesis]()
-    for asked in beginnings(state, chosen, tried):
+    for asked in starting_points(state, chosen, tried):
         tried += try_all(state, asked, before, lambda h: is_near(origin.summary, before.summary, h.summary))
         sound = [h for h in tried if strength_at_bound(before) or not strength_at_bound(h)]
         good = [h for h in sound if material(origin.summary, before.summary, h.summary)]
@@ -185,7 +188,7 @@ def _further(state: Search) -> Search | None:
 
 def _least_refitted(before: Hypothesis, drop: float) -> float:
     """Give the gain from which on a candidate is refitted, for a drop of a relation that is worth a name [1]."""
-    return _HOPEFUL * drop * min(n for n, _ in before.summary.counts.values())
+    return _MIN_REFIT_SHARE * drop * min(n for n, _ in before.summary.counts.values())
 
 
 def _exchanged(state: Search) -> Search | None:
@@ -200,8 +203,10 @@ def _exchanged(state: Search) -> Search | None:
     for name in best.names:
         rest = [t for t in best.terms if t.effect.name != name]
         kept = left_with(state, rest, best)
-        enough = kept.solution.cost - _HOPELESS * best.solution.cost
-        others = [s for s in rescreen(state.seen, kept) if s.term.effect.name not in best.names and s.gain > enough]
+        enough = kept.solution.cost - _MAX_COST_RATIO * best.solution.cost
+        others = [
+            s for s in rescreen(state.all_screened, kept) if s.term.effect.name not in best.names and s.gain > enough
+        ]
         chosen = [s for s in others[:_SWAPPED] if not tried_before(state, [*rest, s.term])]
         better = [h for h in try_all(state, starts_of(chosen, rest), kept) if score(origin, h.summary) > top]
         if better:

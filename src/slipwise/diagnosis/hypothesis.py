@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.diagnosis.starting_grid import REFERENCES, strengths
-from slipwise.estimation.base_fit import BaseFit, settled
+from slipwise.estimation.base_fit import BaseFit, final_refit
 from slipwise.estimation.least_squares import Solution, slopes_of, solve
 from slipwise.estimation.parameters import ZERO, Free, Term, inertia_free, numbers_replaced
 from slipwise.estimation.problem import Problem
@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 _ENOUGH, _ROUGH = 10.0, 5e-4
 #: A polish that lowers the squared residual by more than this share is followed by another, so often at most.
 _FALLS, _POLISHES = 0.05, 3
-#: Slip over which a pad turns round belongs to the stick of the base model only.
+#: Slip over which a pad's friction reverses belongs to the stick of the base model only.
 STICK_LENGTH = "rig.stick_length"
 
 
@@ -128,7 +128,7 @@ def polished(found: Hypothesis) -> Hypothesis:
     return _hypothesis(found.terms, found.problem, solution)
 
 
-def as_reported(found: Hypothesis) -> Hypothesis:
+def final_refit_of(found: Hypothesis) -> Hypothesis:
     """Fit on, weighed by its own law and finer, as what is reported of it should be.
 
     A slider's gauges are often so quiet that nearly all its floor is what the base law's reversals leave unsure:
@@ -136,7 +136,7 @@ def as_reported(found: Hypothesis) -> Hypothesis:
     """
     if not found.problem.balanced:
         return found
-    return _hypothesis(found.terms, *settled(found.problem, found.solution))
+    return _hypothesis(found.terms, *final_refit(found.problem, found.solution))
 
 
 def _several_starts(

@@ -24,7 +24,7 @@ _BADLY = 0.2
 #: Numbers with this correlation are one, unless each is known within this share of it all the same [1].
 _TIED, _WELL = 0.98, 0.02
 #: A correlation that is the reason why a number is known badly [1].
-_LEANS = 0.9
+_STRONG_CORRELATION = 0.9
 #: Shares of a column below this are rounding [1].
 _ROUNDING = 1e-6
 #: Loads that scatter by a smaller share hardly change; all of a girder's together do not without vertical motion [1].
@@ -67,17 +67,17 @@ def unidentified(final: BaseFit, base: BaseFit) -> list[tuple[str, str]]:
         if free.key in solution.at_bounds:
             if free.start not in (free.low, free.high) and not number.may_be_absent:
                 end = "lower" if value - free.low < free.high - value else "upper"
-                said = f"the fit ended on its {end} bound, {number.amount(value)}"
-                out.append((number.title, f"{said}: the data want another law, or do not show it"))
+                message = f"the fit ended on its {end} bound, {number.amount(value)}"
+                out.append((number.title, f"{message}: the data want another law, or do not show it"))
         elif free.key not in identified:
             out.append((number.title, "nothing that was measured here depends on it"))
         else:
             one = identified[free.key]
             share = one.error / max(abs(value), number.usual)
             if share > _BADLY:
-                said = f"{number.amount(value)} with a standard error of {number.amount(one.error)}"
+                message = f"{number.amount(value)} with a standard error of {number.amount(one.error)}"
                 why = _why(base, number.effect, one)
-                out.append((number.title, f"{said}: {why}" if why else said))
+                out.append((number.title, f"{message}: {why}" if why else message))
             elif abs(one.correlation) > _TIED and share > _WELL and free.key not in tied:
                 tied.add(one.partner)
                 reason = f"one makes up for the other (correlation {one.correlation:.3f})"
@@ -165,10 +165,10 @@ def _why(base: BaseFit, effect: Effect | None, identified: Identified) -> str:
     """Say why a number is known badly: what its law asks for hardly changes, or another makes up for it; or ""."""
     hooks = effect.hooks.values() if effect else ()
     asked = {name for hook in hooks for name in inspect.signature(hook).parameters}
-    leans = abs(identified.correlation) > _LEANS
-    found = [_steady(base)] if asked & _LOADS and leans else []
+    correlated = abs(identified.correlation) > _STRONG_CORRELATION
+    found = [_steady(base)] if asked & _LOADS and correlated else []
     found += [_one_speed(base)] if asked & _SPEEDS else []
-    tie = f"{identified.partner} makes up for it (correlation {identified.correlation:.3f})" if leans else ""
+    tie = f"{identified.partner} makes up for it (correlation {identified.correlation:.3f})" if correlated else ""
     return " and ".join(r for r in found if r) or tie
 
 

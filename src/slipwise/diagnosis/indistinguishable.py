@@ -19,7 +19,12 @@ def alike_pairs(known: Iterable[Effect]) -> Pairs:
     return {frozenset({e.name, other}): unless for e in known for other, unless in e.same_unless.items()}
 
 
-def parted(problem: Problem, unless: Iterable[str]) -> bool:
-    """Tell whether a campaign measured any of what tells two effects apart: "yaw", or a balance of the girder."""
+def distinguishable(problem: Problem, unless: Iterable[str]) -> bool:
+    """Tell whether two effects that may be one thing are distinguishable in a campaign.
+
+    Args:
+        problem: of the campaign.
+        unless: what tells the two apart where it was measured: "yaw", or a balance of the girder ("pitch").
+    """
     measured = {*problem.relations, *(("yaw",) if problem.runs[0].states.has_yaw else ())}
     return not measured.isdisjoint(unless)

@@ -28,8 +28,8 @@ from slipwise.model import Model
 from slipwise.model_file import as_model
 from slipwise.shown import Drawn, Tabular
 
-#: An error below this is down to the floor [floors].
-DOWN = 1.15
+#: An error below this has reached the noise floor [floors].
+FLOOR_REACHED = 1.15
 
 
 @dataclass(frozen=True)
@@ -140,7 +140,7 @@ def ladder(
     else:
         selected = select_effects(found, start, own, lambda words, share: tell(words, part * share))
         base, state = selected.base, selected.search
-        path, counts, stopped = _climbed(state), (len(state.screened), len(state.tried)), _why(state)
+        path, counts, stopped = _hypothesis_path(state), (len(state.screened), len(state.tried)), _why(state)
     fits = tuple(as_fit(base, h) for h in path)
     errors = [float("nan")] * len(fits)
     if system:
@@ -158,7 +158,7 @@ def ladder_of(found: Diagnosis) -> Ladder:
     Where nothing is named the base model was replayed, and not what the search had come to.
     """
     search = found.search
-    path = _climbed(search)
+    path = _hypothesis_path(search)
     ends = {0: found.system.get("base", np.nan)}
     if found.added:
         ends[len(path) - 1] = found.system.get("final", np.nan)
@@ -169,7 +169,7 @@ def ladder_of(found: Diagnosis) -> Ladder:
 
 def left_over(found: Diagnosis) -> str:
     """Say what is left above the noise when the named effects are in the model."""
-    over = [f"{NAMES[name][0]} {after:.2f}" for name, (_, after) in found.relations.items() if after >= DOWN]
+    over = [f"{NAMES[name][0]} {after:.2f}" for name, (_, after) in found.relations.items() if after >= FLOOR_REACHED]
     if over:
         return f"still above the noise, in floors: {', '.join(over)}"
     if found.verdict.leftover != "none":
@@ -178,7 +178,7 @@ def left_over(found: Diagnosis) -> str:
     return "nothing is missing any more"
 
 
-def _climbed(state: Search) -> list[Hypothesis]:
+def _hypothesis_path(state: Search) -> list[Hypothesis]:
     """Give the hypotheses of a search step by step, the last one as it is reported."""
     return [*state.path[:-1], state.final]
 
@@ -213,7 +213,7 @@ def _why(state: Search) -> str:
         return "no effect of the catalogue can be tested here"
     account = state.final.summary
     worst = max(error_of(account, relation) for relation in account.fitted)
-    if worst < DOWN:
+    if worst < FLOOR_REACHED:
         return "nothing above the noise floor is left"
     if len(state.best.terms) >= MOST_EFFECTS:
         return f"{MOST_EFFECTS} effects are the most that are added; {worst:.2g} floors are left"

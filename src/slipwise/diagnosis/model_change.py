@@ -64,9 +64,9 @@ def add(
         UnknownNameError: no such effect.
         SettingError: the campaign cannot test it, or the model holds it already.
     """
-    climbed = ladder(campaign, [effect], model, progress=progress)
-    first, last = climbed.steps[0], climbed.steps[-1]
-    return ModelChange(f"{effect} added", _model(climbed.fits[-1]), first.relations, last.relations)
+    result = ladder(campaign, [effect], model, progress=progress)
+    first, last = result.steps[0], result.steps[-1]
+    return ModelChange(f"{effect} added", _model(result.fits[-1]), first.relations, last.relations)
 
 
 def remove(

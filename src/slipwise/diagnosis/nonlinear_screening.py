@@ -1,4 +1,4 @@
-"""Candidates at their full size: where much is wrong, a straight line from a small one lies."""
+"""Candidates at their full size: where the residual is large, a straight line from a small size misleads."""
 
 from collections.abc import Callable, Mapping
 
@@ -14,17 +14,18 @@ from slipwise.estimation.parameters import Term
 from slipwise.params import Parameter
 
 Array = NDArray[np.float64]
-#: Mean squared residual from which on all of them are tried so, and those that a straight line makes something of [1].
-_MUCH_AMISS, _AMISS = 30.0, 3.0
+#: Mean squared residual from which on every candidate is tried at full size, and from which on only those are of which
+#: the straight line promises a gain [1].
+_LARGE_RESIDUAL, _MODERATE_RESIDUAL = 30.0, 3.0
 #: Multiples of the typical size that are tried, and how many more beside the best of them.
 _SIZES, _CLOSER = (-4.0, -1.0, 1.0, 4.0), {"maxiter": 6}
-#: Share of the squared residual that a candidate must explain to be looked at more closely [1].
-WORTH_A_LOOK = 0.02
+#: Least share of the squared residual that a candidate must explain to be tried at more sizes [1].
+MIN_GAIN = 0.02
 
 
 def at_full_size(
     base: BaseFit, term: Term, shape: Mapping[str, float], residual: Array, project: Callable[[Array], Array],
-    *, turns: bool, promising: bool,
+    *, adds_yaw: bool, promising: bool,
 ) -> tuple[dict[str, float], Array] | None:  # fmt: skip
     """Look for the size at which a gauge's lag, or what turns the girder, explains most, base projected out.
 
@@ -37,14 +38,14 @@ def at_full_size(
         shape: its shape constants.
         residual: (m,) of the fitted runs, base projected out.
         project: the projection.
-        turns: whether the girder turns with the candidate, and does not without.
-        promising: whether a straight line from a small size explains anything worth a look.
+        adds_yaw: whether the girder's yaw is computed with the candidate, and is not without.
+        promising: whether a straight line from a small size explains at least `MIN_GAIN`.
 
     Returns:
         parameters and the residual (m,) with them, base not projected out; None where nothing helps.
     """
-    sizes, whole = _crooked(term.effect, shape, turns), float(residual @ residual)
-    if not sizes or whole < (_AMISS if promising else _MUCH_AMISS) * len(residual):
+    sizes, whole = _nonlinear_strengths(term.effect, shape, adds_yaw), float(residual @ residual)
+    if not sizes or whole < (_MODERATE_RESIDUAL if promising else _LARGE_RESIDUAL) * len(residual):
         return None
     best: tuple[float, dict[str, float], Array] | None = None
 
@@ -64,7 +65,7 @@ def at_full_size(
         one = typical(term.effect, p)
         found = {0.0: whole} | {x * one: left(x * one, p.name) for x in _SIZES if p.low <= x * one <= p.high}
         nearest = min(found, key=lambda x: found[x])
-        if found[nearest] < (1.0 - WORTH_A_LOOK) * whole:
+        if found[nearest] < (1.0 - MIN_GAIN) * whole:
             ends = sorted({*found, p.low, p.high})
             below = max((x for x in ends if x < nearest), default=p.low)
             above = min((x for x in ends if x > nearest), default=p.high)
@@ -72,8 +73,8 @@ def at_full_size(
     return best[1:] if best else None
 
 
-def _crooked(effect: Effect, shape: Mapping[str, float], turns: bool) -> list[Parameter]:
-    """Give the strengths of which a straight line from a small size may say nothing."""
+def _nonlinear_strengths(effect: Effect, shape: Mapping[str, float], adds_yaw: bool) -> list[Parameter]:
+    """Give the strengths whose effect on the residual is far from a straight line."""
     if effect.port == "gauge":
         return [p for p in strengths(effect) if p.unit == "s"]
-    return strengths(effect) if turns and not shape else []
+    return strengths(effect) if adds_yaw and not shape else []

@@ -28,14 +28,14 @@ def named_sizes(found: Hypothesis, fit: BaseFit | None) -> dict[str, Interval]:
     for f in found.solution.free:
         if any(f.key.startswith(f"{t.label}.") for t in found.terms):
             if f.key in entries:
-                out[f.key] = _of_a_kindred_law(entries[f.key], f.low, f.high)
+                out[f.key] = _widened_for_model_error(entries[f.key], f.low, f.high)
             else:
                 value = found.solution.values[f.key]
                 out[f.key] = Interval(f.key, value, float("nan"), float("nan"), f.start, f.unit, "")
     return out
 
 
-def _of_a_kindred_law(entry: Interval, lowest: float, highest: float) -> Interval:
+def _widened_for_model_error(entry: Interval, lowest: float, highest: float) -> Interval:
     """Widen an interval within what can be; one that ended on a bound has none."""
     form = _FORM * abs(entry.value)
     below, above = (

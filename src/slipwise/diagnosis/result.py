@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from slipwise.diagnosis.rivals import explanations, partings
+from slipwise.diagnosis.rivals import discriminating_tests, explanations
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import Surface
@@ -97,9 +97,9 @@ class Diagnosis(Drawn, Tabular):
         return self.final.problem.model(self.final.solution.values)
 
     @property
-    def partings(self) -> tuple[str, ...]:
+    def discriminating_tests(self) -> tuple[str, ...]:
         """What would tell two explanations of an ambiguous verdict apart; nothing for another verdict."""
-        return partings(self.verdict, self.search)
+        return discriminating_tests(self.verdict, self.search)
 
     def ladder(self) -> "Ladder":
         """Give the ladder that the diagnosis has climbed already."""
@@ -129,8 +129,8 @@ class Diagnosis(Drawn, Tabular):
         """The verdict in one sentence."""
         chance = f"{100 * self.verdict.probability:.0f} %"
         names = " and ".join(self.verdict.effects)
-        seen = "held-out error" if self.search.base.problem.held_out else "error on the runs that were fitted"
-        fall = f"{seen} {self.base_error:.2g} -> {self.final_error:.2g} times the noise floor"
+        error = "held-out error" if self.search.base.problem.held_out else "error on the runs that were fitted"
+        fall = f"{error} {self.base_error:.2g} -> {self.final_error:.2g} times the noise floor"
         match self.verdict.kind:
             case "complete":
                 return f"Nothing above the noise is missing ({self.base_error:.2g} times the floor; {chance})."

@@ -34,13 +34,13 @@ def explanations(found: Verdict, state: Search) -> tuple[Explanation, ...]:
     return tuple((*names, *sure) for names in unlike)
 
 
-def partings(found: Verdict, state: Search) -> tuple[str, ...]:
+def discriminating_tests(found: Verdict, state: Search) -> tuple[str, ...]:
     """Say for each two explanations of an ambiguous verdict what would tell them apart; nothing for another verdict."""
     known = known_effects(state)
     out = []
     for one, other in combinations(explanations(found, state), 2):
         ours, theirs = (tuple(n for n in a if n not in b) for a, b in ((one, other), (other, one)))
-        sentences = [words for pair in product(ours, theirs) if (words := _told_apart(*pair, known))]
+        sentences = [words for pair in product(ours, theirs) if (words := _discriminating_test(*pair, known))]
         swap = f"{' + '.join(theirs) or 'nothing'} instead of {' + '.join(ours) or 'nothing'}"
         out.append(
             "; ".join(sentences) or f"{swap}: no effect's file names a test; `slipwise next` ranks table motions"
@@ -48,7 +48,11 @@ def partings(found: Verdict, state: Search) -> tuple[str, ...]:
     return tuple(out)
 
 
-def _told_apart(one: str, other: str, known: Mapping[str, Effect]) -> str:
+#: The report imports it by this name.
+partings = discriminating_tests
+
+
+def _discriminating_test(one: str, other: str, known: Mapping[str, Effect]) -> str:
     """Give the test of two effects from the file of either, in which "that" is the other one; "" if neither has it."""
     for effect, rival in ((one, other), (other, one)):
         test = known[effect].confused_with.get(rival) if effect in known else None

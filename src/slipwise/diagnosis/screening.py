@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.diagnosis.nonlinear_screening import WORTH_A_LOOK, at_full_size
+from slipwise.diagnosis.nonlinear_screening import MIN_GAIN, at_full_size
 from slipwise.diagnosis.sensitivities import column_of, residual_with, small
 from slipwise.diagnosis.starting_grid import shapes, strengths, two_sided
 from slipwise.estimation.base_fit import BaseFit
@@ -22,7 +22,7 @@ from slipwise.params import Parameter
 
 Array = NDArray[np.float64]
 #: A column is taken anew where the strength that was found is this many times the one at which it was taken, so often,
-#: and where the candidate is worth a look.
+#: and where the candidate explains at least `MIN_GAIN`.
 _FAR_BEYOND, _ROUNDS = 2.5, 2
 #: Step of a slope, as a share of the value.
 _NEAR = 0.01
@@ -35,7 +35,7 @@ class Screened:
     Attributes:
         term: the candidate.
         values: of its parameters where the score is best.
-        gain: drop of the squared residual of the fitted runs; 0 where that asks for the opposite of what can be.
+        gain: drop of the squared residual of the fitted runs; 0 where the strength has the wrong sign.
         absorbed: part of the candidate's own effect that base parameters could mimic [1].
         column: (m,) of unit length, base projected out, pointing the way that helps.
         length: of the step that the score asks for, before it was brought to unit length.
@@ -126,23 +126,23 @@ def _at_shapes(
 ) -> list[Screened]:  # fmt: skip
     """Give what a candidate could explain at every point of a grid where it can be evaluated."""
     problem = base.problem
-    turns = problem.adding(term).kinematics.turns != problem.kinematics.turns
-    if turns:  # yaw that is made from measured forces is noise as well
+    adds_yaw = problem.adding(term).kinematics.makes_yaw != problem.kinematics.makes_yaw
+    if adds_yaw:  # yaw that is made from measured forces is noise as well
         left = residual_with(base, term, term.effect.neutral())
     out: list[Screened] = []
     for shape in grid:
         starts = [(p, small(term.effect, shape, p)) for p in strengths(term.effect)]
         found = _mixed(base, term, shape, starts, left, residual, project)
         for _ in range(_ROUNDS):
-            if found is None or found.gain < WORTH_A_LOOK * float(residual @ residual):
+            if found is None or found.gain < MIN_GAIN * float(residual @ residual):
                 break
             far = {p.name for p, start in starts if _is_far(p, start, found.values)}
             if not far:
                 break
             starts = [(p, {**v, p.name: found.values[p.name]} if p.name in far else v) for p, v in starts]
             found = _mixed(base, term, shape, starts, left, residual, project)
-        promising = found is not None and found.gain >= WORTH_A_LOOK * float(residual @ residual)
-        whole = at_full_size(base, term, shape, residual, project, turns=turns, promising=promising)
+        promising = found is not None and found.gain >= MIN_GAIN * float(residual @ residual)
+        whole = at_full_size(base, term, shape, residual, project, adds_yaw=adds_yaw, promising=promising)
         if whole is not None and left is not None:
             values, there = whole
             step = project(there) - residual
@@ -234,7 +234,7 @@ def _best_mix(
         if not bad:
             break
         kept = [k for k in kept if k not in bad]
-    if not kept:  # the residual asks for the opposite: its size still tells how little of it would have been seen
+    if not kept:  # the strength has the wrong sign: its column still tells how little of it would have been seen
         return _scored(term, starts[0][1], residual, columns[0], 1.0 - float(columns[0] @ columns[0]) / raw, gain=0.0)
     step = matrix[:, kept] @ amounts
     values = {**term.effect.neutral(), **shape}

@@ -27,8 +27,9 @@ class Search:
         tried: every hypothesis that was refitted; all states of a selection share the list, `try_all` adds to it.
         path: base first, then the best hypothesis with one, two ... effects.
         screened: candidates by their score against the base.
-        opposed: candidates of which the residual of the base asks for the opposite, and that cannot be.
-        settled: the one at which the search ended, weighed by its own law; None for the base.
+        wrong_sign: candidates whose strength has the wrong sign where the base's residual is explained best.
+        final_refit: the hypothesis at which the search ended, refitted with the noise of its own law; None for the
+            base.
     """
 
     base: BaseFit
@@ -37,18 +38,18 @@ class Search:
     tried: list[Hypothesis]
     path: tuple[Hypothesis, ...]
     screened: Sequence[Screened] = ()
-    opposed: Sequence[Screened] = ()
-    settled: Hypothesis | None = None
+    wrong_sign: Sequence[Screened] = ()
+    final_refit: Hypothesis | None = None
 
     @property
     def final(self) -> Hypothesis:
         """The hypothesis as it is reported."""
-        return self.settled or self.best
+        return self.final_refit or self.best
 
     @property
-    def seen(self) -> list[Screened]:
-        """Every candidate that was screened: what the base's residual speaks against may help beside another."""
-        return [*self.screened, *self.opposed]
+    def all_screened(self) -> list[Screened]:
+        """Every candidate that was screened: one that has the wrong sign alone may help beside another."""
+        return [*self.screened, *self.wrong_sign]
 
     @property
     def best(self) -> Hypothesis:

@@ -62,7 +62,7 @@ def select_effects(
     whole, invalid, faults = prepared(campaign)
     base = fit_base(whole, model, invalid)
     state = search(base, own, progress)
-    # what an effect seems to explain may be a valley that the base fit has missed
+    # what an effect seems to explain may be a local minimum that the base fit has missed
     better = restarted(base, state.best.solution.values) if state.best.terms else None
     if better is not None:
         base = better

@@ -11,7 +11,7 @@ from slipwise.params import Parameter
 REFERENCES: frozenset[str] = frozenset({"rated"})
 #: Most points of the grid over shape constants, and of the one over places that is looked at where a fit leaves some.
 _MOST_POINTS, _MOST_POINTS_AGAIN = 5, 60
-#: Multiples of a constant's typical value that are tried: a fit that begins a decade off ends in a valley of its own.
+#: Multiples of a constant's typical value that are tried: a fit that begins a decade off ends in another local minimum.
 _NEARBY = (0.33, 1.0, 3.0)
 _FAR = (0.035, 0.2, 1.0, 5.0, 28.0)
 #: A constant that is usually absent is tried at this share of its largest value too [1].

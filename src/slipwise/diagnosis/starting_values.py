@@ -22,15 +22,15 @@ def starts_of(chosen: Sequence[Screened], beside: Sequence[Term] = ()) -> list[S
     return [([*beside, s.term], {s.term.label: values}) for s in chosen for values in variants(s.term.effect, s.values)]
 
 
-def beginnings(state: Search, chosen: Sequence[Screened], tried: Sequence[Hypothesis]) -> Iterator[list[Start]]:
+def starting_points(state: Search, chosen: Sequence[Screened], tried: Sequence[Hypothesis]) -> Iterator[list[Start]]:
     """Ask for effects beside those found, each time from elsewhere, for as long as the caller finds none of them good.
 
-    A screen saw them through a base that may be bent: a law may begin in a valley that no fit can leave.
+    They were screened with a base that may be far off: a law may begin in a local minimum that no fit can leave.
 
     Args:
         state: of a search.
         chosen: candidates.
-        tried: what came of the beginnings so far.
+        tried: what came of the starting points so far.
     """
     yield starts_of(chosen, state.best.terms) + longer_stick(state, state.best)
     yield _as_alone(state, chosen, state.best.terms)
@@ -61,9 +61,9 @@ def _as_alone(state: Search, chosen: Sequence[Screened], beside: Sequence[Term])
     return out
 
 
-def _from_typical(strange: Sequence[Hypothesis]) -> list[Start]:
-    """Ask for the last law of each again, from its typical strength and every shape, where its fit has gone astray."""
-    asked = {h.terms[-1].label: h.terms for h in strange}
+def _from_typical(at_bound: Sequence[Hypothesis]) -> list[Start]:
+    """Ask for the last law of each again, from its typical strength and every shape, where a strength is at a bound."""
+    asked = {h.terms[-1].label: h.terms for h in at_bound}
     return [
         ([*terms], {label: {**terms[-1].effect.typical(), **shape}})
         for label, terms in asked.items()

@@ -133,7 +133,7 @@ def states_of(run: FitRun) -> Mapping[str, Array]:
 
 
 def _surfaces(found: Hypothesis, relation: str, samples: list[dict[str, Array]]) -> list[Surface]:
-    fitted, held = _parted(found, samples)
+    fitted, held = _train_and_test(found, samples)
     names = [k for k in fitted if k not in ("left", "sigma") and (k, relation) not in _OWN_NOISE]
     ones = [_surface(relation, (n,), fitted, held) for n in names]
     ranked = sorted(ones, key=lambda s: -s.level)
@@ -142,10 +142,10 @@ def _surfaces(found: Hypothesis, relation: str, samples: list[dict[str, Array]])
     return [*ones, *(_surface(relation, p, fitted, held) for p in [*pairs, *signed])]
 
 
-def _parted(found: Hypothesis, samples: list[dict[str, Array]]) -> tuple[dict[str, Array], dict[str, Array]]:
+def _train_and_test(found: Hypothesis, samples: list[dict[str, Array]]) -> tuple[dict[str, Array], dict[str, Array]]:
     """Give the samples that make a surface, and those that it must predict.
 
-    Where no run is held out, seconds make it and must be predicted by turns.
+    Where no run is held out, the surface is made on every other second and must predict the seconds between.
     """
     fitted = _joined([samples[i] for i in found.problem.fitted])
     if found.problem.held_out:
@@ -173,8 +173,8 @@ def _surface(relation: str, states: tuple[str, ...], fitted: dict[str, Array], h
     spread = np.sqrt(np.maximum(squares / np.maximum(count, 1) - mean**2, 0.0) / np.maximum(count, 1))
     # a surface of many cells predicts less noise when each mean is shrunk by its own uncertainty
     shrunk = mean * mean**2 / np.maximum(mean**2 + 3.0 * spread**2, 1e-30)
-    told = np.where(count >= _LEAST, shrunk, 0.0)[_place(held, states, edges, shape)]
-    before, after = float(np.mean(held["left"] ** 2)), float(np.mean((held["left"] - told) ** 2))
+    prediction = np.where(count >= _LEAST, shrunk, 0.0)[_place(held, states, edges, shape)]
+    before, after = float(np.mean(held["left"] ** 2)), float(np.mean((held["left"] - prediction) ** 2))
     level = float(np.median(fitted["sigma"]))
     unit = {"girder": "m/s^2"}.get(relation, "N")
     shown = np.where(count >= _LEAST, mean, np.nan) * level

@@ -5,10 +5,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from slipwise.diagnosis.choice import has_delay_for_filter, material_alone, needless
+from slipwise.diagnosis.choice import has_delay_for_filter, material_alone, overparameterised
 from slipwise.diagnosis.forward_selection import MOST_EFFECTS
 from slipwise.diagnosis.hypothesis import Hypothesis, constant_at_bound, strength_at_bound
-from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects, parted
+from slipwise.diagnosis.indistinguishable import alike_pairs, distinguishable, known_effects
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import Surface, leftover, structured
 from slipwise.estimation.parameters import Term
@@ -81,15 +81,15 @@ def excess(of: ResidualSummary, best: ResidualSummary) -> float:
     return total
 
 
-def judge(state: Search) -> Verdict:
+def decide_verdict(state: Search) -> Verdict:
     """Give the verdict of a search."""
-    found = _judged(state)
+    found = _decided(state)
     if any(held for _, held in state.path[0].summary.counts.values()):
         return found
     return replace(found, probability=min(found.probability, _UNCONFIRMED))
 
 
-def _judged(state: Search) -> Verdict:
+def _decided(state: Search) -> Verdict:
     origin, best = state.path[0], state.best
     surface = leftover(state.final)
     remains = structured(surface)
@@ -123,7 +123,7 @@ def _judged(state: Search) -> Verdict:
         every = tuple(dict.fromkeys(n for h in (best, *rivals) for n in h.names))
         return Verdict("ambiguous", every, probability, left, explained, surface, rivals)
     for pair, unless in alike_pairs(known_effects(state).values()).items():
-        if len(pair & set(names)) == 1 and not parted(best.problem, unless):
+        if len(pair & set(names)) == 1 and not distinguishable(best.problem, unless):
             every = (*sorted(pair), *(n for n in names if n not in pair))
             return Verdict("ambiguous", every, probability, left, explained, surface, ())
     instruments = all(t.effect.component == "instrument" for t in best.terms)
@@ -169,8 +169,8 @@ def with_faults(found: Verdict, faults: Sequence[SampleFault], terms: Sequence[T
     if found.kind == "unknown":
         return replace(found, kind="instrument", effects=names, probability=_EVEN_ODDS_OF_FAULTS)
     moved = {name for f in faults if f.kind == "lost" for name in f.channels}
-    # a gauge whose lost samples moved up the rest is late by that
-    same = {t.effect.name for t in terms if t.effect.is_late and moved.issuperset(t.targets)}
+    # a channel whose lost samples moved up the rest is delayed by that
+    same = {t.effect.name for t in terms if t.effect.delays_channel and moved.issuperset(t.targets)}
     same -= {t.effect.name for t in terms if not moved.issuperset(t.targets)}
     named = tuple(n for n in found.effects if n not in same)
     return replace(found, effects=(*named, *(n for n in names if n not in named)))
@@ -189,7 +189,7 @@ def _rivals(state: Search, best: Hypothesis) -> tuple[Hypothesis, ...]:
             has_delay_for_filter(h) and not has_delay_for_filter(best)
         ):
             continue
-        if needless(best, h, origin.summary):
+        if overparameterised(best, h, origin.summary):
             continue
         common = set(h.names) & set(best.names)
         shared = [score(origin.summary, o.summary) for o in state.tried if o.names and set(o.names) <= common]

@@ -138,8 +138,8 @@ class Effect(Drawn, Tabular):
         return {n: f for n, f in self.hooks.items() if HOOKS[n].instant}
 
     @property
-    def is_late(self) -> bool:
-        """Whether it brings a channel late, as lost samples do whose gap was closed."""
+    def delays_channel(self) -> bool:
+        """Whether it delays a channel, as lost samples do whose gap was closed."""
         return self.shifts or bool(self.lag)
 
     @property

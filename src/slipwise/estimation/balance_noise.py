@@ -44,7 +44,7 @@ def shares_of_noise(specimen: Specimen, run: FitRun) -> dict[str, dict[str, floa
 
 
 def weighed_balances(
-    model: Model, runs: Sequence[FitRun], values: Mapping[str, float], turning: Sequence[Array],
+    model: Model, runs: Sequence[FitRun], values: Mapping[str, float], reversal: Sequence[Array],
     changed: Sequence[Array],
 ) -> dict[str, list[Array]]:  # fmt: skip
     """Give the noise of every balance in its own unit, relation -> per run a number or (n,).
@@ -53,7 +53,7 @@ def weighed_balances(
         model: with the numbers of the fit.
         runs: their gauges.
         values: of the fit, for the girder's pitch.
-        turning: per run (n, p) of `reversal_noise` [N].
+        reversal: per run (n, p) of `reversal_noise` [N].
         changed: per run (p,) of `changed_by` [1]; empty without faults of the gauges of friction.
     """
     springs = predictor(model) if model.with_hook("balance") else None
@@ -62,9 +62,11 @@ def weighed_balances(
         levels = {name: np.array(level) for name, level in balance_noise(model.specimen, run).items()}
         more: dict[str, Array] = {}
         if changed:
-            more = noise_of_mending(model.specimen, turning[i], changed[i], struck_pitch(run, values))
+            more = noise_of_fault_correction(
+                model.specimen, reversal[i], changed[i], pitch_impulse_response(run, values)
+            )
         if springs is not None:
-            more |= rubbing_noise(model, run, buffers_along(springs, run, *np.zeros((2, len(run.time)))))
+            more |= vertical_friction_noise(model, run, buffers_along(springs, run, *np.zeros((2, len(run.time)))))
         for name, level in levels.items():
             out.setdefault(name, []).append(np.hypot(level, more[name]) if name in more else level)
     return out
@@ -73,8 +75,9 @@ def weighed_balances(
 def heave_level(model: Model, run: FitRun, scale: Mapping[str, float]) -> float:
     """Give the noise of the heave balance as the model's mass and effects pass it on [N].
 
-    Less mass multiplies the accelerometer's noise by less: without this the fit would buy a smaller residual with mass,
-    and pay for the load with whatever else adds to it. What effects let ring is counted by `bent_noise_in_heave`.
+    Less mass multiplies the accelerometer's noise by less: without this the fit would trade mass for a smaller
+    residual, and make up for the load with whatever else adds to it. What effects let ring is counted by
+    `bent_noise_in_heave`.
 
     Args:
         model: with the numbers of the fit.
@@ -108,13 +111,13 @@ def bent_noise_in_heave(model: Model, run: FitRun) -> Array:
     Returns:
         spectrum (m,) as `force_noise_in_pitch` gives it, nowhere below zero [N^2].
     """
-    struck = np.zeros(len(run.time))
-    struck[len(struck) // 2] = 1.0
-    more = _more_heave(model, run, struck)
+    impulse = np.zeros(len(run.time))
+    impulse[len(impulse) // 2] = 1.0
+    more = _more_heave(model, run, impulse)
     if more is None:
-        return np.zeros(len(struck) // 2 + 1)
+        return np.zeros(len(impulse) // 2 + 1)
     mass = model.specimen.mass
-    passed = np.abs(np.fft.rfft(mass * struck + more)) ** 2
+    passed = np.abs(np.fft.rfft(mass * impulse + more)) ** 2
     return run.noise.get("girder_az", 0.0) ** 2 * np.maximum(passed - mass**2, 0.0)
 
 
@@ -122,13 +125,15 @@ def _more_heave(model: Model, run: FitRun, upward: Array) -> Array | None:
     """Give what effects add to the load for an acceleration (n,) upward alone, (n,) [N]; None where none adds any."""
     acceleration = np.zeros((2, len(run.time), 3))
     acceleration[1, :, 2] = upward
-    answers = (effects_in(model, run, model.specimen, run.force, acceleration=a) for a in acceleration)
-    quiet, loud = (a.get("heave") for a in answers)
-    return None if quiet is None or loud is None else loud - quiet
+    added = (effects_in(model, run, model.specimen, run.force, acceleration=a) for a in acceleration)
+    without_acceleration, with_acceleration = (a.get("heave") for a in added)
+    if without_acceleration is None or with_acceleration is None:
+        return None
+    return with_acceleration - without_acceleration
 
 
-def rubbing_noise(model: Model, run: FitRun, buffers: Array) -> dict[str, Array]:
-    """Give what noise of the loads makes of what rubs against heave, by the rate that is made from them.
+def vertical_friction_noise(model: Model, run: FitRun, buffers: Array) -> dict[str, Array]:
+    """Give the noise of vertical friction at the girder: it follows the heave rate, which is made from noisy loads.
 
     Args:
         model: with the numbers of the fit.
@@ -136,13 +141,13 @@ def rubbing_noise(model: Model, run: FitRun, buffers: Array) -> dict[str, Array]
         buffers: (n, n_buffers) [N].
 
     Returns:
-        "heave" and "roll" (n,) [N], where anything rubs.
+        "heave" and "roll" (n,) [N]; empty where no effect brings such friction.
     """
-    struck = np.zeros(len(run.time))
-    struck[len(struck) // 2] = np.linalg.norm(run.gauge_noise[1])
-    wrong = float(np.linalg.norm(heave_rate(struck, run.dt, model.specimen)))
+    impulse = np.zeros(len(run.time))
+    impulse[len(impulse) // 2] = np.linalg.norm(run.gauge_noise[1])
+    error = float(np.linalg.norm(heave_rate(impulse, run.dt, model.specimen)))
     specimen = model.built_specimen()
-    up, down = (effects_in(model, run, specimen, run.force, buffers, rising=w) for w in (wrong, -wrong))
+    up, down = (effects_in(model, run, specimen, run.force, buffers, rising=w) for w in (error, -error))
     return {name: 0.5 * np.abs(up[name] - down[name]) for name in ("heave", "roll") if name in up}
 
 
@@ -152,14 +157,14 @@ def force_noise_in_pitch(run: FitRun, specimen: Specimen, values: Mapping[str, f
     Returns:
         spectrum (m,) at the frequencies of a real transform, as the variance of white noise of that height [N^2].
     """
-    ringing = specimen.centre_height / specimen.half_spacing[0] * struck_pitch(run, values)
+    ringing = specimen.centre_height / specimen.half_spacing[0] * pitch_impulse_response(run, values)
     return float(np.sum(run.gauge_noise[0] ** 2)) * np.abs(np.fft.rfft(ringing)) ** 2
 
 
 def driven_noise_in_pitch(model: Model, runs: Sequence[FitRun], values: Mapping[str, float]) -> list[Array]:
     """Give what accelerometers' noise adds to the predicted pitch load through effects that are driven by it.
 
-    A table that rocks is told to by a measured acceleration, and turns the harder the higher the frequency: its noise
+    A table that rocks is driven by a measured acceleration, and its pitch acceleration grows with frequency: its noise
     may be several times that of the load cells.
 
     Returns:
@@ -170,37 +175,37 @@ def driven_noise_in_pitch(model: Model, runs: Sequence[FitRun], values: Mapping[
     specimen, at = model.built_specimen(), np.fft.rfftfreq(len(run.time), run.dt)
     power = [np.zeros(len(r.time) // 2 + 1) for r in runs]
     for place, channel in enumerate(("girder_ax", "table_ax")):
-        struck = np.zeros((2, len(run.time), 3))
-        struck[place, len(run.time) // 2, 0] = 1.0
-        told = effects_in(model, run, specimen, run.force, acceleration=struck[0], table=struck[1])
-        answer = told.get("pitch")
-        if answer is not None and answer.any():
-            size = np.abs(np.fft.rfft(through_pitch(answer, run.dt, frequency, damping))) ** 2
+        impulse = np.zeros((2, len(run.time), 3))
+        impulse[place, len(run.time) // 2, 0] = 1.0
+        response = effects_in(model, run, specimen, run.force, acceleration=impulse[0], table=impulse[1])
+        pitch = response.get("pitch")
+        if pitch is not None and pitch.any():
+            size = np.abs(np.fft.rfft(through_pitch(pitch, run.dt, frequency, damping))) ** 2
             for of, r in zip(power, runs, strict=True):
                 of += r.noise.get(channel, 0.0) ** 2 * np.interp(np.fft.rfftfreq(len(r.time), r.dt), at, size)
     return power
 
 
-def struck_pitch(run: FitRun, values: Mapping[str, float]) -> Array:
+def pitch_impulse_response(run: FitRun, values: Mapping[str, float]) -> Array:
     """Give what the girder's pitch makes of a pulse in the middle of a run, (n,) [1]."""
-    struck = np.zeros(len(run.time))
-    struck[len(struck) // 2] = 1.0
-    return through_pitch(struck, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
+    impulse = np.zeros(len(run.time))
+    impulse[len(impulse) // 2] = 1.0
+    return through_pitch(impulse, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
 
 
-def noise_of_mending(specimen: Specimen, turning: Array, changed: Array, ringing: Array) -> dict[str, Array]:
-    """Give the noise that balances get where the law must say what a faulty gauge of friction did not show.
+def noise_of_fault_correction(specimen: Specimen, reversal: Array, changed: Array, ringing: Array) -> dict[str, Array]:
+    """Give the noise that balances get where the law must predict what a faulty gauge of friction did not show.
 
     Args:
         specimen: its mass, and the lever of friction in pitch.
-        turning: (n, p) of `reversal_noise` [N].
+        reversal: (n, p) of `reversal_noise` [N].
         changed: (p,) share of such an error that the fault lets through [1].
         ringing: (n,) what the girder's pitch makes of a pulse in the middle [1].
 
     Returns:
         "girder" (n,) [m/s^2] and "pitch" (n,) [N].
     """
-    squared = np.sum((turning * changed) ** 2, axis=1)
+    squared = np.sum((reversal * changed) ** 2, axis=1)
     pitch = np.maximum(fftconvolve(squared, ringing**2, mode="same"), 0.0)
     lever = specimen.centre_height / specimen.half_spacing[0]
     return {"girder": np.sqrt(squared) / specimen.mass, "pitch": lever * np.sqrt(pitch)}

@@ -36,13 +36,13 @@ _MORE_ROUNDS, _AT_REST, _LOUDER = 3, 0.1, 0.02
 _ROUGH = 1e-5
 #: Where a fit that is reported ends, and where one that is only to be weighed by [1]; both also at a share of what is
 #: left above the noise: a law that is wrong needs no fine fit.
-_SETTLED, _TO_WEIGH, _MUCH_LEFT = 0.1, 50.0, 5e-4
+_FINAL_REFIT, _TO_WEIGH, _MUCH_LEFT = 0.1, 50.0, 5e-4
 #: A stick longer than this share of the stroke is no detail of the rig [1].
 _STICK_SHARE = 0.01
 #: A fit from elsewhere is another one if it leaves this share less of the squared residual [1].
 _BETTER = 0.01
 #: Share of the pads' squared residual that yaw must take away [1].
-_EARNED = 0.03
+_MIN_YAW_GAIN = 0.03
 
 
 @dataclass(frozen=True)
@@ -115,22 +115,22 @@ def _fitted(campaign: Campaign, model: Model, problem: Problem, start: Mapping[s
         problem.weigh(weighed)
         solution = solve(problem, weighed, free, most=8, enough=enough, rough=_ROUGH)
     for _ in range(_MORE_ROUNDS):
-        if not _rings_elsewhere(weighed, solution.values):
+        if not _resonance_moved(weighed, solution.values):
             break
         again, weighed = problem.weighed_anew(solution.values), solution.values
         if _cost(again, weighed) > (1.0 - _LOUDER) * solution.cost:
             break
         problem = again
         solution = solve(problem, weighed, free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
-    if _turns(problem, solution):
-        problem = problem.turning()
+    if _yaw_improves_fit(problem, solution):
+        problem = problem.with_yaw()
         free.append(inertia_free(model.specimen, YAW_INERTIA))
         start = {**solution.values, free[-1].key: free[-1].start}
         solution = solve(problem, start, free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
     return BaseFit(campaign, model, problem, tuple(free), solution)
 
 
-def _rings_elsewhere(weighed: Mapping[str, float], found: Mapping[str, float]) -> bool:
+def _resonance_moved(weighed: Mapping[str, float], found: Mapping[str, float]) -> bool:
     """Tell whether the girder's pitch was weighed with another resonance than was found: its noise is loud there."""
     if "rig.pitch_frequency" not in found:
         return False
@@ -138,7 +138,7 @@ def _rings_elsewhere(weighed: Mapping[str, float], found: Mapping[str, float]) -
     return abs(frequency) > _AT_REST * found["rig.pitch_damping"] or abs(damping) > _AT_REST
 
 
-def settled(problem: Problem, solution: Solution) -> tuple[Problem, Solution]:
+def final_refit(problem: Problem, solution: Solution) -> tuple[Problem, Solution]:
     """Fit on with the laws evaluated at twice the instants, weighed anew twice, and a stick that may be damped.
 
     What was weighed by another law is off near reversals, where that law was wrong.
@@ -151,13 +151,13 @@ def settled(problem: Problem, solution: Solution) -> tuple[Problem, Solution]:
     begin = slopes_of(solution)
     solution = solve(problem, start, free, most=4, enough=_TO_WEIGH, rough=_MUCH_LEFT, begin=begin)
     problem = problem.weighed_anew(solution.values)
-    return problem, solve(problem, solution.values, free, most=3, enough=_SETTLED, rough=_MUCH_LEFT)
+    return problem, solve(problem, solution.values, free, most=3, enough=_FINAL_REFIT, rough=_MUCH_LEFT)
 
 
 def fit_finely(campaign: Campaign, model: Model | None = None) -> BaseFit:
     """Fit a campaign's base parameters for their own sake; arguments and errors as `fit_base`."""
     base = fit_base(campaign, model)
-    problem, solution = settled(base.problem, base.solution)
+    problem, solution = final_refit(base.problem, base.solution)
     return replace(base, problem=problem, free=solution.free, solution=solution)
 
 
@@ -197,10 +197,10 @@ def _cost(problem: Problem, values: Mapping[str, float]) -> float:
     return float(left @ left)
 
 
-def _turns(problem: Problem, solution: Solution) -> bool:
-    """Tell whether yaw made from the measured forces earns its noise."""
-    if not problem.kinematics.can_turn:
+def _yaw_improves_fit(problem: Problem, solution: Solution) -> bool:
+    """Tell whether yaw made from the measured forces improves the fit by more than its noise makes it worse."""
+    if not problem.kinematics.yaw_is_computable:
         return False
-    left = problem.turning().residuals(solution.values, fitted_only=True).stacked(problem.fitted, ("pads",))
+    left = problem.with_yaw().residuals(solution.values, fitted_only=True).stacked(problem.fitted, ("pads",))
     before = solution.residuals.stacked(problem.fitted, ("pads",))
-    return float(left @ left) < (1.0 - _EARNED) * float(before @ before)
+    return float(left @ left) < (1.0 - _MIN_YAW_GAIN) * float(before @ before)

@@ -16,6 +16,12 @@ from slipwise.simulation.predict import PadForces
 Array = NDArray[np.float64]
 
 
-def logged_across(run: FitRun, said: PadForces, by: LowPass | None) -> Array:
-    """Give the pads' forces along y as the logger would have written them, (n, p) [N]."""
-    return as_logged(said.force[:, :, 1], run, by, averaged=False)
+def logged_across(run: FitRun, law_forces: PadForces, by: LowPass | None) -> Array:
+    """Give the pads' forces along y as the logger would have written them, (n, p) [N].
+
+    Args:
+        run: whose samples and filter.
+        law_forces: of the law at the instants, (f, p, 2) [N].
+        by: the filter where the campaign does not know it.
+    """
+    return as_logged(law_forces.force[:, :, 1], run, by, averaged=False)

@@ -1,4 +1,4 @@
-"""The zero of a slider's friction gauge: an actuator lets go at no instant, so no record shows it.
+"""The zero of a slider's friction gauge: an actuator never releases the load, so no record shows it.
 
 A girder's gauges are read at rest before the table moves. What a slider's gauge is off by is one number all the same:
 midway between friction forth and friction back in every stretch of every run.
@@ -14,7 +14,7 @@ from slipwise.estimation.run_data import FitRun
 
 #: A zero is off by no more than this share of the usual force, and the same everywhere within as much [1].
 _SHARE = 0.05
-#: Quantiles of a force that are friction forth and back: where it turns round it is neither [1].
+#: Quantiles of a force that are friction forth and back: where it reverses it is neither [1].
 _ENDS = (0.05, 0.95)
 #: Each way of sliding must have this share of a stretch [1].
 _BOTH_WAYS = 0.1

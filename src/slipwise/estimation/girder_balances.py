@@ -30,8 +30,9 @@ from slipwise.simulation.predict import Predictor
 
 Array = NDArray[np.float64]
 BALANCES: tuple[str, ...] = ("girder", "heave", "pitch", "roll", "warp", "motion")
-#: Where a gauge of friction lies, the girder's accelerometer is believed if it is so many of its noises away [1].
-_TELLING = 4.0
+#: Where a gauge of friction is invalid, the girder's accelerometer takes its place if the two differ by more than this
+#: many times the accelerometer's noise [1].
+_SIGNIFICANT = 4.0
 
 
 def available(run: FitRun, specimen: Specimen) -> tuple[str, ...]:
@@ -96,7 +97,7 @@ def heave_rate(total: Array, dt: float, specimen: Specimen) -> Array:
     return -np.gradient(smooth, dt) / stiffness
 
 
-def predicted(
+def predicted_balances(
     model: Model,
     run: FitRun,
     force: Array,
@@ -117,45 +118,45 @@ def predicted(
     fb = buffers.sum(axis=1)
     total = _total(run, force, specimen.mass, fb)
     height = specimen.centre_height
-    turning = height * total + (height - specimen.buffer_height) * fb
+    moment = height * total + (height - specimen.buffer_height) * fb
     heave = run.load.sum(axis=1)
     swing = run.slip * heave if specimen.pads_on == "table" else 0.0
-    pitch = _pitched((turning + swing) / half, run, values)
+    pitch = _pitched((moment + swing) / half, run, values)
     modes = load_modes(run.load)
     mass, gravity = specimen.mass, specimen.gravity
-    said = {
-        "girder": _late(-(total + fb) / mass, run.dt, values["rig.late_girder"]),
-        "heave": _late(mass * (gravity + run.states.girder_acceleration[:, 2]), run.dt, values["rig.late_load"]),
-        "pitch": _late(pitch, run.dt, values["rig.late_pitch"]),
+    predicted = {
+        "girder": _delayed(-(total + fb) / mass, run.dt, values["rig.late_girder"]),
+        "heave": _delayed(mass * (gravity + run.states.girder_acceleration[:, 2]), run.dt, values["rig.late_load"]),
+        "pitch": _delayed(pitch, run.dt, values["rig.late_pitch"]),
         "roll": np.zeros(len(heave)),
         "warp": np.zeros(len(heave)),
     }
-    seen = {"girder": run.channel("girder_ax"), "heave": heave, "pitch": modes.pitch, "roll": modes.roll}
-    seen["warp"] = modes.warp
+    measured = {"girder": run.channel("girder_ax"), "heave": heave, "pitch": modes.pitch, "roll": modes.roll}
+    measured["warp"] = modes.warp
     for name, more in effects_in(model, run, specimen, force, buffers).items():
         if name == "motion":
             continue  # taken out of the states already
         if name == "pitch":
             more = _pitched(more, run, values)
-        said[name] = said[name] + (-more / mass if name == "girder" else more)
-    return said, seen
+        predicted[name] = predicted[name] + (-more / mass if name == "girder" else more)
+    return predicted, measured
 
 
 def _total(run: FitRun, force: Array, mass: float, buffers: Array) -> Array:
-    """Give the pads' force along x (n,) [N]; where a gauge lies and the girder's own motion tells, what that says.
+    """Give the pads' force along x (n,) [N]; where a gauge is invalid, what the girder's own motion gives.
 
-    Such samples are not judged, but pitch rings on with them.
+    Residuals leave such samples out, but pitch rings on with them.
     """
     total = force.sum(axis=1)
-    lies = [bad for name, bad in run.invalid.items() if name.startswith("pad_") and name.endswith("_Fx")]
-    if not lies or "girder_ax" not in run.record or "girder_ax" in run.invalid:
+    invalid = [bad for name, bad in run.invalid.items() if name.startswith("pad_") and name.endswith("_Fx")]
+    if not invalid or "girder_ax" not in run.record or "girder_ax" in run.invalid:
         return total
-    moved = -mass * run.record["girder_ax"] - buffers
-    off = np.abs(total - moved) > _TELLING * mass * run.noise["girder_ax"]
-    return np.where(np.any(lies, axis=0) & off, moved, total)
+    from_motion = -mass * run.record["girder_ax"] - buffers
+    off = np.abs(total - from_motion) > _SIGNIFICANT * mass * run.noise["girder_ax"]
+    return np.where(np.any(invalid, axis=0) & off, from_motion, total)
 
 
-def _late(values: Array, dt: float, lag: float) -> Array:
+def _delayed(values: Array, dt: float, lag: float) -> Array:
     """Shift a smooth signal by a lag far below the sampling step."""
     return values - lag * np.gradient(values, dt)
 
@@ -203,17 +204,19 @@ def effects_in(
     return out
 
 
-def no_slip(model: Model, run: FitRun) -> Array:
-    """Give the part of the girder's acceleration over the table that is no slip, by effects that turn both, (n,)."""
+def rigid_rotation_acceleration(model: Model, run: FitRun) -> Array:
+    """Give the girder's acceleration over the table that is no slip (n,) [m/s^2]: girder and table rotate together."""
     return effects_in(model, run, model.built_specimen(), run.force).get("motion", np.zeros(len(run.time)))
 
 
-def motion_residual(run: FitRun, late: float, scale: Mapping[str, float], raised: Mapping[str, Spectrum]) -> Array:
+def motion_residual(
+    run: FitRun, slip_delay: float, scale: Mapping[str, float], raised: Mapping[str, Spectrum]
+) -> Array:
     """Give a_x - a_x,table - d2(slip)/dt2, whitened by the noise of the three gauges: (n,) of unit variance.
 
     Args:
         run: its channels.
-        late: by which the slip gauge lags behind the accelerometers [s].
+        slip_delay: of the slip gauge behind the accelerometers [s].
         scale: channel -> by how much undoing faults has scaled its noise: else a gain would shrink it and look good.
         raised: channel -> by how much taking a filter out has raised the power of its noise.
     """
@@ -226,7 +229,7 @@ def motion_residual(run: FitRun, late: float, scale: Mapping[str, float], raised
         slip = (2.0 * np.pi * f) ** 4 * power("slip_x", f)
         return 1.0 / np.sqrt(power("girder_ax", f) + power("table_ax", f) + slip)
 
-    relative = run.record["girder_ax"] - run.record["table_ax"] - run.no_slip
-    slip = shift(run.record["slip_x"], run.dt, -late)
+    relative = run.record["girder_ax"] - run.record["table_ax"] - run.rigid_rotation_acceleration
+    slip = shift(run.record["slip_x"], run.dt, -slip_delay)
     bend = in_frequency(slip - slip[0], run.dt, lambda f: (2.0 * np.pi * f) ** 2 * white(f), 256)
     return in_frequency(relative, run.dt, white, 256) + bend

@@ -6,7 +6,7 @@ Residuals of pads and balances at one instant share gauges, and neighbours share
 all relations over a stretch of time, and only blocks are taken as independent. The usual formula, one variance for all
 rows, covers the truth in 15 to 40 % of the cases when residuals are correlated.
 
-What a whole run shares is no block's scatter: pads and cards that turn round some hundredths of a millisecond early or
+What a whole run shares is no block's scatter: pads and cards that reverse some hundredths of a millisecond early or
 late, or more gently than the law says. Both, of each pad in each run, are nuisances of known size, and what they could
 do to a number is added:
 
@@ -118,7 +118,7 @@ def intervals(base: BaseFit) -> Intervals:
     found = of_fit(solution.free, solution.values, solution.jacobian, left, block, shared)
     own_lag = {f"{t.label}.{t.effect.lag}" for t in problem.terms if t.effect.lag}
     ends = {f.key: (f.low, f.high) for f in solution.free}
-    entries = (_of_a_card(e, *ends[e.key]) if e.key in own_lag else e for e in found.entries)
+    entries = (_widened_by_card_delay(e, *ends[e.key]) if e.key in own_lag else e for e in found.entries)
     found = replace(found, entries=tuple(entries))
     limited = [
         _limited(base, found.entries, j, left, block, shared)
@@ -130,7 +130,7 @@ def intervals(base: BaseFit) -> Intervals:
 
 
 def _shared(base: BaseFit, count: int) -> Shared:
-    """Give what a run's and pad's own way to turn round would do to the residuals; pads come first."""
+    """Give what a run's and pad's own timing of its reversals would do to the residuals; pads come first."""
     problem, forces = base.problem, base.solution.residuals.pad_forces
     moved, whose = np.zeros((2, count)), np.zeros(count, dtype=np.int64)
     start = 0
@@ -146,7 +146,7 @@ def _shared(base: BaseFit, count: int) -> Shared:
     return moved, whose
 
 
-def _of_a_card(entry: Interval, lowest: float, highest: float) -> Interval:
+def _widened_by_card_delay(entry: Interval, lowest: float, highest: float) -> Interval:
     """Widen a gauge's lag by that of its card: beside the effect the two are one number."""
     half = float(np.hypot(0.5 * (entry.high - entry.low), student.ppf(0.5 + COVERAGE / 2, np.inf) * _SHARED_TIMING))
     return replace(entry, low=max(entry.value - half, lowest), high=min(entry.value + half, highest))

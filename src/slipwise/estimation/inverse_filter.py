@@ -33,19 +33,19 @@ def without_filter(values: Array, pulse: Array, run: FitRun) -> Array:
         size = np.maximum(np.abs(here), 1e-12)
         return np.asarray(np.minimum(1.0 / size, _SHARPEST) * np.conj(here) / size, dtype=np.complex128)
 
-    seen = smoothed(values, run)
-    return values + in_frequency(seen, run.dt, inverse, min(middle, 256)) - seen
+    smooth = smoothed(values, run)
+    return values + in_frequency(smooth, run.dt, inverse, min(middle, 256)) - smooth
 
 
 def spectrum_without_filter(pulse: Array, run: FitRun) -> Spectrum:
     """Tell by how much `without_filter` raises the power of white noise."""
-    struck = np.zeros(len(pulse))
-    struck[len(struck) // 2] = 1.0
-    power = np.abs(np.fft.rfft(without_filter(struck, pulse, run))) ** 2
+    impulse = np.zeros(len(pulse))
+    impulse[len(impulse) // 2] = 1.0
+    power = np.abs(np.fft.rfft(without_filter(impulse, pulse, run))) ** 2
     return np.asarray(np.fft.rfftfreq(len(pulse), run.dt), dtype=np.float64), np.asarray(power, dtype=np.float64)
 
 
-def evened(left: Array, run: FitRun, raised: Mapping[str, Spectrum], shares: Mapping[str, float]) -> Array:
+def rewhitened(left: Array, run: FitRun, raised: Mapping[str, Spectrum], shares: Mapping[str, float]) -> Array:
     """Bring a residual (n,) to white noise again.
 
     Args:

@@ -1,4 +1,4 @@
-"""Which samples each relation is judged by: sliding pads, pads on the ground, gauges that tell the truth."""
+"""Which samples each relation is judged by: sliding pads, pads on the ground, gauges that are valid."""
 
 from collections.abc import Mapping
 from fnmatch import fnmatchcase
@@ -25,30 +25,30 @@ _FROM_BEFORE = ("motion", "pitch")
 _CUT = 0.12
 
 
-def judged(
+def sample_masks(
     grounded: Mask, sliding: Mask, fast: Mask, whole: Mask, pads: tuple[str, ...], invalid: Mapping[str, Mask]
 ) -> dict[str, Mask]:
     """Give the samples by which each relation is judged: (n,), or (n, p) for pads and friction across.
 
     Args:
         grounded: (n,) every pad carries load.
-        sliding: (n,) the law says the force of a pad.
+        sliding: (n,) the law gives the force of a pad.
         fast: (n,) the direction of sliding is known.
         whole: (n,) what was before is known, see `away_from_cuts`.
         pads: those measured.
         invalid: channel -> samples (n,) at which it is no measurement.
     """
 
-    def truthful(*names: str) -> Mask:
+    def valid(*names: str) -> Mask:
         bad = [mask for channel, mask in invalid.items() if any(fnmatchcase(channel, n) for n in names)]
         return ~np.any(bad, axis=0) if bad else np.ones(len(grounded), dtype=bool)
 
-    out = {name: grounded & truthful(*names) for name, names in _USES.items()}
+    out = {name: grounded & valid(*names) for name, names in _USES.items()}
     for name in _FROM_BEFORE:
         out[name] &= whole
-    moving = sliding & truthful(*VELOCITY_CHANNELS)
+    moving = sliding & valid(*VELOCITY_CHANNELS)
     for name, axis, kept in (("pads", "x", moving), ("across", "y", moving & fast)):
-        out[name] = np.stack([kept & truthful(f"pad_{p}_N", f"pad_{p}_F{axis}") for p in pads], axis=1)
+        out[name] = np.stack([kept & valid(f"pad_{p}_N", f"pad_{p}_F{axis}") for p in pads], axis=1)
     return out
 
 

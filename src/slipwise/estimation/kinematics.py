@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.estimation.girder_balances import buffers_along, no_slip
+from slipwise.estimation.girder_balances import buffers_along, rigid_rotation_acceleration
 from slipwise.estimation.instants import Instants, instants
 from slipwise.estimation.inverse_filter import Spectrum
 from slipwise.estimation.measurement_model import acts_on_force, noise_scale, raised_noise, without
@@ -22,7 +22,7 @@ from slipwise.simulation.predict import predictor
 
 Array = NDArray[np.float64]
 #: Numbers of the rig on which yaw depends.
-_TURNING = ("rig.mass", "rig.buffer_stiffness", YAW_INERTIA)
+_YAW_KEYS = ("rig.mass", "rig.buffer_stiffness", YAW_INERTIA)
 
 
 @dataclass
@@ -33,12 +33,12 @@ class Kinematics:
         runs: as measured.
         specimen: rated values.
         terms: of the hypothesis.
-        yaw: whether the girder's yaw is made from the measured forces even if no term turns it.
-        can_turn: whether the forces say how the girder turns, and no gauge does.
+        yaw: whether the girder's yaw is made from the measured forces even if no term asks for it.
+        yaw_is_computable: whether all pads' forces were measured, and yaw was not.
         recent: results, shared with others that look at the same runs.
         lost: per run (f, p) velocity that the logger's filter took at reversals [m/s].
         bounds: per run (n, p) friction of the pads whichever way they slide [N]; what was measured until it is known.
-        late: by which the slip gauge lags behind the accelerometers, as the fit was weighed [s].
+        slip_delay: by which the slip gauge lags behind the accelerometers, as the fit was weighed [s].
         around: values from which slopes are taken, where faults move noise in time; see `measurement_model.without`.
     """
 
@@ -46,11 +46,11 @@ class Kinematics:
     specimen: Specimen
     terms: tuple[Term, ...]
     yaw: bool
-    can_turn: bool
+    yaw_is_computable: bool
     recent: Recent
     lost: list[Array] = field(default_factory=list[Array])
     bounds: list[Array] = field(default_factory=list[Array])
-    late: float = 0.0
+    slip_delay: float = 0.0
     around: Mapping[str, float] | None = None
 
     def __post_init__(self) -> None:
@@ -80,32 +80,32 @@ class Kinematics:
 
     def _sort(self) -> None:
         self._faults = [t for t in self.terms if t.effect.port == "gauge" and not acts_on_force(t)]
-        self._rockers = [t for t in self.terms if t.effect.port == "table" and "balance" in t.effect.hooks]
-        turners = [t for t in self.terms if t.effect.turns]
-        self.turns = (self.yaw or bool(turners)) and self.can_turn
-        # whose numbers the yaw depends on: how unlike the pads are is in the forces that were measured
-        unlike = [t for t in turners if "rig" in t.effect.hooks]
-        self._buffers = [t for t in self.terms if t.effect.port == "buffer" or t in unlike]
+        self._table_pitch_terms = [t for t in self.terms if t.effect.port == "table" and "balance" in t.effect.hooks]
+        yaw_terms = [t for t in self.terms if t.effect.turns]
+        self.makes_yaw = (self.yaw or bool(yaw_terms)) and self.yaw_is_computable
+        # whose numbers the yaw depends on: how much the pads differ is in the forces that were measured
+        yaw_terms_of_rig = [t for t in yaw_terms if "rig" in t.effect.hooks]
+        self._buffers = [t for t in self.terms if t.effect.port == "buffer" or t in yaw_terms_of_rig]
 
     @property
     def inertias(self) -> tuple[str, ...]:
         """Keys of the inertias of the girder that these terms speak of."""
-        return (YAW_INERTIA,) * self.turns + (PITCH_INERTIA,) * bool(self._rockers)
+        return (YAW_INERTIA,) * self.makes_yaw + (PITCH_INERTIA,) * bool(self._table_pitch_terms)
 
     def fault_key(self, values: Mapping[str, float]) -> Key:
         """Give what the runs without their gauges' faults depend on."""
-        height = (values.get("rig.centre_height", 0.0),) if self._rockers else ()
-        return (*values_of([*self._faults, *self._rockers], values), *height)
+        height = (values.get("rig.centre_height", 0.0),) if self._table_pitch_terms else ()
+        return (*values_of([*self._faults, *self._table_pitch_terms], values), *height)
 
     def key(self, values: Mapping[str, float]) -> Key:
         """Give what the states of the pads depend on."""
-        return (*self.fault_key(values), values.get("rig.pitch_slip", 0.0), *self.turning_key(values))
+        return (*self.fault_key(values), values.get("rig.pitch_slip", 0.0), *self.yaw_key(values))
 
-    def turning_key(self, values: Mapping[str, float]) -> Key:
+    def yaw_key(self, values: Mapping[str, float]) -> Key:
         """Give what the girder's yaw depends on but for faults; nothing where no yaw is made."""
-        if not self.turns:
+        if not self.makes_yaw:
             return ()
-        return ("yaw", *values_of(self._buffers, values), *(values.get(k, 0.0) for k in _TURNING))
+        return ("yaw", *values_of(self._buffers, values), *(values.get(k, 0.0) for k in _YAW_KEYS))
 
     def corrected(self, values: Mapping[str, float], count: int | None = None) -> tuple[list[FitRun], dict[str, float]]:
         """Take the faults of all gauges but those of friction out of the runs; noise scales with it.
@@ -117,16 +117,16 @@ class Kinematics:
         Returns:
             runs, and relation -> by how much the noise of its channels has grown, where it has.
         """
-        if not self._faults and not self._rockers and self.late == 0.0:
+        if not self._faults and not self._table_pitch_terms and self.slip_delay == 0.0:
             return self.runs[:count], {}
 
         def make() -> tuple[list[FitRun], dict[str, float]]:
-            runs = self._in_step()[:count]
+            runs = self._synchronised()[:count]
             for term in self._faults:
                 runs = [without(term, values, r, self.around) for r in runs]
-            if self._rockers:
+            if self._table_pitch_terms:
                 model = fitted_model(self.specimen, self.terms, values)
-                runs = [r.without_turning(no_slip(model, r)) for r in runs]
+                runs = [r.without_table_pitch(rigid_rotation_acceleration(model, r)) for r in runs]
             return runs, noise_scale(self._faults, values, self.runs[0])
 
         return self.recent.get("corrected", (len(self.runs[:count]), *self.fault_key(values)), make)
@@ -138,16 +138,17 @@ class Kinematics:
         key = self.fault_key(values)
         return self.recent.get("raised", key, lambda: raised_noise(self._faults, values, self.runs[0]))
 
-    def _in_step(self) -> list[FitRun]:
-        """Give the runs with slip and accelerations in step."""
-        if self.late == 0.0:
+    def _synchronised(self) -> list[FitRun]:
+        """Give the runs with slip and accelerations synchronised."""
+        if self.slip_delay == 0.0:
             return self.runs
-        return self.recent.get("in step", (self.late,), lambda: [r.without_late_slip(self.late) for r in self.runs])
+        delay = self.slip_delay
+        return self.recent.get("synchronised", (delay,), lambda: [r.slip_delay_corrected(delay) for r in self.runs])
 
-    def turning(self, values: Mapping[str, float], count: int | None = None) -> list[tuple[Array, Array]]:
+    def yaw_of_runs(self, values: Mapping[str, float], count: int | None = None) -> list[tuple[Array, Array]]:
         """Give yaw [rad] and its rate [rad/s] of the runs, (n,) each: measured, made from the forces, or none."""
         runs, _ = self.corrected(values, count)
-        if not self.turns:
+        if not self.makes_yaw:
             return [(r.states.yaw, r.states.yaw_rate) for r in runs]
 
         def make() -> list[tuple[Array, Array]]:
@@ -166,36 +167,44 @@ class Kinematics:
         return self.recent.get("yaw", (len(self.runs[:count]), *self.key(values)), make)
 
     def compliance(self, specimen: Specimen) -> Array:
-        """Give the acceleration of pad i for a force along x on pad j, (p, p) [1/kg]; it turns where yaw is known.
+        """Give the acceleration of pad i for a force along x on pad j, (p, p) [1/kg], with yaw where it is known.
 
         A pad that was not measured is taken to hold the girder as the measured ones do.
         """
         places = np.array(specimen.pad_places)[self._here, 1] - specimen.centre_y
-        turning = np.outer(places, places) / specimen.inertia[2]
-        knows = self.turns or self.runs[0].states.has_yaw
+        by_yaw = np.outer(places, places) / specimen.inertia[2]
+        has_yaw = self.makes_yaw or self.runs[0].states.has_yaw
         every = len(specimen.pads) / len(self._here)
-        return every / specimen.mass + (turning if knows else np.zeros_like(turning))
+        return every / specimen.mass + (by_yaw if has_yaw else np.zeros_like(by_yaw))
 
     def states(self, values: Mapping[str, float], count: int | None = None) -> list[Instants]:
         """Give the states of every pad in the runs, as many of them as asked for."""
         key = (len(self.runs[:count]), *self.key(values))
-        return self.recent.get("states", key, lambda: self.faster(values, count=count))
+        return self.recent.get("states", key, lambda: self.states_with_velocity_error(values, count=count))
 
-    def faster(self, values: Mapping[str, float], by: float = 0.0, count: int | None = None) -> list[Instants]:
-        """Give the states of every pad, their velocities raised by so many times their expected errors."""
+    def states_with_velocity_error(
+        self, values: Mapping[str, float], by: float = 0.0, count: int | None = None
+    ) -> list[Instants]:
+        """Give the states of every pad, their velocities raised by so many times their expected errors.
+
+        Args:
+            values: key -> value of everything.
+            by: number of expected errors of the velocity that are added [1].
+            count: of runs from the first on; all, if not given.
+        """
         runs, _ = self.corrected(values, count)
         pads = np.array(self.specimen.pad_places)[self._here]
         round_about = np.stack([-pads[:, 1], pads[:, 0]], axis=1)[None]
-        alike = not (self.turns or runs[0].states.has_yaw)
-        here = slice(1 if alike else None)  # a girder that does not turn moves over every pad alike
+        alike = not (self.makes_yaw or runs[0].states.has_yaw)
+        here = slice(1 if alike else None)  # a girder without yaw moves over every pad alike
         out = []
         for place, run in enumerate(runs):
             velocity = run.states.pad_velocity[:, here].copy()
             velocity[:, :, 0] += values.get("rig.pitch_slip", 0.0) * self._pitching[place][:, None]
             velocity[:, :, 0] += by * run.states.pad_velocity_error[here, 0]
             slip = run.states.pad_slip[:, here]
-            if self.turns:
-                angle, rate = self.turning(values, count)[place]
+            if self.makes_yaw:
+                angle, rate = self.yaw_of_runs(values, count)[place]
                 velocity = velocity + rate[:, None, None] * round_about
                 slip = slip + angle[:, None, None] * round_about
             lost = self.lost[place][:, here] if self.lost else None
@@ -209,7 +218,7 @@ def values_of(terms: Sequence[Term], values: Mapping[str, float]) -> Key:
 
 
 def _whole(run: FitRun, mass: float, buffers: Array) -> Array:
-    """Give the pads' forces (n, p) [N]; where one gauge lies, what the girder's balance leaves it."""
+    """Give the pads' forces (n, p) [N]; where one gauge is invalid, what the girder's balance leaves it."""
     force = run.force
     bad = np.stack([run.invalid.get(f"pad_{p}_Fx", np.zeros(len(force), dtype=bool)) for p in run.pads], axis=1)
     alone = bad & (bad.sum(axis=1, keepdims=True) == 1)

@@ -49,7 +49,7 @@ def on_force(
         terms: faults of the gauges of friction.
         values: of their parameters.
         run: other faults taken out.
-        force: (n, p) that the law says [N].
+        force: (n, p) predicted by the law [N].
         around: see `without`.
     """
     if not terms:
@@ -58,7 +58,7 @@ def on_force(
     corrected = run
     for term in terms:
         corrected = without(term, values, corrected, around)
-    # while a pad sticks the law does not say its force
+    # while a pad sticks the law does not give its force
     stuck = np.stack([corrected.record[n] for n in names], axis=1)
     clean = np.where(run.sliding[:, None], force, stuck)
     record = run.record.replaced(**{n: clean[:, i] for i, n in enumerate(names)})
@@ -103,18 +103,18 @@ def without(term: Term, values: Mapping[str, float], run: FitRun, around: Mappin
             shown = record
             record = _call(entry.effect, "undo", shown, entry.target, start.values)
             if entry.values != start.values:
-                seen = shown.replaced(**{n: smoothed(shown[n], run) for n in names})
-                there, back = (_call(entry.effect, "undo", seen, entry.target, e.values) for e in (entry, start))
+                smooth = shown.replaced(**{n: smoothed(shown[n], run) for n in names})
+                there, back = (_call(entry.effect, "undo", smooth, entry.target, e.values) for e in (entry, start))
                 record = record.replaced(**{n: record[n] + there[n] - back[n] for n in names})
         else:
-            shown = _struck(term, entry, record, names)
+            shown = _fault_impulse_response(term, entry, record, names)
             for n in names:
                 record = record.replaced(**{n: without_filter(record[n], shown[n], run)})
     moved = any(record[n] is not run.record[n] for n in VELOCITY_CHANNELS if n in record)
     return run.with_record(record, moved=moved)
 
 
-def _struck(term: Term, entry: EffectUse, record: Record, names: Sequence[str]) -> Record:
+def _fault_impulse_response(term: Term, entry: EffectUse, record: Record, names: Sequence[str]) -> Record:
     """Give what a fault makes of a pulse in the middle of each of these channels."""
     pulse = np.zeros(len(record))
     pulse[len(pulse) // 2] = 1.0
@@ -131,7 +131,7 @@ def raised_noise(terms: Sequence[Term], values: Mapping[str, float], run: FitRun
     for term in (t for t in terms if "undo" not in t.effect.hooks):
         for entry in term.uses(values):
             names = [n for n in channels_like(entry.target) if n in run.record]
-            shown = _struck(term, entry, run.record, names)
+            shown = _fault_impulse_response(term, entry, run.record, names)
             for n in names:
                 at, factor = spectrum_without_filter(shown[n], run)
                 out[n] = (at, factor * out[n][1] if n in out else factor)

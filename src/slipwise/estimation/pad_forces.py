@@ -50,15 +50,15 @@ def _stick(along, step, length, lag, parts, share):  # pragma: no cover - compil
 
 
 @njit(cache=True)
-def _turned_round(force, bound, velocity, share, out):  # pragma: no cover - compiled
-    """Put the share of a stick in the place of the sharp turn of a bound that acts along the motion."""
+def _smoothed_reversal(force, bound, velocity, share, out):  # pragma: no cover - compiled
+    """Put the share of a stick in the place of the sharp reversal of a bound that acts along the motion."""
     for i in range(bound.shape[0]):
         for pad in range(bound.shape[1]):
             along, across = velocity[i, pad, 0], velocity[i, pad, 1]
             speed = sqrt(along * along + across * across)
-            turned = abs(along) / speed if speed > 0.0 else 1.0
+            share_along = abs(along) / speed if speed > 0.0 else 1.0
             sharp = along / speed if speed > 0.0 else 0.0
-            out[i, pad] = force[i, pad, 0] + bound[i, pad] * (share[i, pad] * turned - sharp)
+            out[i, pad] = force[i, pad, 0] + bound[i, pad] * (share[i, pad] * share_along - sharp)
 
 
 def stick_share(state: Instants, stick_length: float, stick_damping: float) -> Array:
@@ -68,7 +68,7 @@ def stick_share(state: Instants, stick_length: float, stick_damping: float) -> A
 
     Args:
         state: of the pads.
-        stick_length: u, slip over which a pad's friction turns round [m]: micrometres, the shear of pad and cell.
+        stick_length: u, slip over which a pad's friction reverses [m]: micrometres, the shear of pad and cell.
         stick_damping: t_d [s].
     """
     along = np.ascontiguousarray(state.velocity[:, :, 0])
@@ -111,19 +111,19 @@ def force_along(found: PadForces, state: Instants, share: Array | None) -> Array
     """Give the force of every pad along x at the instants, (f, p) [N].
 
     Args:
-        found: what the law answers.
-        state: to which.
+        found: of the law.
+        state: of the pads, for which the law was evaluated.
         share: of the bound that acts, see `stick_share`; None for a law that knows itself how a pad sticks.
     """
     if share is None:
         return found.force[:, :, 0]
     out = np.empty(found.bound.shape)
-    _turned_round(found.force, found.bound, state.velocity, share, out)
+    _smoothed_reversal(found.force, found.bound, state.velocity, share, out)
     return out
 
 
 def lost_velocity(force: Array, run: FitRun, compliance: Array, by: LowPass | None) -> Array:
-    """Give what the logger's filter takes from the pads' velocity where friction turns round, (f, p) [m/s].
+    """Give what the logger's filter takes from the pads' velocity where friction reverses, (f, p) [m/s].
 
     dv_i/dt = -sum_j C_ij F_j + (what has no kinks), so the kinks of v that the filter H rounds off are those of F's
     integral: v - H v = -(1 - H) C F / (i w). Without them a reversal seems to come up to half a millisecond off.
@@ -131,7 +131,7 @@ def lost_velocity(force: Array, run: FitRun, compliance: Array, by: LowPass | No
     Args:
         force: (f, p) at the instants [N].
         run: whose filter.
-        compliance: C (p, p), acceleration of pad i for a force on pad j: 1/m, and y_i y_j / I where the girder turns.
+        compliance: C (p, p), acceleration of pad i for a force on pad j: 1/m, and y_i y_j / I where the girder yaws.
         by: the filter where the campaign does not know it.
     """
     filtered = run.filtered or by
@@ -151,7 +151,7 @@ def lost_velocity(force: Array, run: FitRun, compliance: Array, by: LowPass | No
 _GAINS: dict[tuple[int, float, LowPass, bool, int], NDArray[np.inexact]] = {}
 
 
-def as_logged(force: Array, run: FitRun, by: LowPass | None, *, averaged: bool, late: float = 0.0) -> Array:
+def as_logged(force: Array, run: FitRun, by: LowPass | None, *, averaged: bool, delay: float = 0.0) -> Array:
     """Filter a force given at the instants (f, p) as the logger did and keep the samples (n, p).
 
     The states lag as much as the force does, so only the gain of a filter counts, but for what the samples fold.
@@ -162,16 +162,16 @@ def as_logged(force: Array, run: FitRun, by: LowPass | None, *, averaged: bool, 
         by: the filter where the campaign does not know it.
         averaged: each instant stands for the mean from half an instant before to half an instant after; the droop
             sin(x)/x of that mean is taken out again.
-        late: by which the force lags behind the states [s].
+        delay: of the force behind the states [s].
     """
     filtered = run.filtered or by
-    if filtered is None and late == 0.0:
+    if filtered is None and delay == 0.0:
         return force[:: run.fine]
     size = int(next_fast_len(len(force) + 2 * _BEYOND) or 0)
     step = run.dt / run.fine
     gain = _gain(size, step, filtered, averaged, run.fine) if filtered else np.ones(size // 2 + 1)
-    if late != 0.0:
-        gain = gain * np.exp(-2j * np.pi * late * rfftfreq(size, step))
+    if delay != 0.0:
+        gain = gain * np.exp(-2j * np.pi * delay * rfftfreq(size, step))
     before, after = np.repeat(force[:1], _BEYOND, axis=0), np.repeat(force[-1:], size - len(force) - _BEYOND, axis=0)
     spectrum = np.asarray(rfft(np.concatenate([before, force, after]), axis=0)) * gain[:, None]
     return np.asarray(irfft(spectrum, size, axis=0))[_BEYOND : _BEYOND + len(force) : run.fine]

@@ -7,10 +7,10 @@ from slipwise.effects import Effect
 from slipwise.model import EffectUse, Model
 from slipwise.rig import Specimen
 
-#: Largest lag between the cards of a logger that counts as none [s].
-LATE = 1.5e-4
+#: Largest delay between the cards of a logger that counts as none [s].
+MAX_CARD_DELAY = 1.5e-4
 #: The same of the friction channels where nothing is known of the logger's filters [s].
-_LATE_UNKNOWN = 4e-4
+_MAX_CARD_DELAY_UNKNOWN = 4e-4
 #: Rated values of the rig may be off by these shares; a frequency and a slip per pitch load are not rated at all.
 _RIG_SHARES: dict[str, tuple[float, float]] = {
     "rig.mass": (0.7, 1.4),
@@ -23,10 +23,10 @@ _SMALL: dict[str, tuple[float, float, float, float, str]] = {
     "rig.pitch_frequency": (80.0, 30.0, 200.0, 20.0, "Hz"),
     "rig.pitch_damping": (0.05, 0.002, 0.6, 0.05, "1"),
     "rig.pitch_slip": (0.0, -3e-9, 3e-9, 3e-10, "m/N"),
-    "rig.late_girder": (0.0, -LATE, LATE, 5e-5, "s"),
-    "rig.late_load": (0.0, -LATE, LATE, 5e-5, "s"),
-    "rig.late_pitch": (0.0, -LATE, LATE, 5e-5, "s"),
-    "rig.late_slip": (0.0, -LATE, LATE, 5e-5, "s"),
+    "rig.late_girder": (0.0, -MAX_CARD_DELAY, MAX_CARD_DELAY, 5e-5, "s"),
+    "rig.late_load": (0.0, -MAX_CARD_DELAY, MAX_CARD_DELAY, 5e-5, "s"),
+    "rig.late_pitch": (0.0, -MAX_CARD_DELAY, MAX_CARD_DELAY, 5e-5, "s"),
+    "rig.late_slip": (0.0, -MAX_CARD_DELAY, MAX_CARD_DELAY, 5e-5, "s"),
 }
 #: The lag of these channels is the number; an effect on them that has a `lag` takes its place.
 _LAGS: dict[str, str] = {
@@ -41,9 +41,9 @@ ZERO = "rig.zero_force"
 #: Axis, and the shares of the rated inertia between which it may be: 8 % more leave three floors in pads that yaw.
 YAW_INERTIA, PITCH_INERTIA = "rig.yaw_inertia", "rig.pitch_inertia"
 _INERTIAS: dict[str, tuple[int, tuple[float, float]]] = {YAW_INERTIA: (2, (0.6, 1.7)), PITCH_INERTIA: (1, (0.4, 3.0))}
-#: Slip over which a pad's friction turns round without any effect of its own [m]; longer than that it is `presliding`.
+#: Slip over which a pad's friction reverses without any effect of its own [m]; longer than that it is `presliding`.
 _STICK_LENGTH = (1e-6, 1e-8, 8e-6, 1e-6)
-#: How that is damped [s], and the stick from which a damped one is looked for: one that turns at once has no slopes.
+#: How that is damped [s], and the stick from which a damped one is looked for: one that reverses at once has no slopes.
 STICK_DAMPING, DAMPED_STICK = (0.0, 0.0, 0.02, 2e-4), {"rig.stick_length": 5e-6, "rig.stick_damping": 3e-3}
 #: The friction channels' filter where the campaign does not know it [Hz].
 _LOGGER = (100.0, 20.0, 240.0, 20.0)
@@ -95,7 +95,11 @@ class Term:
         return [EffectUse(self.effect, own, target) for target in self.targets]
 
     def free(self, start: Mapping[str, float]) -> list[Free]:
-        """Give its parameters as free numbers that start where told."""
+        """Give its parameters as free numbers.
+
+        Args:
+            start: parameter -> where its fit begins [SI].
+        """
         out = []
         for p in self.effect.parameters:
             off = p.typical if p.neutral is None else p.neutral
@@ -138,8 +142,8 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True) -> lis
     elif specimen.free:  # the sliding plane moves against the gauge all the same
         out.append(Free("rig.pitch_slip", *_SMALL["rig.pitch_slip"]))
     if specimen.free:
-        late = LATE if logger_known else _LATE_UNKNOWN
-        out.append(Free("rig.late_force", 0.0, -late, late, 5e-5, "s"))
+        card_delay = MAX_CARD_DELAY if logger_known else _MAX_CARD_DELAY_UNKNOWN
+        out.append(Free("rig.late_force", 0.0, -card_delay, card_delay, 5e-5, "s"))
         if not logger_known:
             out.append(Free("rig.logger", *_LOGGER, "Hz"))
     delayed = {entry.target for entry in model.uses if entry.effect.lag}
@@ -177,10 +181,10 @@ def fitted_specimen(specimen: Specimen, values: Mapping[str, float]) -> Specimen
     if "rig.buffer_stiffness" in values:
         share = values["rig.buffer_stiffness"] / sum(specimen.buffer_stiffness)
         changes["buffer_stiffness"] = tuple(share * k for k in specimen.buffer_stiffness)
-    turning = list(specimen.inertia)
+    inertia = list(specimen.inertia)
     for key, (axis, _) in _INERTIAS.items():
-        turning[axis] = values.get(key, turning[axis])
-    changes["inertia"] = tuple(turning)
+        inertia[axis] = values.get(key, inertia[axis])
+    changes["inertia"] = tuple(inertia)
     return replace(specimen, **changes)  # type: ignore[arg-type]
 
 

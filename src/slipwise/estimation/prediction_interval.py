@@ -99,7 +99,7 @@ def _predicted_without(fit: BaseFit, place: int) -> float:
     """Give the mean friction of a run when the law is fitted to the others [N]."""
     problem = copy(fit.problem)
     problem.runs = [replace(r, role="holdout") if i == place else r for i, r in enumerate(fit.problem.runs)]
-    # from rated values: where all runs led, two of them may leave the third predicted by heart
+    # from rated values: where all runs led, two of them may predict the third exactly (overfit)
     start = fit.solution.values | {f.key: f.start for f in fit.solution.free}
     found = solve(problem, start, fit.solution.free, enough=_ENOUGH)
     return _mean(problem.runs[place], found.residuals.pad_forces[place])

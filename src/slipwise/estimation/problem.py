@@ -19,12 +19,12 @@ from slipwise.estimation.balance_noise import (
     weighed_balances,
 )
 from slipwise.estimation.friction_across import logged_across
-from slipwise.estimation.girder_balances import BALANCES, available, buffers_along, motion_residual, predicted
+from slipwise.estimation.girder_balances import BALANCES, available, buffers_along, motion_residual, predicted_balances
 from slipwise.estimation.instants import Instants
-from slipwise.estimation.inverse_filter import evened
+from slipwise.estimation.inverse_filter import rewhitened
 from slipwise.estimation.kinematics import Kinematics, values_of
 from slipwise.estimation.measurement_model import acts_on_force, changed_by, faulted, on_force, shifts
-from slipwise.estimation.noise_model import noise_across, pad_noise, reversal_noise, whitened, with_hidden
+from slipwise.estimation.noise_model import noise_across, pad_noise, reversal_noise, whitened, with_masked_noise
 from slipwise.estimation.pad_forces import PadLaw, as_logged, force_along, lost_velocity, stick_share
 from slipwise.estimation.parameters import PITCH_INERTIA, ZERO, Term, fitted_model
 from slipwise.estimation.recent_results import Key, Recent
@@ -36,10 +36,10 @@ from slipwise.signals import LowPass
 from slipwise.simulation.predict import PadForces, predictor
 
 Array = NDArray[np.float64]
-#: Numbers that change what is seen of the pads' forces, not what their law says.
-_SEEN_KEYS = ("rig.stick_length", "rig.stick_damping", "rig.late_force", ZERO, "rig.logger")
+#: Numbers that change the recorded forces of the pads, not what their law predicts.
+_RECORDING_KEYS = ("rig.stick_length", "rig.stick_damping", "rig.late_force", ZERO, "rig.logger")
 #: Numbers that no balance knows of.
-_PAD_KEYS = ("rig.pitch_slip", "rig.shear_strength", *_SEEN_KEYS)
+_PAD_KEYS = ("rig.pitch_slip", "rig.shear_strength", *_RECORDING_KEYS)
 _PAD_PORTS = ("area", "shear", "stick", "pad")
 #: Where a model has its own memory of slip, or nothing is fitted yet [m].
 _SHORT_STICK = 1e-6
@@ -69,8 +69,8 @@ class Problem:
         balances = (r for r in BALANCES if all(r in available(x, self.specimen) for x in self.runs))
         across = ("across",) if all(r.across.size for r in self.runs) else ()
         self.relations = ("pads", *balances, *across)
-        can_turn = self.balanced and not self.runs[0].states.has_yaw
-        self.kinematics = Kinematics(self.runs, self.specimen, self.terms, False, can_turn, Recent())
+        yaw_is_computable = self.balanced and not self.runs[0].states.has_yaw
+        self.kinematics = Kinematics(self.runs, self.specimen, self.terms, False, yaw_is_computable, Recent())
         self._sort()
 
     @property
@@ -98,7 +98,7 @@ class Problem:
         """Give the same problem with more terms; the noise stays."""
         return self._with((*self.terms, *terms), self.kinematics.yaw)
 
-    def turning(self) -> "Problem":
+    def with_yaw(self) -> "Problem":
         """Give the same problem with the girder's yaw made from the measured forces, whatever the terms."""
         return self._with(self.terms, True)
 
@@ -164,90 +164,90 @@ class Problem:
         runs, _ = self.kinematics.corrected(values, count)
         states = self.kinematics.states(values, count)
         key = (count, *self._pad_key(values, faults=False))
-        said = self.kinematics.recent.get("law", key, lambda: self._law_of(model).at_instants(runs, states))
-        key = (*key, *(values.get(k, 0.0) for k in _SEEN_KEYS))
-        forces = self.kinematics.recent.get("forces", key, lambda: self._logged(values, runs, states, said))
+        law_forces = self.kinematics.recent.get("law", key, lambda: self._law_of(model).at_instants(runs, states))
+        key = (*key, *(values.get(k, 0.0) for k in _RECORDING_KEYS))
+        forces = self.kinematics.recent.get("forces", key, lambda: self._logged(values, runs, states, law_forces))
         parts, outputs, clean = [], [], []
         for i, (run, force) in enumerate(zip(runs, forces, strict=True)):
-            seen, offset = on_force(self._on_force, values, run, force, self.kinematics.around)
+            measured, offset = on_force(self._on_force, values, run, force, self.kinematics.around)
             outputs.append(force + offset)
-            clean.append(seen)
+            clean.append(measured)
             parts.append(self._over("pads", i, run.force - force - offset, run.judged["pads"]))
         if "across" not in self.relations:
             return {"pads": parts}, outputs, clean
-        sides = [r.across - logged_across(r, f, self._by(values)) for r, f in zip(runs, said, strict=True)]
+        sides = [r.across - logged_across(r, f, self._by(values)) for r, f in zip(runs, law_forces, strict=True)]
         across = [self._over("across", i, side, runs[i].judged["across"]) for i, side in enumerate(sides)]
         return {"pads": parts, "across": across}, outputs, clean
 
     def _balance_parts(self, model: Model, values: Mapping[str, float], forces: list[Array]) -> dict[str, list[Array]]:
         runs, scale = self.kinematics.corrected(values, len(forces))
-        turning = self.kinematics.turning(values, len(forces))
+        yaw = self.kinematics.yaw_of_runs(values, len(forces))
         raised = self.kinematics.raised(values)
         shares = shares_of_noise(self.specimen, runs[0]) if raised else {}
         law = predictor(model)
         parts: dict[str, list[Array]] = {r: [] for r in self.relations if r in BALANCES}
-        hidden = 0.0
+        masked = 0.0
         if "heave" in parts and self.sigmas:
-            hidden = 1.0 - (heave_level(model, runs[0], scale) / float(np.min(self.sigmas["heave"][0]))) ** 2
+            masked = 1.0 - (heave_level(model, runs[0], scale) / float(np.min(self.sigmas["heave"][0]))) ** 2
         driven: list[Array | None] = [None] * len(runs)
         if self.sigmas and PITCH_INERTIA in self.kinematics.inertias:
             driven = [*driven_noise_in_pitch(model, runs, values)]
         for i, (run, force) in enumerate(zip(runs, forces, strict=True)):
             law.rest(run.rest_before)
-            said, seen = predicted(model, run, force, buffers_along(law, run, *turning[i]), values)
+            predicted, measured = predicted_balances(model, run, force, buffers_along(law, run, *yaw[i]), values)
             for name in parts:
                 if name == "motion":
                     left = self._motion(i, run, values, scale)
                 elif name == "girder" and self._on_girder:  # put on what is predicted: a filter has no inverse
-                    shown = run.record.replaced(girder_ax=said[name])
+                    shown = run.record.replaced(girder_ax=predicted[name])
                     left = self.runs[i].channel("girder_ax") - faulted(self._on_girder, values, shown)["girder_ax"]
                 else:
-                    left = (seen[name] - said[name]) / scale.get(name, 1.0)
-                    left = evened(left, run, raised, shares.get(name, {}))
+                    left = (measured[name] - predicted[name]) / scale.get(name, 1.0)
+                    left = rewhitened(left, run, raised, shares.get(name, {}))
                 if name in self.ringing:
                     more = driven[i] if name == "pitch" else None
                     left = whitened(left, run, float(np.min(self.sigmas[name][i])), self.ringing[name][i], more)
                 parts[name].append(self._over(name, i, left, run.judged[name]))
                 if name == "heave":
-                    parts[name][-1] = with_hidden(parts[name][-1], hidden)
+                    parts[name][-1] = with_masked_noise(parts[name][-1], masked)
         return parts
 
     def weigh(self, values: Mapping[str, float]) -> None:
         """Set the noise of every relation, error of the velocity near reversals included, and what filters took."""
         self.kinematics.recent.forget()
-        self.kinematics.late = values.get("rig.late_slip", 0.0)
+        self.kinematics.slip_delay = values.get("rig.late_slip", 0.0)
         model = self.model(values)
         law = PadLaw(model)
         runs, _ = self.kinematics.corrected(values)
         if self.specimen.free:
-            states = self.kinematics.faster(values)
-            said = law.at_instants(runs, states)
-            found = self._along(values, states, said)
+            states = self.kinematics.states_with_velocity_error(values)
+            law_forces = law.at_instants(runs, states)
+            found = self._along(values, states, law_forces)
             soft = self.kinematics.compliance(model.built_specimen())
             pairs = zip(found, runs, strict=True)
             self.kinematics.lost = [lost_velocity(f, r, soft, self._by(values)) for f, r in pairs]
-            self.kinematics.bounds = [s.bound[:: r.fine] for s, r in zip(said, runs, strict=True)]
+            self.kinematics.bounds = [f.bound[:: r.fine] for f, r in zip(law_forces, runs, strict=True)]
             self.kinematics.recent.forget()
         states = self.kinematics.states(values)
-        said = law.at_instants(runs, states)
-        faster = self.kinematics.faster(values, 1.0)
-        still = {**values, "rig.late_force": 0.0}
-        plain = self._logged(still, runs, states, said)
-        shifted = self._logged(still, runs, faster, law.at_instants(runs, faster))
-        for forces in (plain, shifted):  # a late gauge shows its reversals, and their noise, later too
+        law_forces = law.at_instants(runs, states)
+        faster = self.kinematics.states_with_velocity_error(values, 1.0)
+        without_delay = {**values, "rig.late_force": 0.0}
+        plain = self._logged(without_delay, runs, states, law_forces)
+        shifted = self._logged(without_delay, runs, faster, law.at_instants(runs, faster))
+        for forces in (plain, shifted):  # a delayed gauge shows its reversals, and their noise, later too
             for i, run in enumerate(runs):
                 forces[i] = forces[i] + on_force(self._on_force, values, run, forces[i])[1]
-        turning = [reversal_noise(*each) for each in zip(runs, plain, shifted, strict=True)]
-        self.sigmas = {"pads": [pad_noise(*each) for each in zip(runs, plain, turning, strict=True)]}
+        reversal = [reversal_noise(*each) for each in zip(runs, plain, shifted, strict=True)]
+        self.sigmas = {"pads": [pad_noise(*each) for each in zip(runs, plain, reversal, strict=True)]}
         self.ringing = {}
         if self.balanced:
             changed = [changed_by(self._on_force, values, r) for r in runs] if self._on_force else []
-            levels = weighed_balances(model, runs, values, turning, changed)
+            levels = weighed_balances(model, runs, values, reversal, changed)
             ringing = ringing_noise(model, runs, values)
             self.sigmas |= {name: levels[name] for name in self.relations if name in levels}
             self.ringing = {name: ringing[name] for name in self.relations if name in ringing}
         if "across" in self.relations:
-            self.sigmas["across"] = [noise_across(*each) for each in zip(runs, states, said, strict=True)]
+            self.sigmas["across"] = [noise_across(*each) for each in zip(runs, states, law_forces, strict=True)]
 
     def _over(self, name: str, run: int, left: Array, kept: NDArray[np.bool_]) -> Array:
         if not self.sigmas:
@@ -255,17 +255,17 @@ class Problem:
         return np.where(kept, left / self.sigmas[name][run], 0.0)
 
     def _pad_key(self, values: Mapping[str, float], *, faults: bool = True) -> Key:
-        """Give what the pads' residuals depend on; without the faults of friction gauges, what their law does."""
+        """Give what the pads' residuals depend on; without the faults of friction gauges, what the law's forces do."""
         own = [t for t in self.terms if t.effect.instant_hooks or "rig" in t.effect.hooks]
         key = (*values_of(own, values), *self.kinematics.key(values), values.get("rig.shear_strength", 0.0))
         if not faults:
             return key
-        return (*key, *values_of(self._on_force, values), *(values.get(k, 0.0) for k in _SEEN_KEYS))
+        return (*key, *values_of(self._on_force, values), *(values.get(k, 0.0) for k in _RECORDING_KEYS))
 
     def _balance_key(self, values: Mapping[str, float]) -> Key:
         own = [t for t in self.terms if t.effect.port not in _PAD_PORTS or "balance" in t.effect.hooks]
         rig = [v for k, v in values.items() if k.startswith("rig.") and k not in _PAD_KEYS]
-        return (*values_of(own, values), *self.kinematics.turning_key(values), *rig)
+        return (*values_of(own, values), *self.kinematics.yaw_key(values), *rig)
 
     def _by(self, values: Mapping[str, float]) -> LowPass | None:
         """Give the logger's filter as fitted, where the campaign does not know it."""
@@ -277,23 +277,23 @@ class Problem:
         self._law.set(model)
         return self._law
 
-    def _along(self, values: Mapping[str, float], states: list[Instants], said: list[PadForces]) -> list[Array]:
+    def _along(self, values: Mapping[str, float], states: list[Instants], law_forces: list[PadForces]) -> list[Array]:
         """Give the pads' forces along x at the instants, a list of (f, p) [N]."""
         length, damping = values.get("rig.stick_length", _SHORT_STICK), values.get("rig.stick_damping", 0.0)
         sharp = not self.has_stick
         shares = [stick_share(s, length, damping) if sharp else None for s in states]
-        return [force_along(*each) for each in zip(said, states, shares, strict=False)]
+        return [force_along(*each) for each in zip(law_forces, states, shares, strict=False)]
 
     def _logged(
-        self, values: Mapping[str, float], runs: list[FitRun], states: list[Instants], said: list[PadForces]
+        self, values: Mapping[str, float], runs: list[FitRun], states: list[Instants], law_forces: list[PadForces]
     ) -> list[Array]:
         """Give the pads' forces along x as measured, a list of (n, p) [N]."""
-        by, late, averaged = self._by(values), values.get("rig.late_force", 0.0), not self.has_stick
-        forces = self._along(values, states[: len(said)], said)
+        by, delay, averaged = self._by(values), values.get("rig.late_force", 0.0), not self.has_stick
+        forces = self._along(values, states[: len(law_forces)], law_forces)
         zero = values.get(ZERO, 0.0)
-        return [zero + as_logged(f, r, by, averaged=averaged, late=late) for f, r in zip(forces, runs, strict=False)]
+        return [zero + as_logged(f, r, by, averaged=averaged, delay=delay) for f, r in zip(forces, runs, strict=False)]
 
     def _motion(self, place: int, run: FitRun, values: Mapping[str, float], scale: Mapping[str, float]) -> Array:
-        late = values["rig.late_slip"]
-        key, raised = (late, *self.kinematics.fault_key(values)), self.kinematics.raised(values)
-        return self.kinematics.recent.get(f"motion{place}", key, lambda: motion_residual(run, late, scale, raised))
+        delay = values["rig.late_slip"]
+        key, raised = (delay, *self.kinematics.fault_key(values)), self.kinematics.raised(values)
+        return self.kinematics.recent.get(f"motion{place}", key, lambda: motion_residual(run, delay, scale, raised))

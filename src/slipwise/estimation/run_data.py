@@ -12,7 +12,7 @@ from slipwise.campaign import Campaign, Run
 from slipwise.campaign.states import States, measured_states
 from slipwise.channels import PADS
 from slipwise.errors import InputError
-from slipwise.estimation.judged_samples import away_from_cuts, judged
+from slipwise.estimation.judged_samples import away_from_cuts, sample_masks
 from slipwise.instruments.repairs import InvalidSamples
 from slipwise.record import Record
 from slipwise.signals import LowPass, lowpass
@@ -44,11 +44,12 @@ class FitRun:
         load: (n, p) [N].
         force: (n, p) along x [N].
         across: (n, p) along y [N]; empty (n, 0) where it was not measured.
-        sliding: (n,) samples at which the law says the force of a pad.
-        judged: relation -> samples by which it is judged, see `judged`.
+        sliding: (n,) samples at which the law gives the force of a pad.
+        judged: relation -> samples by which it is judged, see `sample_masks`.
         invalid: channel -> samples (n,) at which it is no measurement.
         noise: channel -> standard deviation of one sample.
-        no_slip: part of the girder's acceleration over the table that is no slip, (n,) or 0 [m/s^2].
+        rigid_rotation_acceleration: part of the girder's acceleration over the table that is no slip, because both
+            rotate as one body, (n,) or 0 [m/s^2].
         fine: instants per sample at which the laws are evaluated.
     """
 
@@ -65,7 +66,7 @@ class FitRun:
     judged: Mapping[str, Mask]
     invalid: Mapping[str, Mask] = field(default_factory=dict[str, Mask])
     noise: dict[str, float] = field(default_factory=dict[str, float])
-    no_slip: Array | float = 0.0
+    rigid_rotation_acceleration: Array | float = 0.0
     fine: int = FINE
 
     @property
@@ -136,18 +137,26 @@ class FitRun:
         across = _stacked(record, self.pads, "Fy", self.across)
         return replace(self, states=states, load=states.load, force=force, across=across)
 
-    def without_turning(self, no_slip: Array) -> "FitRun":
-        """Give the run with this part (n,) of the relative acceleration taken out of slip and velocity [m/s^2]."""
-        slip, velocity = self._moved(self.record.replaced(girder_ax=self.record["girder_ax"] - no_slip))
-        return replace(self, states=replace(self.states, slip=slip, velocity=velocity), no_slip=no_slip)
+    def without_table_pitch(self, acceleration: Array) -> "FitRun":
+        """Give the run with what the table's pitch adds taken out of slip and velocity.
 
-    def without_late_slip(self, late: float) -> "FitRun":
-        """Give the run with slip and velocity as from a gauge that does not lag behind the accelerometers [s].
+        Args:
+            acceleration: (n,) of the girder over the table along x that is no slip [m/s^2].
+        """
+        slip, velocity = self._moved(self.record.replaced(girder_ax=self.record["girder_ax"] - acceleration))
+        states = replace(self.states, slip=slip, velocity=velocity)
+        return replace(self, states=states, rigid_rotation_acceleration=acceleration)
+
+    def slip_delay_corrected(self, delay: float) -> "FitRun":
+        """Give the run with slip and velocity as from a gauge that does not lag behind the accelerometers.
 
         A tenth of a millisecond is half a millimetre a second, more than all noise.
+
+        Args:
+            delay: of the slip gauge behind the accelerometers [s].
         """
-        in_step = shift(self.record["slip_x"], self.dt, -late)
-        slip, velocity = self._moved(self.record.replaced(slip_x=in_step))
+        synchronised = shift(self.record["slip_x"], self.dt, -delay)
+        slip, velocity = self._moved(self.record.replaced(slip_x=synchronised))
         return replace(self, states=replace(self.states, slip=slip, velocity=velocity))
 
     def _moved(self, record: Record) -> tuple[Array, Array]:
@@ -200,9 +209,9 @@ def _fit_run(run: Run, campaign: Campaign, invalid: Mapping[str, Mask]) -> FitRu
     pads = tuple(p for p in loaded if f"pad_{p}_Fx" in states.record)
     if not pads:
         forces = [name for p in PADS if (name := f"pad_{p}_Fx") in states.record]
-        told = f"{', '.join(forces)} without pad_*_N (or pad_*_P) of the same pad" if forces else "no pad_*_Fx"
+        reason = f"{', '.join(forces)} without pad_*_N (or pad_*_P) of the same pad" if forces else "no pad_*_Fx"
         raise InputError(
-            f"{run.file}: {told} was measured; a law of friction is fitted where a pad has both its friction and its "
+            f"{run.file}: {reason} was measured; a law of friction is fitted where a pad has both its friction and its "
             f"load; the run has {', '.join(states.record.channels)}"
         )
     here = [states.pads.index(p) for p in pads]
@@ -219,7 +228,7 @@ def _fit_run(run: Run, campaign: Campaign, invalid: Mapping[str, Mask]) -> FitRu
     fast = np.hypot(*states.velocity.T) > FAST
     # samples were looked at as recorded; a gap of theirs is filled on the axis of the states
     bad = {c: np.interp(states.time, run.record.time, m.astype(float)) > 0.0 for c, m in invalid.items()}
-    kept = judged(grounded, sliding, fast, away_from_cuts(states.at_rest, states.dt), pads, bad)
+    kept = sample_masks(grounded, sliding, fast, away_from_cuts(states.at_rest, states.dt), pads, bad)
     return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, across, sliding, kept, bad)
 
 

@@ -3,10 +3,10 @@
     I psi'' = sum (y_i - y_c) F_i + sum (y_j - y_c) B_j - K_psi psi - C psi',   C = sum F_bi x_i^2 / |v_i|
 
 Unequal buffers, an eccentric mass and unequal pads turn the girder, and pads at +y then slide at another speed than
-those at -y, v_i = (v - y_i psi', x_i psi'). Friction along y damps the turning: it is the share x_i psi'/|v_i| of the
+those at -y, v_i = (v - y_i psi', x_i psi'). Friction along y damps the yaw: it is the share x_i psi'/|v_i| of the
 pad's bound F_b. The bound is the law's: what was measured along x turns away from x at a reversal, and the logger's
 filter draws it through zero there. Forces are measured with noise, so with equal pads yaw only makes the velocities
-noisier: use it where it earns it.
+noisier: use it only where it improves the fit.
 """
 
 import numpy as np
@@ -17,14 +17,14 @@ from slipwise.estimation.run_data import FitRun
 from slipwise.rig import Specimen
 
 Array = NDArray[np.float64]
-#: Below this speed friction holds the girder from turning as well [m/s].
+#: Below this speed friction also holds the girder's yaw [m/s].
 _SLOW = 1e-4
-#: Steps per sample: at a reversal friction lets the girder turn for some milliseconds only.
+#: Steps per sample: at a reversal friction lets the girder yaw for some milliseconds only.
 _STEPS = 4
 
 
 @njit(cache=True)
-def _turned(torque, bound, velocity, places, slow, stiffness, inertia, held, dt, angle, rate):  # pragma: no cover
+def _integrate(torque, bound, velocity, places, slow, stiffness, inertia, held, dt, angle, rate):  # pragma: no cover
     """Step the yaw by the implicit rule, which no damping can upset, between samples along straight lines."""
     psi = 0.0
     w = 0.0
@@ -38,13 +38,13 @@ def _turned(torque, bound, velocity, places, slow, stiffness, inertia, held, dt,
                 now = part / _STEPS
                 then = 1.0 - now
                 along = now * velocity[i] + then * velocity[before]
-                turning = now * torque[i] + then * torque[before] - stiffness * psi
+                moment = now * torque[i] + then * torque[before] - stiffness * psi
                 damping = 0.0
                 for p in range(bound.shape[1]):
                     friction = now * bound[i, p] + then * bound[before, p]
                     speed = np.hypot(along - places[p, 1] * w, places[p, 0] * w)
                     damping += friction * places[p, 0] ** 2 / max(speed, slow)
-                w = (w + step * turning / inertia) / (1.0 + step * damping / inertia)
+                w = (w + step * moment / inertia) / (1.0 + step * damping / inertia)
                 psi += step * w
         angle[i] = psi
         rate[i] = w
@@ -70,5 +70,5 @@ def yaw_of(run: FitRun, specimen: Specimen, force: Array, bound: Array, buffers:
     places = pads - np.array([specimen.centre_x, specimen.centre_y])
     angle, rate = np.zeros(len(torque)), np.zeros(len(torque))
     stuck, inertia = run.states.stuck, specimen.inertia[2]
-    _turned(torque, bound, run.velocity, places, _SLOW, stiffness, inertia, stuck, run.dt, angle, rate)
+    _integrate(torque, bound, run.velocity, places, _SLOW, stiffness, inertia, stuck, run.dt, angle, rate)
     return angle, rate

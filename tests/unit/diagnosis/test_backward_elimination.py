@@ -6,7 +6,7 @@ import pytest
 
 from hypotheses import base, left_by, searched
 from slipwise.diagnosis import backward_elimination as module
-from slipwise.diagnosis.backward_elimination import as_it_is_reported
+from slipwise.diagnosis.backward_elimination import with_final_refit
 from slipwise.diagnosis.hypothesis import Hypothesis
 
 
@@ -23,8 +23,8 @@ def test_a_second_effect_stays_only_where_it_is_material_as_reported(
     def refitted(found: Hypothesis) -> Hypothesis:
         return left_by(*found.terms, of=of, pads=weighed[found.names])
 
-    monkeypatch.setattr(module, "as_reported", refitted)
-    ended = as_it_is_reported(replace(searched(of, both), tried=singles))
+    monkeypatch.setattr(module, "final_refit_of", refitted)
+    ended = with_final_refit(replace(searched(of, both), tried=singles))
     assert ended.final.names == ended.best.names == kept
 
 
@@ -33,7 +33,7 @@ def test_a_law_of_far_more_constants_gives_way_to_one_that_does_as_well(
     monkeypatch: pytest.MonkeyPatch, plain: float, kept: tuple[str, ...]
 ) -> None:
     """A patch as wide as the stroke is pads that differ."""
-    monkeypatch.setattr(module, "as_reported", lambda found: found)
+    monkeypatch.setattr(module, "final_refit_of", lambda found: found)
     of = base(pads=20.0)
     patch, spread = left_by("position_patch", of=of), left_by("pad_spread", of=of, pads=plain)
-    assert as_it_is_reported(searched(of, patch, spread)).final.names == kept
+    assert with_final_refit(searched(of, patch, spread)).final.names == kept

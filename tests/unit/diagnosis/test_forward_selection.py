@@ -11,7 +11,7 @@ from slipwise.diagnosis.hypothesis import STICK_LENGTH, base_hypothesis, polishe
 from slipwise.diagnosis.screening import screen_shapes
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.starting_grid import places, shapes
-from slipwise.diagnosis.starting_values import beginnings, longer_stick
+from slipwise.diagnosis.starting_values import longer_stick, starting_points
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import BaseFit, at_rated, fit_base
 from slipwise.estimation.parameters import Term
@@ -49,7 +49,7 @@ def test_a_law_whose_strength_ran_against_its_bound_is_begun_again_from_every_sh
     fit = refit(base, [term], {term.label: term.effect.typical()}, most=1)
     for rise, begun in ((1.0, len(shapes(term.effect))), (0.2, 0)):
         values = {**fit.solution.values, f"{term.label}.rise": rise}
-        *_, again = beginnings(state, [], [replace(fit, solution=replace(fit.solution, values=values))])
+        *_, again = starting_points(state, [], [replace(fit, solution=replace(fit.solution, values=values))])
         assert len(again) == begun
         assert all(starts[term.label]["rise"] == 0.2 for _, starts in again)
 

@@ -3,7 +3,7 @@
 import pytest
 
 from hypotheses import base, left_by, searched
-from slipwise.diagnosis.rivals import explanations, partings
+from slipwise.diagnosis.rivals import discriminating_tests, explanations
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.verdict import Verdict
 from slipwise.effects import catalogue
@@ -44,12 +44,12 @@ def test_only_an_ambiguous_verdict_has_something_to_tell_apart(kind: str):
     effects = () if kind in ("complete", "unknown") else ("heating", "run_in")
     found = _verdict(*effects, kind=kind)
     assert explanations(found, _search(*effects)) == ((effects,) if effects else ())
-    assert partings(found, _search(*effects)) == ()
+    assert discriminating_tests(found, _search(*effects)) == ()
 
 
 def test_each_two_of_three_are_told_apart_in_the_words_of_an_effects_own_file():
     found = _verdict("heating", "run_in", "breakaway", rivals=(("run_in",), ("breakaway",)))
-    one, two, three = partings(found, _search("heating"))
+    one, two, three = discriminating_tests(found, _search("heating"))
     assert one == f"run_in instead of heating: {catalogue()['heating'].confused_with['run_in']}"
     assert two.startswith("breakaway instead of heating: no effect's file names a test")
     # only the file of breakaway knows of the two
@@ -58,5 +58,5 @@ def test_each_two_of_three_are_told_apart_in_the_words_of_an_effects_own_file():
 
 def test_effects_that_two_explanations_share_are_not_told_apart():
     pairs = _verdict("key_friction", "channel_filter", "channel_delay", rivals=(("key_friction", "channel_delay"),))
-    (words,) = partings(pairs, _search("key_friction", "channel_filter"))
+    (words,) = discriminating_tests(pairs, _search("key_friction", "channel_filter"))
     assert words.startswith("channel_delay instead of channel_filter: ") and "key_friction" not in words

@@ -10,7 +10,7 @@ from bench.campaign import Campaign as Made
 from bench.campaign import with_faults
 from bench.faults import Fault
 from measured import as_campaign
-from slipwise.diagnosis.hypothesis import as_reported, polished, refit
+from slipwise.diagnosis.hypothesis import final_refit_of, polished, refit
 from slipwise.effects import catalogue
 from slipwise.estimation.balance_noise import heave_level
 from slipwise.estimation.base_fit import fit_base
@@ -33,7 +33,7 @@ def test_a_strong_filter_of_the_girder_is_put_on_what_the_balance_predicts(made:
     fault = Fault("channel_filter", ("girder_ax",), CUTOFF, form="second order")
     base = fit_base(as_campaign(with_faults(made, [fault], 5)))
     term, lag = Term(catalogue()["channel_filter"], ("girder_ax",), "girder_ax"), np.sqrt(2.0) / (2.0 * np.pi * CUTOFF)
-    found = as_reported(polished(refit(base, [term], {term.label: {"lag": lag, "order": 2.0}})))
+    found = final_refit_of(polished(refit(base, [term], {term.label: {"lag": lag, "order": 2.0}})))
     before, after = (
         np.sqrt(of.level("girder", held_out=True)) for of in (summarised(base.problem, base.solution), found.summary)
     )

@@ -8,9 +8,9 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.effects._oscillator import oscillator
-from slipwise.estimation.balance_noise import bent_noise_in_heave, rubbing_noise
+from slipwise.estimation.balance_noise import bent_noise_in_heave, vertical_friction_noise
 from slipwise.estimation.girder_balances import heave_rate
-from slipwise.estimation.noise_model import whitened, with_hidden
+from slipwise.estimation.noise_model import whitened, with_masked_noise
 from slipwise.estimation.run_data import FitRun, fit_runs
 from slipwise.model import base_model, use
 
@@ -23,7 +23,7 @@ def run() -> FitRun:
 def test_each_sample_carries_its_part_of_what_is_hidden() -> None:
     part = np.random.default_rng(1).standard_normal(500)
     part[:100] = 0.0  # masked
-    counted = with_hidden(part, 0.3)
+    counted = with_masked_noise(part, 0.3)
     assert float(counted @ counted) == pytest.approx(float(part @ part) + 0.3 * 400)
     assert not counted[:100].any()
 
@@ -31,7 +31,7 @@ def test_each_sample_carries_its_part_of_what_is_hidden() -> None:
 def test_a_residual_that_changes_sign_does_not_jump() -> None:
     part = np.random.default_rng(2).standard_normal(500)
     shifted = part - (part[7] + 1e-6)
-    moved = with_hidden(shifted + 2e-6, 0.3) - with_hidden(shifted, 0.3)
+    moved = with_masked_noise(shifted + 2e-6, 0.3) - with_masked_noise(shifted, 0.3)
     assert np.abs(moved).max() < 1e-5
 
 
@@ -64,4 +64,4 @@ def test_what_rubs_against_heave_passes_on_the_noise_of_the_loads(run: FitRun) -
     noisy = replace(run, load=run.load + rng.standard_normal(run.load.shape) * levels)
     quiet, loud = (np.tanh(heave_rate(r.load.sum(axis=1), r.dt, model.specimen) / 5e-4) for r in (run, noisy))
     made = 0.3 * 8e3 * (loud - quiet)
-    assert np.sqrt(np.mean(rubbing_noise(model, run, buffers)["heave"] ** 2)) == pytest.approx(np.std(made), rel=0.2)
+    assert np.sqrt(np.mean(vertical_friction_noise(model, run, buffers)["heave"] ** 2)) == pytest.approx(np.std(made), rel=0.2)

@@ -8,7 +8,7 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.campaign import Logger
-from slipwise.diagnosis.hypothesis import as_reported, polished, refit
+from slipwise.diagnosis.hypothesis import final_refit_of, polished, refit
 from slipwise.effects import catalogue
 from slipwise.effects._oscillator import oscillator
 from slipwise.estimation.balance_noise import driven_noise_in_pitch
@@ -28,7 +28,7 @@ def test_yaw_made_from_forces_tells_the_inertia_about_the_vertical() -> None:
     stated = Logger(LowPass(chain.lowpass, chain.order, chain.phase), known=True)
     base = fit_base(replace(as_campaign(made), logger=stated))
     term = Term(catalogue()["buffer_mismatch"])
-    found = as_reported(polished(refit(base, [term], {term.label: term.effect.typical()})))
+    found = final_refit_of(polished(refit(base, [term], {term.label: term.effect.typical()})))
     assert found.solution.values[YAW_INERTIA] == pytest.approx(made.truth.base.inertia_yaw, rel=0.03)
     assert found.summary.level("pads", held_out=True) < 1.5**2
 
@@ -42,7 +42,7 @@ def test_a_table_that_rocks_tells_the_inertia_of_pitch() -> None:
     kind = "compliance" if hidden["pitch_form"] == 1 else "specimen"
     start = {**term.effect.neutral(), **{"damping": 0.3, "gravity": 1.0, "frequency": hidden["pitch_frequency"]}}
     start[kind] = hidden["pitch_per_acceleration"]
-    found = as_reported(polished(polished(refit(base, [term], {term.label: start}))))
+    found = final_refit_of(polished(polished(refit(base, [term], {term.label: start}))))
     assert found.solution.values[PITCH_INERTIA] == pytest.approx(made.truth.base.inertia_pitch, rel=0.05)
     assert found.summary.level("pitch", held_out=True) < 1.5**2
 

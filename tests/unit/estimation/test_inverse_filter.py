@@ -10,7 +10,7 @@ from bench import build_campaign
 from measured import as_campaign
 from slipwise.effects import catalogue
 from slipwise.estimation.girder_balances import motion_residual
-from slipwise.estimation.inverse_filter import evened
+from slipwise.estimation.inverse_filter import rewhitened
 from slipwise.estimation.measurement_model import raised_noise, without
 from slipwise.estimation.parameters import Term
 from slipwise.estimation.run_data import fit_runs
@@ -49,7 +49,7 @@ def test_a_residual_with_raised_noise_is_brought_to_white_of_unit_size(run):
     noisy = run.with_record(run.record.replaced(slip_x=own), moved=False)
     left = without(term, values, noisy).record["slip_x"] + other
     assert np.std(left) > 1.3
-    white = evened(left, run, raised, {"slip_x": 0.5})
+    white = rewhitened(left, run, raised, {"slip_x": 0.5})
     assert np.std(white) == pytest.approx(1.0, rel=0.03)
     frequency, density = welch(white, 1.0 / run.dt, nperseg=256)
     parts = [density[(frequency > low) & (frequency < low + 50.0)].mean() for low in (2.0, 52.0, 102.0, 152.0)]

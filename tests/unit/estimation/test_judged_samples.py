@@ -1,4 +1,4 @@
-"""A gauge that lies spoils what is made of it, and nothing else."""
+"""An invalid gauge spoils what is made of it, and nothing else."""
 
 from dataclasses import replace
 
@@ -7,7 +7,7 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign
-from slipwise.estimation.judged_samples import away_from_cuts, judged
+from slipwise.estimation.judged_samples import away_from_cuts, sample_masks
 from slipwise.estimation.kinematics import Kinematics
 from slipwise.estimation.recent_results import Recent
 from slipwise.estimation.run_data import FitRun, fit_runs
@@ -20,7 +20,7 @@ LATE = np.arange(COUNT) > 3
 
 
 def test_a_clipped_friction_gauge_leaves_the_other_pads_and_the_loads() -> None:
-    kept = judged(ALL, ALL, ALL, ALL, ("A", "B"), {"pad_B_Fx": LATE})
+    kept = sample_masks(ALL, ALL, ALL, ALL, ("A", "B"), {"pad_B_Fx": LATE})
     assert kept["pads"][:, 0].all() and np.array_equal(kept["pads"][:, 1], ~LATE)
     assert kept["heave"].all() and kept["roll"].all() and kept["motion"].all() and kept["across"].all()
     assert np.array_equal(kept["girder"], ~LATE) and np.array_equal(kept["pitch"], ~LATE)
@@ -28,13 +28,13 @@ def test_a_clipped_friction_gauge_leaves_the_other_pads_and_the_loads() -> None:
 
 @pytest.mark.parametrize("name", ["slip_x", "girder_ax", "table_ax"])
 def test_a_gauge_of_motion_spoils_every_pad(name: str) -> None:
-    kept = judged(ALL, ALL, ALL, ALL, ("A", "B"), {name: LATE})
+    kept = sample_masks(ALL, ALL, ALL, ALL, ("A", "B"), {name: LATE})
     assert all(np.array_equal(kept["pads"][:, i], ~LATE) for i in range(2))
     assert kept["heave"].all()
 
 
 def test_no_relation_is_judged_off_the_ground_or_stuck() -> None:
-    kept = judged(LATE, LATE & (np.arange(COUNT) > 4), ALL, ALL, ("A",), {})
+    kept = sample_masks(LATE, LATE & (np.arange(COUNT) > 4), ALL, ALL, ("A",), {})
     assert all(np.array_equal(kept[r], LATE) for r in ("girder", "heave", "pitch", "roll", "warp", "motion"))
     assert kept["pads"][:, 0].sum() == 1
 
@@ -55,7 +55,7 @@ def test_the_yaw_of_unequal_pads_is_seen_though_one_of_their_gauges_is_clipped()
     fitted = {"rig.mass": truth["mass"], "rig.centre_height": truth["h"], "rig.buffer_stiffness": 2.0 * truth["Kb"]}
 
     def yaw(runs: list[FitRun]) -> list[np.ndarray]:
-        return [angle for angle, _ in Kinematics(runs, specimen, (), True, True, Recent()).turning(fitted)]
+        return [angle for angle, _ in Kinematics(runs, specimen, (), True, True, Recent()).yaw_of_runs(fitted)]
 
     for seen, true in zip(yaw(ready), yaw(fit_runs(campaign)), strict=True):
         assert np.std(true) > 1e-4, "it must be seen at all"

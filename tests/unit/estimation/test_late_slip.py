@@ -22,7 +22,7 @@ def test_a_lag_of_a_tenth_of_a_millisecond_is_taken_out_of_the_velocity(made):
     true = made.at_samples(run.name)["slip_vx"][: len(run.time)]
     late = shift(run.record["slip_x"], run.dt, LATE)
     lagging = run.with_record(run.record.replaced(slip_x=late), moved=True)
-    corrected = lagging.without_late_slip(LATE)
+    corrected = lagging.slip_delay_corrected(LATE)
     sliding = run.states.valid & (run.velocity != 0.0)
     before, lagged, after = (float(np.std((r.velocity - true)[sliding])) for r in (run, lagging, corrected))
     assert lagged > 1.1 * before, "it must matter"
@@ -33,4 +33,4 @@ def test_what_is_at_rest_stays_at_rest(made):
     run = fit_runs(as_campaign(made))[0]
     still = run.velocity == 0.0
     assert still.any()
-    assert np.all(run.without_late_slip(LATE).velocity[still] == 0.0)
+    assert np.all(run.slip_delay_corrected(LATE).velocity[still] == 0.0)

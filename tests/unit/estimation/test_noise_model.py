@@ -6,7 +6,7 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.effects import catalogue
-from slipwise.estimation.balance_noise import noise_of_mending
+from slipwise.estimation.balance_noise import noise_of_fault_correction
 from slipwise.estimation.measurement_model import changed_by
 from slipwise.estimation.noise_model import reversal_noise
 from slipwise.estimation.parameters import Term
@@ -43,11 +43,11 @@ def test_a_fault_lets_through_as_much_of_an_error_as_it_changes_a_pulse(run: Fit
 
 def test_the_pitch_rings_with_what_the_law_must_make_up_for() -> None:
     specimen = base_model("bridge1").specimen
-    turning = np.zeros((101, 4))
-    turning[50] = 100.0
+    reversal = np.zeros((101, 4))
+    reversal[50] = 100.0
     ringing = np.zeros(101)
     ringing[50:60] = 0.8 ** np.arange(10)
-    more = noise_of_mending(specimen, turning, np.array([1.0, 0.0, 0.0, 0.0]), ringing)
+    more = noise_of_fault_correction(specimen, reversal, np.array([1.0, 0.0, 0.0, 0.0]), ringing)
     assert more["girder"][50] == pytest.approx(100.0 / specimen.mass)
     lever = specimen.centre_height / specimen.half_spacing[0]
     assert more["pitch"][50:60] == pytest.approx(100.0 * lever * 0.8 ** np.arange(10))
