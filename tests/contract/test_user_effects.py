@@ -175,6 +175,31 @@ def test_an_effect_is_found_by_the_path_of_its_file_wherever_a_name_is_asked_for
         find_effect(str(tmp_path / "nowhere.py"))
 
 
+def test_a_file_is_read_by_its_path_in_words_too(tmp_path: Path) -> None:
+    assert load_effect(str(written(tmp_path))).path == load_effect(written(tmp_path)).path
+
+
+def test_a_file_may_name_another_file_beside_it(tmp_path: Path) -> None:
+    written(tmp_path, MINE.replace('"position_patch":', '"washboard":'), "ripple.py")
+    with pytest.raises(UnknownNameError, match="washboard"):
+        load_effect(tmp_path / "ripple.py")
+    written(tmp_path)
+    assert set(load_effect(tmp_path / "ripple.py").confused_with) == {"washboard"}
+
+
+def test_the_catalogue_refuses_a_rival_that_does_not_exist(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    written(tmp_path, MINE.replace('"position_patch":', '"position_pacht":'), "offered.py")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    point = EntryPoint("offered", "offered", "slipwise.effects")
+    monkeypatch.setattr("slipwise.effects._catalogue.entry_points", lambda group: [point])
+    catalogue.cache_clear()
+    try:
+        with pytest.raises(UnknownNameError, match=r"confused_with.*offered\.py.*did you mean position_patch"):
+            catalogue()
+    finally:
+        catalogue.cache_clear()
+
+
 def test_an_edited_file_is_not_answered_for_by_its_old_self(tmp_path: Path) -> None:
     moving = motion()
     states = [moving[key][:100] for key in ("time", "load", "velocity", "slip")]
@@ -224,6 +249,16 @@ REFUSED = {
         MINE.replace("moves=RESPONSE,", 'moves=RESPONSE, plainer="channel_delay",'),
         SettingError,
         "lag",
+    ),
+    "unknown rival": (
+        MINE.replace('"position_patch":', '"position_pacht":'),
+        UnknownNameError,
+        "did you mean position",
+    ),
+    "unknown equal": (
+        MINE.replace("moves=RESPONSE,", 'moves=RESPONSE, same_unless={"runin": ("yaw",)},'),
+        UnknownNameError,
+        "same_unless.*did you mean run_in",
     ),
     "does not import": (MINE.replace("from math import", "from maths import"), InputError, "cannot be imported"),
 }

@@ -7,7 +7,7 @@ import typer
 
 import slipwise as sw
 from slipwise.cli.console import OUT, out_folder, print_json
-from slipwise.cli.diagnose import CampaignFolder, Json, ModelFile, System, start_model, steps
+from slipwise.cli.diagnose import CampaignFolder, Json, ModelFile, Own, System, own_effects, start_model, steps
 
 Correct = Annotated[
     list[str] | None,
@@ -24,23 +24,23 @@ def init(folder: Annotated[Path, typer.Argument(help="Folder with the files of t
     OUT.print(f"wrote {path}; read it, and decide what is marked in it", markup=False, highlight=False, soft_wrap=True)
 
 
-def audit(campaign: CampaignFolder, correct: Correct = None, json: Json = False) -> None:
+def audit(campaign: CampaignFolder, effect: Own = None, correct: Correct = None, json: Json = False) -> None:
     """Check whether the instruments tell the truth, before any law of friction.
 
     Example: `slipwise audit campaigns/march`
     """
     from slipwise.view.terminal import print_table
 
-    measured = sw.load_campaign(campaign)
+    measured, own = sw.load_campaign(campaign), own_effects(effect)
     with steps() as tell:
         tell("auditing the instruments", 0.2)
-        found = sw.audit(measured)
+        found = sw.audit(measured, own=own)
         notes: tuple[str, ...] = ()
         if correct:
             corrected = sw.corrected_campaign(measured, found, correct)
             notes = corrected.notes[len(measured.notes) :]
             tell("auditing once more", 0.6)
-            found = sw.audit(corrected)
+            found = sw.audit(corrected, own=own)
     if json:
         print_json({**found.as_json(), "notes": [*notes, *found.notes]})
         return

@@ -37,6 +37,8 @@ def effects(
         typer.echo(effect.path.read_text(encoding="utf-8"), nl=False)
     else:
         print_effect(effect, OUT)
+        for words in _asks(effect):
+            OUT.print(words, markup=False, highlight=False, soft_wrap=True)
     if picture:
         from slipwise.view.canvas import save_figure
         from slipwise.view.effects import effect_picture
@@ -48,6 +50,15 @@ def effects(
             saved = save_figure(effect_picture(effect), picture)
         if not json and not source:
             OUT.print(f"Picture: {saved}", markup=False, highlight=False, soft_wrap=True)
+
+
+def _asks(effect: "sw.Effect") -> list[str]:
+    """Say whether an effect turns the girder, and what a campaign must have for it to be tested."""
+    turns = "yes, yaw belongs to its fit" if effect.turns else "no"
+    needs = [f"Needs {need}; not tested otherwise: {sw.effects.NEEDS[need]}." for need in effect.all_needs]
+    needs += [f"Needs pad_*{other} as well on a pad_*{ending}." for ending, other in effect.gauges.reads.items()]
+    every = "Needs nothing beside what every fit needs: slip, and load and friction of a pad."
+    return [f"Turns the girder about the vertical (yaw): {turns}.", *(needs or [every])]
 
 
 def register(app: typer.Typer) -> None:

@@ -3,6 +3,7 @@
 from slipwise.effects._catalogue import base_effects, catalogue, find_effect, load_effect
 from slipwise.effects._declared import NEEDS, Gauges
 from slipwise.effects._effect import RESPONSE, Effect, moved_channels, read_effect
+from slipwise.effects._fault import GaugeFault
 from slipwise.effects._hooks import COMPONENTS, HOOKS, PORTS
 from slipwise.effects._states import BalanceStates
 
@@ -14,6 +15,7 @@ __all__ = [
     "PORTS",
     "RESPONSE",
     "Effect",
+    "GaugeFault",
     "Gauges",
     "base_effects",
     "catalogue",

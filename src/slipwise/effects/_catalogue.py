@@ -5,6 +5,7 @@ import importlib
 import importlib.util
 import pkgutil
 import sys
+from collections.abc import Collection
 from functools import cache
 from importlib.metadata import entry_points
 from pathlib import Path
@@ -22,6 +23,7 @@ def catalogue() -> dict[str, Effect]:
 
     Raises:
         SettingError: a file breaks the contract, or two effects share a name.
+        UnknownNameError: an effect names another that does not exist.
     """
     found: dict[str, Effect] = {}
     folder = Path(__file__).parent
@@ -37,7 +39,25 @@ def catalogue() -> dict[str, Effect]:
                 f"package {point.value!r} offers an effect {effect.name!r}, which exists already; rename its file"
             )
         found[effect.name] = effect
+    for effect in found.values():
+        _check_others(effect, found)
     return dict(sorted(found.items()))
+
+
+def _check_others(effect: Effect, known: Collection[str]) -> None:
+    """Refuse names of other effects that do not exist: neither known, nor a file beside this one.
+
+    Raises:
+        UnknownNameError: with the names that exist.
+    """
+    for place, names in (
+        ("confused_with", effect.confused_with),
+        ("same_unless", effect.same_unless),
+        ("plainer", (effect.plainer,) if effect.plainer else ()),
+    ):
+        for name in names:
+            if name not in known and not effect.path.with_name(f"{name}.py").is_file():
+                raise unknown_name(f"effect (in {place!r} of {effect.path.name})", name, known)
 
 
 def base_effects(role: str) -> tuple[Effect, ...]:
@@ -45,13 +65,18 @@ def base_effects(role: str) -> tuple[Effect, ...]:
     return tuple(e for e in catalogue().values() if e.base == role)
 
 
-def load_effect(path: Path) -> Effect:
+def load_effect(path: Path | str) -> Effect:
     """Read a user's effect file.
+
+    Args:
+        path: of the file ("./mine.py").
 
     Raises:
         InputError: no such file, or Python cannot import it.
         SettingError: it breaks the contract.
+        UnknownNameError: it names something that does not exist, such as a port or another effect.
     """
+    path = Path(path)
     if not path.is_file():
         raise InputError(f"{path}: no such effect file")
     place = hashlib.sha256(str(path.resolve()).encode()).hexdigest()[:8]
@@ -72,6 +97,7 @@ def load_effect(path: Path) -> Effect:
     effect = read_effect(module, path.resolve())
     if effect.name in catalogue():
         raise SettingError(f"{path}: an effect called {effect.name!r} exists already; rename the file")
+    _check_others(effect, catalogue())
     return effect
 
 
@@ -84,7 +110,7 @@ def find_effect(name: str) -> Effect:
         SettingError: the file breaks the contract.
     """
     if name.endswith(".py"):
-        return load_effect(Path(name))
+        return load_effect(name)
     known = catalogue()
     if name not in known:
         raise unknown_name("effect", name, known, "`slipwise effects` lists them; your own is given as ./mine.py.")

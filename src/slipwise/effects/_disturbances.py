@@ -1,8 +1,8 @@
-"""What physics adds to the balances by which an audit holds gauges against each other, from what was recorded alone.
+"""What physics adds to the balances by which an audit compares gauges, from what was recorded alone.
 
 An effect's `disturb` gives forms of it, of a shape constant each that is no free number, such as a length. A form is a
 list of free numbers; a number is relation -> a signal for each record (n,) in the relation's own unit, up to a factor.
-The relations are girder_x, girder_y, heave, pitch, roll, warp, upright, and pair_AC_x and its like: pads of one side.
+The relations are girder_x, girder_y, heave, pitch, roll, warp, upright, and pair_AC_x and its like: pads at one end.
 """
 
 from collections.abc import Mapping, Sequence
@@ -18,7 +18,7 @@ from slipwise.signals import derivative
 Array = NDArray[np.float64]
 #: What one free number adds: relation -> a signal for each record.
 Number = Mapping[str, Sequence[Array]]
-#: Pads that lie on one side of the girder, one behind the other.
+#: Pads at one end of the girder: A and C at +x, B and D at -x; the first of each at +y, the other at -y.
 _PAIRS = (("A", "C"), ("B", "D"))
 
 
@@ -44,7 +44,12 @@ def total_loads(records: Sequence[Record]) -> list[Array]:
 
 
 def paired(records: Sequence[Record], axis: str) -> dict[str, tuple[list[Array], list[Array]]]:
-    """Give mean friction and mean load of the pads of each side, relation -> one of each for every record."""
+    """Give mean friction and mean load of the pads at each end, relation -> one of each for every record.
+
+    Args:
+        records: of all runs.
+        axis: of the friction, "x" or "y".
+    """
     found: dict[str, tuple[list[Array], list[Array]]] = {}
     for one, other in _PAIRS:
         if recorded(records, *(f"pad_{pad}_{kind}" for pad in (one, other) for kind in (f"F{axis}", "N"))):
@@ -56,8 +61,13 @@ def paired(records: Sequence[Record], axis: str) -> dict[str, tuple[list[Array],
     return found
 
 
-def turning(values: Array, length: float) -> Array:
-    """Give a force that turns with the direction of motion over a length (Dahl), between -1 and 1, (n,)."""
+def dahl_force(values: Array, length: float) -> Array:
+    """Give a force that reverses with the direction of motion over a length (Dahl), between -1 and 1, (n,) [1].
+
+    Args:
+        values: (n,) of the coordinate that moves.
+        length: over which the force reverses, in the unit of the values.
+    """
     force, last = np.zeros(len(values)), 0.0
     steps = np.diff(values)
     fades = np.exp(-np.abs(steps) / length)

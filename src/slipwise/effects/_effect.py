@@ -19,8 +19,8 @@ Hooks of whole arrays (numpy):
     rig(specimen, ...) -> Specimen             table(acceleration (n, 4), dt, ...) -> acceleration
     gauge(record, target, ...) -> Record       undo(record, target, ...) -> Record (its inverse, where `gauge` has one)
     sharpen(record, target, ...) -> Record (its inverse as far as noise bears it, where there is no exact one)
-    disturb(records) -> forms, each a list of free numbers: what each adds to the balances by which an audit holds
-                        gauges against each other, in every record; see `_disturbances`
+    disturb(records) -> forms, each a list of free numbers: what each adds to the balances by which an audit compares
+                        gauges, in every record; see `_disturbances`
     balance(states, ...) -> {"heave" | "pitch" | "roll" | "warp": (n,), "girder": (n,)} added to what is predicted
     rest(memory, seconds, ...) -> None         what a pause between runs leaves of the memory
     begin(memory, share_x, share_y, bound, ...) -> None    what is remembered where a slider's record begins, by the

@@ -17,7 +17,7 @@ from math import exp
 
 import numpy as np
 
-from slipwise.effects._disturbances import Number, axes, channel, turning
+from slipwise.effects._disturbances import Number, axes, channel, dahl_force
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -53,7 +53,7 @@ def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
     """Give a force that turns over a length."""
     for axis in axes(records):
         for length in _TURNS:
-            yield [{f"girder_{axis}": [turning(x, length) for x in channel(records, f"slip_{axis}")]}]
+            yield [{f"girder_{axis}": [dahl_force(x, length) for x in channel(records, f"slip_{axis}")]}]
 
 
 EFFECT = Effect(

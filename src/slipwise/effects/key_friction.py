@@ -18,7 +18,7 @@ from math import hypot, tanh
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.effects._disturbances import Number, channel, recorded, total_loads, turning
+from slipwise.effects._disturbances import Number, channel, dahl_force, recorded, total_loads
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.effects._prandtl import prandtl
 from slipwise.effects._states import BalanceStates
@@ -57,7 +57,7 @@ def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
     slips = [np.abs(x) for x in channel(records, "slip_x")]
     for length in _TURNS:
         # the girder's height over the pads is -sum N / (4 k): its direction is that of -d(sum N)/dt
-        turns = [turning(-n / n.mean(), length) for n in loads]
+        turns = [dahl_force(-n / n.mean(), length) for n in loads]
         rubbing = [x * t for x, t in zip(slips, turns, strict=True)]
         yield [{"heave": rubbing}, {"pitch": rubbing}]
 

@@ -24,7 +24,7 @@ def shear(shear: float, side_x: float, side_y: float, along: float, across: floa
 
 
 def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
-    """Give the friction of each side, of which one pad has more than the other."""
+    """Give the mean friction of the two pads at each end, of which one has more than the other."""
     for axis in "xy":
         if pairs := paired(records, axis):
             yield [{name: forces} for name, (forces, _) in pairs.items()]

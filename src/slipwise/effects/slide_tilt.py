@@ -25,7 +25,7 @@ def pad(load: float, tilt: float) -> tuple[float, float]:
 
 
 def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
-    """Give the load and the size of friction of each side, of which unlike tilts make a difference of the pads."""
+    """Give the load and the size of friction at each end, of which unlike tilts make a difference of the pads."""
     for axis in "xy":
         if pairs := paired(records, axis):
             yield [

@@ -74,11 +74,11 @@ def weigh(case: Case, first: Fit, before: Fit, after: Fit, number: int) -> Evide
     spread = {n: _error(float(power[n].sum())) for n in balances}
     runs, run_errors = [], []
     for i in range(len(case.runs)):
-        held = sum(float(power[n][after.stack.run_of[n] == i].sum()) for n in asked)
-        seen = sum(float(along[n][after.stack.run_of[n] == i].sum()) for n in asked)
-        if held > _ASKED * total:
-            runs.append(seen / held)
-            run_errors.append(_error(held))
+        weight_of_run = sum(float(power[n][after.stack.run_of[n] == i].sum()) for n in asked)
+        projection = sum(float(along[n][after.stack.run_of[n] == i].sum()) for n in asked)
+        if weight_of_run > _ASKED * total:
+            runs.append(projection / weight_of_run)
+            run_errors.append(_error(weight_of_run))
     share, first_share = _shares(first, before, after, balances)
     gain, little = after.score - before.score, abs(size) < suspect.least
     evidence = Evidence(suspect, size, after.errors[number], share, tuple(runs), balances, gain, small=little)
@@ -100,8 +100,8 @@ def _apart(size: float, sizes: Iterable[float], errors: Iterable[float]) -> bool
 
 def _alone(after: Fit, number: int) -> dict[str, Array]:
     """Give a signature without what constants and the other explanations could imitate, relation -> (n,)."""
-    own = {n: columns[:, 0] for n, columns in after.held[number].items()}
-    others = [block for i, block in enumerate(after.held) if i != number]
+    own = {n: columns[:, 0] for n, columns in after.columns[number].items()}
+    others = [block for i, block in enumerate(after.columns) if i != number]
     whole = {n: own.get(n, np.zeros(len(left))) for n, left in after.left.items()}
     parts, starts = parts_of(others, whole)
     squares, along = weighed(parts, {n: 1.0 / s for n, s in after.scale.items()}, int(starts[-1]))

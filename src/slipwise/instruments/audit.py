@@ -1,22 +1,23 @@
 """Are the instruments telling the truth? The balances of a rigid girder say so, without any law of friction."""
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
 
 from slipwise.campaign import Campaign
 from slipwise.channels import channel
-from slipwise.effects import catalogue
+from slipwise.effects import Effect, catalogue
 from slipwise.effects._gauges import span
 from slipwise.instruments.acceptance import Evidence
 from slipwise.instruments.balances import relations
 from slipwise.instruments.delay_or_filter import passed
-from slipwise.instruments.forward_selection import judge
+from slipwise.instruments.fault_selection import select_faults
 from slipwise.instruments.joint_fit import KNOWN_MASS, RATED_MASS, Case, Fit, start
 from slipwise.instruments.logger_spectrum import estimate_logger
 from slipwise.instruments.repairs import for_balances
 from slipwise.instruments.report import AuditReport, Balance, Finding
-from slipwise.instruments.rows import hold, noise_of_channels, noise_of_runs
+from slipwise.instruments.rows import noise_of_channels, noise_of_runs, prepare_runs
 from slipwise.instruments.sample_faults import RAILS, SampleFault, coarse, sample_faults
 from slipwise.instruments.sentences import as_sentence, confusable, how_to_settle, nearest, sentence
 from slipwise.instruments.suspects import Suspect, effect_of
@@ -29,38 +30,40 @@ _SUREST = 0.99
 _COARSE = 2.0
 
 
-def audit(campaign: Campaign) -> AuditReport:
-    """Hold every run's channels against each other; nothing is corrected.
+def audit(campaign: Campaign, own: Iterable[Effect] = ()) -> AuditReport:
+    """Compare every run's channels with each other; nothing is corrected.
 
     Args:
         campaign: whose logger may be unknown: then its filter is estimated too.
+        own: effects beside those of the catalogue: faults of gauges (`fault`) and physical explanations (`disturb`).
     """
     samples = sample_faults(campaign)
     records, left_out = for_balances(campaign, samples)
     clean = campaign.with_records(records, "wrong signs turned back, bad samples left out") if samples else campaign
-    runs, band = hold(clean, left_out)
-    held, cannot = relations(runs[0].record, campaign.specimen)
+    runs, band = prepare_runs(clean, left_out)
+    allowed, cannot = relations(runs[0].record, campaign.specimen)
     noise = noise_of_runs(runs, noise_of_channels(clean, runs, band), band)
     mass_error = KNOWN_MASS if "mass" in campaign.known else RATED_MASS
     logger = None if campaign.logger.known else estimate_logger(clean)
     findings, notes = [_of_samples(fault) for fault in samples], _rounded(campaign)
     plain = AuditReport(campaign.name, tuple(findings), (), (), {}, logger, tuple(cannot), tuple(notes))
-    if not any(relation.accuses and relation.rows in ("moving", "inner") for relation in held):
+    if not any(relation.accuses and relation.rows in ("moving", "inner") for relation in allowed):
         return plain
     likeliest = campaign.logger if logger is None else logger.likeliest
     highest = passed(likeliest.every if likeliest else None, clean.runs[0].record.dt)
-    case = Case(runs, held, campaign.specimen, noise, mass_error, highest)
+    effects = {**catalogue(), **{e.name: e for e in own}}
+    case = Case(runs, allowed, campaign.specimen, noise, mass_error, highest, tuple(effects.values()))
     first = start(case)
-    verdict = judge(case, first)
-    findings += [_of_evidence(evidence) for evidence in verdict.accepted]
-    notes += [f"{as_sentence(e.suspect, e.size)}: too little to matter" for e in verdict.small]
-    notes += [f"{as_sentence(e.suspect, e.size)} would explain something, but {e.why_not}" for e in verdict.refused]
+    selection = select_faults(case, first)
+    findings += [_of_evidence(evidence) for evidence in selection.accepted]
+    notes += [f"{as_sentence(e.suspect, e.size)}: too little to matter" for e in selection.small]
+    notes += [f"{as_sentence(e.suspect, e.size)} would explain something, but {e.why_not}" for e in selection.refused]
     return replace(
         plain,
         findings=tuple(sorted(findings, key=lambda finding: -finding.probability)),
-        balances=_balances(first, verdict.fit),
-        physics=tuple(dict.fromkeys(verdict.physics)),
-        constants=verdict.fit.constants,
+        balances=_balances(first, selection.fit),
+        physics=tuple(dict.fromkeys(selection.physics)),
+        constants=selection.fit.constants,
         notes=tuple(notes),
     )
 
@@ -75,7 +78,7 @@ def _of_evidence(evidence: Evidence) -> Finding:
     odds = sum(float(np.exp(-np.clip(loss, -30.0, 30.0))) for loss in against)
     rivals = nearest(evidence.rivals, evidence.gain)
     return Finding(
-        what=suspect.effect,
+        effect=suspect.effect,
         channel=suspect.target if suspect.target != "all" else "pad_*",
         size=size,
         low=size - reach,
@@ -93,12 +96,12 @@ def _of_evidence(evidence: Evidence) -> Finding:
 def _same_fault(rival: str, suspect: Suspect) -> bool:
     """Tell variants of one fault on one channel, which do not make it less sure."""
     effect, _, place = rival.partition(" ")
-    return effect == suspect.effect and place.startswith(suspect.target)
+    return effect == suspect.effect.name and place.startswith(suspect.target)
 
 
 def _of_samples(fault: SampleFault) -> Finding:
     """Turn bad samples into a finding."""
-    effect = effect_of(fault.kind).name
+    effect = effect_of(fault.kind)
     place = _place(fault.channels)
     unit = channel(fault.channels[0]).unit if fault.kind in RAILS else "1"
     words = {
@@ -108,12 +111,12 @@ def _of_samples(fault: SampleFault) -> Finding:
     }.get(fault.kind, sentence(effect, place, fault.size, unit))
     if fault.kind in RAILS:
         upper = fault.kind == RAILS[0]
-        place_of_rail = catalogue()[effect].parameters[0 if upper else 1].name
+        place_of_rail = effect.parameters[0 if upper else 1].name
         values = {place_of_rail: (1.0 if upper else -1.0) * fault.size / span(fault.channels[0])}
     else:
-        values = {catalogue()[effect].parameters[0].name: fault.size}
+        values = {effect.parameters[0].name: fault.size}
     return Finding(
-        what=effect,
+        effect=effect,
         channel=place,
         size=fault.size,
         low=fault.size,

@@ -1,15 +1,16 @@
-"""The audit of the instruments in words and rows: what lies, on which channel, how large, how sure, what else it is.
+"""The audit of the instruments in words and rows: which fault, on which channel, how large, how sure, what else it is.
 
 Nothing is corrected unless a finding is named: then the records are corrected by its size, and the campaign says so.
 """
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from slipwise.campaign import Campaign, as_campaign
+from slipwise.effects import Effect
 from slipwise.instruments.audit import audit
 from slipwise.instruments.corrections import correct
 from slipwise.instruments.report import AuditReport, Finding, LoggerEstimate
@@ -71,15 +72,24 @@ class Checks(Drawn, Tabular):
         return self.report.rows()
 
 
-def check_instruments(campaign: Campaign | Path | str) -> Checks:
-    """Audit a campaign, or that of a folder, without any law of friction."""
+def check_instruments(campaign: Campaign | Path | str, *, own: Iterable[Effect] = ()) -> Checks:
+    """Audit a campaign without any law of friction.
+
+    Args:
+        campaign: or its folder.
+        own: effects beside those of the catalogue, as `slipwise.effects.find_effect` gives them: faults of gauges
+            (`fault`) and physical explanations (`disturb`).
+
+    Raises:
+        InputError: the folder holds no campaign that can be read.
+    """
     began = time.perf_counter()
-    report = audit(as_campaign(campaign))
-    held = [b for b in report.balances if not b.relation.startswith("rest_")]
+    report = audit(as_campaign(campaign), own)
+    tested = [b for b in report.balances if not b.relation.startswith("rest_")]
     if report.findings:
         words = f"No: {'; '.join(f.words for f in report.findings)}. No law of friction was needed to see it."
-    elif held:
-        words = f"Yes: {len(held)} balances and kinematic relations agree, no gauge is accused."
+    elif tested:
+        words = f"Yes: {len(tested)} balances and kinematic relations agree, no gauge is accused."
     else:
         words = "Not known: these channels allow no balance, so no gauge can be held against another."
     return Checks(words, report, time.perf_counter() - began)
@@ -101,7 +111,7 @@ def corrected_campaign(campaign: Campaign, checks: Checks, names: Sequence[str])
 
 
 def _row(finding: Finding) -> dict[str, Any]:
-    low, high = (shown(end, finding.unit, finding.what) for end in (finding.low, finding.high))
+    low, high = (shown(end, finding.unit, finding.effect) for end in (finding.low, finding.high))
     return {
         "finding": finding.name,
         "in words": finding.words,

@@ -5,7 +5,6 @@ from collections.abc import Iterable
 import numpy as np
 
 from slipwise.campaign import Campaign
-from slipwise.effects import catalogue
 from slipwise.errors import InputError, unknown_name
 from slipwise.instruments.repairs import bridged
 from slipwise.instruments.report import AuditReport, Finding
@@ -46,10 +45,10 @@ def correct(campaign: Campaign, report: AuditReport, names: Iterable[str]) -> tu
 
 
 def _corrected(record: Record, finding: Finding, campaign: Campaign, run: str) -> Record:
-    hooks = catalogue()[finding.what].hooks
-    if declared(finding.what).scales and finding.size <= -1.0:
+    hooks = finding.effect.hooks
+    if declared(finding.effect).scales and finding.size <= -1.0:
         raise InputError(f"{finding.channel} is dead: there is nothing that could be corrected; leave the channel out")
-    if "held" in declared(finding.what).samples:
+    if "held" in declared(finding.effect).samples:
         return _bridged(record, finding, campaign, run)
     undo = hooks.get("undo", hooks.get("sharpen"))
     if undo is None:

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.effects import Effect
 from slipwise.instruments.balances import Relation
 from slipwise.instruments.physical_alternatives import Alternative
-from slipwise.instruments.rows import Held, Stack, adding, change, constants_of, stack, with_records
+from slipwise.instruments.rows import PreparedRun, Stack, adding, change, constants_of, stack, with_records
 from slipwise.instruments.suspects import Suspect
 from slipwise.rig import Specimen
 from slipwise.statistics.least_squares import Move, gauss_newton
@@ -47,7 +48,7 @@ class Model:
 
 @dataclass(frozen=True)
 class Case:
-    """All that a judgement needs.
+    """All that an audit is made from.
 
     Attributes:
         runs: as recorded, smoothed.
@@ -56,23 +57,25 @@ class Case:
         noise: a sample of the noise of each run's channels.
         mass_error: how far the mass may be from the specimen's [1].
         passed: highest frequency that reached the records [Hz].
+        effects: that may be suspects or physical explanations.
     """
 
-    runs: list[Held]
+    runs: list[PreparedRun]
     relations: list[Relation]
     specimen: Specimen
     noise: Sequence[Mapping[str, Array]]
     mass_error: float
     passed: float
+    effects: tuple[Effect, ...]
 
-    def corrected(self, model: Model, *, noisier: bool = False) -> list[Held]:
+    def corrected(self, model: Model, *, noisier: bool = False) -> list[PreparedRun]:
         """Give the runs without the faults of a model; with more noise, where noise is to be followed."""
         runs = adding(self.runs, self.noise, self.runs[0].record.channels) if noisier else self.runs
         for suspect, size in reversed(model.sizes):
             runs = with_records(runs, lambda r, s=suspect, z=size: s.correct(r, z))
         return runs
 
-    def stacked(self, runs: Sequence[Held], constants: Mapping[str, float]) -> Stack:
+    def stacked(self, runs: Sequence[PreparedRun], constants: Mapping[str, float]) -> Stack:
         """Evaluate the relations."""
         return stack(runs, self.relations, self.specimen, constants)
 
@@ -86,7 +89,7 @@ class Fit:
         constants: of the rig.
         corrected: runs without the faults of the model.
         stack: relations of the corrected runs at these constants, physics not taken off.
-        held: columns that are fitted: one block for each constant, each size, each alternative.
+        columns: what is fitted: one block for each constant, each size, each alternative.
         left: relation -> (n,) what the model leaves.
         scale: relation -> root of the mean square of what is left, not far below its floor.
         floor: relation -> what noise alone leaves; a gain that is corrected scales its noise too.
@@ -96,9 +99,9 @@ class Fit:
 
     model: Model
     constants: dict[str, float]
-    corrected: list[Held]
+    corrected: list[PreparedRun]
     stack: Stack
-    held: list[Block]
+    columns: list[Block]
     left: dict[str, Array]
     scale: dict[str, float]
     floor: dict[str, float]
@@ -126,14 +129,14 @@ def fit(case: Case, model: Model, constants: Mapping[str, float]) -> Fit:
         start, lambda here: _linearised(case, here), _moved, most=_STEPS, linearised_end=True
     )  # fmt: skip
     # constants and sizes stay as they were when the records were corrected: what is left must belong to them
-    left = {n: r - predicted(found.held, n, found.solution, found.first) for n, r in found.here.residual.items()}
+    left = {n: r - predicted(found.columns, n, found.solution, found.first) for n, r in found.here.residual.items()}
     scale, floor = found.scale, found.floor
     support = {n: -EVIDENCE * part.count * float(np.log(scale[n] / floor[n])) for n, part in found.parts.items()}
     support["rated mass"] = -0.5 * off_rated(case, point.constants) ** 2
     known = len(found.here.base)
     errors = np.sqrt(np.maximum(np.diag(found.spread)[known : known + len(model.sizes)], 0.0) / EVIDENCE)
     return Fit(
-        point.model, point.constants, found.corrected, found.here, found.held, left, scale, floor, support,
+        point.model, point.constants, found.corrected, found.here, found.columns, left, scale, floor, support,
         tuple(errors.tolist()),
     )  # fmt: skip
 
@@ -151,10 +154,10 @@ class _Point:
 class _Linear:
     """The normal equations at a point, solved."""
 
-    corrected: list[Held]
+    corrected: list[PreparedRun]
     here: Stack
     floor: dict[str, float]
-    held: list[Block]
+    columns: list[Block]
     parts: dict[str, Part]
     first: NDArray[np.int64]
     spread: Array
@@ -168,8 +171,8 @@ def _linearised(case: Case, point: _Point) -> _Linear:
     here = case.stacked(corrected, constants)
     floor = _floor(case, model, here, constants)
     signatures = [signature(case, suspect, corrected, here, constants) for suspect, _ in model.sizes]
-    held: list[Block] = [*here.base.values(), *signatures, *(a.columns for a in model.physics)]
-    parts, first = parts_of(held, here.residual)
+    columns: list[Block] = [*here.base.values(), *signatures, *(a.columns for a in model.physics)]
+    parts, first = parts_of(columns, here.residual)
     weight = {n: 1.0 / max(point.scale.get(n, 0.0), floor[n]) for n in floor}
     squares, along = weighed(parts, weight, int(first[-1]))
     for k, (suspect, _) in enumerate(model.sizes, start=len(here.base)):
@@ -182,7 +185,7 @@ def _linearised(case: Case, point: _Point) -> _Linear:
     spread = inverse(squares)
     solution = spread @ along
     scale = {n: max(LEAST_FLOOR * floor[n], float(np.sqrt(left_of(part, solution)))) for n, part in parts.items()}
-    return _Linear(corrected, here, floor, held, parts, first, spread, solution, scale)
+    return _Linear(corrected, here, floor, columns, parts, first, spread, solution, scale)
 
 
 def _moved(point: _Point, found: _Linear) -> Move[_Point]:
@@ -205,10 +208,10 @@ def off_rated(case: Case, constants: Mapping[str, float]) -> float:
     return (constants["mass"] - case.specimen.mass) / (case.mass_error * case.specimen.mass)
 
 
-def predicted(held: Sequence[Block], name: str, solution: Array, first: NDArray[np.int64]) -> Array | float:
+def predicted(columns: Sequence[Block], name: str, solution: Array, first: NDArray[np.int64]) -> Array | float:
     """Give what a solution predicts for the rows of one relation."""
     total: Array | float = 0.0
-    for i, block in enumerate(held):
+    for i, block in enumerate(columns):
         if name in block:
             total = total + block[name] @ solution[first[i] : first[i + 1]]
     return total
@@ -226,7 +229,7 @@ def rms(values: Array) -> float:
 
 
 def signature(
-    case: Case, suspect: Suspect, runs: Sequence[Held], here: Stack, constants: Mapping[str, float]
+    case: Case, suspect: Suspect, runs: Sequence[PreparedRun], here: Stack, constants: Mapping[str, float]
 ) -> dict[str, Array]:
     """Give the change of the residuals for a unit of a suspect's size, relation -> (n, 1)."""
     distorted = with_records(runs, lambda record: suspect.distort(record, suspect.step))
@@ -235,7 +238,7 @@ def signature(
 
 
 def noise_with_itself(
-    case: Case, suspect: Suspect, runs: Sequence[Held], here: Stack, constants: Mapping[str, float]
+    case: Case, suspect: Suspect, runs: Sequence[PreparedRun], here: Stack, constants: Mapping[str, float]
 ) -> dict[str, float]:
     """Give the product of a gain's signature with the residual that comes from the channel's own noise alone.
 

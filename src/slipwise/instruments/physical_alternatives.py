@@ -4,16 +4,16 @@ No friction law: only forces that act on the girder beside the pads, ways of the
 between pads. Each alternative has one or more free numbers, each with its columns in one or more relations.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.effects import catalogue
+from slipwise.effects import Effect
 from slipwise.effects._disturbances import Number, channel, paired, recorded
 from slipwise.instruments.balances import Relation
-from slipwise.instruments.rows import Block, Held
+from slipwise.instruments.rows import Block, PreparedRun
 from slipwise.record import Record
 from slipwise.signals import derivative
 
@@ -25,7 +25,7 @@ class Alternative:
     """A physical explanation.
 
     Attributes:
-        name: of the effect in the catalogue, or in words.
+        name: of the effect, or in words.
         columns: relation -> (n, q) over its rows.
         width: q, how many numbers it may choose freely.
     """
@@ -35,11 +35,19 @@ class Alternative:
     width: int
 
 
-def alternatives(runs: Sequence[Held], relations: Sequence[Relation]) -> list[Alternative]:
-    """Give the physical explanations that these relations allow."""
+def alternatives(
+    runs: Sequence[PreparedRun], relations: Sequence[Relation], effects: Iterable[Effect]
+) -> list[Alternative]:
+    """Give the physical explanations that these relations allow.
+
+    Args:
+        runs: as recorded, smoothed.
+        relations: that the channels allow.
+        effects: those with a hook `disturb` are explanations.
+    """
     known = {relation.name: relation for relation in relations}
     found = []
-    for name, numbers in _all([run.record for run in runs]):
+    for name, numbers in _all([run.record for run in runs], effects):
         columns: dict[str, Array] = {}
         for k, number in enumerate(numbers):
             for place, signals in number.items():
@@ -52,12 +60,12 @@ def alternatives(runs: Sequence[Held], relations: Sequence[Relation]) -> list[Al
     return found
 
 
-def _all(records: Sequence[Record]) -> Iterator[tuple[str, list[Number]]]:
-    """Give what effects say of themselves, and what no effect of the catalogue is."""
-    for name, effect in catalogue().items():
+def _all(records: Sequence[Record], effects: Iterable[Effect]) -> Iterator[tuple[str, list[Number]]]:
+    """Give what effects say of themselves, and what no effect is."""
+    for effect in effects:
         if "disturb" in effect.hooks:
             for numbers in effect.hooks["disturb"](records):
-                yield name, numbers
+                yield effect.name, numbers
     if recorded(records, "slip_x"):
         slips = [np.abs(x) for x in channel(records, "slip_x")]
         yield "buffer carries weight", [{"heave": slips}, {"heave": [x**2 for x in slips]}]

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from slipwise.campaign import Logger
+from slipwise.effects import Effect
 from slipwise.shown import Drawn, Tabular
 from slipwise.signals import LowPass
 
@@ -14,7 +15,7 @@ class Finding:
     """One fault of an instrument.
 
     Attributes:
-        what: name of the effect in the catalogue, e.g. "channel_delay".
+        effect: that the fault is, of the catalogue or a user's own.
         channel: the channel, or a card of cells as a pattern, e.g. "pad_*_Fx".
         size: in `unit`.
         low: lower end of the 95 % interval.
@@ -29,7 +30,7 @@ class Finding:
         runs: names of the runs that show it.
     """
 
-    what: str
+    effect: Effect
     channel: str
     size: float
     low: float
@@ -42,6 +43,11 @@ class Finding:
     target: str
     values: Mapping[str, float]
     runs: tuple[str, ...] = ()
+
+    @property
+    def what(self) -> str:
+        """Name of the effect, e.g. "channel_delay"."""
+        return self.effect.name
 
     @property
     def name(self) -> str:
@@ -58,7 +64,7 @@ class Balance:
         floor: what noise alone leaves, in the relation's unit.
         left: what it leaves as recorded, constants of the rig fitted, in floors.
         explained: what it leaves after findings and physical alternatives, in floors.
-        rows: how many samples it was held on.
+        rows: how many samples it was evaluated on.
     """
 
     relation: str

@@ -1,4 +1,4 @@
-"""The samples on which relations are held: smoothed to one band, thinned to nearly independent rows, run after run."""
+"""The rows on which relations are evaluated: smoothed to one band, thinned until nearly independent, run after run."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -32,7 +32,7 @@ _STILL_ROWS = 30
 
 
 @dataclass(frozen=True)
-class Held:
+class PreparedRun:
     """One run, smoothed, with the rows that count.
 
     Attributes:
@@ -56,7 +56,7 @@ class Held:
         return chosen - (sums / np.maximum(np.bincount(self.stretch), 1))[self.stretch]
 
 
-def hold(campaign: Campaign, left_out: Mapping[str, Mask] | None = None) -> tuple[list[Held], float]:
+def prepare_runs(campaign: Campaign, left_out: Mapping[str, Mask] | None = None) -> tuple[list[PreparedRun], float]:
     """Prepare every run; give them and the band's edge [Hz].
 
     Args:
@@ -68,13 +68,15 @@ def hold(campaign: Campaign, left_out: Mapping[str, Mask] | None = None) -> tupl
     rate = min(1.0 / run.record.dt for run in aligned)
     band = min(_BAND, _OF_RATE * rate, *(_OF_FILTER * f for f in filters))
     out = left_out or {}
-    held = [_hold(run.name, one, band, out.get(run.name)) for run, one in zip(campaign.runs, aligned, strict=True)]
-    # what only some runs have cannot be held in all of them
-    common = [name for name in held[0].record.channels if all(name in run.record for run in held)]
-    return with_records(held, lambda r: Record(r.time, {n: r[n] for n in common}, r.provenance)), band
+    prepared = [
+        _prepared(run.name, one, band, out.get(run.name)) for run, one in zip(campaign.runs, aligned, strict=True)
+    ]
+    # what only some runs have cannot be compared in all of them
+    common = [name for name in prepared[0].record.channels if all(name in run.record for run in prepared)]
+    return with_records(prepared, lambda r: Record(r.time, {n: r[n] for n in common}, r.provenance)), band
 
 
-def _hold(name: str, run: AlignedRun, band: float, left_out: Mask | None) -> Held:
+def _prepared(name: str, run: AlignedRun, band: float, left_out: Mask | None) -> PreparedRun:
     full = run.record
     by = LowPass(band, 6, "aligned")
     every = slice(None, None, max(1, int(1.0 / (_KEPT * band * full.dt))))
@@ -96,10 +98,10 @@ def _hold(name: str, run: AlignedRun, band: float, left_out: Mask | None) -> Hel
     picked = {kind: np.flatnonzero(mask & thin) for kind, mask in masks.items()}
     starts = np.cumsum(np.diff(np.concatenate([[0], quiet.astype(int)])) == 1)
     stretch = np.unique(starts[picked["wander"]], return_inverse=True)[1]
-    return Held(name, record, picked, np.asarray(stretch))
+    return PreparedRun(name, record, picked, np.asarray(stretch))
 
 
-def with_records(runs: Sequence[Held], change: Callable[[Record], Record]) -> list[Held]:
+def with_records(runs: Sequence[PreparedRun], change: Callable[[Record], Record]) -> list[PreparedRun]:
     """Give the runs with changed records, the same rows."""
     return [replace(run, record=change(run.record)) for run in runs]
 
@@ -125,7 +127,7 @@ def constants_of(relations: Sequence[Relation]) -> tuple[str, ...]:
 
 
 def stack(
-    runs: Sequence[Held], relations: Sequence[Relation], specimen: Specimen, constants: Mapping[str, float]
+    runs: Sequence[PreparedRun], relations: Sequence[Relation], specimen: Specimen, constants: Mapping[str, float]
 ) -> Stack:
     """Evaluate the relations with the constants as they are; relations without rows are left out."""
     residual: dict[str, Array] = {}
@@ -144,7 +146,7 @@ def stack(
 
 
 def _evaluate(
-    run: Held, relation: Relation, specimen: Specimen, constants: Mapping[str, float]
+    run: PreparedRun, relation: Relation, specimen: Specimen, constants: Mapping[str, float]
 ) -> tuple[Array, dict[str, Array]]:
     residual = relation.known(run.record, specimen)
     columns = {}
@@ -156,7 +158,7 @@ def _evaluate(
 
 
 def change(
-    changed: Sequence[Held],
+    changed: Sequence[PreparedRun],
     relations: Sequence[Relation],
     specimen: Specimen,
     constants: Mapping[str, float],
@@ -181,18 +183,18 @@ def change(
     return found
 
 
-def noise_of_channels(campaign: Campaign, runs: Sequence[Held], band: float) -> dict[str, float]:
+def noise_of_channels(campaign: Campaign, runs: Sequence[PreparedRun], band: float) -> dict[str, float]:
     """Give the noise of each smoothed channel: white part within the band, or what quiet stretches show, if larger."""
     levels: dict[str, list[float]] = {}
-    for run, held in zip(campaign.runs, runs, strict=True):
+    for run, prepared in zip(campaign.runs, runs, strict=True):
         part = np.sqrt(2.0 * band * run.record.dt)
-        for name in held.record.channels:
+        for name in prepared.record.channels:
             found = part * white_level(run.record[name])
-            levels.setdefault(name, []).append(max(found, _still_level(held, name)))
+            levels.setdefault(name, []).append(max(found, _still_level(prepared, name)))
     return {name: float(np.median(found)) for name, found in levels.items()}
 
 
-def _still_level(run: Held, name: str) -> float:
+def _still_level(run: PreparedRun, name: str) -> float:
     """Give the least scatter about a slow curve that any quiet stretch shows; 0 without one."""
     values, found = run.record[name][run.picked["wander"]], []
     for number in range(int(run.stretch.max()) + 1 if len(run.stretch) else 0):
@@ -204,7 +206,7 @@ def _still_level(run: Held, name: str) -> float:
     return min(found, default=0.0)
 
 
-def noise_of_runs(runs: Sequence[Held], levels: Mapping[str, float], band: float) -> list[dict[str, Array]]:
+def noise_of_runs(runs: Sequence[PreparedRun], levels: Mapping[str, float], band: float) -> list[dict[str, Array]]:
     """Give a sample of each run's noise, channel by channel, of the levels given and of the band's colour."""
     rng = np.random.default_rng(0)
     by = LowPass(band, 6, "aligned")
@@ -218,7 +220,9 @@ def noise_of_runs(runs: Sequence[Held], levels: Mapping[str, float], band: float
     return made
 
 
-def adding(runs: Sequence[Held], noise: Sequence[Mapping[str, Array]], names: Iterable[str]) -> list[Held]:
+def adding(
+    runs: Sequence[PreparedRun], noise: Sequence[Mapping[str, Array]], names: Iterable[str]
+) -> list[PreparedRun]:
     """Give the runs with noise added to some channels."""
     chosen = set(names)
     return [

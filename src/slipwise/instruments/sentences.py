@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from slipwise.effects import catalogue
+from slipwise.effects import Effect
 from slipwise.instruments.suspects import Suspect, declared
 
 #: How sizes are written: SI unit -> (factor, unit).
@@ -17,7 +17,7 @@ _SHOWN: dict[str, tuple[float, str]] = {
 _NEAR, _PART = 12.0, 0.1
 
 
-def shown(size: float, unit: str, effect: str) -> str:
+def shown(size: float, unit: str, effect: Effect) -> str:
     """Write the size of a gauge's fault in the unit in which people read it."""
     own = declared(effect).shown
     if own is not None:
@@ -31,7 +31,7 @@ def as_sentence(suspect: Suspect, size: float) -> str:
     return sentence(suspect.effect, suspect.label, size, suspect.unit)
 
 
-def sentence(effect: str, place: str, size: float, unit: str) -> str:
+def sentence(effect: Effect, place: str, size: float, unit: str) -> str:
     """Write what a fault did on a place, and how much of it."""
     return f"{place} {declared(effect).says.format(size=shown(size, unit, effect))}"
 
@@ -41,13 +41,13 @@ def nearest(rivals: Sequence[tuple[str, float]], gain: float) -> tuple[str, ...]
     return tuple(dict.fromkeys(name for name, loss in rivals if loss < max(_NEAR, _PART * gain)))
 
 
-def confusable(effect: str) -> tuple[str, ...]:
-    """Give the effects that the catalogue names as easily confused with this one."""
-    return tuple(catalogue()[effect].confused_with)
+def confusable(effect: Effect) -> tuple[str, ...]:
+    """Give the names of the effects that are easily confused with this one, as its file says."""
+    return tuple(effect.confused_with)
 
 
-def how_to_settle(effect: str, rivals: Sequence[str]) -> str:
-    """Say what would tell a fault from its rivals: what the catalogue knows of the pair, or a test of the gauge."""
-    tests = catalogue()[effect].confused_with
-    told = [tests[name] for rival in rivals if (name := rival.split()[0]) in tests]
-    return "; ".join(dict.fromkeys([*told, declared(effect).settled_by]))
+def how_to_settle(effect: Effect, rivals: Sequence[str]) -> str:
+    """Say what would tell a fault from its rivals: what its file knows of the pair, or a test of the gauge."""
+    tests = effect.confused_with
+    known = [tests[name] for rival in rivals if (name := rival.split()[0]) in tests]
+    return "; ".join(dict.fromkeys([*known, declared(effect).settled_by]))

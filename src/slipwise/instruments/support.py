@@ -29,8 +29,8 @@ def supports(
         itself: for each candidate what `noise_with_itself` gives.
         one_sided: whether its size cannot be below zero.
     """
-    parts, first = parts_of([*fitted.held, *candidates], fitted.left)
-    known, count = int(first[len(fitted.held)]), int(first[-1])
+    parts, first = parts_of([*fitted.columns, *candidates], fitted.left)
+    known, count = int(first[len(fitted.columns)]), int(first[-1])
     weight = {n: 1.0 / s for n, s in fitted.scale.items()}
     squares, along = weighed(parts, weight, count)
     if "mass" in fitted.stack.base:
@@ -42,7 +42,7 @@ def supports(
     least = {n: LEAST_FLOOR * floor for n, floor in fitted.floor.items()}
     now = {n: max(float(np.sqrt(part.power / max(part.count, 1))), least[n]) for n, part in parts.items()}
     for k in range(len(candidates)):
-        own = slice(int(first[len(fitted.held) + k]), int(first[len(fitted.held) + k + 1]))
+        own = slice(int(first[len(fitted.columns) + k]), int(first[len(fitted.columns) + k + 1]))
         mine = slice(own.start - known, own.stop - known)
         left = squares[own, own] - squares[own, :known] @ carried[:, mine]
         # columns that are known already, but for rounding, get no step

@@ -1,10 +1,10 @@
 """The suspects: every fault that a gauge can have, on every channel or card that can have it.
 
-A suspect's signature is not written down: it is what the relations make of a record that the fault has distorted, and
-the fault is the effect of that name in the catalogue.
+A suspect's signature is not written down: it is what the relations make of a record that the fault has distorted, by
+the `gauge` of the effect that the fault is.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from slipwise.channels import PADS, channel
@@ -23,7 +23,7 @@ class Suspect:
     """One fault on one channel or card.
 
     Attributes:
-        effect: name in the catalogue.
+        effect: that the fault is.
         label: the channel, or the card as a pattern, "pad_*_Fx"; with the variant in words where there are several.
         target: of the effect.
         channels: that it changes.
@@ -33,7 +33,7 @@ class Suspect:
         values: (size) -> parameters of the effect.
     """
 
-    effect: str
+    effect: Effect
     label: str
     target: str
     channels: tuple[str, ...]
@@ -50,38 +50,42 @@ class Suspect:
     @property
     def one_sided(self) -> bool:
         """Whether its size cannot be below zero."""
-        return catalogue()[self.effect].parameters[0].low >= 0.0
+        return self.effect.parameters[0].low >= 0.0
 
     @property
     def key(self) -> tuple[str, str]:
         """Name of fault and place."""
-        return self.effect, self.label
+        return self.effect.name, self.label
 
     def distort(self, record: Record, size: float) -> Record:
         """Give the record with the fault."""
-        return catalogue()[self.effect].hooks["gauge"](record, self.target, **self.values(size))
+        return self.effect.hooks["gauge"](record, self.target, **self.values(size))
 
     def correct(self, record: Record, size: float) -> Record:
         """Give the record without the fault; where it has no inverse, as far as noise allows."""
-        hooks = catalogue()[self.effect].hooks
+        hooks = self.effect.hooks
         return hooks["undo" if "undo" in hooks else "sharpen"](record, self.target, **self.values(size))
 
 
-def declared(name: str) -> GaugeFault:
-    """Give what an effect of the catalogue declares of itself as a gauge's fault."""
-    fault = catalogue()[name].fault
-    assert fault is not None, f"{name} is no fault of a gauge"
-    return fault
+def declared(effect: Effect) -> GaugeFault:
+    """Give what an effect declares of itself as a gauge's fault."""
+    assert effect.fault is not None, f"{effect.name} is no fault of a gauge"
+    return effect.fault
 
 
 def effect_of(kind: str) -> Effect:
-    """Give the effect that a fault of samples is."""
+    """Give the effect of the catalogue that a fault of samples is."""
     return next(e for e in catalogue().values() if e.fault and kind in e.fault.samples)
 
 
-def suspects(record: Record) -> list[Suspect]:
-    """Give all suspects for the channels of a record."""
-    faults = [e for e in catalogue().values() if e.fault and e.fault.least and e.hooks.keys() & {"undo", "sharpen"}]
+def suspects(record: Record, effects: Iterable[Effect]) -> list[Suspect]:
+    """Give all suspects for the channels of a record.
+
+    Args:
+        record: whose channels count.
+        effects: those that are a fault of a gauge, of some least size and with an inverse, are looked for.
+    """
+    faults = [e for e in effects if e.fault and e.fault.least and e.hooks.keys() & {"undo", "sharpen"}]
     return [suspect for effect in faults for suspect in _of_effect(effect, record)]
 
 
@@ -104,14 +108,13 @@ def _of_effect(effect: Effect, record: Record) -> Iterator[Suspect]:
 
 def _forms(effect: Effect, target: str, words: str, channels: tuple[str, ...]) -> Iterator[Suspect]:
     """Give a fault in each of its forms on one place."""
-    fault = effect.fault
-    assert fault is not None
+    fault = declared(effect)
     own = fault.unit.startswith("channel")
     per = span(channels[0]) if own else 1.0
     least = fault.least_on(channels[0])
     for form, shape in fault.forms.items():
         yield Suspect(
-            effect.name,
+            effect,
             words + form,
             target,
             channels,

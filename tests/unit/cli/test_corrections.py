@@ -1,11 +1,13 @@
 """`--correct` mends what the audit found and the user named; nothing else, and never in silence."""
 
 import json
+import shutil
 
 import pytest
 
 from bench import Fault, build_campaign, with_faults
 from bench.write import write_campaign
+from slipwise.effects import find_effect
 
 
 @pytest.fixture(scope="module")
@@ -39,6 +41,17 @@ def test_compare_with_the_named_correction_is_held_against_mended_records_and_sa
         assert any("corrected" in note and "slip_x" in note for note in report["notes"]) is bool(words)
         errors[bool(words)] = report["components"]["girder"]["holdout"]
     assert errors[True] < 1.2 < errors[False]
+
+
+def test_a_fault_of_ones_own_competes_in_the_audit(slipwise, late, tmp_path):
+    mine = tmp_path / "my_delay.py"
+    shutil.copy(find_effect("channel_delay").path, mine)
+    code, words, _ = slipwise("audit", late, "--effect", mine, "--json")
+    (finding,) = json.loads(words)["findings"]
+    rivals = {name.split()[0] for name in finding["mistaken_for"].split(", ")}
+    assert code == 0 and {"channel_delay", "my_delay"} <= {finding["what"], *rivals}
+    code, _, error = slipwise("audit", late, "--effect", tmp_path / "nowhere.py")
+    assert code == 2 and "no such effect file" in error
 
 
 def test_a_misspelt_correction_is_answered_with_the_findings_there_are(slipwise, late):

@@ -34,6 +34,19 @@ def test_the_list_and_one_effect_are_the_librarys_answers(run) -> None:
     assert run("run_in", "--source") == find_effect("run_in").path.read_text()
 
 
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("buffer_mismatch", ("(yaw): yes", "Needs buffers; not tested otherwise: no buffers")),
+        ("load_crosstalk", ("(yaw): no", "Needs changing load", "Needs pad_*_N as well on a pad_*_Fx")),
+        ("heating", ("(yaw): no", "Needs nothing beside what every fit needs")),
+    ],
+)
+def test_one_effect_says_whether_it_turns_the_girder_and_what_it_needs(run, name: str, words: tuple[str, ...]) -> None:
+    shown = run(name)
+    assert all(text in shown for text in words), shown
+
+
 def test_a_picture_is_written_where_it_was_asked_for(run, tmp_path: Path) -> None:
     run("breakaway", "--picture", str(tmp_path / "breakaway.png"))
     assert (tmp_path / "breakaway.png").read_bytes().startswith(b"\x89PNG")

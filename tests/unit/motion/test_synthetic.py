@@ -124,7 +124,7 @@ def test_every_kind_is_listed_with_syntax_meaning_and_an_example_that_works():
         ("sine:2Hz,0.3g,cycles=30,cycles=20", InputError, "given twice"),
         ("sine:2Hz,0.3g,cycles=", InputError, "empty part"),
         ("sine:2Hz,,0.3g", InputError, "empty part"),
-        ("sine:2Hz,0.3g,cycles=8", InputError, "whole number from 9"),
+        ("sine:2Hz,0.3g,cycles=8", InputError, r"whole number from 9 \(4 to ramp in, 4 to ramp out, 1 at full size\)"),
         ("sine:2Hz,0.3g,cycles=ten", InputError, "whole number"),
         ("sine:2Hz,0.3g,cycles=1000000", InputError, "would last"),
         ("sine:2,0.3g", UnitError, "has no unit"),

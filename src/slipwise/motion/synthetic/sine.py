@@ -37,7 +37,8 @@ def build(spec: Spec) -> TableMotion:
         for column, pair in pairs.items()
     }
     period = 1.0 / sines[0][0]
-    cycles = spec.whole("cycles", default=20, least=2 * _RAMP_CYCLES + 1, most=1_000_000)
+    why = f"{_RAMP_CYCLES} to ramp in, {_RAMP_CYCLES} to ramp out, 1 at full size"
+    cycles = spec.whole("cycles", default=20, least=2 * _RAMP_CYCLES + 1, most=1_000_000, why=why)
     duration = spec.lasting(cycles * period)
     ramp = _RAMP_CYCLES * period
     time = sample_times(duration)

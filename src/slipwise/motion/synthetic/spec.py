@@ -67,8 +67,15 @@ class Spec:
             raise InputError(f"{self.text}: {what} is {text!r}; no table reaches {_LARGEST:g} m/s^2")
         return value
 
-    def whole(self, name: str, default: int, least: int, most: int) -> int:
+    def whole(self, name: str, default: int, least: int, most: int, why: str = "") -> int:
         """Give an option that is a whole number.
+
+        Args:
+            name: of the option.
+            default: where it is not given.
+            least: smallest that is possible.
+            most: largest.
+            why: reason for the smallest, for the message.
 
         Raises:
             InputError: it is not one, or out of its range.
@@ -77,7 +84,10 @@ class Spec:
             return default
         (text,) = self.take(name, ("a whole number",))
         if not text.isascii() or not text.isdigit() or not least <= int(text[:12]) <= most or len(text) > 12:
-            raise InputError(f"{self.text}: {name} is {text!r}; it must be a whole number from {least} to {most}")
+            reason = f" ({why})" if why else ""
+            raise InputError(
+                f"{self.text}: {name} is {text!r}; it must be a whole number from {least}{reason} to {most}"
+            )
         return int(text)
 
     def take(self, name: str, meaning: Sequence[str], optional: int = 0) -> tuple[str, ...]:

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.effects import catalogue
 from slipwise.instruments.acceptance import Evidence, possible, weigh
 from slipwise.instruments.delay_or_filter import is_delay
 from slipwise.instruments.joint_fit import Case, Fit, fit, noise_with_itself, signature, start
@@ -28,8 +27,8 @@ _ALIKE = 45.0
 
 
 @dataclass(frozen=True)
-class Verdict:
-    """What was found.
+class FaultSelection:
+    """The faults that were selected.
 
     Attributes:
         fit: the last joint fit.
@@ -46,7 +45,7 @@ class Verdict:
     physics: tuple[str, ...]
 
 
-def judge(case: Case, begun: Fit | None = None) -> Verdict:
+def select_faults(case: Case, begun: Fit | None = None) -> FaultSelection:
     """Choose explanations one by one until nothing is worth another.
 
     Args:
@@ -56,7 +55,7 @@ def judge(case: Case, begun: Fit | None = None) -> Verdict:
     first = here = begun or start(case)
     # before physics is named, what a fault that stands has left is what the next one has to explain
     plain = first
-    candidates: list[Suspect | Alternative] = [*suspects(case.runs[0].record)]
+    candidates: list[Suspect | Alternative] = [*suspects(case.runs[0].record, case.effects)]
     blocks: list[Block] = []
     itself: list[Mapping[str, float]] = []
     one_sided: list[bool] = []
@@ -65,7 +64,7 @@ def judge(case: Case, begun: Fit | None = None) -> Verdict:
         blocks.append(signature(case, who, first.corrected, first.stack, first.constants))
         itself.append(noise_with_itself(case, who, first.corrected, first.stack, first.constants))
         one_sided.append(who.one_sided)
-    for alternative in alternatives(case.runs, case.relations):
+    for alternative in alternatives(case.runs, case.relations, case.effects):
         candidates.append(alternative)
         blocks.append(alternative.columns)
         itself.append({})
@@ -118,7 +117,7 @@ def judge(case: Case, begun: Fit | None = None) -> Verdict:
             here = tried
             plain = plain if here.model.physics else here
     physics = tuple(a.name for a in here.model.physics)
-    return Verdict(here, _as_fitted_last(accepted, here), _as_fitted_last(small, here), tuple(refused), physics)
+    return FaultSelection(here, _as_fitted_last(accepted, here), _as_fitted_last(small, here), tuple(refused), physics)
 
 
 def _disturbed(
@@ -159,7 +158,7 @@ def _plainer(
             if i not in fits:
                 fits[i] = _with(case, here, other)
                 found[i] = fits[i].score - here.score
-            same = is_delay(catalogue()[who.effect], who.values(fits[best].model.sizes[-1][1]), case.passed)
+            same = is_delay(who.effect, who.values(fits[best].model.sizes[-1][1]), case.passed)
             if found[i] > _WORTH and (same or found[i] > found[best] - _ALIKE):
                 return i
     return best
@@ -169,7 +168,7 @@ def _is_fuller(who: Suspect | Alternative, other: Suspect | Alternative) -> bool
     """Tell whether a suspect is the fuller form of another on the same gauges: a filter of a delay."""
     if not isinstance(who, Suspect) or not isinstance(other, Suspect):
         return False
-    return (catalogue()[who.effect].plainer, who.target) == (other.effect, other.target)
+    return (who.effect.plainer, who.target) == (other.effect.name, other.target)
 
 
 def _loss(rival: tuple[str, float]) -> float:
@@ -193,4 +192,4 @@ def _with(case: Case, here: Fit, who: Suspect | Alternative) -> Fit:
 
 
 def _called(who: Suspect | Alternative) -> str:
-    return who.name if isinstance(who, Alternative) else f"{who.effect} {who.label}"
+    return who.name if isinstance(who, Alternative) else f"{who.effect.name} {who.label}"
