@@ -33,7 +33,7 @@ Hooks that tell what some of its numbers mean:
 
 `EFFECT` also declares what hooks cannot say: what a campaign needs to test it, what it turns or shifts in time, which
 gauges it sits on, what it is one thing with. No other file knows an effect by its name, so that a user's own file has
-every right that a file of the catalogue has.
+every right that a file of the catalogue has, but for a role in the base model and faults that are found in samples.
 """
 
 import fnmatch
