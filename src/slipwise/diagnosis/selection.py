@@ -25,7 +25,7 @@ class SelectionResult:
     Attributes:
         base: the base fit.
         search: what was looked at.
-        faults: of samples, which were turned back, bridged or left out before.
+        faults: of samples, which were reversed, bridged or left out before.
         uncorrected: residuals of the base fit of the campaign as it was recorded.
     """
 
@@ -36,7 +36,7 @@ class SelectionResult:
 
 
 def prepared(campaign: Campaign) -> tuple[Campaign, InvalidSamples, tuple[SampleFault, ...]]:
-    """Give a campaign with wrong signs turned back, the samples that must not be judged, and the faults found."""
+    """Give a campaign with wrong signs reversed, the samples that must not be judged, and the faults found."""
     faults = tuple(fault for fault in sample_faults(campaign) if fault.kind in _OF_GAUGES)
     return (*for_fits(campaign, faults), faults) if faults else (campaign, {}, ())
 

@@ -1,6 +1,6 @@
 """Records without the harm that bad samples do: balances leave rows out, fits leave samples out.
 
-A wrong sign is turned back in both. A balance looks at all channels at one instant, so that one bad sample costs a row;
+A wrong sign is reversed in both. A balance looks at all channels at one instant, so that one bad sample costs a row;
 a fit judges channel by channel.
 """
 
@@ -30,7 +30,7 @@ _AROUND = 0.03
 def for_balances(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[dict[str, Record], dict[str, Mask]]:
     """Give records in which bad samples do no harm to the balances, and the samples to leave out, by run.
 
-    Wrong signs are turned back, repeated samples bridged; around rails and gaps rows are left out; a channel that is
+    Wrong signs are reversed, repeated samples bridged; around rails and gaps rows are left out; a channel that is
     dead, or has lost samples and so its place in time, is taken out.
     """
     records, out = {}, {}
@@ -57,7 +57,7 @@ def for_balances(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[dic
 
 
 def for_fits(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[Campaign, InvalidSamples]:
-    """Turn wrong signs back, bridge repeated samples, and tell which samples of each channel must not be judged.
+    """Reverse wrong signs, bridge repeated samples, and tell which samples of each channel must not be judged.
 
     Args:
         campaign: as recorded.

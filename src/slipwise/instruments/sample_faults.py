@@ -41,7 +41,7 @@ class SampleFault:
         kind: "turned", "dead", "upper rail", "lower rail", "held", "lost" or "gap".
         channels: that show it.
         size: rail in the channel's unit; -1 for a wrong sign; else share of all samples [1].
-        bad: run -> samples that are no measurement (n,); none of a wrong sign, which is turned back.
+        bad: run -> samples that are no measurement (n,); none of a wrong sign, which is reversed.
         runs: names of the runs that show it.
     """
 
