@@ -228,7 +228,7 @@ def _add_sensors(spec: mujoco.MjSpec, specimen: Specimen) -> None:
     The integrator moves positions after the sensors are read: states taken from the data would be one step late.
     """
     kinds, body = mujoco.mjtSensor, mujoco.mjtObj
-    size = 3 * len(specimen.pads) + 2 * len(specimen.buffer_stiffness) + 3
+    size = 4 * len(specimen.pads) + 2 * len(specimen.buffer_stiffness) + 3
     spec.add_sensor(name="pads", type=kinds.mjSENS_USER, dim=size, needstage=mujoco.mjtStage.mjSTAGE_ACC,
                     datatype=mujoco.mjtDataType.mjDATATYPE_REAL)  # fmt: skip
     sites = ["girder_centre"] + (["girder_edge_1", "girder_edge_2"] if specimen.free else [])

@@ -64,9 +64,8 @@ class EnergyBook:
         self.table += _work(push, steps[:, :3])
         self.others += _work(np.full((len(at), 1), -rigid * specimen.gravity), steps[:, 2:3])
         n_pads = len(specimen.pads)
-        arms = np.array(specimen.pad_places) - [specimen.centre_x, specimen.centre_y]
-        lift = at[:, 2:3] + at[:, 3:4] * arms[:, 1] - at[:, 4:5] * arms[:, 0]
-        self.others += _work(user[:, 0 : 3 * n_pads : 3], np.diff(lift, axis=0))
+        # Where the girder tilts, a pad pushes it sideways too, and from a place that slips: its compression knows both.
+        self.others -= _work(user[:, 0 : 3 * n_pads : 3], np.diff(user[:, -n_pads:], axis=0))
         girder = [int(rig.model.joint(f"girder_{n}").dofadr[0]) for n in names]
         slip = np.diff(at @ rig.jacobian[:, girder].T, axis=0)
         force = np.empty((len(at), 2 * n_pads))
@@ -74,8 +73,8 @@ class EnergyBook:
         per_row = np.sum(0.5 * (force[1:] + force[:-1]) * slip[:, : 2 * n_pads], axis=0)
         done = per_row[0::2] + per_row[1::2]
         self.friction = done if self.friction is None else self.friction + done
-        self.buffers += _work(user[:, 3 * n_pads : -3], slip[:, 2 * n_pads :])
-        self.others += _work(user[:, -3:], steps[:, :3])
+        self.buffers += _work(user[:, 3 * n_pads : -3 - n_pads], slip[:, 2 * n_pads :])
+        self.others += _work(user[:, -3 - n_pads : -n_pads], steps[:, :3])
         if has_sensor(rig, "at_bending"):
             self._add_bending(sensordata, at)
         kinetic = 0.5 * np.sum(inertia * rate[[0, -1]] ** 2, axis=1)

@@ -25,8 +25,16 @@ def has_sensor(rig: Rig, name: str) -> bool:
     return mujoco.mj_name2id(rig.model, mujoco.mjtObj.mjOBJ_SENSOR, name) >= 0
 
 
-def to_channels(rig: Rig, sensordata: Array, control: Array) -> dict[str, Array]:
-    """Turn sensordata (n, n_sensors) and the table's command (n, 4) into channels, each (n,) in SI."""
+def to_channels(rig: Rig, sensordata: Array, control: Array, dt: float, pitching: bool) -> dict[str, Array]:
+    """Turn what a simulation read into channels, each (n,) in SI.
+
+    Args:
+        rig: that was shaken.
+        sensordata: (n, n_sensors).
+        control: (n, 4) command of the table.
+        dt: step of the simulation [s].
+        pitching: whether the table turns at any time of the run, which then has a channel for it.
+    """
     specimen = rig.specimen
     out: dict[str, Array] = {f"table_a{axis}": control[:, i] for i, axis in enumerate("xyz")}
 
@@ -35,7 +43,7 @@ def to_channels(rig: Rig, sensordata: Array, control: Array) -> dict[str, Array]
 
     for axis in "xyz":
         out[f"table_d{axis}"] = one(f"at_table_{axis}")
-    if np.any(control[:, 3]):
+    if pitching:
         out["table_pitch"] = one("at_table_pitch")
     # MuJoCo's accelerations are those of a frame in free fall: at rest they read +g.
     centre = sensor(rig, "girder_centre", sensordata) - [0.0, 0.0, specimen.gravity]
@@ -44,7 +52,7 @@ def to_channels(rig: Rig, sensordata: Array, control: Array) -> dict[str, Array]
     for edge in ("1", "2"):
         if has_sensor(rig, f"girder_edge_{edge}"):
             out[f"girder_az_{edge}"] = sensor(rig, f"girder_edge_{edge}", sensordata)[:, 2] - specimen.gravity
-    half_step = 0.5 * rig.model.opt.timestep
+    half_step = 0.5 * dt
     if specimen.free:
         turning = sensor(rig, "turning", sensordata)
         out.update(_motion(rig, one, half_step, centre - control[:, :3], turning))

@@ -17,7 +17,8 @@ from slipwise.simulation.kernel.layout import buffer_memories, pad_memories
 from slipwise.simulation.predict import shaking, user_effects
 from slipwise.simulation.result import Memory, Replay, SimulationDiverged
 from slipwise.simulation.sensor_channels import to_channels
-from slipwise.simulation.steps import numbers_for, run_compiled, run_python
+from slipwise.simulation.steps import numbers_for
+from slipwise.simulation.substeps import run
 
 Array = NDArray[np.float64]
 #: A slip beyond this [m] is no longer a girder on a table.
@@ -33,47 +34,53 @@ class _Collector:
 
     def __init__(self, rig: Rig, control: Array, every: int) -> None:
         self.rig, self.control, self.every = rig, control, every
+        self.dt = float(rig.model.opt.timestep)
+        self.pitching = bool(np.any(control[:, 3]))
+        self.uplift = 0.0
         self.book = EnergyBook(rig)
-        self.parts: list[Array] = []
+        self.parts: list[dict[str, Array]] = []
         self.done = 0
-        self.uplift_steps = 0
         count = len(rig.specimen.pads)
         self.load_low, self.load_high = np.full(count, np.inf), np.full(count, -np.inf)
         self.friction = np.zeros(count)
         self.slip_low, self.slip_high = np.inf, -np.inf
         self.trouble = ""
 
-    def add(self, first: int, sensordata: Array) -> bool:
-        """Take a chunk (n, n_sensors); False when the simulation left all bounds."""
+    def add(self, sensordata: Array, control: Array, dt: float) -> bool:
+        """Take a chunk (n, n_sensors), its command (n, 4) and its step [s]; False when it left all bounds."""
         fine = np.all(np.isfinite(sensordata), axis=1)
         if not fine.all():
             self.trouble = "a value is not a number any more"
             sensordata = sensordata[: int(np.argmin(fine))]
         if len(sensordata):
-            self._take(first, sensordata)
+            self._take(sensordata, control[: len(sensordata)], dt)
         return not self.trouble
 
-    def _take(self, first: int, sensordata: Array) -> None:
-        control = self.control[first : first + len(sensordata)]
-        channels = to_channels(self.rig, sensordata, control)
+    def _take(self, sensordata: Array, control: Array, dt: float) -> None:
+        channels = to_channels(self.rig, sensordata, control, dt, self.pitching)
         loads = np.stack([channels[f"pad_{p}_N"] for p in self.rig.specimen.pads], axis=1)
         frictions = [np.hypot(channels[f"pad_{p}_Fx"], channels[f"pad_{p}_Fy"]).max() for p in self.rig.specimen.pads]
         self.friction = np.maximum(self.friction, frictions)
         self.load_low = np.minimum(self.load_low, loads.min(axis=0))
         self.load_high = np.maximum(self.load_high, loads.max(axis=0))
-        self.uplift_steps += int(np.count_nonzero(np.any(loads <= 0.0, axis=1)))
+        self.uplift += dt * np.count_nonzero(np.any(loads <= 0.0, axis=1))
         slip = channels["slip_x"]
         self.slip_low, self.slip_high = min(self.slip_low, slip.min()), max(self.slip_high, slip.max())
         if max(abs(self.slip_low), abs(self.slip_high)) > _FAR:
             self.trouble = f"the slip grew beyond {_FAR:g} m"
         self.book.add(sensordata, control)
-        self.parts.append(sensordata[(-first) % self.every :: self.every])
-        self.done = first + len(sensordata)
+        split = round(self.dt / dt)
+        kept = slice(split * ((-self.done) % self.every), None, split * self.every)
+        self.parts.append({name: values[kept] for name, values in channels.items()})
+        self.done += -(-len(sensordata) // split)
 
     def channels(self) -> dict[str, Array]:
         """Give every channel at the output rate."""
-        kept = np.concatenate(self.parts) if self.parts else np.empty((0, self.rig.model.nsensordata))
-        return to_channels(self.rig, kept, self.control[: self.done : self.every][: len(kept)])
+        if not self.parts:
+            return to_channels(
+                self.rig, np.empty((0, self.rig.model.nsensordata)), self.control[:0], self.dt, self.pitching
+            )
+        return {name: np.concatenate([part[name] for part in self.parts]) for name in self.parts[0]}
 
 
 def simulate(
@@ -113,19 +120,18 @@ def simulate(
     engine = engine_for(own) if engine == ENGINES[0] else engine
     law = kernel(engine, own)
     rig = build(model.built_specimen(), dt, law.layout.size)
-    run = run_compiled if engine == ENGINES[0] else run_python
     told = progress or (lambda share: None)
 
     def shaken(control: Array, kept: int) -> tuple[_Collector, Array, str]:
         numbers = _remember(law, model, numbers_for(law, rig, model, dt), start, rest)
         collector = _Collector(rig, control, kept)
 
-        def each(first: int, sensordata: Array) -> bool:
-            going = collector.add(first, sensordata[0])
-            told(min(1.0, (first + sensordata.shape[1]) / len(control)))
+        def each(sensordata: Array, command: Array, step: float) -> bool:
+            going = collector.add(sensordata, command, step)
+            told(collector.done / len(control))
             return going
 
-        stopped = collector.trouble or run(law, rig, numbers[None], control[None], each) or collector.trouble
+        stopped = run(law, rig, numbers, control, each) or collector.trouble
         return collector, numbers, stopped
 
     girder = np.zeros(len(acceleration))
@@ -190,7 +196,7 @@ def _answer(
     return Replay(
         record=record,
         pad_energy=dict(zip(pads, map(float, energy), strict=True)),
-        uplift=collector.uplift_steps * dt,
+        uplift=float(collector.uplift),
         energy_error=collector.book.error(),
         slip_range=(float(collector.slip_low), float(collector.slip_high)),
         load_range={

@@ -1,23 +1,20 @@
-"""Runs a model under a table motion, chunk by chunk, in either engine."""
+"""What a simulation starts from: the law's numbers, the girder at rest, MuJoCo's model without what the law does."""
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+import copy
 
 import mujoco
 import numpy as np
-from mujoco.batch import Batch
-from mujoco.batch import SimulationError as BatchError
 from numpy.typing import NDArray
 
 from slipwise.model import Model
 from slipwise.rig import Rig
 from slipwise.rig.statics import at_rest
-from slipwise.simulation.kernel import Kernel, fill, installed, places
+from slipwise.simulation.kernel import Kernel, fill, places
 from slipwise.simulation.kernel.places import MAX_DOFS
 
 Array = NDArray[np.float64]
-#: Steps between two looks at progress and at the health of a simulation.
-CHUNK = 2000
+#: Gap [m] below which the law is asked for the load of a pad: more than any girder is thrown.
+_REACH = 0.5
 
 
 def numbers_for(law: Kernel, rig: Rig, model: Model, dt: float) -> Array:
@@ -36,7 +33,9 @@ def numbers_for(law: Kernel, rig: Rig, model: Model, dt: float) -> Array:
     jacobian = np.zeros((n_tendons, MAX_DOFS))
     jacobian[:, : rig.model.nv] = rig.jacobian
     numbers[places.JACOBIAN : places.JACOBIAN + jacobian.size] = jacobian.ravel()
-    numbers[places.LOAD : places.LOAD + n_pads] = at_rest(rig.specimen).load
+    numbers[places.PAD_STIFFNESS] = rig.specimen.pad_stiffness
+    numbers[places.RATE_AGE] = dt
+    numbers[places.PAD_DAMPING] = rig.specimen.pad_damping
     return numbers
 
 
@@ -63,79 +62,17 @@ def start_state(rig: Rig) -> Array:
     return np.array(data.qpos)
 
 
-@contextmanager
-def without_springs(rig: Rig) -> Iterator[mujoco.MjModel]:
-    """Give the model without the buffers' own springs: the law's buffers take their place.
+def under_law(rig: Rig, dt: float) -> mujoco.MjModel:
+    """Give a copy of the rig's model for a step dt [s] in which the law takes the place of buffers and of contacts.
 
-    The springs stay in the file so that it behaves in any viewer.
+    The buffers' springs are left out; they stay in the rig so that it behaves in any viewer. The law says what a
+    contact carries and has to be asked before a pad touches.
     """
-    kept = np.array(rig.model.tendon_stiffness)
-    rig.model.tendon_stiffness[list(rig.tendons)] = 0.0
-    try:
-        yield rig.model
-    finally:
-        rig.model.tendon_stiffness[:] = kept
-
-
-def run_compiled(
-    law: Kernel, rig: Rig, numbers: Array, control: Array, each: Callable[[int, Array], bool], threads: int = 1
-) -> str:
-    """Step simulations with the compiled law; several at once when `numbers` has several rows.
-
-    Args:
-        law: the compiled kernel.
-        rig: the compiled specimen.
-        numbers: (n_sims, size) of `numbers_for`; holds the final memory afterwards.
-        control: (n_sims, n_steps, 4) table acceleration [m/s^2, rad/s^2].
-        each: called after every chunk with the index of its first step and sensordata (n_sims, n, n_sensors); stop if
-            it answers False.
-        threads: that step simulations side by side.
-
-    Returns:
-        "" or what MuJoCo reported when it stopped.
-    """
-    with without_springs(rig) as model:
-        batch = Batch(model, len(numbers), threads)
-        batch.bind("qpos")[:] = start_state(rig)
-        batch.bind("userdata")[:] = numbers
-        with installed(law):
-            for first in range(0, control.shape[1], CHUNK):
-                part = control[:, first : first + CHUNK]
-                try:
-                    out = batch.rollout(part.shape[1], part, record=("sensordata",))
-                except BatchError as error:
-                    return str(error)
-                if not each(first, out["sensordata"]):
-                    break
-                if np.any(batch.warning):
-                    return _warning(batch.warning.reshape(len(numbers), -1).sum(axis=0))
-        numbers[:] = batch.bind("userdata")
-    return ""
-
-
-def run_python(law: Kernel, rig: Rig, numbers: Array, control: Array, each: Callable[[int, Array], bool]) -> str:
-    """Step one simulation with the law in plain Python; arguments as `run_compiled`, with one simulation."""
-    with without_springs(rig) as model:
-        data = mujoco.MjData(model)
-        data.qpos[:] = start_state(rig)
-        data.userdata[:] = numbers[0]
-        with installed(law):
-            for first in range(0, control.shape[1], CHUNK):
-                part = control[0, first : first + CHUNK]
-                out = np.empty((1, len(part), model.nsensordata))
-                for i, command in enumerate(part):
-                    data.ctrl[:] = command
-                    mujoco.mj_step(model, data)
-                    out[0, i] = data.sensordata
-                if not each(first, out):
-                    break
-                warnings = np.array([w.number for w in data.warning])
-                if warnings.any():
-                    return _warning(warnings)
-        numbers[0] = data.userdata
-    return ""
-
-
-def _warning(counts: Array) -> str:
-    names = [w.name.removeprefix("mjWARN_").lower() for w in mujoco.mjtWarning.__members__.values()]
-    return "MuJoCo warned: " + ", ".join(name for name, count in zip(names, counts, strict=False) if count)
+    model = copy.copy(rig.model)
+    model.opt.timestep = dt
+    tendons = list(rig.tendons)
+    model.tendon_stiffness[tendons] = 0.0
+    model.tendon_solref_fri[tendons, 0] *= dt / rig.model.opt.timestep
+    pads = list(rig.pad_geoms)
+    model.geom_margin[pads] = model.body_margin[model.geom_bodyid[pads]] = _REACH
+    return model

@@ -5,7 +5,6 @@ start again from what was measured keep such an error from swamping everything.
 """
 
 from collections.abc import Sequence
-from contextlib import ExitStack
 from dataclasses import dataclass
 
 import mujoco
@@ -20,7 +19,7 @@ from slipwise.simulation.kernel.layout import buffer_memories, pad_memories
 from slipwise.simulation.predict import shaking, user_effects
 from slipwise.simulation.sensor_channels import to_channels
 from slipwise.simulation.simulator import DT, Memory
-from slipwise.simulation.steps import numbers_for, start_state, without_springs
+from slipwise.simulation.steps import numbers_for, start_state, under_law
 
 Array = NDArray[np.float64]
 #: Samples between two pauses in which what lies between the samples is thrown away.
@@ -80,7 +79,9 @@ def simulate_models(
     out, first = [], 0
     for rig, control in zip(rigs, controls, strict=True):
         part = seen[first : first + len(control)]
-        out.append([to_channels(rig, data, command[::every]) for data, command in zip(part, control, strict=True)])
+        pitching = bool(np.any(control[..., 3]))
+        pairs = zip(part, control[:, ::every], strict=True)
+        out.append([to_channels(rig, data, command, dt, pitching) for data, command in pairs])
         first += len(control)
     return out
 
@@ -128,24 +129,22 @@ def _in_batch(
 ) -> Array:
     """Step all windows of all models together; gives sensordata (all windows, samples, sensors)."""
     each = [(r, i, w) for r, w in zip(rigs, windows, strict=True) for i in range(len(w.start))]
-    with ExitStack() as stack:
-        for rig in {id(r): r for r in rigs}.values():
-            stack.enter_context(without_springs(rig))
-        batch = Batch(rigs[0].model, len(each), threads)
-        if any(rig is not rigs[0] for rig in rigs):
-            batch.set_models([rig.model for rig, _, _ in each])
-        starts = [_start(rig, w.slip[i], w.velocity[i]) for rig, i, w in each]
-        batch.bind("qpos")[:] = np.stack([position for position, _ in starts])
-        batch.bind("qvel")[:] = np.stack([rate for _, rate in starts])
-        batch.bind("time")[:] = np.concatenate([w.start for w in windows])
-        batch.bind("userdata")[:] = numbers
-        parts = []
-        with installed(law):
-            for first in range(0, control.shape[1], _CHUNK * every):
-                part = control[:, first : first + _CHUNK * every]
-                parts.append(batch.rollout(part.shape[1], part, record=("sensordata",))["sensordata"][:, ::every])
-        out = np.concatenate(parts, axis=1)
-        out[batch.warning.reshape(len(each), -1).any(axis=1)] = np.nan
+    models = {id(rig): under_law(rig, float(rig.model.opt.timestep)) for rig in rigs}
+    batch = Batch(models[id(rigs[0])], len(each), threads)
+    if len(models) > 1:
+        batch.set_models([models[id(rig)] for rig, _, _ in each])
+    starts = [_start(rig, w.slip[i], w.velocity[i]) for rig, i, w in each]
+    batch.bind("qpos")[:] = np.stack([position for position, _ in starts])
+    batch.bind("qvel")[:] = np.stack([rate for _, rate in starts])
+    batch.bind("time")[:] = np.concatenate([w.start for w in windows])
+    batch.bind("userdata")[:] = numbers
+    parts = []
+    with installed(law):
+        for first in range(0, control.shape[1], _CHUNK * every):
+            part = control[:, first : first + _CHUNK * every]
+            parts.append(batch.rollout(part.shape[1], part, record=("sensordata",))["sensordata"][:, ::every])
+    out = np.concatenate(parts, axis=1)
+    out[batch.warning.reshape(len(each), -1).any(axis=1)] = np.nan
     return out
 
 
@@ -156,16 +155,16 @@ def _one_by_one(
     each = [(r, i, w) for r, w in zip(rigs, windows, strict=True) for i in range(len(w.start))]
     out = np.empty((len(each), -(-control.shape[1] // every), rigs[0].model.nsensordata))
     for row, (rig, i, w) in enumerate(each):
-        with without_springs(rig) as compiled:
-            data = mujoco.MjData(compiled)
-            data.qpos[:], data.qvel[:] = _start(rig, w.slip[i], w.velocity[i])
-            data.time, data.userdata[:] = w.start[i], numbers[row]
-            with installed(law):
-                for step, command in enumerate(control[row]):
-                    data.ctrl[:] = command
-                    mujoco.mj_step(compiled, data)
-                    if step % every == 0:
-                        out[row, step // every] = data.sensordata
-            if any(warning.number for warning in data.warning):
-                out[row] = np.nan
+        compiled = under_law(rig, float(rig.model.opt.timestep))
+        data = mujoco.MjData(compiled)
+        data.qpos[:], data.qvel[:] = _start(rig, w.slip[i], w.velocity[i])
+        data.time, data.userdata[:] = w.start[i], numbers[row]
+        with installed(law):
+            for step, command in enumerate(control[row]):
+                data.ctrl[:] = command
+                mujoco.mj_step(compiled, data)
+                if step % every == 0:
+                    out[row, step // every] = data.sensordata
+        if any(warning.number for warning in data.warning):
+            out[row] = np.nan
     return out

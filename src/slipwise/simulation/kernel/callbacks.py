@@ -10,10 +10,10 @@ from contextlib import contextmanager
 from typing import Any
 
 import mujoco
-import numpy as np
 
 from slipwise.errors import SettingError
 from slipwise.simulation.kernel import places
+from slipwise.simulation.kernel.contact import APART, begin_step, press_pad
 from slipwise.simulation.kernel.engine import Kernel
 
 _CONTROL = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)
@@ -48,28 +48,22 @@ def _python_callbacks(law: Kernel) -> tuple[Any, Any]:
     acceleration = int(mujoco.mjtStage.mjSTAGE_ACC)
 
     def control(model: Any, data: Any) -> None:
+        u, contact = data.userdata, data.contact
+        begin_step(u, data.qfrc_applied)
+        geoms = [int(g) for g in u[places.PAD_GEOM : places.PAD_GEOM + int(u[places.N_PADS])]]
+        push = data.efc_J.reshape(data.nefc, model.nv)
+        for first, second, row in zip(contact.geom1, contact.geom2, contact.efc_address, strict=True):
+            if row >= 0:
+                data.efc_aref[row] = APART
+                for pad, geom in enumerate(geoms):
+                    if geom in (first, second):
+                        press_pad(u, pad, -data.efc_pos[row], -data.efc_vel[row], push[row], data.qfrc_applied)
         control_step(
-            data.userdata,
-            data.time,
-            data.ten_length,
-            data.ten_velocity,
-            data.qvel,
-            data.efc_frictionloss,
-            data.qfrc_applied,
+            u, data.time, data.ten_length, data.ten_velocity, data.qvel, data.efc_frictionloss, data.qfrc_applied
         )
 
     def sensor(model: Any, data: Any, stage: int) -> None:
-        if stage != acceleration:
-            return
-        u = data.userdata
-        loads = np.zeros(4)
-        contact = data.contact
-        geoms = [int(g) for g in u[places.PAD_GEOM : places.PAD_GEOM + int(u[places.N_PADS])]]
-        for first, second, row in zip(contact.geom1, contact.geom2, contact.efc_address, strict=True):
-            if row >= 0:
-                for pad, geom in enumerate(geoms):
-                    if geom in (first, second):
-                        loads[pad] += data.efc_force[row]
-        sensor_step(u, loads, data.time, data.ten_length, data.ten_velocity, data.efc_force, data.sensordata)
+        if stage == acceleration:
+            sensor_step(data.userdata, data.time, data.ten_length, data.ten_velocity, data.efc_force, data.sensordata)
 
     return control, sensor

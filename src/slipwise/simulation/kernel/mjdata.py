@@ -79,7 +79,8 @@ def offsets() -> Offsets:
         SimulationError: this build of MuJoCo lays its data out in another way.
     """
     data_fields = ("time", "ncon", "contact", "userdata", "qvel", "qfrc_applied", "ten_length", "ten_velocity",
-                   "efc_frictionloss", "efc_force", "sensordata")  # fmt: skip
+                   "efc_frictionloss", "efc_pos",
+                   "efc_vel", "efc_J", "efc_aref", "efc_force", "sensordata")  # fmt: skip
     data, contact = _structure("mjData"), _structure("mjContact")
     found = Offsets(
         data={name: getattr(data, name).offset for name in data_fields},
@@ -98,7 +99,7 @@ def _check(found: Offsets) -> None:
     live.userdata[:] = [3.0, 4.0]
     mujoco.mj_forward(model, live)
     base = live._address
-    for name in ("userdata", "qvel", "qfrc_applied", "ten_length", "ten_velocity", "sensordata"):
+    for name in ("userdata", "qvel", "qfrc_applied", "ten_length", "ten_velocity", "sensordata", "efc_J"):
         pointer = ctypes.c_void_p.from_address(base + found.data[name]).value
         if pointer != getattr(live, name).__array_interface__["data"][0]:
             raise SimulationError(_moved(name))
@@ -106,7 +107,7 @@ def _check(found: Offsets) -> None:
         raise SimulationError(_moved("time"))
     if ctypes.c_int.from_address(base + found.data["ncon"]).value != live.ncon or live.ncon != 2:
         raise SimulationError(_moved("ncon"))
-    for name in ("efc_frictionloss", "efc_force"):
+    for name in ("efc_frictionloss", "efc_pos", "efc_vel", "efc_aref", "efc_force"):
         pointer = ctypes.c_void_p.from_address(base + found.data[name]).value or 0
         values = (ctypes.c_double * live.nefc).from_address(pointer)
         if list(values) != list(getattr(live, name)):

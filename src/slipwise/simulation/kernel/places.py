@@ -38,12 +38,19 @@ TENDON = PAD_GEOM + MAX_PADS
 FRICTION_ROW = TENDON + 2 * (MAX_PADS + MAX_BUFFERS)
 #: Per tendon: its rate over the rate of each degree of freedom.
 JACOBIAN = FRICTION_ROW + 2 * MAX_PADS
-#: Per pad: normal load of the step before [N].
-LOAD = JACOBIAN + 2 * (MAX_PADS + MAX_BUFFERS) * MAX_DOFS
-#: Per pad: normal load of the step at hand while it is summed up [N].
-NEW_LOAD = LOAD + MAX_PADS
+#: Of each pad's spring and damper [N/m, N s/m].
+PAD_STIFFNESS = JACOBIAN + 2 * (MAX_PADS + MAX_BUFFERS) * MAX_DOFS
+PAD_DAMPING = PAD_STIFFNESS + 1
+#: Per pad: rate at which it was compressed in the step before [m/s].
+COMPRESSION_RATE = PAD_DAMPING + 1
+#: Time between those rates and the ones of the step [s].
+RATE_AGE = COMPRESSION_RATE + MAX_PADS
+#: Per pad: compression of its spring, negative where it does not touch [m].
+COMPRESSION = RATE_AGE + 1
+#: Per pad: normal load of the step [N].
+LOAD = COMPRESSION + MAX_PADS
 #: Per pad: friction force that it can carry, s A_r [N].
-BOUND = NEW_LOAD + MAX_PADS
+BOUND = LOAD + MAX_PADS
 #: Per pad: force of the girder on it that is not dry friction, along x and y [N].
 EXPLICIT = BOUND + MAX_PADS
 #: Per pad: dry friction of the step before, along x and y [N].

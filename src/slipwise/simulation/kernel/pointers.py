@@ -15,9 +15,10 @@ from numba.np.numpy_support import carray
 from numpy.typing import NDArray
 
 from slipwise.simulation.kernel.compilable import compilable
+from slipwise.simulation.kernel.contact import APART, begin_step, press_pad
 from slipwise.simulation.kernel.dispatch import Dispatch
 from slipwise.simulation.kernel.mjdata import Offsets
-from slipwise.simulation.kernel.places import MAX_PADS, N_PADS, NEW_LOAD, PAD_GEOM
+from slipwise.simulation.kernel.places import N_DOFS, N_PADS, PAD_GEOM
 from slipwise.simulation.kernel.step import control_step, sensor_step
 
 Array = NDArray[np.float64]
@@ -40,6 +41,10 @@ class Fields(NamedTuple):
     ten_length: int
     ten_velocity: int
     efc_frictionloss: int
+    efc_pos: int
+    efc_vel: int
+    efc_J: int  # noqa: N815 - MuJoCo's name
+    efc_aref: int
     efc_force: int
     sensordata: int
     contact_size: int
@@ -81,49 +86,53 @@ def _numbers(address: Any, size: int) -> Array:
 
 @compilable
 def control_at(effects: Dispatch, at: Fields, data: int) -> None:
-    """Do `control_step` on the `mjData` at the address `data`."""
+    """Do `control_step` on the `mjData` at the address `data`, once the pads' loads are known.
+
+    Only a contact that has a row of constraints is near enough to bear anything. The row itself is kept from acting.
+    """
     words = carray(_as_pointer(data), (at.size,), np.int64)
+    u = _numbers(words[at.userdata], at.userdata_size)
+    applied = _numbers(words[at.qfrc_applied], _SHORT)
+    position = _numbers(words[at.efc_pos], _LONG)
+    velocity = _numbers(words[at.efc_vel], _LONG)
+    jacobian = _numbers(words[at.efc_J], _LONG)
+    reference = _numbers(words[at.efc_aref], _LONG)
+    begin_step(u, applied)
+    dofs = int(u[N_DOFS])
+    for i in range(carray(_as_pointer(data), (2 * at.size,), np.int32)[at.ncon]):
+        contact = carray(_as_pointer(words[at.contact] + 4 * i * at.contact_size), (at.contact_size,), np.int32)
+        row = contact[at.efc_address]
+        if row >= 0:
+            reference[row] = APART
+            for pad in range(int(u[N_PADS])):
+                geom = int(u[PAD_GEOM + pad])
+                if contact[at.geom1] == geom or contact[at.geom2] == geom:
+                    push = jacobian[row * dofs : (row + 1) * dofs]
+                    press_pad(u, pad, -position[row], -velocity[row], push, applied)
     control_step(
         effects,
-        _numbers(words[at.userdata], at.userdata_size),
+        u,
         _numbers(data, at.size)[at.time],
         _numbers(words[at.ten_length], _SHORT),
         _numbers(words[at.ten_velocity], _SHORT),
         _numbers(words[at.qvel], _SHORT),
         _numbers(words[at.efc_frictionloss], _SHORT),
-        _numbers(words[at.qfrc_applied], _SHORT),
+        applied,
     )
 
 
 @compilable
 def sensor_at(effects: Dispatch, at: Fields, data: int, stage: int) -> None:
-    """Do `sensor_step` on the `mjData` at the address `data`, once its accelerations are known.
-
-    The load of a pad is the sum of the forces of its contacts. Only a contact that has rows of constraints bears any.
-    """
+    """Do `sensor_step` on the `mjData` at the address `data`, once its accelerations are known."""
     if stage != _ACCELERATION:
         return
     words = carray(_as_pointer(data), (at.size,), np.int64)
-    u = _numbers(words[at.userdata], at.userdata_size)
-    force = _numbers(words[at.efc_force], _LONG)
-    loads = u[NEW_LOAD : NEW_LOAD + MAX_PADS]
-    loads[:] = 0.0
-    ncon = carray(_as_pointer(data), (2 * at.size,), np.int32)[at.ncon]
-    for i in range(ncon):
-        contact = carray(_as_pointer(words[at.contact] + 4 * i * at.contact_size), (at.contact_size,), np.int32)
-        row = contact[at.efc_address]
-        if row >= 0:
-            for pad in range(int(u[N_PADS])):
-                geom = int(u[PAD_GEOM + pad])
-                if contact[at.geom1] == geom or contact[at.geom2] == geom:
-                    loads[pad] += force[row]
     sensor_step(
         effects,
-        u,
-        loads,
+        _numbers(words[at.userdata], at.userdata_size),
         _numbers(data, at.size)[at.time],
         _numbers(words[at.ten_length], _SHORT),
         _numbers(words[at.ten_velocity], _SHORT),
-        force,
+        _numbers(words[at.efc_force], _LONG),
         _numbers(words[at.sensordata], _LONG),
     )

@@ -1,8 +1,8 @@
-"""What MuJoCo calls in every step: bounds and forces before it is solved, loads and friction after it.
+"""What MuJoCo calls in every step: bounds and forces before it is solved, friction after it.
 
-Dry friction is a constraint of MuJoCo's: before a step the law sets how much each row of it may carry; the solver finds
-whether a pad slides or sticks. Explicit forces f along a tendon of Jacobian J act on the girder as -J^T f. The load N
-of a step is known only after it, so that the law of the next step uses it.
+Dry friction is a constraint of MuJoCo's: before a step the law sets how much each row of it may carry, from the normal
+load of that very step (see `contact`); the solver finds whether a pad slides or sticks. Explicit forces f along a
+tendon of Jacobian J act on the girder as -J^T f.
 """
 
 from math import sqrt
@@ -18,6 +18,7 @@ from slipwise.simulation.kernel.places import (
     BOUND,
     BUFFER_FORCE,
     BUFFER_STIFFNESS,
+    COMPRESSION,
     DT,
     EXPLICIT,
     FORCE,
@@ -31,6 +32,7 @@ from slipwise.simulation.kernel.places import (
     N_DOFS,
     N_PADS,
     N_STICK,
+    RATE_AGE,
     SIDE,
     TENDON,
     USER_SENSOR,
@@ -58,10 +60,9 @@ def control_step(
         ten_velocity: their rates [m/s].
         qvel: rates of the degrees of freedom [m/s, rad/s].
         frictionloss: what each constraint row of dry friction may carry [N]; set.
-        applied: generalised forces [N, N m]; set.
+        applied: generalised forces [N, N m], of the pads' loads so far; added to.
     """
-    for dof in range(int(u[N_DOFS])):
-        applied[dof] = 0.0
+    u[RATE_AGE] = u[DT]
     for pad in range(int(u[N_PADS])):
         push_pad(effects, u, pad, time, ten_length, ten_velocity, frictionloss, applied)
     sum_x, sum_y = push_buffers(effects, u, time, ten_length, ten_velocity, applied)
@@ -202,21 +203,21 @@ def push_girder(
 
 @compilable
 def sensor_step(
-    effects: Dispatch, u: Array, loads: Array, time: float, ten_length: Array, ten_velocity: Array,
-    friction_force: Array, sensordata: Array,
+    effects: Dispatch, u: Array, time: float, ten_length: Array, ten_velocity: Array, friction_force: Array,
+    sensordata: Array,
 ) -> None:  # fmt: skip
-    """Keep loads and friction for the next step and write them as channels; what `mjcb_sensor` does.
+    """Keep friction for the next step and write loads and forces as channels; what `mjcb_sensor` does.
 
     Args:
         effects: the chosen effects.
         u: the law's numbers; memory and forces in them go on.
-        loads: (n_pads,) normal loads of this step [N].
         time: since the start of the run [s].
         ten_length: of MuJoCo's tendons: slip and deflection [m].
         ten_velocity: their rates [m/s].
         friction_force: of the constraint rows, on the girder [N].
         sensordata: MuJoCo's readings [N]; set from the place of the law's own sensor on: load and forces along x and y
-            per pad, forces along x and y per buffer, further force on the girder along x, y, z.
+            per pad, forces along x and y per buffer, further force on the girder along x, y, z; compression of
+            each pad [m].
     """
     n_pads = int(u[N_PADS])
     first = int(u[USER_SENSOR])
@@ -235,8 +236,7 @@ def sensor_step(
         )  # fmt: skip
         u[FORCE + 2 * pad] = friction_x
         u[FORCE + 2 * pad + 1] = friction_y
-        u[LOAD + pad] = loads[pad]
-        sensordata[first + 3 * pad] = loads[pad]
+        sensordata[first + 3 * pad] = u[LOAD + pad]
         sensordata[first + 3 * pad + 1] = force_x
         sensordata[first + 3 * pad + 2] = force_y
     n_forces = 2 * int(u[N_BUFFERS])
@@ -244,3 +244,5 @@ def sensor_step(
         sensordata[first + 3 * n_pads + i] = u[BUFFER_FORCE + i]
     for axis in range(3):
         sensordata[first + 3 * n_pads + n_forces + axis] = u[GIRDER_FORCE + axis]
+    for pad in range(n_pads):
+        sensordata[first + 3 * n_pads + n_forces + 3 + pad] = u[COMPRESSION + pad]
