@@ -21,7 +21,8 @@ from slipwise.model import Model, base_model, use
 from slipwise.record import write_json
 from slipwise.rig import build
 from slipwise.simulation.kernel import installed, kernel
-from slipwise.simulation.steps import numbers_for, run_python, start_state, without_springs
+from slipwise.simulation.steps import numbers_for, start_state, under_law
+from slipwise.simulation.substeps import run
 
 DT = 5e-4
 FIVE = ("breakaway", "run_in", "heating", "buffer_damping", "key_clearance")
@@ -49,23 +50,22 @@ class Rigged:
 
     def batch(self, count: int, threads: int, control: np.ndarray, *, law: bool = True) -> float:
         """Step `count` simulations at once; with the law or bare. Gives microseconds per simulation step."""
-        with without_springs(self.rig) as compiled:
-            batch = Batch(compiled, count, threads)
-            batch.bind("qpos")[:] = start_state(self.rig)
-            batch.bind("userdata")[:] = self.numbers
-            began = time.perf_counter()
-            if law:
-                with installed(self.law):
-                    batch.rollout(control.shape[1], control, record=("sensordata",))
-            else:
+        batch = Batch(under_law(self.rig, DT) if law else self.rig.model, count, threads)
+        batch.bind("qpos")[:] = start_state(self.rig)
+        batch.bind("userdata")[:] = self.numbers
+        began = time.perf_counter()
+        if law:
+            with installed(self.law):
                 batch.rollout(control.shape[1], control, record=("sensordata",))
-            return 1e6 * (time.perf_counter() - began) / control[:, :, 0].size
+        else:
+            batch.rollout(control.shape[1], control, record=("sensordata",))
+        return 1e6 * (time.perf_counter() - began) / control[:, :, 0].size
 
     def python(self, control: np.ndarray) -> float:
         """Step one simulation with the law in Python."""
-        numbers = self.numbers[None].copy()
+        numbers = self.numbers.copy()
         began = time.perf_counter()
-        run_python(self.law, self.rig, numbers, control, lambda first, data: True)
+        run(self.law, self.rig, numbers, control[0], lambda data, command, step: True)
         return 1e6 * (time.perf_counter() - began) / control.shape[1]
 
 
