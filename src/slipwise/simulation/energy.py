@@ -23,7 +23,7 @@ class EnergyBook:
 
     Attributes:
         table: work of the table's acceleration on the girder, in the table's frame.
-        friction: dissipated and stored at the pads, horizontally, per pad (n_pads,).
+        friction: dissipated and stored at the pads along x and y, (n_pads, 2).
         buffers: dissipated and stored in the buffers.
         others: work of gravity, of the pads' contacts, of drag, of the shear keys' vertical friction and of the bending
             mode on the girder.
@@ -71,7 +71,7 @@ class EnergyBook:
         force = np.empty((len(at), 2 * n_pads))
         force[:, 0::2], force[:, 1::2] = user[:, 1 : 3 * n_pads : 3], user[:, 2 : 3 * n_pads : 3]
         per_row = np.sum(0.5 * (force[1:] + force[:-1]) * slip[:, : 2 * n_pads], axis=0)
-        done = per_row[0::2] + per_row[1::2]
+        done = per_row.reshape(n_pads, 2)
         self.friction = done if self.friction is None else self.friction + done
         self.buffers += _work(user[:, 3 * n_pads : -3 - n_pads], slip[:, 2 * n_pads :])
         self.others += _work(user[:, -3 - n_pads : -n_pads], steps[:, :3])

@@ -48,37 +48,42 @@ class Replay(Drawn):
         uplift: time during which at least one pad carried no load [s].
         energy_error: what the energy balance leaves open, as a fraction of the input [1]; None where slip is prescribed
             or the table turns.
+        energy_along: (x, y) the same work of all pads along either direction [J].
         slip_range: smallest and largest slip_x, of every step [m].
+        slip_y_range: the same of slip_y [m].
+        largest_slip: along both directions together, of every step [m].
         load_range: pad -> smallest and largest load, of every step [N].
         largest_friction: pad -> largest |F|, of every step [N].
         memory: at the end, for a run that follows.
         dt: time step [s].
         steps: that were made.
         engine: that made them.
+        compiling: time that the law and the rig took to be compiled or loaded [s].
+        computing: time that the steps took [s].
     """
 
     record: Record
     pad_energy: dict[str, float]
     uplift: float
     energy_error: float | None
+    energy_along: tuple[float, float]
     slip_range: tuple[float, float]
+    slip_y_range: tuple[float, float]
+    largest_slip: float
     load_range: dict[str, tuple[float, float]]
     largest_friction: dict[str, float]
     memory: Memory
     dt: float
     steps: int
     engine: str
+    compiling: float
+    computing: float
 
-    def summary(self, motion: TableMotion, seconds: float) -> dict[str, Any]:
-        """Give the numbers of summary.json.
-
-        Args:
-            motion: that was replayed.
-            seconds: that it took.
-        """
+    def summary(self, motion: TableMotion) -> dict[str, Any]:
+        """Give the numbers of summary.json; `motion` is what was replayed."""
         from slipwise.simulation.summary import summary
 
-        return summary(self, motion, seconds)
+        return summary(self, motion)
 
     def to_pandas(self) -> "DataFrame":
         """Give time and channels of the record as the columns of a pandas frame, SI.

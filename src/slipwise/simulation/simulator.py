@@ -1,5 +1,6 @@
 """System level: a table motion in, the record of every channel out."""
 
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -43,7 +44,7 @@ class _Collector:
         count = len(rig.specimen.pads)
         self.load_low, self.load_high = np.full(count, np.inf), np.full(count, -np.inf)
         self.friction = np.zeros(count)
-        self.slip_low, self.slip_high = np.inf, -np.inf
+        self.slip_low, self.slip_high, self.slip_largest = np.full(2, np.inf), np.full(2, -np.inf), 0.0
         self.trouble = ""
 
     def add(self, sensordata: Array, control: Array, dt: float) -> bool:
@@ -64,9 +65,11 @@ class _Collector:
         self.load_low = np.minimum(self.load_low, loads.min(axis=0))
         self.load_high = np.maximum(self.load_high, loads.max(axis=0))
         self.uplift += dt * np.count_nonzero(np.any(loads <= 0.0, axis=1))
-        slip = channels["slip_x"]
-        self.slip_low, self.slip_high = min(self.slip_low, slip.min()), max(self.slip_high, slip.max())
-        if max(abs(self.slip_low), abs(self.slip_high)) > _FAR:
+        slip = np.stack([channels["slip_x"], channels["slip_y"]])
+        self.slip_low = np.minimum(self.slip_low, slip.min(axis=1))
+        self.slip_high = np.maximum(self.slip_high, slip.max(axis=1))
+        self.slip_largest = max(self.slip_largest, float(np.hypot(*slip).max()))
+        if self.slip_largest > _FAR:
             self.trouble = f"the slip grew beyond {_FAR:g} m"
         self.book.add(sensordata, control)
         split = round(self.dt / dt)
@@ -116,11 +119,13 @@ def simulate(
     every = round(output_dt / dt)
     if every < 1 or abs(every * dt - output_dt) > 1e-9:
         raise SettingError(f"the output step {output_dt * 1e3:g} ms must be a multiple of the step {dt * 1e3:g} ms")
+    began = time.perf_counter()
     own = user_effects(model)
     engine = engine_for(own) if engine == ENGINES[0] else engine
     law = kernel(engine, own)
     rig = build(model.built_specimen(), dt, law.layout.size)
-    told = progress or (lambda share: None)
+    report = progress or (lambda share: None)
+    ready = time.perf_counter()
 
     def shaken(control: Array, kept: int) -> tuple[_Collector, Array, str]:
         numbers = _remember(law, model, numbers_for(law, rig, model, dt), start, rest)
@@ -128,7 +133,7 @@ def simulate(
 
         def each(sensordata: Array, command: Array, step: float) -> bool:
             going = collector.add(sensordata, command, step)
-            told(collector.done / len(control))
+            report(collector.done / len(control))
             return going
 
         stopped = run(law, rig, numbers, control, each) or collector.trouble
@@ -143,7 +148,8 @@ def simulate(
         if np.abs(control - before).max() < _SETTLED * np.abs(control).max():
             break
     collector, numbers, stopped = shaken(control, every)
-    answer = _answer(model, collector, law, numbers, dt, output_dt, engine, provenance)
+    seconds = (ready - began, time.perf_counter() - ready)
+    answer = _answer(model, collector, law, numbers, dt, output_dt, engine, provenance, seconds)
     if stopped:
         raise SimulationDiverged(
             f"the simulation was stopped at {collector.done * dt:.3f} s: {stopped}. The record until then is kept. "
@@ -177,6 +183,7 @@ def _answer(
     output_dt: float,
     engine: str,
     provenance: dict[str, Any] | None,
+    seconds: tuple[float, float],
 ) -> Replay:
     channels = collector.channels()
     count = len(channels["slip_x"])
@@ -195,10 +202,13 @@ def _answer(
     energy = collector.book.friction if collector.book.friction is not None else _pad_work(record, pads)
     return Replay(
         record=record,
-        pad_energy=dict(zip(pads, map(float, energy), strict=True)),
+        pad_energy=dict(zip(pads, map(float, energy.sum(axis=1)), strict=True)),
         uplift=float(collector.uplift),
         energy_error=collector.book.error(),
-        slip_range=(float(collector.slip_low), float(collector.slip_high)),
+        energy_along=(float(energy[:, 0].sum()), float(energy[:, 1].sum())),
+        slip_range=(float(collector.slip_low[0]), float(collector.slip_high[0])),
+        slip_y_range=(float(collector.slip_low[1]), float(collector.slip_high[1])),
+        largest_slip=collector.slip_largest,
         load_range={
             p: (float(a), float(b)) for p, a, b in zip(pads, collector.load_low, collector.load_high, strict=True)
         },
@@ -207,15 +217,17 @@ def _answer(
         dt=dt,
         steps=collector.done,
         engine=engine,
+        compiling=seconds[0],
+        computing=seconds[1],
     )
 
 
 def _pad_work(record: Record, pads: tuple[str, ...]) -> Array:
-    """Work against friction from the record, where slip is prescribed."""
+    """Work against friction along x and y (n_pads, 2) from the record, where slip is prescribed."""
     steps = {axis: np.diff(record[f"slip_{axis}"]) for axis in "xy"}
-    out = np.zeros(len(pads))
+    out = np.zeros((len(pads), 2))
     for i, pad in enumerate(pads):
-        for axis, step in steps.items():
+        for j, (axis, step) in enumerate(steps.items()):
             force = record[f"pad_{pad}_F{axis}"]
-            out[i] += np.sum(0.5 * (force[1:] + force[:-1]) * step)
+            out[i, j] = np.sum(0.5 * (force[1:] + force[:-1]) * step)
     return out

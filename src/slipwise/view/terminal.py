@@ -12,16 +12,28 @@ from slipwise.channels import PADS
 
 #: Rows of a replay's summary: key, what it is called, unit.
 _SUMMARY: tuple[tuple[str, str, str], ...] = (
-    ("slip_x_half_range_mm", "slip, half range", "mm"),
-    ("slip_x_max_mm", "slip, largest", "mm"),
+    ("slip_x_half_range_mm", "slip along x, half range", "mm"),
+    ("slip_x_max_mm", "slip along x, largest", "mm"),
+    ("slip_y_half_range_mm", "slip along y, half range", "mm"),
+    ("slip_y_max_mm", "slip along y, largest", "mm"),
+    ("slip_max_mm", "slip, largest of the vector", "mm"),
     ("energy_kN_cm", "energy dissipated by the pads", "kN cm"),
+    ("energy_x_kN_cm", "  of it along x", "kN cm"),
+    ("energy_y_kN_cm", "  of it along y", "kN cm"),
     ("uplift_s", "time with a pad lifted off", "s"),
     ("energy_balance_error", "energy balance, error of input", "1"),
     ("dt_s", "time step", "s"),
     ("steps", "steps", ""),
-    ("wall_s", "computing time", "s"),
+    ("wall_s", "time to simulate", "s"),
+    ("compile_s", "time to compile or load the law", "s"),
+    ("write_s", "time to write the record", "s"),
+    ("draw_s", "time to draw pictures and recording", "s"),
     ("engine", "engine", ""),
 )
+#: Rows that say nothing where the girder moves along x alone.
+_ACROSS = (
+    "slip_y_half_range_mm", "slip_y_max_mm", "slip_max_mm", "energy_x_kN_cm", "energy_y_kN_cm",
+)  # fmt: skip
 _PAD: tuple[tuple[str, str], ...] = (
     ("N_min_kN", "N min [kN]"),
     ("N_max_kN", "N max [kN]"),
@@ -51,7 +63,12 @@ def print_table(title: str, rows: Sequence[Mapping[str, Any]], console: Console 
 
 def print_summary(summary: Mapping[str, Any], console: Console | None = None) -> None:
     """Print the summary of a replay (summary.json): what happened, and a row for each pad."""
-    rows = [{"": words, "value": cell(summary[key]), "unit": unit} for key, words, unit in _SUMMARY if key in summary]
+    left_out = () if moves_across(summary) else _ACROSS
+    rows = [
+        {"": words, "value": cell(summary[key]), "unit": unit}
+        for key, words, unit in _SUMMARY
+        if key in summary and key not in left_out
+    ]
     print_table("Replay", rows, console)
     pads = summary.get("pads", {})
     rows = [
@@ -61,6 +78,11 @@ def print_summary(summary: Mapping[str, Any], console: Console | None = None) ->
     ]
     if rows:
         print_table("Pads", rows, console)
+
+
+def moves_across(summary: Mapping[str, Any]) -> bool:
+    """Tell whether a replay moved along y by more than a thousandth of what it moved along x."""
+    return summary.get("slip_y_max_mm", 0.0) > 1e-3 * summary.get("slip_x_max_mm", 0.0)
 
 
 def cell(value: Any) -> str:
