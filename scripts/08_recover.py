@@ -30,7 +30,7 @@ from slipwise.evidence.residual_summary import summarised
 from slipwise.model import EffectUse, Model, base_model
 from slipwise.motion import load_motion
 from slipwise.record import Record, write_json
-from slipwise.signals import LowPass, lowpass
+from slipwise.signals.filters import LowPass, lowpass
 from slipwise.simulation.replay import replay
 
 NOISE = 0.01

@@ -23,7 +23,7 @@ from slipwise.estimation.run_data import FitRun, fit_runs
 from slipwise.evidence.residual_summary import error_of, summarised
 from slipwise.model import base_model
 from slipwise.record import Record
-from slipwise.signals import LowPass
+from slipwise.signals.filters import LowPass
 
 Array = NDArray[np.float64]
 DT, SECONDS, REST = 0.002, 6.0, 1.0

@@ -7,7 +7,7 @@ from bench import Campaign as Made
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.model import base_model
 from slipwise.record import Record
-from slipwise.signals import LowPass
+from slipwise.signals.filters import LowPass
 
 ROLES = ("fit", "fit", "fit", "repeat", "holdout")
 

@@ -185,12 +185,13 @@ def _write_csv(record: Record, stream: IO[bytes]) -> None:
     text.detach()
 
 
-def read_record(path: Path) -> Record:
+def read_record(path: Path | str) -> Record:
     """Read a record that `write_record` wrote as parquet.
 
     Raises:
         InputError: no such file, not a parquet file, or not written by Slipwise.
     """
+    path = Path(path)
     if not path.is_file():
         raise InputError(f"{path}: no such file; `slipwise replay MOTION --out DIR` writes a record.parquet")
     try:

@@ -7,12 +7,17 @@ from functools import cache
 
 import pint
 
+from slipwise.cache import cache_folder
 from slipwise.errors import UnitError
 
 
 @cache
 def _registry() -> pint.UnitRegistry:
-    registry = pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
+    # Reading pint's own list of units takes half a second; kept on disk, a twentieth.
+    try:
+        registry = pint.UnitRegistry(autoconvert_offset_to_baseunit=True, cache_folder=cache_folder() / "units")
+    except OSError:  # a home that cannot be written
+        registry = pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
     registry.define("gal = cm/s^2 = Gal")
     # "g" of an engineer at a shaking table is never a gram.
     registry.define("gee = 9.80665 m/s^2")

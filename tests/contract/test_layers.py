@@ -11,7 +11,8 @@ PACKAGE = Path(__file__).parents[2] / "src" / "slipwise"
 #: Package or file -> what it may import, from the inside out. Nothing else is allowed.
 ARROWS: dict[str, str] = {
     "errors": "",
-    "units": "errors",
+    "cache": "",
+    "units": "cache errors",
     "params": "errors units",
     "channels": "errors",
     "parallel": "errors",
@@ -24,7 +25,7 @@ ARROWS: dict[str, str] = {
     "effects": "channels errors params record rig shown signals",
     "model": "channels effects errors rig shown",
     "model_file": "effects errors model params record rig units",
-    "simulation": "channels effects errors model model_file motion record rig shown",
+    "simulation": "cache channels effects errors model model_file motion record rig shown",
     "campaign": "channels errors record rig shown signals units",
     "instruments": "campaign channels effects errors record rig shown signals statistics",
     "estimation": (

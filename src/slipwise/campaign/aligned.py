@@ -8,7 +8,9 @@ from numpy.typing import NDArray
 
 from slipwise.campaign.campaign import Logger, Run
 from slipwise.record import Record
-from slipwise.signals import LowPass, align, lowpass, resampled, uniform_time, white_level
+from slipwise.signals.filters import LowPass, align, lowpass
+from slipwise.signals.noise import white_level
+from slipwise.signals.resample import resampled, uniform_time
 
 Mask = NDArray[np.bool_]
 #: Table and girder count as at rest below this many standard deviations of their smoothed noise.

@@ -12,7 +12,7 @@ from slipwise.errors import SettingError
 from slipwise.record import Record
 from slipwise.rig import Specimen
 from slipwise.shown import Drawn, Tabular
-from slipwise.signals import LowPass
+from slipwise.signals.filters import LowPass
 
 ROLES: tuple[str, ...] = ("fit", "repeat", "holdout")
 

@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from slipwise.campaign.aligned import long_enough, spread
 from slipwise.channels import PAD_SIGNS
-from slipwise.signals import LowPass
+from slipwise.signals.filters import LowPass
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

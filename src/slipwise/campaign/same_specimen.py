@@ -9,7 +9,7 @@ from slipwise.campaign.campaign import Campaign, Run
 from slipwise.errors import InputError
 from slipwise.record import Record
 from slipwise.rig.load_modes import load_modes
-from slipwise.signals import LowPass, lowpass
+from slipwise.signals.filters import LowPass, lowpass
 
 #: Largest difference of weight between runs of one specimen: gauges drift, seating changes [1].
 _WEIGHT = 0.10

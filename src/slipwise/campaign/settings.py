@@ -11,7 +11,7 @@ from slipwise.channels import CHANNELS, channel
 from slipwise.errors import InputError, SettingError, unknown_name
 from slipwise.rig import Specimen
 from slipwise.rig.known import SPECIMEN_UNITS, SPECIMEN_WORDS
-from slipwise.signals import LowPass
+from slipwise.signals.filters import LowPass
 from slipwise.units import quantity
 
 _TOP = ("name", "rig", "description", "specimen", "columns", "constants", "derived", "logger", "run")

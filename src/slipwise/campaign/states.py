@@ -22,7 +22,9 @@ from slipwise.errors import InputError
 from slipwise.record import Record
 from slipwise.rig import Specimen
 from slipwise.rig.load_modes import load_modes, vertical_acceleration
-from slipwise.signals import Fused, LowPass, derivative, fuse
+from slipwise.signals.derivative import derivative
+from slipwise.signals.filters import LowPass
+from slipwise.signals.fused import Fused, fuse
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -58,7 +58,6 @@ def replay(
     """
     from slipwise.view.files import save_json
 
-    began = time.perf_counter()
     seconds = None if motion_dt is None else sw.quantity(motion_dt, "s", "--motion-dt")
     shaking = sw.load_motion(motion, x=x, y=y, z=z, dt=seconds, unit=unit, baseline=baseline)  # type: ignore[arg-type]
     if pier is not None and similarity is not None:
@@ -80,7 +79,7 @@ def replay(
         raise
     files = [_write_record(answer, folder, csv)]
     files += _draw(answer, model, folder, shaking.title, pictures, recording)
-    numbers = answer.summary(shaking, time.perf_counter() - began)
+    numbers = answer.summary(shaking)
     files.append(save_json(numbers, folder / "summary.json"))
     if json:
         print_json(numbers)

@@ -16,7 +16,7 @@ from slipwise.model import Model
 from slipwise.motion.resample import resample
 from slipwise.motion.table_motion import TableMotion
 from slipwise.record import Record
-from slipwise.signals import lowpass
+from slipwise.signals.filters import lowpass
 from slipwise.simulation.kernel.layout import buffer_memories, pad_memories
 from slipwise.simulation.predict import Predictor, predictor
 from slipwise.simulation.simulator import DT, Memory

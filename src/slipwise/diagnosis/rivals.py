@@ -49,7 +49,6 @@ def discriminating_tests(found: Verdict, state: Search) -> tuple[str, ...]:
 
 
 #: The report imports it by this name.
-partings = discriminating_tests
 
 
 def _discriminating_test(one: str, other: str, known: Mapping[str, Effect]) -> str:

@@ -9,11 +9,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from slipwise.channels import PADS
 from slipwise.record import Record
-from slipwise.signals import derivative
+from slipwise.signals.derivative import derivative
 
 Array = NDArray[np.float64]
 #: What one free number adds: relation -> a signal for each record.
@@ -83,6 +82,8 @@ def swing_of(base: Array, dt: float, frequency: float, damping: float) -> Array:
 
     q'' + 2 z w q' + w^2 q = -a; the displacement is the recursion of the sampled impulse response.
     """
+    from scipy.signal import lfilter  # here, for it takes long to load and a replay does without
+
     turn = 2.0 * np.pi * frequency
     free = turn * np.sqrt(1.0 - damping**2)
     fade = np.exp(-damping * turn * dt)

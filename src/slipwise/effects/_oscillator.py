@@ -5,7 +5,6 @@ from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import cont2discrete, lfilter
 
 Array = NDArray[np.float64]
 
@@ -23,6 +22,8 @@ def oscillator(push: Array, dt: float, frequency: float, damping: float, derivat
     Returns:
         (n,).
     """
+    from scipy.signal import lfilter  # here, for it takes long to load and few models have an oscillator
+
     w = 2.0 * np.pi * frequency
     curved = push.copy()
     # Straight lines between samples cut the crests of a sine by (pi f dt)^2 / 3: 0.3 % at 15 Hz and 2 ms.
@@ -39,6 +40,8 @@ def oscillator(push: Array, dt: float, frequency: float, damping: float, derivat
 @lru_cache(maxsize=64)
 def _discrete(order: int, dt: float, w: float, damping: float) -> tuple[Array, Array]:
     """Give numerator and denominator of q's derivative of this order, for a push that is straight between samples."""
+    from scipy.signal import cont2discrete
+
     system = ([1.0] + [0.0] * order, [1.0, 2.0 * damping * w, w * w])
     numerator, denominator, _ = cast(Any, cont2discrete(system, dt, method="foh"))
     return numerator.ravel(), denominator

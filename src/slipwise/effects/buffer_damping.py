@@ -19,7 +19,7 @@ from slipwise.effects._disturbances import Number, axes, channel
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
 from slipwise.record import Record
-from slipwise.signals import derivative
+from slipwise.signals.derivative import derivative
 
 REFERENCE = 0.1
 

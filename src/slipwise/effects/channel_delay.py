@@ -15,7 +15,7 @@ from slipwise.effects._fault import GaugeFault
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
 from slipwise.record import Record
-from slipwise.signals import shift
+from slipwise.signals.shift import shift
 
 
 def gauge(record: Record, target: str, delay: float) -> Record:

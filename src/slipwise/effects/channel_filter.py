@@ -19,8 +19,8 @@ from slipwise.effects._fault import GaugeFault
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
 from slipwise.record import Record
-from slipwise.signals import LowPass, lowpass, response
 from slipwise.signals.ends import in_frequency
+from slipwise.signals.filters import LowPass, lowpass, response
 
 #: The inverse does not raise amplitudes more than this [1].
 _RAISE = 5.0

@@ -24,7 +24,7 @@ from slipwise.estimation.run_data import fit_runs
 from slipwise.instruments.logger_spectrum import estimate_logger
 from slipwise.instruments.repairs import InvalidSamples
 from slipwise.model import Model, base_model
-from slipwise.signals import LowPass
+from slipwise.signals.filters import LowPass
 
 #: Noise near reversals depends on the fit and the fit on the noise: each is made anew, and every fit ends where a step
 #: promises less than this much of the squared residual. One halfwidth of an interval is worth four [1].

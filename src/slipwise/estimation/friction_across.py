@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from slipwise.estimation.pad_forces import as_logged
 from slipwise.estimation.run_data import FitRun
-from slipwise.signals import LowPass
+from slipwise.signals.filters import LowPass
 from slipwise.simulation.predict import PadForces
 
 Array = NDArray[np.float64]

@@ -24,8 +24,8 @@ from slipwise.estimation.run_data import FitRun, refined
 from slipwise.model import Model
 from slipwise.rig import Specimen
 from slipwise.rig.load_modes import load_modes
-from slipwise.signals import shift
 from slipwise.signals.ends import in_frequency
+from slipwise.signals.shift import shift
 from slipwise.simulation.predict import Predictor
 
 Array = NDArray[np.float64]

@@ -11,7 +11,7 @@ from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 from slipwise.estimation.instants import Instants
 from slipwise.estimation.run_data import FitRun
 from slipwise.model import Model
-from slipwise.signals import LowPass, folded, response
+from slipwise.signals.filters import LowPass, folded, response
 from slipwise.simulation.predict import PadForces, predictor
 
 Array = NDArray[np.float64]

@@ -32,7 +32,7 @@ from slipwise.estimation.residuals import Residuals
 from slipwise.estimation.run_data import FINER, FitRun
 from slipwise.model import Model
 from slipwise.rig import Specimen
-from slipwise.signals import LowPass
+from slipwise.signals.filters import LowPass
 from slipwise.simulation.predict import PadForces, predictor
 
 Array = NDArray[np.float64]

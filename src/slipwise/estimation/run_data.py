@@ -15,8 +15,8 @@ from slipwise.errors import InputError
 from slipwise.estimation.judged_samples import away_from_cuts, sample_masks
 from slipwise.instruments.repairs import InvalidSamples
 from slipwise.record import Record
-from slipwise.signals import LowPass, lowpass
 from slipwise.signals.ends import in_frequency
+from slipwise.signals.filters import LowPass, lowpass
 from slipwise.signals.shift import shift
 
 Array = NDArray[np.float64]

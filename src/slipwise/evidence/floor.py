@@ -21,8 +21,8 @@ from slipwise.campaign.aligned import quiet_samples
 from slipwise.channels import channel
 from slipwise.errors import SettingError
 from slipwise.record import Record
-from slipwise.signals import derivative, white_level
-from slipwise.signals.noise import quantum
+from slipwise.signals.derivative import derivative
+from slipwise.signals.noise import quantum, white_level
 from slipwise.statistics.effective_samples import correlation_sum
 
 Array = NDArray[np.float64]

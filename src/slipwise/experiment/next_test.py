@@ -38,7 +38,7 @@ from slipwise.experiment.result import NextTest, Proposal
 from slipwise.model import Model
 from slipwise.motion import parse_motion
 from slipwise.record import Record
-from slipwise.signals import lowpass
+from slipwise.signals.filters import lowpass
 from slipwise.simulation.replay import replay
 
 #: No motion makes anybody surer than this.

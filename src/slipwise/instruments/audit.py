@@ -21,8 +21,7 @@ from slipwise.instruments.rows import noise_of_channels, noise_of_runs, prepare_
 from slipwise.instruments.sample_faults import RAILS, SampleFault, coarse, sample_faults
 from slipwise.instruments.sentences import as_sentence, confusable, how_to_settle, nearest, sentence
 from slipwise.instruments.suspects import Suspect, effect_of
-from slipwise.signals import white_level
-from slipwise.signals.noise import quantum
+from slipwise.signals.noise import quantum, white_level
 
 #: Nobody is surer than this.
 _SUREST = 0.99

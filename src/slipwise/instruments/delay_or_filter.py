@@ -7,7 +7,7 @@ what is left of it is its lag, and that is a delay by its name, however little b
 from collections.abc import Mapping
 
 from slipwise.effects import Effect
-from slipwise.signals import LowPass
+from slipwise.signals.filters import LowPass
 
 
 def passed(lowpass: LowPass | None, dt: float) -> float:

@@ -21,7 +21,7 @@ from scipy.signal import welch
 
 from slipwise.campaign import Campaign, Logger
 from slipwise.instruments.report import LoggerEstimate
-from slipwise.signals import LowPass
+from slipwise.signals.filters import LowPass
 
 Array = NDArray[np.float64]
 #: Below this friction's own shape shows [Hz].

@@ -15,7 +15,7 @@ from slipwise.effects._disturbances import Number, channel, paired, recorded
 from slipwise.instruments.balances import Relation
 from slipwise.instruments.rows import Block, PreparedRun
 from slipwise.record import Record
-from slipwise.signals import derivative
+from slipwise.signals.derivative import derivative
 
 Array = NDArray[np.float64]
 

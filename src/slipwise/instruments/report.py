@@ -7,7 +7,7 @@ from typing import Any
 from slipwise.campaign import Logger
 from slipwise.effects import Effect
 from slipwise.shown import Drawn, Tabular
-from slipwise.signals import LowPass
+from slipwise.signals.filters import LowPass
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,8 @@ from slipwise.channels import PADS
 from slipwise.instruments.balances import Relation
 from slipwise.record import Record
 from slipwise.rig import Specimen
-from slipwise.signals import LowPass, lowpass, white_level
+from slipwise.signals.filters import LowPass, lowpass
+from slipwise.signals.noise import white_level
 from slipwise.statistics.normal_equations import Block
 
 Array = NDArray[np.float64]

@@ -10,8 +10,7 @@ from scipy.ndimage import uniform_filter1d
 from slipwise.campaign import Campaign, Run
 from slipwise.channels import PADS
 from slipwise.instruments.signs import wrong_signs
-from slipwise.signals import white_level
-from slipwise.signals.noise import quantum
+from slipwise.signals.noise import quantum, white_level
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -19,8 +19,9 @@ from numpy.typing import NDArray
 from slipwise.campaign import Campaign
 from slipwise.channels import PADS
 from slipwise.record import Record
-from slipwise.signals import LowPass, lowpass, white_level
 from slipwise.signals.ends import in_frequency
+from slipwise.signals.filters import LowPass, lowpass
+from slipwise.signals.noise import white_level
 
 Array = NDArray[np.float64]
 #: A mean agreement below this, of +1 for a right sign and -1 for a wrong one, says that a sign is wrong.

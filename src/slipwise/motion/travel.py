@@ -5,8 +5,6 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import cumulative_trapezoid
-from scipy.signal import detrend
 
 from slipwise.errors import SettingError, SlipwiseWarning
 from slipwise.motion.table_motion import AXES, TableMotion
@@ -29,7 +27,7 @@ def table_velocity(motion: TableMotion, drift: Drift = "linear") -> Array:
     Raises:
         SettingError: another word.
     """
-    return _less_drift(cumulative_trapezoid(motion.acceleration, dx=motion.dt, axis=0, initial=0.0), drift)
+    return _less_drift(_integral(motion.acceleration, motion.dt), drift)
 
 
 def table_displacement(motion: TableMotion, drift: Drift = "linear") -> Array:
@@ -42,7 +40,7 @@ def table_displacement(motion: TableMotion, drift: Drift = "linear") -> Array:
         SettingError: `drift` is neither "linear" nor "none".
     """
     velocity = table_velocity(motion, drift)
-    return _less_drift(cumulative_trapezoid(velocity, dx=motion.dt, axis=0, initial=0.0), drift)
+    return _less_drift(_integral(velocity, motion.dt), drift)
 
 
 def velocity_peak(motion: TableMotion, drift: Drift = "linear") -> Array:
@@ -79,9 +77,17 @@ def warn_beyond_stroke(motion: TableMotion, stroke: float, drift: Drift | None =
             )
 
 
+def _integral(values: Array, dt: float) -> Array:
+    from scipy.integrate import cumulative_trapezoid  # here, for it takes long to load and few replays need it
+
+    return cumulative_trapezoid(values, dx=dt, axis=0, initial=0.0)
+
+
 def _less_drift(values: Array, drift: Drift) -> Array:
     if drift == "none":
         return values
     if drift == "linear":
+        from scipy.signal import detrend
+
         return detrend(values, axis=0, type="linear")
     raise SettingError(f"a treatment of drift {drift!r} does not exist; linear and none do")

@@ -4,7 +4,6 @@ At a fifth of the sampling rate the spline's integral errs by 1 %, the trapezoid
 """
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from slipwise.signals.ends import Array
 from slipwise.signals.filters import LowPass, lowpass
@@ -18,11 +17,15 @@ def derivative(values: Array, dt: float, smoothed_by: LowPass | None = None) -> 
         dt: sampling step [s].
         smoothed_by: a filter against noise, which a derivative raises in proportion to frequency.
     """
+    from scipy.interpolate import CubicSpline  # here, for it takes long to load and a replay does without
+
     smooth = lowpass(values, dt, smoothed_by)
     return CubicSpline(dt * np.arange(len(smooth)), smooth)(dt * np.arange(len(smooth)), 1)
 
 
 def integral(values: Array, dt: float) -> Array:
     """Give the integral from the first sample to each sample (n,)."""
+    from scipy.interpolate import CubicSpline
+
     time = dt * np.arange(len(values))
     return CubicSpline(time, values).antiderivative()(time)

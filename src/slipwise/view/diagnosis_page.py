@@ -5,7 +5,7 @@ from math import isfinite
 from slipwise.diagnosis.indistinguishable import known_effects
 from slipwise.diagnosis.ladder import Ladder
 from slipwise.diagnosis.result import Diagnosis
-from slipwise.diagnosis.rivals import explanations, partings
+from slipwise.diagnosis.rivals import discriminating_tests, explanations
 from slipwise.estimation.intervals import Interval
 from slipwise.params import Parameter
 from slipwise.units import convert
@@ -179,7 +179,7 @@ def _rivals(found: Diagnosis) -> Section:
 
 def _change(found: Diagnosis) -> Section:
     known, named = known_effects(found.search), found.verdict.effects
-    items = [f"{words}." for words in partings(found.verdict, found.search)]
+    items = [f"{words}." for words in discriminating_tests(found.verdict, found.search)]
     for name in (n for n in named if n in known):
         tests = known[name].confused_with.items()
         items += [f"{rival} instead of {name}: {test}." for rival, test in tests if rival not in named]

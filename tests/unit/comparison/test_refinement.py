@@ -14,7 +14,7 @@ from slipwise.model import base_model, use
 from slipwise.motion import load_motion
 from slipwise.record import Record
 from slipwise.rig import load_specimen
-from slipwise.signals import LowPass, lowpass
+from slipwise.signals.filters import LowPass, lowpass
 from slipwise.simulation.replay import replay
 from slipwise.simulation.simulator import DT
 

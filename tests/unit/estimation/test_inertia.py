@@ -18,7 +18,7 @@ from slipwise.estimation.parameters import PITCH_INERTIA, YAW_INERTIA, Term
 from slipwise.estimation.run_data import fit_runs
 from slipwise.evidence.residual_summary import summarised
 from slipwise.model import base_model, use
-from slipwise.signals import LowPass
+from slipwise.signals.filters import LowPass
 
 
 @pytest.mark.slow

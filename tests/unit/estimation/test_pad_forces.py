@@ -9,7 +9,7 @@ from scipy.signal import butter, lsim
 from slipwise.estimation.instants import Instants
 from slipwise.estimation.pad_forces import as_logged, force_along, lost_velocity, stick_share
 from slipwise.estimation.run_data import FINE, refined
-from slipwise.signals import LowPass, align, lowpass
+from slipwise.signals.filters import LowPass, align, lowpass
 from slipwise.simulation.predict import PadForces
 
 

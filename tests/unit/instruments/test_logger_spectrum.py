@@ -10,7 +10,7 @@ from measured import as_campaign
 from slipwise.campaign import Campaign, Logger
 from slipwise.estimation.base_fit import fit_base
 from slipwise.instruments.logger_spectrum import estimate_logger
-from slipwise.signals import LowPass, lowpass
+from slipwise.signals.filters import LowPass, lowpass
 
 
 def smooth(slip: np.ndarray, dt: float) -> np.ndarray:

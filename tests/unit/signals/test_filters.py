@@ -5,7 +5,7 @@ import pytest
 from scipy.signal import butter, freqs
 
 from slipwise.errors import InputError, SettingError, UnknownNameError
-from slipwise.signals import LowPass, align, lowpass, response
+from slipwise.signals.filters import LowPass, align, lowpass, response
 
 DT = 0.002
 TIME = DT * np.arange(2000)

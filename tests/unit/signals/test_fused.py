@@ -7,7 +7,7 @@ from bench import build_campaign
 from measured import as_campaign
 from slipwise.campaign import measured_states
 from slipwise.errors import InputError
-from slipwise.signals import fuse
+from slipwise.signals.fused import fuse
 
 #: Root of the mean square of the error that is allowed [m/s].
 ALLOWED = 3e-4

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from slipwise.signals import noise, white_level
-from slipwise.signals.noise import quantum
+from slipwise.signals.noise import noise, quantum, white_level
 
 COUNT = 8000
 TIME = 0.002 * np.arange(COUNT)

@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
-from slipwise.signals import derivative, integral, resampled, shift, uniform_time
+from slipwise.signals.derivative import derivative, integral
 from slipwise.signals.ends import in_frequency
+from slipwise.signals.resample import resampled, uniform_time
+from slipwise.signals.shift import shift
 
 DT = 0.002
 TIME = DT * np.arange(1500)

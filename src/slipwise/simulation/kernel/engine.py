@@ -21,6 +21,7 @@ from typing import Any
 import mujoco
 
 from slipwise import effects
+from slipwise.cache import cache_folder
 from slipwise.effects import Effect, catalogue
 from slipwise.errors import SettingError, SlipwiseWarning
 from slipwise.simulation.kernel.compiled import module_text
@@ -146,14 +147,6 @@ def _numba_version() -> str:
     from importlib.metadata import version
 
     return version("numba")
-
-
-def cache_folder() -> Path:
-    """Give the folder in which compiled kernels are kept; SLIPWISE_CACHE overrides it."""
-    chosen = os.environ.get("SLIPWISE_CACHE")
-    if chosen:
-        return Path(chosen)
-    return Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "slipwise"
 
 
 def _import(name: str, text: str) -> ModuleType:
