@@ -1,6 +1,7 @@
 """`slipwise replay`: a table motion in, the record of every channel out."""
 
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -77,9 +78,11 @@ def replay(
     except sw.SimulationDiverged as error:
         _write_record(error.replay, folder, csv)
         raise
+    began = time.perf_counter()
     files = [_write_record(answer, folder, csv)]
-    files += _draw(answer, model, folder, shaking.title, pictures, recording)
-    numbers = answer.summary(shaking)
+    written = time.perf_counter()
+    files += _draw(answer, model, folder, shaking.title, pictures, recording) if pictures or recording else []
+    numbers = answer.summary(shaking) | {"write_s": written - began, "draw_s": time.perf_counter() - written}
     files.append(save_json(numbers, folder / "summary.json"))
     if json:
         print_json(numbers)
@@ -125,23 +128,24 @@ def _write_record(answer: "sw.Replay", folder: Path, csv: bool) -> Path:
 def _draw(
     answer: "sw.Replay", model: "sw.Model", folder: Path, title: str, pictures: bool, recording: bool
 ) -> list[Path]:
-    """Import pictures and recordings only where they are wanted: they take a second to load."""
-    files: list[Path] = []
-    if not (pictures or recording):
-        return files
+    """Draw on every core what is wanted; what draws is imported only then, for it takes a second to load."""
+    from functools import partial
+
+    from slipwise.parallel import on_every_core
     from slipwise.view.geometry import geometry_of
 
     geometry = geometry_of(model.built_specimen())
-    if pictures:
-        from slipwise.view.pictures import save_pictures
-
-        files += save_pictures(answer.record, geometry, folder)
+    jobs: list[Callable[[], Path]] = []
     if recording:
         from slipwise.view.recording import write_recording
 
-        write_recording(answer.record, geometry, folder / "replay.rrd", title)
-        files.append(folder / "replay.rrd")
-    return files
+        jobs.append(partial(write_recording, answer.record, geometry, folder / "replay.rrd", title))
+    if pictures:
+        from slipwise.view.pictures import PICTURES, save_picture
+
+        # What takes longest comes first, so that the cores end together.
+        jobs += [partial(save_picture, name, answer.record, geometry, folder) for name in PICTURES]
+    return list(on_every_core(lambda place: jobs[place](), len(jobs)))
 
 
 def _tell(numbers: dict, motion: "sw.TableMotion", files: list[Path]) -> None:

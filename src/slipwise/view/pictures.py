@@ -13,7 +13,7 @@ from slipwise.errors import InputError
 from slipwise.record import Record
 from slipwise.rig.load_modes import LoadModes, load_factors, load_modes, rest_shares, rigid_modes
 from slipwise.signals.hysteresis_loop import branches, loop_shape
-from slipwise.view.canvas import new_figure, save_figure
+from slipwise.view.canvas import new_figure, save_figure, stacked_panels
 from slipwise.view.geometry import RigGeometry
 from slipwise.view.style import (
     AXIS_COLOURS,
@@ -36,6 +36,16 @@ from slipwise.view.style import (
 Array = NDArray[np.float64]
 #: Longer lines become an image inside an SVG: megabytes of vectors help nobody.
 _VECTOR_POINTS = 4000
+#: Less than this share of what there is beside it counts as zero and is left out [1].
+_NOTHING = 1e-3
+#: The pictures of a record, by the names of their files.
+PICTURES: tuple[str, ...] = ("loops", "loads", "modes", "histories")
+_LOOP_WORDS = (
+    "kN cm: energy dissipated over the record.  edge: slope of |F| over slip while it slides, 0 for a rectangle "
+    "[kN/mm].  flatness: 1 − rms deviation of |F| from its branch's mean over the mean |F|, 1 for a rectangle [1].\n"
+    "corners: energy over that of the same trapezoid with sharp corners, less than 1 where they are round [1].  "
+    "Bold: the widest cycle."
+)
 #: Time before and after this fraction of the squared accelerations' integral counts as quiet.
 _QUIET = 0.01
 
@@ -53,50 +63,75 @@ def save_pictures(record: Record, geometry: RigGeometry, folder: Path) -> list[P
     Returns:
         The files, each there whole or not at all.
     """
+    return [save_picture(name, record, geometry, folder) for name in PICTURES]
+
+
+def save_picture(name: str, record: Record, geometry: RigGeometry, folder: Path) -> Path:
+    """Write one of `PICTURES`; arguments as `save_pictures`."""
     figures = {
-        "loops": loops_figure(record),
-        "loads": loads_figure(record, geometry),
-        "modes": modes_figure(record, geometry),
-        "histories": histories_figure(record),
+        "loops": lambda: loops_figure(record),
+        "loads": lambda: loads_figure(record, geometry),
+        "modes": lambda: modes_figure(record, geometry),
+        "histories": lambda: histories_figure(record),
     }
-    return [save_figure(figure, folder / f"{name}.png") for name, figure in figures.items()]
+    return save_figure(figures[name](), folder / f"{name}.png")
 
 
 def loops_figure(record: Record) -> Figure:
-    """Draw every pad's loop, arranged as seen from above, and their sum."""
+    """Draw every pad's loop, arranged as seen from above, and their sum; along y too where the girder slid that way."""
+    along = "xy" if _slid(record, "y") else "x"
+    height = 0.6 + 6.2 * len(along) + 0.5
     with styled():
-        figure = new_figure(12.0, 6.4, "Friction against slip")
-        grid = figure.add_gridspec(2, 4)
-        first: Axes | None = None
-        for pad, (row, column) in PAD_PANELS.items():
-            axes = figure.add_subplot(grid[row, column], sharex=first, sharey=first)
-            first = first or axes
-            axes.set_title(f"Pad {pad}  ({PAD_PLACES[pad]})", color=PAD_COLOURS[pad])
-            if column == 0:
-                axes.set_ylabel("friction F [kN]")
-            if row == 1:
-                axes.set_xlabel("slip x [mm]")
-            _loop(axes, record, [f"pad_{pad}_Fx"], PAD_COLOURS[pad])
-        axes = figure.add_subplot(grid[:, 2:])
-        axes.set(title="Sum of the pads", xlabel="slip x [mm]", ylabel="ΣF [kN]")
-        _loop(axes, record, [f"pad_{pad}_Fx" for pad in PADS], SUM)
+        figure = new_figure(12.0, height, "Friction against slip")
+        figure.set_layout_engine("none")
+        for i, axis in enumerate(along):
+            top = height - 0.8 - 6.2 * i
+            _loops_along(figure, record, axis, top / height, (top - 5.3) / height)
+        figure.text(0.01, 0.08 / height, _LOOP_WORDS, fontsize=8.0, color=MUTED, va="bottom")
     return figure
 
 
-def _loop(axes: Axes, record: Record, forces: Sequence[str], colour: str) -> None:
-    """Draw the sum of some forces over slip with the loop's numbers beside it."""
-    if _missing(axes, record, ["slip_x", *forces]):
+def _slid(record: Record, axis: str) -> bool:
+    """Tell whether a record slides along an axis by more than a thousandth of what it slides along x."""
+    slips = {name: float(np.ptp(record[name])) for name in ("slip_x", f"slip_{axis}") if name in record}
+    return f"slip_{axis}" in slips and slips[f"slip_{axis}"] > _NOTHING * max(slips.values())
+
+
+def _loops_along(figure: Figure, record: Record, axis: str, top: float, bottom: float) -> None:
+    """Draw the loops along one axis between two heights of the figure [1]."""
+    grid = figure.add_gridspec(
+        2, 4, left=0.06, right=0.985, top=top, bottom=bottom, wspace=0.24, hspace=0.24, width_ratios=(1, 1, 0.05, 1.95)
+    )
+    first: Axes | None = None
+    for pad, (row, column) in PAD_PANELS.items():
+        axes = figure.add_subplot(grid[row, column], sharex=first, sharey=first)
+        first = first or axes
+        axes.set_title(f"Pad {pad}  ({PAD_PLACES[pad]})", color=PAD_COLOURS[pad])
+        if column == 0:
+            axes.set_ylabel(f"friction F along {axis} [kN]")
+        if row == 1:
+            axes.set_xlabel(f"slip {axis} [mm]")
+        _loop(axes, record, axis, [pad], PAD_COLOURS[pad])
+    axes = figure.add_subplot(grid[:, 3])
+    axes.set(title=f"Sum of the pads, along {axis}", xlabel=f"slip {axis} [mm]", ylabel=f"ΣF along {axis} [kN]")
+    _loop(axes, record, axis, PADS, SUM)
+
+
+def _loop(axes: Axes, record: Record, axis: str, pads: Sequence[str], colour: str) -> None:
+    """Draw the sum of some pads' friction over slip with the loop's numbers beside it."""
+    forces = [f"pad_{pad}_F{axis}" for pad in pads]
+    if _missing(axes, record, [f"slip_{axis}", *forces]):
         return
     force = np.sum([record[name] for name in forces], axis=0)
     axes.axhline(0.0, color="#b8c0cb", linewidth=0.8, zorder=1)
     axes.axvline(0.0, color="#b8c0cb", linewidth=0.8, zorder=1)
-    slip, long = record["slip_x"], len(record) > _VECTOR_POINTS
+    slip, long = record[f"slip_{axis}"], len(record) > _VECTOR_POINTS
     axes.plot(slip * 1e3, force / 1e3, color=colour, linewidth=0.8, alpha=0.45, rasterized=long)
     widest = _widest_cycle(slip)
     axes.plot(slip[widest] * 1e3, force[widest] / 1e3, color=colour, linewidth=2.0)
     axes.margins(0.08, 0.24)
     try:
-        shape = loop_shape(record["slip_x"], force)
+        shape = loop_shape(slip, force)
     except InputError:
         text = "no loop: it did not slide both ways"
     else:
@@ -126,14 +161,15 @@ def loads_figure(record: Record, geometry: RigGeometry) -> Figure:
         whole = record
         record, part = _shaken(whole)
         figure = new_figure(12.0, 8.4, f"Load on the pads and its causes{part}")
-        panels = figure.subplots(4, 2, sharex=True, sharey="col")
-        if _missing(panels[0, 0], record, names):
+        if not record.has_all(*names):
+            _missing(figure.subplots(), record, names)
             return figure
+        panels = stacked_panels(figure, 4, 2, sharex=True, sharey="col")
         try:
             factors = load_factors(record, geometry.mass, geometry.gravity, rest_shares(whole))
         except InputError as error:
             factors = None
-            _note(panels[0, 1], str(error))
+            _note(panels[0][1], str(error))
         for i, pad in enumerate(PADS):
             left, right = panels[i]
             left.set_title(f"Pad {pad}  ({PAD_PLACES[pad]})", color=PAD_COLOURS[pad])
@@ -157,11 +193,19 @@ def modes_figure(record: Record, geometry: RigGeometry) -> Figure:
     """Draw heave, pitch, roll and warp of the pad loads over what a rigid girder's equilibrium asks for."""
     with styled():
         record, part = _shaken(record)
-        figure = new_figure(12.0, 8.0, f"Pad loads as heave, pitch, roll and warp{part}")
-        panels = figure.subplots(4, 1, sharex=True)
-        if _missing(panels[0], record, [f"pad_{pad}_N" for pad in PADS]):
+        names = [f"pad_{pad}_N" for pad in PADS]
+        if not record.has_all(*names):
+            figure = new_figure(12.0, 2.0, f"Pad loads as heave, pitch, roll and warp{part}")
+            _missing(figure.subplots(), record, names)
             return figure
         modes = load_modes(record.stacked("pad_{}_N"))
+        swings = {name: float(np.ptp(getattr(modes, name))) for name in ("heave", "pitch", "roll", "warp")}
+        zero = [name for name, swing in swings.items() if swing < _NOTHING * geometry.pad_load]
+        left_out = f"; {' and '.join(zero)}: zero, not drawn" if zero else ""
+        figure = new_figure(
+            12.0, 0.6 + 1.9 * (4 - len(zero)), f"Pad loads as heave, pitch, roll and warp{left_out}{part}"
+        )
+        panels = [row[0] for row in stacked_panels(figure, max(4 - len(zero), 1), sharex=True)]
         try:
             rigid: LoadModes | None = rigid_modes(
                 record, geometry.mass, geometry.gravity, geometry.girder_centre_height, geometry.half_spacing,
@@ -181,20 +225,22 @@ def modes_figure(record: Record, geometry: RigGeometry) -> Figure:
             ("roll", "Roll  (A + B) − (C + D)", "rigid: likewise across", BUFFER_COLOURS["1"]),
             ("warp", "Warp  (A + D) − (B + C)", "", PAD_COLOURS["B"]),
         )
-        for axes, (name, title, expected, colour) in zip(panels, rows, strict=True):
+        drawn = [row for row in rows if row[0] not in zero]
+        for axes, (name, title, expected, colour) in zip(panels, drawn, strict=False):
             axes.set_title(title)
-            axes.set_ylabel("kN")
+            axes.set_ylabel(f"{name} [kN]")
             _shade_uplift(axes, record, PADS)
             if rigid is not None and expected:
                 _history(axes, record.time, getattr(rigid, name) / 1e3, EXPECTED, expected, 2.4)
             _history(axes, record.time, getattr(modes, name) / 1e3, colour, "pads", 1.0)
             _legend(axes)
-        _at_least(panels[3], 0.02 * geometry.pad_load / 1e3)
-        _at_least(panels[2], 0.02 * geometry.pad_load / 1e3)
-        panels[3].text(
-            0.99, 0.9, "equilibrium leaves warp open: seating and twist set it", transform=panels[3].transAxes,
-            ha="right", va="top", fontsize=9.0, color=MUTED,
-        )  # fmt: skip
+            if name in ("roll", "warp"):
+                _at_least(axes, 0.02 * geometry.pad_load / 1e3)
+            if name == "warp":
+                axes.text(
+                    0.99, 0.9, "equilibrium leaves warp open: seating and twist set it", transform=axes.transAxes,
+                    ha="right", va="top", fontsize=9.0, color=MUTED,
+                )  # fmt: skip
         _label_time(figure, panels[-1:])
     return figure
 
@@ -205,20 +251,25 @@ def histories_figure(record: Record) -> Figure:
     pad_forces = [(f"pad_{pad}_Fx", f"pad {pad}", PAD_COLOURS[pad]) for pad in PADS]
     rows: list[tuple[str, list[tuple[str, str, str]]]] = [
         ("Acceleration along x", [("table_ax", "table", TABLE), ("girder_ax", "girder", GIRDER)]),
+        ("Acceleration along y", [("table_ay", "table", TABLE), ("girder_ay", "girder", GIRDER)]),
         ("Acceleration, vertical", [("table_az", "table", TABLE), ("girder_az", "girder", GIRDER)]),
         ("Slip", [(f"slip_{axis}", axis, AXIS_COLOURS[axis]) for axis in "xy"]),
         ("Load on the pads", pad_loads),
         ("Friction of the pads along x", pad_forces),
+        ("Friction of the pads along y", [(f"pad_{pad}_Fy", f"pad {pad}", PAD_COLOURS[pad]) for pad in PADS]),
         ("Buffers along x", [(f"buffer_{b}_Fx", f"buffer {b}", BUFFER_COLOURS[b]) for b in BUFFERS]),
+        ("Buffers along y", [(f"buffer_{b}_Fy", f"buffer {b}", BUFFER_COLOURS[b]) for b in BUFFERS]),
     ]
     with styled():
         record, part = _shaken(record)
-        figure = new_figure(12.0, 11.0, f"Time histories{part}")
-        panels = figure.subplots(len(rows), 1, sharex=True)
-        for axes, (title, lines) in zip(panels, rows, strict=True):
+        still = {name for _, lines in rows for name, _, _ in lines if _is_still(record, name)}
+        rows = [row for row in rows if not all(name in still for name, _, _ in row[1])]
+        figure = new_figure(12.0, 1.2 + 1.7 * len(rows), f"Time histories{part}")
+        panels = [row[0] for row in stacked_panels(figure, max(len(rows), 1), sharex=True)]
+        for axes, (title, lines) in zip(panels, rows, strict=False):
             axes.set_title(title)
             axes.set_ylabel(shown_unit(lines[0][0]))
-            there = [line for line in lines if line[0] in record]
+            there = [line for line in lines if line[0] in record and line[0] not in still]
             if not there:
                 _missing(axes, record, [name for name, _, _ in lines])
                 continue
@@ -229,6 +280,16 @@ def histories_figure(record: Record) -> Figure:
             _legend(axes)
         _label_time(figure, panels[-1:])
     return figure
+
+
+def _is_still(record: Record, name: str) -> bool:
+    """Tell whether a channel along y or z is zero beside the one along x; along y it may also be absent."""
+    beside = name.replace("_ay", "_ax").replace("_az", "_ax").replace("slip_y", "slip_x").replace("_Fy", "_Fx")
+    if beside == name:
+        return False
+    if name not in record:
+        return "y" in name
+    return beside in record and float(np.ptp(record[name])) <= _NOTHING * float(np.ptp(record[beside]))
 
 
 def _shaken(record: Record) -> tuple[Record, str]:

@@ -24,8 +24,8 @@ from slipwise.view.style import (
 )
 from slipwise.view.timeline import time_column
 
-#: A longer series is thinned to the smallest and the largest value of so many stretches.
-_STRETCHES = 4000
+#: A longer series is thinned to the smallest and the largest value of so many stretches: more than a screen shows.
+_STRETCHES = 1500
 #: Slower than this a pad counts as sticking [m/s].
 STICKING = 0.002
 _STATES = {"slides": "#2f6f9f", "sticks": "#39434f", "lifted off": UPLIFT}

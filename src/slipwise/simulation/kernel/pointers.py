@@ -108,7 +108,7 @@ def control_at(effects: Dispatch, at: Fields, data: int) -> None:
                 geom = int(u[PAD_GEOM + pad])
                 if contact[at.geom1] == geom or contact[at.geom2] == geom:
                     push = jacobian[row * dofs : (row + 1) * dofs]
-                    press_pad(u, pad, -position[row], -velocity[row], push, applied)
+                    press_pad(u, pad, -float(position[row]), -float(velocity[row]), push, applied)
     control_step(
         effects,
         u,
