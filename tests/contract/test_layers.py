@@ -46,7 +46,7 @@ ARROWS: dict[str, str] = {
     ),
     "studies": "channels effects errors model motion parallel record rig signals simulation units",
     "view": (
-        "channels comparison diagnosis effects errors estimation evidence experiment instruments params"
+        "channels comparison diagnosis effects errors estimation evidence experiment instruments parallel params"
         " record rig signals studies units"
     ),
     "cli": "errors view",

@@ -1,7 +1,6 @@
 """`slipwise replay`: a table motion in, the record of every channel out."""
 
 import time
-from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -128,24 +127,11 @@ def _write_record(answer: "sw.Replay", folder: Path, csv: bool) -> Path:
 def _draw(
     answer: "sw.Replay", model: "sw.Model", folder: Path, title: str, pictures: bool, recording: bool
 ) -> list[Path]:
-    """Draw on every core what is wanted; what draws is imported only then, for it takes a second to load."""
-    from functools import partial
-
-    from slipwise.parallel import on_every_core
     from slipwise.view.geometry import geometry_of
+    from slipwise.view.replay_files import draw_replay
 
     geometry = geometry_of(model.built_specimen())
-    jobs: list[Callable[[], Path]] = []
-    if recording:
-        from slipwise.view.recording import write_recording
-
-        jobs.append(partial(write_recording, answer.record, geometry, folder / "replay.rrd", title))
-    if pictures:
-        from slipwise.view.pictures import PICTURES, save_picture
-
-        # What takes longest comes first, so that the cores end together.
-        jobs += [partial(save_picture, name, answer.record, geometry, folder) for name in PICTURES]
-    return list(on_every_core(lambda place: jobs[place](), len(jobs)))
+    return draw_replay(answer.record, geometry, folder, title, pictures=pictures, recording=recording)
 
 
 def _tell(numbers: dict, motion: "sw.TableMotion", files: list[Path]) -> None:

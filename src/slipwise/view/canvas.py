@@ -4,9 +4,7 @@ import hashlib
 import io
 import re
 from pathlib import Path
-from typing import Any
 
-from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
@@ -30,35 +28,6 @@ def new_figure(width: float, height: float, title: str = "") -> Figure:
     if title:
         figure.suptitle(title, x=0.01, y=1.0 - 0.15 / height, ha="left", va="top", fontsize=13.0, fontweight="bold")
     return figure
-
-
-def stacked_panels(figure: Figure, rows: int, columns: int = 1, **shared: Any) -> list[list[Axes]]:
-    """Give panels under each other in a figure of `new_figure`, placed in inches rather than by a layout engine.
-
-    An engine measures every word of every panel twice, which takes longer than to draw them.
-
-    Args:
-        figure: empty.
-        rows: of panels.
-        columns: of panels.
-        shared: `sharex` and `sharey` of matplotlib's `subplots`.
-
-    Returns:
-        Rows of axes.
-    """
-    width, height = figure.get_size_inches()
-    figure.set_layout_engine("none")
-    left, right, top, bottom, gap, beside = 0.75, 0.15, 0.85, 0.5, 0.42, 0.7
-    panel = (height - top - bottom - gap * (rows - 1)) / rows
-    across = (width - left - right - beside * (columns - 1)) / columns
-    axes = figure.subplots(
-        rows, columns, squeeze=False, **shared,
-        gridspec_kw={
-            "left": left / width, "right": 1.0 - right / width, "top": 1.0 - top / height, "bottom": bottom / height,
-            "hspace": gap / panel, "wspace": beside / across,
-        },
-    )  # fmt: skip
-    return [list(row) for row in axes]
 
 
 def save_figure(figure: Figure, path: Path) -> Path:

@@ -1,4 +1,4 @@
-"""Pictures of one record: loops, pad loads and their causes, modes, time histories."""
+"""Pictures of one record: pad loads and their causes, modes, time histories; loops are beside in `loop_pictures`."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,9 +12,10 @@ from slipwise.channels import BUFFERS, PADS
 from slipwise.errors import InputError
 from slipwise.record import Record
 from slipwise.rig.load_modes import LoadModes, load_factors, load_modes, rest_shares, rigid_modes
-from slipwise.signals.hysteresis_loop import branches, loop_shape
-from slipwise.view.canvas import new_figure, save_figure, stacked_panels
+from slipwise.view.canvas import new_figure, save_figure
 from slipwise.view.geometry import RigGeometry
+from slipwise.view.loop_pictures import loops_figure
+from slipwise.view.panels import NOTHING, missing, note, stacked_panels
 from slipwise.view.style import (
     AXIS_COLOURS,
     BUFFER_COLOURS,
@@ -22,7 +23,6 @@ from slipwise.view.style import (
     GIRDER,
     MUTED,
     PAD_COLOURS,
-    PAD_PANELS,
     PAD_PLACES,
     SUM,
     TABLE,
@@ -34,18 +34,8 @@ from slipwise.view.style import (
 )
 
 Array = NDArray[np.float64]
-#: Longer lines become an image inside an SVG: megabytes of vectors help nobody.
-_VECTOR_POINTS = 4000
-#: Less than this share of what there is beside it counts as zero and is left out [1].
-_NOTHING = 1e-3
 #: The pictures of a record, by the names of their files.
 PICTURES: tuple[str, ...] = ("loops", "loads", "modes", "histories")
-_LOOP_WORDS = (
-    "kN cm: energy dissipated over the record.  edge: slope of |F| over slip while it slides, 0 for a rectangle "
-    "[kN/mm].  flatness: 1 − rms deviation of |F| from its branch's mean over the mean |F|, 1 for a rectangle [1].\n"
-    "corners: energy over that of the same trapezoid with sharp corners, less than 1 where they are round [1].  "
-    "Bold: the widest cycle."
-)
 #: Time before and after this fraction of the squared accelerations' integral counts as quiet.
 _QUIET = 0.01
 
@@ -77,83 +67,6 @@ def save_picture(name: str, record: Record, geometry: RigGeometry, folder: Path)
     return save_figure(figures[name](), folder / f"{name}.png")
 
 
-def loops_figure(record: Record) -> Figure:
-    """Draw every pad's loop, arranged as seen from above, and their sum; along y too where the girder slid that way."""
-    along = "xy" if _slid(record, "y") else "x"
-    height = 0.6 + 6.2 * len(along) + 0.5
-    with styled():
-        figure = new_figure(12.0, height, "Friction against slip")
-        figure.set_layout_engine("none")
-        for i, axis in enumerate(along):
-            top = height - 0.8 - 6.2 * i
-            _loops_along(figure, record, axis, top / height, (top - 5.3) / height)
-        figure.text(0.01, 0.08 / height, _LOOP_WORDS, fontsize=8.0, color=MUTED, va="bottom")
-    return figure
-
-
-def _slid(record: Record, axis: str) -> bool:
-    """Tell whether a record slides along an axis by more than a thousandth of what it slides along x."""
-    slips = {name: float(np.ptp(record[name])) for name in ("slip_x", f"slip_{axis}") if name in record}
-    return f"slip_{axis}" in slips and slips[f"slip_{axis}"] > _NOTHING * max(slips.values())
-
-
-def _loops_along(figure: Figure, record: Record, axis: str, top: float, bottom: float) -> None:
-    """Draw the loops along one axis between two heights of the figure [1]."""
-    grid = figure.add_gridspec(
-        2, 4, left=0.06, right=0.985, top=top, bottom=bottom, wspace=0.24, hspace=0.24, width_ratios=(1, 1, 0.05, 1.95)
-    )
-    first: Axes | None = None
-    for pad, (row, column) in PAD_PANELS.items():
-        axes = figure.add_subplot(grid[row, column], sharex=first, sharey=first)
-        first = first or axes
-        axes.set_title(f"Pad {pad}  ({PAD_PLACES[pad]})", color=PAD_COLOURS[pad])
-        if column == 0:
-            axes.set_ylabel(f"friction F along {axis} [kN]")
-        if row == 1:
-            axes.set_xlabel(f"slip {axis} [mm]")
-        _loop(axes, record, axis, [pad], PAD_COLOURS[pad])
-    axes = figure.add_subplot(grid[:, 3])
-    axes.set(title=f"Sum of the pads, along {axis}", xlabel=f"slip {axis} [mm]", ylabel=f"ΣF along {axis} [kN]")
-    _loop(axes, record, axis, PADS, SUM)
-
-
-def _loop(axes: Axes, record: Record, axis: str, pads: Sequence[str], colour: str) -> None:
-    """Draw the sum of some pads' friction over slip with the loop's numbers beside it."""
-    forces = [f"pad_{pad}_F{axis}" for pad in pads]
-    if _missing(axes, record, [f"slip_{axis}", *forces]):
-        return
-    force = np.sum([record[name] for name in forces], axis=0)
-    axes.axhline(0.0, color="#b8c0cb", linewidth=0.8, zorder=1)
-    axes.axvline(0.0, color="#b8c0cb", linewidth=0.8, zorder=1)
-    slip, long = record[f"slip_{axis}"], len(record) > _VECTOR_POINTS
-    axes.plot(slip * 1e3, force / 1e3, color=colour, linewidth=0.8, alpha=0.45, rasterized=long)
-    widest = _widest_cycle(slip)
-    axes.plot(slip[widest] * 1e3, force[widest] / 1e3, color=colour, linewidth=2.0)
-    axes.margins(0.08, 0.24)
-    try:
-        shape = loop_shape(slip, force)
-    except InputError:
-        text = "no loop: it did not slide both ways"
-    else:
-        text = (
-            f"{shape.energy / 10:.1f} kN cm,  edge {shape.edge_slope / 1e6:+.4f} kN/mm\n"
-            f"flatness {shape.flatness:.3f},  corners {shape.corner_sharpness:.3f}"
-        )
-    axes.text(0.03, 0.985, text, transform=axes.transAxes, va="top", fontsize=8.0, color=MUTED, linespacing=1.4)
-
-
-def _widest_cycle(slip: Array) -> slice:
-    """Find the longest way between two turns together with the way back: it shows the shape that a crowd hides."""
-    ends = np.flatnonzero(np.diff(branches(slip)))
-    turns = np.concatenate([[0], ends + 1, [len(slip) - 1]])
-    ways = np.abs(np.diff(slip[turns]))
-    if len(ways) < 3:
-        return slice(0, len(slip))
-    there_and_back = ways[:-1] + ways[1:]
-    i = int(there_and_back.argmax())
-    return slice(int(turns[i]), int(turns[i + 2]) + 1)
-
-
 def loads_figure(record: Record, geometry: RigGeometry) -> Figure:
     """Draw every pad's load beside what inertia (Factor A) and rocking (Factor B) make of it."""
     names = [f"pad_{pad}_N" for pad in PADS]
@@ -162,14 +75,14 @@ def loads_figure(record: Record, geometry: RigGeometry) -> Figure:
         record, part = _shaken(whole)
         figure = new_figure(12.0, 8.4, f"Load on the pads and its causes{part}")
         if not record.has_all(*names):
-            _missing(figure.subplots(), record, names)
+            missing(figure.subplots(), record, names)
             return figure
         panels = stacked_panels(figure, 4, 2, sharex=True, sharey="col")
         try:
             factors = load_factors(record, geometry.mass, geometry.gravity, rest_shares(whole))
         except InputError as error:
             factors = None
-            _note(panels[0][1], str(error))
+            note(panels[0][1], str(error))
         for i, pad in enumerate(PADS):
             left, right = panels[i]
             left.set_title(f"Pad {pad}  ({PAD_PLACES[pad]})", color=PAD_COLOURS[pad])
@@ -196,11 +109,11 @@ def modes_figure(record: Record, geometry: RigGeometry) -> Figure:
         names = [f"pad_{pad}_N" for pad in PADS]
         if not record.has_all(*names):
             figure = new_figure(12.0, 2.0, f"Pad loads as heave, pitch, roll and warp{part}")
-            _missing(figure.subplots(), record, names)
+            missing(figure.subplots(), record, names)
             return figure
         modes = load_modes(record.stacked("pad_{}_N"))
         swings = {name: float(np.ptp(getattr(modes, name))) for name in ("heave", "pitch", "roll", "warp")}
-        zero = [name for name, swing in swings.items() if swing < _NOTHING * geometry.pad_load]
+        zero = [name for name, swing in swings.items() if swing < NOTHING * geometry.pad_load]
         left_out = f"; {' and '.join(zero)}: zero, not drawn" if zero else ""
         figure = new_figure(
             12.0, 0.6 + 1.9 * (4 - len(zero)), f"Pad loads as heave, pitch, roll and warp{left_out}{part}"
@@ -213,7 +126,7 @@ def modes_figure(record: Record, geometry: RigGeometry) -> Figure:
             )  # fmt: skip
         except InputError as error:
             rigid = None
-            _note(panels[0], str(error))
+            note(panels[0], str(error))
         rows = (
             ("heave", "Heave  A + B + C + D", "rigid: $m(g + a_z)$", SUM),
             (
@@ -271,7 +184,7 @@ def histories_figure(record: Record) -> Figure:
             axes.set_ylabel(shown_unit(lines[0][0]))
             there = [line for line in lines if line[0] in record and line[0] not in still]
             if not there:
-                _missing(axes, record, [name for name, _, _ in lines])
+                missing(axes, record, [name for name, _, _ in lines])
                 continue
             _shade_uplift(axes, record, PADS)
             for i, (name, label, colour) in enumerate(there):
@@ -289,7 +202,7 @@ def _is_still(record: Record, name: str) -> bool:
         return False
     if name not in record:
         return "y" in name
-    return beside in record and float(np.ptp(record[name])) <= _NOTHING * float(np.ptp(record[beside]))
+    return beside in record and float(np.ptp(record[name])) <= NOTHING * float(np.ptp(record[beside]))
 
 
 def _shaken(record: Record) -> tuple[Record, str]:
@@ -326,18 +239,6 @@ def _shade_uplift(axes: Axes, record: Record, pads: Sequence[str]) -> None:
             float(record.time[start]), float(record.time[last]), color=UPLIFT, alpha=0.25, linewidth=0, label=label
         )
         label = "_"
-
-
-def _missing(axes: Axes, record: Record, names: Sequence[str]) -> bool:
-    """Say in a panel which channels it lacks; tell whether any is missing."""
-    absent = [name for name in names if name not in record]
-    if absent:
-        _note(axes, "not recorded: " + ", ".join(absent))
-    return bool(absent)
-
-
-def _note(axes: Axes, text: str) -> None:
-    axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", color=MUTED, fontsize=9.0, wrap=True)
 
 
 def _at_least(axes: Axes, half: float) -> None:

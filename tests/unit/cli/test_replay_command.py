@@ -2,6 +2,7 @@
 
 import json
 
+import numpy as np
 import pytest
 
 from slipwise.record import read_record
@@ -12,11 +13,33 @@ def test_a_synthetic_motion_leaves_record_summary_pictures_and_recording(slipwis
     assert code == 0
     names = {p.name for p in tmp_path.iterdir()}
     assert {"record.parquet", "summary.json", "loops.png", "loads.png", "replay.rrd"} <= names
-    assert "slip, largest" in out
+    assert "slip along x, largest" in out and "slip along y" not in out
     numbers = json.loads((tmp_path / "summary.json").read_text())
     record = read_record(tmp_path / "record.parquet")
     assert numbers["slip_x_max_mm"] == pytest.approx(abs(record["slip_x"]).max() * 1e3, rel=1e-3)
     assert record.provenance["rig"] == "bridge1"
+    assert all(0.0 < numbers[key] < 60.0 for key in ("wall_s", "compile_s", "write_s", "draw_s"))
+    assert f"{numbers['wall_s']:.4g}" in out
+
+
+def test_slip_and_energy_are_told_along_both_directions(slipwise, tmp_path):
+    time = np.arange(0.0, 6.0, 0.01)
+    wave = 0.4 * np.sin(2 * np.pi * time) * np.clip(time / 2, 0, 1)
+    lines = ["time [s],ax [g],ay [g]", *(f"{t},{a},{-1.5 * a}" for t, a in zip(time, wave, strict=True))]
+    (tmp_path / "both.csv").write_text("\n".join(lines))
+    code, out, err = slipwise(
+        "replay", tmp_path / "both.csv", "--x", "ax", "--y", "ay", "--out", tmp_path / "o", "--no-recording"
+    )
+    assert code == 0, err
+    numbers = json.loads((tmp_path / "o" / "summary.json").read_text())
+    record = read_record(tmp_path / "o" / "record.parquet")
+    vector = np.hypot(record["slip_x"], record["slip_y"])
+    assert numbers["slip_y_max_mm"] == pytest.approx(1e3 * np.abs(record["slip_y"]).max(), rel=1e-3)
+    assert numbers["slip_max_mm"] == pytest.approx(1e3 * vector.max(), rel=1e-3)
+    assert numbers["slip_max_mm"] > max(numbers["slip_x_max_mm"], numbers["slip_y_max_mm"])
+    assert numbers["energy_x_kN_cm"] + numbers["energy_y_kN_cm"] == pytest.approx(numbers["energy_kN_cm"])
+    assert numbers["energy_y_kN_cm"] > 1.0
+    assert "slip along y, largest" in out and "largest of the vector" in out
 
 
 def test_json_is_for_a_program_to_read(slipwise, tmp_path):

@@ -6,7 +6,8 @@ import xml.etree.ElementTree as ElementTree
 from matplotlib import rcParams
 
 from slipwise.view.canvas import figure_svg, save_figure
-from slipwise.view.pictures import loops_figure, modes_figure
+from slipwise.view.loop_pictures import loops_figure
+from slipwise.view.pictures import modes_figure
 
 
 def test_the_same_record_gives_the_same_svg_and_the_same_png(record, tmp_path):

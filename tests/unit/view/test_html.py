@@ -7,7 +7,7 @@ import pytest
 
 from slipwise.view.canvas import save_figure
 from slipwise.view.html import Section, bullets, callout, details, figure, page, paragraph, table, verdict
-from slipwise.view.pictures import loops_figure
+from slipwise.view.loop_pictures import loops_figure
 
 HOSTILE = "<script>alert('x')</script> & \"quoted\" <img src=x onerror=alert(1)>"
 VOID = {"meta", "img", "br", "path", "use", "rect", "line", "circle", "image"}

@@ -5,13 +5,14 @@ import pytest
 from matplotlib.image import imread
 
 from slipwise.record import Record
-from slipwise.view.pictures import histories_figure, loads_figure, loops_figure, modes_figure, save_pictures
+from slipwise.view.loop_pictures import loops_figure
+from slipwise.view.pictures import histories_figure, loads_figure, modes_figure, save_pictures
 from slipwise.view.style import PAD_COLOURS, UPLIFT, envelope, mixed, rgb, shown
 
 
 def words(figure) -> str:
     """Everything that is written on a figure."""
-    out = [figure.get_suptitle()]
+    out = [figure.get_suptitle(), *(text.get_text() for text in figure.texts)]
     for axes in figure.axes:
         out += [axes.get_title(loc="left"), axes.get_xlabel(), axes.get_ylabel(), *(t.get_text() for t in axes.texts)]
         legend = axes.get_legend()
@@ -42,7 +43,16 @@ def test_a_pad_has_its_own_colour_on_the_loops(files):
 
 def test_axes_are_labelled_in_the_units_of_the_laboratory(record, geometry):
     shown = words(loops_figure(record)) + words(loads_figure(record, geometry)) + words(histories_figure(record))
-    for label in ("slip x [mm]", "friction F [kN]", "N [kN]", "m/s²", "time [s]", "kN cm", "kN/mm"):
+    for label in (
+        "slip x [mm]",
+        "friction F along x [kN]",
+        "flatness: 1",
+        "N [kN]",
+        "m/s²",
+        "time [s]",
+        "kN cm",
+        "kN/mm",
+    ):
         assert label in shown
 
 
@@ -53,12 +63,26 @@ def test_loads_show_factor_a_factor_b_the_rest_and_uplift(record, geometry):
 
 
 def test_modes_stand_beside_what_a_rigid_girder_asks_for(record, geometry):
-    figure = modes_figure(record, geometry)
+    tilted = record.replaced(pad_A_N=record["pad_A_N"] + 200.0 * np.sin(record.time))
     for title in ("Heave", "Pitch", "Roll", "Warp"):
-        assert title in words(figure)
+        assert title in words(modes_figure(tilted, geometry))
+    figure = modes_figure(record, geometry)
     rigid, pads = figure.axes[1].lines
     on_pads = np.interp(rigid.get_xdata(), pads.get_xdata(), pads.get_ydata())
     assert np.ptp(pads.get_ydata()) > 10.0 and np.median(np.abs(on_pads - rigid.get_ydata())) < 0.05
+
+
+def test_what_is_zero_in_a_plane_motion_is_left_out(record, geometry):
+    assert "roll and warp: zero, not drawn" in words(modes_figure(record, geometry))
+    shown = words(histories_figure(record)) + words(loops_figure(record))
+    for title in ("Acceleration along y", "Friction of the pads along y", "Buffers along y", "slip y [mm]"):
+        assert title not in shown
+
+
+def test_loops_along_y_are_drawn_where_the_girder_slid_that_way(record):
+    across = {f"pad_{pad}_Fy": record[f"pad_{pad}_Fx"] for pad in "ABCD"}
+    text = words(loops_figure(record.replaced(slip_y=0.5 * record["slip_x"], **across)))
+    assert "slip y [mm]" in text and "Sum of the pads, along y" in text
 
 
 def test_a_record_without_a_channel_says_so_and_shows_the_rest(record, geometry):
