@@ -30,6 +30,10 @@ _SUMMARY: tuple[tuple[str, str, str], ...] = (
     ("draw_s", "time to draw pictures and recording", "s"),
     ("engine", "engine", ""),
 )
+_AFTER_LANDING = (
+    "Pads lifted: what follows several landings hangs on the last digits of the motion, and the largest loads hang on "
+    "the pads' damping, which is assumed. Compare motions that differ by less than the table's accuracy."
+)
 #: Rows that say nothing where the girder moves along x alone.
 _ACROSS = (
     "slip_y_half_range_mm", "slip_y_max_mm", "slip_max_mm", "energy_x_kN_cm", "energy_y_kN_cm",
@@ -78,6 +82,8 @@ def print_summary(summary: Mapping[str, Any], console: Console | None = None) ->
     ]
     if rows:
         print_table("Pads", rows, console)
+    if summary.get("uplift_s"):
+        (console or Console()).print(_AFTER_LANDING, highlight=False)
 
 
 def moves_across(summary: Mapping[str, Any]) -> bool:

@@ -37,6 +37,11 @@ def test_a_summary_shows_every_number_with_its_unit_and_a_row_for_each_pad():
     assert [line.split()[0] for line in text.splitlines() if line.strip()[:1] in tuple("ABCD")] == list("ABCD")
 
 
+def test_a_summary_says_what_hangs_on_landings_only_where_pads_lifted():
+    assert "several landings" not in printed(print_summary, SUMMARY)
+    assert "several landings" in printed(print_summary, SUMMARY | {"uplift_s": 0.2})
+
+
 def test_a_summary_without_pads_shows_what_there_is():
     assert "Pads" not in printed(print_summary, {"steps": 10})
 
