@@ -96,6 +96,7 @@ def test_a_slide_without_buffers_slows_down_as_the_closed_form_v3(speed):
     assert np.abs(run["slip_vx"][start:][since > stop + 0.01]).max() < 1e-4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("ratio", "friction", "response"),
     [

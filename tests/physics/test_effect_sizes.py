@@ -23,6 +23,7 @@ def ours() -> dict[str, dict[str, float]]:
     return {name: dict(zip(COLUMNS, n, strict=True)) for name, n in zip(names, numbers, strict=True)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.name)
 def test_every_row_has_the_order_of_magnitude_of_the_other_program(row) -> None:
     for column, theirs in zip(COLUMNS, row.expected, strict=True):

@@ -5,6 +5,7 @@ import sys
 
 import numpy as np
 import pyarrow as pa
+import pytest
 from pyarrow import csv
 
 #: A fifth of two million: reading takes the same share of time and memory.
@@ -21,6 +22,7 @@ print(rows, before, peak())
 """
 
 
+@pytest.mark.slow
 def test_memory_grows_so_slowly_with_rows_that_two_million_need_less_than_two_gigabytes(tmp_path):
     values = np.random.default_rng(1).integers(-9999, 9999, ROWS) / 1000.0
     names = ["table_ax [m/s^2]", "table_az [m/s^2]", "girder_ax [m/s^2]", "girder_az [m/s^2]", "slip_x [mm]"]

@@ -22,6 +22,7 @@ def base() -> BaseFit:
     return fit_base(as_campaign(build_campaign(41041, effects=("pressure_law",), size="medium", rig="bridge1")))
 
 
+@pytest.mark.slow
 def test_a_fit_never_ends_worse_than_what_it_contains(base: BaseFit) -> None:
     """The base hides nearly all of another dependence on pressure, and must move far when it is added."""
     term = Term(catalogue()["pressure_law"])

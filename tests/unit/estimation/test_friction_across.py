@@ -21,6 +21,7 @@ def campaign():
     return as_campaign(build_campaign(35002, effects=(), rich=True))
 
 
+@pytest.mark.slow
 def test_a_complete_model_leaves_noise_and_anisotropy_shows_there_only(campaign):
     fit = fit_base(campaign)
     problem = fit.problem

@@ -1,5 +1,7 @@
 """What gauges of friction lost must not make the girder ring."""
 
+import pytest
+
 from bench import build_campaign
 from bench.campaign import with_faults
 from bench.faults import Fault
@@ -9,6 +11,7 @@ from slipwise.estimation.base_fit import fit_base
 from slipwise.evidence.residual_summary import summarised
 
 
+@pytest.mark.slow
 def test_pitch_does_not_ring_with_samples_that_gauges_of_friction_have_lost() -> None:
     """At a reversal a held sample is off by kilonewtons, and pitch rings with it: by 8.6 noise variances once."""
     made = build_campaign(61, effects=(), rig="bridge2")

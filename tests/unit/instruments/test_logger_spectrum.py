@@ -21,6 +21,7 @@ def unstated(campaign: Campaign) -> Campaign:
     return replace(campaign, logger=Logger())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("effect", "seed", "within"),
     [
@@ -37,6 +38,7 @@ def test_an_unknown_filter_is_found_beside_an_effect_that_the_model_lacks(effect
     assert likeliest.every.frequency == pytest.approx(made.truth.logger.lowpass, rel=within)
 
 
+@pytest.mark.slow
 def test_a_fit_takes_the_logger_for_what_the_audit_says_of_it():
     campaign = unstated(as_campaign(build_campaign(71027, effects=())))
     assert fit_base(campaign).campaign.logger == estimate_logger(campaign).likeliest
@@ -56,6 +58,7 @@ def test_without_a_bend_there_was_no_filter():
     assert found.likeliest == Logger(known=True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rate", [50.0, 100.0])
 def test_a_slow_logger_says_nothing_and_is_fitted_all_the_same(rate):
     campaign = as_campaign(build_campaign(71027, effects=()))

@@ -18,6 +18,7 @@ def made(request):
     return build_campaign(31, effects=(), rig=request.param)
 
 
+@pytest.mark.slow
 def test_slip_velocity_of_a_campaign_is_right_within_a_third_of_a_millimetre_a_second(made):
     campaign = as_campaign(made)
     for run in campaign.runs:
