@@ -29,7 +29,7 @@ def stacked_panels(figure: Figure, rows: int, columns: int = 1, **shared: Any) -
     """
     width, height = figure.get_size_inches()
     figure.set_layout_engine("none")
-    left, right, top, bottom, gap, beside = 0.75, 0.15, 0.85, 0.5, 0.42, 0.7
+    left, right, top, bottom, gap, beside = 0.95, 0.15, 0.85, 0.5, 0.42, 0.8
     panel = (height - top - bottom - gap * (rows - 1)) / rows
     across = (width - left - right - beside * (columns - 1)) / columns
     axes = figure.subplots(

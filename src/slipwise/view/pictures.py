@@ -87,6 +87,7 @@ def loads_figure(record: Record, geometry: RigGeometry) -> Figure:
             left, right = panels[i]
             left.set_title(f"Pad {pad}  ({PAD_PLACES[pad]})", color=PAD_COLOURS[pad])
             left.set_ylabel("N [kN]")
+            right.set_ylabel("part of N [kN]")
             left.axhline(0.0, color="#b8c0cb", linewidth=0.8, zorder=1)
             _shade_uplift(left, record, [pad])
             if factors is not None:
