@@ -21,7 +21,7 @@ from slipwise.model import Model, base_model, use
 from slipwise.record import write_json
 from slipwise.rig import build
 from slipwise.simulation.kernel import installed, kernel
-from slipwise.simulation.steps import numbers_for, start_state, under_law
+from slipwise.simulation.steps import model_for_kernel, numbers_for, start_state
 from slipwise.simulation.substeps import run
 
 DT = 5e-4
@@ -50,7 +50,7 @@ class Rigged:
 
     def batch(self, count: int, threads: int, control: np.ndarray, *, law: bool = True) -> float:
         """Step `count` simulations at once; with the law or bare. Gives microseconds per simulation step."""
-        batch = Batch(under_law(self.rig, DT) if law else self.rig.model, count, threads)
+        batch = Batch(model_for_kernel(self.rig, DT) if law else self.rig.model, count, threads)
         batch.bind("qpos")[:] = start_state(self.rig)
         batch.bind("userdata")[:] = self.numbers
         began = time.perf_counter()

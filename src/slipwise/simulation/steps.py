@@ -62,7 +62,7 @@ def start_state(rig: Rig) -> Array:
     return np.array(data.qpos)
 
 
-def under_law(rig: Rig, dt: float) -> mujoco.MjModel:
+def model_for_kernel(rig: Rig, dt: float) -> mujoco.MjModel:
     """Give a copy of the rig's model for a step dt [s] in which the law takes the place of buffers and of contacts.
 
     The buffers' springs are left out; they stay in the rig so that it behaves in any viewer. The law says what a

@@ -19,7 +19,7 @@ from slipwise.simulation.kernel.layout import buffer_memories, pad_memories
 from slipwise.simulation.predict import shaking, user_effects
 from slipwise.simulation.sensor_channels import to_channels
 from slipwise.simulation.simulator import DT, Memory
-from slipwise.simulation.steps import numbers_for, start_state, under_law
+from slipwise.simulation.steps import model_for_kernel, numbers_for, start_state
 
 Array = NDArray[np.float64]
 #: Samples between two pauses in which what lies between the samples is thrown away.
@@ -129,7 +129,7 @@ def _in_batch(
 ) -> Array:
     """Step all windows of all models together; gives sensordata (all windows, samples, sensors)."""
     each = [(r, i, w) for r, w in zip(rigs, windows, strict=True) for i in range(len(w.start))]
-    models = {id(rig): under_law(rig, float(rig.model.opt.timestep)) for rig in rigs}
+    models = {id(rig): model_for_kernel(rig, float(rig.model.opt.timestep)) for rig in rigs}
     batch = Batch(models[id(rigs[0])], len(each), threads)
     if len(models) > 1:
         batch.set_models([models[id(rig)] for rig, _, _ in each])
@@ -155,7 +155,7 @@ def _one_by_one(
     each = [(r, i, w) for r, w in zip(rigs, windows, strict=True) for i in range(len(w.start))]
     out = np.empty((len(each), -(-control.shape[1] // every), rigs[0].model.nsensordata))
     for row, (rig, i, w) in enumerate(each):
-        compiled = under_law(rig, float(rig.model.opt.timestep))
+        compiled = model_for_kernel(rig, float(rig.model.opt.timestep))
         data = mujoco.MjData(compiled)
         data.qpos[:], data.qvel[:] = _start(rig, w.slip[i], w.velocity[i])
         data.time, data.userdata[:] = w.start[i], numbers[row]

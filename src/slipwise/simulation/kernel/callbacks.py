@@ -13,7 +13,7 @@ import mujoco
 
 from slipwise.errors import SettingError
 from slipwise.simulation.kernel import places
-from slipwise.simulation.kernel.contact import APART, begin_step, press_pad
+from slipwise.simulation.kernel.contact import INACTIVE, apply_pad_load, begin_step
 from slipwise.simulation.kernel.engine import Kernel
 
 _CONTROL = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)
@@ -54,10 +54,10 @@ def _python_callbacks(law: Kernel) -> tuple[Any, Any]:
         push = data.efc_J.reshape(data.nefc, model.nv)
         for first, second, row in zip(contact.geom1, contact.geom2, contact.efc_address, strict=True):
             if row >= 0:
-                data.efc_aref[row] = APART
+                data.efc_aref[row] = INACTIVE
                 for pad, geom in enumerate(geoms):
                     if geom in (first, second):
-                        press_pad(u, pad, -data.efc_pos[row], -data.efc_vel[row], push[row], data.qfrc_applied)
+                        apply_pad_load(u, pad, -data.efc_pos[row], -data.efc_vel[row], push[row], data.qfrc_applied)
         control_step(
             u, data.time, data.ten_length, data.ten_velocity, data.qvel, data.efc_frictionloss, data.qfrc_applied
         )

@@ -27,7 +27,7 @@ from slipwise.simulation.kernel.places import (
 
 Array = NDArray[np.float64]
 #: Reference acceleration [m/s^2] that keeps a contact of MuJoCo's from acting: the law's load takes its place.
-APART = -1e9
+INACTIVE = -1e9
 
 
 @compilable
@@ -39,7 +39,7 @@ def begin_step(u: Array, applied: Array) -> None:
 
 
 @compilable
-def press_pad(u: Array, pad: int, compression: float, rate: float, push: Array, applied: Array) -> None:
+def apply_pad_load(u: Array, pad: int, compression: float, rate: float, push: Array, applied: Array) -> None:
     """Find the load of a pad in this step and let it press on the girder.
 
     Args:

@@ -15,7 +15,7 @@ from numba.np.numpy_support import carray
 from numpy.typing import NDArray
 
 from slipwise.simulation.kernel.compilable import compilable
-from slipwise.simulation.kernel.contact import APART, begin_step, press_pad
+from slipwise.simulation.kernel.contact import INACTIVE, apply_pad_load, begin_step
 from slipwise.simulation.kernel.dispatch import Dispatch
 from slipwise.simulation.kernel.mjdata import Offsets
 from slipwise.simulation.kernel.places import N_DOFS, N_PADS, PAD_GEOM
@@ -103,12 +103,12 @@ def control_at(effects: Dispatch, at: Fields, data: int) -> None:
         contact = carray(_as_pointer(words[at.contact] + 4 * i * at.contact_size), (at.contact_size,), np.int32)
         row = contact[at.efc_address]
         if row >= 0:
-            reference[row] = APART
+            reference[row] = INACTIVE
             for pad in range(int(u[N_PADS])):
                 geom = int(u[PAD_GEOM + pad])
                 if contact[at.geom1] == geom or contact[at.geom2] == geom:
                     push = jacobian[row * dofs : (row + 1) * dofs]
-                    press_pad(u, pad, -float(position[row]), -float(velocity[row]), push, applied)
+                    apply_pad_load(u, pad, -float(position[row]), -float(velocity[row]), push, applied)
     control_step(
         effects,
         u,
