@@ -13,6 +13,8 @@ from slipwise.simulation.kernel import Kernel, fill, places
 from slipwise.simulation.kernel.places import MAX_DOFS
 
 Array = NDArray[np.float64]
+#: Of the solver; relative to the mean inertia, which the table's armature raises to 1e9 kg [1].
+_TOLERANCE = 1e-22
 #: Gap [m] below which the law is asked for the load of a pad: more than any girder is thrown.
 _REACH = 0.5
 
@@ -70,6 +72,8 @@ def model_for_kernel(rig: Rig, dt: float) -> mujoco.MjModel:
     """
     model = copy.copy(rig.model)
     model.opt.timestep = dt
+    # At a larger tolerance the solver takes the forces of the step before where they are 1 N wrong.
+    model.opt.tolerance = min(model.opt.tolerance, _TOLERANCE)
     tendons = list(rig.tendons)
     model.tendon_stiffness[tendons] = 0.0
     model.tendon_solref_fri[tendons, 0] *= dt / rig.model.opt.timestep
