@@ -3,6 +3,7 @@
 Inside Slipwise everything is SI (m, s, kg, N, Pa, rad, K); this file is the only door.
 """
 
+import re
 from functools import cache
 
 import pint
@@ -22,17 +23,39 @@ def _registry() -> pint.UnitRegistry:
     # "g" of an engineer at a shaking table is never a gram.
     registry.define("gee = 9.80665 m/s^2")
     registry.define("ton_metric = 1000 kg")
+    registry.define("tonf_metric = 1000 kgf")
     return registry
 
 
+#: Units as laboratories and agencies write them -> as pint reads them.
+_SPELLINGS: dict[str, str] = {
+    "g's": "gee", "g": "gee", "G": "gee", "GRAV": "gee", "mG": "milligee", "mg": "milligee",
+    "t": "ton_metric", "tonf": "tonf_metric", "TONF": "tonf_metric", "TF": "tonf_metric",
+    "KN": "kN", "KGF": "kgf", "Kgf": "kgf", "LBF": "lbf", "KIP": "kip", "KIPS": "kip", "Kips": "kip",
+    "GAL": "gal", "GALS": "gal", "Gals": "gal", "gals": "gal",
+    "Sec": "s", "SEC": "s", "S": "s", "secs": "s", "MSEC": "ms", "Hours": "hour", "HZ": "Hz", "hz": "Hz",
+    "M": "m", "CM": "cm", "Cm": "cm", "MM": "mm", "Mm": "mm", "IN": "in", "Inch": "in", "INCH": "in", "Inches": "in",
+    "KG": "kg", "Kg": "kg", "MPA": "MPa", "Mpa": "MPa", "KPA": "kPa", "Kpa": "kPa", "PSI": "psi", "DEG": "deg",
+    "C": "degC", "F": "degF", "-": "1", "": "1", "%": "percent",
+}  # fmt: skip
+_TON = re.compile(r"\btons?\b", re.IGNORECASE)
+#: A name of letters, perhaps with a power behind it: mm2, s-2, s^-2.
+_NAMED = re.compile(r"([A-Za-z_°'%]+)(?:(?:\^|\*\*)?(-?\d+))?")
+_SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+
+
 def _clean(text: str) -> str:
-    """Rewrite what engineers write into what pint reads."""
-    text = text.strip().replace("²", "^2").replace("³", "^3").replace("µ", "u").replace("·", "*")
-    if text in ("g", "G", "g's"):
-        return "gee"
-    if text == "t":
-        return "ton_metric"
-    return {"-": "1", "": "1", "%": "percent"}.get(text, text)
+    """Rewrite what engineers write into what pint reads: KN, N/mm2, cm/sec2, m·s⁻², g."""
+    text = text.strip().translate(_SUPERSCRIPTS).replace("µ", "u").replace("μ", "u").replace("·", "*")
+    text = text.replace("−", "-").replace("°C", "degC").replace("°F", "degF")
+    if text in _SPELLINGS:
+        return _SPELLINGS[text]
+
+    def named(found: re.Match[str]) -> str:
+        name, power = found.groups()
+        return _SPELLINGS.get(name, name) + (f"**{power}" if power else "")
+
+    return _NAMED.sub(named, re.sub(r"(?<=[A-Za-z0-9]) +(?=[A-Za-z])", "*", text))
 
 
 def parse_unit(unit: str, dimension_of: str, what: str) -> float:
@@ -86,6 +109,10 @@ def quantity(text: str | float | int, dimension_of: str, what: str, *, plain_uni
         )
         number, unit = given[:split], given[split:]
     shown = plain_unit if plain_unit is not None else unit
+    if _TON.search(unit):
+        raise UnitError(
+            f"{what}: {shown!r} may be of 1000, 907 or 1016 kg; write t for 1000 kg, tonf for the force of 1000 kg"
+        )
     try:
         value = float(number)
     except ValueError:
