@@ -139,8 +139,9 @@ def _between(control: Array, first: int, count: int, parts: int) -> Array:
     """Give the command (count * parts, 4) at and between steps, which it joins by straight lines."""
     if parts == 1:
         return control[first : first + count]
-    at = first + np.arange(count * parts) / parts
-    return np.stack([np.interp(at, np.arange(len(control)), column) for column in control.T], axis=1)
+    known = control[first : first + count + 1]
+    at = np.arange(count * parts) / parts
+    return np.stack([np.interp(at, np.arange(len(known)), column) for column in known.T], axis=1)
 
 
 def _warning(counts: Array) -> str:

@@ -40,24 +40,18 @@ PICTURES: tuple[str, ...] = ("loops", "loads", "modes", "histories")
 _QUIET = 0.01
 
 
-def save_pictures(record: Record, geometry: RigGeometry, folder: Path) -> list[Path]:
-    """Write loops.png, loads.png, modes.png and histories.png.
-
-    A panel whose channels were not recorded says which are missing.
+def save_picture(name: str, record: Record, geometry: RigGeometry, folder: Path) -> Path:
+    """Write one of `PICTURES`; a panel whose channels were not recorded says which are missing.
 
     Args:
+        name: of the picture.
         record: measured or simulated.
         geometry: of its rig.
         folder: made if absent.
 
     Returns:
-        The files, each there whole or not at all.
+        The file, there whole or not at all.
     """
-    return [save_picture(name, record, geometry, folder) for name in PICTURES]
-
-
-def save_picture(name: str, record: Record, geometry: RigGeometry, folder: Path) -> Path:
-    """Write one of `PICTURES`; arguments as `save_pictures`."""
     figures = {
         "loops": lambda: loops_figure(record),
         "loads": lambda: loads_figure(record, geometry),
@@ -113,13 +107,13 @@ def modes_figure(record: Record, geometry: RigGeometry) -> Figure:
             missing(figure.subplots(), record, names)
             return figure
         modes = load_modes(record.stacked("pad_{}_N"))
-        swings = {name: float(np.ptp(getattr(modes, name))) for name in ("heave", "pitch", "roll", "warp")}
+        swings = {name: float(np.ptp(getattr(modes, name))) for name in ("pitch", "roll", "warp")}
         zero = [name for name, swing in swings.items() if swing < NOTHING * geometry.pad_load]
         left_out = f"; {' and '.join(zero)}: zero, not drawn" if zero else ""
         figure = new_figure(
             12.0, 0.6 + 1.9 * (4 - len(zero)), f"Pad loads as heave, pitch, roll and warp{left_out}{part}"
         )
-        panels = [row[0] for row in stacked_panels(figure, max(4 - len(zero), 1), sharex=True)]
+        panels = [row[0] for row in stacked_panels(figure, 4 - len(zero), sharex=True)]
         try:
             rigid: LoadModes | None = rigid_modes(
                 record, geometry.mass, geometry.gravity, geometry.girder_centre_height, geometry.half_spacing,
@@ -140,7 +134,7 @@ def modes_figure(record: Record, geometry: RigGeometry) -> Figure:
             ("warp", "Warp  (A + D) − (B + C)", "", PAD_COLOURS["B"]),
         )
         drawn = [row for row in rows if row[0] not in zero]
-        for axes, (name, title, expected, colour) in zip(panels, drawn, strict=False):
+        for axes, (name, title, expected, colour) in zip(panels, drawn, strict=True):
             axes.set_title(title)
             axes.set_ylabel(f"{name} [kN]")
             _shade_uplift(axes, record, PADS)
@@ -179,8 +173,8 @@ def histories_figure(record: Record) -> Figure:
         still = {name for _, lines in rows for name, _, _ in lines if _is_still(record, name)}
         rows = [row for row in rows if not all(name in still for name, _, _ in row[1])]
         figure = new_figure(12.0, 1.2 + 1.7 * len(rows), f"Time histories{part}")
-        panels = [row[0] for row in stacked_panels(figure, max(len(rows), 1), sharex=True)]
-        for axes, (title, lines) in zip(panels, rows, strict=False):
+        panels = [row[0] for row in stacked_panels(figure, len(rows), sharex=True)]
+        for axes, (title, lines) in zip(panels, rows, strict=True):
             axes.set_title(title)
             axes.set_ylabel(shown_unit(lines[0][0]))
             there = [line for line in lines if line[0] in record and line[0] not in still]

@@ -6,7 +6,8 @@ from matplotlib.image import imread
 
 from slipwise.record import Record
 from slipwise.view.loop_pictures import loops_figure
-from slipwise.view.pictures import histories_figure, loads_figure, modes_figure, save_pictures
+from slipwise.view.pictures import histories_figure, loads_figure, modes_figure
+from slipwise.view.replay_files import draw_replay
 from slipwise.view.style import PAD_COLOURS, UPLIFT, envelope, mixed, rgb, shown
 
 
@@ -22,7 +23,8 @@ def words(figure) -> str:
 
 @pytest.fixture(scope="module")
 def files(record, geometry, tmp_path_factory):
-    return save_pictures(record, geometry, tmp_path_factory.mktemp("pictures") / "new folder")
+    folder = tmp_path_factory.mktemp("pictures") / "new folder"
+    return draw_replay(record, geometry, folder, "a record", pictures=True, recording=False)
 
 
 def test_every_picture_is_written_and_none_is_blank(files):
@@ -79,6 +81,12 @@ def test_what_is_zero_in_a_plane_motion_is_left_out(record, geometry):
     shown = words(histories_figure(plane)) + words(loops_figure(plane))
     for title in ("Acceleration along y", "Friction of the pads along y", "Buffers along y", "slip y [mm]"):
         assert title not in shown
+
+
+def test_loads_that_never_change_still_give_a_picture_of_heave(record, geometry):
+    at_rest = record.replaced(**{f"pad_{pad}_N": np.full(len(record), geometry.pad_load) for pad in "ABCD"})
+    text = words(modes_figure(at_rest, geometry))
+    assert "Heave" in text and "pitch and roll and warp: zero" in text
 
 
 def test_loops_along_y_are_drawn_where_the_girder_slid_that_way(record):

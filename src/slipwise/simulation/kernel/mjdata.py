@@ -79,8 +79,8 @@ def offsets() -> Offsets:
         SimulationError: this build of MuJoCo lays its data out in another way.
     """
     data_fields = ("time", "ncon", "contact", "userdata", "qvel", "qfrc_applied", "ten_length", "ten_velocity",
-                   "efc_frictionloss", "efc_pos",
-                   "efc_vel", "efc_J", "efc_aref", "efc_force", "sensordata")  # fmt: skip
+                   "efc_frictionloss", "efc_pos", "efc_vel",
+                   "efc_J", "efc_aref", "efc_force", "sensordata")  # fmt: skip
     data, contact = _structure("mjData"), _structure("mjContact")
     found = Offsets(
         data={name: getattr(data, name).offset for name in data_fields},
