@@ -12,7 +12,8 @@ from slipwise.errors import InputError
 from slipwise.record import Record
 from slipwise.signals.hysteresis_loop import branches, loop_shape
 from slipwise.view.canvas import new_figure
-from slipwise.view.panels import NOTHING, missing
+from slipwise.view.numbers import NOTHING
+from slipwise.view.panels import missing
 from slipwise.view.style import MUTED, PAD_COLOURS, PAD_PANELS, PAD_PLACES, SUM, styled
 
 Array = NDArray[np.float64]

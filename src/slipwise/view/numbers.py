@@ -1,6 +1,9 @@
-"""Small numbers as people write them in a sentence."""
+"""Small numbers: as people write them in a sentence, and when one counts as zero."""
 
 _WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
+
+#: Less than this share of what there is beside it counts as zero and is left out [1].
+NOTHING = 1e-3
 
 
 def in_words(number: int) -> str:

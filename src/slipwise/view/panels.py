@@ -9,9 +9,6 @@ from matplotlib.figure import Figure
 from slipwise.record import Record
 from slipwise.view.style import MUTED
 
-#: Less than this share of what there is beside it counts as zero and is left out [1].
-NOTHING = 1e-3
-
 
 def stacked_panels(figure: Figure, rows: int, columns: int = 1, **shared: Any) -> list[list[Axes]]:
     """Give panels under each other in a figure of `new_figure`, placed in inches rather than by a layout engine.

@@ -15,7 +15,8 @@ from slipwise.rig.load_modes import LoadModes, load_factors, load_modes, rest_sh
 from slipwise.view.canvas import new_figure, save_figure
 from slipwise.view.geometry import RigGeometry
 from slipwise.view.loop_pictures import loops_figure
-from slipwise.view.panels import NOTHING, missing, note, stacked_panels
+from slipwise.view.numbers import NOTHING
+from slipwise.view.panels import missing, note, stacked_panels
 from slipwise.view.style import (
     AXIS_COLOURS,
     BUFFER_COLOURS,

@@ -9,6 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from slipwise.channels import PADS
+from slipwise.view.numbers import NOTHING
 
 #: Rows of a replay's summary: key, what it is called, unit.
 _SUMMARY: tuple[tuple[str, str, str], ...] = (
@@ -88,7 +89,7 @@ def print_summary(summary: Mapping[str, Any], console: Console | None = None) ->
 
 def moves_across(summary: Mapping[str, Any]) -> bool:
     """Tell whether a replay moved along y by more than a thousandth of what it moved along x."""
-    return summary.get("slip_y_max_mm", 0.0) > 1e-3 * summary.get("slip_x_max_mm", 0.0)
+    return summary.get("slip_y_max_mm", 0.0) > NOTHING * summary.get("slip_x_max_mm", 0.0)
 
 
 def cell(value: Any) -> str:
