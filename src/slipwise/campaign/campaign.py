@@ -7,6 +7,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from slipwise.campaign.materiality import Materiality
 from slipwise.campaign.rest_noise import Gauge, noise_of_gauges
 from slipwise.errors import SettingError
 from slipwise.record import Record
@@ -77,6 +78,7 @@ class Campaign(Drawn, Tabular):
         folder: where campaign.toml lies.
         known: values that [specimen] gives, name -> SI; all other values are only rated.
         notes: what a user should know of the reading, in words: columns not used, assumptions made.
+        materiality: how much an effect must change to be named.
     """
 
     name: str
@@ -87,11 +89,13 @@ class Campaign(Drawn, Tabular):
     folder: Path
     known: Mapping[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    materiality: Materiality = field(default_factory=Materiality)
 
     @cached_property
     def gauges(self) -> Mapping[str, Gauge]:
-        """Noise of every channel, from the rests of all runs."""
-        return noise_of_gauges([run.record for run in self.runs])
+        """Noise of every channel, from the rests of the runs that are not held out, unless only those have it."""
+        seen = noise_of_gauges([run.record for run in self.runs if run.role != "holdout"])
+        return {**noise_of_gauges([run.record for run in self.runs]), **seen}
 
     def with_role(self, *roles: str) -> tuple[Run, ...]:
         """Give the runs that have one of these roles."""

@@ -70,6 +70,7 @@ def load_campaign(folder: Path | str) -> Campaign:
         runs=tuple(runs),
         folder=folder,
         known={name: value for name, value in settings.specimen.items() if isinstance(value, float)},
+        materiality=settings.materiality,
     )
     return replace(campaign, notes=(*notes, *check_same_specimen(campaign)))
 

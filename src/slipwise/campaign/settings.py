@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from slipwise.campaign.campaign import ROLES, Logger
+from slipwise.campaign.materiality import Materiality
 from slipwise.channels import CHANNELS, channel
 from slipwise.errors import InputError, SettingError, unknown_name
 from slipwise.rig import Specimen
@@ -14,7 +15,7 @@ from slipwise.rig.known import SPECIMEN_UNITS, SPECIMEN_WORDS
 from slipwise.signals.filters import LowPass
 from slipwise.units import quantity
 
-_TOP = ("name", "rig", "description", "specimen", "columns", "constants", "derived", "logger", "run")
+_TOP = ("name", "rig", "description", "specimen", "columns", "constants", "derived", "logger", "materiality", "run")
 _RUN = ("file", "role", "window", "rest_before", "description")
 _COLUMN = ("channel", "unit", "sign")
 _LOWPASS = ("lowpass", "order", "phase")
@@ -58,6 +59,7 @@ class Settings:
     constants: Mapping[str, float]
     derived: Mapping[str, str]
     logger: Logger
+    materiality: Materiality
     runs: tuple[RunSettings, ...]
 
 
@@ -79,7 +81,7 @@ def read_settings(path: Path) -> Settings:
     for needed, example in (("rig", '"bridge1"'), ("run", '[[run]] with file = "..." and role = "fit"')):
         if needed not in content:
             raise InputError(f"{path}: {needed!r} is missing; write for example {example}")
-    tables = ("specimen", "columns", "constants", "derived", "logger")
+    tables = ("specimen", "columns", "constants", "derived", "logger", "materiality")
     part = {key: _table(content.get(key, {}), f"[{key}] of {path.name}") for key in tables}
     runs = content["run"]
     if not isinstance(runs, list) or not runs:
@@ -95,6 +97,7 @@ def read_settings(path: Path) -> Settings:
         },
         derived={name: _derived(name, text, path.name) for name, text in part["derived"].items()},
         logger=_logger(part["logger"], f"[logger] of {path.name}") if "logger" in content else Logger(),
+        materiality=_materiality(part["materiality"], f"[materiality] of {path.name}"),
         runs=tuple(_run(run, f"[[run]] number {i + 1} of {path.name}") for i, run in enumerate(runs)),
     )
 
@@ -178,6 +181,15 @@ def _lowpass(part: Mapping[str, Any], where: str) -> LowPass | None:
     if phase not in ("zero", "causal"):
         raise unknown_name(f"phase in {where}", str(phase), ("zero", "causal"))
     return LowPass(frequency, order, phase)
+
+
+def _materiality(part: Mapping[str, Any], where: str) -> Materiality:
+    _keys(part, [f.name for f in fields(Materiality)], where)
+    shares = {name: quantity(value, "1", f"{where}, {name!r}") for name, value in part.items()}
+    for name, share in shares.items():
+        if not 0.0 < share < 1.0:
+            raise SettingError(f"{where}: {name} = {share:g} must lie between 0 and 1; write for example \"2 %\"")
+    return Materiality(**shares)
 
 
 def _run(content: Any, where: str) -> RunSettings:

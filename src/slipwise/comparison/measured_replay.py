@@ -61,6 +61,12 @@ def measured_motion(states: States) -> TableMotion:
     return TableMotion(states.dt, columns, "measured table motion", ("table_ax", "table_ay", "table_az"))
 
 
+def simulation_step(sampling: float) -> float:
+    """Give the step of a simulation, the usual one at most, of which the step of a record is a multiple, both [s]."""
+    # a step that was read from a file's times is off by rounding
+    return sampling / float(np.ceil(sampling / DT * (1.0 - 1e-9)))
+
+
 def replay_runs(
     model: Model,
     runs: Sequence[tuple[str, States, float]],

@@ -2,53 +2,55 @@
 
 from dataclasses import replace
 
-from slipwise.diagnosis.choice import has_delay_for_filter, overparameterised
+from slipwise.diagnosis.choice import has_delay_for_filter
 from slipwise.diagnosis.hypothesis import Hypothesis, final_refit_of
 from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects
+from slipwise.diagnosis.removal import without
 from slipwise.diagnosis.search_state import Search, left_with, tried_before, try_one
-from slipwise.evidence.materiality import SAME_SCORE, material, score
-from slipwise.parallel import on_every_core
+from slipwise.estimation.parameters import Term
+from slipwise.evidence.acceptance import is_kept, least_drop
+from slipwise.evidence.residual_summary import ResidualSummary
+from slipwise.evidence.score import score
 
 #: Share by which a delay may lie behind a filter that takes nothing: true delays lay 0.0024 behind, filters 0.015 [1].
 _NO_FILTER = 0.004
-#: What leaves so many times as much is not as good when it is weighed anew: of 14 such none changed by 1 % [1].
-_FAR_OFF = 3.0
 
 
 def pruned(state: Search) -> Search:
-    """Take effects away again whose loss is not material."""
-    origin = state.path[0]
+    """Take effects away again that are not worth being kept beside the others, the least first."""
+    origin = state.path[0].summary
     while len(state.best.terms) > 1:
-        whole = state.best
-        for rest in map(whole.without, whole.terms):
-            # what was fitted before may do; only if not is it fitted again, from where the whole ended
-            known = tried_before(state, rest)
-            sufficient = next((h for h in known if not material(origin.summary, h.summary, whole.summary)), None)
-            fewer = sufficient or try_one(state, rest, {}, whole)
-            if not material(origin.summary, fewer.summary, whole.summary):
-                state = state.stepped_to(fewer)
-                break
-        else:
-            break
+        least = _least_needed(state, state.best, origin)
+        if least is None:
+            return state
+        state = state.stepped_to(left_with(state, state.best.without(least), state.best))
     return state
 
 
+def _least_needed(state: Search, whole: Hypothesis, origin: ResidualSummary) -> Term | None:
+    """Give the effect whose loss costs least, where a hypothesis is as good without it."""
+    losses: list[tuple[float, Term]] = []
+    for term in whole.terms:
+        fewer = without(whole, [term], lambda rest: left_with(state, rest, whole))
+        if not is_kept(origin, fewer, whole.summary, least_drop([term])):
+            losses.append((score(fewer, whole.summary), term))
+    return min(losses, key=lambda loss: loss[0])[1] if losses else None
+
+
 def with_final_refit(state: Search) -> Search:
-    """Weigh the best against rival and plainer laws, and fit it anew, without what is immaterial then.
+    """Weigh the best against rival and plainer laws, and fit it anew, without what is not worth being kept then.
 
     A large first effect leaves the noise near reversals wrong until it is weighed anew, and a second one repairs that.
     """
     state = _simplified(_with_rivals_tried(state))
-    origin, reported = state.path[0].summary, final_refit_of(state.best)
-    while len(state.best.terms) > 1:
-        rests = [left_with(state, state.best.without(t), state.best) for t in state.best.terms]
-        fewer = [h for h in rests if h.solution.cost < _FAR_OFF * state.best.solution.cost]
-        summaries = on_every_core(lambda i, of=fewer: final_refit_of(of[i]).summary, len(fewer))
-        pairs = zip(fewer, summaries, strict=True)
-        sufficient = next((h for h, summary in pairs if not material(origin, summary, reported.summary)), None)
-        if sufficient is None:
+    reported = final_refit_of(state.best)
+    origin = state.path[0].summary
+    while len(reported.terms) > 1:
+        least = _least_needed(state, reported, origin)
+        if least is None:
             break
-        state, reported = state.stepped_to(sufficient), final_refit_of(sufficient)
+        state = state.stepped_to(left_with(state, reported.without(least), reported))
+        reported = final_refit_of(state.best)
     return replace(state, final_refit=reported)
 
 
@@ -68,13 +70,12 @@ def _with_rivals_tried(state: Search) -> Search:
 
 
 def _simplified(state: Search) -> Search:
-    """Take a law of far fewer constants, or a delay for a filter that takes nothing, where it does as well."""
+    """Take a delay for a filter that takes nothing, where it does as well."""
     origin, best = state.path[0].summary, state.best
-    alike = [h for h in state.tried if len(h.terms) == len(best.terms) and set(h.names) != set(best.names)]
-    plain = [h for h in alike if overparameterised(h, best, origin)]
+    plain: list[Hypothesis] = []
     if has_delay_for_filter(best):
         top = score(origin, best.summary)
-        least = top - max(SAME_SCORE, _NO_FILTER * top)
+        least = (1.0 - _NO_FILTER) * top
         plain += [h for h in _with_delays(state, best) if score(origin, h.summary) > least]
     if not plain:
         return state

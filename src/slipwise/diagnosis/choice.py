@@ -6,14 +6,10 @@ import numpy as np
 
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.screening import Screened
-from slipwise.evidence.materiality import MATERIAL, least_material_drop, material_drop, score
-from slipwise.evidence.residual_summary import ResidualSummary
+from slipwise.evidence.acceptance import is_kept, least_drop
+from slipwise.evidence.score import score
 from slipwise.instruments.delay_or_filter import is_delay, passed
 
-#: What a constant of a law must be worth: the logarithm of some hundred thousand samples (Schwarz 1978).
-_PER_CONSTANT = 12.0
-#: A law with one constant more is no other kind of law: a filter's order, beside a delay.
-_FAR_MORE = 2
 #: Share of the best explanation from which on another gauge's ties with it [1].
 _TIE = 0.99
 
@@ -35,12 +31,10 @@ def best_of(origin: Hypothesis, tried: Sequence[Hypothesis]) -> Hypothesis | Non
     Cells of load that all read 4 % less under a girder of 4 % more mass are cells of friction that all read 4 % more.
     """
     ranked = sorted(((score(origin.summary, h.summary), h) for h in tried), key=lambda pair: -pair[0])
-    good = [(gain, h) for gain, h in ranked if gain > 0.0 and material_alone(origin, h)]
+    good = [(gain, h) for gain, h in ranked if kept_alone(origin, h)]
     if not good:
         return None
     top, first = good[0]
-    if material_drop(origin.summary, first.summary)[0] < MATERIAL and ranked[0][0] > top:
-        return None  # a law of so little is not named where what is no finding explains more
     ties = dict[tuple[str, ...], Hypothesis]()
     for gain, h in good:  # one gauge with a worse law is no tie
         if h.names == first.names and gain > _TIE * top:
@@ -61,19 +55,6 @@ def has_delay_for_filter(found: Hypothesis) -> bool:
     return any(is_delay(t.effect, found.values_of(t), highest) for t in found.terms)
 
 
-def material_alone(origin: Hypothesis, found: Hypothesis) -> bool:
-    """Tell whether effects are worth a name as a first step from the base model."""
-    return material_drop(origin.summary, found.summary)[0] >= least_material_drop(found.terms)
-
-
-def overparameterised(simple: Hypothesis, complex_hypothesis: Hypothesis, base: ResidualSummary) -> bool:
-    """Tell whether a hypothesis of far more constants explains no more, as a patch as wide as the stroke does.
-
-    Args:
-        simple: of fewer constants.
-        complex_hypothesis: of more.
-        base: residuals of the base model.
-    """
-    more = len(complex_hypothesis.solution.free) - len(simple.solution.free)
-    gain = score(base, complex_hypothesis.summary) - score(base, simple.summary)
-    return more >= _FAR_MORE and gain < _PER_CONSTANT * more
+def kept_alone(origin: Hypothesis, found: Hypothesis) -> bool:
+    """Tell whether effects are worth being kept as a first step from the base model."""
+    return is_kept(origin.summary, origin.summary, found.summary, least_drop(found.terms))

@@ -7,7 +7,7 @@ import numpy as np
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.starting_grid import strengths
-from slipwise.evidence.materiality import least_material_drop
+from slipwise.evidence.acceptance import least_drop
 
 
 def least_sizes(screened: Sequence[Screened], base: Hypothesis) -> dict[str, tuple[float, str]]:
@@ -42,5 +42,5 @@ def _least(found: Screened, base: Hypothesis) -> tuple[float, str] | None:
     drops = np.add.reduceat(step, np.concatenate([[0], np.cumsum(rows)[:-1]]))
     counts = np.array([base.summary.counts[r][0] for r in problem.relations])
     return float(
-        size * np.sqrt(least_material_drop([found.term]) / np.max(drops / np.maximum(counts, 1)))
+        size * np.sqrt(least_drop([found.term]) / np.max(drops / np.maximum(counts, 1)))
     ), leading.unit

@@ -10,21 +10,23 @@ import numpy as np
 from slipwise.campaign import Campaign, as_campaign
 from slipwise.diagnosis.cannot_tell import cannot_tell
 from slipwise.diagnosis.detectable_size import least_sizes
+from slipwise.diagnosis.findings import findings
 from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.diagnosis.importance import importance_of_effects
 from slipwise.diagnosis.indistinguishable import alike_pairs
 from slipwise.diagnosis.replays import replayed_errors
 from slipwise.diagnosis.reported_sizes import named_sizes
 from slipwise.diagnosis.result import Candidate, Diagnosis
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.selection import SelectionResult, select_effects
-from slipwise.diagnosis.verdict import Verdict, decide_verdict, with_faults
+from slipwise.diagnosis.verdict import Verdict, confirmed, decide_verdict, with_faults
 from slipwise.effects import Effect
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import jacobian
 from slipwise.estimation.prediction_interval import PredictedFriction, predicted_friction
-from slipwise.evidence.materiality import material_drop, score
 from slipwise.evidence.residual_summary import error_of
+from slipwise.evidence.score import largest_drop, score
 from slipwise.instruments.suspects import effect_of
 from slipwise.model import Model
 from slipwise.model_file import as_model
@@ -59,17 +61,20 @@ def diagnose(
     measured = as_campaign(campaign)
     start = None if model is None else as_model(model)
     tell("fitting base parameters", 0.02)
-    part = 0.7 if system else 1.0
+    part = 0.7 if system else 0.9
     selected = select_effects(measured, start, own, lambda words, share: tell(words, part * share))
     base, state = selected.base, selected.search
-    decided = decide_verdict(state)
+    tell("replaying without each effect", part)
+    found = as_fit(base, state.final, with_slopes=not state.final.problem.balanced)
+    evidence = findings(state, importance_of_effects(found, state.final.terms), measured.materiality)
+    decided = decide_verdict(state, evidence, measured.materiality)
     shown = state.final if decided.effects else state.path[0]
     verdict = with_faults(decided, selected.faults, state.best.terms)
-    final = as_fit(base, shown, with_slopes=shown is not state.final_refit or not shown.problem.balanced)
+    final = found if shown is state.final else as_fit(base, shown, with_slopes=True)
     cannot = [f"{name}: {reason}" for name, reason in [*state.cannot.items(), *cannot_tell(state, final)]]
     replayed: dict[str, float] = {}
     if system:
-        tell("replaying", 0.7)
+        tell("replaying", part)
         try:
             roles = ("holdout",) if base.problem.held_out else ("fit", "repeat")
             models = [base] if final is base else [base, final]
@@ -89,6 +94,7 @@ def diagnose(
         relations=relations,
         system=replayed,
         candidates=_listed(selected, decided, verdict, final),
+        confirmed=confirmed(state) if decided.effects else None,
         predicted_friction=_predicted_friction(final),
         least=least_sizes(state.all_screened, state.path[0]),
         cannot_tell=tuple(cannot),
@@ -132,8 +138,9 @@ def _component(state: Search, verdict: Verdict) -> str:
         return "none"
     if verdict.kind == "instrument":
         return "instrument"
-    if state.best.terms and verdict.kind != "unknown":
-        return state.best.terms[0].effect.component
+    if verdict.kind in ("named", "ambiguous"):
+        found = {f.name: f.terms[0].effect.component for f in verdict.findings}
+        return next(found[name] for name in verdict.effects if name in found)
     relation = verdict.surface.relation if verdict.surface else "pads"
     return {"pads": "pad friction", "girder": "girder", "heave": "pad load"}.get(relation, "pad load")
 
@@ -163,7 +170,7 @@ def _candidates(state: Search, verdict: Verdict, final: BaseFit) -> tuple[Candid
     shares = _shares(state, verdict, listed)
     out = []
     for h, probability in zip(listed, shares, strict=True):
-        _, where = material_drop(origin.summary, h.summary)
+        _, where = largest_drop(origin.summary, h.summary)
         where = where or "pads"
         shown = state.final if h is best else h
         out.append(

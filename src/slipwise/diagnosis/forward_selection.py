@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from slipwise.diagnosis.backward_elimination import pruned, with_final_refit
 from slipwise.diagnosis.bound_check import with_bounds_checked
 from slipwise.diagnosis.candidates import candidates
-from slipwise.diagnosis.choice import best_of, limit_per_effect, material_alone
+from slipwise.diagnosis.choice import best_of, kept_alone, limit_per_effect
 from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, strength_at_bound
 from slipwise.diagnosis.pairs import leading_pair
 from slipwise.diagnosis.rescreening import rescreen
@@ -19,7 +19,8 @@ from slipwise.diagnosis.starting_grid import places
 from slipwise.diagnosis.starting_values import longer_stick, starting_points, starts_of
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit, at_rated
-from slipwise.evidence.materiality import MATERIAL, MATERIAL_FURTHER, all_down, is_near, material, score
+from slipwise.evidence.acceptance import LEAST, all_down, is_kept, least_drop
+from slipwise.evidence.score import score
 
 Array = NDArray[np.float64]
 #: Share of what is worth a name from which on a screen's gain is worth a refit [1].
@@ -37,8 +38,10 @@ _REFITTED_PHYSICS = 2
 #: Mean squared residual of a base that is too far from the data for a screen, and residual above which the best
 #: hypothesis must then be for a search to begin anew from rated numbers [noise variance].
 _BASE_MISFIT, _FAR_FROM_NOISE = 1000.0, 30.0
-#: Most effects that are added.
-MOST_EFFECTS = 3
+#: Share of what is worth being kept that a step has reached where it is worth a fit to the end [1].
+_NEAR = 0.5
+#: Effects after which a search ends, whatever is left: more are no finding any more, and each takes a second.
+MOST_EFFECTS = 16
 
 
 def search(
@@ -83,7 +86,7 @@ def _silent(what: str, share: float) -> None:
 def _onward(state: Search, tell: Callable[[str, float], None]) -> Search:
     """Add effects to the first while one is material."""
     while len(state.path) - 1 and len(state.best.terms) < MOST_EFFECTS:
-        tell("refitting", 0.7 + 0.1 * len(state.best.terms))
+        tell("refitting", 0.7 + 0.2 * len(state.best.terms) / MOST_EFFECTS)
         further = _further(state)
         if further is None:
             break
@@ -97,7 +100,7 @@ def _restarted_from_nominal(state: Search) -> Search | None:
     With a base so far from the data a straight line through an effect's column leads elsewhere.
     """
     origin, best = state.path[0], state.best
-    worst, left = (max(h.summary.level(r, held_out=False) for r in h.summary.fitted) for h in (origin, best))
+    worst, left = (max(h.summary.fitted_level(r) for r in h.summary.fitted) for h in (origin, best))
     if worst < _BASE_MISFIT or left < _FAR_FROM_NOISE:
         return None
     anew = _reshaped(_first(_screened(replace(state, base=at_rated(state.base), path=(origin,)))))
@@ -109,7 +112,7 @@ def _restarted_from_nominal(state: Search) -> Search | None:
 def _screened(state: Search, progress: Callable[[float], None] | None = None) -> Search:
     """Screen every candidate against the base of a search."""
     found = screen(state.base, state.terms, progress)
-    found = with_bounds_checked(state.base, found, _least_refitted(state.path[0], MATERIAL))
+    found = with_bounds_checked(state.base, found, _least_refitted(state.path[0]))
     screened, wrong_sign = ([s for s in found if (s.gain == 0.0) == wrong] for wrong in (False, True))
     return replace(state, screened=screened, wrong_sign=wrong_sign)
 
@@ -125,7 +128,7 @@ def _first(state: Search, start_hypothesis: Hypothesis | None = None) -> Search:
     chosen = limit_per_effect(state.screened, _REFITTED)
     physics = [s for s in state.screened if s.term.effect.component != "instrument"]
     chosen += [s for s in physics[:_REFITTED_PHYSICS] if all(s is not c for c in chosen)]
-    least = _least_refitted(origin, MATERIAL)
+    least = _least_refitted(origin)
     asked = starts_of([s for s in chosen if s.gain > least]) + longer_stick(state, origin)
     tried = try_all(state, asked)
     if start_hypothesis is not None:
@@ -134,13 +137,13 @@ def _first(state: Search, start_hypothesis: Hypothesis | None = None) -> Search:
     pair = leading_pair(state.base, state.screened, best, least)
     if pair is not None:
         both = try_one(state, [p.term for p in pair], {p.term.label: p.values for p in pair})
-        if material_alone(origin, both):
+        if kept_alone(origin, both):
             # a fit hides an effect behind the base less than a screen does: one of the two may do alone
             alone = [try_one(state, [p.term], {}, both) for p in pair if not tried_before(state, [p.term])]
             best = best_of(origin, [*alone, *([best] if best else [])])
             single = best or origin
-            both_material = single is origin or material(origin.summary, single.summary, both.summary)
-            if both_material and score(origin.summary, both.summary) > score(origin.summary, single.summary):
+            least = least_drop(both.terms)
+            if single is origin or is_kept(origin.summary, single.summary, both.summary, least):
                 return state.stepped_to(both)
     return state if best is None else state.stepped_to(best)
 
@@ -173,22 +176,29 @@ def _further(state: Search) -> Search | None:
     before, origin = state.best, state.path[0]
     if all_down(before.summary):
         return None
-    least = _least_refitted(before, MATERIAL_FURTHER)
+    least = _least_refitted(before)
     found = with_bounds_checked(as_base(state, before), rescreen(state.all_screened, before), least)
     chosen = limit_per_effect([s for s in found if s.gain > least], _REFITTED_PAIRS + 1)
     tried = list[Hypothesis]()
     for asked in starting_points(state, chosen, tried):
-        tried += try_all(state, asked, before, lambda h: is_near(origin.summary, before.summary, h.summary))
+        tried += try_all(state, asked, before, lambda h: _is_kept(origin, before, h, _NEAR))
         sound = [h for h in tried if strength_at_bound(before) or not strength_at_bound(h)]
-        good = [h for h in sound if material(origin.summary, before.summary, h.summary)]
+        good = [h for h in sound if _is_kept(origin, before, h)]
         if good:
             return state.stepped_to(max(good, key=lambda h: score(before.summary, h.summary)))
     return None
 
 
-def _least_refitted(before: Hypothesis, drop: float) -> float:
-    """Give the gain from which on a candidate is refitted, for a drop of a relation that is worth a name [1]."""
-    return _MIN_REFIT_SHARE * drop * min(n for n, _ in before.summary.counts.values())
+def _is_kept(origin: Hypothesis, before: Hypothesis, found: Hypothesis, share: float = 1.0) -> bool:
+    """Tell whether the terms that a hypothesis has beside one before are worth being kept, or nearly so."""
+    labels = {t.label for t in before.terms}
+    least = share * least_drop(t for t in found.terms if t.label not in labels)
+    return is_kept(origin.summary, before.summary, found.summary, least)
+
+
+def _least_refitted(before: Hypothesis) -> float:
+    """Give the gain from which on a candidate is refitted [noise variance]."""
+    return _MIN_REFIT_SHARE * LEAST.law * min(n for n, _ in before.summary.counts.values())
 
 
 def _exchanged(state: Search) -> Search | None:

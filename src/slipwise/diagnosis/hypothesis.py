@@ -186,9 +186,9 @@ def strength_at_bound(found: Hypothesis) -> bool:
     return any(p.name in _ends(found, t) for t in found.terms for p in strengths(t.effect))
 
 
-def constant_at_bound(found: Hypothesis) -> bool:
-    """Tell whether any constant of its laws has run against a bound: a patch wider than the stroke is no patch."""
-    return any(_ends(found, t) for t in found.terms)
+def parameters_at_bound(found: Hypothesis) -> list[tuple[str, str]]:
+    """Give label and name of every constant of its laws that has run against a bound other than its absence."""
+    return [(t.label, name) for t in found.terms for name in sorted(_ends(found, t))]
 
 
 def _ends(found: Hypothesis, term: Term) -> set[str]:

@@ -234,8 +234,9 @@ def _step(found: Hypothesis, replayed: float) -> LadderStep:
 
 
 def _errors(account: ResidualSummary, *, held_out: bool) -> dict[str, float]:
-    counted = {r: c for r, c in account.counts.items() if c[int(held_out)] > 0}
-    return {r: float(np.sqrt(account.level(r, held_out=held_out))) for r in counted}
+    counted = [r for r, c in account.counts.items() if c[int(held_out)] > 0]
+    level = account.held_out_level if held_out else account.fitted_level
+    return {r: float(np.sqrt(level(r))) for r in counted}
 
 
 def _number(value: float) -> float | None:

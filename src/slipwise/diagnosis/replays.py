@@ -5,7 +5,7 @@ from collections.abc import Callable, Collection, Sequence
 import numpy as np
 
 from slipwise.campaign import measured_states
-from slipwise.comparison.measured_replay import measured_motion
+from slipwise.comparison.measured_replay import measured_motion, simulation_step
 from slipwise.comparison.system_level import replayed_model, system_level
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.estimation.base_fit import BaseFit
@@ -13,7 +13,6 @@ from slipwise.model import Model
 from slipwise.parallel import on_every_core
 from slipwise.record import Record
 from slipwise.simulation.replay import replay
-from slipwise.simulation.simulator import DT
 
 #: Of the noise that a replay is given [1].
 _SEED = 1
@@ -68,12 +67,6 @@ def replayed_errors(
         if progress:
             progress(len(out) / len(fits))
     return out
-
-
-def simulation_step(sampling: float) -> float:
-    """Give the step of a simulation, the usual one at most, of which the step of a record is a multiple, both [s]."""
-    # a step that was read from a file's times is off by rounding
-    return sampling / float(np.ceil(sampling / DT * (1.0 - 1e-9)))
 
 
 def _mechanics(fit: BaseFit) -> Model:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from slipwise.diagnosis.importance import Importance
 from slipwise.diagnosis.rivals import discriminating_tests, explanations
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.search_state import Search
@@ -21,7 +22,7 @@ from slipwise.shown import Drawn, Tabular
 if TYPE_CHECKING:
     from slipwise.diagnosis.ladder import Ladder
 
-SCHEMA = 1
+SCHEMA = 2
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,7 @@ class Diagnosis(Drawn, Tabular):
         relations: relation -> (base, final) held-out error in floors.
         system: {"base", "final"} held-out error at replay level, in floors; empty where it was not asked for.
         candidates: hypotheses, best first.
+        confirmed: whether the held-out runs agree with what was found; None where none is held out, or not testable.
         predicted_friction: mean friction of the held-out runs of one slider, predicted and measured.
         least: effect -> smallest size that this campaign would have shown, and its unit.
         cannot_tell: what this campaign could not test, and why.
@@ -74,6 +76,7 @@ class Diagnosis(Drawn, Tabular):
     relations: Mapping[str, tuple[float, float]]
     system: Mapping[str, float]
     candidates: tuple[Candidate, ...]
+    confirmed: bool | None
     predicted_friction: tuple[PredictedFriction, ...]
     least: Mapping[str, tuple[float, str]]
     cannot_tell: tuple[str, ...]
@@ -85,6 +88,12 @@ class Diagnosis(Drawn, Tabular):
     def added(self) -> tuple[str, ...]:
         """Effects that the final model has beside the base's; none where the verdict names none."""
         return self.search.best.names if self.verdict.effects else ()
+
+    @property
+    def importance(self) -> Mapping[str, Importance]:
+        """What leaving each effect out changes, by effect: those that are named, then those that are minor."""
+        found = {f.name: f.importance for f in self.verdict.findings}
+        return {n: found[n] for n in (*self.verdict.effects, *self.verdict.minor) if n in found}
 
     @property
     def held_out(self) -> bool:
@@ -133,12 +142,13 @@ class Diagnosis(Drawn, Tabular):
         fall = f"{error} {self.base_error:.2g} -> {self.final_error:.2g} times the noise floor"
         match self.verdict.kind:
             case "complete":
-                return f"Nothing above the noise is missing ({self.base_error:.2g} times the floor; {chance})."
+                least = "Nothing that matters is missing" if self.verdict.minor else "Nothing above the noise is missing"
+                return f"{least} ({self.base_error:.2g} times the floor; {chance}){self._minor}."
             case "named":
                 more = "; form not exact" if self.verdict.leftover == "unknown" else ""
-                return f"The model lacks {names} ({chance}); {fall}{more}."
+                return f"The model lacks {names} ({chance}); {fall}{more}{self._minor}{self._bounds}."
             case "instrument":
-                return f"A gauge is at fault: {names} ({chance}); {fall}."
+                return f"A gauge is at fault: {names} ({chance}); {fall}{self._minor}{self._bounds}."
             case "ambiguous":
                 rivals = " or ".join(" + ".join(e) for e in explanations(self.verdict, self.search))
                 return f"Either {rivals}: this campaign cannot tell them apart ({chance})."
@@ -146,6 +156,17 @@ class Diagnosis(Drawn, Tabular):
                 surface = self.verdict.surface
                 shape = surface.words if surface else "no state that was measured organises it"
                 return f"Something outside the catalogue ({chance}). {shape[0].upper()}{shape[1:]}."
+
+    @property
+    def _minor(self) -> str:
+        """What is there and does not matter, as the end of a sentence."""
+        return f"; there, but immaterial: {', '.join(self.verdict.minor)}" if self.verdict.minor else ""
+
+    @property
+    def _bounds(self) -> str:
+        """Which parameters of the named effects ended on a bound, as the end of a sentence."""
+        ends = [f"{f.name}.{p}" for f in self.verdict.findings if f.name in self.verdict.effects for p in f.at_bound]
+        return f"; on its bound: {', '.join(ends)}" if ends else ""
 
     def as_json(self) -> dict[str, Any]:
         """Give the contract of diagnosis.json."""
@@ -155,20 +176,25 @@ class Diagnosis(Drawn, Tabular):
             "campaign": self.campaign,
             "verdict": verdict.kind,
             "effects": list(verdict.effects),
+            "minor": list(verdict.minor),
             "probability": round(verdict.probability, 3),
             "component": self.component,
             "base_error": _number(self.base_error),
             "floor": 1.0,
             "final_error": _number(self.final_error),
+            "confirmed": self.confirmed,
             "relations": {k: {"base": _number(a), "final": _number(b)} for k, (a, b) in self.relations.items()},
             "system": {k: _number(v) for k, v in self.system.items()},
+            "importance": {name: _importance(found) for name, found in self.importance.items()},
             "candidates": [_candidate(c) for c in self.candidates],
             "screened": [_screened(s) for s in self.search.screened],
             "leftover": verdict.leftover,
             "unknown": _surface(verdict.surface) if verdict.leftover == "unknown" else None,
+            "law": None,
             "predicted_friction": [_predicted_friction(f) for f in self.predicted_friction],
             "least": {k: _number(v) for k, (v, _) in self.least.items()},
             "cannot_tell": list(self.cannot_tell),
+            "first": [],
             "words": self.sentence,
             "seconds": round(self.seconds, 1),
         }
@@ -204,6 +230,11 @@ def _candidate(found: Candidate) -> dict[str, Any]:
     }
 
 
+def _importance(found: Importance) -> dict[str, Any]:
+    responses = {name: [_number(x) for x in (c.value, c.low, c.high)] for name, c in found.responses.items()}
+    return {**responses, "channels": {name: _number(x) for name, x in found.channels.items()}}
+
+
 def _predicted_friction(found: PredictedFriction) -> dict[str, Any]:
     numbers = {"measured": found.measured, "value": found.value, "low": found.low, "high": found.high}
     return {"run": found.run, **{k: _number(v) for k, v in numbers.items()}, "unit": "N"}
@@ -222,6 +253,7 @@ def written(found: Interval) -> dict[str, Any]:
     """Write a number with its interval; "limit" says that `high` is what it is at most, and that it may be absent."""
     numbers = {"value": found.value, "low": found.low, "high": found.high}
     out = {**{k: _number(v, found.figures) for k, v in numbers.items()}, "unit": found.unit}
+    out["at_bound"] = bool(found.bound)
     return {**out, "limit": found.limit} if found.limit else out
 
 

@@ -8,8 +8,8 @@ from slipwise.diagnosis.screening import Screened
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.parameters import Term
-from slipwise.evidence.materiality import score
 from slipwise.evidence.residual_summary import ResidualSummary
+from slipwise.evidence.score import score
 from slipwise.parallel import on_every_core
 
 #: Hypotheses of one kind that are fitted to the end.

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from slipwise.campaign import Campaign
+from slipwise.campaign.decimation import decimated
 from slipwise.diagnosis.forward_selection import search
 from slipwise.diagnosis.hypothesis import base_hypothesis
 from slipwise.diagnosis.search_state import Search
@@ -38,7 +39,8 @@ class SelectionResult:
 def prepared(campaign: Campaign) -> tuple[Campaign, InvalidSamples, tuple[SampleFault, ...]]:
     """Give a campaign with wrong signs reversed, the samples that must not be judged, and the faults found."""
     faults = tuple(fault for fault in sample_faults(campaign) if fault.kind in _OF_GAUGES)
-    return (*for_fits(campaign, faults), faults) if faults else (campaign, {}, ())
+    whole, invalid = for_fits(campaign, faults) if faults else (campaign, {})
+    return (*decimated(whole, invalid), faults)
 
 
 def select_effects(
@@ -67,5 +69,5 @@ def select_effects(
     if better is not None:
         base = better
         state = search(base, own, progress, state)
-    uncorrected = base_hypothesis(fit_base(campaign, model)).summary if faults else state.path[0].summary
+    uncorrected = base_hypothesis(fit_base(decimated(campaign, {})[0], model)).summary if faults else state.path[0].summary
     return SelectionResult(base, state, faults, uncorrected)

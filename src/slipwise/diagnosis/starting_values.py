@@ -9,7 +9,7 @@ from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.search_state import Search, tried_before
 from slipwise.diagnosis.starting_grid import shapes, strengths, variants
 from slipwise.estimation.parameters import Term
-from slipwise.evidence.materiality import score
+from slipwise.evidence.score import score
 
 #: What a refit needs: terms, and label -> parameters to start from.
 Start = tuple[list[Term], dict[str, dict[str, float]]]

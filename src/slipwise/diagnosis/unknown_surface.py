@@ -1,7 +1,8 @@
-"""What is left: does a plain surface over measured states, made on fitted runs, predict the held-out residual?
+"""What is left: does a plain surface over measured states, made on some motions, predict the residual of another?
 
-Noise cannot be predicted, structure can. A surface that explains held-out residual after the best effects of the
-catalogue is the shape of something that the catalogue does not have.
+Noise cannot be predicted, structure can. A surface that explains the residual of motions that it was not made from,
+after the best effects of the catalogue, is the shape of something that the catalogue does not have. Held-out runs take
+no part.
 """
 
 from collections.abc import Mapping
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.estimation.run_data import FitRun
+from slipwise.evidence.left_out import motions
 
 Array = NDArray[np.float64]
 #: Bins of a curve and of each side of a surface.
@@ -21,6 +23,8 @@ _BINS_ONE, _BINS_TWO = 24, 10
 _LEAST = 12
 #: Residuals beyond this many times their median size are cut [1]; noise has one in 20 000 there.
 _OUTLIER = 6.0
+#: Mean squared residual that may be noise all the same, where noise is coloured or gauges hum [noise variance].
+_NOISE = 1.5
 #: Structure counts when a surface predicts this share of the held-out residual, and this much of it.
 SHARE, LEVEL = 0.10, 0.10
 #: Most of a balance's noise is that of one accelerometer: a state made of it would predict itself.
@@ -49,8 +53,9 @@ class Surface:
         mean: mean residual in each bin, in units of `unit`; NaN where too few samples fell.
         band: half width of its 95 % interval.
         unit: of the mean.
-        explained: share of the held-out residual that it predicts [1].
+        explained: share of the residual of left-out motions that it predicts [1].
         level: the same in variances of the noise.
+        relative: rms of what it predicts over the rms, about its mean, of what the balance is made of [1].
     """
 
     relation: str
@@ -61,33 +66,61 @@ class Surface:
     unit: str
     explained: float
     level: float
+    relative: float
 
     @property
     def words(self) -> str:
         """What it depends on, in a sentence."""
         on = " and ".join(WORDS[s].split(" [")[0] for s in self.states)
-        return f"{self.relation}: depends on {on}; predicts {100 * self.explained:.0f} % of the held-out residual"
+        return f"{self.relation}: depends on {on}; predicts {100 * self.explained:.0f} % of the residual of motions left out"
 
 
 def leftover(found: Hypothesis, relations: tuple[str, ...] | None = None) -> Surface | None:
-    """Give the surface that predicts most of what a hypothesis leaves on held-out runs; None where none does.
+    """Give the surface that predicts most of what a hypothesis leaves of left-out motions; None where none does.
 
     Args:
         found: a fitted hypothesis.
         relations: which to look at; pads, girder and heave when not given.
     """
     problem = found.problem
-    if not problem.held_out and not problem.fitted:
-        return None
     best: Surface | None = None
     for name in relations or tuple(r for r in ("pads", "girder", "heave") if r in problem.relations):
-        if max(found.summary.level(name, held_out=h) for h in (True, False)) < 1.0 + LEVEL:
+        if found.summary.fitted_level(name) < 1.0 + LEVEL:
             continue
-        samples = [_samples(found, name, i) for i in range(len(problem.runs))]
-        for surface in _surfaces(found, name, samples):
+        for surface in _surfaces(found, name, _folds(found, name)):
             if best is None or surface.level > best.level:
                 best = surface
     return best
+
+
+def above_noise(found: Hypothesis) -> dict[str, float]:
+    """Give what a hypothesis leaves above the noise of each balance, over the rms of what the balance is made of [1].
+
+    The noise is what the residuals of a repeated motion do not have in common, and at least `_NOISE`.
+    """
+    out: dict[str, float] = {}
+    problem, summary = found.problem, found.summary
+    for relation in (r for r in problem.relations if r not in ("motion", "across")):
+        over = max(summary.fitted_level(relation) - max(_NOISE, pure_error(found, relation)), 0.0)
+        level = float(np.median(np.concatenate([np.ravel(problem.sigmas[relation][i]) for i in problem.fitted])))
+        out[relation] = float(np.sqrt(over) * level / max(_size(found, relation), 1e-30))
+    return out
+
+
+def pure_error(found: Hypothesis, relation: str) -> float:
+    """Give the mean square of what the residuals of a motion and its repeat do not share [noise variance]; 0 without.
+
+    Source: Draper, Smith (1998), Applied Regression Analysis, section 2.1 (pure error).
+    """
+    parts, total, count = found.solution.residuals.parts[relation], 0.0, 0
+    for group in motions(found.problem):
+        for one, other in zip(group[:-1], group[1:], strict=True):
+            if parts[one].shape != parts[other].shape:
+                continue
+            judged = found.problem.runs[one].judged[relation] & found.problem.runs[other].judged[relation]
+            total += 0.5 * float(np.sum((parts[one] - parts[other])[judged] ** 2))
+            count += int(np.count_nonzero(judged))
+    return total / count if count else 0.0
 
 
 def structured(surface: Surface | None) -> bool:
@@ -132,26 +165,34 @@ def states_of(run: FitRun) -> Mapping[str, Array]:
     return states
 
 
-def _surfaces(found: Hypothesis, relation: str, samples: list[dict[str, Array]]) -> list[Surface]:
-    fitted, held = _train_and_test(found, samples)
-    names = [k for k in fitted if k not in ("left", "sigma") and (k, relation) not in _OWN_NOISE]
-    ones = [_surface(relation, (n,), fitted, held) for n in names]
+def _surfaces(found: Hypothesis, relation: str, folds: list[dict[str, Array]]) -> list[Surface]:
+    size = _size(found, relation)
+    names = [k for k in folds[0] if k not in ("left", "sigma") and (k, relation) not in _OWN_NOISE]
+    ones = [_surface(relation, (n,), folds, size) for n in names]
     ranked = sorted(ones, key=lambda s: -s.level)
     pairs = [c for c in combinations([s.states[0] for s in ranked[:4]], 2)]
     signed = [("velocity", n) for n in names if n != "velocity" and ("velocity", n) not in pairs]
-    return [*ones, *(_surface(relation, p, fitted, held) for p in [*pairs, *signed])]
+    return [*ones, *(_surface(relation, p, folds, size) for p in [*pairs, *signed])]
 
 
-def _train_and_test(found: Hypothesis, samples: list[dict[str, Array]]) -> tuple[dict[str, Array], dict[str, Array]]:
-    """Give the samples that make a surface, and those that it must predict.
+def _size(found: Hypothesis, relation: str) -> float:
+    """Give the rms about its mean of what a balance is made of: friction, load, or acceleration of the girder [SI]."""
+    runs = [found.problem.runs[i] for i in found.problem.fitted]
+    parts = [
+        {"girder": r.states.girder_acceleration[:, 0], "pads": r.force}.get(relation, r.load.sum(axis=1)) for r in runs
+    ]
+    return float(np.sqrt(np.mean(np.concatenate([((p - p.mean(axis=0)) ** 2).ravel() for p in parts]))))
 
-    Where no run is held out, the surface is made on every other second and must predict the seconds between.
-    """
-    fitted = _joined([samples[i] for i in found.problem.fitted])
-    if found.problem.held_out:
-        return fitted, _joined([samples[i] for i in found.problem.held_out])
-    odd = fitted["time"] % 2.0 >= 1.0
-    return {k: v[~odd] for k, v in fitted.items()}, {k: v[odd] for k, v in fitted.items()}
+
+def _folds(found: Hypothesis, relation: str) -> list[dict[str, Array]]:
+    """Give the samples of each motion; those of every other eighth of the time where there is one motion only."""
+    problem = found.problem
+    groups = [_joined([_samples(found, relation, i) for i in group]) for group in motions(problem)]
+    if len(groups) > 1:
+        return groups
+    time = groups[0]["time"]
+    odd = np.floor(8.0 * time / max(float(time.max()), 1e-12)) % 2.0 >= 1.0
+    return [{k: v[mask] for k, v in groups[0].items()} for mask in (~odd, odd)]
 
 
 def _joined(parts: list[dict[str, Array]]) -> dict[str, Array]:
@@ -161,28 +202,61 @@ def _joined(parts: list[dict[str, Array]]) -> dict[str, Array]:
     return {**joined, "left": np.clip(joined["left"], -limit, limit)}
 
 
-def _surface(relation: str, states: tuple[str, ...], fitted: dict[str, Array], held: dict[str, Array]) -> Surface:
+@dataclass(frozen=True)
+class _Cells:
+    """Mean residuals over one or two states."""
+
+    states: tuple[str, ...]
+    edges: tuple[Array, ...]
+    count: Array
+    mean: Array
+    spread: Array
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        return tuple(len(e) - 1 for e in self.edges)
+
+    def predict(self, samples: dict[str, Array]) -> Array:
+        # a surface of many cells predicts less noise when each mean is shrunk by its own uncertainty
+        shrunk = self.mean * self.mean**2 / np.maximum(self.mean**2 + 3.0 * self.spread**2, 1e-30)
+        return np.where(self.count >= _LEAST, shrunk, 0.0)[_place(samples, self.states, self.edges, self.shape)]
+
+
+def _cells(states: tuple[str, ...], samples: dict[str, Array]) -> _Cells:
     bins = _BINS_ONE if len(states) == 1 else _BINS_TWO
-    edges = tuple(_edges(fitted[s], bins, signed=s in ("velocity", "slip")) for s in states)
+    edges = tuple(_edges(samples[s], bins, signed=s in ("velocity", "slip")) for s in states)
     shape = tuple(len(e) - 1 for e in edges)
-    place = _place(fitted, states, edges, shape)
+    place = _place(samples, states, edges, shape)
     count = np.bincount(place, minlength=int(np.prod(shape)))
-    total = np.bincount(place, weights=fitted["left"], minlength=len(count))
-    squares = np.bincount(place, weights=fitted["left"] ** 2, minlength=len(count))
+    total = np.bincount(place, weights=samples["left"], minlength=len(count))
+    squares = np.bincount(place, weights=samples["left"] ** 2, minlength=len(count))
     mean = total / np.maximum(count, 1)
     spread = np.sqrt(np.maximum(squares / np.maximum(count, 1) - mean**2, 0.0) / np.maximum(count, 1))
-    # a surface of many cells predicts less noise when each mean is shrunk by its own uncertainty
-    shrunk = mean * mean**2 / np.maximum(mean**2 + 3.0 * spread**2, 1e-30)
-    prediction = np.where(count >= _LEAST, shrunk, 0.0)[_place(held, states, edges, shape)]
-    before, after = float(np.mean(held["left"] ** 2)), float(np.mean((held["left"] - prediction) ** 2))
-    level = float(np.median(fitted["sigma"]))
-    unit = {"girder": "m/s^2"}.get(relation, "N")
-    shown = np.where(count >= _LEAST, mean, np.nan) * level
-    explained = 1.0 - after / max(before, 1e-30)
+    return _Cells(states, edges, count, mean, spread)
+
+
+def _surface(relation: str, states: tuple[str, ...], folds: list[dict[str, Array]], size: float) -> Surface:
+    before = after = 0.0
+    for i, held in enumerate(folds):
+        left = held["left"] - _cells(states, _joined([f for j, f in enumerate(folds) if j != i])).predict(held)
+        before += float(np.sum(held["left"] ** 2))
+        after += float(np.sum(left**2))
+    whole = _joined(folds)
+    cells = _cells(states, whole)
+    samples, level = len(whole["left"]), float(np.median(whole["sigma"]))
+    predicted = max(before - after, 0.0) / max(samples, 1)
+    shown = np.where(cells.count >= _LEAST, cells.mean, np.nan) * level
     return Surface(
-        relation, states, edges, shown.reshape(shape), (2.0 * spread * level).reshape(shape), unit, explained,
-        before - after,
-    )  # fmt: skip
+        relation,
+        states,
+        cells.edges,
+        shown.reshape(cells.shape),
+        (2.0 * cells.spread * level).reshape(cells.shape),
+        {"girder": "m/s^2"}.get(relation, "N"),
+        1.0 - after / max(before, 1e-30),
+        (before - after) / max(samples, 1),
+        float(np.sqrt(predicted) * level / max(size, 1e-30)),
+    )
 
 
 def _edges(values: Array, bins: int, *, signed: bool) -> Array:

@@ -1,47 +1,35 @@
-"""From a finished search to a verdict, never stronger than its evidence."""
+"""From the evidence to a verdict: what matters is named, what does not is listed, and how sure that is was calibrated.
+
+    complete    nothing that matters was found, and nothing that matters is left
+    unknown     what is left matters, and what was found explains too little of the balance in which it stands
+    ambiguous   another effect is as likely in the place of one that is named
+    named       effects that matter; `instrument` where all of them are faults of gauges
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from slipwise.diagnosis.choice import has_delay_for_filter, material_alone, overparameterised
-from slipwise.diagnosis.forward_selection import MOST_EFFECTS
-from slipwise.diagnosis.hypothesis import Hypothesis, constant_at_bound, strength_at_bound
+from slipwise.campaign.materiality import Materiality
+from slipwise.diagnosis.findings import Finding, above_noise
+from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.indistinguishable import alike_pairs, distinguishable, known_effects
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import Surface, leftover, structured
+from slipwise.diagnosis.unknown_surface import above_noise as left_above_noise
 from slipwise.estimation.parameters import Term
-from slipwise.evidence.materiality import SAME_SCORE, least_material_drop, material_drop, score, worsens
-from slipwise.evidence.residual_summary import ResidualSummary
+from slipwise.evidence.calibration import Calibration, calibration
+from slipwise.evidence.score import largest_drop
 from slipwise.instruments.sample_faults import SampleFault
 from slipwise.instruments.suspects import effect_of
 
-#: A right family explains this share, whatever its form: 0.87 and more on trials, most wrong ones 0.69 and less [1].
-RIGHT_FAMILY = 0.70
-#: Right as often as not up to the first share, as sure as its lead from the second on: wrong laws reached 0.79 [1].
-_EVEN_ODDS_FAMILY, _SURE_FAMILY = 0.80, 0.92
-#: What it must explain when its strength has run against a bound: more of the same, not something else.
-STRAINED_FAMILY = 0.90
-#: The same for geometry, which has one form only: wrong ones reached 0.96, right ones left no structure (36 campaigns).
-EXACT_FAMILY = 0.98
-#: The same for two or more, which take many forms together: 0.92 and more on the blind bench, the best wrong two 0.87.
-SEVERAL_FAMILY = 0.90
-#: Below this drop of the mean squared residual the share is itself uncertain, and half is enough [noise variance].
-_SURE_SHARE = 1.0
-#: An effect that explains less than half of little, and leaves nothing with structure, is no finding.
-HALF, _FAINT, _EVEN_ODDS = 0.5, 0.4, 0.6
 #: Beside a fault of samples something else is missing that has no name.
-_EVEN_ODDS_OF_FAULTS = 0.5
-#: A mean squared residual above this is no perfect model's [noise variance], even where no state predicts it.
-ABOVE_NOISE = 1.5
-#: Nor can rivals be told apart whose scores differ by less than this share of it, and of what the better one leaves: a
-#: law of not quite the right form leaves something as well.
-_SAME_SHARE, _SAME_EXCESS = 0.004, 0.5
-#: The same share for two faults of gauges: both have one form only, and nothing but noise between them [1].
-_SAME_FAULT = 5e-4
+_EVEN_ODDS = 0.5
 #: Nobody is surer than this of what no run has confirmed that was not fitted [1].
 _UNCONFIRMED = 0.9
+#: An effect that is less likely than this to be there is not listed [1].
+_LISTED = 0.5
 
 
 @dataclass(frozen=True)
@@ -50,107 +38,129 @@ class Verdict:
 
     Attributes:
         kind: complete, named, ambiguous, unknown or instrument.
-        effects: names.
+        effects: names of what matters, most important first.
+        minor: names of what is there and does not matter.
         probability: that kind and names are right.
         leftover: "none" or "unknown".
-        explained: share of what the base left above the noise that the named effects take away [1].
+        explained: share of what the base left above the noise that the effects that were found take away [1].
         surface: what remains, where anything does.
         rivals: hypotheses that nearly tie with the named one.
+        findings: evidence for every effect that was found.
     """
 
     kind: str
     effects: tuple[str, ...]
+    minor: tuple[str, ...]
     probability: float
     leftover: str
     explained: float
     surface: Surface | None
     rivals: tuple[Hypothesis, ...]
+    findings: tuple[Finding, ...]
 
 
-def excess(of: ResidualSummary, best: ResidualSummary) -> float:
-    """Give how much squared residual stands above the noise, over all relations and runs.
+def explained_share(origin: Hypothesis, found: Hypothesis, relation: str = "") -> float:
+    """Give the share of what the base left above the noise that a hypothesis takes away, in one balance or all [1]."""
+    before, after = origin.summary, found.summary
+    if not relation:
+        return 1.0 - above_noise(after, after) / max(above_noise(before, after), 1e-12)
+    noise = min(after.counts[relation][0], after.left_out[relation])
+    over = max(before.left_out[relation] - noise, 1e-12)
+    return 1.0 - max(after.left_out[relation] - noise, 0.0) / over
+
+
+def decide_verdict(state: Search, found: Sequence[Finding], limits: Materiality) -> Verdict:
+    """Give the verdict of a search.
 
     Args:
-        of: a hypothesis.
-        best: one that may tell that the noise is less than was thought, for it leaves less.
+        state: of the finished search.
+        found: evidence for every effect of its final model.
+        limits: what matters.
     """
-    total = 0.0
-    for name, (fitted, held) in of.counts.items():
-        total += max(of.fitted[name] - min(fitted, best.fitted[name]), 0.0)
-        total += max(of.held_out[name] - min(held, best.held_out[name]), 0.0)
-    return total
-
-
-def decide_verdict(state: Search) -> Verdict:
-    """Give the verdict of a search."""
-    found = _decided(state)
-    if any(held for _, held in state.path[0].summary.counts.values()):
-        return found
-    return replace(found, probability=min(found.probability, _UNCONFIRMED))
-
-
-def _decided(state: Search) -> Verdict:
-    origin, best = state.path[0], state.best
-    surface = leftover(state.final)
-    remains = structured(surface)
-    explained = 1.0 - excess(best.summary, best.summary) / max(excess(origin.summary, best.summary), 1e-12)
-    if not best.terms:
-        if remains or _above_noise(best):
-            shown = surface if remains else None
-            return Verdict("unknown", (), _unknown_probability(shown, 0.0), "unknown", 0.0, shown, ())
-        return Verdict("complete", (), _complete_probability(state), "none", 1.0, surface, ())
-    too_many = len(best.terms) >= MOST_EFFECTS
-    drop = material_drop(origin.summary, best.summary)[0]
-    family = explained >= _least_share(best, drop) and not worsens(origin.summary, best.summary)
-    too_little = explained < HALF if len(best.terms) == 1 else not family
-    # effects of the wrong family can be bent to the fitted runs until they leave little there: held-out runs tell
-    if (remains and (not family or too_many)) or (too_little and _worst(state.final.summary) > ABOVE_NOISE):
-        shown = surface if remains else None
-        probability = _unknown_probability(shown, explained)
-        whole = leftover(origin)  # what is drawn is all that is missing, not what unnamed effects have left of it
-        drawn = whole if structured(whole) else shown
-        return Verdict("unknown", (), probability, "unknown", explained, drawn, ())
-    if explained < HALF and not remains and drop < _FAINT and _worst(origin.summary) < ABOVE_NOISE:
-        return Verdict("complete", (), _EVEN_ODDS, "none", explained, surface, ())
-    rivals = _rivals(state, best)
-    names = best.names
-    left = "unknown" if remains or _above_noise(state.final) else "none"
-    margin = _margin(state, best)
-    probability = _named_probability(margin, explained, best, left)
-    if drop >= _SURE_SHARE:
-        probability = min(probability, _family_probability(explained))
+    chances = calibration()
+    origin, final = state.path[0], state.final
+    surface = leftover(final)
+    surface = surface if structured(surface) else None
+    over = left_above_noise(final)
+    where = max(over, key=lambda relation: over[relation])
+    remains = over[where] >= limits.channel
+    explained = explained_share(origin, final)
+    sure = {f.name: chances.present(evidence_of(f)) for f in found}
+    listed = [f for f in found if sure[f.name] >= _LISTED]
+    named = [f for f in listed if f.matters]
+    minor = tuple(f.name for f in listed if not f.matters)
+    if remains:
+        family = explained_share(origin, final, where) if found else 0.0
+        left_over = {"left": surface.explained if surface else 0.0, "relative": float(np.log(over[where]))}
+        right = chances.family({"explained": family, **left_over})
+        if right < _EVEN_ODDS or not named:
+            whole = leftover(origin)  # what is drawn is all that is missing, not what unnamed effects have left of it
+            drawn = whole if structured(whole) else surface
+            return Verdict("unknown", (), minor, 1.0 - right, "unknown", explained, drawn, (), tuple(found))
+    else:
+        right = 1.0
+    left = "unknown" if remains else "none"
+    probability = _confirmed(state, right * _all_right(chances, found, sure))
+    if not named:
+        return Verdict("complete", (), minor, probability, left, explained, surface, (), tuple(found))
+    names = tuple(f.name for f in named)
+    kind = "instrument" if all(f.is_gauge for f in named) else "named"
+    rivals = [f for f in named if f.rival is not None and chances.leads(f.rival.behind) < _EVEN_ODDS]
     if rivals:
-        every = tuple(dict.fromkeys(n for h in (best, *rivals) for n in h.names))
-        return Verdict("ambiguous", every, probability, left, explained, surface, rivals)
+        others = tuple(f.rival.hypothesis for f in rivals if f.rival)
+        every = tuple(dict.fromkeys([*names, *(n for f in rivals for n in _in_place(state, f))]))
+        return Verdict("ambiguous", every, minor, probability, left, explained, surface, others, tuple(found))
     for pair, unless in alike_pairs(known_effects(state).values()).items():
-        if len(pair & set(names)) == 1 and not distinguishable(best.problem, unless):
+        if len(pair & set(names)) == 1 and not distinguishable(final.problem, unless):
             every = (*sorted(pair), *(n for n in names if n not in pair))
-            return Verdict("ambiguous", every, probability, left, explained, surface, ())
-    instruments = all(t.effect.component == "instrument" for t in best.terms)
-    return Verdict("instrument" if instruments else "named", names, probability, left, explained, surface, ())
+            return Verdict("ambiguous", every, minor, probability, left, explained, surface, (), tuple(found))
+    return Verdict(kind, names, minor, probability, left, explained, surface, (), tuple(found))
 
 
-def _least_share(found: Hypothesis, drop: float) -> float:
-    """Give the share of what the base left that a right family explains at least."""
-    if drop >= _SURE_SHARE and all(t.effect.exact for t in found.terms):
-        return EXACT_FAMILY
-    if strength_at_bound(found):
-        return STRAINED_FAMILY
-    if drop >= _SURE_SHARE and len(found.terms) > 1:
-        return SEVERAL_FAMILY
-    return RIGHT_FAMILY if drop >= _SURE_SHARE else HALF
+def _in_place(state: Search, finding: Finding) -> list[str]:
+    """Give the names that a rival has and the final model has not."""
+    return [] if finding.rival is None else [n for n in finding.rival.hypothesis.names if n not in state.best.names]
 
 
-def _above_noise(found: Hypothesis) -> bool:
-    """Tell whether a hypothesis leaves more than noise in all runs, whether or not a state organises it."""
-    levels = found.summary
-    both = [[levels.level(r, held_out=h) for h in (False, True) if levels.counts[r][h]] for r in levels.fitted]
-    return any(min(of) > ABOVE_NOISE for of in both if of)
+def evidence_of(finding: Finding) -> dict[str, float]:
+    """Give the numbers on which the probability of an effect rests."""
+    behind = finding.rival.behind if finding.rival is not None else 10.0
+    return {
+        "lead": float(np.log(max(finding.lead, 0.1))),
+        "worth": float(np.log(max(finding.worth, 1.0))),
+        "share": float(np.log(max(finding.share, 1e-4))),
+        "rival": float(np.clip(behind, 0.0, 10.0)),
+        "bound": float(bool(finding.at_bound)),
+        "gauge": float(finding.is_gauge),
+        "size": float(np.log(max(finding.material, 1e-3))),
+    }
 
 
-def _worst(of: ResidualSummary) -> float:
-    """Give the largest mean squared residual of any relation, on fitted or held-out runs [noise variance]."""
-    return max(of.level(r, held_out=h) for r, counts in of.counts.items() for h in (False, True) if counts[h])
+def _all_right(chances: Calibration, found: Sequence[Finding], sure: dict[str, float]) -> float:
+    """Give the chance that every name is right and none is on the wrong side of what matters."""
+    product = 1.0
+    for f in found:
+        side = chances.side(float(np.log(max(f.material, 1e-3))))
+        if f.matters:
+            product *= sure[f.name] * side
+        else:  # immaterial, or not there at all: only one that matters after all would be wrong
+            product *= 1.0 - sure[f.name] * (1.0 - side)
+    return product
+
+
+def _confirmed(state: Search, probability: float) -> float:
+    if any(held for _, held in state.path[0].summary.counts.values()):
+        return probability
+    return min(probability, _UNCONFIRMED)
+
+
+def confirmed(state: Search) -> bool | None:
+    """Tell whether the held-out runs agree with what was found; None where none is held out or nothing was found."""
+    origin, final = state.path[0].summary, state.final.summary
+    relation = largest_drop(origin, final)[1]
+    if not state.final.terms or not relation or not origin.counts[relation][1]:
+        return None
+    return final.held_out_level(relation) < origin.held_out_level(relation)
 
 
 def with_faults(found: Verdict, faults: Sequence[SampleFault], terms: Sequence[Term] = ()) -> Verdict:
@@ -165,89 +175,12 @@ def with_faults(found: Verdict, faults: Sequence[SampleFault], terms: Sequence[T
         return found
     names = tuple(dict.fromkeys(effect_of(f.kind).name for f in faults))
     if found.kind == "complete":
-        return replace(found, kind="instrument", effects=names, probability=max(found.probability, 0.9))
+        return replace(found, kind="instrument", effects=names, probability=found.probability)
     if found.kind == "unknown":
-        return replace(found, kind="instrument", effects=names, probability=_EVEN_ODDS_OF_FAULTS)
+        return replace(found, kind="instrument", effects=names, probability=_EVEN_ODDS)
     moved = {name for f in faults if f.kind == "lost" for name in f.channels}
     # a channel whose lost samples moved up the rest is delayed by that
     same = {t.effect.name for t in terms if t.effect.delays_channel and moved.issuperset(t.targets)}
     same -= {t.effect.name for t in terms if not moved.issuperset(t.targets)}
     named = tuple(n for n in found.effects if n not in same)
     return replace(found, effects=(*named, *(n for n in names if n not in named)))
-
-
-def _rivals(state: Search, best: Hypothesis) -> tuple[Hypothesis, ...]:
-    """Give other hypotheses of as many effects that explain as much."""
-    origin = state.path[0]
-    top = score(origin.summary, best.summary)
-    unexplained = _SAME_EXCESS * excess(best.summary, best.summary)
-    out: dict[tuple[str, ...], Hypothesis] = {}
-    for h in state.tried:
-        if len(h.terms) != len(best.terms) or set(h.names) == set(best.names):
-            continue
-        if (constant_at_bound(h) and not constant_at_bound(best)) or (
-            has_delay_for_filter(h) and not has_delay_for_filter(best)
-        ):
-            continue
-        if overparameterised(best, h, origin.summary):
-            continue
-        common = set(h.names) & set(best.names)
-        shared = [score(origin.summary, o.summary) for o in state.tried if o.names and set(o.names) <= common]
-        behind = top - score(origin.summary, h.summary)
-        # only what is explained beyond the effects that both name can tell the two apart
-        share = _SAME_FAULT if _faults_only(h, best) else _SAME_SHARE
-        near = max(SAME_SCORE, min(share * (top - max(shared, default=0.0)), unexplained))
-        if behind < near and material_alone(origin, h):
-            out[h.names] = h
-    return tuple(out.values())
-
-
-def _faults_only(one: Hypothesis, other: Hypothesis) -> bool:
-    """Tell whether two hypotheses differ by faults of gauges only."""
-    differ = set(one.names) ^ set(other.names)
-    of = {t.effect.name: t.effect.component for t in (*one.terms, *other.terms)}
-    return all(of[name] == "instrument" for name in differ)
-
-
-def _margin(state: Search, best: Hypothesis) -> float:
-    """Give by which share of its score the best hypothesis leads the next of other names."""
-    origin = state.path[0]
-    top = score(origin.summary, best.summary)
-    others = [
-        score(origin.summary, h.summary)
-        for h in state.tried
-        if len(h.terms) <= len(best.terms) and not set(h.names) <= set(best.names)
-    ]
-    return float((top - max(others, default=0.0)) / max(top, 1e-12))
-
-
-def _named_probability(margin: float, explained: float, best: Hypothesis, left: str) -> float:
-    """Give the chance that these names are right; logistic in lead and share explained.
-
-    Like the other two, set on 495 campaigns of the blind bench.
-    """
-    lead = np.clip(margin, 0.0, 0.5)
-    odds = 0.6 + 5.0 * lead / 0.5 + 2.0 * (np.clip(explained, 0.4, 1.0) - 0.7) / 0.3
-    odds -= 0.3 * (len(best.terms) - 1) + (0.7 if left == "unknown" else 0.0)
-    return float(np.clip(1.0 / (1.0 + np.exp(-odds)), 0.3, 0.99))
-
-
-def _family_probability(explained: float) -> float:
-    """Give the chance that a family is right by the share that it explains."""
-    return float(np.interp(explained, (_EVEN_ODDS_FAMILY, _SURE_FAMILY), (0.5, 0.99)))
-
-
-def _unknown_probability(surface: Surface | None, explained: float) -> float:
-    share = surface.explained if surface is not None else 0.0
-    odds = 0.5 + 3.0 * np.clip(share, 0.0, 0.6) + 2.5 * (0.75 - np.clip(explained, 0.0, 0.75))
-    return float(np.clip(1.0 / (1.0 + np.exp(-odds)), 0.3, 0.98))
-
-
-def _complete_probability(state: Search) -> float:
-    origin = state.path[0]
-    near = max((_drop(origin, h) for h in state.tried), default=0.0)
-    return float(np.clip(0.98 - 0.2 * near, 0.75, 0.98))
-
-
-def _drop(origin: Hypothesis, found: Hypothesis) -> float:
-    return min(material_drop(origin.summary, found.summary)[0] / least_material_drop(found.terms), 1.0)

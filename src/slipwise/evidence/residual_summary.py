@@ -1,11 +1,21 @@
-"""Squared residuals of a fit by relation, on fitted and on held-out runs: what every judgement of evidence rests on."""
+"""Squared residuals of a fit by relation: what every judgement of evidence rests on.
+
+Three kinds: of the runs as they were fitted, of each motion by a fit to the others (see `left_out`), and of the
+held-out runs, which are looked at once, at the end, to report.
+"""
 
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.problem import Problem
+from slipwise.evidence.left_out import LinearFit, left_out, linear_fit
+
+Array = NDArray[np.float64]
+#: Length of a block of time: some cycles of whatever a model lacks, so that blocks may be taken as independent [s].
+BLOCK = 0.5
 
 
 @dataclass(frozen=True)
@@ -14,39 +24,72 @@ class ResidualSummary:
 
     Attributes:
         fitted: relation -> sum over the runs that were fitted.
-        held_out: relation -> sum over the runs that were not.
+        left_out: relation -> sum over the same runs, each motion predicted by a fit to the others.
+        held_out: relation -> sum over the held-out runs; no choice may depend on it.
         counts: relation -> (samples fitted, samples held out).
+        constants: numbers that were fitted.
+        blocks: relation -> (b,) sums as in `left_out` over blocks of `BLOCK` seconds, those of all relations alike.
     """
 
     fitted: dict[str, float]
+    left_out: dict[str, float]
     held_out: dict[str, float]
     counts: dict[str, tuple[int, int]]
+    constants: int
+    blocks: dict[str, Array]
 
-    def level(self, relation: str, *, held_out: bool) -> float:
-        """Give the mean squared residual of a relation in units of the noise's variance."""
-        total, count = (self.held_out, 1) if held_out else (self.fitted, 0)
-        return total[relation] / max(self.counts[relation][count], 1)
+    def fitted_level(self, relation: str) -> float:
+        """Give the mean squared residual of a relation on the fitted runs in units of the noise's variance."""
+        return self.fitted[relation] / max(self.counts[relation][0], 1)
 
-    @property
-    def total(self) -> float:
-        """Sum over all runs and relations."""
-        return sum(self.fitted.values()) + sum(self.held_out.values())
+    def left_out_level(self, relation: str) -> float:
+        """Give the same where each motion is predicted by a fit to the others."""
+        return self.left_out[relation] / max(self.counts[relation][0], 1)
+
+    def held_out_level(self, relation: str) -> float:
+        """Give the same on the held-out runs."""
+        return self.held_out[relation] / max(self.counts[relation][1], 1)
 
 
 def summarised(problem: Problem, solution: Solution) -> ResidualSummary:
     """Sum up a solution's squared residuals."""
-    parts = solution.residuals.parts
-    fitted, held_out, counts = {}, {}, {}
+    held_out, counts = {}, {}
     for name in problem.relations:
         samples = [int(np.count_nonzero(run.judged[name])) for run in problem.runs]
-        of = [(float(np.sum(part**2)), count) for part, count in zip(parts[name], samples, strict=True)]
-        fitted[name] = sum(of[i][0] for i in problem.fitted)
-        held_out[name] = sum(of[i][0] for i in problem.held_out)
-        counts[name] = (sum(of[i][1] for i in problem.fitted), sum(of[i][1] for i in problem.held_out))
-    return ResidualSummary(fitted, held_out, counts)
+        held_out[name] = sum(float(np.sum(solution.residuals.parts[name][i] ** 2)) for i in problem.held_out)
+        counts[name] = (sum(samples[i] for i in problem.fitted), sum(samples[i] for i in problem.held_out))
+    return summarised_linear(problem, linear_fit(problem, solution), held_out, counts)
+
+
+def summarised_linear(
+    problem: Problem, fit: LinearFit, held_out: dict[str, float], counts: dict[str, tuple[int, int]]
+) -> ResidualSummary:
+    """Sum up the squared residuals of a linear fit; what is held out, and the counts, are as given."""
+    fitted = {name: float(of.sum()) for name, of in _in_blocks(problem, fit.residual).items()}
+    blocks = _in_blocks(problem, left_out(problem, fit))
+    predicted = {name: float(of.sum()) for name, of in blocks.items()}
+    return ResidualSummary(fitted, predicted, held_out, counts, fit.constants, blocks)
+
+
+def _in_blocks(problem: Problem, residual: Array) -> dict[str, Array]:
+    """Sum up squared residuals (m,) of the fitted runs in blocks of time, relation -> (b,)."""
+    out: dict[str, Array] = {}
+    start = 0
+    for name in problem.relations:
+        sums = []
+        for i in problem.fitted:
+            run = problem.runs[i]
+            shape = run.judged[name].shape
+            end = start + int(np.prod(shape, dtype=np.int64))
+            squares = (residual[start:end] ** 2).reshape(shape[0], -1).sum(axis=1)
+            edges = np.arange(0, shape[0], max(1, round(BLOCK / run.dt)))
+            sums.append(np.add.reduceat(squares, edges))
+            start = end
+        out[name] = np.concatenate(sums)
+    return out
 
 
 def error_of(summary: ResidualSummary, relation: str) -> float:
     """Give the held-out error of a relation in floors; that of the fitted runs where none is held out."""
     held = summary.counts[relation][1] > 0
-    return float(np.sqrt(summary.level(relation, held_out=held)))
+    return float(np.sqrt(summary.held_out_level(relation) if held else summary.fitted_level(relation)))

@@ -20,18 +20,19 @@ from pathlib import Path
 import numpy as np
 
 from slipwise.campaign import Campaign, Run, as_campaign
+from slipwise.comparison.measured_replay import simulation_step
 from slipwise.comparison.system_level import replayed_model
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, polished, refit
 from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects
-from slipwise.diagnosis.replays import simulation_step
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.search_state import Search
 from slipwise.effects import Effect
 from slipwise.errors import InputError, SimulationError, SlipwiseError
 from slipwise.estimation.base_fit import fit_base
 from slipwise.estimation.parameters import Term
-from slipwise.evidence.materiality import MATERIAL, material_drop, score
+from slipwise.evidence.acceptance import LEAST
+from slipwise.evidence.score import largest_drop, score
 from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.experiment.motions import LIBRARY, Limits, motions_for
 from slipwise.experiment.result import NextTest, Proposal
@@ -177,7 +178,7 @@ def _chances(found: Diagnosis, contest: Sequence[Hypothesis]) -> tuple[float, ..
 def _later(chances: Sequence[float], separation: float) -> float:
     """Give the chance of the first hypothesis after a motion, if it is right; that none is right stays as likely."""
     # A material difference leaves a third of the others' odds, twice that a ninth.
-    together, odds = sum(chances), sum(chances[1:]) * float(np.exp(-separation / MATERIAL))
+    together, odds = sum(chances), sum(chances[1:]) * float(np.exp(-separation / LEAST.everywhere))
     return max(chances[0], min(_SUREST, together * chances[0] / max(chances[0] + odds, 1e-12)))
 
 
@@ -205,7 +206,7 @@ def _separation(
 
 
 def _level(account: ResidualSummary, relation: str) -> float:
-    return account.level(relation, held_out=False)
+    return account.fitted_level(relation)
 
 
 def _refitted(campaign: Campaign, model: Model, contest: Sequence[Hypothesis]) -> list[ResidualSummary]:
@@ -246,15 +247,15 @@ def _words(found: Diagnosis, contest: Sequence[Hypothesis], most: float) -> str:
     sentences = []
     if found.verdict.kind == "ambiguous" and not found.verdict.rivals:
         # effects that the verdict takes for one thing to the rig are one only if the rig is not known well
-        more, where = material_drop(contest[1].summary, contest[0].summary)
-        if more >= MATERIAL:
+        more, where = largest_drop(contest[1].summary, contest[0].summary)
+        if more >= LEAST.everywhere:
             sentences.append(
                 f"Refitted to the campaign, {' + '.join(contest[1].names)} leaves {more:.2g} noise variances more in "
                 f"{where} than {' + '.join(contest[0].names)}: if the rig is as rated, these runs tell them apart."
             )
-    if most < MATERIAL:
+    if most < LEAST.everywhere:
         sentences.append(
-            f"No table motion of these tells them apart: {most:.2g} noise variances at most, {MATERIAL:g} is needed."
+            f"No table motion of these tells them apart: {most:.2g} noise variances at most, {LEAST.everywhere:g} is needed."
         )
         for one, other in combinations(contest, 2):
             pairs = product((t.effect for t in one.terms), (t.effect for t in other.terms))

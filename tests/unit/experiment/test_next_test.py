@@ -8,7 +8,6 @@ import pytest
 from hypotheses import base, diagnosed, left_by, searched
 from slipwise.cli import main
 from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.diagnosis.replays import simulation_step
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.verdict import Verdict
 from slipwise.errors import SettingError, SimulationError, SlipwiseError

@@ -1,0 +1,71 @@
+"""Thin out records that were logged far faster than anything moves: a fit's time grows with every sample.
+
+What lies far above the new half rate is taken out before, in phase. Noise just above it is folded down on purpose: the
+top of the spectrum stays as loud as the rest, and tells how loud that is.
+"""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.campaign.campaign import Campaign
+from slipwise.record import Record
+from slipwise.signals.ends import in_frequency
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+#: Samples a second that every law, the pads' pitch of 50 to 100 Hz and a logger's usual filter need [Hz].
+ENOUGH = 400.0
+#: Where the filter before thinning out begins and ends, as shares of the new half rate [1].
+_PASSED, _STOPPED = 1.0, 1.3
+
+
+def thinning(dt: float) -> int:
+    """Give the whole number of samples of which one is kept, for a step [s]: 1 where nothing is to be thinned out."""
+    return max(1, int(np.floor(1.0 / (dt * ENOUGH) + 1e-6)))
+
+
+def decimated(
+    campaign: Campaign, invalid: Mapping[str, Mapping[str, Mask]]
+) -> tuple[Campaign, dict[str, dict[str, Mask]]]:
+    """Give a campaign with at most twice `ENOUGH` samples a second, and which of its samples are no measurement.
+
+    Args:
+        campaign: as recorded.
+        invalid: run -> channel -> samples (n,) at which it is no measurement.
+    """
+    every = {run.name: thinning(run.record.dt) for run in campaign.runs}
+    if max(every.values()) == 1:
+        return campaign, {run: dict(of) for run, of in invalid.items()}
+    records = {run.name: _thinned(run.record, every[run.name]) for run in campaign.runs}
+    masks = {
+        run: {name: _any_of(mask, every[run])[: len(records[run])] for name, mask in of.items()}
+        for run, of in invalid.items()
+    }
+    runs = tuple(replace(run, record=records[run.name]) for run in campaign.runs)
+    rate = 1.0 / next(iter(records.values())).dt
+    note = f"logged at {1.0 / campaign.runs[0].record.dt:.4g} Hz; fits use {rate:.4g} Hz, low-pass filtered before"
+    return replace(campaign, runs=runs, notes=(*campaign.notes, note)), masks
+
+
+def _thinned(record: Record, every: int) -> Record:
+    if every == 1:
+        return record
+    half = 0.5 / (every * record.dt)
+
+    def gain(frequency: Array) -> Array:
+        place = np.clip((frequency / half - _PASSED) / (_STOPPED - _PASSED), 0.0, 1.0)
+        return 0.5 * (1.0 + np.cos(np.pi * place))
+
+    channels = {
+        name: (in_frequency(values, record.dt, gain, 64 * every) if np.isfinite(values).all() else values)[::every]
+        for name, values in record.channels.items()
+    }
+    return Record(record.time[::every], channels, record.provenance)
+
+
+def _any_of(mask: Mask, every: int) -> Mask:
+    padded = np.concatenate([mask, np.zeros(-len(mask) % every, dtype=bool)])
+    return padded.reshape(-1, every).any(axis=1)

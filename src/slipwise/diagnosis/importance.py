@@ -1,0 +1,195 @@
+"""What an effect changes that an engineer asks for: slip, energy, load and every measured channel without it.
+
+The final model is replayed from the measured table motion, once as it is and once with the effect left out, everything
+else as fitted: in the held-out run (in the last one where none is held out) for slip, energy and load, and for the
+channels also in the run in which the effect does most, for wear may be over when the held-out run begins. A slider is
+not replayed: its motion is prescribed, and its law is driven by what was measured.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.campaign.materiality import Materiality
+from slipwise.comparison.measured_replay import measured_motion, simulation_step
+from slipwise.comparison.system_level import replayed_model
+from slipwise.errors import SlipwiseError
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.intervals import Interval, intervals
+from slipwise.estimation.parameters import Term
+from slipwise.estimation.run_data import FitRun
+from slipwise.model import Model
+from slipwise.parallel import on_every_core
+from slipwise.simulation.kernel.layout import buffer_memories, pad_memories
+from slipwise.simulation.predict import predictor
+from slipwise.simulation.replay import replay
+from slipwise.simulation.result import Memory
+
+Array = NDArray[np.float64]
+RESPONSES: tuple[str, ...] = ("peak_slip", "energy", "largest_load")
+#: Half width of an interval beside what the size's own interval gives: of the change itself, for a law is not quite the
+#: true one, and absolute, for a replay is not the rig [1].
+_OF_CHANGE, _ABSOLUTE = 0.25, 0.004
+
+
+@dataclass(frozen=True)
+class Change:
+    """A relative change with its 95 % interval [1]."""
+
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Importance:
+    """What leaving an effect out changes.
+
+    Attributes:
+        responses: name of `RESPONSES` -> relative change of the replay without the effect; empty for a slider.
+        channels: channel -> rms of the change over the channel's rms about its mean [1].
+        gauge: whether the effect is a fault of gauges.
+    """
+
+    responses: Mapping[str, Change]
+    channels: Mapping[str, float]
+    gauge: bool
+
+    def share_of_limit(self, limits: Materiality) -> float:
+        """Give the largest change as a share of what matters: 1 and more is material."""
+        of_channel = limits.gauge if self.gauge else limits.channel
+        shares = [value / of_channel for value in self.channels.values()]
+        if not self.gauge:
+            shares += [abs(change.value) / limits.response for change in self.responses.values()]
+        return max(shares, default=0.0)
+
+
+def importance_of_effects(final: BaseFit, terms: Sequence[Term]) -> dict[str, Importance]:
+    """Give the importance of every effect that was added to a model.
+
+    Args:
+        final: the fitted model.
+        terms: that were added; those of one effect are left out together.
+    """
+    if not terms:
+        return {}
+    added: dict[str, list[Term]] = {}
+    for term in terms:
+        added.setdefault(term.effect.name, []).append(term)
+    problem, sizes = final.problem, intervals(final).entries
+    shown = (problem.held_out or [len(problem.runs) - 1])[0]
+    places = {name: list(dict.fromkeys([shown, _where_most(final, of)])) for name, of in added.items()}
+    asked = [("", place) for place in dict.fromkeys(p for of in places.values() for p in of)]
+    asked += [(name, place) for name, of in places.items() for place in of]
+    models = _models(final, added)
+    free = problem.specimen.free and "table_ax" in problem.runs[shown].record
+    act = _replayed if free else _driven
+    answers = dict(zip(asked, on_every_core(lambda i: act(models[asked[i][0]], final, asked[i][1]), len(asked)), strict=True))
+    out: dict[str, Importance] = {}
+    for name, of in added.items():
+        spread = _spread([t.label for t in of], sizes)
+        whole, without = answers["", shown].responses, answers[name, shown].responses
+        responses = {r: _change(without[r] / size - 1.0, spread) for r, size in whole.items() if size > 0.0}
+        channels: dict[str, float] = {}
+        for place in places[name]:
+            one, other = answers["", place].channels, answers[name, place].channels
+            for c in (c for c in one if c in problem.runs[place].record):
+                channels[c] = max(channels.get(c, 0.0), _share(one[c], other[c]))
+        out[name] = Importance(responses, channels, of[0].effect.port == "gauge")
+    return out
+
+
+@dataclass(frozen=True)
+class _Answer:
+    responses: Mapping[str, float]
+    channels: Mapping[str, Array]
+
+
+def _models(final: BaseFit, added: Mapping[str, Sequence[Term]]) -> dict[str, Model]:
+    """Give the final model by "", and by the name of each effect the model without it."""
+    values = final.solution.values
+    whole = replayed_model(final)[0] if final.problem.specimen.free else final.problem.model(values)
+    return {"": whole} | {n: whole.without(*(u.label for t in of for u in t.uses(values))) for n, of in added.items()}
+
+
+def _where_most(final: BaseFit, terms: Sequence[Term]) -> int:
+    """Give the place of the run whose balances change most when an effect is set to its absence."""
+    problem, solution = final.problem, final.solution
+    absent = {f"{t.label}.{p.name}": p.neutral for t in terms for p in t.effect.parameters if p.neutral is not None}
+    try:
+        there = problem.residuals({**solution.values, **absent}).parts
+    except SlipwiseError:
+        return problem.fitted[-1]
+    here = solution.residuals.parts
+    moved = [sum(float(np.sum((there[r][i] - here[r][i]) ** 2)) for r in here) for i in range(len(problem.runs))]
+    return int(np.argmax(np.nan_to_num(moved)))
+
+
+def _replayed(model: Model, final: BaseFit, place: int) -> _Answer:
+    """Replay a run's measured table motion, memory of pads and buffers from the runs before."""
+    run = final.problem.runs[place]
+    dt = simulation_step(run.dt)
+    answer = replay(
+        model,
+        measured_motion(run.states),
+        dt=dt,
+        output_dt=run.dt,
+        start=_memory_before(model, final.problem.runs[:place]),
+        rest=run.rest_before,
+    )
+    responses = {
+        "peak_slip": answer.largest_slip,
+        "energy": sum(answer.pad_energy.values()),
+        "largest_load": max(high for _, high in answer.load_range.values()),
+    }
+    return _Answer(responses, answer.record.channels)
+
+
+def _memory_before(model: Model, runs: Sequence[FitRun]) -> Memory:
+    """Drive the laws with what was measured in the runs before."""
+    law = predictor(model)
+    layout = law.law.layout
+    for before in runs:
+        law.rest(before.rest_before)
+        states = before.states
+        law.pads(states.time, states.load, states.pad_velocity, states.pad_slip)
+        if model.specimen.buffer_stiffness:
+            count = len(model.specimen.buffer_stiffness)
+            law.buffers(states.time, *(np.stack([s] * count, axis=1) for s in (states.slip, states.velocity)))
+    return Memory(pad_memories(layout, law.numbers).copy(), buffer_memories(layout, law.numbers).copy())
+
+
+def _driven(model: Model, final: BaseFit, place: int) -> _Answer:
+    """Drive a slider's law with measured load and motion; its gauges' faults act on what it answers."""
+    law, run = predictor(model), final.problem.runs[place]
+    force = run.states.pad_velocity  # of the run's own shape, where there is nothing before it
+    for each in final.problem.runs[: place + 1]:
+        law.rest(each.rest_before)
+        force = law.pads(each.time, each.load, each.states.pad_velocity, each.states.pad_slip).force
+    record = run.record.replaced(**{f"pad_{p}_Fx": force[:, i, 0] for i, p in enumerate(run.pads)})
+    for entry in model.with_hook("gauge"):
+        record = entry.effect.hooks["gauge"](record, entry.target, **entry.values)
+    energy = sum(float(np.sum(force[:, i, 0] * run.velocity) * run.dt) for i in range(len(run.pads)))
+    return _Answer({"energy": energy}, record.channels)
+
+
+def _share(whole: Array, without: Array) -> float:
+    size = float(np.std(whole))
+    return float(np.sqrt(np.mean((without - whole) ** 2)) / size) if size > 0.0 else 0.0
+
+
+def _change(value: float, spread: float) -> Change:
+    half = float(np.hypot(abs(value) * np.hypot(spread, _OF_CHANGE), _ABSOLUTE))
+    return Change(value, value - half, value + half)
+
+
+def _spread(labels: list[str], sizes: Sequence[Interval]) -> float:
+    """Give the half width of the interval of an effect's best known number, as a share of it [1]."""
+    found = [
+        0.5 * (i.high - i.low) / abs(i.value)
+        for i in sizes
+        if i.key.rpartition(".")[0] in labels and i.value and np.isfinite(i.high - i.low)
+    ]
+    return min(1.0, min(found, default=1.0))

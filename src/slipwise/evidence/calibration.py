@@ -1,0 +1,68 @@
+"""How sure evidence makes: small logistic models whose coefficients were fitted to campaigns with known answers.
+
+`calibration.json` holds the coefficients and where they come from; `scripts/calibrate.py` makes it anew from the
+answers of a bench. Nothing here is set by hand.
+"""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Logistic:
+    """A probability that is logistic in a few numbers.
+
+    Attributes:
+        constant: log-odds where every number is zero.
+        weights: number -> log-odds per unit of it.
+    """
+
+    constant: float
+    weights: Mapping[str, float]
+
+    def __call__(self, evidence: Mapping[str, float]) -> float:
+        """Give the probability; numbers that the model does not use are passed over."""
+        odds = self.constant + sum(weight * evidence[name] for name, weight in self.weights.items())
+        return float(np.clip(1.0 / (1.0 + np.exp(-odds)), 0.01, 0.99))
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """The logistic models of a verdict.
+
+    Attributes:
+        present: of an effect that was found: that it is there.
+        right_side: of an effect's importance: that it lies on that side of what matters, by how far it lies off.
+        right_family: of effects that leave something with structure: that they are of the right family all the same.
+        leads_rival: of a hypothesis: that it and not its nearest rival is right, by how many standard errors it leads.
+    """
+
+    present: Logistic
+    right_side: Logistic
+    right_family: Logistic
+    leads_rival: Logistic
+
+    def side(self, log_share: float) -> float:
+        """Give the chance that an importance, as the logarithm of its share of what matters, is on the right side."""
+        return self.right_side({"off": abs(log_share)})
+
+    def family(self, evidence: Mapping[str, float]) -> float:
+        """Give the chance that effects which leave something with structure are of the right family."""
+        return self.right_family(evidence)
+
+    def leads(self, errors: float) -> float:
+        """Give the chance that a hypothesis is right and not its nearest rival."""
+        return self.leads_rival({"lead": errors})
+
+
+@cache
+def calibration() -> Calibration:
+    """Give what the package was calibrated with."""
+    content = json.loads(files("slipwise.evidence").joinpath("calibration.json").read_text(encoding="utf-8"))
+    models = {name: Logistic(of["constant"], of["weights"]) for name, of in content["models"].items()}
+    return Calibration(**models)

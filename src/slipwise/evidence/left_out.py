@@ -1,0 +1,119 @@
+"""Leave one motion out: what a fit would leave of runs that it had not seen, without fitting again.
+
+With residuals r, slopes J and the rows of one motion g, the other rows alone would have led Gauss-Newton to
+
+    d = -(J'J - J_g'J_g)^-1 (J'r - J_g'r_g),    and left of the motion    r_g + J_g d
+
+(a fit to the others, one step from here), so a number that bends to one motion is judged by what it does to the others. A repeat is the same motion again and is
+left out with it. Where all fitted runs are of one motion, stretches of time are left out instead. A number that the
+rows that stay tell nothing of keeps its value.
+
+Source: Stone (1974), Journal of the Royal Statistical Society B 36; one Gauss-Newton step in the place of a refit:
+Cook, Weisberg (1982), Residuals and Influence in Regression, section 5.2.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.estimation.least_squares import Solution
+from slipwise.estimation.problem import Problem
+
+Array = NDArray[np.float64]
+#: Stretches of time that are left out one by one where there is one motion only [1].
+_STRETCHES = 4
+#: What keeps a number in its place that the other rows do not tell, as a share of what all rows tell of it [1].
+_RIDGE = 1e-4
+#: Slopes lie further away than this [scale of the number].
+_REACH = 1.0
+
+
+def motions(problem: Problem) -> list[list[int]]:
+    """Give the places of the fitted runs by motion: a repeat belongs to the run before it that it resembles most."""
+    out: list[list[int]] = []
+    for i in problem.fitted:
+        run = problem.runs[i]
+        alike = [g for g in out if len(problem.runs[g[0]].time) == len(run.time)]
+        if run.role == "repeat" and (alike or out):
+            (alike or out)[-1].append(i)
+        else:
+            out.append([i])
+    return out
+
+
+def _parts(problem: Problem) -> tuple[list[tuple[slice, int]], int]:
+    """Give rows of the stacked residuals with the number of what is left out, and how many are left out."""
+    groups = motions(problem)
+    group_of = {i: number for number, group in enumerate(groups) for i in group}
+    out: list[tuple[slice, int]] = []
+    row = 0
+    for relation in problem.relations:
+        for i in problem.fitted:
+            shape = problem.runs[i].judged[relation].shape
+            width = int(np.prod(shape[1:], dtype=np.int64))
+            if len(groups) > 1:
+                out.append((slice(row, row + shape[0] * width), group_of[i]))
+            else:
+                edges = np.linspace(0, shape[0], _STRETCHES + 1).astype(int)
+                for number, (start, end) in enumerate(zip(edges[:-1], edges[1:], strict=True)):
+                    out.append((slice(row + start * width, row + end * width), number))
+            row += shape[0] * width
+    return out, len(groups) if len(groups) > 1 else _STRETCHES
+
+
+@dataclass(frozen=True)
+class LinearFit:
+    """A fit and what is near it: residuals of the fitted runs, stacked, and their slopes.
+
+    Attributes:
+        residual: (m,) [noise].
+        slopes: (m, k) per unit of each number's scale; of the numbers inside their bounds.
+        low: (k,) how far each number may go down [its scale].
+        high: (k,) how far up.
+        constants: numbers that were fitted, those on bounds included.
+    """
+
+    residual: Array
+    slopes: Array
+    low: Array
+    high: Array
+    constants: int
+
+
+def linear_fit(problem: Problem, solution: Solution) -> LinearFit:
+    """Give a solution as a linear fit."""
+    residual = solution.residuals.stacked(problem.fitted, problem.relations)
+    ends = set(solution.at_bounds)
+    kept = [j for j, f in enumerate(solution.free) if f.key not in ends]
+    slopes = solution.jacobian if len(kept) == len(solution.free) else solution.jacobian[:, kept]
+    free = [solution.free[j] for j in kept]
+    room = [((f.low - solution.values[f.key]) / f.scale, (f.high - solution.values[f.key]) / f.scale) for f in free]
+    low, high = np.array(room).reshape(-1, 2).T
+    return LinearFit(residual, slopes, np.maximum(low, -_REACH), np.minimum(high, _REACH), len(solution.free))
+
+
+def left_out(problem: Problem, fit: LinearFit) -> Array:
+    """Give what is left of every motion by a fit to the others, (m,) like the stacked residuals [noise].
+
+    Args:
+        problem: relations and noise.
+        fit: of a hypothesis to all its fitted runs.
+    """
+    parts, count = _parts(problem)
+    width = fit.slopes.shape[1]
+    normal, right = np.zeros((count, width, width)), np.zeros((count, width))
+    for rows, number in parts:
+        slopes = fit.slopes[rows]
+        normal[number] += slopes.T @ slopes
+        right[number] += slopes.T @ fit.residual[rows]
+    whole, pull = normal.sum(axis=0), right.sum(axis=0)
+    ridge = np.diag(_RIDGE * np.diag(whole) + 1e-12)
+    steps = [
+        np.clip(-np.linalg.lstsq(whole - normal[g] + ridge, pull - right[g], rcond=1e-12)[0], fit.low, fit.high)
+        for g in range(count)
+    ]
+    out = np.empty_like(fit.residual)
+    for rows, number in parts:
+        out[rows] = fit.residual[rows] + fit.slopes[rows] @ steps[number]
+    return out
