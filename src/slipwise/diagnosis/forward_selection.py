@@ -12,11 +12,12 @@ from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.choice import best_of, kept_alone, limit_per_effect
 from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, strength_at_bound
 from slipwise.diagnosis.pairs import leading_pair
-from slipwise.diagnosis.rescreening import rescreen
+from slipwise.diagnosis.rescreening import rescreen, worth_refitting
 from slipwise.diagnosis.screening import screen, screen_shapes
 from slipwise.diagnosis.search_state import Search, as_base, left_with, tried_before, try_all, try_one
 from slipwise.diagnosis.starting_grid import places
 from slipwise.diagnosis.starting_values import longer_stick, starting_points, starts_of
+from slipwise.diagnosis.substitutes import substitutes
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit, at_rated
 from slipwise.evidence.acceptance import LEAST, all_down, is_kept, least_drop
@@ -28,11 +29,12 @@ _MIN_REFIT_SHARE = 0.4
 #: Candidates that are refitted at each step.
 _REFITTED = 4
 _REFITTED_PAIRS = 2
+#: Small effects that are added at once: many of them make a laboratory, and each refit takes a second.
+_AT_ONCE = 3
 #: Starts from which a law that leaves something is fitted again.
 _RESHAPED = 2
-#: Candidates that are tried in the place of an effect, if their columns leave less than so many times what the whole
-#: has left [1].
-_SWAPPED, _MAX_COST_RATIO = 2, 100.0
+#: Candidates that are tried in the place of an effect, and in the place of all.
+_SWAPPED, _EXCHANGED = 2, 6
 #: The best physics is refitted even where faults of gauges screen better, and far from its best shape.
 _REFITTED_PHYSICS = 2
 #: Mean squared residual of a base that is too far from the data for a screen, and residual above which the best
@@ -69,7 +71,7 @@ def search(
     if anew is not None:
         state = _onward(anew, tell)
     state = pruned(state)
-    exchanged = _exchanged(state)
+    exchanged = _exchanged(state) if state.best.terms else None
     if exchanged is not None:
         state = pruned(exchanged)
     if state.best.terms:
@@ -172,13 +174,20 @@ def _reshaped(state: Search) -> Search:
 
 
 def _further(state: Search) -> Search | None:
-    """Add the effect that helps most beside those found; None where none is material."""
+    """Add what helps most beside the effects found, several small ones at once; None where nothing is worth it."""
     before, origin = state.best, state.path[0]
     if all_down(before.summary):
         return None
-    least = _least_refitted(before)
-    found = with_bounds_checked(as_base(state, before), rescreen(state.all_screened, before), least)
-    chosen = limit_per_effect([s for s in found if s.gain > least], _REFITTED_PAIRS + 1)
+    found = rescreen(state.all_screened, before)
+    several = worth_refitting(found, before, _AT_ONCE, together=True)
+    several = [s for s in with_bounds_checked(as_base(state, before), several, 0.0) if s.gain > 0.0]
+    if len(several) > 1:
+        starts = {s.term.label: s.values for s in several}
+        together = try_one(state, [*before.terms, *(s.term for s in several)], starts, before)
+        if _is_kept(origin, before, together) and not _new_at_bound(together, before):
+            return pruned(state.stepped_to(together))
+    chosen = limit_per_effect(worth_refitting(found, before, 2 * _REFITTED_PAIRS, together=False), _REFITTED_PAIRS + 1)
+    chosen = [s for s in with_bounds_checked(as_base(state, before), chosen, 0.0) if s.gain > 0.0]
     tried = list[Hypothesis]()
     for asked in starting_points(state, chosen, tried):
         tried += try_all(state, asked, before, lambda h: _is_kept(origin, before, h, _NEAR))
@@ -187,6 +196,10 @@ def _further(state: Search) -> Search | None:
         if good:
             return state.stepped_to(max(good, key=lambda h: score(before.summary, h.summary)))
     return None
+
+
+def _new_at_bound(found: Hypothesis, before: Hypothesis) -> bool:
+    return strength_at_bound(found) and not strength_at_bound(before)
 
 
 def _is_kept(origin: Hypothesis, before: Hypothesis, found: Hypothesis, share: float = 1.0) -> bool:
@@ -202,23 +215,20 @@ def _least_refitted(before: Hypothesis) -> float:
 
 
 def _exchanged(state: Search) -> Search | None:
-    """Exchange an effect, and its likes on other gauges, for one that helps more beside the rest; None if none does.
+    """Fit what could stand in the place of an effect, and its likes on other gauges; None if nothing there is better.
 
     What was best alone may only have stood for two others: two gauges that read less for pads that differ.
     """
     best, origin = state.best, state.path[0].summary
-    if len(best.names) < 2 or all_down(best.summary):
-        return None
     top = score(origin, best.summary)
+    better: list[Hypothesis] = []
+    left = _EXCHANGED
     for name in best.names:
         rest = [t for t in best.terms if t.effect.name != name]
-        kept = left_with(state, rest, best)
-        enough = kept.solution.cost - _MAX_COST_RATIO * best.solution.cost
-        others = [
-            s for s in rescreen(state.all_screened, kept) if s.term.effect.name not in best.names and s.gain > enough
-        ]
-        chosen = [s for s in others[:_SWAPPED] if not tried_before(state, [*rest, s.term])]
-        better = [h for h in try_all(state, starts_of(chosen, rest), kept) if score(origin, h.summary) > top]
-        if better:
-            return state.stepped_to(max(better, key=lambda h: score(origin, h.summary)))
-    return None
+        chosen = substitutes(best, name, state.all_screened)[:_SWAPPED]
+        chosen = [s for s in chosen if not tried_before(state, [*rest, s.term])][:left]
+        left -= len(chosen)
+        if chosen:
+            found = try_all(state, starts_of(chosen, rest), left_with(state, rest, best) if rest else None)
+            better += [h for h in found if score(origin, h.summary) > top]
+    return state.stepped_to(max(better, key=lambda h: score(origin, h.summary))) if better else None

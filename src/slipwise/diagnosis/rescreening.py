@@ -1,14 +1,36 @@
-"""Screening again: what the remaining candidates could explain of what a hypothesis has left."""
+"""Screening again: what the remaining candidates could explain of what a hypothesis has left.
+
+Each balance counts by what is left of it: a law of not quite the right form in one must not drown what another tells.
+"""
 
 from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.pairs import at_odds
 from slipwise.diagnosis.screening import Screened, away_from, basis_of
 from slipwise.diagnosis.starting_grid import strengths, two_sided
+from slipwise.evidence.acceptance import least_drop
+from slipwise.evidence.score import FLOOR
+
+Array = NDArray[np.float64]
+#: Share of the drop for which an effect is kept that a straight line must promise, for a refit [1].
+_PROMISED = 0.5
+
+
+def row_weights(found: Hypothesis) -> Array:
+    """Give the weight of every row of the stacked residuals: one over the level that is left in its relation."""
+    problem = found.problem
+    return np.concatenate(
+        [
+            np.full(found.solution.residuals.parts[r][i].size, max(found.summary.fitted_level(r), FLOOR) ** -0.5)
+            for r in problem.relations
+            for i in problem.fitted
+        ]
+    )
 
 
 def rescreen(screened: Sequence[Screened], before: Hypothesis) -> list[Screened]:
@@ -18,21 +40,67 @@ def rescreen(screened: Sequence[Screened], before: Hypothesis) -> list[Screened]
         screened: candidates against the base.
         before: the hypothesis; its own effects and what is at odds with them are left out.
     """
-    problem, solution = before.problem, before.solution
-    basis = basis_of(solution.inside)
-    residual = away_from(basis, solution.residuals.stacked(problem.fitted, problem.relations))
+    weights = row_weights(before)
+    basis, residual = _beside(before, weights)
     across = np.column_stack([basis, residual]).T
     out = []
     for s in screened:
         if any(at_odds(s.term, t) for t in before.terms):
             continue
-        column = s.column.astype(np.float64)
+        column = weights * s.column
         *mimicked, along = across @ column
         length = float(column @ column) - float(np.dot(mimicked, mimicked))  # of what the hypothesis cannot mimic
-        amount = -float(along) / length if length > 1e-6 else 0.0
+        amount = -float(along) / length if length > 1e-6 * float(column @ column) else 0.0
         if amount > 0.0 or all(two_sided(p) for p in strengths(s.term.effect)):
             out.append(_scaled(s, amount, amount**2 * length))
     return sorted(out, key=lambda s: -s.gain)
+
+
+def worth_refitting(found: Sequence[Screened], before: Hypothesis, most: int, *, together: bool) -> list[Screened]:
+    """Give the leading candidates that promise enough of a relation for a refit.
+
+    Args:
+        found: of `rescreen`, best first.
+        before: what they were screened against.
+        most: candidates at most.
+        together: whether each is judged by what it adds to those chosen before it.
+    """
+    weights = row_weights(before)
+    basis, residual = _beside(before, weights)
+    edges, counts = _relations(before)
+    out: list[Screened] = []
+    for s in found:
+        if len(out) == most:
+            break
+        column = away_from(basis, weights * s.column)
+        length = float(column @ column)
+        amount = -float(column @ residual) / length if length > 1e-6 else 0.0
+        if amount <= 0.0 and not all(two_sided(p) for p in strengths(s.term.effect)):
+            continue
+        moved = residual + amount * column
+        drops = np.add.reduceat(residual**2 - moved**2, edges) / np.maximum(counts, 1)
+        if float(np.max(drops)) < _PROMISED * least_drop([s.term]):
+            continue
+        out.append(s)
+        if together:
+            basis = np.column_stack([basis, column / np.sqrt(length)])
+            residual = moved
+    return out
+
+
+def _beside(before: Hypothesis, weights: Array) -> tuple[Array, Array]:
+    """Give a basis of what a hypothesis' numbers can do, and what is left beside it, both weighed."""
+    solution = before.solution
+    basis = basis_of(solution.inside * weights[:, None])
+    left = solution.residuals.stacked(before.problem.fitted, before.problem.relations)
+    return basis, away_from(basis, weights * left)
+
+
+def _relations(before: Hypothesis) -> tuple[NDArray[np.int64], Array]:
+    """Give where each relation begins among the stacked rows, and how many of them are judged."""
+    problem, parts = before.problem, before.solution.residuals.parts
+    rows = [sum(parts[r][i].size for i in problem.fitted) for r in problem.relations]
+    return np.concatenate([[0], np.cumsum(rows)[:-1]]), np.array([before.summary.counts[r][0] for r in problem.relations])
 
 
 def _scaled(found: Screened, amount: float, gain: float) -> Screened:
