@@ -1,0 +1,116 @@
+"""Which dirty campaign a seed stands for: what is hidden on purpose, the dirt round it, runs and motions."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bench.dirt import GAUGE_DIRT, RIG_DIRT
+from bench.first_things import KINDS
+from bench.hidden import INSTRUMENTS, PHYSICS, UNKNOWN_KINDS
+from bench.planted import Plant
+
+#: What is hidden on purpose -> its share of campaigns.
+MIX = {"nothing": 0.30, "one or two": 0.35, "three to five": 0.15, "unknown": 0.08, "first": 0.12}
+#: Seeds that follow each other meet the mix evenly when they walk through it by the golden section.
+_GOLDEN = 0.6180339887498949
+#: Laws that share a memory in the simulator, and those that need motion across.
+_CLASH = {"breakaway", "rate_and_state"}
+_ACROSS = {"anisotropy"}
+#: Effects of the catalogue that a laboratory would not leave in: a wrong sign is one of the first things.
+_NEVER = {"channel_sign"}
+#: Dirt stays below this share of what is material unless it is there on purpose.
+_MOST_DIRT = 0.8
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a seed stands for.
+
+    Attributes:
+        group: one of `MIX`.
+        plants: hidden effects and dirt.
+        first: kinds of first things.
+        rich: motion across and more gauges.
+        runs: number of them, 2 to 5.
+        short: runs of 4 s.
+        uplift: one run lifts pads.
+    """
+
+    group: str
+    plants: tuple[Plant, ...]
+    first: tuple[str, ...]
+    rich: bool
+    runs: int
+    short: bool
+    uplift: bool
+
+
+def group_of(seed: int) -> str:
+    """Give the group of a seed."""
+    place, end = (seed * _GOLDEN) % 1.0, 0.0
+    for group, share in MIX.items():
+        end += share
+        if place < end:
+            return group
+    return "first"
+
+
+def draw_plan(seed: int) -> Plan:
+    """Draw everything that a seed decides before the specimen is known."""
+    rng = np.random.default_rng([seed, 31])
+    group = group_of(seed)
+    rich = bool(rng.random() < 0.2)
+    effects = _draw_effects(group, rng)
+    rich = rich or bool(_ACROSS & set(effects))
+    plants = [_hide(effect, rng) for effect in effects]
+    plants += _draw_dirt({plant.name for plant in plants}, rng)
+    kinds = tuple(str(k) for k in rng.choice(KINDS, size=1 + (rng.random() < 0.25), replace=False))
+    return Plan(
+        group=group,
+        plants=tuple(plants),
+        first=kinds if group == "first" else (),
+        rich=rich,
+        runs=int(rng.choice([2, 3, 4, 5], p=[0.12, 0.13, 0.15, 0.6])),
+        short=bool(rng.random() < 0.08),
+        uplift=bool(rng.random() < 0.07),
+    )
+
+
+def _draw_effects(group: str, rng: np.random.Generator) -> list[str]:
+    count = {
+        "nothing": 0,
+        "one or two": int(rng.integers(1, 3)),
+        "three to five": int(rng.integers(3, 6)),
+        "unknown": int(rng.integers(0, 3)),
+        "first": int(rng.integers(0, 3)),
+    }[group]
+    gauges = [name for name in INSTRUMENTS if name not in _NEVER]
+    chosen: list[str] = ["unknown:" + str(rng.choice(list(UNKNOWN_KINDS)))] if group == "unknown" else []
+    wanted = count + len(chosen)
+    while len(chosen) < wanted:
+        name = str(rng.choice(gauges if rng.random() < 0.2 else PHYSICS))
+        if name not in chosen and not _CLASH <= {*chosen, name}:
+            chosen.append(name)
+    return chosen
+
+
+def _hide(effect: str, rng: np.random.Generator) -> Plant:
+    """Plant an effect that is mostly material, one time in five near the border."""
+    low, high = (0.6, 1.6) if rng.random() < 0.2 else (1.5, 15.0)
+    target = float(np.exp(rng.uniform(np.log(low), np.log(high))))
+    return Plant(effect, 1.0, int(rng.integers(2**31)), False, target)
+
+
+def _draw_dirt(taken: set[str], rng: np.random.Generator) -> list[Plant]:
+    plants = []
+    for effect, (often, _) in {**RIG_DIRT, **GAUGE_DIRT}.items():
+        there = rng.random() < often
+        scale = float(np.exp(rng.uniform(np.log(0.2), np.log(3.0))))
+        most, seed = float(rng.uniform(0.1, _MOST_DIRT)), int(rng.integers(2**31))
+        if there and (effect in GAUGE_DIRT or effect not in taken):
+            plants.append(Plant(effect, scale, seed, True, most))
+    if rng.random() < 0.4:  # some law of the catalogue is really there, and does not matter
+        left = [name for name in PHYSICS if name not in taken | set(RIG_DIRT) | _CLASH | _ACROSS]
+        most = float(rng.uniform(0.1, _MOST_DIRT))
+        plants.append(Plant(str(rng.choice(left)), 1.0, int(rng.integers(2**31)), False, most))
+    return plants
