@@ -9,7 +9,7 @@ base, before and after a linear fit of those parameters; see `bench.floors`.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from bench.faults import Fault
 from bench.floors import sizes_in_floors
@@ -69,6 +69,11 @@ class Scene:
             for one, number in zip(true, self.numbers, strict=True)
         ]
 
+    def floors(self, true: Sequence[dict], recorded: Sequence[dict]) -> tuple[float, float]:
+        """Give the largest size in any balance of what hides in these runs, before and after a fit of the base."""
+        sizes = sizes_in_floors(self.base, list(true), list(recorded), self.logger)
+        return max(sizes["raw"].values()), max(sizes["after_fit"].values())
+
     def last(self) -> "Scene":
         """Give the held-out run alone, without faults that come before any balance."""
         last = (self.motions[-1:], self.numbers[-1:], self.memories[-1:])
@@ -104,8 +109,8 @@ class Entry:
         return self.after_fit >= SMALLEST
 
 
-def alone(scene: Scene, plant: Plant, bare: Sequence[dict]) -> Importance:
-    """Give the importance of one effect in an otherwise complete model.
+def alone(scene: Scene, plant: Plant, bare: Sequence[dict]) -> Entry:
+    """Give the answer for one effect in an otherwise complete model.
 
     Args:
         scene: in which it is.
@@ -116,7 +121,8 @@ def alone(scene: Scene, plant: Plant, bare: Sequence[dict]) -> Importance:
     true = bare if plant.of_gauge else scene.shaken([plant])
     there = scene.recorded(true, faults_of(hidden, scene.names))
     held_out = None if plant.of_gauge else (true[-1], bare[-1])
-    return importance((there, scene.recorded(bare, ())), held_out, scene.noise(), plant.of_gauge)
+    worth = importance((there, scene.recorded(bare, ())), held_out, scene.noise(), plant.of_gauge)
+    return Entry(worth, *scene.floors(true, there))
 
 
 def answer_key(scene: Scene, plants: Sequence[Plant], faults: Sequence[Fault]) -> dict[str, Entry]:
@@ -130,7 +136,6 @@ def answer_key(scene: Scene, plants: Sequence[Plant], faults: Sequence[Fault]) -
     true, bare = scene.shaken(plants), scene.shaken(())
     every = [*faults, *scene.first]
     there = scene.recorded(true, every)
-    in_step = replace(scene.logger, late={})
     entries = {}
     for name in named(plants):
         own = [fault for fault in faults if fault.effect == name]
@@ -144,7 +149,6 @@ def answer_key(scene: Scene, plants: Sequence[Plant], faults: Sequence[Fault]) -
         raw = after = 0.0
         if worth.of_limit > _ASKED:
             lone = bare if own else scene.shaken(only(plants, name))
-            sizes = sizes_in_floors(scene.base, lone, scene.recorded(lone, own), in_step)
-            raw, after = (max(sizes[kind].values()) for kind in ("raw", "after_fit"))
+            raw, after = scene.floors(lone, scene.recorded(lone, own))
         entries[name] = Entry(worth, raw, after)
     return entries

@@ -32,15 +32,24 @@ _CALMER = 10  # times that motions are made smaller when the girder slips too fa
 _KEY_RATE = 1000.0
 #: Steps for a row of what is recorded: rows divide into any rate that is drawn.
 _FINE = 5
-_SHRINK = 3  # times that dirt is made smaller where it matters though nothing should
+_SHRINK = 4  # times that dirt which matters is made smaller, then left out, where nothing should matter
 _BELOW = 0.6  # of what is material that it has then
 
 
 @dataclass(frozen=True)
 class DirtyCampaign:
-    """A dirty campaign in memory: the answer, and run -> channels as the laboratory has them."""
+    """A dirty campaign in memory.
+
+    Attributes:
+        truth: the answer.
+        motions: run -> table motion.
+        true: run -> channels of `simulate` at 10 kHz.
+        recorded: run -> channels at the logger's rate as the laboratory has them.
+    """
 
     truth: DirtyTruth
+    motions: dict[str, Motion]
+    true: dict[str, Run]
     recorded: dict[str, Run]
 
 
@@ -77,7 +86,7 @@ def build_dirty(seed: int, *, name: str = "", plan: Plan | None = None) -> Dirty
         )
 
     plants = _sized(scene({run: Memory() for run in motions}), plan.plants)
-    for _ in range(_SHRINK):
+    for attempt in range(_SHRINK):
         motions, memories, coarse = _calm(base, plants, motions, clock, plan.uplift)
         now = scene(memories)
         faults = _faults(plants, base, names, list(coarse.values()))
@@ -85,7 +94,10 @@ def build_dirty(seed: int, *, name: str = "", plan: Plan | None = None) -> Dirty
         large = {n for n, e in key.items() if e.status == "material"} if plan.group == "nothing" else set()
         if not large:
             break
-        plants = [p.scaled(_BELOW / key[p.name].importance.of_limit) if p.name in large else p for p in plants]
+        if attempt == 0:
+            plants = [p.scaled(_BELOW / key[p.name].importance.of_limit) if p.name in large else p for p in plants]
+        else:
+            plants = [p for p in plants if p.name not in large]
     motions = {run: motion.followed_by_rest(late) for run, motion in motions.items()}
     true = shake(base.changed(**together(plants, base).settings), motions, clock, every=_FINE)
     logger = with_ranges(logger, true, names)
@@ -95,7 +107,7 @@ def build_dirty(seed: int, *, name: str = "", plan: Plan | None = None) -> Dirty
     truth = DirtyTruth(
         name, seed, plan, rig, said_rig, said_mass, base, logger, roles, together(plants, base), key, first
     )
-    return DirtyCampaign(truth, recorded)
+    return DirtyCampaign(truth, motions, true, recorded)
 
 
 def _sized(scene: Scene, plants: Sequence[Plant]) -> list[Plant]:
@@ -104,8 +116,13 @@ def _sized(scene: Scene, plants: Sequence[Plant]) -> list[Plant]:
     bare = last.shaken(())
     sized = []
     for plant in plants:
-        of_limit = alone(last, plant, bare).of_limit if plant.effect != "channel_clipping" else plant.target
-        factor = plant.target / max(of_limit, 1.0e-6)
+        if plant.effect == "channel_clipping":  # its size is a share of what the runs reach
+            sized.append(plant)
+            continue
+        found = alone(last, plant, bare)
+        factor = plant.target / max(found.importance.of_limit, 1.0e-6)
+        if plant.floors:
+            factor = max(factor, plant.floors / max(found.after_fit, 1.0e-3))
         sized.append(plant.scaled(min(factor, 1.0) if plant.dirt else factor))
     return sized
 

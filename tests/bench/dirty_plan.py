@@ -7,6 +7,7 @@ import numpy as np
 from bench.dirt import GAUGE_DIRT, RIG_DIRT
 from bench.first_things import KINDS
 from bench.hidden import INSTRUMENTS, PHYSICS, UNKNOWN_KINDS
+from bench.other_forms import OTHER_FORMS
 from bench.planted import Plant
 
 #: What is hidden on purpose -> its share of campaigns.
@@ -18,6 +19,12 @@ _CLASH = {"breakaway", "rate_and_state"}
 _ACROSS = {"anisotropy"}
 #: Effects of the catalogue that a laboratory would not leave in: a wrong sign is one of the first things.
 _NEVER = {"channel_sign"}
+#: How often a family that has one gets a form that the clean bench does not know [1].
+_OTHER = 0.5
+#: How often what matters is large enough to stand above the noise as well [1].
+_SEEN = 0.85
+#: Laws that do not vanish with their size: an impact in a gap, and a bristle instead of the base's stick.
+_NEVER_SMALL = {"key_clearance", "presliding"}
 #: Dirt stays below this share of what is material unless it is there on purpose.
 _MOST_DIRT = 0.8
 
@@ -33,7 +40,7 @@ class Plan:
         rich: motion across and more gauges.
         runs: number of them, 2 to 5.
         short: runs of 4 s.
-        uplift: one run lifts pads.
+        uplift: the last fitted run lifts pads; never the only one, for landings hang on the least change.
     """
 
     group: str
@@ -64,15 +71,16 @@ def draw_plan(seed: int) -> Plan:
     rich = rich or bool(_ACROSS & set(effects))
     plants = [_hide(effect, rng) for effect in effects]
     plants += _draw_dirt({plant.name for plant in plants}, rng)
+    runs = int(rng.choice([2, 3, 4, 5], p=[0.12, 0.13, 0.15, 0.6]))
     kinds = tuple(str(k) for k in rng.choice(KINDS, size=1 + (rng.random() < 0.25), replace=False))
     return Plan(
         group=group,
         plants=tuple(plants),
         first=kinds if group == "first" else (),
         rich=rich,
-        runs=int(rng.choice([2, 3, 4, 5], p=[0.12, 0.13, 0.15, 0.6])),
+        runs=runs,
         short=bool(rng.random() < 0.08),
-        uplift=bool(rng.random() < 0.07),
+        uplift=bool(rng.random() < 0.09) and runs > 2,
     )
 
 
@@ -91,14 +99,16 @@ def _draw_effects(group: str, rng: np.random.Generator) -> list[str]:
         name = str(rng.choice(gauges if rng.random() < 0.2 else PHYSICS))
         if name not in chosen and not _CLASH <= {*chosen, name}:
             chosen.append(name)
-    return chosen
+    forms = {form.partition(":")[0]: form for form in OTHER_FORMS}
+    return [forms[name] if name in forms and rng.random() < _OTHER else name for name in chosen]
 
 
 def _hide(effect: str, rng: np.random.Generator) -> Plant:
     """Plant an effect that is mostly material, one time in five near the border."""
     low, high = (0.6, 1.6) if rng.random() < 0.2 else (1.5, 15.0)
     target = float(np.exp(rng.uniform(np.log(low), np.log(high))))
-    return Plant(effect, 1.0, int(rng.integers(2**31)), False, target)
+    floors = float(np.exp(rng.uniform(np.log(1.4), np.log(8.0)))) if low > 1.0 and rng.random() < _SEEN else 0.0
+    return Plant(effect, 1.0, int(rng.integers(2**31)), False, target, floors)
 
 
 def _draw_dirt(taken: set[str], rng: np.random.Generator) -> list[Plant]:
@@ -110,7 +120,7 @@ def _draw_dirt(taken: set[str], rng: np.random.Generator) -> list[Plant]:
         if there and (effect in GAUGE_DIRT or effect not in taken):
             plants.append(Plant(effect, scale, seed, True, most))
     if rng.random() < 0.4:  # some law of the catalogue is really there, and does not matter
-        left = [name for name in PHYSICS if name not in taken | set(RIG_DIRT) | _CLASH | _ACROSS]
+        left = [name for name in PHYSICS if name not in taken | set(RIG_DIRT) | _CLASH | _ACROSS | _NEVER_SMALL]
         most = float(rng.uniform(0.1, _MOST_DIRT))
         plants.append(Plant(str(rng.choice(left)), 1.0, int(rng.integers(2**31)), False, most))
     return plants

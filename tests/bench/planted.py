@@ -9,6 +9,7 @@ import numpy as np
 from bench.dirt import GAUGE_DIRT, RIG_DIRT
 from bench.faults import Fault
 from bench.hidden import Hidden, hide_one
+from bench.other_forms import OTHER_FORMS
 from bench.score import INSTRUMENT
 from bench.settings import Settings
 
@@ -21,11 +22,13 @@ class Plant:
     """One effect.
 
     Attributes:
-        effect: name of the catalogue; "unknown:washboard" for a law outside it.
+        effect: name of the catalogue, with a colon and a form where it is one of `OTHER_FORMS`; "unknown:washboard" for
+            a law outside it.
         scale: size in multiples of what is typical, of dirt or of a hidden effect [1].
         seed: of everything about its law but the size.
         dirt: whether it is one of `bench.dirt`.
         target: size wanted, in multiples of what is material; dirt may be smaller, not larger [1].
+        floors: least size wanted after a fit of the base parameters [floors]; the larger of the two sizes counts.
     """
 
     effect: str
@@ -33,6 +36,7 @@ class Plant:
     seed: int
     dirt: bool
     target: float
+    floors: float = 0.0
 
     @property
     def name(self) -> str:
@@ -52,16 +56,20 @@ class Plant:
     def hidden(self, base: Settings) -> Hidden:
         """Give what it changes in the specimen `base`."""
         rng = np.random.default_rng(self.seed)
-        if not self.dirt:
-            return hide_one(self.effect, self.scale, base, rng)
-        said: dict[str, Any] = {"scale": self.scale, "form": "dirt"}
-        if self.name in RIG_DIRT:
-            change = RIG_DIRT[self.name][1](rng, self.scale, base)
-            plain = {key: np.asarray(value).tolist() for key, value in change.items()}
-            return Hidden((self.name,), change, details={self.name: said | plain})
-        faults = tuple(GAUGE_DIRT[self.name][1](rng, self.scale))
-        said["faults"] = [fault.describe() for fault in faults]
-        return Hidden((self.name,), faults=faults, details={self.name: said})
+        if self.dirt and self.name in GAUGE_DIRT:
+            faults = tuple(GAUGE_DIRT[self.name][1](rng, self.scale))
+            said = {"scale": self.scale, "form": "dirt", "faults": [fault.describe() for fault in faults]}
+            return Hidden((self.name,), faults=faults, details={self.name: said})
+        if self.dirt:
+            return self._law(RIG_DIRT[self.name][1](rng, self.scale, base), "dirt")
+        if self.effect in OTHER_FORMS:
+            return self._law(*OTHER_FORMS[self.effect](rng, self.scale, base))
+        return hide_one(self.effect, self.scale, base, rng)
+
+    def _law(self, change: dict[str, Any], form: str) -> Hidden:
+        plain = {key: np.asarray(value).tolist() for key, value in change.items()}
+        said = {"scale": self.scale, "form": form, **plain}
+        return Hidden((self.name,), change, details={self.name: said})
 
 
 def together(plants: Iterable[Plant], base: Settings) -> Hidden:
