@@ -54,29 +54,36 @@ class Plan:
 
 def group_of(seed: int) -> str:
     """Give the group of a seed."""
-    place, end = (seed * _GOLDEN) % 1.0, 0.0
+    return _place(seed)[0]
+
+
+def _place(seed: int) -> tuple[str, float]:
+    """Give the group of a seed, and how far inside it the seed stands [0 to 1]."""
+    place = (seed * _GOLDEN) % 1.0
     for group, share in MIX.items():
-        end += share
-        if place < end:
-            return group
-    return "first"
+        if place < share:
+            return group, place / share
+        place -= share
+    return list(MIX)[-1], 0.0  # rounding
 
 
 def draw_plan(seed: int) -> Plan:
     """Draw everything that a seed decides before the specimen is known."""
     rng = np.random.default_rng([seed, 31])
-    group = group_of(seed)
+    group, inside = _place(seed)
     rich = bool(rng.random() < 0.2)
     effects = _draw_effects(group, rng)
     rich = rich or bool(_ACROSS & set(effects))
     plants = [_hide(effect, rng) for effect in effects]
     plants += _draw_dirt({plant.name for plant in plants}, rng)
     runs = int(rng.choice([2, 3, 4, 5], p=[0.12, 0.13, 0.15, 0.6]))
-    kinds = tuple(str(k) for k in rng.choice(KINDS, size=1 + (rng.random() < 0.25), replace=False))
+    kinds = [KINDS[int(inside * len(KINDS))]]  # every kind as often as the others
+    if rng.random() < 0.25:
+        kinds.append(str(rng.choice([kind for kind in KINDS if kind not in kinds])))
     return Plan(
         group=group,
         plants=tuple(plants),
-        first=kinds if group == "first" else (),
+        first=tuple(kinds) if group == "first" else (),
         rich=rich,
         runs=runs,
         short=bool(rng.random() < 0.08),

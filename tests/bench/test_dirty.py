@@ -11,6 +11,7 @@ from bench.dirty import build_dirty
 from bench.dirty_logger import draw_dirty_logger
 from bench.dirty_plan import MIX, Plan, draw_plan, group_of
 from bench.faults import Fault
+from bench.first_things import KINDS
 from bench.floors import sizes_in_floors
 from bench.gauges import USUAL, Logger, measure, sensor
 from bench.importance import relative_changes
@@ -56,6 +57,11 @@ def test_a_seed_decides_everything():
 def test_seeds_in_a_row_keep_to_the_mix():
     counted = Counter(group_of(seed) for seed in range(300, 500))
     assert all(counted[group] == pytest.approx(200 * share, abs=3) for group, share in MIX.items())
+
+
+def test_every_fault_that_comes_before_any_balance_has_its_turn():
+    counted = Counter(plan.first[0] for plan in map(draw_plan, range(300, 700)) if plan.first)
+    assert set(counted) == set(KINDS) and max(counted.values()) - min(counted.values()) <= 3
 
 
 def test_plans_hide_what_their_group_says():
