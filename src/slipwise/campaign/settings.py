@@ -188,7 +188,7 @@ def _materiality(part: Mapping[str, Any], where: str) -> Materiality:
     shares = {name: quantity(value, "1", f"{where}, {name!r}") for name, value in part.items()}
     for name, share in shares.items():
         if not 0.0 < share < 1.0:
-            raise SettingError(f"{where}: {name} = {share:g} must lie between 0 and 1; write for example \"2 %\"")
+            raise SettingError(f'{where}: {name} = {share:g} must lie between 0 and 1; write for example "2 %"')
     return Materiality(**shares)
 
 

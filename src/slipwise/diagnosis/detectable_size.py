@@ -41,6 +41,4 @@ def _least(found: Screened, base: Hypothesis) -> tuple[float, str] | None:
     rows = [sum(parts[r][i].size for i in problem.fitted) for r in problem.relations]
     drops = np.add.reduceat(step, np.concatenate([[0], np.cumsum(rows)[:-1]]))
     counts = np.array([base.summary.counts[r][0] for r in problem.relations])
-    return float(
-        size * np.sqrt(least_drop([found.term]) / np.max(drops / np.maximum(counts, 1)))
-    ), leading.unit
+    return float(size * np.sqrt(least_drop([found.term]) / np.max(drops / np.maximum(counts, 1)))), leading.unit

@@ -106,9 +106,7 @@ def above_noise(summary: ResidualSummary, best: ResidualSummary) -> float:
         summary: of a hypothesis.
         best: one that may tell that the noise is less than was thought, for it leaves less.
     """
-    return sum(
-        max(summary.left_out[r] - min(count, best.left_out[r]), 0.0) for r, (count, _) in summary.counts.items()
-    )
+    return sum(max(summary.left_out[r] - min(count, best.left_out[r]), 0.0) for r, (count, _) in summary.counts.items())
 
 
 def _rivals(state: Search, parts: dict[str, tuple[Term, ...]]) -> dict[str, Rival]:

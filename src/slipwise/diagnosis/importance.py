@@ -86,7 +86,9 @@ def importance_of_effects(final: BaseFit, terms: Sequence[Term]) -> dict[str, Im
     models = _models(final, added)
     free = problem.specimen.free and "table_ax" in problem.runs[shown].record
     act = _replayed if free else _driven
-    answers = dict(zip(asked, on_every_core(lambda i: act(models[asked[i][0]], final, asked[i][1]), len(asked)), strict=True))
+    answers = dict(
+        zip(asked, on_every_core(lambda i: act(models[asked[i][0]], final, asked[i][1]), len(asked)), strict=True)
+    )
     out: dict[str, Importance] = {}
     for name, of in added.items():
         spread = _spread([t.label for t in of], sizes)

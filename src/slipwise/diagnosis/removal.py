@@ -1,8 +1,8 @@
 """What a hypothesis would leave without one of its effects: a straight line from where it stands, or a refit.
 
-The effect is set to its absence, the residual is evaluated there, and one Gauss-Newton step lets every other number make
-up for what it can. An effect that is never absent, or in whose place a number of the base comes back, is taken out by a
-refit.
+The effect is set to its absence, the residual is evaluated there, and one Gauss-Newton step lets every other number
+make up for what it can. An effect that is never absent, or in whose place a number of the base comes back, is taken out
+by a refit.
 """
 
 from collections.abc import Callable, Sequence
@@ -21,9 +21,7 @@ from slipwise.evidence.residual_summary import ResidualSummary, summarised_linea
 Array = NDArray[np.float64]
 
 
-def without(
-    found: Hypothesis, terms: Sequence[Term], refit: Callable[[Sequence[Term]], Hypothesis]
-) -> ResidualSummary:
+def without(found: Hypothesis, terms: Sequence[Term], refit: Callable[[Sequence[Term]], Hypothesis]) -> ResidualSummary:
     """Give what a hypothesis leaves without some of its effects.
 
     Args:

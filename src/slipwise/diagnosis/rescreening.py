@@ -100,7 +100,9 @@ def _relations(before: Hypothesis) -> tuple[NDArray[np.int64], Array]:
     """Give where each relation begins among the stacked rows, and how many of them are judged."""
     problem, parts = before.problem, before.solution.residuals.parts
     rows = [sum(parts[r][i].size for i in problem.fitted) for r in problem.relations]
-    return np.concatenate([[0], np.cumsum(rows)[:-1]]), np.array([before.summary.counts[r][0] for r in problem.relations])
+    return np.concatenate([[0], np.cumsum(rows)[:-1]]), np.array(
+        [before.summary.counts[r][0] for r in problem.relations]
+    )
 
 
 def _scaled(found: Screened, amount: float, gain: float) -> Screened:

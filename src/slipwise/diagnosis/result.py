@@ -142,7 +142,9 @@ class Diagnosis(Drawn, Tabular):
         fall = f"{error} {self.base_error:.2g} -> {self.final_error:.2g} times the noise floor"
         match self.verdict.kind:
             case "complete":
-                least = "Nothing that matters is missing" if self.verdict.minor else "Nothing above the noise is missing"
+                least = (
+                    "Nothing that matters is missing" if self.verdict.minor else "Nothing above the noise is missing"
+                )
                 return f"{least} ({self.base_error:.2g} times the floor; {chance}){self._minor}."
             case "named":
                 more = "; form not exact" if self.verdict.leftover == "unknown" else ""

@@ -69,5 +69,7 @@ def select_effects(
     if better is not None:
         base = better
         state = search(base, own, progress, state)
-    uncorrected = base_hypothesis(fit_base(decimated(campaign, {})[0], model)).summary if faults else state.path[0].summary
+    uncorrected = (
+        base_hypothesis(fit_base(decimated(campaign, {})[0], model)).summary if faults else state.path[0].summary
+    )
     return SelectionResult(base, state, faults, uncorrected)

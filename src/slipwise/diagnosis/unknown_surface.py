@@ -72,7 +72,8 @@ class Surface:
     def words(self) -> str:
         """What it depends on, in a sentence."""
         on = " and ".join(WORDS[s].split(" [")[0] for s in self.states)
-        return f"{self.relation}: depends on {on}; predicts {100 * self.explained:.0f} % of the residual of motions left out"
+        share = f"{100 * self.explained:.0f} %"
+        return f"{self.relation}: depends on {on}; predicts {share} of the residual of motions left out"
 
 
 def leftover(found: Hypothesis, relations: tuple[str, ...] | None = None) -> Surface | None:

@@ -1,9 +1,9 @@
 """From the evidence to a verdict: what matters is named, what does not is listed, and how sure that is was calibrated.
 
-    complete    nothing that matters was found, and nothing that matters is left
-    unknown     what is left matters, and what was found explains too little of the balance in which it stands
-    ambiguous   another effect is as likely in the place of one that is named
-    named       effects that matter; `instrument` where all of them are faults of gauges
+complete    nothing that matters was found, and nothing that matters is left
+unknown     what is left matters, and what was found explains too little of the balance in which it stands
+ambiguous   another effect is as likely in the place of one that is named
+named       effects that matter; `instrument` where all of them are faults of gauges
 """
 
 from collections.abc import Sequence

@@ -4,7 +4,7 @@ With residuals r, slopes J and the rows of one motion g, the other rows alone wo
 
     d = -(J'J - J_g'J_g)^-1 (J'r - J_g'r_g),    and left of the motion    r_g + J_g d
 
-(a fit to the others, one step from here), so a number that bends to one motion is judged by what it does to the others. A repeat is the same motion again and is
+so a number that bends to one motion is judged by what it does to the others. A repeat is the same motion again and is
 left out with it. Where all fitted runs are of one motion, stretches of time are left out instead. A number that the
 rows that stay tell nothing of keeps its value.
 

@@ -32,8 +32,8 @@ from slipwise.errors import InputError, SimulationError, SlipwiseError
 from slipwise.estimation.base_fit import fit_base
 from slipwise.estimation.parameters import Term
 from slipwise.evidence.acceptance import LEAST
-from slipwise.evidence.score import largest_drop, score
 from slipwise.evidence.residual_summary import ResidualSummary
+from slipwise.evidence.score import largest_drop, score
 from slipwise.experiment.motions import LIBRARY, Limits, motions_for
 from slipwise.experiment.result import NextTest, Proposal
 from slipwise.model import Model
@@ -255,7 +255,8 @@ def _words(found: Diagnosis, contest: Sequence[Hypothesis], most: float) -> str:
             )
     if most < LEAST.everywhere:
         sentences.append(
-            f"No table motion of these tells them apart: {most:.2g} noise variances at most, {LEAST.everywhere:g} is needed."
+            f"No table motion of these tells them apart: {most:.2g} noise variances at most, "
+            f"{LEAST.everywhere:g} is needed."
         )
         for one, other in combinations(contest, 2):
             pairs = product((t.effect for t in one.terms), (t.effect for t in other.terms))

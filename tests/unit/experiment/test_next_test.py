@@ -7,6 +7,7 @@ import pytest
 
 from hypotheses import base, diagnosed, left_by, searched
 from slipwise.cli import main
+from slipwise.comparison.measured_replay import simulation_step
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.verdict import Verdict
