@@ -10,7 +10,7 @@ import typer
 
 import slipwise as sw
 from slipwise.cli.console import OUT, out_folder, steps
-from slipwise.cli.diagnose import print_rungs
+from slipwise.cli.diagnose import print_effects, print_rungs
 
 #: Worst places of the error that are told.
 _TOLD = 3
@@ -56,7 +56,8 @@ def demo(
         "Each balance of the rig answers for itself; 1 is the noise floor, what a perfect model would leave.",
     )
     rows = [
-        {"balance": n, "held-out error / floor": _rounded(compared.error(n, held_out=True))} for n in compared.relations
+        {"balance": n, "held-out error [noise floors]": _rounded(compared.error(n, held_out=True))}
+        for n in compared.relations
     ]
     print_table("Where the model fails", rows)
     for place in compared.places[:_TOLD]:
@@ -65,7 +66,8 @@ def demo(
         found = sw.diagnose(measured, system=True, progress=tell)
     ladder = found.ladder()
     _say("3  What is missing?", found.sentence)
-    hypotheses = [{"hypothesis": c.effect, "probability": round(c.probability, 3)} for c in found.candidates]
+    print_effects(found)
+    hypotheses = [{"hypothesis": c.effect, "probability": f"{100 * c.probability:.1f} %"} for c in found.candidates]
     print_table(f"{ladder.tried[0]} candidates screened, {ladder.tried[1]} refitted", hypotheses)
     _say(
         "4  Add it, and watch the error fall",

@@ -79,24 +79,37 @@ def _write(found: "sw.Diagnosis", folder: Path, recording: bool) -> list[Path]:
 
 
 def _tell(found: "sw.Diagnosis") -> None:
-    """Print the verdict, its rivals and what it rests on."""
+    """Print the verdict, what each effect changes, its rivals and what it rests on."""
+    from slipwise.view.diagnosis_words import error_name
     from slipwise.view.terminal import print_table
 
     OUT.print(found.sentence, markup=False, highlight=False)
+    print_effects(found)
     for words in found.discriminating_tests:
         OUT.print(f"to tell apart: {words}", markup=False, highlight=False, soft_wrap=True)
-    before = "held-out before" if found.held_out else "fitted runs before"
     rows = [
-        {"hypothesis": c.effect, "probability": round(c.probability, 3), before: round(c.holdout_before, 2),
+        {"hypothesis": c.effect, "probability": f"{100 * c.probability:.1f} %", "before": round(c.holdout_before, 2),
          "after": round(c.holdout_after, 2)}
         for c in found.candidates
     ]  # fmt: skip
     if rows:
-        print_table("Hypotheses, in multiples of the noise floor", rows)
+        print_table(f"Hypotheses; {error_name(found)} before and after, in noise floors", rows)
     for run in found.predicted_friction:
         OUT.print(run.words, markup=False, highlight=False, soft_wrap=True)
     for words in found.cannot_tell:
         OUT.print(f"cannot tell {words}", markup=False, highlight=False, soft_wrap=True)
+
+
+def print_effects(found: "sw.Diagnosis") -> None:
+    """Print whether held-out runs confirm a diagnosis, and what leaving each effect out changes."""
+    from slipwise.view.diagnosis_words import confirmed_words
+    from slipwise.view.importance_rows import importance_rows, replayed_run
+    from slipwise.view.terminal import print_table
+
+    if words := confirmed_words(found):
+        OUT.print(words, markup=False, highlight=False)
+    if rows := importance_rows(found, intervals=False):
+        print_table(f"What changes without an effect, in {replayed_run(found)}", rows)
 
 
 def _record(found: "sw.Diagnosis", folder: Path) -> list[Path]:

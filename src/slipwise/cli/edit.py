@@ -23,7 +23,7 @@ def add(
     measured = sw.load_campaign(campaign)
     with steps() as tell:
         changed = sw.add(name, measured, start_model(campaign, None), progress=tell)
-    _finish(changed, campaign)
+    _finish(changed, campaign, held_out=bool(measured.with_role("holdout")))
 
 
 def remove(
@@ -37,13 +37,14 @@ def remove(
     measured = sw.load_campaign(campaign)
     with steps() as tell:
         changed = sw.remove(name, measured, start_model(campaign, None), progress=tell)
-    _finish(changed, campaign)
+    _finish(changed, campaign, held_out=bool(measured.with_role("holdout")))
 
 
-def _finish(changed: "sw.ModelChange", campaign: Path) -> None:
+def _finish(changed: "sw.ModelChange", campaign: Path, *, held_out: bool) -> None:
     from slipwise.view.terminal import print_table
 
-    print_table("Held-out error in multiples of the noise floor", changed.rows())
+    which = "Held-out error" if held_out else "Error of the runs that were fitted"
+    print_table(f"{which} in multiples of the noise floor", changed.rows())
     path = campaign / "model.toml"
     sw.save_model(changed.model, path)
     OUT.print(f"wrote {path}", markup=False, highlight=False, soft_wrap=True)

@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 from slipwise.diagnosis.ladder import Ladder, LadderStep
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.unknown_surface import WORDS, Surface
+from slipwise.units import convert
 from slipwise.view.canvas import new_figure
+from slipwise.view.numbers import in_words, usual_unit
 from slipwise.view.style import EXPECTED, INK, MODEL_COLOURS, MUTED
 
 Array = NDArray[np.float64]
@@ -20,8 +22,12 @@ _RELATIONS = {
 }  # fmt: skip
 #: Letters that fit under the axes of a ladder.
 _WIDEST = 95
+#: Letters that fit over one of two panels.
+_TITLE = 40
 #: Where a ladder begins so many floors up, its last steps are told apart on a logarithmic axis only.
 _FAR = 20.0
+#: A missing force below this is drawn in its SI unit [N].
+_SMALL = 1000.0
 _BEFORE, _AFTER = MODEL_COLOURS[0], MODEL_COLOURS[5]
 
 
@@ -32,9 +38,9 @@ def balances_figure(found: Diagnosis) -> Figure:
     names = list(found.relations)
     places = np.arange(len(names))
     before, after = (np.array([found.relations[n][i] for n in names]) for i in (0, 1))
-    axes.bar(places - 0.19, before, 0.36, color=_BEFORE, label="base model")
+    axes.bar(places - (0.19 if found.added else 0.0), before, 0.36, color=_BEFORE, label="base model")
     if found.added:
-        axes.bar(places + 0.19, after, 0.36, color=_AFTER, label=f"with {' and '.join(found.added)}")
+        axes.bar(places + 0.19, after, 0.36, color=_AFTER, label=_with(found))
     axes.axhline(1.0, color=INK, lw=1.0, ls="--")
     axes.annotate("noise floor", (1.0, 1.0), xycoords=("axes fraction", "data"), ha="right", va="bottom", color=MUTED)
     axes.set_xticks(places, [_RELATIONS.get(n, n) for n in names])
@@ -42,6 +48,12 @@ def balances_figure(found: Diagnosis) -> Figure:
     axes.set_ylabel(f"{'held-out error' if held else 'error on fitted runs'} / floor")
     axes.legend()
     return figure
+
+
+def _with(found: Diagnosis) -> str:
+    """Name the final model: its effects, or how many they are where the names do not fit over a panel."""
+    names = f"with {' and '.join(found.added)}"
+    return names if len(names) <= _TITLE else f"with the {in_words(len(found.added))} effects that were found"
 
 
 def step_errors(found: Ladder) -> dict[str, list[float]]:
@@ -92,18 +104,16 @@ def _change(before: LadderStep, after: LadderStep) -> str:
 
 
 def loops_figure(found: Diagnosis) -> Figure:
-    """Draw pad A's friction against slip in a held-out run: measured, base model, final model."""
+    """Draw pad A's friction against slip in a held-out run: measured, base model and, if it differs, final model."""
     problem = found.search.base.problem
     place = (problem.held_out or [0])[0]
     run = problem.runs[place]
+    models = [("base model", found.search.base, _BEFORE)]
+    models += [(_with(found), found.final, _AFTER)] if found.added else []
     figure = new_figure(8.6, 4.2)
-    panels = figure.subplots(1, 2, sharey=True, sharex=True)
-    base = found.search.base.solution.residuals.pad_forces[place][:, 0]
-    final = found.final.solution.residuals.pad_forces[place][:, 0]
-    for axes, label, force, colour in (
-        (panels[0], "base model", base, _BEFORE),
-        (panels[1], f"with {' and '.join(found.added) or 'nothing added'}", final, _AFTER),
-    ):
+    panels = figure.subplots(1, len(models), sharey=True, sharex=True, squeeze=False)[0]
+    for axes, (label, fit, colour) in zip(panels, models, strict=True):
+        force = fit.solution.residuals.pad_forces[place][:, 0]
         _loop(axes, run.slip, run.force[:, 0], EXPECTED, "measured", 2.2)
         _loop(axes, run.slip, np.where(run.sliding, force, np.nan), colour, label, 0.9)
         axes.set_title(label)
@@ -121,22 +131,30 @@ def surface_figure(surface: Surface) -> Figure:
     """Draw the missing force over the one or two states that organise it best, with its band."""
     figure = new_figure(8.0, 4.0)
     axes = figure.subplots()
-    middles = [(e[1:] + e[:-1]) / 2.0 for e in surface.edges]
-    axes.set_xlabel(WORDS[surface.states[0]])
+    labels, edges = zip(*map(_state_axis, surface.states, surface.edges), strict=True)
+    middles = [(e[1:] + e[:-1]) / 2.0 for e in edges]
+    small = float(np.nanmax(np.abs(surface.mean), initial=0.0)) < _SMALL
+    unit = surface.unit if small else usual_unit(surface.unit)
+    mean, band = (convert(1.0, surface.unit, unit) * x for x in (surface.mean, surface.band))
+    axes.set_xlabel(labels[0])
     if len(surface.states) == 1:
-        axes.fill_between(
-            middles[0], surface.mean - surface.band, surface.mean + surface.band, color=EXPECTED, label="95 %"
-        )
-        axes.plot(middles[0], surface.mean, color=_AFTER, marker="o", ms=3, label="missing force")
+        axes.fill_between(middles[0], mean - band, mean + band, color=EXPECTED, label="95 %")
+        axes.plot(middles[0], mean, color=_AFTER, marker="o", ms=3, label="missing force")
         axes.axhline(0.0, color=INK, lw=0.8)
-        axes.set_ylabel(f"{surface.relation} [{surface.unit}]")
+        axes.set_ylabel(f"{surface.relation} [{unit}]")
         axes.legend()
         return figure
-    limit = float(np.nanmax(np.abs(surface.mean)))
-    sure = np.where(np.abs(surface.mean) > surface.band, surface.mean, np.nan)
+    limit = float(np.nanmax(np.abs(mean)))
+    sure = np.where(np.abs(mean) > band, mean, np.nan)
     axes.set_facecolor("#eef1f4")
-    drawn = axes.pcolormesh(*surface.edges, sure.T, cmap="RdBu_r", vmin=-limit, vmax=limit)
-    axes.set_ylabel(WORDS[surface.states[1]])
+    drawn = axes.pcolormesh(*edges, sure.T, cmap="RdBu_r", vmin=-limit, vmax=limit)
+    axes.set_ylabel(labels[1])
     axes.set_title("missing force; grey where it is not told from zero")
-    figure.colorbar(drawn, ax=axes, label=f"{surface.relation} [{surface.unit}]")
+    figure.colorbar(drawn, ax=axes, label=f"{surface.relation} [{unit}]")
     return figure
+
+
+def _state_axis(state: str, edges: Array) -> tuple[str, Array]:
+    """Give the label of a state's axis and its edges, in the unit in which people read it."""
+    words, _, unit = WORDS[state].rstrip("]").partition(" [")
+    return f"{words} [{usual_unit(unit)}]", convert(1.0, unit, usual_unit(unit)) * edges

@@ -6,9 +6,9 @@ from slipwise.diagnosis.indistinguishable import known_effects
 from slipwise.diagnosis.ladder import Ladder
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.rivals import discriminating_tests, explanations
-from slipwise.estimation.intervals import Interval
-from slipwise.params import Parameter
+from slipwise.effects import Effect
 from slipwise.units import convert
+from slipwise.view.diagnosis_effects import evidence_rows, importance_section, sizes_section
 from slipwise.view.diagnosis_figures import (
     balances_figure,
     ladder_figure,
@@ -16,8 +16,9 @@ from slipwise.view.diagnosis_figures import (
     step_errors,
     surface_figure,
 )
-from slipwise.view.html import Section, bullets, callout, details, figure, page, paragraph, table, verdict
-from slipwise.view.numbers import in_words
+from slipwise.view.diagnosis_words import confirmed_words, error_name, floors
+from slipwise.view.html import Section, bullets, details, figure, page, paragraph, table, verdict
+from slipwise.view.numbers import in_words, usual_unit
 from slipwise.view.style import styled
 
 _TONES = {"complete": "good", "named": "warn", "instrument": "warn", "ambiguous": "warn", "unknown": "bad"}
@@ -44,23 +45,30 @@ def diagnosis_page(found: Diagnosis, ladder: Ladder | None = None) -> str:
 
 
 def _page(found: Diagnosis, ladder: Ladder | None) -> str:
-    before = "held-out error before" if _held_out(found) else "error on fitted runs before"
-    facts = {
-        "probability": f"{100 * found.verdict.probability:.0f} %",
-        before: f"{found.base_error:.2f} floors",
-        "after": f"{found.final_error:.2f} floors",
-        "where": found.component,
-    }
+    error = error_name(found)
+    facts = {"probability": f"{100 * found.verdict.probability:.0f} %"}
+    if found.added:
+        facts |= {f"{error} before": floors(found.base_error), f"{error} after": floors(found.final_error)}
+    else:
+        facts[error] = floors(found.base_error)
+    facts["where"] = found.component
     if found.system:
-        facts["replay before / after"] = f"{found.system['base']:.1f} / {found.system['final']:.1f} floors"
-    box = verdict(_headline(found), found.sentence, _TONES[found.verdict.kind], facts)  # type: ignore[arg-type]
-    sections = [_evidence(found), _what_it_is(found), _rivals(found)]
-    if found.verdict.leftover == "unknown" and found.verdict.surface is not None:
-        sections.insert(1, _shape(found))
-    if ladder is not None:
-        sections.insert(1, _falling(ladder))
-    sections += [_change(found), _limits(found)]
-    return page(f"Diagnosis of {found.campaign}", sections, [box])
+        kinds = ("base", "final") if found.added else ("base",)
+        facts[f"{error} of the replay"] = " -> ".join(floors(found.system[kind]) for kind in kinds)
+    words = " ".join(filter(None, [found.sentence, confirmed_words(found)]))
+    box = verdict(_headline(found), words, _TONES[found.verdict.kind], facts)  # type: ignore[arg-type]
+    shape = found.verdict.leftover == "unknown" and found.verdict.surface is not None
+    sections = [
+        importance_section(found),
+        _evidence(found),
+        _falling(ladder) if ladder is not None else None,
+        _shape(found) if shape else None,
+        sizes_section(found),
+        _rivals(found),
+        _change(found),
+        _limits(found),
+    ]
+    return page(f"Diagnosis of {found.campaign}", [part for part in sections if part is not None], [box])
 
 
 def _headline(found: Diagnosis) -> str:
@@ -70,16 +78,15 @@ def _headline(found: Diagnosis) -> str:
         words = f"{in_words(len(rivals)).capitalize()} explanations, one measurement"
         return f"{words}: {' or '.join(' + '.join(names) for names in rivals)}"
     names = ", ".join(found.verdict.effects)
+    if kind == "complete" and found.verdict.minor:
+        return "Nothing that matters is missing"
+    if kind == "named" and len(found.verdict.effects) > 1:
+        return f"{in_words(len(found.verdict.effects)).capitalize()} effects are missing: {names}"
     return _HEADLINES[kind] + (f": {names}" if names else "")
 
 
-def _held_out(found: Diagnosis) -> bool:
-    """Tell whether the campaign has a run that no fit has seen; if not, nothing may be called held-out."""
-    return bool(found.search.base.problem.held_out)
-
-
 def _evidence(found: Diagnosis) -> Section:
-    if _held_out(found):
+    if found.held_out:
         where, errors, run = "runs that no fit has seen", "Held-out error of every balance", "a held-out run"
     else:
         where, run = "the runs that were fitted (the campaign keeps none back)", "a run that was fitted"
@@ -91,90 +98,66 @@ def _evidence(found: Diagnosis) -> Section:
                 f"Every balance of the rig, on {where}, in multiples of the noise floor: 1 is what a perfect model "
                 "leaves. Pads are driven by measured load and speed: each part answers for itself."
             ),
-            figure(balances_figure(found), f"{errors}, before and after."),
+            figure(balances_figure(found), f"{errors}{', before and after' if found.added else ''}."),
             figure(loops_figure(found), f"Friction of one pad against slip in {run}."),
             *(paragraph(f"{run.words}.") for run in found.predicted_friction),
         ],
     )
 
 
-def _floors(error: float) -> float | str:
-    return round(error, 2) if isfinite(error) else "-"
-
-
 def _falling(ladder: Ladder) -> Section:
     errors = step_errors(ladder)
     rows = [
-        {"model": " + ".join(("base", *step.effects)), **{label: _floors(own[i]) for label, own in errors.items()}}
+        {"model": " + ".join(("base", *step.effects))}
+        | {label: f"{own[i]:.3g}" if isfinite(own[i]) else "-" for label, own in errors.items()}
         for i, step in enumerate(ladder.steps)
     ]
+    caption = "Error of the worst balance of the rig, and of the replay, in multiples of the noise floor."
     return Section(
-        "The error, step by step",
-        [figure(ladder_figure(ladder), "Error in multiples of the floor."), table(rows)],
+        "The error, step by step", [figure(ladder_figure(ladder), caption), table(rows, "Error in noise floors")]
     )
 
 
 def _shape(found: Diagnosis) -> Section:
     surface = found.verdict.surface
     assert surface is not None
+    words = surface.words
+    whose = "the model with the effects that were found leaves" if found.added else "the base model leaves"
     return Section(
         "The shape of what is missing",
         [
-            paragraph(f"What remains after the best effects of the catalogue, {surface.words}."),
+            paragraph(f"What {whose} above the noise has a shape. {words[0].upper()}{words[1:]}."),
             figure(surface_figure(surface), "Missing force, orthogonal to what the base parameters can do."),
         ],
     )
 
 
-def _what_it_is(found: Diagnosis) -> Section:
-    pieces = []
-    known = known_effects(found.search)
-    for name in found.verdict.effects:
-        effect = known.get(name)
-        if effect is None:
-            continue
-        pieces += [
-            callout(name, f"{effect.summary} `{effect.equation}`"),
-            paragraph(f"How it shows: {effect.signature}."),
-        ]
-    best = found.candidates[0] if found.candidates and found.added else None
-    if best is not None:
-        rows = []
-        for key, interval in best.parameters.items():
-            label, _, parameter = key.rpartition(".")
-            effect = known[label.partition("[")[0]]
-            rows.append({"parameter": f"{label}: {parameter}", **_numbers(effect.parameter(parameter), interval)})
-        pieces.append(table(rows, "Fitted on the fit runs, with 95 % intervals that hold for correlated noise"))
-    if not pieces:
-        pieces.append(paragraph("No effect of the catalogue was worth a name."))
-    return Section("What it is, and how large", pieces)
-
-
-def _numbers(known: Parameter, interval: Interval) -> dict[str, object]:
-    shown = known.shown_in or known.unit
-    ends = {"value": interval.value, "low": interval.low, "high": interval.high}
-    out = {k: f"{convert(v, known.unit, shown):.{interval.figures}g}" for k, v in ends.items()}
-    out["unit"] = "" if shown == "1" else shown
-    if interval.limit:
-        out |= {"low": "may be absent"}
-    return {**out, "meaning": known.meaning}
-
-
 def _rivals(found: Diagnosis) -> Section:
-    seen = "held-out" if _held_out(found) else "error on fitted runs"
+    error = error_name(found)
     rows = [
         {
             "hypothesis": c.effect,
             "probability": f"{100 * c.probability:.1f} %",
-            f"{seen} before": round(c.holdout_before, 2),
-            f"{seen} after": round(c.holdout_after, 2),
+            f"{error} before [noise floors]": round(c.holdout_before, 2),
+            "after [noise floors]": round(c.holdout_after, 2),
             "hidden by the base fit": f"{100 * c.absorbed_by_base:.0f} %",
         }
         for c in found.candidates
     ]
-    words = "The hypotheses that were refitted, with all base parameters free, best first."
-    pieces = [paragraph(words), table(rows)] if rows else [paragraph("No hypothesis lowered the error.")]
-    return Section("Rivals", pieces)
+    pieces = []
+    if evidence := evidence_rows(found):
+        words = (
+            "Each motion is predicted by a fit to the others: the model with an effect is held against the model "
+            "without it, and against the model with another effect in its place."
+        )
+        pieces += [paragraph(words), table(evidence)]
+    if rows:
+        words = (
+            "The hypotheses that were refitted, with all base parameters free, best first. The errors are those of the "
+            "balance in which a hypothesis helps most."
+        )
+        pieces += [paragraph(words), table(rows)]
+    return Section("Rivals", pieces or [paragraph("No hypothesis lowered the error.")])
 
 
 def _change(found: Diagnosis) -> Section:
@@ -194,7 +177,8 @@ def _limits(found: Diagnosis) -> Section:
     pieces = []
     if found.cannot_tell:
         pieces.append(bullets(list(found.cannot_tell)))
-    least = [{"effect": n, "smallest size": f"{v:.3g}", "unit": u} for n, (v, u) in found.least.items()]
+    known = known_effects(found.search)
+    least = [_least_row(known.get(name), name, size, unit) for name, (size, unit) in found.least.items()]
     pieces.append(details("Smallest size of each effect that this campaign would have shown", [table(least)]))
     seen = [
         {"candidate": s.term.label, "explains alone": f"{s.gain:.3g}", "hidden by the base fit": f"{s.absorbed:.0%}"}
@@ -203,3 +187,9 @@ def _limits(found: Diagnosis) -> Section:
     words = paragraph("Without a refit: drop of the squared residual of the fitted runs, in variances of the noise.")
     pieces.append(details(f"All {len(seen)} candidates as they were screened", [words, table(seen)]))
     return Section("What this campaign could not tell", pieces)
+
+
+def _least_row(effect: Effect | None, name: str, size: float, unit: str) -> dict[str, str]:
+    own = [p.shown_in for p in effect.parameters if p.unit == unit and p.shown_in] if effect else []
+    shown = own[0] if own else usual_unit(unit)
+    return {"effect": name, "smallest size": f"{convert(size, unit, shown):.3g}", "unit": "" if shown == "1" else shown}

@@ -36,7 +36,7 @@ def fitted_numbers(found: Comparison) -> list[Any]:
         factor = parse_unit(unit, entry.unit, entry.key)
         row = {"number": called, "unit": unit, "value": f"{entry.value / factor:.5g}"}
         if entry.limit:
-            row["95 % interval"] = f"below {entry.high / factor:.5g}; it may be absent"
+            row["95 % interval"] = f"at most {entry.high / factor:.5g}"
         elif entry.bound:
             marked.append(len(rows))
             row["95 % interval"] = f"ended on its {entry.bound} bound"

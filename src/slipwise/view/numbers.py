@@ -1,6 +1,9 @@
-"""Small numbers: as people write them in a sentence, and when one counts as zero."""
+"""Numbers as people write them: counts in a sentence, units in which a size is read, and when one counts as zero."""
 
 _WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
+
+#: SI unit -> unit in which sizes of bearings are read.
+_USUAL = {"m": "mm", "m/s": "mm/s", "N": "kN", "N/s": "kN/s", "N/m": "kN/mm", "Pa": "MPa"}
 
 #: Less than this share of what there is beside it counts as zero and is left out [1].
 NOTHING = 1e-3
@@ -14,3 +17,8 @@ def in_words(number: int) -> str:
 def counted(number: int, thing: str) -> str:
     """Write a count with its noun, "one run", "four runs"."""
     return f"{in_words(number)} {thing}" + ("" if number == 1 else "s")
+
+
+def usual_unit(unit: str) -> str:
+    """Give the unit in which a quantity of this SI unit is read: mm, kN, MPa; the same where there is no other."""
+    return _USUAL.get(unit, unit)

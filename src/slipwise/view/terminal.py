@@ -93,8 +93,8 @@ def moves_across(summary: Mapping[str, Any]) -> bool:
 
 
 def cell(value: Any) -> str:
-    """Write a value as it stands in a table: four significant figures, yes and no, nothing for None."""
-    if value is None:
+    """Write a value as it stands in a table: four significant figures, yes and no, nothing for what is not known."""
+    if value is None or value != value:
         return ""
     if isinstance(value, bool):
         return "yes" if value else "no"

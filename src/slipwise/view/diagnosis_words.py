@@ -1,0 +1,64 @@
+"""What a diagnosis says beside its verdict, in sentences: whether runs confirm it, and what is there but small."""
+
+from math import isfinite
+
+from slipwise.campaign.materiality import Materiality
+from slipwise.diagnosis.result import Diagnosis
+from slipwise.diagnosis.verdict import Verdict
+
+
+def error_name(found: Diagnosis) -> str:
+    """Say which error the numbers of a diagnosis are: where no run is held out, nothing may be called held-out."""
+    return "held-out error" if found.held_out else "error of fitted runs"
+
+
+def floors(error: float) -> str:
+    """Write an error with its unit; "unknown" where there is none."""
+    return f"{error:.3g} noise floors" if isfinite(error) else "unknown"
+
+
+def percent(share: float) -> str:
+    """Write a share without digits that say nothing."""
+    return f"{100.0 * share:.2g} %" if abs(share) < 0.0995 else f"{100.0 * share:.0f} %"
+
+
+def confirmed_words(found: Diagnosis) -> str:
+    """Say whether the held-out runs agree with what was found; "" where nothing was found that they could confirm."""
+    if not weighed(found.verdict):
+        return ""
+    if not found.held_out:
+        return "Not confirmed: no run is held out, so every run has taken part in the fit."
+    runs = " and ".join(run.name for run in found.final.campaign.with_role("holdout"))
+    if found.confirmed is None:
+        return f"Not confirmed: the held-out runs ({runs}) cannot show what was found."
+    if found.confirmed:
+        return f"Confirmed on runs that no fit has seen: {runs}."
+    return f"It does not carry over to {runs}, which no fit has seen: the error there does not fall."
+
+
+def weighed(found: Verdict) -> tuple[str, ...]:
+    """Give the named effects for which there is evidence of a fit: faults of samples have none, they are seen."""
+    known = {f.name for f in found.findings}
+    return tuple(name for name in found.effects if name in known)
+
+
+def minor_words(found: Diagnosis) -> str:
+    """Say what is there and does not matter; "" where there is nothing of the kind."""
+    minor = found.verdict.minor
+    if not minor:
+        return ""
+    one = len(minor) == 1
+    without = "it" if one else "any one of them"
+    part = "it is" if one else "they are"
+    use = f"{part} in the fitted model" if found.added else "the model may do without"
+    return f"There, but immaterial: {', '.join(minor)}. Without {without} nothing changes by more than that; {use}."
+
+
+def limits_words(limits: Materiality) -> str:
+    """Say from which size on an effect matters."""
+    return (
+        f"An effect matters if the model without it changes a measured channel by more than {percent(limits.channel)} "
+        "of that channel's rms about its mean, or the peak slip, the dissipated energy or the largest pad load by more "
+        f"than {percent(limits.response)}; a gauge's fault if it changes its channel by more than "
+        f"{percent(limits.gauge)}. `[materiality]` in campaign.toml sets other limits."
+    )
