@@ -5,14 +5,17 @@ import re
 import runpy
 import shlex
 import tomllib
+from dataclasses import asdict
 from pathlib import Path
 
 import pytest
 import typer
 
 import slipwise as sw
+from slipwise.campaign.materiality import Materiality
 from slipwise.campaign.settings import read_settings
 from slipwise.cli import app
+from slipwise.diagnosis.importance import RESPONSES
 from slipwise.effects import load_effect
 from slipwise.effects._hooks import PORTS
 from slipwise.model_file import load_model
@@ -30,7 +33,15 @@ WRITTEN_BY = {
     "Audit as JSON": {"instruments/checks.py": ("as_json",), "instruments/report.py": ("rows",)},
     "compare.json": {"comparison/tables.py": (), "evidence/floor.py": ("rows",)},
     "diagnosis.json": {
-        "diagnosis/result.py": ("as_json", "_candidate", "_predicted_friction", "_screened", "written", "_surface")
+        "diagnosis/result.py": (
+            "as_json",
+            "_candidate",
+            "_importance",
+            "_predicted_friction",
+            "_screened",
+            "written",
+            "_surface",
+        )
     },
     "ladder.json": {"diagnosis/ladder.py": ("as_json", "table")},
     "next.json": {"experiment/result.py": ("as_json", "_rows")},
@@ -147,6 +158,17 @@ def test_every_value_of_a_specimen_is_explained():
     words = section("campaign.toml")
     for name in (*SPECIMEN_UNITS, *SPECIMEN_WORDS):
         assert f"`{name}`" in words, name
+
+
+def test_what_matters_is_explained_with_its_defaults():
+    words = section("campaign.toml")
+    for key, share in asdict(Materiality()).items():
+        assert f"| `{key}` | {100 * share:g} % |" in words, key
+
+
+def test_every_response_of_an_importance_is_explained():
+    words = section("diagnosis.json")
+    assert all(f"`{name}`" in words for name in RESPONSES)
 
 
 @pytest.mark.parametrize("name", ["architecture.md", "contributing.md", "theory.md"])
