@@ -29,7 +29,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
         UnitError: a unit is missing, unknown or of the wrong dimension.
     """
     rows = read_rows(source)
-    if not rows.units:
+    if not all(rows.units) or not rows.units:
         raise InputError(f"{source.at(0)}: each column must be named with its unit, as in 'table_ax [m/s^2]'")
     for name in rows.names:
         near = get_close_matches(name, _TABLE, n=1, cutoff=0.8)
@@ -43,7 +43,8 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
     doubled = [name for name in present if rows.names.count(name) > 1]
     if doubled:
         raise InputError(f"{source.name}: {', '.join(doubled)} stands there more than once; leave one of them")
-    dt, dt_words = settle_step(column_step(rows, source), given, source)
+    values = rows.table(source)
+    dt, dt_words = settle_step(column_step(rows, values, rows.units[0], source), given, source)
     traces = []
     for name in present:
         k = rows.names.index(name)
@@ -54,7 +55,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
                 name=name,
                 title=source.stem,
                 dt=dt,
-                acceleration=rows.values[:, k] * factor,
+                acceleration=values[:, k] * factor,
                 baseline="none",
                 treatment=(f"read as Slipwise CSV: {source.name}, {name}", f"{unit_words}; {dt_words}"),
             )
