@@ -21,7 +21,7 @@ ARROWS: dict[str, str] = {
     "signals": "errors",
     "statistics": "",
     "record": "channels errors shown units",
-    "motion": "channels errors shown text_encoding units",
+    "motion": "channels errors shown signals text_encoding units",
     "rig": "channels errors record units",
     "effects": "channels errors params record rig shown signals",
     "model": "channels effects errors rig shown",

@@ -14,7 +14,7 @@ from slipwise.rig.known import SPECIMEN_UNITS, SPECIMEN_WORDS
 from slipwise.signals.filters import LowPass
 from slipwise.units import quantity
 
-_TOP = ("name", "rig", "description", "specimen", "columns", "constants", "derived", "logger", "run")
+_TOP = ("name", "rig", "description", "sample_rate", "specimen", "columns", "constants", "derived", "logger", "run")
 _RUN = ("file", "role", "window", "rest_before", "description")
 _COLUMN = ("channel", "unit", "sign")
 _LOWPASS = ("lowpass", "order", "phase")
@@ -49,7 +49,7 @@ class RunSettings:
 
 @dataclass(frozen=True)
 class Settings:
-    """What campaign.toml says; quantities in SI."""
+    """What campaign.toml says; quantities in SI. The rate of samples is for files without a column of times."""
 
     name: str
     rig: str
@@ -59,6 +59,7 @@ class Settings:
     derived: Mapping[str, str]
     logger: Logger
     runs: tuple[RunSettings, ...]
+    sample_rate: float | None = None
 
 
 def read_settings(path: Path) -> Settings:
@@ -96,6 +97,7 @@ def read_settings(path: Path) -> Settings:
         derived={name: _derived(name, text, path.name) for name, text in part["derived"].items()},
         logger=_logger(part["logger"], f"[logger] of {path.name}") if "logger" in content else Logger(),
         runs=tuple(_run(run, f"[[run]] number {i + 1} of {path.name}") for i, run in enumerate(runs)),
+        sample_rate=_sample_rate(content["sample_rate"], path.name) if "sample_rate" in content else None,
     )
 
 
@@ -147,6 +149,13 @@ def _column(header: str, content: Any, where: str) -> ColumnMap:
 def _derived(name: str, text: Any, where: str) -> str:
     channel(name)
     return _text(text, name, f"[derived] of {where}")
+
+
+def _sample_rate(value: Any, where: str) -> float:
+    rate = quantity(value, "Hz", f"{where}, 'sample_rate'")
+    if not 0.0 < rate < 1e6:
+        raise SettingError(f'{where}: sample_rate = {value!r} cannot be; write for example "500 Hz"')
+    return rate
 
 
 def _logger(part: Mapping[str, Any], where: str) -> Logger:

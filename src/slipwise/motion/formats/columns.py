@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from slipwise.errors import InputError, UnitError
 from slipwise.motion.column_kind import kind_of
+from slipwise.motion.displacement import acceleration_of
 from slipwise.motion.first_lines import read_first_lines
 from slipwise.motion.free_header import Peak, Stated, read_free_header
 from slipwise.motion.orientation import name_from_stem, orientation, sensor_of
@@ -22,6 +23,7 @@ from slipwise.motion.table_motion import HeaderPeak
 from slipwise.motion.time_column import column_step
 from slipwise.motion.trace import Trace, check_header_peak, half_last_digit
 from slipwise.motion.wrapped import wrapped_series
+from slipwise.units import parse_unit
 
 #: What a headless column of times may be in.
 _SECONDS_PER = {"s": 1.0, "ms": 1e-3}
@@ -95,6 +97,9 @@ def _columns(source: SourceFile, given: Given, stated: Stated, rows: Rows) -> li
             words.append(f"column {names[0]!r} has no unit: taken in seconds")
     stated = replace(stated, step=agreed_step(stated.step, step, "its time column", source))
     chosen = [k for k, kind in enumerate(kinds) if kind == "acceleration"]
+    moved = not chosen and "displacement" in kinds
+    if moved:
+        chosen = [k for k, kind in enumerate(kinds) if kind == "displacement"]
     left = [f"{names[k] or f'column {k + 1}'} ({kinds[k]})" for k in range(width) if k not in (0, *chosen)]
     if left:
         words.append(f"left out: {', '.join(left)}")
@@ -103,10 +108,34 @@ def _columns(source: SourceFile, given: Given, stated: Stated, rows: Rows) -> li
             f"{source.name}: no column holds an acceleration, there are {', '.join(left) or names[0]}; "
             "a column like 'EW [m/s^2]' is needed"
         )
+    if moved:
+        dt = settle_step(stated.step, given, source)[0]
+        return [_of_displacement(source, given, stated, names[k], units[k], values[:, k], dt, rows) for k in chosen]
     several = len(chosen) > 1
     return [
         _trace(source, given, stated, names[k], units[k], values[:, k], several, tuple(words), rows) for k in chosen
     ]
+
+
+def _of_displacement(
+    source: SourceFile,
+    given: Given,
+    stated: Stated,
+    name: str,
+    unit: str,
+    values: NDArray[np.float64],
+    dt: float,
+    rows: Rows,
+) -> Trace:
+    """Make a component of a table's displacement."""
+    if not unit:
+        raise UnitError(f"{source.name}: the displacement {name!r} has no unit; write it in brackets: '{name} [mm]'")
+    if given.unit is not None:
+        raise UnitError(f"{source.name}: {name!r} is a displacement in {unit}; leave --unit {given.unit} out")
+    metres = values * parse_unit(unit, "m", f"column {name!r} of {source.name}")
+    acceleration, words = acceleration_of(metres, dt, source, name)
+    si = replace(stated, unit=None, peak=None)
+    return _trace(source, given, si, name, "m/s^2", acceleration, True, (words,), rows)
 
 
 def _trace(
