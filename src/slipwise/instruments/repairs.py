@@ -1,7 +1,7 @@
 """Records without the harm that bad samples do: balances leave rows out, fits leave samples out.
 
-A wrong sign is reversed in both. A balance looks at all channels at one instant, so that one bad sample costs a row;
-a fit judges channel by channel.
+A wrong sign is reversed and a zero that is far off is put right in both. A balance looks at all channels at one
+instant, so that one bad sample costs a row; a fit judges channel by channel.
 """
 
 from collections.abc import Mapping, Sequence
@@ -30,8 +30,8 @@ _AROUND = 0.03
 def for_balances(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[dict[str, Record], dict[str, Mask]]:
     """Give records in which bad samples do no harm to the balances, and the samples to leave out, by run.
 
-    Wrong signs are reversed, repeated samples bridged; around rails and gaps rows are left out; a channel that is
-    dead, or has lost samples and so its place in time, is taken out.
+    Wrong signs are reversed, zeros put right, repeated samples bridged; around rails and gaps rows are left out; a
+    channel that is dead, or has lost samples and so its place in time, is taken out.
     """
     records, out = {}, {}
     for run in campaign.runs:
@@ -84,8 +84,10 @@ def for_fits(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[Campaig
 
 
 def _with_signs(record: Record, faults: Sequence[SampleFault]) -> Record:
+    shift = {n: fault.size for fault in faults if fault.kind == "shifted" for n in fault.channels if n in record}
+    level = record.replaced(**{name: record[name] - size for name, size in shift.items()})
     wrong = [name for fault in faults if fault.kind == "turned" for name in fault.channels if name in record]
-    return record.replaced(**{name: -record[name] for name in wrong})
+    return level.replaced(**{name: -level[name] for name in wrong})
 
 
 def _bad_samples(fault: SampleFault, run: str, values: Array) -> Mask:

@@ -10,6 +10,7 @@ from scipy.ndimage import uniform_filter1d
 from slipwise.campaign import Campaign, Run
 from slipwise.channels import PADS
 from slipwise.instruments.signs import wrong_signs
+from slipwise.instruments.zeros import shifted_zeros
 from slipwise.signals.noise import quantum, white_level
 
 Array = NDArray[np.float64]
@@ -37,10 +38,10 @@ class SampleFault:
     """Bad samples of one channel, or of several at the same instants.
 
     Attributes:
-        kind: "turned", "dead", "upper rail", "lower rail", "held", "lost" or "gap".
+        kind: "turned", "shifted", "dead", "upper rail", "lower rail", "held", "lost" or "gap".
         channels: that show it.
-        size: rail in the channel's unit; -1 for a wrong sign; else share of all samples [1].
-        bad: run -> samples that are no measurement (n,); none of a wrong sign, which is reversed.
+        size: rail or shift in the channel's unit; -1 for a wrong sign; else share of all samples [1].
+        bad: run -> samples that are no measurement (n,); none of a wrong sign or zero, which is put right.
         runs: names of the runs that show it.
     """
 
@@ -52,8 +53,8 @@ class SampleFault:
 
 
 def sample_faults(campaign: Campaign) -> list[SampleFault]:
-    """Look for wrong signs and bad samples in every channel of every run."""
-    found = _turned(campaign)
+    """Look for wrong signs, zeros that are far off and bad samples in every channel of every run."""
+    found = [*_turned(campaign), *_shifted(campaign)]
     names = list(dict.fromkeys(name for run in campaign.runs for name in run.record.channels))
     # what every channel repeats at its end is a record that was cut, no gauge's loss
     cut = {run.name: min(_tail(values) for values in run.record.channels.values()) for run in campaign.runs}
@@ -76,6 +77,11 @@ def _turned(campaign: Campaign) -> list[SampleFault]:
     whole = [card for card in cards if set(card) <= set(wrong)]
     alone = [(name,) for name in wrong if not any(name in card for card in whole)]
     return [SampleFault("turned", channels, -1.0, {}, every) for channels in (*whole, *alone)]
+
+
+def _shifted(campaign: Campaign) -> list[SampleFault]:
+    every = tuple(run.name for run in campaign.runs)
+    return [SampleFault("shifted", channels, size, {}, every) for channels, size in shifted_zeros(campaign)]
 
 
 def _dead(name: str, runs: Sequence[Run]) -> SampleFault | None:
