@@ -8,11 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign import Campaign, Logger, Run
+from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.diagnose import as_fit
-from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis
+from slipwise.diagnosis.findings import Finding, _rivals, above_noise
+from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, parameters_at_bound
+from slipwise.diagnosis.importance import Change, Importance
 from slipwise.diagnosis.result import Candidate, Diagnosis
-from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.verdict import Verdict, decide_verdict
+from slipwise.diagnosis.search_state import Search, tried_before
+from slipwise.diagnosis.verdict import Verdict, confirmed, decide_verdict
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import Solution
@@ -21,6 +24,7 @@ from slipwise.estimation.problem import Problem
 from slipwise.estimation.residuals import Residuals
 from slipwise.estimation.run_data import FitRun, fit_runs
 from slipwise.evidence.residual_summary import error_of, summarised
+from slipwise.evidence.score import lead, score
 from slipwise.model import base_model
 from slipwise.record import Record
 from slipwise.signals.filters import LowPass
@@ -29,6 +33,8 @@ Array = NDArray[np.float64]
 DT, SECONDS, REST = 0.002, 6.0, 1.0
 NOISE = {"slip_x": 2e-5, "table_ax": 0.01, "table_az": 0.01, "girder_ax": 0.01, "girder_az": 0.01, "yaw": 1e-5}
 FORCE_NOISE = 20.0
+#: How many times what matters an effect changes, where nothing is said: well beyond doubt.
+MATERIAL = 5.0
 
 
 def shaken(frequency: float, seed: int, gauges: tuple[str, ...] = ()) -> Record:
@@ -142,15 +148,83 @@ def searched(of: BaseFit, *tried: Hypothesis) -> Search:
     return Search(of, {}, list(terms.values()), list(tried), (base_hypothesis(of), *tried[:1]))
 
 
-def diagnosed(state: Search, verdict: Verdict | None = None, probabilities: Sequence[float] = ()) -> Diagnosis:
+def changing(share: float, *, gauge: bool = False, limits: Materiality | None = None) -> Importance:
+    """Give the importance of an effect whose largest change is so many times what matters.
+
+    Args:
+        share: largest change over its limit [1].
+        gauge: whether it is a fault of gauges, which changes its channel only.
+        limits: what matters.
+    """
+    limits = limits or Materiality()
+    size = share * (limits.gauge if gauge else limits.channel)
+    half = 0.5 * share * limits.response
+    responses = (
+        {} if gauge else {"peak_slip": Change(half, 0.8 * half, 1.2 * half), "energy": Change(-half, -half, 0.0)}
+    )
+    return Importance(responses, {"pad_A_Fx": size, "slip_x": 0.1 * size}, gauge)
+
+
+def findings_of(
+    state: Search, material: Mapping[str, float] | None = None, limits: Materiality | None = None
+) -> list[Finding]:
+    """Give the evidence for every effect of a search's final model: residuals are chosen, so nothing is replayed.
+
+    What is left without an effect is what the rest was given to leave, or the base where the rest was not tried.
+
+    Args:
+        state: of the search.
+        material: effect -> its largest change over what matters; `MATERIAL` where nothing is said.
+        limits: what matters.
+    """
+    final, origin = state.final, state.path[0].summary
+    parts = {name: tuple(t for t in final.terms if t.effect.name == name) for name in final.names}
+    rivals, bounds = _rivals(state, parts), parameters_at_bound(final)
+    end = above_noise(final.summary, final.summary)
+    base_over = max(above_noise(origin, final.summary) - end, 1e-12)
+    out = []
+    for name, terms in parts.items():
+        rest = tried_before(state, [t for t in final.terms if t.effect.name != name])
+        left = (rest or [state.path[0]])[0].summary
+        gauge = terms[0].effect.port == "gauge"
+        importance = changing((material or {}).get(name, MATERIAL), gauge=gauge, limits=limits)
+        out.append(
+            Finding(
+                name=name,
+                terms=terms,
+                worth=score(left, final.summary),
+                lead=min(lead(final.summary, left), 30.0),
+                share=float(np.clip((above_noise(left, final.summary) - end) / base_over, 0.0, 1.0)),
+                rival=rivals.get(name),
+                at_bound=tuple(p for label, p in bounds if label in {t.label for t in terms}),
+                importance=importance,
+                material=importance.share_of_limit(limits or Materiality()),
+            )
+        )
+    return sorted(out, key=lambda f: -f.material)
+
+
+def decided(state: Search, material: Mapping[str, float] | None = None, limits: Materiality | None = None) -> Verdict:
+    """Give the verdict of a search; arguments as of `findings_of`."""
+    limits = limits or Materiality()
+    return decide_verdict(state, findings_of(state, material, limits), limits)
+
+
+def diagnosed(
+    state: Search,
+    verdict: Verdict | None = None,
+    probabilities: Sequence[float] = (),
+    material: Mapping[str, float] | None = None,
+) -> Diagnosis:
     """Give the diagnosis of a search.
 
     Args:
         state: of the search.
         verdict: where it is another than the search's own.
         probabilities: of the hypotheses that were tried; those that have none are not listed.
+        material: as in `decided`, for the search's own verdict.
     """
-    verdict = verdict or decide_verdict(state)
+    verdict = verdict or decided(state, material)
     shown = state.final if verdict.effects else state.path[0]
     errors = {r: tuple(error_of(h.summary, r) for h in (state.path[0], shown)) for r in shown.summary.fitted}
     listed = tuple(
@@ -167,6 +241,7 @@ def diagnosed(state: Search, verdict: Verdict | None = None, probabilities: Sequ
         relations=errors,
         system={},
         candidates=listed,
+        confirmed=confirmed(state) if verdict.effects else None,
         predicted_friction=(),
         least={},
         cannot_tell=(),

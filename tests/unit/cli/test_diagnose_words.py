@@ -4,10 +4,11 @@ from dataclasses import replace
 
 import pytest
 
-from hypotheses import base, diagnosed, left_by, searched
+from hypotheses import base, decided, diagnosed, left_by, searched
 from slipwise.campaign import Campaign
 from slipwise.cli.diagnose import _record, diagnose
 from slipwise.diagnosis.ladder import left_over
+from slipwise.diagnosis.unknown_surface import leftover
 from slipwise.record import Record
 
 
@@ -49,7 +50,9 @@ def test_the_demo_says_what_is_left():
     of = base(pads=20.0)
     quiet = diagnosed(searched(of, left_by("heating", of=of)))
     assert left_over(quiet) == "nothing is missing any more"
-    shaped = diagnosed(searched(of, left_by("heating", of=of, pads=1.3, over=lambda run: run.velocity)))
-    assert left_over(shaped).startswith("what is left: pads: depends on slip velocity")
+    little = left_by("heating", of=of, pads=1.3, over=lambda run: run.velocity)
+    state = searched(of, little)
+    shaped = replace(decided(state), leftover="unknown", surface=leftover(little))
+    assert left_over(diagnosed(state, shaped)).startswith("what is left: pads: depends on slip velocity")
     loud = diagnosed(searched(of, left_by("heating", of=of, pads=2.3**2)))
     assert left_over(loud) == "still above the noise, in floors: pad friction 2.30"

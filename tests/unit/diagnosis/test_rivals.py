@@ -11,7 +11,7 @@ from slipwise.effects import catalogue
 
 def _verdict(*effects: str, kind: str = "ambiguous", rivals: tuple[tuple[str, ...], ...] = ()) -> Verdict:
     near = tuple(left_by(*names, of=base()) for names in rivals)
-    return Verdict(kind, effects, 0.5, "none", 1.0, None, near)
+    return Verdict(kind, effects, (), 0.5, "none", 1.0, None, near, ())
 
 
 def _search(*best: str) -> Search:

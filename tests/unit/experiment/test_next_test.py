@@ -32,7 +32,8 @@ def diagnosis(kind: str, *tried: Hypothesis, near: tuple[Hypothesis, ...] = (), 
     if kind == "complete":
         state = replace(state, path=state.path[:1])
     effects = () if kind == "complete" or not tried else tried[0].names
-    verdict = Verdict(kind, effects, probability, "unknown" if kind == "unknown" else "none", 1.0, None, near)
+    left = "unknown" if kind == "unknown" else "none"
+    verdict = Verdict(kind, effects, (), probability, left, 1.0, None, near, ())
     chances = [0.9, 0.06, 0.04] if kind != "complete" else [0.06, 0.04, 0.0]
     return diagnosed(state, verdict, chances)
 

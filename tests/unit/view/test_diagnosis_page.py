@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from hypotheses import base, diagnosed, left_by, searched
+from hypotheses import base, diagnosed, findings_of, left_by, searched
 from slipwise.diagnosis.ladder import Ladder, LadderStep
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.verdict import Verdict
@@ -28,7 +28,9 @@ def _found(*names: str, kind: str = "ambiguous", held_out: bool = True) -> Diagn
     of = base(held_out=held_out, pads=9.0)
     best, *others = (left_by(name, of=of) for name in names)
     rivals = tuple(others) if kind == "ambiguous" else ()
-    found = diagnosed(searched(of, best, *others), Verdict(kind, names, 0.5, "none", 1.0, None, rivals))
+    state = searched(of, best, *others)
+    verdict = Verdict(kind, names, (), 0.5, "none", 1.0, None, rivals, tuple(findings_of(state)))
+    found = diagnosed(state, verdict)
     return replace(found, system={"base": 4.0, "final": 1.1})
 
 
@@ -108,7 +110,7 @@ def test_a_long_reason_stays_inside_the_picture_and_so_does_a_single_rung():
 
 
 def test_what_is_not_named_is_not_drawn_as_added():
-    unknown = replace(_found("slide_tilt"), verdict=Verdict("unknown", (), 0.8, "unknown", 0.4, None, ()))
+    unknown = replace(_found("slide_tilt"), verdict=Verdict("unknown", (), (), 0.8, "unknown", 0.4, None, (), ()))
     assert unknown.search.best.names == ("slide_tilt",) and unknown.added == ()
     with styled():
         (axes,) = balances_figure(unknown).axes
