@@ -100,8 +100,8 @@ def leftover(found: Hypothesis, relations: tuple[str, ...] | None = None) -> Sur
 def above_noise(found: Hypothesis) -> dict[str, float]:
     """Give what a hypothesis leaves above the noise of each balance, over the rms of what the balance is made of [1].
 
-    The noise is what the residuals of a repeated motion do not have in common, and at least `_NOISE`. The worst tenth of
-    the time is left out: a pad that lands leaves much for a moment, a law that is missing leaves it throughout.
+    The noise is what the residuals of a repeated motion do not have in common, and at least `_NOISE`. The worst tenth
+    of the time is left out: a pad that lands leaves much for a moment, a law that is missing leaves it throughout.
     """
     out: dict[str, float] = {}
     problem = found.problem

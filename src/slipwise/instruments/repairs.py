@@ -21,6 +21,8 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 #: run -> channel -> samples (n,) at which the channel is no measurement.
 InvalidSamples = Mapping[str, Mapping[str, Mask]]
+#: Faults whose samples are no measurement.
+_INVALID = (*RAILS, "held", "lost", "dead")
 #: Invalid before and after a bad sample; more where the velocity is made of the channel [samples].
 _REACH, _REACH_OF_MOTION = 6, 40
 #: Rows left out before and after a rail or a gap [s].
@@ -69,11 +71,13 @@ def for_fits(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[Campaig
         record, found = _with_signs(run.record, faults), dict[str, Mask]()
         for name in dict.fromkeys(name for fault in faults for name in fault.channels if name in record):
             values = run.record[name]
-            own = [fault for fault in faults if name in fault.channels and fault.kind in (*RAILS, "held", "lost")]
+            own = [
+                fault for fault in faults if name in fault.channels and fault.kind in (*RAILS, "held", "lost", "dead")
+            ]
             if not own:
                 continue
             bad = np.any([_bad_samples(fault, run.name, values) for fault in own], axis=0)
-            if all(fault.kind not in RAILS for fault in own):
+            if all(fault.kind not in RAILS for fault in own) and not bad.all():
                 between = np.interp(record.time, record.time[~bad], record[name][~bad])
                 record = record.replaced(**{name: between})
             reach = _REACH_OF_MOTION if name in VELOCITY_CHANNELS else _REACH

@@ -16,7 +16,9 @@ def left(pads: float, girder: float = 1.0, fitted: float | None = None, constant
     total = {name: level * COUNT for name, level in levels.items()}
     own = {**total, "pads": (pads if fitted is None else fitted) * COUNT}
     blocks = {name: np.full(100, level * COUNT / 100) for name, level in levels.items()}
-    return ResidualSummary(own, total, dict.fromkeys(total, np.inf), dict.fromkeys(total, (COUNT, 0)), constants, blocks)
+    return ResidualSummary(
+        own, total, dict.fromkeys(total, np.inf), dict.fromkeys(total, (COUNT, 0)), constants, blocks
+    )
 
 
 def test_what_does_not_hold_on_motions_left_out_is_not_kept() -> None:
