@@ -64,7 +64,7 @@ def tables(folder: Path) -> dict[str, bytes]:
 
     from slipwise.record import Record, write_record
 
-    step = 0.01 * np.arange(60)
+    step = np.arange(60, dtype=np.float64) * 0.01
     rows = "".join(f"{t:.2f}\t{np.sin(t):.4f}\t{np.cos(t):.4f}\n" for t in step)
     stamps = "".join(f"2031-02-03 10:15:{t:05.2f},{np.sin(t):.4f},{np.cos(t):.4f}\n" for t in step)
     found = {
