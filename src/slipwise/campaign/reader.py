@@ -107,7 +107,8 @@ def _read_file(path: Path, settings: Settings) -> _File:
     read = table.columns([i for i, _ in chosen])
     time: Array | None = None
     channels: dict[str, Array] = {}
-    for (i, mapped), values in zip(chosen, read.values, strict=True):
+    for i, mapped in chosen:
+        values = read.values.pop(0)  # of a long file each column is worth letting go
         factor, offset = _to_si(path, table.headers[i], mapped)
         # The sign is that of the number as written: -20 degC turned round is 20 degC.
         converted = factor * (mapped.sign * values) + offset

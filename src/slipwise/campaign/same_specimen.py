@@ -50,7 +50,7 @@ def check_same_specimen(campaign: Campaign) -> tuple[str, ...]:
         return tuple(notes)
     weights = [(run, float(np.median(load_modes(_pressing(run.record)).heave))) for run in weighing]
     _compare(weights, _WEIGHT, "the four load cells carry", "kN", 1e3)
-    levers = [(run, lever) for run in weighing if (lever := _lever(run.record)) is not None]
+    levers = [(run, lever) for run in weighing if (lever := lever_of(run.record)) is not None]
     _compare(levers, _LEVER, "inertia of the girder acts at a lever of", "of the pad spacing", 1.0)
     typical = float(np.median([weight for _, weight in weights]))
     rated = campaign.specimen.weight
@@ -81,7 +81,7 @@ def _pressing(record: Record) -> NDArray[np.float64]:
     return loads * np.where(np.median(loads, axis=0) < 0.0, -1.0, 1.0)
 
 
-def _lever(record: Record) -> float | None:
+def lever_of(record: Record) -> float | None:
     """Height of the centre of gravity over pad spacing, from the pitch of the loads; None where it cannot be seen."""
     if not record.has_all("girder_ax", "slip_x") or record["girder_ax"].std() < _MOVING:
         return None
