@@ -245,6 +245,7 @@ def diagnosed(
         predicted_friction=(),
         least={},
         cannot_tell=(),
+        first=(),
         search=state,
         final=as_fit(state.base, shown, with_slopes=False),
         seconds=1.0,

@@ -41,6 +41,9 @@ _SPELLINGS: dict[str, str] = {
 _TON = re.compile(r"\btons?\b", re.IGNORECASE)
 #: A name of letters, perhaps with a power behind it: mm2, s-2, s^-2.
 _NAMED = re.compile(r"([A-Za-z_°'%]+)(?:(?:\^|\*\*)?(-?\d+))?")
+#: A unit is no longer than this, and has no power of a power and none beyond 9: pint would compute it for ever.
+_LONGEST = 400
+_TOWER = re.compile(r"(?:\*\*|\^)\s*\(?\s*[+-]?\s*(?:\d{2,}|[\d.]*\s*\)?\s*(?:\*\*|\^))|(?:\*\*|\^)\s*\([^)]*[*/^]")
 _SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 
 
@@ -121,8 +124,11 @@ def quantity(text: str | float | int, dimension_of: str, what: str, *, plain_uni
         ) from None
     if not unit.strip() and dimension_of != "1":
         raise UnitError(f"{what}: {given!r} has no unit; write for example '{number} {dimension_of}'")
+    cleaned = _clean(unit)
+    if len(unit) > _LONGEST or _TOWER.search(cleaned):
+        raise UnitError(f"{what}: {shown[:_LONGEST]!r} is no unit; a unit like '{dimension_of}' is needed")
     try:
-        parsed = registry.Quantity(value, _clean(unit))
+        parsed = registry.Quantity(value, cleaned)
         return float(parsed.to(_clean(dimension_of)).magnitude)
     except pint.DimensionalityError:
         raise UnitError(

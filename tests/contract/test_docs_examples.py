@@ -41,7 +41,8 @@ WRITTEN_BY = {
             "_screened",
             "written",
             "_surface",
-        )
+        ),
+        "diagnosis/first_things.py": ("as_json",),
     },
     "ladder.json": {"diagnosis/ladder.py": ("as_json", "table")},
     "next.json": {"experiment/result.py": ("as_json", "_rows")},

@@ -11,6 +11,7 @@ PACKAGE = Path(__file__).parents[2] / "src" / "slipwise"
 #: Package or file -> what it may import, from the inside out. Nothing else is allowed.
 ARROWS: dict[str, str] = {
     "errors": "",
+    "text_encoding": "",
     "cache": "",
     "units": "cache errors",
     "params": "errors units",
@@ -20,13 +21,13 @@ ARROWS: dict[str, str] = {
     "signals": "errors",
     "statistics": "",
     "record": "channels errors shown units",
-    "motion": "channels errors shown units",
+    "motion": "channels errors shown signals text_encoding units",
     "rig": "channels errors record units",
     "effects": "channels errors params record rig shown signals",
     "model": "channels effects errors rig shown",
     "model_file": "effects errors model params record rig units",
     "simulation": "cache channels effects errors model model_file motion record rig shown",
-    "campaign": "channels errors record rig shown signals units",
+    "campaign": "channels errors record rig shown signals text_encoding units",
     "instruments": "campaign channels effects errors record rig shown signals statistics",
     "estimation": (
         "campaign channels effects errors instruments model parallel record rig signals statistics simulation"

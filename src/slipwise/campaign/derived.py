@@ -3,7 +3,8 @@
     expression = term {("+" | "-") term}      term = power {("*" | "/") power}      power = factor ["^" whole number]
     factor = number [unit] | channel | "abs(" expression ")" | "sqrt(" expression ")" | "(" expression ")" | "-" factor
 
-A unit follows its number and holds no blanks: "490.87 mm^2", "9.81 m/s^2". Nothing is evaluated as Python.
+A unit follows its number and holds no blanks: "490.87 mm^2", "9.81 m/s^2". "20 degC" is the temperature of 293.15 K; a
+difference of temperatures is written in K. Nothing is evaluated as Python.
 """
 
 import re
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 
 from slipwise.channels import channel
 from slipwise.errors import InputError, UnitError, unknown_name
-from slipwise.units import parse_unit
+from slipwise.units import parse_unit, quantity
 
 Array = NDArray[np.float64]
 _TOKEN = re.compile(
@@ -24,6 +25,7 @@ _TOKEN = re.compile(
 )
 #: Inside a product of units, pint would read these letters as gram and as nothing.
 _ENGINEERS = {"g": "gee", "G": "gee", "t": "ton_metric", "%": "percent"}
+_TEMPERATURES = {"degC": "degC", "°C": "degC", "C": "degC", "degF": "degF", "°F": "degF", "F": "degF"}
 _FUNCTIONS = {"abs": np.abs, "sqrt": np.sqrt}
 
 
@@ -137,12 +139,19 @@ class _Parser:
 
     def factor(self) -> _Value:
         if self._take("-"):
+            kind, text, unit = self.tokens[0]
+            if kind == "number" and unit in _TEMPERATURES:
+                self.tokens[0] = (kind, f"-{text}", unit)
+                return self.factor()
             value = self.factor()
             return _Value(-value.numbers, value.unit)
         if self._take("("):
             return self._closed(self.expression())
         kind, text, unit = self.tokens.pop(0)
         if kind == "number":
+            if degrees := _TEMPERATURES.get(unit):
+                # A temperature on a scale with a zero of its own; inside a product pint would take it for a difference.
+                return _Value(np.asarray(quantity(f"{text} {degrees}", "K", self.what)), "(K)")
             written = _ENGINEERS.get(unit, unit.replace("^", "**")) or "1"
             parsed = f"({written})"
             self._known(parsed, unit)

@@ -4,18 +4,25 @@ Nothing is guessed silently: every line that rests on a header's word carries "d
 """
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.campaign.draft_columns import Column, Mapped, column_of, map_columns
+from slipwise.campaign.draft_roles import is_sine, record_of, rig_of, roles_of
 from slipwise.campaign.table import SUFFIXES, open_table
 from slipwise.channels import CHANNELS, PADS, channel
 from slipwise.errors import InputError, SlipwiseError
-from slipwise.record import write_text
-from slipwise.units import parse_unit
+from slipwise.record import Record, write_text
+from slipwise.units import affine, parse_unit
 
+Array = NDArray[np.float64]
 #: "disp (in)", "force [kip]": a name and its unit.
 _HEADER = re.compile(r"^\s*(?P<name>.*?)\s*[\[(](?P<unit>[^\])]*)[\])]\s*$")
-_OURS = re.compile(r"^(?P<name>[A-Za-z]\w*)\s*\[[^\]]*\]$")
+_OURS = re.compile(r"^(?P<name>[A-Za-z]\w*)\s*\[(?P<unit>[^\]]*)\]$")
 #: Words of a header -> channel that it may be.
 _WORDS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("time", "zeit", "tempo", "t"), "time"),
@@ -30,8 +37,26 @@ _WORDS: tuple[tuple[tuple[str, ...], str], ...] = (
 )
 
 
-def init_campaign(folder: Path | str) -> Path:
+@dataclass(frozen=True)
+class DataFile:
+    """A data file of the folder: its headers, its columns of our names, and those that were looked at."""
+
+    path: Path
+    headers: tuple[str, ...]
+    known: Mapping[str, Array]
+    columns: tuple[Column, ...]
+
+
+#: Ask a person: (question, what is taken without an answer) -> answer.
+Ask = Callable[[str, str], str]
+
+
+def init_campaign(folder: Path | str, *, ask: Ask | None = None) -> Path:
     """Write a first campaign.toml into a folder of measured runs; what only a person knows is marked in it.
+
+    Args:
+        folder: with the data files; notes, pictures and files without a table are passed over and listed.
+        ask: asked for the rig and the logger's filter; None takes the guesses.
 
     Returns:
         The file.
@@ -42,57 +67,157 @@ def init_campaign(folder: Path | str) -> Path:
     path = Path(folder) / "campaign.toml"
     if path.exists():
         raise InputError(f"{path} exists and is not overwritten; move it away to draft a new one")
-    write_text(path, draft_campaign(Path(folder)))
+    write_text(path, draft_campaign(Path(folder), ask))
     return path
 
 
-def draft_campaign(folder: Path) -> str:
+def draft_campaign(folder: Path, ask: Ask | None = None) -> str:
     """Write the text of a first campaign.toml.
 
     Args:
         folder: with the data files.
+        ask: as in `init_campaign`.
 
     Raises:
-        InputError: no such folder, no data file in it, or a file that cannot be read.
+        InputError: no such folder, or no data file in it that can be read.
     """
     if not folder.is_dir():
         raise InputError(f"{folder}: no such folder; a campaign is a folder with data files")
-    files = sorted(p for p in folder.iterdir() if p.suffix.lower() in SUFFIXES and p.is_file())
+    files, passed = _data_files(folder)
     if not files:
-        raise InputError(f"{folder}: no data file in it; possible: {', '.join(SUFFIXES)}")
-    headers = list(dict.fromkeys(h for file in files for h in open_table(file).headers))
-    ours = [m["name"] for h in headers if (m := _OURS.match(h)) and m["name"] in CHANNELS]
-    lines = _columns([h for h in headers if not ((m := _OURS.match(h)) and m["name"] in CHANNELS)], ours)
-    pads = [p for p in PADS if f"pad_{p}_Fx" in ours]
-    rig = "bridge1" if len(pads) == len(PADS) else "pad"
+        why = f": {'; '.join(passed)}" if passed else ""
+        raise InputError(f"{folder}: no data file in it{why}; possible: {', '.join(SUFFIXES)}")
+    mapped = _mapped(files)
+    records = {file.path.name: _recognised(file, mapped) for file in files}
+    headers = list(dict.fromkeys(h for file in files for h in file.headers if not _is_ours(h)))
+    ours = list(dict.fromkeys(name for file in files for name in file.known))
+    lines = _columns(headers, ours, mapped)
+    named = [*ours, *re.findall(r'channel = "(\w+)", unit', "\n".join(line for line in lines if line[:1] != "#"))]
+    rig, why = rig_of([record for record in records.values() if record is not None])
+    if rig == "pad" and all(f"pad_{pad}_Fx" in named for pad in PADS):
+        rig, why = "bridge1", "four pads; nothing tells which rig"
+    rig = rig if ask is None else ask("Which rig (bridge1, bridge2, block, pad, or an MJCF file)?", rig)
     head = [
         "# Drafted from the files of this folder. Lines with `decide` need your eyes.",
         "# `slipwise channels` lists the channels.",
+        *(f"# not read: {words}" for words in passed),
         f"name = {_quoted(folder.resolve().name)}",
-        f"rig  = {_quoted(rig)}   # decide: bridge1, bridge2, block, pad (slip prescribed), or an MJCF file",
+        f"rig  = {_quoted(rig)}   # decide: bridge1, bridge2, block, pad (slip prescribed), or an MJCF file ({why})",
         "",
     ]
     if rig != "pad":
-        head += ["# [logger]                # decide: what the logger did to the channels", '# lowpass = "100 Hz"', ""]
-    named = [*ours, *re.findall(r'channel = "(\w+)", unit', "\n".join(line for line in lines if line[:1] != "#"))]
+        head += _logger(ask)
     if not any(n.startswith("pad_") and n[6:] in ("N", "P") for n in named):
         lines += ["# [constants]             # decide: no column holds a pad's load", '# pad_A_N = "10 kN"', ""]
-    return "\n".join([*head, *lines, *_runs(files)]) + "\n"
+    return "\n".join([*head, *lines, *_runs(records)]) + "\n"
 
 
-def _columns(headers: Sequence[str], ours: Sequence[str]) -> list[str]:
-    """Give [columns]: lines for headers whose words and unit fit a channel, comments for the rest."""
+def _logger(ask: Ask | None) -> list[str]:
+    known = "" if ask is None else ask('Low-pass filter of the logger ("100 Hz", "none", empty if not known)?', "")
+    if known.strip():
+        return ["[logger]", f"lowpass = {_quoted(known.strip())}", ""]
+    return ["# [logger]                # decide: what the logger did to the channels", '# lowpass = "100 Hz"', ""]
+
+
+def _is_ours(header: str) -> bool:
+    match = _OURS.match(header)
+    return bool(match and match["name"] in CHANNELS)
+
+
+def _data_files(folder: Path) -> tuple[list[DataFile], list[str]]:
+    """Open what can be a data file; say what is passed over and why."""
+    files, passed = [], []
+    for path in sorted(p for p in folder.iterdir() if p.is_file() and not p.name.startswith(".")):
+        if path.suffix.lower() not in SUFFIXES:
+            passed.append(f"{path.name} (no data file)")
+            continue
+        try:
+            files.append(_opened(path))
+        except InputError as error:
+            words = str(error).removeprefix(f"{path}: ").removeprefix(f"{path.name}: ")
+            passed.append(f"{path.name} ({_one_line(words)})")
+    return files, passed
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.split())[:160]
+
+
+def _opened(path: Path) -> DataFile:
+    """Read all columns of a file that hold numbers."""
+    table = open_table(path)
+    known: dict[str, Array] = {}
+    columns: list[Column] = []
+    for i, header in enumerate(table.headers):
+        try:
+            (values,) = table.columns([i]).values
+        except InputError:
+            continue  # a column of words
+        if not np.isfinite(values).all():
+            continue
+        match = _OURS.match(header)
+        if match and match["name"] in CHANNELS:
+            try:
+                factor, offset = affine(match["unit"], channel(match["name"]).unit, header)
+            except SlipwiseError:
+                continue
+            known[match["name"]] = factor * values + offset
+        else:
+            columns.append(column_of(header, values))
+    if table.step is not None and "time" not in known and not any(c.kind == "time" for c in columns) and columns:
+        known["time"] = np.arange(len(columns[0].values), dtype=np.float64) * table.step
+    return DataFile(path, table.headers, known, tuple(columns))
+
+
+def _mapped(files: Sequence[DataFile]) -> dict[str, Mapped]:
+    """Recognise columns in the file that moves most; headers mean the same in all files."""
+    out: dict[str, Mapped] = {}
+    for file in sorted(files, key=_liveliness, reverse=True):
+        taken = {m.channel for m in out.values()}
+        fresh = [c for c in file.columns if c.header not in out]
+        found = map_columns(fresh, {**file.known, **_channels(file, out)})
+        out |= {header: m for header, m in found.items() if m.channel not in taken}
+    return out
+
+
+def _liveliness(file: DataFile) -> tuple[bool, float]:
+    """Rank files by how much their accelerations move: both directions at once tell most, an earthquake than a sine."""
+    moving = [c.values for c in file.columns if c.kind == "acceleration" and np.ptp(c.values) > 0.0]
+    if not moving:
+        return False, 0.0
+    return not any(is_sine(values) for values in moving), float(np.prod([np.std(values) for values in moving]))
+
+
+def _channels(file: DataFile, mapped: Mapping[str, Mapped]) -> dict[str, Array]:
+    chosen = ((c, mapped[c.header]) for c in file.columns if c.header in mapped)
+    return {m.channel: m.sign * c.values for c, m in chosen}
+
+
+def _recognised(file: DataFile, mapped: Mapping[str, Mapped]) -> Record | None:
+    return record_of({**file.known, **_channels(file, mapped)}, file.path)
+
+
+def _columns(headers: Sequence[str], ours: Sequence[str], mapped: Mapping[str, Mapped]) -> list[str]:
+    """Give [columns]: lines for what was recognised, or whose words and unit fit a channel, comments for the rest."""
     if not headers:
         return []
-    lines, taken = ["[columns]"], set(ours)
+    lines, taken = ["[columns]"], {*ours, *(m.channel for m in mapped.values())}
     for header in headers:
         found = _HEADER.match(header)
         name, unit = (found["name"], found["unit"]) if found else (header, "")
+        if header in mapped:
+            m = mapped[header]
+            sign = ", sign = -1" if m.sign < 0 else ""
+            entry = f"{{ channel = {_quoted(m.channel)}, unit = {_quoted(m.unit)}{sign} }}"
+            lines.append(f"{_quoted(header)} = {entry}   # decide: {m.sure}: {_one_line(m.why)}")
+            continue
         guess = _guess(name, unit)
         if guess and guess not in taken:
             taken.add(guess)
             entry = f"{{ channel = {_quoted(guess)}, unit = {_quoted(unit)} }}"
-            lines.append(f"{_quoted(header)} = {entry}   # decide: channel, sign (sign = -1 turns it)")
+            lines.append(
+                f"{_quoted(header)} = {entry}   # decide: guess by its name: channel, sign (sign = -1 turns it)"
+            )
         else:
             lines.append(
                 f'# {_quoted(header)} = {{ channel = "...", unit = {_quoted(unit or "...")} }}   # decide: not used'
@@ -113,14 +238,14 @@ def _guess(name: str, unit: str) -> str:
     return ""
 
 
-def _runs(files: Sequence[Path]) -> list[str]:
+def _runs(records: Mapping[str, Record | None]) -> list[str]:
     lines = []
-    for number, file in enumerate(files):
-        last = number == len(files) - 1 and len(files) > 1
+    for name, (role, why) in roles_of(records).items():
+        reason = f" ({why})" if why else ""
         lines += [
             "[[run]]",
-            f"file = {_quoted(file.name)}",
-            f"role = {_quoted('holdout' if last else 'fit')}   # decide: fit, repeat (same motion again) or holdout",
+            f"file = {_quoted(name)}",
+            f"role = {_quoted(role)}   # decide: fit, repeat (same motion again) or holdout{reason}",
             '# rest_before = "30 min"   # decide: the pause before this run',
             "",
         ]

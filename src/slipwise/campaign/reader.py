@@ -11,11 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.campaign import Campaign, Run
+from slipwise.campaign.completed import completed
 from slipwise.campaign.derived import evaluate
 from slipwise.campaign.held_out_check import check_untouched
 from slipwise.campaign.same_specimen import check_same_specimen
 from slipwise.campaign.settings import ColumnMap, RunSettings, Settings, read_settings
 from slipwise.campaign.table import Table, open_table
+from slipwise.campaign.time_axis import check_time, time_of_file
 from slipwise.channels import CHANNELS, channel
 from slipwise.errors import InputError, UnitError
 from slipwise.record import Record
@@ -35,6 +37,7 @@ class _File:
     channels: Mapping[str, Array]
     sha256: str
     notes: tuple[str, ...]
+    made: tuple[str, ...] = ()
 
 
 def load_campaign(folder: Path | str) -> Campaign:
@@ -101,22 +104,20 @@ def _better_known(specimen: Specimen, known: Mapping[str, float | str]) -> Speci
 def _read_file(path: Path, settings: Settings) -> _File:
     table = open_table(path)
     chosen, notes = _choose(table, settings.columns)
-    columns = table.columns([i for i, _ in chosen])
+    read = table.columns([i for i, _ in chosen])
     time: Array | None = None
     channels: dict[str, Array] = {}
-    for (i, mapped), values in zip(chosen, columns, strict=True):
+    for i, mapped in chosen:
+        values = read.values.pop(0)  # of a long file each column is worth letting go
         factor, offset = _to_si(path, table.headers[i], mapped)
-        converted = mapped.sign * (factor * values + offset)
+        # The sign is that of the number as written: -20 degC turned round is 20 degC.
+        converted = factor * (mapped.sign * values) + offset
         if mapped.channel == "time":
             time = converted
         else:
             channels[mapped.channel] = converted
-    if time is None:
-        raise InputError(
-            f"{path.name}: no column holds the time; its columns are {', '.join(map(repr, table.headers))}; name a "
-            'column "time [s]" or map one in [columns] with channel = "time"'
-        )
-    _check_time(path.name, time)
+    time, words = time_of_file(path.name, time, channels, table, settings.sample_rate)
+    check_time(path.name, time, read.tables)
     for name, value in settings.constants.items():
         if name in channels:
             raise InputError(f"{path.name}: {name} is both a column and one of [constants]; remove one of them")
@@ -125,7 +126,9 @@ def _read_file(path: Path, settings: Settings) -> _File:
         if name in channels:
             raise InputError(f"{path.name}: {name} is both recorded and one of [derived]; remove one of them")
         channels[name] = evaluate(expression, {"time": time, **channels}, name, f"[derived] {name} ({path.name})")
-    return _File(time, channels, _sha256(path), tuple(notes))
+    channels, added = completed(time, channels)
+    made = tuple(f"{path.name}: {word}" for word in added)
+    return _File(time, channels, _sha256(table.path), (*table.notes, *words, *made, *notes), made)
 
 
 def _choose(table: Table, mapped: Sequence[ColumnMap]) -> tuple[list[tuple[int, ColumnMap]], list[str]]:
@@ -185,22 +188,6 @@ def _to_si(path: Path, header: str, mapped: ColumnMap) -> tuple[float, float]:
     return affine(mapped.unit, known.unit, f"{path.name}, column {header!r} ({mapped.channel})")
 
 
-def _check_time(name: str, time: Array) -> None:
-    if len(time) < 2:
-        raise InputError(f"{name}: {len(time)} row of data is no record")
-    bad = np.flatnonzero(~np.isfinite(time))
-    if len(bad):
-        raise InputError(f"{name}: {len(bad)} values of the time are missing, the first in data row {bad[0] + 1}")
-    back = np.flatnonzero(np.diff(time) <= 0.0)
-    if len(back):
-        k = int(back[0])
-        words = "repeats" if time[k + 1] == time[k] else "runs backwards"
-        raise InputError(
-            f"{name}: the time {words} {len(back)} times, first from {time[k]:.6g} s in data row {k + 1} to "
-            f"{time[k + 1]:.6g} s; every sample needs a later time: cut the file or give a window's own file"
-        )
-
-
 def _check_names(runs: Sequence[Run]) -> None:
     names = [run.name for run in runs]
     for run in runs:
@@ -212,6 +199,8 @@ def _run(run: RunSettings, file: _File, settings: Settings) -> Run:
     files = {other.file for other in settings.runs}
     stem = Path(run.file).stem
     name = stem if sum(Path(f).stem == stem for f in files) == 1 else str(Path(run.file).with_suffix(""))
+    if "#" in Path(run.file).suffix:
+        name = f"{name} {Path(run.file).suffix.partition('#')[2]}"
     shared = sum(other.file == run.file for other in settings.runs) > 1
     time = file.time
     inside = slice(0, len(time))
@@ -225,6 +214,11 @@ def _run(run: RunSettings, file: _File, settings: Settings) -> Run:
             )
         inside = slice(int(np.searchsorted(time, start)), int(np.searchsorted(time, end, side="right")))
         name = f"{name} {start:g}-{end:g} s" if shared else name
+    if len(time[inside]) < 2:
+        raise InputError(
+            f"{run.file}: the window holds {len(time[inside])} samples, at least 2 are needed; the step is "
+            f"{np.median(np.diff(time)):.4g} s"
+        )
     channels = {key: values[inside] for key, values in file.channels.items()}
     for key, values in channels.items():
         bad = np.flatnonzero(~np.isfinite(values))
@@ -233,7 +227,8 @@ def _run(run: RunSettings, file: _File, settings: Settings) -> Run:
                 f"{run.file}: {key} has {len(bad)} missing values, the first at {time[inside][bad[0]]:g} s; cut "
                 "them off with a window, or fill them where that is honest"
             )
-    record = Record(time[inside], channels, {"file": run.file, "sha256": file.sha256})
+    made = {"made": list(file.made)} if file.made else {}
+    record = Record(time[inside], channels, {"file": run.file, "sha256": file.sha256, **made})
     return Run(name, run.role, record, run.rest_before, run.window, run.file, file.sha256)
 
 

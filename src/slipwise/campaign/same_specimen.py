@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.campaign import Campaign, Run
+from slipwise.campaign.zero_state import zero_state
 from slipwise.errors import InputError
 from slipwise.record import Record
 from slipwise.rig.load_modes import load_modes
@@ -43,9 +44,13 @@ def check_same_specimen(campaign: Campaign) -> tuple[str, ...]:
     weighing = [run for run in campaign.runs if run.record.has_all(*(f"pad_{p}_N" for p in "ABCD"))]
     if not weighing or not campaign.specimen.free:
         return tuple(notes)
-    weights = [(run, float(np.median(load_modes(run.record.stacked("pad_{}_N")).heave))) for run in weighing]
+    state = zero_state([run.record for run in campaign.runs], campaign.specimen.weight)
+    notes += [f"{words}; `slipwise audit` says how to put it right" for words in state.words()]
+    if state.missing_weight is not None:
+        return tuple(notes)
+    weights = [(run, float(np.median(load_modes(_pressing(run.record)).heave))) for run in weighing]
     _compare(weights, _WEIGHT, "the four load cells carry", "kN", 1e3)
-    levers = [(run, lever) for run in weighing if (lever := _lever(run.record)) is not None]
+    levers = [(run, lever) for run in weighing if (lever := lever_of(run.record)) is not None]
     _compare(levers, _LEVER, "inertia of the girder acts at a lever of", "of the pad spacing", 1.0)
     typical = float(np.median([weight for _, weight in weights]))
     rated = campaign.specimen.weight
@@ -70,14 +75,20 @@ def _different_channels(runs: Sequence[Run]) -> list[str]:
     return notes
 
 
-def _lever(record: Record) -> float | None:
+def _pressing(record: Record) -> NDArray[np.float64]:
+    """Give the loads (n, 4), those of cells that count compression negative turned round: a sign is no other rig."""
+    loads = record.stacked("pad_{}_N")
+    return loads * np.where(np.median(loads, axis=0) < 0.0, -1.0, 1.0)
+
+
+def lever_of(record: Record) -> float | None:
     """Height of the centre of gravity over pad spacing, from the pitch of the loads; None where it cannot be seen."""
     if not record.has_all("girder_ax", "slip_x") or record["girder_ax"].std() < _MOVING:
         return None
     told = ("girder_ax", *(f"pad_{p}_N" for p in "ABCD"))
     if any(_clipped(record[name]) for name in told):
         return None  # the filter would carry what is cut off into the samples beside it
-    modes = load_modes(record.stacked("pad_{}_N"))
+    modes = load_modes(_pressing(record))
     weight = float(np.median(modes.heave))
     signals = (record["girder_ax"] * weight / 9.80665, record["slip_x"] * weight, modes.pitch)
     pushed, slid, pitch = (lowpass(values, record.dt, _SLOW) for values in signals)

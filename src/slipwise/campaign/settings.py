@@ -15,7 +15,10 @@ from slipwise.rig.known import SPECIMEN_UNITS, SPECIMEN_WORDS
 from slipwise.signals.filters import LowPass
 from slipwise.units import quantity
 
-_TOP = ("name", "rig", "description", "specimen", "columns", "constants", "derived", "logger", "materiality", "run")
+_TOP = (
+    *("name", "rig", "description", "sample_rate", "specimen", "columns", "constants", "derived", "logger"),
+    *("materiality", "run"),
+)
 _RUN = ("file", "role", "window", "rest_before", "description")
 _COLUMN = ("channel", "unit", "sign")
 _LOWPASS = ("lowpass", "order", "phase")
@@ -50,7 +53,7 @@ class RunSettings:
 
 @dataclass(frozen=True)
 class Settings:
-    """What campaign.toml says; quantities in SI."""
+    """What campaign.toml says; quantities in SI. The rate of samples is for files without a column of times."""
 
     name: str
     rig: str
@@ -61,6 +64,7 @@ class Settings:
     logger: Logger
     materiality: Materiality
     runs: tuple[RunSettings, ...]
+    sample_rate: float | None = None
 
 
 def read_settings(path: Path) -> Settings:
@@ -99,6 +103,7 @@ def read_settings(path: Path) -> Settings:
         logger=_logger(part["logger"], f"[logger] of {path.name}") if "logger" in content else Logger(),
         materiality=_materiality(part["materiality"], f"[materiality] of {path.name}"),
         runs=tuple(_run(run, f"[[run]] number {i + 1} of {path.name}") for i, run in enumerate(runs)),
+        sample_rate=_sample_rate(content["sample_rate"], path.name) if "sample_rate" in content else None,
     )
 
 
@@ -150,6 +155,13 @@ def _column(header: str, content: Any, where: str) -> ColumnMap:
 def _derived(name: str, text: Any, where: str) -> str:
     channel(name)
     return _text(text, name, f"[derived] of {where}")
+
+
+def _sample_rate(value: Any, where: str) -> float:
+    rate = quantity(value, "Hz", f"{where}, 'sample_rate'")
+    if not 0.0 < rate < 1e6:
+        raise SettingError(f'{where}: sample_rate = {value!r} cannot be; write for example "500 Hz"')
+    return rate
 
 
 def _logger(part: Mapping[str, Any], where: str) -> Logger:

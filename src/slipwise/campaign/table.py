@@ -9,13 +9,24 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
+from slipwise.campaign.labview_file import read_tdms
 from slipwise.campaign.matlab_file import matlab_variables
+from slipwise.campaign.spreadsheet import inspect_sheet, read_sheet
+from slipwise.campaign.text_blocks import Block
 from slipwise.campaign.text_file import inspect_text, read_text_columns
 from slipwise.errors import InputError
 
 Array = NDArray[np.float64]
-TEXT_SUFFIXES: tuple[str, ...] = (".csv", ".tsv", ".txt", ".dat")
-SUFFIXES: tuple[str, ...] = (*TEXT_SUFFIXES, ".mat", ".parquet")
+TEXT_SUFFIXES: tuple[str, ...] = (".csv", ".tsv", ".txt", ".dat", ".asc", ".lvm")
+SUFFIXES: tuple[str, ...] = (*TEXT_SUFFIXES, ".mat", ".parquet", ".tdms", ".xlsx")
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Columns that were read, each (n,), and the tables of the file where it holds more than one."""
+
+    values: list[Array]
+    tables: tuple[Block, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -25,54 +36,98 @@ class Table:
     Attributes:
         path: the file.
         headers: of all columns, as the file has them; "name [unit]" where the file keeps the unit apart.
-        columns: function of column numbers that reads these columns, each (n,).
+        columns: function of column numbers that reads these columns.
+        step: what the file states beside its columns [s], None if it states none.
+        notes: what a user should know of the file.
     """
 
     path: Path
     headers: tuple[str, ...]
-    columns: Callable[[Sequence[int]], list[Array]]
+    columns: Callable[[Sequence[int]], Columns]
+    step: float | None = None
+    notes: tuple[str, ...] = ()
 
 
 def open_table(path: Path) -> Table:
     """Look at a data file.
 
+    Args:
+        path: the file; "run.dat#2" is the second table of run.dat, "run.xlsx#Sheet2" a sheet.
+
     Raises:
         InputError: no such file, an unknown format, or a file that its format does not allow.
     """
+    part = None
+    if not path.is_file() and "#" in path.name:
+        path, part = path.with_name(path.name.rpartition("#")[0]), path.name.rpartition("#")[2]
     if not path.is_file():
         near = sorted(p.name for p in path.parent.glob("*") if p.suffix.lower() in SUFFIXES)
         raise InputError(f"{path}: no such file; data files in that folder: {', '.join(near) or 'none'}")
     suffix = path.suffix.lower()
+    if part is not None and (suffix not in (*TEXT_SUFFIXES, ".xlsx") or (suffix != ".xlsx" and not part.isdigit())):
+        raise InputError(f"{path}#{part}: only text files (by number) and workbooks (by sheet) hold several tables")
     if suffix in TEXT_SUFFIXES:
         layout = inspect_text(path)
-        return Table(path, layout.headers, lambda wanted: read_text_columns(path, layout, wanted))
+        table = None if part is None else int(part)
+        return Table(
+            path,
+            layout.headers,
+            lambda wanted: Columns(*read_text_columns(path, layout, wanted, table)),
+            layout.step,
+        )
     if suffix == ".mat":
-        variables = matlab_variables(path)
-        names = tuple(variables)
-        return Table(path, names, lambda wanted: [variables[names[i]] for i in wanted])
+        return _of_columns(path, matlab_variables(path))
+    if suffix == ".tdms":
+        tdms = read_tdms(path)
+        return _of_columns(path, tdms.columns, tdms.step)
+    if suffix == ".xlsx":
+        sheet = inspect_sheet(path, part)
+        others = (
+            f"sheets {', '.join(sheet.others)} of {path.name} hold tables too and are not read" if sheet.others else ""
+        )
+        notes = (others,) if others else ()
+        return Table(path, sheet.headers, lambda wanted: Columns(read_sheet(path, sheet, wanted)), sheet.step, notes)
     if suffix == ".parquet":
         return _parquet(path)
     raise InputError(f"{path}: {suffix or 'no suffix'} is no format of a data file; possible: {', '.join(SUFFIXES)}")
 
 
+def _of_columns(path: Path, columns: dict[str, Array], step: float | None = None) -> Table:
+    names = tuple(columns)
+
+    def chosen(wanted: Sequence[int]) -> Columns:
+        values = [columns[names[i]] for i in wanted]
+        lengths = {names[i]: len(column) for i, column in zip(wanted, values, strict=True)}
+        if len(set(lengths.values())) > 1:
+            counted = ", ".join(f"{name} {count}" for name, count in lengths.items())
+            raise InputError(f"{path.name}: the columns that are used differ in length: {counted}; cut the longer ones")
+        return Columns(values)
+
+    return Table(path, names, chosen, step)
+
+
 def _parquet(path: Path) -> Table:
     try:
         schema = pq.read_schema(path)
-    except (pa.ArrowInvalid, OSError) as error:
+    except (pa.ArrowException, OSError) as error:
         raise InputError(f"{path}: not a readable parquet file ({error})") from None
     headers = []
     for entry in schema:
         unit = (entry.metadata or {}).get(b"unit")
-        headers.append(f"{entry.name} [{unit.decode()}]" if unit is not None else entry.name)
+        headers.append(f"{entry.name} [{unit.decode('utf-8', 'replace')}]" if unit is not None else entry.name)
 
-    def columns(wanted: Sequence[int]) -> list[Array]:
-        table = pq.read_table(path, columns=[schema.names[i] for i in wanted])
+    def columns(wanted: Sequence[int]) -> Columns:
+        try:
+            table = pq.read_table(path, columns=[schema.names[i] for i in wanted])
+        except (pa.ArrowException, OSError) as error:
+            first = str(error).splitlines()[0]
+            raise InputError(f"{path}: not a readable parquet file ({first}); write it again") from None
         read = []
         for i in wanted:
             column = table.column(schema.names[i])
             if not (pa.types.is_floating(column.type) or pa.types.is_integer(column.type)):
                 raise InputError(f"{path.name}: column {schema.names[i]!r} holds {column.type}, not numbers")
             read.append(column.to_numpy().astype(float))
-        return read
+        return Columns(read)
 
     return Table(path, tuple(headers), columns)

@@ -1,7 +1,7 @@
 """Text tables: comma, semicolon or tab; decimal point or comma; loggers' encodings; lines above the header."""
 
-import codecs
 import csv
+import io
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,15 +12,21 @@ import pyarrow as pa
 import pyarrow.csv as pa_csv
 from numpy.typing import NDArray
 
+from slipwise.campaign.header_rows import MISSING, NUMBER, Header, find_header, looks_numeric
+from slipwise.campaign.labview_file import is_lvm, lvm_headers
+from slipwise.campaign.stated_rate import stated_step
+from slipwise.campaign.text_blocks import Block, read_blocks
+from slipwise.campaign.time_stamps import seconds_of_stamps
 from slipwise.errors import InputError
+from slipwise.text_encoding import decoded, encoding_of
 
 Array = NDArray[np.float64]
-#: Bytes that are looked at to find out how a file is written.
-_HEAD = 1 << 16
-#: Lines above the header that are tolerated.
-_PREAMBLE = 60
-_NUMBER = re.compile(r"^[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?$")
-_MISSING = ("", "nan", "NaN", "NAN", "na", "NA", "N/A", "#N/A", "-", "--", "null", "inf", "-inf", "Inf", "-Inf", "+Inf")
+#: Bytes that are looked at to find out how a file is written, and again where a line is longer than that.
+_HEAD, _LONG_HEAD = 1 << 16, 1 << 24
+#: Bytes that pyarrow reads at once where lines are long: one must fit.
+_WIDE_BLOCK = 1 << 25
+#: A rig has fewer channels than this.
+_WIDEST = 4096
 
 
 @dataclass(frozen=True)
@@ -33,6 +39,9 @@ class TextLayout:
         delimiter: between columns.
         decimal: "." or ",".
         skip: lines above the first row of numbers.
+        names: the line of column names as it stands there.
+        stamps: numbers of the columns of time stamps.
+        step: what the lines above state [s], None if they state none.
     """
 
     headers: tuple[str, ...]
@@ -40,6 +49,9 @@ class TextLayout:
     delimiter: str
     decimal: str
     skip: int
+    names: str = ""
+    stamps: tuple[int, ...] = ()
+    step: float | None = None
 
 
 def inspect_text(path: Path) -> TextLayout:
@@ -48,33 +60,18 @@ def inspect_text(path: Path) -> TextLayout:
     Raises:
         InputError: an empty file, or no line of column names above rows of numbers.
     """
-    with path.open("rb") as stream:
-        head = stream.read(_HEAD)
-    if not head.strip(b"\x00\r\n\t ;,"):
-        raise InputError(f"{path}: the file is empty")
-    encoding = _encoding(head)
-    text = codecs.getincrementaldecoder(encoding)("replace").decode(head).lstrip("\ufeff")
-    lines = re.split(r"\r\n|\n|\r", text)
-    if len(head) == _HEAD:
-        lines = lines[:-1]
-    for delimiter in ("\t", ";", ","):
-        for i, line in enumerate(lines[:_PREAMBLE]):
-            names = _split(line, delimiter)
-            first = _next_row(lines, i)
-            if len(names) < 2 or first is None or _looks_numeric(names) or not any(n.strip() for n in names):
-                continue
-            row = _split(lines[first], delimiter)
-            units: list[str] = []
-            if len(row) == len(names) and not _looks_numeric(row):
-                following = _next_row(lines, first)
-                if following is not None:
-                    units, first = row, following
-                    row = _split(lines[first], delimiter)
-            if len(row) != len(names) or not _looks_numeric(row):
-                continue
-            decimal = "," if _decimal_comma(lines[first:], delimiter) else "."
-            return TextLayout(_headers(names, units), encoding, delimiter, decimal, first)
-    if _looks_numeric(re.split(r"[\s;,]+", lines[0].strip())):
+    head, lines = _first_lines(path)
+    found = [(header, delimiter) for delimiter in ("\t", ";", ",") if (header := _header(lines, delimiter, path))]
+    if found:
+        # The separator that makes the most of the first table's rows.
+        header, delimiter = max(found, key=lambda pair: (len(pair[0].names), -pair[0].first))
+        decimal = "," if _decimal_comma(lines[header.first :], delimiter) else "."
+        step = stated_step(lines[: header.line], path.name)
+        columns = lvm_headers(header.names, lines[: header.line]) if is_lvm(lines) else header.columns
+        return TextLayout(
+            columns, encoding_of(head), delimiter, decimal, header.first, lines[header.line], header.stamps, step
+        )
+    if looks_numeric(re.split(r"[\s;,]+", lines[0].strip())):
         raise InputError(f"{path}: the first line holds numbers; a line of column names is needed above them")
     raise InputError(
         f"{path}: no line of column names above rows of numbers was found in its first lines; "
@@ -82,15 +79,83 @@ def inspect_text(path: Path) -> TextLayout:
     )
 
 
-def read_text_columns(path: Path, layout: TextLayout, wanted: Sequence[int]) -> list[Array]:
-    """Read columns by number, each (n,); an empty or NaN cell becomes NaN.
+def _first_lines(path: Path) -> tuple[bytes, list[str]]:
+    """Give the head of a file and its lines.
+
+    Raises:
+        InputError: an empty file, or lines that are too long for a table of channels.
+    """
+    for size in (_HEAD, _LONG_HEAD):
+        with path.open("rb") as stream:
+            head = stream.read(size)
+        if not head.strip(b"\x00\r\n\t ;,"):
+            raise InputError(f"{path}: the file is empty")
+        lines = re.split(r"\r\n|\n|\r", decoded(head))
+        if len(head) < size:
+            return head, lines
+        if len(lines) > 8:
+            return head, lines[:-1]
+    raise InputError(
+        f"{path}: its lines are longer than {_LONG_HEAD // len(lines) >> 20} MB; is it a table of channels, "
+        "one row a sample?"
+    )
+
+
+def _header(lines: Sequence[str], delimiter: str, path: Path) -> Header | None:
+    rows = [_split(line, delimiter) for line in lines[:500]]
+    if any(len(row) > _WIDEST for row in rows):
+        raise InputError(
+            f"{path}: a line has more than {_WIDEST} columns; a table has a column for each channel and a row for each "
+            "sample: write it so"
+        )
+    return find_header(rows)
+
+
+def read_text_columns(
+    path: Path, layout: TextLayout, wanted: Sequence[int], table: int | None = None
+) -> tuple[list[Array], tuple[Block, ...]]:
+    """Read columns by number; an empty or NaN cell becomes NaN, time stamps become seconds.
+
+    Args:
+        path: the file.
+        layout: how it is written.
+        wanted: numbers of the columns.
+        table: which of several tables with the same header, from 1; None for all of them, one after the other.
+
+    Returns:
+        The columns, each (n,), and the file's tables where it holds more than one.
 
     Raises:
         InputError: a row with another number of columns, or a cell that is no number; the message says where.
     """
+    try:
+        if table is None:
+            return _parsed(path, layout, wanted, layout.skip, layout.encoding, path), ()
+    except InputError as plain:
+        blocks = read_blocks(path, layout.names, layout.delimiter, len(layout.headers), layout.skip)
+        if not blocks or (len(blocks) == 1 and _unchanged(plain)):
+            raise
+    else:
+        blocks = read_blocks(path, layout.names, layout.delimiter, len(layout.headers), layout.skip)
+    if table is not None and not 1 <= table <= len(blocks):
+        raise InputError(f"{path.name}#{table}: the file holds {len(blocks)} tables; the first is {path.name}#1")
+    chosen = blocks if table is None else [blocks[table - 1]]
+    text = io.BytesIO(b"".join(block.text for block in chosen))
+    return _parsed(text, layout, wanted, 0, "utf-8", path), tuple(blocks) if len(chosen) > 1 else ()
+
+
+def _unchanged(error: InputError) -> bool:
+    """Tell whether a cell, and not a line, is wrong: cutting the file into tables does not help."""
+    return "column '" in str(error) and "\u2212" not in str(error)
+
+
+def _parsed(
+    source: Path | io.BytesIO, layout: TextLayout, wanted: Sequence[int], skip: int, encoding: str, path: Path
+) -> list[Array]:
     # Columns are numbered: headers may be doubled among the columns that nobody asks for.
     names = [str(i) for i in range(len(layout.headers))]
     chosen = [names[i] for i in wanted]
+    stamps = {names[i] for i in layout.stamps}
     bad: list[str] = []
 
     def ragged(row: pa_csv.InvalidRow) -> str:
@@ -101,20 +166,30 @@ def read_text_columns(path: Path, layout: TextLayout, wanted: Sequence[int]) -> 
 
     try:
         table = pa_csv.read_csv(
-            path,
-            read_options=pa_csv.ReadOptions(column_names=names, skip_rows=layout.skip, encoding=layout.encoding),
+            source,
+            read_options=pa_csv.ReadOptions(
+                column_names=names,
+                skip_rows=skip,
+                encoding=encoding,
+                block_size=_WIDE_BLOCK if len(names) > 500 else None,
+            ),
             parse_options=pa_csv.ParseOptions(delimiter=layout.delimiter, invalid_row_handler=ragged),
             convert_options=pa_csv.ConvertOptions(
-                column_types={name: pa.float64() for name in chosen},
+                column_types={name: pa.string() if name in stamps else pa.float64() for name in chosen},
                 include_columns=chosen,
-                null_values=list(_MISSING),
+                null_values=list(MISSING),
                 decimal_point=layout.decimal,
                 strings_can_be_null=True,
             ),
         )
-    except (pa.ArrowInvalid, UnicodeDecodeError) as error:
+    except (pa.ArrowException, UnicodeDecodeError, LookupError, OSError) as error:
         raise InputError(f"{path.name}: {bad[0] if bad else _cell_error(str(error), layout)}") from None
-    return [np.asarray(table.column(name).to_numpy(), dtype=float) for name in chosen]
+    return [
+        seconds_of_stamps([text or "" for text in table.column(name).to_pylist()], f"{path.name}, column {number}")
+        if name in stamps
+        else np.asarray(table.column(name).to_numpy(), dtype=float)
+        for name, number in zip(chosen, (layout.headers[i] for i in wanted), strict=True)
+    ]
 
 
 def _cell_error(message: str, layout: TextLayout) -> str:
@@ -127,62 +202,15 @@ def _cell_error(message: str, layout: TextLayout) -> str:
     return f"{where}: {words.replace('CSV conversion error to double: ', '')}"
 
 
-def _encoding(head: bytes) -> str:
-    for mark, name in (
-        (codecs.BOM_UTF8, "utf-8-sig"),
-        (codecs.BOM_UTF16_LE, "utf-16"),
-        (codecs.BOM_UTF16_BE, "utf-16"),
-    ):
-        if head.startswith(mark):
-            return name
-    zeros = head[:400].count(0)
-    if zeros > len(head[:400]) // 4:
-        return "utf-16-le" if head[1:2] == b"\x00" else "utf-16-be"
-    # the last bytes may hold half a character
-    for cut in range(4):
-        try:
-            head[: len(head) - cut].decode("utf-8")
-            return "utf-8"
-        except UnicodeDecodeError:
-            continue
-    for cut in range(2):
-        try:
-            text = head[: len(head) - cut].decode("cp932")
-        except UnicodeDecodeError:
-            continue
-        # Half-width katakana alone may be Latin-1 signs such as a degree or a micro: real Japanese has wide characters.
-        if sum("\u3040" <= c <= "\u9fff" for c in text) >= 2:
-            return "cp932"
-    return "latin-1"
-
-
 def _split(line: str, delimiter: str) -> list[str]:
-    return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter), [])]
-
-
-def _next_row(lines: Sequence[str], i: int) -> int | None:
-    return next((k for k in range(i + 1, len(lines)) if lines[k].strip()), None)
-
-
-def _looks_numeric(cells: Sequence[str]) -> bool:
-    """Tell whether a line holds data: most cells are numbers or empty, and at least one is a number."""
-    numbers = sum(bool(_NUMBER.match(cell)) for cell in cells)
-    return numbers > 0 and numbers + sum(cell in _MISSING for cell in cells) >= 0.5 * len(cells)
+    try:
+        return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter), [])]
+    except csv.Error:  # a cell longer than any name or number
+        return [line]
 
 
 def _decimal_comma(lines: Sequence[str], delimiter: str) -> bool:
     cells = [cell for line in lines[:200] for cell in _split(line, delimiter)]
-    commas = sum("," in cell and bool(_NUMBER.match(cell)) for cell in cells)
-    points = sum("." in cell and bool(_NUMBER.match(cell)) for cell in cells)
+    commas = sum("," in cell and bool(NUMBER.match(cell)) for cell in cells)
+    points = sum("." in cell and bool(NUMBER.match(cell)) for cell in cells)
     return commas > points
-
-
-def _headers(names: Sequence[str], units: Sequence[str]) -> tuple[str, ...]:
-    cleaned = [name.lstrip("#% ").strip() if i == 0 else name for i, name in enumerate(names)]
-    if not units:
-        return tuple(cleaned)
-    joined = []
-    for name, unit in zip(cleaned, units, strict=True):
-        bare = unit.strip().strip("[]()")
-        joined.append(f"{name} [{bare}]" if bare and "[" not in name else name)
-    return tuple(joined)

@@ -1,5 +1,6 @@
 """`slipwise init`, `audit` and `compare`: draft a campaign, check its instruments, hold a model against it."""
 
+import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -15,13 +16,24 @@ Correct = Annotated[
 ]
 
 
-def init(folder: Annotated[Path, typer.Argument(help="Folder with the files of the measured runs.")]) -> None:
-    """Draft campaign.toml from the files of a folder; what only you can know is marked in it.
+def init(
+    folder: Annotated[Path, typer.Argument(help="Folder with the files of the measured runs.")],
+    yes: Annotated[bool, typer.Option("--yes", help="Take the guesses; ask nothing.")] = False,
+) -> None:
+    """Draft campaign.toml from the files of a folder; what only you can know is asked for, or marked in it.
 
     Example: `slipwise init campaigns/march`
     """
-    path = sw.init_campaign(folder)
+    ask = None if yes or not sys.stdin.isatty() else _ask
+    path = sw.init_campaign(folder, ask=ask)
     OUT.print(f"wrote {path}; read it, and decide what is marked in it", markup=False, highlight=False, soft_wrap=True)
+    for line in path.read_text(encoding="utf-8").splitlines():
+        if line.startswith("# not read: "):
+            OUT.print(line.removeprefix("# "), markup=False, highlight=False, soft_wrap=True)
+
+
+def _ask(question: str, default: str) -> str:
+    return str(typer.prompt(question, default=default, show_default=bool(default)))
 
 
 def audit(campaign: CampaignFolder, effect: Own = None, correct: Correct = None, json: Json = False) -> None:

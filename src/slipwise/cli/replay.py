@@ -27,6 +27,9 @@ def replay(
     baseline: Annotated[
         str | None, typer.Option(help="mean, linear or none; by default what the format asks for.")
     ] = None,
+    join_anyway: Annotated[
+        bool, typer.Option("--join-anyway", help="Join components of different stations, sensors, events or times.")
+    ] = False,
     amplitude: Annotated[float, typer.Option("--scale", help="Factor on the acceleration.")] = 1.0,
     peak: Annotated[str | None, typer.Option(help="Scale to this peak along x, e.g. '0.7 g'.")] = None,
     similarity: Annotated[
@@ -59,7 +62,8 @@ def replay(
     from slipwise.view.files import save_json
 
     seconds = None if motion_dt is None else sw.quantity(motion_dt, "s", "--motion-dt")
-    shaking = sw.load_motion(motion, x=x, y=y, z=z, dt=seconds, unit=unit, baseline=baseline)  # type: ignore[arg-type]
+    treatment: Any = baseline  # one of the words that load_motion checks
+    shaking = sw.load_motion(motion, x=x, y=y, z=z, dt=seconds, unit=unit, baseline=treatment, join_anyway=join_anyway)
     if pier is not None and similarity is not None:
         raise SettingError("--pier shortens time by itself, as the model's; leave --similarity out")
     shaking = _shaped(shaking, amplitude, peak, similarity, start, end)
@@ -67,6 +71,8 @@ def replay(
         shaking = sw.pier_top(shaking, pier)
     if stroke is not None:
         sw.motion.warn_beyond_stroke(shaking, sw.quantity(stroke, "m", "--stroke"))
+    else:
+        sw.motion.warn_of_travel(shaking)
     model = _model(rig, law, effect or [])
     folder = out_folder(out)
     given = {"dt": (step, "--step"), "output_dt": (output_step, "--output-step")}

@@ -50,7 +50,7 @@ def compare(
         progress: called with what is being done and the fraction done.
 
     Raises:
-        InputError: the campaign lacks what every comparison needs.
+        InputError: the campaign lacks what every comparison needs, or its loads are turned round or tared.
     """
     began = time.perf_counter()
     tell = progress or (lambda words, done: None)
@@ -59,6 +59,7 @@ def compare(
     start = None if model is None else as_model(model)
     tell("auditing the instruments", 0.05)
     checks = checks or check_instruments(campaign)
+    _refuse_wrong_loads(checks)
     tell("fitting base parameters", 0.25)
     base = fit_finely(campaign, start)
     tell("locating errors", 0.5)
@@ -113,6 +114,27 @@ def compare(
         notes=tuple(dict.fromkeys([*campaign.notes, *(level.notes if level else ())])),
         seconds=time.perf_counter() - began,
     )
+
+
+def _refuse_wrong_loads(checks: Checks) -> None:
+    """Refuse loads with which no law of friction can be held against anything.
+
+    Raises:
+        InputError: a load cell counts compression negative, or does not show the girder's weight.
+    """
+    wrong = [
+        f
+        for f in checks.report.findings
+        if f.channel.startswith("pad_")
+        and f.channel.endswith("_N")
+        and (f.what == "channel_sign" or f.name == "channel_offset:pad_*_N")
+    ]
+    if wrong:
+        names = " ".join(f"--correct '{finding.name}'" for finding in wrong)
+        raise InputError(
+            f"{'; '.join(finding.words for finding in wrong)}: loads are positive in compression and hold the girder's "
+            f"weight here; {names} puts the records right, or write sign = -1 in [columns] of campaign.toml"
+        )
 
 
 def _cannot(base: BaseFit) -> list[str]:

@@ -112,11 +112,12 @@ def above_noise(summary: ResidualSummary, best: ResidualSummary) -> float:
 def _rivals(state: Search, parts: dict[str, tuple[Term, ...]]) -> dict[str, Rival]:
     """Give for every effect the best of what was fitted in its place."""
     best = state.best
+    ends = len(parameters_at_bound(best))  # what has run against a bound, a patch wider than the stroke, is no rival
     out: dict[str, Rival] = {}
     for name in parts:
         rest = {t.label for t in best.terms if t.effect.name != name}
         others = [h for h in state.tried if name not in h.names and rest < {t.label for t in h.terms}]
-        others = [h for h in others if len(h.terms) <= len(best.terms)]
+        others = [h for h in others if len(h.terms) <= len(best.terms) and len(parameters_at_bound(h)) <= ends]
         rival = max(others, key=lambda h: score(best.summary, h.summary), default=None)
         if rival is not None:
             out[name] = Rival(rival, float(np.clip(lead(best.summary, rival.summary), -_SUREST, _SUREST)))

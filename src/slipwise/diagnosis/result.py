@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from slipwise.diagnosis.first_things import FirstThing
 from slipwise.diagnosis.importance import Importance
 from slipwise.diagnosis.rivals import discriminating_tests, explanations
 from slipwise.diagnosis.screening import Screened
@@ -63,6 +64,7 @@ class Diagnosis(Drawn, Tabular):
         predicted_friction: mean friction of the held-out runs of one slider, predicted and measured.
         least: effect -> smallest size that this campaign would have shown, and its unit.
         cannot_tell: what this campaign could not test, and why.
+        first: what was wrong before any balance.
         search: everything that was looked at.
         final: the best hypothesis as a fit, for reports and replays.
         seconds: it took.
@@ -80,6 +82,7 @@ class Diagnosis(Drawn, Tabular):
     predicted_friction: tuple[PredictedFriction, ...]
     least: Mapping[str, tuple[float, str]]
     cannot_tell: tuple[str, ...]
+    first: tuple[FirstThing, ...]
     search: Search
     final: BaseFit
     seconds: float
@@ -196,7 +199,7 @@ class Diagnosis(Drawn, Tabular):
             "predicted_friction": [_predicted_friction(f) for f in self.predicted_friction],
             "least": {k: _number(v) for k, (v, _) in self.least.items()},
             "cannot_tell": list(self.cannot_tell),
-            "first": [],
+            "first": [one.as_json() for one in self.first],
             "words": self.sentence,
             "seconds": round(self.seconds, 1),
         }

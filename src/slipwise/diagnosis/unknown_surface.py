@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.estimation.run_data import FitRun
 from slipwise.evidence.left_out import motions
+from slipwise.evidence.residual_summary import BLOCK
 
 Array = NDArray[np.float64]
 #: Bins of a curve and of each side of a surface.
@@ -25,6 +26,8 @@ _LEAST = 12
 _OUTLIER = 6.0
 #: Mean squared residual that may be noise all the same, where noise is coloured or gauges hum [noise variance].
 _NOISE = 1.5
+#: Share of the blocks of time that tell what is usually left [1].
+_USUAL = 0.9
 #: Structure counts when a surface predicts this share of the held-out residual, and this much of it.
 SHARE, LEVEL = 0.10, 0.10
 #: Most of a balance's noise is that of one accelerometer: a state made of it would predict itself.
@@ -97,15 +100,30 @@ def leftover(found: Hypothesis, relations: tuple[str, ...] | None = None) -> Sur
 def above_noise(found: Hypothesis) -> dict[str, float]:
     """Give what a hypothesis leaves above the noise of each balance, over the rms of what the balance is made of [1].
 
-    The noise is what the residuals of a repeated motion do not have in common, and at least `_NOISE`.
+    The noise is what the residuals of a repeated motion do not have in common, and at least `_NOISE`. The worst tenth
+    of the time is left out: a pad that lands leaves much for a moment, a law that is missing leaves it throughout.
     """
     out: dict[str, float] = {}
-    problem, summary = found.problem, found.summary
+    problem = found.problem
     for relation in (r for r in problem.relations if r not in ("motion", "across")):
-        over = max(summary.fitted_level(relation) - max(_NOISE, pure_error(found, relation)), 0.0)
+        over = max(_usual_level(found, relation) - max(_NOISE, pure_error(found, relation)), 0.0)
         level = float(np.median(np.concatenate([np.ravel(problem.sigmas[relation][i]) for i in problem.fitted])))
         out[relation] = float(np.sqrt(over) * level / max(_size(found, relation), 1e-30))
     return out
+
+
+def _usual_level(found: Hypothesis, relation: str) -> float:
+    """Give the mean squared residual of the blocks of time without the worst tenth [noise variance]."""
+    blocks: list[tuple[float, int]] = []
+    for i in found.problem.fitted:
+        run, part = found.problem.runs[i], found.solution.residuals.parts[relation][i]
+        edges = np.arange(0, len(part), max(1, round(BLOCK / run.dt)))
+        squares = np.add.reduceat((part**2).reshape(len(part), -1).sum(axis=1), edges)
+        counts = np.add.reduceat(run.judged[relation].reshape(len(part), -1).sum(axis=1), edges)
+        blocks += [(float(s), int(c)) for s, c in zip(squares, counts, strict=True) if c]
+    blocks.sort(key=lambda b: b[0] / b[1])
+    kept = blocks[: max(1, round(_USUAL * len(blocks)))]
+    return sum(s for s, _ in kept) / max(sum(c for _, c in kept), 1)
 
 
 def pure_error(found: Hypothesis, relation: str) -> float:

@@ -47,15 +47,16 @@ def largest_drop(before: ResidualSummary, after: ResidualSummary) -> tuple[float
 
 
 def lead(best: ResidualSummary, other: ResidualSummary) -> float:
-    """Give by how many standard errors the log-likelihood of one hypothesis leads that of another, block by block.
+    """Give by how many standard errors the score of one hypothesis leads that of another, block by block.
 
     Args:
         best: the one; its own levels are the variances.
         other: fitted to the same runs.
     """
-    gains = 0.0
+    gains = np.zeros(1)
     for relation, mine in best.blocks.items():
         gains = gains + 0.5 * (other.blocks[relation] - mine) / max(best.left_out_level(relation), FLOOR)
-    gains = np.atleast_1d(gains)
     deviation = float(np.sqrt(np.sum((gains - gains.mean()) ** 2)))
-    return float(np.sum(gains)) / max(deviation, 1e-9)
+    samples = sum(n for n, _ in best.counts.values())
+    cost = 0.5 * (other.constants - best.constants) * np.log(max(samples, 2))
+    return float(np.sum(gains) + cost) / max(deviation, 1e-9)

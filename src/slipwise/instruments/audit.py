@@ -21,6 +21,7 @@ from slipwise.instruments.rows import noise_of_channels, noise_of_runs, prepare_
 from slipwise.instruments.sample_faults import RAILS, SampleFault, coarse, sample_faults
 from slipwise.instruments.sentences import as_sentence, confusable, how_to_settle, nearest, sentence
 from slipwise.instruments.suspects import Suspect, effect_of
+from slipwise.instruments.zeros import effect_of_zero, values_of_zero, words_of_zero
 from slipwise.signals.noise import quantum, white_level
 
 #: Nobody is surer than this.
@@ -44,7 +45,7 @@ def audit(campaign: Campaign, own: Iterable[Effect] = ()) -> AuditReport:
     noise = noise_of_runs(runs, noise_of_channels(clean, runs, band), band)
     mass_error = KNOWN_MASS if "mass" in campaign.known else RATED_MASS
     logger = None if campaign.logger.known else estimate_logger(clean)
-    findings, notes = [_of_samples(fault) for fault in samples], _rounded(campaign)
+    findings, notes = [_of_samples(campaign, fault) for fault in samples], _rounded(campaign)
     plain = AuditReport(campaign.name, tuple(findings), (), (), {}, logger, tuple(cannot), tuple(notes))
     if not any(relation.accuses and relation.rows in ("moving", "inner") for relation in allowed):
         return plain
@@ -98,20 +99,23 @@ def _same_fault(rival: str, suspect: Suspect) -> bool:
     return effect == suspect.effect.name and place.startswith(suspect.target)
 
 
-def _of_samples(fault: SampleFault) -> Finding:
-    """Turn bad samples into a finding."""
-    effect = effect_of(fault.kind)
+def _of_samples(campaign: Campaign, fault: SampleFault) -> Finding:
+    """Turn bad samples, a wrong sign or a zero that is far off into a finding."""
+    effect = effect_of_zero() if fault.kind == "shifted" else effect_of(fault.kind)
     place = _place(fault.channels)
-    unit = channel(fault.channels[0]).unit if fault.kind in RAILS else "1"
+    unit = channel(fault.channels[0]).unit if fault.kind in (*RAILS, "shifted") else "1"
     words = {
         "dead": f"{place} is dead in {', '.join(fault.runs)}",
         "lost": f"{place} has lost samples: what follows them came early, and the end repeats one value",
+        "shifted": words_of_zero(campaign, fault.channels) if fault.kind == "shifted" else "",
         "gap": f"the logger has lost {fault.size:.2%} of all samples",
     }.get(fault.kind, sentence(effect, place, fault.size, unit))
     if fault.kind in RAILS:
         upper = fault.kind == RAILS[0]
         place_of_rail = effect.parameters[0 if upper else 1].name
         values = {place_of_rail: (1.0 if upper else -1.0) * fault.size / span(fault.channels[0])}
+    elif fault.kind == "shifted":
+        values = values_of_zero(fault.channels, fault.size)
     else:
         values = {effect.parameters[0].name: fault.size}
     return Finding(

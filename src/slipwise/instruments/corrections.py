@@ -10,6 +10,7 @@ from slipwise.instruments.repairs import bridged
 from slipwise.instruments.report import AuditReport, Finding
 from slipwise.instruments.sample_faults import sample_faults
 from slipwise.instruments.suspects import declared
+from slipwise.instruments.zeros import EFFECT
 from slipwise.record import Record
 
 
@@ -37,11 +38,25 @@ def correct(campaign: Campaign, report: AuditReport, names: Iterable[str]) -> tu
                 raise InputError(f"{name!r}: the audit accuses no gauge, there is nothing to correct")
             raise unknown_name("finding", name, known, "`slipwise audit` lists them.")
         for finding in chosen:
+            _check_known_weight(finding, campaign)
             words = f"corrected: {finding.words}"
             records = {run.name: _corrected(run.record, finding, campaign, run.name) for run in campaign.runs}
             campaign = campaign.with_records(records, words)
             done.append(words)
     return campaign, done
+
+
+def _check_known_weight(finding: Finding, campaign: Campaign) -> None:
+    """Refuse to put back a weight that is only rated.
+
+    Raises:
+        InputError: the load cells are tared, and the campaign does not give the girder's mass.
+    """
+    if finding.what == EFFECT and finding.channel == "pad_*_N" and "mass" not in campaign.known:
+        raise InputError(
+            f'{finding.words}: to put it back, give the girder\'s mass in campaign.toml, [specimen] mass = "10.02 t"; '
+            "each cell then gets a quarter of the weight"
+        )
 
 
 def _corrected(record: Record, finding: Finding, campaign: Campaign, run: str) -> Record:

@@ -1,7 +1,7 @@
 """Records without the harm that bad samples do: balances leave rows out, fits leave samples out.
 
-A wrong sign is reversed in both. A balance looks at all channels at one instant, so that one bad sample costs a row;
-a fit judges channel by channel.
+A wrong sign is reversed and a zero that is far off is put right in both. A balance looks at all channels at one
+instant, so that one bad sample costs a row; a fit judges channel by channel.
 """
 
 from collections.abc import Mapping, Sequence
@@ -21,6 +21,8 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 #: run -> channel -> samples (n,) at which the channel is no measurement.
 InvalidSamples = Mapping[str, Mapping[str, Mask]]
+#: Faults whose samples are no measurement.
+_INVALID = (*RAILS, "held", "lost", "dead")
 #: Invalid before and after a bad sample; more where the velocity is made of the channel [samples].
 _REACH, _REACH_OF_MOTION = 6, 40
 #: Rows left out before and after a rail or a gap [s].
@@ -30,8 +32,8 @@ _AROUND = 0.03
 def for_balances(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[dict[str, Record], dict[str, Mask]]:
     """Give records in which bad samples do no harm to the balances, and the samples to leave out, by run.
 
-    Wrong signs are reversed, repeated samples bridged; around rails and gaps rows are left out; a channel that is
-    dead, or has lost samples and so its place in time, is taken out.
+    Wrong signs are reversed, zeros put right, repeated samples bridged; around rails and gaps rows are left out; a
+    channel that is dead, or has lost samples and so its place in time, is taken out.
     """
     records, out = {}, {}
     for run in campaign.runs:
@@ -69,11 +71,13 @@ def for_fits(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[Campaig
         record, found = _with_signs(run.record, faults), dict[str, Mask]()
         for name in dict.fromkeys(name for fault in faults for name in fault.channels if name in record):
             values = run.record[name]
-            own = [fault for fault in faults if name in fault.channels and fault.kind in (*RAILS, "held", "lost")]
+            own = [
+                fault for fault in faults if name in fault.channels and fault.kind in (*RAILS, "held", "lost", "dead")
+            ]
             if not own:
                 continue
             bad = np.any([_bad_samples(fault, run.name, values) for fault in own], axis=0)
-            if all(fault.kind not in RAILS for fault in own):
+            if all(fault.kind not in RAILS for fault in own) and not bad.all():
                 between = np.interp(record.time, record.time[~bad], record[name][~bad])
                 record = record.replaced(**{name: between})
             reach = _REACH_OF_MOTION if name in VELOCITY_CHANNELS else _REACH
@@ -84,8 +88,10 @@ def for_fits(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[Campaig
 
 
 def _with_signs(record: Record, faults: Sequence[SampleFault]) -> Record:
+    shift = {n: fault.size for fault in faults if fault.kind == "shifted" for n in fault.channels if n in record}
+    level = record.replaced(**{name: record[name] - size for name, size in shift.items()})
     wrong = [name for fault in faults if fault.kind == "turned" for name in fault.channels if name in record]
-    return record.replaced(**{name: -record[name] for name in wrong})
+    return level.replaced(**{name: -level[name] for name in wrong})
 
 
 def _bad_samples(fault: SampleFault, run: str, values: Array) -> Mask:

@@ -1,5 +1,6 @@
 """What samples show by themselves: wrong signs, dead channels, rails, samples that repeat, samples that are lost."""
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -10,9 +11,12 @@ from scipy.ndimage import uniform_filter1d
 from slipwise.campaign import Campaign, Run
 from slipwise.channels import PADS
 from slipwise.instruments.signs import wrong_signs
+from slipwise.instruments.zeros import shifted_zeros
 from slipwise.signals.noise import quantum, white_level
 
 Array = NDArray[np.float64]
+#: A pad's cell, and the share of what its like scatter below which it shows nothing but noise [1].
+_CELL, _IDLE = re.compile(r"pad_[A-D]_(?P<kind>N|Fx|Fy)$"), 0.08
 Mask = NDArray[np.bool_]
 #: A rail holds at least this many samples of a campaign, in one place at least that many, this part side by side [1].
 _RAIL, _LONG_RAIL, _BESIDE = 6, 15, 0.5
@@ -37,10 +41,10 @@ class SampleFault:
     """Bad samples of one channel, or of several at the same instants.
 
     Attributes:
-        kind: "turned", "dead", "upper rail", "lower rail", "held", "lost" or "gap".
+        kind: "turned", "shifted", "dead", "upper rail", "lower rail", "held", "lost" or "gap".
         channels: that show it.
-        size: rail in the channel's unit; -1 for a wrong sign; else share of all samples [1].
-        bad: run -> samples that are no measurement (n,); none of a wrong sign, which is reversed.
+        size: rail or shift in the channel's unit; -1 for a wrong sign; else share of all samples [1].
+        bad: run -> samples that are no measurement (n,); none of a wrong sign or zero, which is put right.
         runs: names of the runs that show it.
     """
 
@@ -52,8 +56,8 @@ class SampleFault:
 
 
 def sample_faults(campaign: Campaign) -> list[SampleFault]:
-    """Look for wrong signs and bad samples in every channel of every run."""
-    found = _turned(campaign)
+    """Look for wrong signs, zeros that are far off and bad samples in every channel of every run."""
+    found = [*_turned(campaign), *_shifted(campaign)]
     names = list(dict.fromkeys(name for run in campaign.runs for name in run.record.channels))
     # what every channel repeats at its end is a record that was cut, no gauge's loss
     cut = {run.name: min(_tail(values) for values in run.record.channels.values()) for run in campaign.runs}
@@ -78,13 +82,32 @@ def _turned(campaign: Campaign) -> list[SampleFault]:
     return [SampleFault("turned", channels, -1.0, {}, every) for channels in (*whole, *alone)]
 
 
+def _shifted(campaign: Campaign) -> list[SampleFault]:
+    every = tuple(run.name for run in campaign.runs)
+    return [SampleFault("shifted", channels, size, {}, every) for channels, size in shifted_zeros(campaign)]
+
+
 def _dead(name: str, runs: Sequence[Run]) -> SampleFault | None:
-    """A channel that never moves while others do; a constant of campaign.toml does not move in any run."""
-    still = [run for run in runs if np.ptp(run.record[name]) == 0.0]
-    if not still or len(still) == len(runs):
+    """A channel that never moves while others do; a constant of campaign.toml does not move in any run.
+
+    The cell of a pad may be dead and noisy: it hardly scatters where the other cells of its kind move.
+    """
+    constant = {run.name for run in runs if np.ptp(run.record[name]) == 0.0}
+    still = set() if len(constant) == len(runs) else constant
+    still |= {run.name for run in runs if _idle_beside_its_like(name, run)}
+    if not still:
         return None
-    bad = {run.name: np.ones(len(run.record), dtype=bool) for run in still}
+    bad = {run.name: np.ones(len(run.record), dtype=bool) for run in runs if run.name in still}
     return SampleFault("dead", (name,), -1.0, bad, tuple(bad))
+
+
+def _idle_beside_its_like(name: str, run: Run) -> bool:
+    match = _CELL.match(name)
+    others = [f"pad_{p}_{match['kind']}" for p in PADS if f"pad_{p}_{match['kind']}" != name] if match else []
+    if len(others) != len(PADS) - 1 or not run.record.has_all(*others):
+        return False
+    moved = float(np.median([np.std(run.record[n]) for n in others]))
+    return float(np.std(run.record[name])) < _IDLE * moved
 
 
 def _rails(name: str, runs: Sequence[Run]) -> list[SampleFault]:

@@ -37,13 +37,13 @@ _STRONG = 3.0
 
 
 def wrong_signs(campaign: Campaign) -> list[str]:
-    """Give the channels that are wired the wrong way round; none on a slider, which has nothing to hold them against.
+    """Give the channels that are wired the wrong way round; on a slider only loads, which have nothing but their sign.
 
     Args:
         campaign: as recorded.
     """
     if not campaign.specimen.free:
-        return []
+        return _against({name: [_presses(run.record, name) for run in campaign.runs] for name in _loads(campaign)})
     along: dict[str, list[float]] = {}
     for run in campaign.runs:
         for name, value in _accelerations(run.record):
@@ -54,6 +54,16 @@ def wrong_signs(campaign: Campaign) -> list[str]:
         for name, value in _forces(run.record, found):
             rest.setdefault(name, []).append(value)
     return [*found, *_against(rest)]
+
+
+def _loads(campaign: Campaign) -> list[str]:
+    every = set.intersection(*(set(run.record.channels) for run in campaign.runs))
+    return [name for name in (f"pad_{pad}_N" for pad in PADS) if name in every]
+
+
+def _presses(record: Record, name: str) -> float:
+    """Give 1 for a load that presses throughout, -1 for one that pulls."""
+    return float(np.mean(record[name]) / max(np.mean(np.abs(record[name])), 1e-300))
 
 
 def _against(agreements: Mapping[str, Iterable[float]]) -> list[str]:
@@ -98,9 +108,10 @@ def _forces(record: Record, turned: Iterable[str]) -> Iterable[tuple[str, float]
     loads = [f"pad_{pad}_N" for pad in PADS]
     if not record.has_all(*loads):
         return
-    presses = {name: float(np.mean(record[name]) / max(np.mean(np.abs(record[name])), 1e-300)) for name in loads}
+    presses = {name: _presses(record, name) for name in loads}
     yield from presses.items()
-    total = smooth(np.sum([record[n] * (1.0 if presses[n] > 0.0 else -1.0) for n in loads], axis=0))
+    # A cell that was tared under the girder neither presses nor pulls.
+    total = smooth(np.sum([record[n] * (-1.0 if presses[n] < _AGAINST else 1.0) for n in loads], axis=0))
     for name in (n for n in record.channels if n.startswith(("girder_az", "table_az"))):
         vertical = smooth(record[name])
         noise = white_level(record[name]) * np.sqrt(2.0 * _SLOW * record.dt)

@@ -3,6 +3,7 @@
 from slipwise.motion.components import read_motion
 from slipwise.motion.formats import FORMATS
 from slipwise.motion.load import load_motion
+from slipwise.motion.plausibility import warn_of_travel
 from slipwise.motion.resample import resample
 from slipwise.motion.shaping import scale, scale_time, scale_to_peak, taper, treat_baseline, trim
 from slipwise.motion.synthetic import SyntheticMotion, parse_motion, synthetic_motions
@@ -37,4 +38,5 @@ __all__ = [
     "trim",
     "velocity_peak",
     "warn_beyond_stroke",
+    "warn_of_travel",
 ]

@@ -9,7 +9,9 @@ import numpy as np
 from slipwise.errors import InputError, SlipwiseWarning, UnknownNameError, unknown_name
 from slipwise.motion.baseline import without_baseline
 from slipwise.motion.detect import read_file
+from slipwise.motion.joining import check_one_record
 from slipwise.motion.orientation import orientation, plain
+from slipwise.motion.plausibility import check_gravity, warn_of_peak
 from slipwise.motion.stated import Given
 from slipwise.motion.table_motion import AXES, TableMotion
 from slipwise.motion.trace import Baseline, Trace
@@ -27,13 +29,14 @@ def read_motion(
     dt: float | None = None,
     unit: str | None = None,
     baseline: Baseline | None = None,
+    join_anyway: bool = False,
 ) -> TableMotion:
     """Read a table motion from files of any of the formats.
 
     Without `x`, `y`, `z` the names of the components decide: x (shaking direction) is the east-west component, as in
     the paper (Fig. 6), or else the first horizontal one; y the other horizontal one; z the vertical one. DWN is minus
     UP: it is reversed. Components keep the sign that the agency gave them otherwise. Components start together; the
-    longer ones lose their ends.
+    longer ones lose their ends. They must be of one record: station, sensor, event and start are compared.
 
     Args:
         paths: the files; may be empty if `x`, `y` or `z` name files.
@@ -44,9 +47,11 @@ def read_motion(
         dt: step of files that do not state it [s].
         unit: unit of acceleration of files that do not state it.
         baseline: "mean", "linear" or "none"; by default what the format asks for (K-NET and KiK-net: mean).
+        join_anyway: join components of different records with a warning, instead of refusing them.
 
     Raises:
-        InputError: a file is missing or damaged, the steps differ, or the components cannot be told apart.
+        InputError: a file is missing or damaged, the steps differ, the components cannot be told apart or are of
+            different records, or gravity is in one of them.
         UnitError: a unit is missing, unknown or of the wrong dimension.
         UnknownNameError: `x`, `y` or `z` names neither a component nor a file.
     """
@@ -69,7 +74,7 @@ def read_motion(
     taken = [pair[0] for pair in chosen.values() if pair]
     if files:
         _fill_by_name(chosen, [trace for trace in traces if not any(trace is other for other in taken)])
-    return _assemble({axis: chosen.get(axis) for axis in AXES}, baseline)
+    return _assemble({axis: chosen.get(axis) for axis in AXES}, baseline, join_anyway)
 
 
 def _file_of(text: str, read: dict[Path, list[Trace]]) -> Path | None:
@@ -91,7 +96,7 @@ def _pick(axis: str, choice: str, traces: list[Trace], read: dict[Path, list[Tra
     """Give the component that a user chose for an axis, and its sign."""
     sign, name = _sign_and_name(choice, read)
     file = _file_of(name, read)
-    candidates = read[file] if file else [trace for trace in traces if plain(trace.name) == plain(name)]
+    candidates = read[file] if file else _called(name, traces)
     where = "name the component instead" if file else "give its file instead"
     if not candidates:
         error = unknown_name("component or file", name, {trace.name for trace in traces})
@@ -103,6 +108,12 @@ def _pick(axis: str, choice: str, traces: list[Trace], read: dict[Path, list[Tra
     if sign is None:
         sign = -1 if axis == "z" and orientation(candidates[0].name) == "down" else 1
     return candidates[0], sign
+
+
+def _called(name: str, traces: list[Trace]) -> list[Trace]:
+    """Give the components of this name or, where none has it, of this number: "Long", "Chan 3", "3"."""
+    named = [trace for trace in traces if plain(trace.name) == plain(name)]
+    return named or [trace for trace in traces if plain(name) in {plain(alias) for alias in trace.aliases}]
 
 
 def _fill_by_name(chosen: dict[str, tuple[Trace, int] | None], left: list[Trace]) -> None:
@@ -122,10 +133,10 @@ def _fill_by_name(chosen: dict[str, tuple[Trace, int] | None], left: list[Trace]
         or (len(vertical) > 1 and "z" in open_axes)
         or (len(level) > level_places and ("x" in open_axes or "y" in open_axes))
     ):
-        names = ", ".join(f"{trace.name} ({trace.source.name})" for trace in left)
+        names = ", ".join(_described(trace) for trace in left)
         raise InputError(
             f"which component is which cannot be told from these names: {names}; say it with --x, --y and --z, "
-            f"each a component's name, a file, or {AT_REST!r}"
+            f"each a component's name or number, a file, or {AT_REST!r}"
         )
     if "z" in open_axes and vertical:
         chosen["z"] = (vertical[0], -1 if where[id(vertical[0])] == "down" else 1)
@@ -137,12 +148,18 @@ def _fill_by_name(chosen: dict[str, tuple[Trace, int] | None], left: list[Trace]
             chosen[axis] = (level.pop(0), 1)
 
 
-def _assemble(chosen: dict[str, tuple[Trace, int] | None], baseline: Baseline | None) -> TableMotion:
-    """Join the chosen components; unequal ends are cut, unequal steps are refused."""
+def _described(trace: Trace) -> str:
+    numbered = f"{trace.aliases[-1]}: " if trace.aliases else ""
+    return f"{numbered}{trace.name}{f' at {trace.origin.place}' if trace.origin.place else ''} ({trace.source.name})"
+
+
+def _assemble(chosen: dict[str, tuple[Trace, int] | None], baseline: Baseline | None, join_anyway: bool) -> TableMotion:
+    """Join the chosen components; unequal ends are cut, unequal steps and records are refused."""
     pairs = [pair for pair in chosen.values() if pair is not None]
     if not pairs:
         raise InputError("no component is left to shake the table; give --x, --y or --z another value than 'none'")
     first = pairs[0][0]
+    check_one_record([trace for trace, _ in pairs], join_anyway)
     for trace, _ in pairs:
         # Together over the whole record, to a tenth of a sample.
         if abs(trace.dt - first.dt) * len(first.acceleration) > 0.1 * first.dt:
@@ -162,6 +179,7 @@ def _assemble(chosen: dict[str, tuple[Trace, int] | None], baseline: Baseline | 
             peaks.append(None)
             continue
         trace, sign = pair
+        check_gravity(trace, axis, baseline)
         values, words = without_baseline(trace.acceleration, baseline or trace.baseline)
         acceleration[:, column] = sign * values[:length]
         name = f"-{trace.name}" if sign < 0 else trace.name
@@ -180,7 +198,7 @@ def _assemble(chosen: dict[str, tuple[Trace, int] | None], baseline: Baseline | 
             stacklevel=4,
         )
     sources = dict.fromkeys((trace.source.name, trace.source.sha256) for trace, _ in pairs)
-    return TableMotion(
+    motion = TableMotion(
         dt=first.dt,
         acceleration=acceleration,
         title=" ".join(first.title.split()),
@@ -189,3 +207,5 @@ def _assemble(chosen: dict[str, tuple[Trace, int] | None], baseline: Baseline | 
         sources=tuple(sources),
         header_peaks=(peaks[0], peaks[1], peaks[2]),
     )
+    warn_of_peak(motion)
+    return motion

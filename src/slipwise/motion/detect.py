@@ -16,8 +16,13 @@ def detect(source: SourceFile) -> Format:
         InputError: none of the formats that are read.
     """
     for known in FORMATS:
-        if known.recognise(source.head):
+        if bool(source.lines) != known.binary and known.recognise(source.head):
             return known
+    if not source.lines:
+        raise InputError(
+            f"{source.name}: this is no text file, or NUL bytes stand within it; export the motion as text, or fetch "
+            f"the file again; binary ones that are read are {', '.join(f.name for f in FORMATS if f.binary)}"
+        )
     raise InputError(
         f"{source.name}: the format is not known, the file begins {source.lines[0].strip()[:50]!r}; "
         f"read are {', '.join(known.name for known in FORMATS)}"

@@ -20,6 +20,7 @@ def load_motion(
     dt: float | str | None = None,
     unit: str | None = None,
     baseline: Baseline | None = None,
+    join_anyway: bool = False,
 ) -> TableMotion:
     """Give the table motion that a user names.
 
@@ -31,6 +32,7 @@ def load_motion(
         dt: step of files that do not state it: seconds, or text with a unit ("5 ms").
         unit: unit of acceleration of files that do not state it.
         baseline: "mean", "linear" or "none"; by default what the format asks for.
+        join_anyway: join components of different records with a warning, instead of refusing them.
 
     Raises:
         InputError: files and descriptions mixed, settings that a synthetic motion cannot use, or a damaged file.
@@ -41,7 +43,7 @@ def load_motion(
     described = [str(spec) for spec in given if _is_description(spec)]
     if not described:
         step = quantity(dt, "s", "dt") if isinstance(dt, str) else dt
-        return read_motion(given, x=x, y=y, z=z, dt=step, unit=unit, baseline=baseline)
+        return read_motion(given, x=x, y=y, z=z, dt=step, unit=unit, baseline=baseline, join_anyway=join_anyway)
     if len(given) > 1:
         raise InputError(
             f"{described[0]} is a motion by itself; it cannot be joined with "
@@ -49,6 +51,7 @@ def load_motion(
         )
     settings = {"x": x, "y": y, "z": z, "dt": dt, "unit": unit, "baseline": baseline}
     unused = [f"--{name}" for name, value in settings.items() if value is not None]
+    unused += ["--join-anyway"] if join_anyway else []
     if unused:
         raise InputError(
             f"{described[0]}: {', '.join(unused)} belong to recorded motions; a synthetic one says everything itself "

@@ -1,20 +1,31 @@
-"""Where a component points, told from its name as agencies write them."""
+"""Where a component points, told from its name as agencies and laboratories write them."""
 
 import re
 from typing import Literal
 
 Orientation = Literal["table x", "table y", "table z", "east-west", "horizontal", "up", "down", "unknown"]
 
-_UP = {"UP", "U", "UD", "V", "VER", "VERT", "VERTICAL", "Z", "+Z"}
+_UP = {"UP", "U", "UD", "V", "VER", "VERT", "VERTICAL", "Z", "+Z", "UPDOWN", "UP/DOWN", "U/D", "VT", "VRT"}
 _DOWN = {"DWN", "DOWN", "DN", "D"}
-_EAST_WEST = {"EW", "E", "W", "WE", "EAST", "WEST"}
-_HORIZONTAL = {"NS", "N", "S", "SN", "NORTH", "SOUTH", "L", "T", "LONG", "TRAN", "TRANS", "H1", "H2", "X", "Y"}
+_EAST_WEST = {"EW", "E", "W", "WE", "EAST", "WEST", "EASTWEST", "E/W"}
+_HORIZONTAL = {
+    "NS", "N", "S", "SN", "NORTH", "SOUTH", "NORTHSOUTH", "N/S", "L", "T", "LONG", "LONGITUDINAL", "TRAN", "TRANS",
+    "TRANSVERSE", "TRANSVERSAL", "TRV", "LAT", "LATERAL", "RADIAL", "RADL", "RAD", "R", "TANG", "TANGENTIAL", "H1",
+    "H2", "X", "Y", "FN", "FP", "FAULTNORMAL", "FAULTPARALLEL",
+}  # fmt: skip
 _TABLE: dict[str, Orientation] = {"TABLE_AX": "table x", "TABLE_AY": "table y", "TABLE_AZ": "table z"}
+#: KiK-net: EW1 is in the borehole, EW2 at the surface.
+_KIKNET = re.compile(r"(EW|NS|UD)([12])")
+#: FDSN: band, instrument (H, L, G, N, M: seismometers and accelerometers), direction.
+_SEED = re.compile(r"[FGDCESHBMLVU][HLGNM]([ENZ123RTUVW])")
+#: "acc_NS", "a_x": what is measured stands before the direction.
+_MEASURED = re.compile(r"^(?:ACC|ACCEL|ACCELERATION|ACCELERAZIONE|A|CH|COMP|COMPONENT)[\s_.:-]+(?=\S)")
 
 
 def plain(name: str) -> str:
     """Give a name without case, blanks, hyphens and "DEG": "E-W" is "EW", "90 Deg" is "90"."""
-    text = re.sub(r"\s*\bDEG\b\.?", "", name.strip().upper())
+    text = re.sub(r"\([^()]*\)", "", name.strip().upper())
+    text = re.sub(r"\s*\bDEG(REES?)?\b\.?", "", text.strip())
     return re.sub(r"[\s-]", "", text)
 
 
@@ -22,7 +33,7 @@ def orientation(name: str) -> Orientation:
     """Tell where a component points.
 
     Args:
-        name: e.g. "EW", "U-D", "N28W", "90 DEG", "DWN", "table_ax".
+        name: e.g. "EW", "U-D", "N28W", "90 DEG", "DWN", "HNE", "EW2", "090 (STATION)", "acc_NS", "table_ax".
 
     Returns:
         "east-west" also for 90 and 270 degrees; "unknown" for a name that is none of the agencies'.
@@ -30,6 +41,12 @@ def orientation(name: str) -> Orientation:
     text = plain(name)
     if text in _TABLE:
         return _TABLE[text]
+    text = plain(_MEASURED.sub("", re.sub(r"\([^()]*\)", "", name.strip().upper())))
+    numbered, seed = _KIKNET.fullmatch(text), _SEED.fullmatch(text)
+    if numbered:
+        text = numbered[1]
+    elif seed:
+        text = {"1": "H1", "2": "H2", "3": "Z", "V": "H1", "W": "H2", "U": "Z"}.get(seed[1], seed[1])
     if text in _UP:
         return "up"
     if text in _DOWN:
@@ -41,6 +58,12 @@ def orientation(name: str) -> Orientation:
     if text in _HORIZONTAL or (bearing and int(bearing[1]) <= 90) or (azimuth and int(text) <= 360):
         return "horizontal"
     return "unknown"
+
+
+def sensor_of(name: str) -> str:
+    """Tell which sensor of a KiK-net station a component's name means, "" for other names: "EW1" is the borehole's."""
+    numbered = _KIKNET.fullmatch(plain(name))
+    return {"1": "borehole", "2": "surface"}[numbered[2]] if numbered else ""
 
 
 def name_from_stem(stem: str) -> str:

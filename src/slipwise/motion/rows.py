@@ -1,16 +1,24 @@
 """Text files whose lines are rows of numbers, below a header of any kind."""
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.errors import InputError
+from slipwise.motion.column_kind import is_column_word, is_time_word
 from slipwise.motion.source_file import SourceFile, is_number, number
 
 #: "Time[s]", "time (s)", "table_ax [m/s^2]": a name and, in brackets, its unit.
 _CELL = re.compile(r"\s*\"?([^\[\](),;\t]*?)\s*[\[(]([^\[\]()]*(?:\([^()]*\))?[^\[\]()]*)[\])]\"?\s*(?:[,;\t]|\s|$)")
+_BRACKETS = re.compile(r"^(?P<name>[^\[(]*?)\s*[\[(](?P<unit>.*)[\])]$")
+#: A header may hold rows of numbers of its own, no more than these, within so many lines.
+_OWN_ROWS, _HEADER_LINES = 12, 200
+#: Lines below the numbers that may mark the end: words, no digits.
+_END_MARKS = 3
+_DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+(?:[eEdD][+-]?\d+)?")
 
 
 @dataclass(frozen=True)
@@ -18,75 +26,159 @@ class Rows:
     """A table of numbers as it stands in a file.
 
     Attributes:
-        names: of the columns, empty if the header does not name each of them with its unit.
-        units: of the columns as written, likewise.
-        title: the first header line, "" if there is none.
-        values: (n, columns) as written.
-        first: index of the line of each row.
+        names: of the columns, empty if the header does not name each of them.
+        units: of the columns as written, likewise; "" of a column whose name has no unit.
+        header: the lines above the numbers that are not empty, without comment signs.
+        values: the rows as written; the last may be shorter.
+        places: index of the line of each row.
     """
 
     names: tuple[str, ...]
     units: tuple[str, ...]
-    title: str
-    values: NDArray[np.float64]
-    first: tuple[int, ...]
+    header: tuple[str, ...]
+    values: tuple[NDArray[np.float64], ...]
+    places: tuple[int, ...]
+
+    @property
+    def title(self) -> str:
+        """The first header line, "" if there is none."""
+        return self.header[0] if self.header else ""
+
+    def table(self, source: SourceFile) -> NDArray[np.float64]:
+        """Give the values as a table (n, columns).
+
+        Raises:
+            InputError: rows of different lengths.
+        """
+        columns = len(self.values[0])
+        for i, row in zip(self.places, self.values, strict=True):
+            if len(row) != columns:
+                raise InputError(
+                    f"{source.at(i)}: {len(row)} values stand where {columns} were expected; "
+                    "the record is truncated or damaged"
+                )
+        return np.stack(self.values)
 
 
 def split_row(line: str) -> list[str]:
     """Cut a line at its commas, semicolons or tabs, or at blanks where there is none of these."""
     text = line.strip()
-    for separator in (",", ";", "\t"):
-        if separator in text:
+    separators = (";", "\t", ",") if _has_decimal_commas(text) else (",", ";", "\t")
+    for separator in separators:
+        if separator in text and not (separator == "," and _has_decimal_commas(text)):
             fields = [field.strip() for field in text.split(separator)]
             return fields[:-1] if fields[-1] == "" else fields
     return text.split()
 
 
-def find_first_row(lines: tuple[str, ...] | list[str]) -> int | None:
+def _has_decimal_commas(text: str) -> bool:
+    """Tell whether a line is written with decimal commas: "0,01;1,5" and "0,01 1,5", but not "1,5"."""
+    fields = re.split(r"[;\t]|\s+", text.strip().rstrip(";"))
+    fields = [field for field in fields if field]
+    return len(fields) > 1 and "." not in text and any(_DECIMAL_COMMA.fullmatch(f) for f in fields) and all(
+        _DECIMAL_COMMA.fullmatch(f) or is_number(f) for f in fields
+    )  # fmt: skip
+
+
+def _numbers_of(line: str) -> list[str]:
+    """Give the fields of a line that holds nothing but numbers, with decimal points; none for another line."""
+    comma = _has_decimal_commas(line)
+    fields = [field.replace(",", ".") if comma else field for field in split_row(line)]
+    return fields if fields and all(is_number(field) for field in fields) else []
+
+
+def find_first_row(lines: Sequence[str]) -> int | None:
     """Give the index of the first line that holds nothing but numbers, None if there is none."""
-    for i, line in enumerate(lines):
-        fields = split_row(line)
-        if fields and all(is_number(field) for field in fields):
-            return i
-    return None
+    return next((i for i, line in enumerate(lines) if _numbers_of(line)), None)
 
 
 def read_rows(source: SourceFile) -> Rows:
-    """Read the table.
+    """Read the rows of numbers below a header.
 
     Raises:
-        InputError: no numbers, a row of another length than the first, a field that is no number.
+        InputError: no numbers, or a field that is no number.
     """
     start = find_first_row(source.lines)
     if start is None:
         raise InputError(f"{source.name}: no line of numbers is in this file; see `slipwise motions` for what is read")
+    start = _after_the_headers_own(source.lines, start)
+    end = _before_end_marks(source.lines, start)
+    lines = [(i, line) for i, line in enumerate(source.lines[start:end], start) if line.strip()]
     header = [line.strip().lstrip("#%/! ").rstrip(" ,;") for line in source.lines[:start]]
     header = [line for line in header if line]
-    columns = len(split_row(source.lines[start]))
+    single = _single_decimal_commas([line for _, line in lines])
+    columns = 1 if single else len(split_row(source.lines[start]))
     _refuse_damaged_first_row(source, start, columns)
-    values, places = [], []
-    for i in range(start, len(source.lines)):
-        fields = split_row(source.lines[i])
-        if not fields:
+    values = []
+    for i, line in lines:
+        comma = single or _has_decimal_commas(line)
+        fields = [line.strip()] if single else split_row(line)
+        values.append(np.array([number(f.replace(",", ".") if comma else f, source.at(i)) for f in fields]))
+    names, units = _column_names(header, columns)
+    return Rows(names, units, tuple(header), tuple(values), tuple(i for i, _ in lines))
+
+
+def _after_the_headers_own(lines: Sequence[str], start: int) -> int:
+    """Skip rows of numbers that belong to the header, since words follow them."""
+    own = 0
+    for i in range(start, min(len(lines), _HEADER_LINES)):
+        if not lines[i].strip():
             continue
-        if len(fields) != columns:
-            raise InputError(
-                f"{source.at(i)}: {len(fields)} values stand where {columns} were expected; "
-                "the record is truncated or damaged"
-            )
-        values.append([number(field, source.at(i)) for field in fields])
-        places.append(i)
-    cells = _CELL.findall(header[-1]) if header else []
+        if _numbers_of(lines[i]):
+            own += 1
+        elif own > _OWN_ROWS or any(is_number(field) for field in split_row(lines[i])):
+            # A line that is half numbers is a damaged row, not a header.
+            break
+        else:
+            following = find_first_row(lines[i:])
+            if following is None:
+                break
+            start, own = i + following, 0
+    return start
+
+
+def _before_end_marks(lines: Sequence[str], start: int) -> int:
+    """Give the index after the last row: below it may stand a few lines of words, such as END."""
+    end = len(lines)
+    for _ in range(_END_MARKS + 1):
+        while end > start + 1 and not lines[end - 1].strip():
+            end -= 1
+        if end <= start + 1 or re.search(r"\d|nan|inf", lines[end - 1], re.IGNORECASE):
+            return end
+        end -= 1
+    return len(lines)
+
+
+def _single_decimal_commas(lines: Sequence[str]) -> bool:
+    """Tell whether every line is one number with a decimal comma: "0,0123", so that the comma separates nothing."""
+    texts = [line.strip() for line in lines]
+    return bool(texts) and all(_DECIMAL_COMMA.fullmatch(text) for text in texts) and any(t[0] == "-" for t in texts)
+
+
+def _column_names(header: Sequence[str], columns: int) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Give names and units of the columns from the lines just above them."""
+    if not header:
+        return (), ()
+    cells = _CELL.findall(header[-1])
     # "El Centro (1940)" is a title; brackets without a letter hold no unit.
-    if len(cells) != columns or not all(any(c.isalpha() for c in unit) for _, unit in cells):
-        cells = []
-    return Rows(
-        names=tuple(name.strip() for name, _ in cells),
-        units=tuple(unit.strip() for _, unit in cells),
-        title=header[0] if header else "",
-        values=np.array(values, dtype=float),
-        first=tuple(places),
-    )
+    if len(cells) == columns and all(any(c.isalpha() for c in unit) for _, unit in cells):
+        return tuple(name.strip() for name, _ in cells), tuple(unit.strip() for _, unit in cells)
+    if columns == 1:
+        return (), ()
+    names, units = [], []
+    above = [split_row(line) for line in header[-2:]]
+    two = len(above) == 2 and all(len(row) == columns for row in above)
+    if two and not any(map(is_number, above[0] + above[1])) and any(map(is_column_word, above[0])):
+        return tuple(cell.strip('"') for cell in above[0]), tuple(cell.strip('"()[] ') for cell in above[1])
+    for cell in above[-1]:
+        match = _BRACKETS.match(cell.strip('" '))
+        names.append(match["name"].strip() if match else cell.strip('" '))
+        units.append(match["unit"].strip() if match else "")
+    # Two words above two columns may as well be a title: names without units must be known ones.
+    named = any(units) or all(map(is_column_word, names)) or is_time_word(names[0])
+    if len(names) != columns or any(is_number(name) for name in names) or not named:
+        return (), ()
+    return tuple(names), tuple(units)
 
 
 def _refuse_damaged_first_row(source: SourceFile, start: int, columns: int) -> None:
@@ -95,5 +187,5 @@ def _refuse_damaged_first_row(source: SourceFile, start: int, columns: int) -> N
         return
     fields = split_row(source.lines[start - 1])
     numeric = [is_number(field) for field in fields]
-    if len(fields) == columns and any(numeric):
+    if len(fields) == columns and any(numeric) and not all(numeric):
         number(fields[numeric.index(False)], source.at(start - 1))

@@ -3,16 +3,19 @@
 import hashlib
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from slipwise.errors import InputError
+from slipwise.text_encoding import decoded
 
 #: How much of a file the recognition of its format sees.
 HEAD_BYTES = 4096
 #: Beyond this a number in a file is damage, and its square would overflow.
 _LARGEST = 1e30
-_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+#: Fortran writes double precision with a D: 1.5D-03.
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?")
+_FORTRAN = str.maketrans("dD", "ee")
 
 
 @dataclass(frozen=True)
@@ -23,8 +26,9 @@ class SourceFile:
         name: the file's name, for messages and provenance.
         stem: the same without its suffix.
         sha256: of the file's bytes.
-        head: its first bytes, without a byte-order mark.
-        lines: the decoded lines, without their ends.
+        head: its first characters, as UTF-8 without a byte-order mark; of a file that is no text its first bytes.
+        lines: the decoded lines, without their ends; none of a file that is no text.
+        data: its bytes, kept of a file that is no text.
     """
 
     name: str
@@ -32,6 +36,7 @@ class SourceFile:
     sha256: str
     head: bytes
     lines: tuple[str, ...]
+    data: bytes = field(default=b"", repr=False)
 
     def at(self, index: int) -> str:
         """Give "name, line 5" for the line with index 4."""
@@ -39,10 +44,10 @@ class SourceFile:
 
 
 def open_source(path: Path) -> SourceFile:
-    """Read a text file.
+    """Read a file.
 
     Raises:
-        InputError: no such file, a folder, unreadable, empty or not text.
+        InputError: no such file, a folder, unreadable or empty.
     """
     if path.is_dir():
         raise InputError(f"{path}: this is a folder; name the motion's files one by one")
@@ -56,30 +61,21 @@ def open_source(path: Path) -> SourceFile:
 
 
 def source_of(name: str, stem: str, data: bytes) -> SourceFile:
-    """Decode a file's bytes.
+    """Decode a file's bytes; NUL bytes that pad its end are left out.
 
     Raises:
-        InputError: nothing in it, or not text.
+        InputError: nothing in it.
     """
-    body = data.removeprefix(b"\xef\xbb\xbf")
-    if not body.strip(b"\r\n\t \x1a"):
+    if not data.removeprefix(b"\xef\xbb\xbf").strip(b"\r\n\t \x1a\x00"):
         raise InputError(f"{name}: the file is empty; fetch or export it again")
-    if b"\x00" in body:
-        raise InputError(f"{name}: this is no text file; export the motion as text (see `slipwise motions`)")
+    digest = hashlib.sha256(data).hexdigest()
+    text = decoded(data).rstrip("\x1a\x00")
+    if "\x00" in text:
+        return SourceFile(name, stem, digest, data[:HEAD_BYTES], (), data)
     # Some files end their lines with CR CR LF, some end with a row of Ctrl-Z: neither may count as a line.
-    text = _decode(body).rstrip("\x1a")
     ends = "\n" if "\n" in text else "\r"
     lines = tuple(line.rstrip("\r") for line in text.split(ends))
-    return SourceFile(name, stem, hashlib.sha256(data).hexdigest(), body[:HEAD_BYTES], lines)
-
-
-def _decode(body: bytes) -> str:
-    for encoding in ("utf-8", "cp932"):
-        try:
-            return body.decode(encoding)
-        except UnicodeDecodeError:
-            continue
-    return body.decode("latin-1")
+    return SourceFile(name, stem, digest, text[:HEAD_BYTES].encode("utf-8", "replace"), lines)
 
 
 def number(text: str, place: str) -> float:
@@ -95,7 +91,7 @@ def number(text: str, place: str) -> float:
     stripped = text.strip()
     # float() would also take "1_000", "nan" and "infinity".
     if _NUMBER.fullmatch(stripped):
-        value = float(stripped)
+        value = float(stripped.translate(_FORTRAN))
         if abs(value) < _LARGEST:
             return value
         raise InputError(f"{place}: {stripped[:40]!r} is too large to be a measurement; the file is damaged")
@@ -121,18 +117,29 @@ def blank_separated(source: SourceFile, start: int, count: int, stated_by: str) 
     Raises:
         InputError: something that is no number, or another count than stated.
     """
-    values = [number(field, source.at(i)) for i in range(start, len(source.lines)) for field in source.lines[i].split()]
+    end = _end_of_values(source, start)
+    values = [number(field, source.at(i)) for i in range(start, end) for field in source.lines[i].split()]
     check_count(len(values), count, source, stated_by)
-    _check_last_number(source, start)
+    _check_last_number(source, start, end)
     return values
 
 
-def _check_last_number(source: SourceFile, start: int) -> None:
+def _end_of_values(source: SourceFile, start: int) -> int:
+    """Give the index after the last line with a digit: a mark such as END or / may stand below."""
+    end = len(source.lines)
+    while end > start and not re.search(r"\d|nan|inf", source.lines[end - 1], re.IGNORECASE):
+        end -= 1
+    return end
+
+
+def _check_last_number(source: SourceFile, start: int, end: int) -> None:
     """Refuse a last number that was cut in the middle: it counts as one, but is another number.
 
     Right-aligned columns tell it: in the last line, too, the last number must end where its column ends.
     """
-    filled = [i for i in range(start, len(source.lines)) if source.lines[i].strip()]
+    filled = [i for i in range(start, end) if source.lines[i].strip()]
+    if not filled:
+        return
     fields = [[match.end() for match in re.finditer(r"\S+", source.lines[i])] for i in (*filled[:5], filled[-1])]
     *above, last = fields
     column = len(last) - 1

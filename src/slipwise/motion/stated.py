@@ -112,3 +112,36 @@ def settle_step(stated: float | None, given: Given, source: SourceFile) -> tuple
             f"{_STEP_RANGE[1]:g} s are read, check the header or --motion-dt"
         )
     return dt, f"step {dt:g} s, {words}"
+
+
+def agreed_step(stated: float | None, other: float | None, by: str, source: SourceFile) -> float | None:
+    """Give the step [s] that two places of a file state, None if neither does.
+
+    Args:
+        stated: by the header.
+        other: by another place.
+        by: that place, in words.
+        source: the file.
+
+    Raises:
+        InputError: they differ.
+    """
+    if stated is not None and other is not None and abs(stated - other) > 1e-3 * abs(other):
+        raise InputError(
+            f"{source.name}: the header states a step of {stated:g} s, {by} {other:g} s; correct one of them"
+        )
+    return stated if stated is not None else other
+
+
+def agreed_unit(one: str | None, other: str | None, source: SourceFile) -> str | None:
+    """Give the unit of acceleration that a column and the header above it state, None if neither does.
+
+    Raises:
+        UnitError: they differ, or one is none of acceleration.
+    """
+    if one is None or other is None:
+        return one if one is not None else other
+    first, second = (acceleration_factor(unit, f"the header of {source.name}") for unit in (one, other))
+    if abs(first - second) > 1e-4 * second:
+        raise UnitError(f"{source.name}: the header states {other!r}, the column {one!r}; correct one of them")
+    return one

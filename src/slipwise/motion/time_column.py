@@ -4,22 +4,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.errors import InputError
-from slipwise.motion.rows import Rows
+from slipwise.motion.rows import Rows, split_row
 from slipwise.motion.source_file import SourceFile
 from slipwise.units import parse_unit
 
 
-def column_step(rows: Rows, source: SourceFile) -> float:
-    """Give the step of the first column, in its own unit if it states one in seconds, after checking it.
+def column_step(rows: Rows, values: NDArray[np.float64], unit: str, source: SourceFile) -> float:
+    """Give the step of the first column [s], after checking it.
+
+    Args:
+        rows: the rows, for the places.
+        values: the same as a table (n, columns).
+        unit: of the first column.
+        source: the file.
 
     Raises:
         InputError: times that run backwards, repeat, or are not even.
         UnitError: the column's unit is none of time.
     """
-    factor = 1.0
-    if rows.units:
-        factor = parse_unit(rows.units[0], "s", f"column {rows.names[0]!r} of {source.name}")
-    time = rows.values[:, 0]
+    name = rows.names[0] if rows.names else "1"
+    factor = parse_unit(unit, "s", f"column {name!r} of {source.name}")
+    time = values[:, 0]
     if len(time) < 2:
         raise InputError(f"{source.name}: {len(time)} row is no record; at least 2 are needed")
     return factor * even_step(time, rows, source)
@@ -36,17 +41,17 @@ def even_step(time: NDArray[np.float64], rows: Rows, source: SourceFile) -> floa
         if wrong.any():
             i = int(np.flatnonzero(wrong)[0])
             raise InputError(
-                f"{source.at(rows.first[i + 1])}: the time {words}: {time[i + 1]:g} after {time[i]:g}; repair the file"
+                f"{source.at(rows.places[i + 1])}: the time {words}: {time[i + 1]:g} after {time[i]:g}; repair the file"
             )
     dt = float((time[-1] - time[0]) / (len(time) - 1))
     # Times are rounded as written: an even record may be off by one unit of the last digit, not by more.
-    rounding = _last_digit(source.lines[rows.first[-1]])
+    rounding = _last_digit(source.lines[rows.places[-1]])
     usual = float(np.median(steps))
     uneven = np.abs(steps - usual) > max(0.01 * usual, min(1.01 * rounding, 0.4 * usual))
     if uneven.any():
         i = int(np.flatnonzero(uneven)[0])
         raise InputError(
-            f"{source.at(rows.first[i + 1])}: the samples are not evenly spaced: a step of {steps[i]:g} where "
+            f"{source.at(rows.places[i + 1])}: the samples are not evenly spaced: a step of {steps[i]:g} where "
             f"{usual:g} is usual; samples are missing, or the record must be resampled first"
         )
     return dt
@@ -54,7 +59,7 @@ def even_step(time: NDArray[np.float64], rows: Rows, source: SourceFile) -> floa
 
 def _last_digit(line: str) -> float:
     """Give the worth of the last digit of a line's first field."""
-    text = line.strip().replace(",", " ").replace(";", " ").split()[0].lower()
+    text = split_row(line)[0].lower().replace(",", ".").replace("d", "e")
     mantissa, _, exponent = text.partition("e")
     return 10.0 ** (-len(mantissa.partition(".")[2]) + _clipped(exponent))
 

@@ -1,13 +1,14 @@
 """One component as a reader gives it, before it becomes x, y or z of a table."""
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.errors import InputError, SlipwiseWarning
+from slipwise.motion.origin import Origin
 from slipwise.motion.source_file import SourceFile
 from slipwise.motion.table_motion import HeaderPeak
 
@@ -31,6 +32,8 @@ class Trace:
         baseline: the treatment of the baseline that the format asks for.
         treatment: reader, unit and step in words.
         header_peak: what the file states, or None.
+        origin: station, sensor, event and start that the file states.
+        aliases: other names by which a user may choose it: "Chan 3", "3".
     """
 
     source: SourceFile
@@ -41,6 +44,8 @@ class Trace:
     baseline: Baseline
     treatment: tuple[str, ...]
     header_peak: HeaderPeak | None = None
+    origin: Origin = field(default_factory=Origin)
+    aliases: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse what cannot be a record.

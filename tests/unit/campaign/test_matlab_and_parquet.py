@@ -90,7 +90,7 @@ def test_parquet_keeps_its_unit_beside_the_column(tmp_path):
     pq.write_table(pa.table([TIME, SLIP.astype(np.float32)], schema=pa.schema(fields)), path)
     table = open_table(path)
     assert table.headers == ("time [s]", "slip_x [mm]")
-    assert table.columns([1])[0] == pytest.approx(SLIP, abs=1e-6)
+    assert table.columns([1]).values[0] == pytest.approx(SLIP, abs=1e-6)
 
 
 def test_a_parquet_column_of_words_is_no_channel(tmp_path):
@@ -102,7 +102,7 @@ def test_a_parquet_column_of_words_is_no_channel(tmp_path):
 
 @pytest.mark.parametrize(
     ("name", "message"),
-    [("run.xlsx", "no format of a data file; possible: .csv"), ("run.parquet", "not a readable parquet file")],
+    [("run.docx", "no format of a data file; possible: .csv"), ("run.parquet", "not a readable parquet file")],
 )
 def test_a_format_that_cannot_be_read_says_which_ones_can(tmp_path, name, message):
     (tmp_path / name).write_bytes(b"PK\x03\x04 nothing")

@@ -19,7 +19,7 @@ def written(separator: str, decimal: str = ".", headers: tuple[str, ...] = HEADE
 def read(path, content: bytes):
     path.write_bytes(content)
     layout = inspect_text(path)
-    return layout, np.stack(read_text_columns(path, layout, range(len(layout.headers))), axis=1)
+    return layout, np.stack(read_text_columns(path, layout, range(len(layout.headers)))[0], axis=1)
 
 
 @pytest.mark.parametrize(
@@ -64,7 +64,7 @@ def test_empty_and_nan_cells_are_missing_values(tmp_path):
     content = "time [s],slip_x [mm],note\n0,1,ok\n0.1,,ok\n0.2,NaN,ok\n0.3,4,ok\n"
     path = tmp_path / "run.csv"
     path.write_text(content, encoding="utf-8")
-    (slip,) = read_text_columns(path, inspect_text(path), [1])
+    (slip,), _ = read_text_columns(path, inspect_text(path), [1])
     assert np.isnan(slip).tolist() == [False, True, True, False]
 
 

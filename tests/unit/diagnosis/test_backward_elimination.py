@@ -26,14 +26,3 @@ def test_a_second_effect_stays_only_where_it_is_material_as_reported(
     monkeypatch.setattr(module, "final_refit_of", refitted)
     ended = with_final_refit(replace(searched(of, both), tried=singles))
     assert ended.final.names == ended.best.names == kept
-
-
-@pytest.mark.parametrize(("plain", "kept"), [(1.0005, ("pad_spread",)), (1.5, ("position_patch",))])
-def test_a_law_of_far_more_constants_gives_way_to_one_that_does_as_well(
-    monkeypatch: pytest.MonkeyPatch, plain: float, kept: tuple[str, ...]
-) -> None:
-    """A patch as wide as the stroke is pads that differ."""
-    monkeypatch.setattr(module, "final_refit_of", lambda found: found)
-    of = base(pads=20.0)
-    patch, spread = left_by("position_patch", of=of), left_by("pad_spread", of=of, pads=plain)
-    assert with_final_refit(searched(of, patch, spread)).final.names == kept

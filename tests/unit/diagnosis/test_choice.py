@@ -37,11 +37,3 @@ def test_what_worsens_other_relations_more_than_it_helps_is_not_chosen() -> None
     """Slip whose lost samples had moved it: laws helped the pads a little and made other balances far worse."""
     of = base(pads=3.0)
     assert best_of(base_hypothesis(of), [left_by("heating", of=of, girder=30.0)]) is None
-
-
-def test_a_law_of_very_little_is_not_chosen_where_a_gauge_explains_more() -> None:
-    of = base(pads=1.07)
-    law = left_by("buffer_height", of=of)
-    less, more = (left_by(on("channel_gain", "pad_*_N"), of=of, pads=left) for left in (1.02, 0.985))
-    assert best_of(base_hypothesis(of), [law, less]) is law
-    assert best_of(base_hypothesis(of), [law, more]) is None

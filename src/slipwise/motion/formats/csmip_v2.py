@@ -5,11 +5,13 @@ Two dialects: the newer one states its Fortran format, "in cm/sec2. (8f10.5)"; t
 """
 
 import re
+import warnings
 
 import numpy as np
 
-from slipwise.errors import InputError
+from slipwise.errors import InputError, SlipwiseWarning
 from slipwise.motion.fixed_width import fixed_width, lines_of
+from slipwise.motion.formats.csmip_channel import channel_of, origin_of
 from slipwise.motion.source_file import SourceFile, header_field, number
 from slipwise.motion.stated import Given, acceleration_factor, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
@@ -43,17 +45,22 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
     traces = [
         _channel(source, given, start, end) for start, end in zip(starts, [*starts[1:], len(source.lines)], strict=True)
     ]
+    # The count is that of the station's recorder; structures come one channel a file.
     promised = re.search(r"\(\s*(\d+)\s+Chns of", "\n".join(source.lines[:25]), re.IGNORECASE)
-    if promised and int(promised[1]) != len(traces):
-        raise InputError(
-            f"{source.name}: the header promises {promised[1]} channels, {len(traces)} are there; fetch the file again"
+    if promised and 1 < len(traces) < int(promised[1]):
+        warnings.warn(
+            f"{source.name}: the recorder has {promised[1]} channels, {len(traces)} are in this file; if it should "
+            "hold all of them, fetch it again",
+            SlipwiseWarning,
+            stacklevel=2,
         )
     return traces
 
 
 def _channel(source: SourceFile, given: Given, start: int, end: int) -> Trace:
     """Read the channel whose header starts at a line."""
-    name = header_field(source, r"^\s*chan\s*\d+:\s*(.*?)\s*$", start + 1, end, "the channel's direction")[0][1]
+    chan = channel_of(source, start, end)
+    name = chan.name
     at = next((i for i in range(start, end) if re.search(r"points\s+of\s+accel\s+data", source.lines[i], re.I)), None)
     match = None if at is None else _DATA.match(source.lines[at])
     if at is None or match is None:
@@ -88,6 +95,11 @@ def _channel(source: SourceFile, given: Given, start: int, end: int) -> Trace:
         dt=dt,
         acceleration=values,
         baseline="none",
-        treatment=(f"read as CSMIP/CESMD V2: {source.name}, channel {name}", f"{unit_words}; {dt_words}"),
+        treatment=(
+            f"read as CSMIP/CESMD V2: {source.name}, channel {name}{f' at {chan.place}' if chan.place else ''}",
+            f"{unit_words}; {dt_words}",
+        ),
         header_peak=stated,
+        origin=origin_of(source, start, at, chan.place),
+        aliases=chan.aliases,
     )

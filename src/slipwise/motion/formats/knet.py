@@ -8,6 +8,7 @@ import re
 import numpy as np
 
 from slipwise.errors import InputError
+from slipwise.motion.origin import Origin, time_in
 from slipwise.motion.source_file import SourceFile, blank_separated, header_field, number, positive
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
@@ -68,5 +69,16 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
                 f"counts times {scale[1]} {scale[2]} / {scale[3]}, {unit_words}; {dt_words}",
             ),
             header_peak=stated,
+            origin=Origin(
+                station=station,
+                sensor=_sensor(direction),
+                event=field("Origin Time", r"(\S.*\S)")[0][1],
+                start=time_in(recorded),
+            ),
         )
     ]
+
+
+def _sensor(direction: str) -> str:
+    """Tell which sensor a direction of KiK-net means; K-NET stations have one."""
+    return {"123": "borehole", "456": "surface"}.get(next((g for g in ("123", "456") if direction in g), ""), "")

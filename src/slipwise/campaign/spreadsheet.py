@@ -1,0 +1,133 @@
+"""Workbooks (.xlsx), read by the optional openpyxl: the first sheet that holds a table, or the one that is named."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from datetime import date, datetime, time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.campaign.header_rows import MISSING, Header, find_header
+from slipwise.campaign.stated_rate import stated_step
+from slipwise.campaign.time_stamps import seconds_of_stamps
+from slipwise.errors import InputError
+
+Array = NDArray[np.float64]
+_LOOK_AT = 500
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A table of a workbook.
+
+    Attributes:
+        name: of the sheet.
+        headers: of its columns.
+        step: what the rows above state [s], None if they state none.
+        header: where it begins.
+        others: sheets that hold tables too.
+    """
+
+    name: str
+    headers: tuple[str, ...]
+    step: float | None
+    header: Header
+    others: tuple[str, ...]
+
+
+def inspect_sheet(path: Path, wanted: str | None) -> Sheet:
+    """Find the table of a workbook.
+
+    Args:
+        path: the file.
+        wanted: name or number of the sheet, None for the first that holds a table.
+
+    Raises:
+        InputError: openpyxl is not installed, no workbook, no such sheet, or no table in it.
+    """
+    book = _workbook(path)
+    names = list(book.sheetnames)
+    if wanted is not None and wanted.isdigit() and wanted not in names and 1 <= int(wanted) <= len(names):
+        wanted = names[int(wanted) - 1]
+    if wanted is not None and wanted not in names:
+        raise InputError(f"{path}: no sheet is called {wanted!r}; it has {', '.join(names)}")
+    found: list[tuple[str, Header, list[list[str]]]] = []
+    for name in names if wanted is None else [wanted]:
+        rows = [row for _, row in zip(range(_LOOK_AT), _rows(book[name]), strict=False)]
+        width = max((len(row) for row in rows), default=0)
+        header = find_header([_without_tail(row) for row in rows]) if width > 1 else None
+        if header:
+            found.append((name, header, rows))
+    if not found:
+        raise InputError(f"{path}: no sheet holds a line of column names above rows of numbers")
+    name, header, rows = found[0]
+    above = [" ".join(cell for cell in row if cell) for row in rows[: header.line]]
+    return Sheet(name, header.columns, stated_step(above, path.name), header, tuple(other for other, _, _ in found[1:]))
+
+
+def read_sheet(path: Path, sheet: Sheet, wanted: Sequence[int]) -> list[Array]:
+    """Read columns by number, each (n,), down to the first empty row.
+
+    Raises:
+        InputError: a cell that is no number.
+    """
+    columns: list[list[str]] = [[] for _ in wanted]
+    for number, row in enumerate(_rows(_workbook(path)[sheet.name])):
+        if number < sheet.header.first:
+            continue
+        if not any(row):
+            break
+        for column, k in zip(columns, wanted, strict=True):
+            column.append(row[k] if k < len(row) else "")
+    out = []
+    for column, k in zip(columns, wanted, strict=True):
+        what = f"{path.name}, sheet {sheet.name}, column {sheet.headers[k]!r}"
+        if k in sheet.header.stamps:
+            out.append(seconds_of_stamps(column, what))
+            continue
+        try:
+            out.append(np.array([np.nan if cell in MISSING else float(cell.replace(",", ".")) for cell in column]))
+        except ValueError as error:
+            raise InputError(f"{what}: {error}; cells below the names must be numbers") from None
+    return out
+
+
+def _workbook(path: Path) -> Any:
+    try:
+        from openpyxl import load_workbook  # type: ignore[import-untyped]
+    except ModuleNotFoundError:
+        raise InputError(
+            f"{path}: .xlsx files are read by openpyxl; install it with `pip install 'slipwise[excel]'`, or save the "
+            "sheet as CSV"
+        ) from None
+    try:
+        return load_workbook(path, read_only=True, data_only=True)
+    except Exception as error:  # zip, xml and key errors of damaged files come through as they are
+        raise InputError(f"{path}: not a readable workbook ({error}); save it again, or as CSV") from None
+
+
+def _rows(sheet: Any) -> Iterator[list[str]]:
+    for row in sheet.iter_rows(values_only=True):
+        yield [_text(cell) for cell in row]
+
+
+def _text(cell: Any) -> str:
+    if cell is None:
+        return ""
+    if isinstance(cell, datetime):
+        return cell.isoformat(sep=" ", timespec="microseconds")
+    if isinstance(cell, time):
+        return cell.isoformat(timespec="microseconds")
+    if isinstance(cell, date):
+        return cell.isoformat()
+    return repr(cell) if isinstance(cell, float) else str(cell).strip()
+
+
+def _without_tail(row: Sequence[str]) -> list[str]:
+    """Give the cells without the empty ones at the end, which a sheet's widest row adds to all others."""
+    cells = list(row)
+    while cells and not cells[-1]:
+        cells.pop()
+    return cells

@@ -1,0 +1,57 @@
+"""What was wrong before any balance: dead, reversed and tared channels, and gravity in a gauge. The rest is diagnosed.
+
+Such a fault is put right, or its channel is left out, before the first fit.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from slipwise.instruments.sample_faults import SampleFault
+from slipwise.instruments.suspects import effect_of
+from slipwise.instruments.zeros import effect_of_zero
+
+#: Kind of a fault of samples -> how it is told; a zero that is far off is gravity, or the weight that cells lack.
+_KINDS = {"turned": "reversed", "dead": "dead", "shifted": "gravity"}
+
+
+@dataclass(frozen=True)
+class FirstThing:
+    """One of them.
+
+    Attributes:
+        kind: "dead", "reversed", "tared" or "gravity".
+        channels: that show it.
+        words: in a sentence.
+    """
+
+    kind: str
+    channels: tuple[str, ...]
+    words: str
+
+    def as_json(self) -> dict[str, Any]:
+        """Give the entry of diagnosis.json."""
+        return {"kind": self.kind, "channels": list(self.channels), "words": self.words}
+
+
+def first_things(faults: Sequence[SampleFault]) -> tuple[FirstThing, ...]:
+    """Give what comes before any balance among the faults of samples."""
+    return tuple(_told(fault) for fault in faults if fault.kind in _KINDS)
+
+
+def effect_named(fault: SampleFault) -> str:
+    """Give the name of the effect of the catalogue that a fault of samples is."""
+    return effect_of_zero().name if fault.kind == "shifted" else effect_of(fault.kind).name
+
+
+def _told(fault: SampleFault) -> FirstThing:
+    places = ", ".join(fault.channels)
+    if fault.kind == "turned":
+        return FirstThing("reversed", fault.channels, f"{places}: reversed; turned round before any fit")
+    if fault.kind == "dead":
+        runs = ", ".join(fault.runs)
+        return FirstThing("dead", fault.channels, f"{places}: dead in {runs}; left out there")
+    if fault.channels[0].startswith("pad_"):
+        words = f"{places}: set to zero under the girder; a quarter of its rated weight was put back on each"
+        return FirstThing("tared", fault.channels, words)
+    return FirstThing("gravity", fault.channels, f"{places}: gravity is in it; taken out before any fit")

@@ -1,0 +1,89 @@
+"""SAC and miniSEED, read by obspy: one component a trace; neither states the unit of an acceleration.
+
+obspy is an extra (`seismology`), imported only here and only when such a file is read.
+"""
+
+import io
+import re
+import struct
+
+import numpy as np
+
+from slipwise.errors import InputError, UnitError
+from slipwise.motion.origin import Origin
+from slipwise.motion.source_file import SourceFile
+from slipwise.motion.stated import Given, settle_step, settle_unit
+from slipwise.motion.trace import Trace
+
+_MINISEED = re.compile(rb"\d{6}[DRQM][ \x00]|MS\x03")
+#: The header of SAC: word 77 is its version, at this place; 6 and 7 are in use.
+_SAC_VERSION_AT, _SAC_VERSIONS = 304, (6, 7)
+#: SAC's idep: what the samples are.
+_SAC_KINDS = {6: "displacement", 7: "velocity"}
+
+
+def recognise(head: bytes) -> bool:
+    """Tell whether a file begins as miniSEED or SAC do."""
+    if _MINISEED.match(head):
+        return True
+    if len(head) < 632:
+        return False
+    return any(
+        struct.unpack_from(f"{order}i", head, _SAC_VERSION_AT)[0] in _SAC_VERSIONS for order in "<>"
+    )  # fmt: skip
+
+
+def read(source: SourceFile, given: Given) -> list[Trace]:
+    """Read every trace of a file.
+
+    Raises:
+        InputError: obspy is not installed, the file is damaged, or a channel has gaps.
+        UnitError: no unit is given, or the file says that it holds velocity or displacement.
+    """
+    try:
+        from obspy import read as read_stream
+    except ModuleNotFoundError:
+        raise InputError(
+            f"{source.name}: SAC and miniSEED are read by obspy; install it with `pip install 'slipwise[seismology]'`, "
+            "or export the motion as text"
+        ) from None
+    try:
+        stream = read_stream(io.BytesIO(source.data), format="MSEED" if _MINISEED.match(source.data) else "SAC")
+    except Exception as error:  # obspy lets struct, value and its own errors of C code through
+        raise InputError(f"{source.name}: not a readable SAC or miniSEED file ({error}); fetch it again") from None
+    stream.merge(method=0)
+    traces = []
+    for found in stream:
+        stats = found.stats
+        if np.ma.isMaskedArray(found.data):
+            raise InputError(
+                f"{source.name}: channel {found.id} has gaps; fill or cut them, a table cannot follow them"
+            )
+        kind = _SAC_KINDS.get(int(stats.sac.get("idep", 0))) if "sac" in stats else None
+        if kind:
+            raise UnitError(f"{source.name}: the header says that this is a {kind}; a table needs acceleration")
+        dt, dt_words = settle_step(float(stats.delta), given, source)
+        factor, unit_words = settle_unit(None, given, source)
+        values = np.asarray(found.data, dtype=float)
+        if not np.isfinite(values).all():
+            raise InputError(f"{source.name}: channel {found.id} holds values that are no numbers; fetch it again")
+        name = stats.channel or source.stem
+        traces.append(
+            Trace(
+                source=source,
+                name=name,
+                title=f"{stats.network}.{stats.station} {stats.starttime}",
+                dt=dt,
+                acceleration=values * factor,
+                baseline="none",
+                treatment=(f"read by obspy: {source.name}, {found.id}", f"{unit_words}; {dt_words}"),
+                origin=Origin(
+                    station=f"{stats.network}.{stats.station}".strip("."),
+                    sensor=stats.location,
+                    start=stats.starttime.datetime,
+                ),
+            )
+        )
+    if not traces:
+        raise InputError(f"{source.name}: no trace is in this file; fetch it again")
+    return traces

@@ -1,0 +1,38 @@
+"""Where and when a component was recorded: components that are joined must agree."""
+
+import re
+from dataclasses import dataclass
+from datetime import datetime, timedelta
+
+_TIME = re.compile(r"(\d{4})\D?(\d{1,2})\D?(\d{1,2})[\sT_-]+(\d{1,2})\D?(\d{1,2})(?:\D?(\d{1,2}(?:\.\d{1,6})?))?")
+
+
+@dataclass(frozen=True)
+class Origin:
+    """What a file states of a component's origin; "" and None where it states nothing.
+
+    Attributes:
+        station: name or code.
+        sensor: which of the station's sensors: "borehole", "surface", "12 m deep".
+        place: in a structure, "Pier Cap 2".
+        event: the earthquake.
+        start: time of the first sample, in the file's own clock.
+    """
+
+    station: str = ""
+    sensor: str = ""
+    place: str = ""
+    event: str = ""
+    start: datetime | None = None
+
+
+def time_in(text: str) -> datetime | None:
+    """Give the time that stands in a text with the year first, None if there is none: "20190728_160919.870"."""
+    found = _TIME.search(text)
+    if found is None:
+        return None
+    year, month, day, hour, minute = (int(part) for part in found.groups()[:5])
+    try:
+        return datetime(year, month, day, hour, minute) + timedelta(seconds=float(found[6] or 0.0))
+    except (ValueError, OverflowError):
+        return None
