@@ -55,9 +55,10 @@ def demo(
         "not seen",
         "Each balance of the rig answers for itself; 1 is the noise floor, what a perfect model would leave.",
     )
+    errors = {n: compared.error(n, held_out=True) for n in compared.relations}
     rows = [
-        {"balance": n, "held-out error [noise floors]": _rounded(compared.error(n, held_out=True))}
-        for n in compared.relations
+        {"balance": n, "held-out error [noise floors]": "" if error is None else f"{error:.2f}"}
+        for n, error in errors.items()
     ]
     print_table("Where the model fails", rows)
     for place in compared.places[:_TOLD]:
@@ -103,10 +104,6 @@ def _copy(campaign: Path) -> None:
 def _say(title: str, words: str) -> None:
     OUT.print(f"\n[bold]{title}[/bold]")
     OUT.print(words, markup=False, highlight=False)
-
-
-def _rounded(value: float | None) -> float | None:
-    return None if value is None else round(value, 2)
 
 
 def register(app: typer.Typer) -> None:

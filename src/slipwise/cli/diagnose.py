@@ -84,6 +84,8 @@ def _tell(found: "sw.Diagnosis") -> None:
     from slipwise.view.terminal import print_table
 
     OUT.print(found.sentence, markup=False, highlight=False)
+    for thing in found.first:
+        OUT.print(f"before any fit: {thing.words}", markup=False, highlight=False, soft_wrap=True)
     print_effects(found)
     for words in found.discriminating_tests:
         OUT.print(f"to tell apart: {words}", markup=False, highlight=False, soft_wrap=True)
@@ -109,7 +111,7 @@ def print_effects(found: "sw.Diagnosis") -> None:
     if words := confirmed_words(found):
         OUT.print(words, markup=False, highlight=False)
     if rows := importance_rows(found, intervals=False):
-        print_table(f"What changes without an effect, in {replayed_run(found)}", rows)
+        print_table(f"Changes without each effect; slip, energy and load of {replayed_run(found)}", rows)
 
 
 def _record(found: "sw.Diagnosis", folder: Path) -> list[Path]:

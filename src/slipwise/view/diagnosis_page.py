@@ -17,7 +17,7 @@ from slipwise.view.diagnosis_figures import (
     surface_figure,
 )
 from slipwise.view.diagnosis_words import confirmed_words, error_name, floors
-from slipwise.view.html import Section, bullets, details, figure, page, paragraph, table, verdict
+from slipwise.view.html import Section, bullets, callout, details, figure, page, paragraph, table, verdict
 from slipwise.view.numbers import in_words, usual_unit
 from slipwise.view.style import styled
 
@@ -68,7 +68,8 @@ def _page(found: Diagnosis, ladder: Ladder | None) -> str:
         _change(found),
         _limits(found),
     ]
-    return page(f"Diagnosis of {found.campaign}", [part for part in sections if part is not None], [box])
+    first = [callout("Before anything was fitted", f"{thing.words}.", "warn") for thing in found.first]
+    return page(f"Diagnosis of {found.campaign}", [part for part in sections if part is not None], [box, *first])
 
 
 def _headline(found: Diagnosis) -> str:
@@ -177,6 +178,8 @@ def _limits(found: Diagnosis) -> Section:
     pieces = []
     if found.cannot_tell:
         pieces.append(bullets(list(found.cannot_tell)))
+    if notes := found.final.campaign.notes:
+        pieces += [paragraph("What was done to the records, and what was assumed of them:"), bullets(list(notes))]
     known = known_effects(found.search)
     least = [_least_row(known.get(name), name, size, unit) for name, (size, unit) in found.least.items()]
     pieces.append(details("Smallest size of each effect that this campaign would have shown", [table(least)]))

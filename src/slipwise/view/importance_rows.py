@@ -44,7 +44,7 @@ def _response(of: Importance, name: str, *, intervals: bool) -> str:
 
 def changed(change: Change, *, intervals: bool = True) -> str:
     """Write a relative change in per cent: "+5.0 % (+4.0 to +6.0)"."""
-    value, low, high = (f"{100.0 * x:+.1f}" for x in (change.value, change.low, change.high))
+    value, low, high = (f"{round(100.0 * x, 1) or 0.0:+.1f}" for x in (change.value, change.low, change.high))
     return f"{value} % ({low} to {high})" if intervals else f"{value} %"
 
 

@@ -56,14 +56,16 @@ def print_table(title: str, rows: Sequence[Mapping[str, Any]], console: Console 
         console: where to print; the standard output if not given.
     """
     columns = list(dict.fromkeys(key for row in rows for key in row))
-    table = Table(title=Text(title, style="bold"), title_justify="left", box=box.SIMPLE_HEAD, header_style="bold")
+    table = Table(box=box.SIMPLE_HEAD, header_style="bold")
     for key in columns:
         numeric = all(isinstance(row.get(key), int | float) for row in rows if row.get(key) is not None)
         table.add_column(Text(str(key)), justify="right" if numeric else "left", overflow="fold")
     for row in rows:
         # Text, so that brackets in names and units are printed and not taken for markup.
         table.add_row(*(Text(cell(row.get(key))) for key in columns))
-    (console or Console()).print(table)
+    console = console or Console()
+    console.print(Text(title, style="bold"))  # a table's own title is broken at the table's width
+    console.print(table)
 
 
 def print_summary(summary: Mapping[str, Any], console: Console | None = None) -> None:

@@ -6,8 +6,10 @@ import pytest
 
 from hypotheses import base, decided, diagnosed, left_by, searched
 from slipwise.campaign import Campaign
-from slipwise.cli.diagnose import _record, diagnose
+from slipwise.cli.diagnose import _record, _tell, diagnose
+from slipwise.cli.edit import _finish
 from slipwise.diagnosis.ladder import left_over
+from slipwise.diagnosis.model_change import ModelChange
 from slipwise.diagnosis.unknown_surface import leftover
 from slipwise.record import Record
 
@@ -56,3 +58,22 @@ def test_the_demo_says_what_is_left():
     assert left_over(diagnosed(state, shaped)).startswith("what is left: pads: depends on slip velocity")
     loud = diagnosed(searched(of, left_by("heating", of=of, pads=2.3**2)))
     assert left_over(loud) == "still above the noise, in floors: pad friction 2.30"
+
+
+def test_the_terminal_says_what_each_effect_changes_and_whether_it_is_confirmed(capsys):
+    of = base(pads=20.0, girder=3.0)
+    found = diagnosed(searched(of, left_by("heating", "table_pitch", of=of)), None, [0.99], {"table_pitch": 0.5})
+    _tell(found)
+    printed = " ".join(capsys.readouterr().out.split())
+    assert "Confirmed on runs that no fit has seen: sine_holdout_2." in printed
+    assert "heating +5.0 % -5.0 % pad_A_Fx 10 % material" in printed and "0.5 % -0.5 % pad_A_Fx 1 % minor" in printed
+    assert "Hypotheses; held-out error before and after, in noise floors" in printed
+    assert "99.0 %" in printed and "nan" not in printed
+
+
+@pytest.mark.parametrize(("held_out", "title"), [(True, "Held-out error"), (False, "Error of the runs that were fit")])
+def test_an_edited_model_says_which_error_it_is_told_by(held_out: bool, title: str, monkeypatch, capsys, tmp_path):
+    monkeypatch.setattr("slipwise.save_model", lambda *_: None)
+    changed = ModelChange("heating added", base().model, {"pads": 4.0}, {"pads": 1.0})
+    _finish(changed, tmp_path, held_out=held_out)
+    assert capsys.readouterr().out.startswith(title)

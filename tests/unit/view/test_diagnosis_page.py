@@ -2,12 +2,18 @@
 
 from dataclasses import replace
 
+import numpy as np
+
 from hypotheses import base, diagnosed, findings_of, left_by, searched
+from slipwise.diagnosis.first_things import FirstThing
 from slipwise.diagnosis.ladder import Ladder, LadderStep
 from slipwise.diagnosis.result import Diagnosis
+from slipwise.diagnosis.unknown_surface import Surface
 from slipwise.diagnosis.verdict import Verdict
 from slipwise.effects import catalogue
-from slipwise.view.diagnosis_figures import balances_figure, ladder_figure
+from slipwise.estimation.intervals import Interval
+from slipwise.view.diagnosis_effects import size_rows
+from slipwise.view.diagnosis_figures import balances_figure, ladder_figure, loops_figure, surface_figure
 from slipwise.view.diagnosis_page import diagnosis_page
 from slipwise.view.numbers import counted, in_words
 from slipwise.view.style import styled
@@ -115,6 +121,69 @@ def test_what_is_not_named_is_not_drawn_as_added():
     with styled():
         (axes,) = balances_figure(unknown).axes
     assert [t.get_text() for t in axes.get_legend().get_texts()] == ["base model"]
+
+
+def test_where_nothing_is_added_one_loop_is_drawn_and_long_names_are_counted():
+    with styled():
+        unknown = replace(_found("heating"), verdict=Verdict("unknown", (), (), 0.8, "unknown", 0.4, None, (), ()))
+        (axes,) = loops_figure(unknown).axes
+        assert axes.get_title("left") == "base model"
+        of = base(pads=9.0)
+        many = diagnosed(searched(of, left_by("heating", "buffer_hardening", "buffer_hysteresis", of=of)))
+        assert loops_figure(many).axes[1].get_title("left") == "with the three effects that were found"
+
+
+def test_a_missing_force_is_drawn_over_millimetres():
+    edges = (np.array([-0.2, 0.0, 0.2]),)
+    mean, band = np.array([-3e3, 3e3]), np.array([10.0, 10.0])
+    with styled():
+        (axes,) = surface_figure(Surface("pads", ("velocity",), edges, mean, band, "N", 0.9, 2.0, 0.1)).axes
+    assert axes.get_xlabel() == "slip velocity [mm/s]" and axes.get_ylabel() == "pads [kN]"
+    line = axes.lines[0]
+    assert np.allclose(line.get_xdata(), [-100.0, 100.0]) and np.allclose(line.get_ydata(), [-3.0, 3.0])
+
+
+def test_the_page_says_what_each_effect_changes_and_what_is_minor():
+    of = base(pads=9.0, girder=3.0)
+    state = searched(of, left_by("heating", "table_pitch", of=of))
+    text = diagnosis_page(diagnosed(state, material={"table_pitch": 0.5}))
+    assert "An effect is missing: heating<" in text and "<td>minor</td>" in text
+    assert "There, but immaterial: table_pitch." in text and "+5.0 % (+4.0 to +6.0)" in text
+    small = diagnosis_page(diagnosed(state, material={"heating": 0.5, "table_pitch": 0.5}))
+    assert "Nothing that matters is missing<" in small
+    assert "What each effect changes" not in diagnosis_page(diagnosed(searched(base())))
+
+
+def test_several_effects_are_counted():
+    of = base(pads=9.0, girder=3.0)
+    text = diagnosis_page(diagnosed(searched(of, left_by("heating", "table_pitch", of=of))))
+    assert "Two effects are missing: heating, table_pitch<" in text
+
+
+def test_a_number_without_an_interval_is_not_written_as_one():
+    end = Interval("run_in.distance", 2.0, NAN, NAN, 1.0, "m", "upper")
+    least = Interval("run_in.rise", 0.03, 0.0, 0.0512, 0.1, "1", "", "upper")
+    other = Interval("run_in.tail", 0.5, NAN, NAN, 0.5, "1", "")
+    sizes = {i.key: i for i in (end, least, other)}
+    rows = {row["parameter"]: row["95 % interval"] for row in size_rows(catalogue(), sizes)}
+    assert rows["run_in: distance"] == "none: it ended on its upper bound"
+    assert rows["run_in: rise"] == "at most 0.0512" and rows["run_in: tail"] == ""
+    found = _found("run_in", kind="named")
+    found = diagnosed(found.search, found.verdict, [0.99])
+    text = diagnosis_page(replace(found, candidates=(replace(found.candidates[0], parameters=sizes),)))
+    assert "none: it ended on its upper bound" in text
+    assert "may be absent" not in text and ">nan<" not in text and "nan to" not in text
+
+
+def test_what_was_wrong_before_any_fit_stands_at_the_top():
+    dead = FirstThing("dead", ("pad_B_Fx",), "pad_B_Fx: dead in quake; left out there")
+    text = diagnosis_page(replace(_found("heating", kind="named"), first=(dead,)))
+    assert text.index("Before anything was fitted") < text.index("<nav") and dead.words in text
+
+
+def test_the_smallest_sizes_are_in_units_that_people_read():
+    found = replace(_found("heating"), least={"key_clearance": (2e-4, "m")})
+    assert "<td>key_clearance</td><td>0.2</td><td>mm</td>" in diagnosis_page(found)
 
 
 def test_counts_are_written_as_people_say_them():

@@ -1,0 +1,64 @@
+"""Sentences beside a verdict: whether runs confirm it, what is there but small, and which error a number is."""
+
+from dataclasses import replace
+
+import pytest
+
+from hypotheses import base, diagnosed, left_by, searched
+from slipwise.campaign.materiality import Materiality
+from slipwise.diagnosis.result import Diagnosis
+from slipwise.diagnosis.verdict import Verdict
+from slipwise.view.diagnosis_words import confirmed_words, error_name, floors, limits_words, minor_words, percent
+
+
+def _found(*names: str, held_out: bool = True, unseen: float = 1.0, material: dict | None = None) -> Diagnosis:
+    of = base(held_out=held_out, pads=20.0)
+    whole = left_by(*names, of=of, held_out={"pads": unseen})
+    return diagnosed(searched(of, whole), material=material)
+
+
+def test_what_held_out_runs_confirm_is_called_confirmed():
+    assert confirmed_words(_found("heating")) == "Confirmed on runs that no fit has seen: sine_holdout_2."
+
+
+def test_what_does_not_carry_over_is_said():
+    assert "does not carry over to sine_holdout_2" in confirmed_words(_found("heating", unseen=25.0))
+
+
+def test_without_held_out_runs_nothing_is_called_confirmed_or_held_out():
+    found = _found("heating", held_out=False)
+    assert confirmed_words(found).startswith("Not confirmed: no run is held out")
+    assert (error_name(found), error_name(_found("heating"))) == ("error of fitted runs", "held-out error")
+
+
+def test_runs_that_cannot_show_it_are_said_not_to():
+    assert "cannot show" in confirmed_words(replace(_found("heating"), confirmed=None))
+
+
+@pytest.mark.parametrize("effects", [(), ("dropped_samples",)])
+def test_where_no_effect_was_fitted_there_is_nothing_to_confirm(effects: tuple[str, ...]) -> None:
+    kind = "instrument" if effects else "complete"
+    verdict = Verdict(kind, effects, (), 0.9, "none", 1.0, None, (), ())
+    assert confirmed_words(diagnosed(searched(base()), verdict)) == ""
+
+
+def test_what_is_minor_is_told_with_what_becomes_of_it():
+    assert minor_words(_found("heating")) == ""
+    beside = minor_words(_found("heating", "table_pitch", material={"table_pitch": 0.5}))
+    assert beside.startswith("There, but immaterial: table_pitch. Without it") and "in the fitted model" in beside
+    alone = minor_words(_found("heating", "table_pitch", material={"heating": 0.2, "table_pitch": 0.5}))
+    assert "table_pitch, heating. Without any one of them" in alone and "may do without" in alone
+
+
+def test_the_limits_are_those_of_the_campaign():
+    words = limits_words(Materiality(channel=0.035, response=0.1, gauge=0.005))
+    assert [share in words for share in ("3.5 %", "10 %", "0.5 %")] == [True, True, True]
+
+
+def test_an_error_that_nobody_knows_is_no_number():
+    assert (floors(float("nan")), floors(3.8234)) == ("unknown", "3.82 noise floors")
+
+
+@pytest.mark.parametrize(("share", "words"), [(0.12, "12 %"), (0.0996, "10 %"), (0.05, "5 %"), (0.0012, "0.12 %")])
+def test_shares_have_two_figures(share: float, words: str) -> None:
+    assert percent(share) == words
