@@ -250,8 +250,9 @@ def _words(found: Diagnosis, contest: Sequence[Hypothesis], most: float) -> str:
         more, where = largest_drop(contest[1].summary, contest[0].summary)
         if more >= LEAST.everywhere:
             sentences.append(
-                f"Refitted to the campaign, {' + '.join(contest[1].names)} leaves {more:.2g} noise variances more in "
-                f"{where} than {' + '.join(contest[0].names)}: if the rig is as rated, these runs tell them apart."
+                f"Refitted to the campaign, {' + '.join(contest[0].names)} leaves {100.0 * more:.0f} % less of the "
+                f"mean squared residual in {where} than {' + '.join(contest[1].names)}: if the rig is as rated, these "
+                "runs tell them apart."
             )
     if most < LEAST.everywhere:
         sentences.append(

@@ -28,7 +28,7 @@ def importance_section(found: Diagnosis) -> Section | None:
     )
     marked = [place for place, row in enumerate(rows) if row["without"] in found.verdict.effects]
     pieces = [paragraph(words), table(rows, "Change when an effect is left out, with 95 % intervals", marked)]
-    pieces.append(paragraph(limits_words(found.final.campaign.materiality)))
+    pieces.append(paragraph(limits_words(found)))
     if minor := minor_words(found):
         pieces.append(paragraph(minor))
     unweighed = [name for name in found.verdict.effects if name not in found.importance]

@@ -2,7 +2,6 @@
 
 from math import isfinite
 
-from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.verdict import Verdict
 
@@ -54,8 +53,9 @@ def minor_words(found: Diagnosis) -> str:
     return f"There, but immaterial: {', '.join(minor)}. Without {without} nothing changes by more than that; {use}."
 
 
-def limits_words(limits: Materiality) -> str:
-    """Say from which size on an effect matters."""
+def limits_words(found: Diagnosis) -> str:
+    """Say from which size on an effect matters to the user of this campaign."""
+    limits = found.final.campaign.materiality
     return (
         f"An effect matters if the model without it changes a measured channel by more than {percent(limits.channel)} "
         "of that channel's rms about its mean, or the peak slip, the dissipated energy or the largest pad load by more "

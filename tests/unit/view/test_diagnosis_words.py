@@ -51,7 +51,9 @@ def test_what_is_minor_is_told_with_what_becomes_of_it():
 
 
 def test_the_limits_are_those_of_the_campaign():
-    words = limits_words(Materiality(channel=0.035, response=0.1, gauge=0.005))
+    found = _found("heating")
+    campaign = replace(found.final.campaign, materiality=Materiality(channel=0.035, response=0.1, gauge=0.005))
+    words = limits_words(replace(found, final=replace(found.final, campaign=campaign)))
     assert [share in words for share in ("3.5 %", "10 %", "0.5 %")] == [True, True, True]
 
 
