@@ -158,10 +158,8 @@ def changing(share: float, *, gauge: bool = False, limits: Materiality | None = 
     """
     limits = limits or Materiality()
     size = share * (limits.gauge if gauge else limits.channel)
-    half = 0.5 * share * limits.response
-    responses = (
-        {} if gauge else {"peak_slip": Change(half, 0.8 * half, 1.2 * half), "energy": Change(-half, -half, 0.0)}
-    )
+    half = 0.0 if gauge else 0.5 * share * limits.response
+    responses = {"peak_slip": Change(half, 0.8 * half, 1.2 * half), "energy": Change(-half, -half, 0.0)}
     return Importance(responses, {"pad_A_Fx": size, "slip_x": 0.1 * size}, gauge)
 
 

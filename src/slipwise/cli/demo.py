@@ -27,6 +27,7 @@ def demo(
     """
     from slipwise.view.comparison import write_comparison
     from slipwise.view.diagnosis_page import diagnosis_page
+    from slipwise.view.diagnosis_words import floors
     from slipwise.view.files import save_json, save_page
     from slipwise.view.geometry import geometry_of
     from slipwise.view.numbers import counted, in_words
@@ -57,7 +58,7 @@ def demo(
     )
     errors = {n: compared.error(n, held_out=True) for n in compared.relations}
     rows = [
-        {"balance": n, "held-out error [noise floors]": "" if error is None else f"{error:.2f}"}
+        {"balance": n, "held-out error [noise floors]": "" if error is None else floors(error)}
         for n, error in errors.items()
     ]
     print_table("Where the model fails", rows)

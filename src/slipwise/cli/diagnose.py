@@ -80,7 +80,7 @@ def _write(found: "sw.Diagnosis", folder: Path, recording: bool) -> list[Path]:
 
 def _tell(found: "sw.Diagnosis") -> None:
     """Print the verdict, what each effect changes, its rivals and what it rests on."""
-    from slipwise.view.diagnosis_words import error_name
+    from slipwise.view.diagnosis_words import error_name, floors
     from slipwise.view.terminal import print_table
 
     OUT.print(found.sentence, markup=False, highlight=False)
@@ -90,8 +90,8 @@ def _tell(found: "sw.Diagnosis") -> None:
     for words in found.discriminating_tests:
         OUT.print(f"to tell apart: {words}", markup=False, highlight=False, soft_wrap=True)
     rows = [
-        {"hypothesis": c.effect, "probability": f"{100 * c.probability:.1f} %", "before": round(c.holdout_before, 2),
-         "after": round(c.holdout_after, 2)}
+        {"hypothesis": c.effect, "probability": f"{100 * c.probability:.1f} %", "before": floors(c.holdout_before),
+         "after": floors(c.holdout_after)}
         for c in found.candidates
     ]  # fmt: skip
     if rows:
@@ -165,12 +165,13 @@ def ladder(
 def print_rungs(found: "sw.Ladder") -> None:
     """Print the errors of every step; nothing where there is none."""
     from slipwise.view.diagnosis_figures import step_errors
+    from slipwise.view.diagnosis_words import floors
     from slipwise.view.terminal import print_table
 
     errors = step_errors(found)
     rows = [
         {"model": " + ".join(["base", *step.effects])}
-        | {runs: values[place] for runs, values in errors.items() if isfinite(values[place])}
+        | {runs: floors(values[place]) for runs, values in errors.items() if isfinite(values[place])}
         for place, step in enumerate(found.steps)
     ]
     print_table("Error in multiples of the noise floor", rows)

@@ -18,16 +18,21 @@ def importance_section(found: Diagnosis) -> Section | None:
     rows = importance_rows(found)
     if not rows:
         return None
-    free = any("peak slip" in row for row in rows)
-    how = "replayed from the measured table motion" if free else "driven by the measured load and motion"
+    replayed = any("peak_slip" in i.responses for i in found.importance.values())
+    how = "replayed from the measured table motion" if replayed else "driven by the measured load and motion"
     words = (
         f"The fitted model, {how}, once with every effect that was found and once without the one in question, "
-        "everything else as fitted. A plus says that the model without it predicts more. Peak slip, dissipated energy "
-        f"and largest pad load are those of {replayed_run(found)}. Of the measured channels the one that changes most "
-        "is shown, there or in the run in which the effect does most: rms of the difference over the channel's rms."
+        "everything else as fitted. Of the measured channels the one that changes most is shown, in "
+        f"{replayed_run(found)} or in the run in which the effect does most: rms of the difference over the "
+        "channel's rms."
     )
+    caption = "Change when an effect is left out"
+    if "energy" in rows[0]:
+        whose = "Peak slip, dissipated energy and largest pad load are" if replayed else "Dissipated energy is"
+        words += f" {whose} of {replayed_run(found)}; a plus says that the model without the effect predicts more."
+        caption += ", with 95 % intervals"
     marked = [place for place, row in enumerate(rows) if row["without"] in found.verdict.effects]
-    pieces = [paragraph(words), table(rows, "Change when an effect is left out, with 95 % intervals", marked)]
+    pieces = [paragraph(words), table(rows, caption, marked)]
     pieces.append(paragraph(limits_words(found)))
     if minor := minor_words(found):
         pieces.append(paragraph(minor))

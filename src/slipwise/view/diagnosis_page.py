@@ -46,15 +46,13 @@ def diagnosis_page(found: Diagnosis, ladder: Ladder | None = None) -> str:
 
 def _page(found: Diagnosis, ladder: Ladder | None) -> str:
     error = error_name(found)
-    facts = {"probability": f"{100 * found.verdict.probability:.0f} %"}
-    if found.added:
-        facts |= {f"{error} before": floors(found.base_error), f"{error} after": floors(found.final_error)}
-    else:
-        facts[error] = floors(found.base_error)
-    facts["where"] = found.component
+    facts = {
+        "probability": f"{100 * found.verdict.probability:.0f} %",
+        f"{error} [noise floors]": _fall(found, found.base_error, found.final_error),
+    }
     if found.system:
-        kinds = ("base", "final") if found.added else ("base",)
-        facts[f"{error} of the replay"] = " -> ".join(floors(found.system[kind]) for kind in kinds)
+        facts[f"{error}, replayed [noise floors]"] = _fall(found, found.system["base"], found.system["final"])
+    facts["where"] = found.component
     words = " ".join(filter(None, [found.sentence, confirmed_words(found)]))
     box = verdict(_headline(found), words, _TONES[found.verdict.kind], facts)  # type: ignore[arg-type]
     shape = found.verdict.leftover == "unknown" and found.verdict.surface is not None
@@ -70,6 +68,11 @@ def _page(found: Diagnosis, ladder: Ladder | None) -> str:
     ]
     first = [callout("Before anything was fitted", f"{thing.words}.", "warn") for thing in found.first]
     return page(f"Diagnosis of {found.campaign}", [part for part in sections if part is not None], [box, *first])
+
+
+def _fall(found: Diagnosis, before: float, after: float) -> str:
+    """Write an error before and after; one number where nothing was added to the base model."""
+    return f"{floors(before)} before, {floors(after)} after" if found.added else floors(before)
 
 
 def _headline(found: Diagnosis) -> str:
@@ -110,7 +113,7 @@ def _falling(ladder: Ladder) -> Section:
     errors = step_errors(ladder)
     rows = [
         {"model": " + ".join(("base", *step.effects))}
-        | {label: f"{own[i]:.3g}" if isfinite(own[i]) else "-" for label, own in errors.items()}
+        | {label: floors(own[i]) if isfinite(own[i]) else "-" for label, own in errors.items()}
         for i, step in enumerate(ladder.steps)
     ]
     caption = "Error of the worst balance of the rig, and of the replay, in multiples of the noise floor."
@@ -139,8 +142,8 @@ def _rivals(found: Diagnosis) -> Section:
         {
             "hypothesis": c.effect,
             "probability": f"{100 * c.probability:.1f} %",
-            f"{error} before [noise floors]": round(c.holdout_before, 2),
-            "after [noise floors]": round(c.holdout_after, 2),
+            f"{error} before [noise floors]": floors(c.holdout_before),
+            "after [noise floors]": floors(c.holdout_after),
             "hidden by the base fit": f"{100 * c.absorbed_by_base:.0f} %",
         }
         for c in found.candidates

@@ -12,8 +12,8 @@ def error_name(found: Diagnosis) -> str:
 
 
 def floors(error: float) -> str:
-    """Write an error with its unit; "unknown" where there is none."""
-    return f"{error:.3g} noise floors" if isfinite(error) else "unknown"
+    """Write an error in noise floors; "unknown" where there is none."""
+    return (f"{error:.2f}" if abs(error) < 100.0 else f"{error:.0f}") if isfinite(error) else "unknown"
 
 
 def percent(share: float) -> str:

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from hypotheses import base, diagnosed, findings_of, left_by, searched
+from hypotheses import base, diagnosed, findings_of, left_by, on, searched
 from slipwise.diagnosis.first_things import FirstThing
 from slipwise.diagnosis.ladder import Ladder, LadderStep
 from slipwise.diagnosis.result import Diagnosis
@@ -152,6 +152,14 @@ def test_the_page_says_what_each_effect_changes_and_what_is_minor():
     small = diagnosis_page(diagnosed(state, material={"heating": 0.5, "table_pitch": 0.5}))
     assert "Nothing that matters is missing<" in small
     assert "What each effect changes" not in diagnosis_page(diagnosed(searched(base())))
+
+
+def test_a_page_of_a_gauge_tells_of_its_channel_only():
+    of = base(pads=9.0)
+    text = diagnosis_page(diagnosed(searched(of, left_by(on("channel_gain", "pad_B_N"), of=of))))
+    told = text.split('<section id="what-each-effect-changes">')[1].split("</table>")[0]
+    assert "replayed from the measured table motion" in told
+    assert "channel_gain" in told and "Peak slip" not in told and "95 %" not in told
 
 
 def test_several_effects_are_counted():
