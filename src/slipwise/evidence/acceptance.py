@@ -50,7 +50,7 @@ def is_kept(base: ResidualSummary, before: ResidualSummary, after: ResidualSumma
         after: with it.
         least: of `least_drop`.
     """
-    if score(before, after) <= 0.0:
+    if score(before, after) <= 0.0 or worsens(before, after):
         return False
     lower = {r: max(min(base.left_out_level(r), before.left_out_level(r)), FLOOR) for r in base.fitted}
     return any(1.0 - max(after.left_out_level(r), FLOOR) / lower[r] >= least for r in lower)

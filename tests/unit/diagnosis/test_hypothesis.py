@@ -13,7 +13,7 @@ from slipwise.diagnosis.screening import projector, screen
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import fit_base
 from slipwise.estimation.parameters import Term, base_free
-from slipwise.evidence.materiality import MATERIAL_LAW
+from slipwise.evidence.acceptance import LEAST
 from slipwise.model import base_model, use
 
 
@@ -68,4 +68,4 @@ def test_a_least_size_is_one_at_which_a_relation_falls_by_what_is_material(base)
         rows = sum(base.solution.residuals.parts[relation][i].size for i in base.problem.fitted)
         drops.append(float(np.sum(step[start : start + rows] ** 2)) / base_hypothesis(base).summary.counts[relation][0])
         start += rows
-    assert max(drops) == pytest.approx(MATERIAL_LAW, rel=0.1)
+    assert max(drops) == pytest.approx(LEAST.law, rel=0.1)
