@@ -110,8 +110,8 @@ def print_effects(found: "sw.Diagnosis") -> None:
 
     if words := confirmed_words(found):
         OUT.print(words, markup=False, highlight=False)
-    if rows := importance_rows(found, intervals=False):
-        print_table(f"Changes without each effect; slip, energy and load of {replayed_run(found)}", rows)
+    if rows := importance_rows(found, brief=True):
+        print_table(f"Changes without each effect; peak slip, energy and largest load of {replayed_run(found)}", rows)
 
 
 def _record(found: "sw.Diagnosis", folder: Path) -> list[Path]:

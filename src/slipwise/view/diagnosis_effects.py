@@ -12,6 +12,9 @@ from slipwise.view.diagnosis_words import limits_words, minor_words
 from slipwise.view.html import Html, Section, callout, paragraph, table
 from slipwise.view.importance_rows import importance_rows, replayed_run
 
+#: So many standard errors are as good as any more.
+_SUREST = 30.0
+
 
 def importance_section(found: Diagnosis) -> Section | None:
     """Say what leaving each effect out changes; None where nothing was found."""
@@ -82,7 +85,9 @@ def size_rows(known: Mapping[str, Effect], sizes: Mapping[str, Interval]) -> lis
             f"{convert(x, parameter.unit, shown):.{interval.figures}g}" if x == x else ""
             for x in (interval.value, interval.low, interval.high)
         )
-        if interval.bound:
+        if interval.bound and interval.value == parameter.neutral:
+            reach = "none: this part is absent"
+        elif interval.bound:
             reach = f"none: it ended on its {interval.bound} bound"
         elif interval.limit:
             reach = f"at most {high}"
@@ -107,11 +112,16 @@ def _evidence_row(of: Finding, final: Sequence[str]) -> dict[str, str]:
     if of.rival is not None:
         names = " + ".join(n for n in of.rival.hypothesis.names if n not in final)
         behind = of.rival.behind
-        rival = f"{names}, {behind:.1f} standard errors behind" if behind > 0.0 else f"{names}, which does as well"
+        rival = f"{names}, {_errors(behind)} standard errors behind" if behind > 0.0 else f"{names}, which does as well"
     return {
         "effect": of.name,
-        "better with it by [standard errors]": f"{of.lead:.1f}",
+        "better with it by [standard errors]": _errors(of.lead),
         "error above the noise that comes back without it": f"{100.0 * of.share:.0f} %",
         "nearest in its place": rival,
         "on a bound": ", ".join(of.at_bound) or "-",
     }
+
+
+def _errors(count: float) -> str:
+    """Write a number of standard errors; none beyond `_SUREST` is told."""
+    return f"{count:.1f}" if count < _SUREST else f"{_SUREST:.0f} or more"

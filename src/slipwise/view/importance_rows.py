@@ -5,23 +5,26 @@ from slipwise.diagnosis.result import Diagnosis
 from slipwise.view.diagnosis_words import percent
 
 _CALLED = {"peak_slip": "peak slip", "energy": "energy", "largest_load": "largest load"}
+#: The same in a terminal of eighty letters.
+_BRIEF = {"peak_slip": "slip", "energy": "energy", "largest_load": "load"}
 #: In the place of a number that an effect cannot have: the fault of a gauge changes a reading and not the rig.
 _NOTHING = "-"
 
 
-def importance_rows(found: Diagnosis, *, intervals: bool = True) -> list[dict[str, str]]:
+def importance_rows(found: Diagnosis, *, brief: bool = False) -> list[dict[str, str]]:
     """Give one row for every effect that was found, most important first.
 
     Args:
         found: the diagnosis.
-        intervals: write the 95 % interval behind every change.
+        brief: short headings, and no 95 % interval behind a change.
     """
+    called = _BRIEF if brief else _CALLED
     shown = found.importance
     asked = [r for r in _CALLED if any(r in i.responses for i in shown.values() if not i.gauge)]
     return [
         {
             "without": name,
-            **{_CALLED[r]: _response(i, r, intervals=intervals) for r in asked},
+            **{called[r]: _response(i, r, intervals=not brief) for r in asked},
             **_largest(i),
             "it is": "material" if name in found.verdict.effects else "minor",
         }

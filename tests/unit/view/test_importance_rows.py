@@ -30,6 +30,11 @@ def test_a_gauge_moves_no_girder():
     assert rows["heating"]["peak slip"] == "+5.0 % (+4.0 to +6.0)"
 
 
+def test_a_terminal_has_room_for_short_headings_only():
+    (row, *_) = importance_rows(_found({"heating": 9.0}), brief=True)
+    assert (row["slip"], row["energy"], row["most in"]) == ("+9.0 %", "-9.0 %", "pad_A_Fx")
+
+
 def test_what_nothing_was_replayed_for_has_no_column():
     of = base(pads=20.0)
     rows = importance_rows(diagnosed(searched(of, left_by(on("channel_gain", "pad_B_N"), of=of))))
