@@ -85,7 +85,9 @@ def size_rows(known: Mapping[str, Effect], sizes: Mapping[str, Interval]) -> lis
             f"{convert(x, parameter.unit, shown):.{interval.figures}g}" if x == x else ""
             for x in (interval.value, interval.low, interval.high)
         )
-        if interval.bound and interval.value == parameter.neutral:
+        if parameter.whole:
+            reach = "none: whole numbers only"
+        elif interval.bound and interval.value == parameter.neutral:
             reach = "none: this part is absent"
         elif interval.bound:
             reach = f"none: it ended on its {interval.bound} bound"

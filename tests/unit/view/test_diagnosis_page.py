@@ -172,12 +172,14 @@ def test_a_number_without_an_interval_is_not_written_as_one():
     end = Interval("run_in.distance", 2.0, NAN, NAN, 1.0, "m", "upper")
     least = Interval("run_in.rise", 0.03, 0.0, 0.0512, 0.1, "1", "", "upper")
     other = Interval("run_in.tail", 0.5, NAN, NAN, 0.5, "1", "")
-    absent = Interval("girder_bending.midspan", 0.0, NAN, NAN, 0.5, "1", "lower")
-    sizes = {i.key: i for i in (end, least, other, absent)}
+    whole = Interval("girder_bending.midspan", 0.0, NAN, NAN, 0.5, "1", "lower")
+    absent = Interval("girder_bending.share", 0.0, NAN, NAN, 0.05, "1", "lower")
+    sizes = {i.key: i for i in (end, least, other, whole, absent)}
     rows = {row["parameter"]: row["95 % interval"] for row in size_rows(catalogue(), sizes)}
     assert rows["run_in: distance"] == "none: it ended on its upper bound"
     assert rows["run_in: rise"] == "at most 0.0512" and rows["run_in: tail"] == ""
-    assert rows["girder_bending: midspan"] == "none: this part is absent"
+    assert rows["girder_bending: midspan"] == "none: whole numbers only"
+    assert rows["girder_bending: share"] == "none: this part is absent"
     found = _found("run_in", kind="named")
     found = diagnosed(found.search, found.verdict, [0.99])
     text = diagnosis_page(replace(found, candidates=(replace(found.candidates[0], parameters=sizes),)))
