@@ -112,7 +112,7 @@ def recover(term: Term, rng: np.random.Generator) -> dict[str, Any]:
 def _unexplained(fitted: BaseFit) -> list[str]:
     """Say which relations keep far more than noise although the effect is in: there the fit's law is at fault."""
     told = summarised(fitted.problem, fitted.solution)
-    levels = {r: told.level(r, held_out=False) ** 0.5 for r in told.fitted}
+    levels = {r: told.fitted_level(r) ** 0.5 for r in told.fitted}
     return [f"{r} is left at {level:.1f} floors with the effect in" for r, level in levels.items() if level > FAULTY]
 
 

@@ -68,4 +68,4 @@ def _thinned(record: Record, every: int) -> Record:
 
 def _any_of(mask: Mask, every: int) -> Mask:
     padded = np.concatenate([mask, np.zeros(-len(mask) % every, dtype=bool)])
-    return padded.reshape(-1, every).any(axis=1)
+    return np.asarray(padded.reshape(-1, every).any(axis=1))

@@ -196,11 +196,14 @@ def _surfaces(found: Hypothesis, relation: str, folds: list[dict[str, Array]]) -
 
 def _size(found: Hypothesis, relation: str) -> float:
     """Give the rms about its mean of what a balance is made of: friction, load, or acceleration of the girder [SI]."""
-    runs = [found.problem.runs[i] for i in found.problem.fitted]
-    parts = [
-        {"girder": r.states.girder_acceleration[:, 0], "pads": r.force}.get(relation, r.load.sum(axis=1)) for r in runs
-    ]
+    parts = [_made_of(found.problem.runs[i], relation) for i in found.problem.fitted]
     return float(np.sqrt(np.mean(np.concatenate([((p - p.mean(axis=0)) ** 2).ravel() for p in parts]))))
+
+
+def _made_of(run: FitRun, relation: str) -> Array:
+    if relation == "girder":
+        return run.states.girder_acceleration[:, 0]
+    return run.force if relation == "pads" else run.load.sum(axis=1)
 
 
 def _folds(found: Hypothesis, relation: str) -> list[dict[str, Array]]:
@@ -227,7 +230,7 @@ class _Cells:
 
     states: tuple[str, ...]
     edges: tuple[Array, ...]
-    count: Array
+    count: NDArray[np.int64]
     mean: Array
     spread: Array
 
