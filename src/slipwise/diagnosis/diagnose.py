@@ -11,7 +11,7 @@ from slipwise.campaign import Campaign, as_campaign
 from slipwise.diagnosis.cannot_tell import cannot_tell
 from slipwise.diagnosis.detectable_size import least_sizes
 from slipwise.diagnosis.findings import findings
-from slipwise.diagnosis.first_things import effect_named, first_things
+from slipwise.diagnosis.first_things import first_things
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.importance import importance_of_effects
 from slipwise.diagnosis.indistinguishable import alike_pairs
@@ -28,6 +28,7 @@ from slipwise.estimation.least_squares import jacobian
 from slipwise.estimation.prediction_interval import PredictedFriction, predicted_friction
 from slipwise.evidence.residual_summary import error_of
 from slipwise.evidence.score import largest_drop, score
+from slipwise.instruments.suspects import effect_of
 from slipwise.model import Model
 from slipwise.model_file import as_model
 
@@ -152,7 +153,7 @@ def _listed(selected: SelectionResult, decided: Verdict, verdict: Verdict, final
     recorded, kept = selected.uncorrected, selected.search.path[0].summary
     where = max(recorded.fitted, key=lambda relation: error_of(recorded, relation))
     before, after = error_of(recorded, where), error_of(kept, where)
-    labels = dict.fromkeys(f"{effect_named(f)}[{name}]" for f in selected.faults for name in f.channels)
+    labels = dict.fromkeys(f"{effect_of(f.kind).name}[{name}]" for f in selected.faults for name in f.channels)
     faults = tuple(Candidate(label, verdict.probability, before, after, 0.0, {}) for label in labels)
     return (*hypotheses, *faults) if decided.effects else (*faults, *hypotheses)
 

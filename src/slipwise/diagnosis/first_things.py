@@ -8,8 +8,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from slipwise.instruments.sample_faults import SampleFault
-from slipwise.instruments.suspects import effect_of
-from slipwise.instruments.zeros import effect_of_zero
 
 #: Kind of a fault of samples -> how it is told; a zero that is far off is gravity, or the weight that cells lack.
 _KINDS = {"turned": "reversed", "dead": "dead", "shifted": "gravity"}
@@ -37,11 +35,6 @@ class FirstThing:
 def first_things(faults: Sequence[SampleFault]) -> tuple[FirstThing, ...]:
     """Give what comes before any balance among the faults of samples."""
     return tuple(_told(fault) for fault in faults if fault.kind in _KINDS)
-
-
-def effect_named(fault: SampleFault) -> str:
-    """Give the name of the effect of the catalogue that a fault of samples is."""
-    return effect_of_zero().name if fault.kind == "shifted" else effect_of(fault.kind).name
 
 
 def _told(fault: SampleFault) -> FirstThing:

@@ -13,7 +13,6 @@ import numpy as np
 
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.findings import Finding, above_noise
-from slipwise.diagnosis.first_things import effect_named
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.indistinguishable import alike_pairs, distinguishable, known_effects
 from slipwise.diagnosis.search_state import Search
@@ -23,6 +22,7 @@ from slipwise.estimation.parameters import Term
 from slipwise.evidence.calibration import Calibration, calibration
 from slipwise.evidence.score import largest_drop
 from slipwise.instruments.sample_faults import SampleFault
+from slipwise.instruments.suspects import effect_of
 
 #: Beside a fault of samples something else is missing that has no name.
 _EVEN_ODDS = 0.5
@@ -173,7 +173,7 @@ def with_faults(found: Verdict, faults: Sequence[SampleFault], terms: Sequence[T
     """
     if not faults:
         return found
-    names = tuple(dict.fromkeys(effect_named(f) for f in faults))
+    names = tuple(dict.fromkeys(effect_of(f.kind).name for f in faults))
     if found.kind == "complete":
         return replace(found, kind="instrument", effects=names, probability=found.probability)
     if found.kind == "unknown":

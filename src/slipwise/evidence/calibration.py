@@ -1,7 +1,6 @@
-"""How sure evidence makes: small logistic models whose coefficients were fitted to campaigns with known answers.
+"""How sure evidence makes: small logistic models in a few numbers, kept as data.
 
-`calibration.json` holds the coefficients and where they come from; `scripts/calibrate.py` makes it anew from the
-answers of a bench. Nothing here is set by hand.
+`calibration.json` holds the coefficients, and says where they come from.
 """
 
 import json
