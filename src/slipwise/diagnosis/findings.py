@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from slipwise.campaign.materiality import Materiality
+from slipwise.diagnosis.choice import has_delay_for_filter
 from slipwise.diagnosis.hypothesis import Hypothesis, parameters_at_bound
 from slipwise.diagnosis.importance import Importance
 from slipwise.diagnosis.removal import without
@@ -118,6 +119,8 @@ def _rivals(state: Search, parts: dict[str, tuple[Term, ...]]) -> dict[str, Riva
         rest = {t.label for t in best.terms if t.effect.name != name}
         others = [h for h in state.tried if name not in h.names and rest < {t.label for t in h.terms}]
         others = [h for h in others if len(h.terms) <= len(best.terms) and len(parameters_at_bound(h)) <= ends]
+        if not has_delay_for_filter(best):  # a filter that takes nothing is a delay by another name
+            others = [h for h in others if not has_delay_for_filter(h)]
         rival = max(others, key=lambda h: score(best.summary, h.summary), default=None)
         if rival is not None:
             out[name] = Rival(rival, float(np.clip(lead(best.summary, rival.summary), -_SUREST, _SUREST)))

@@ -78,7 +78,8 @@ def fit_base(campaign: Campaign, model: Model | None = None, invalid: InvalidSam
     model = model or base_model(campaign.specimen)
     start: Mapping[str, float] = {}
     if not campaign.logger.known and model.specimen.free:  # of one slider no filter is told from a law
-        estimated = estimate_logger(campaign).likeliest
+        fitted = tuple(run for run in campaign.runs if run.role != "holdout")
+        estimated = estimate_logger(replace(campaign, runs=fitted)).likeliest
         if estimated is None:  # the usual kind, at the frequency that a fit finds beside the law
             problem = Problem(fit_runs(campaign, invalid), model.specimen, terms_of(model))
             start = _roughly(problem, _free(campaign, model, problem), {}).values
