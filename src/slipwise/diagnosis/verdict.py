@@ -28,6 +28,8 @@ from slipwise.instruments.suspects import effect_of
 _EVEN_ODDS = 0.5
 #: Nobody is surer than this of what no run has confirmed that was not fitted [1].
 _UNCONFIRMED = 0.9
+#: Share of what the base model leaves above the noise of a held-out run that may stay there where effects hold [1].
+_CARRIED_OVER = 0.5
 #: An effect that is less likely than this to be there is not listed [1].
 _LISTED = 0.5
 
@@ -160,7 +162,8 @@ def confirmed(state: Search) -> bool | None:
     relation = largest_drop(origin, final)[1]
     if not state.final.terms or not relation or not origin.counts[relation][1]:
         return None
-    return final.held_out_level(relation) < origin.held_out_level(relation)
+    before, after = (s.held_out_level(relation) - 1.0 for s in (origin, final))
+    return after < _CARRIED_OVER * max(before, 1.0)
 
 
 def with_faults(found: Verdict, faults: Sequence[SampleFault], terms: Sequence[Term] = ()) -> Verdict:
