@@ -1,6 +1,7 @@
 """The blind bench: hidden-effect campaigns of a second simulator, diagnosed and scored.
 
     python scripts/07_bench.py --out out/bench --count 300 --seed 20000
+    python scripts/07_bench.py --out out/dirty --dirty --count 200 --seed 81000
     python scripts/07_bench.py --quick
 
 Campaigns are made by `tests/bench`, whose physics is not the library's. Every finished campaign is one line of
@@ -8,6 +9,9 @@ results.jsonl: a run that was stopped (Ctrl-C) shows what is done, and the same 
 bench.html shows who is taken for whom (confusion.png), whether verdicts of probability 0.9 are right nine times in ten
 (calibration.png), how far the error falls (error_ratios.png), and every verdict that is wrong. bench.json has the
 numbers.
+
+Dirty campaigns have many small imperfections at once; dirty.json has their scores and every verdict that is wrong. With
+`--made DIR` they are those that `make_bench.py --dirty --out DIR` has made, or made there and kept.
 """
 
 import argparse
@@ -29,18 +33,38 @@ def one(folder: Path, name: str, seed: int, effects: tuple[str, ...], size: str,
     """Make one campaign, diagnose it blind, and give both answers."""
     sys.path.insert(0, str(TESTS))
     from bench import make_campaign  # pyright: ignore[reportMissingImports]
+
+    truth = make_campaign(folder / name, seed, effects=effects, size=size, rich=rich)
+    said = diagnosed(folder / name)
+    shutil.rmtree(folder / name)
+    return {"name": name, "truth": truth.as_dict(), "said": said}
+
+
+def one_dirty(folder: Path, name: str, seed: int, keep: bool) -> dict[str, Any]:
+    """Make one dirty campaign where it is not there yet, diagnose it blind, and give both answers."""
+    sys.path.insert(0, str(TESTS))
+    from bench import make_dirty, write_truth  # pyright: ignore[reportMissingImports]
+
+    answer = folder / "truth" / f"{name}.json"
+    if not answer.exists():
+        write_truth(answer, make_dirty(folder / name, seed).as_dict())
+    said = diagnosed(folder / name)
+    if not keep:
+        shutil.rmtree(folder / name)
+    return {"name": name, "truth": json.loads(answer.read_text(encoding="utf-8")), "said": said}
+
+
+def diagnosed(folder: Path) -> dict[str, Any]:
+    """Diagnose a campaign; one that breaks the diagnosis is counted as wrong, and shown."""
     from slipwise.campaign import load_campaign
     from slipwise.diagnosis.diagnose import diagnose
 
-    truth = make_campaign(folder / name, seed, effects=effects, size=size, rich=rich)
     began = time.perf_counter()
     try:
-        said = diagnose(load_campaign(folder / name), system=False).as_json()
-    except Exception as error:  # a campaign that breaks the diagnosis is counted as wrong, and shown
+        said = diagnose(load_campaign(folder), system=False).as_json()
+    except Exception as error:
         said = {"verdict": f"failed: {type(error).__name__}: {error}", "effects": [], "probability": 0.0}
-    said["seconds"] = time.perf_counter() - began
-    shutil.rmtree(folder / name)
-    return {"name": name, "truth": truth.as_dict(), "said": said}
+    return {**said, "seconds": time.perf_counter() - began}
 
 
 def _begin() -> None:
@@ -54,23 +78,32 @@ def _begin() -> None:
 def _line(result: dict[str, Any], number: int, total: int) -> str:
     said, truth = result["said"], result["truth"]
     hidden, named = "+".join(truth["missing"]) or "complete", "+".join(said["effects"])
-    size = f"{truth['size_after_fit']:6.1f} floors"
+    size = f"{truth['size_after_fit']:6.1f} floors" if "size_after_fit" in truth else truth["group"]
     words = f"{said['verdict']:10.60s} {named:32s} p={said['probability']:.2f} {said['seconds']:.0f} s"
     return f"{number:4d} of {total}  {hidden:32s} {size}  {words}"
 
 
-def run(out: Path, count: int, seed: int, workers: int) -> list[dict[str, Any]]:
-    """Run the campaigns that have no result yet; gives in order all results that there are, fewer if it is stopped."""
+def work(chosen: argparse.Namespace, count: int) -> dict[str, tuple[Any, ...]]:
+    """Give name -> what makes and diagnoses it, and with which arguments."""
     from bench import plan  # pyright: ignore[reportMissingImports]
 
+    folder, seed = chosen.out / "campaigns", chosen.seed
+    if chosen.dirty:
+        names = {f"d{s:05d}": s for s in range(seed, seed + count)}
+        return {n: (one_dirty, chosen.made or folder, n, s, bool(chosen.made)) for n, s in names.items()}
+    cases = {f"b{seed + i:05d}": (seed + i, case) for i, case in enumerate(plan(count, seed))}
+    return {n: (one, folder, n, s, c.effects, c.size, c.rich) for n, (s, c) in cases.items()}
+
+
+def run(out: Path, cases: dict[str, tuple[Any, ...]], workers: int) -> list[dict[str, Any]]:
+    """Run the campaigns that have no result yet; gives in order all results that there are, fewer if it is stopped."""
     out.mkdir(parents=True, exist_ok=True)
     lines = out / "results.jsonl"
     done = {r["name"]: r for r in map(json.loads, lines.read_text().splitlines())} if lines.exists() else {}
-    cases = {f"b{seed + i:05d}": (seed + i, case) for i, case in enumerate(plan(count, seed))}
-    left = {name: entry for name, entry in cases.items() if name not in done}
+    left = {name: job for name, job in cases.items() if name not in done}
     spawned = get_context("spawn")
     with ProcessPoolExecutor(workers, mp_context=spawned, initializer=_begin) as pool, lines.open("a") as stream:
-        jobs = [pool.submit(one, out / "campaigns", n, s, c.effects, c.size, c.rich) for n, (s, c) in left.items()]
+        jobs = [pool.submit(*job) for job in left.values()]
         try:
             for number, job in enumerate(as_completed(jobs), start=1):
                 result = job.result()
@@ -114,6 +147,25 @@ def show(out: Path, results: list[dict[str, Any]], planned: int) -> None:
     print(f"wrote {out / 'bench.html'}")
 
 
+def show_dirty(out: Path, results: list[dict[str, Any]]) -> None:
+    """Score results of dirty campaigns; print the rates and what was wrong, write the numbers."""
+    from bench import score_dirty as score  # pyright: ignore[reportMissingImports]
+    from slipwise.record import write_json
+
+    counted, bad, loss = score.rates(results), score.wrong(results), score.log_loss(results)
+    for name, (good, total) in counted.items():
+        print(f"{name:55s} {good:4d} of {total}")
+    print(f"{'log loss of the probability':55s} {loss:7.2f}")
+    for row in score.calibrated(results):
+        tenth = f"probability {row['low']:.1f} to {row['high']:.1f}: {row['said']:.2f} on average"
+        print(f"{tenth}, {row['right']:.2f} right of {row['count']:g}")
+    for row in bad:
+        print(f"{row['campaign']}  {row['verdict']}: lacks {row['lacking']}, accuses {row['accused']}")
+    content = {**counted, "log loss": loss, "calibration": score.calibrated(results), "wrong": bad}
+    write_json(out / "dirty.json", {**content, "importance": score.importances(results)})
+    print(f"wrote {out / 'dirty.json'}")
+
+
 def main() -> None:
     """Run, score, print, draw."""
     sys.path.insert(0, str(TESTS))
@@ -124,13 +176,17 @@ def main() -> None:
         "--seed", type=int, default=20000, help="of the first campaign; thresholds were frozen on others"
     )
     parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--dirty", action="store_true", help="many small imperfections at once in every campaign")
+    parser.add_argument("--made", type=Path, help="folder of dirty campaigns that are made already, or made there")
     parser.add_argument("--quick", action="store_true", help="two campaigns only")
     chosen = parser.parse_args()
     count = 2 if chosen.quick else chosen.count
-    results = run(chosen.out, count, chosen.seed, chosen.workers)
+    results = run(chosen.out, work(chosen, count), chosen.workers)
     if len(results) < count:
         print(f"stopped with {len(results)} of {count} campaigns done; the same command goes on from there")
-    if results:
+    if results and chosen.dirty:
+        show_dirty(chosen.out, results)
+    elif results:
         show(chosen.out, results, count)
 
 

@@ -1,6 +1,7 @@
 """A blind bench: a second simulator of the rig that shares nothing with the library, and campaigns made with it."""
 
 from bench.campaign import Campaign, build_campaign, make_campaign, with_faults
+from bench.dirty import DirtyCampaign, build_dirty, make_dirty
 from bench.faults import GROUPS, Fault
 from bench.hidden import INSTRUMENTS, PHYSICS, SIZES, Case, draw, plan
 from bench.motions import Motion
@@ -16,14 +17,17 @@ __all__ = [
     "SIZES",
     "Campaign",
     "Case",
+    "DirtyCampaign",
     "Fault",
     "Memory",
     "Motion",
     "Settings",
     "Truth",
     "build_campaign",
+    "build_dirty",
     "draw",
     "make_campaign",
+    "make_dirty",
     "plan",
     "random_rig",
     "rated",

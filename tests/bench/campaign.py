@@ -12,10 +12,10 @@ from bench.floors import sizes_in_floors
 from bench.gauges import RICH, USUAL, Logger, draw_logger, measure
 from bench.hidden import SIZES, Case, Hidden, draw, hide
 from bench.motions import Motion, draw_quake, draw_sine
-from bench.rig_ode import Memory, simulate
+from bench.rig_ode import EVERY, STEP, Memory, simulate
 from bench.settings import GRAVITY, PADS, Settings, random_rig
 from bench.truth import Truth
-from bench.write import RUNS, write_campaign
+from bench.write import write_campaign
 
 Array = NDArray[np.float64]
 Run = dict[str, Array]
@@ -71,13 +71,31 @@ def draw_motions(rig: str, base: Settings, rng: np.random.Generator, rich: bool)
     }
 
 
-def shake(settings: Settings, motions: dict[str, Motion], clock: float) -> dict[str, Run]:
-    """Run all motions in order on one specimen: wear stays, heat is gone after the rest."""
+def shake(
+    settings: Settings,
+    motions: dict[str, Motion],
+    clock: float,
+    step: float = STEP,
+    every: int = EVERY,
+    memories: dict[str, Memory] | None = None,
+) -> dict[str, Run]:
+    """Run all motions in order on one specimen: wear stays, heat is gone after the rest.
+
+    Args:
+        settings: of the specimen.
+        motions: run -> motion.
+        clock: of the first run [s].
+        step: of the integration [s].
+        every: steps for a row of the result.
+        memories: gets, for each run, what the specimen brings into it.
+    """
     memory = Memory()
     runs = {}
-    for number, (name, _) in enumerate(RUNS):
+    for number, (name, motion) in enumerate(motions.items()):
+        if memories is not None:
+            memories[name] = Memory(memory.distance, memory.largest)
         now = settings.changed(clock=clock + 1800.0 * number)
-        runs[name] = simulate(now, motions[name], memory)
+        runs[name] = simulate(now, motion, memory, step, every)
     return runs
 
 

@@ -1,4 +1,8 @@
-"""Faults of gauges: what they do to true channels before the logger, and to samples after it."""
+"""Faults of gauges: what they do to true channels before the logger, and to samples after it.
+
+Beside the catalogue's there are those that a laboratory must find before any balance: dead, late, reversed and tared
+channels, and gravity in a vertical gauge.
+"""
 
 from dataclasses import dataclass, field, replace
 
@@ -9,6 +13,8 @@ from scipy.signal import butter, sosfilt
 from bench.settings import PADS
 
 Array = NDArray[np.float64]
+#: Samples at rest from which a zero is taken.
+TARE = 50
 
 
 @dataclass(frozen=True)
@@ -19,10 +25,12 @@ class Fault:
         effect: its name in the catalogue.
         channels: that it touches.
         size: delay [s], gain [1], offset in the channel's SI unit, drift [unit/s], cut-off [Hz], rail as a share of
-            the largest excursion [1], share of samples [1], clock error [1], cross-talk [N/N], cell's mass [kg].
+            the largest excursion [1], share of samples [1], clock error [1], cross-talk [N/N], cell's mass [kg]; of a
+            dead channel what it shows, of gravity its acceleration [m/s^2].
         form: variant of the law, in words.
         rails: (low, high) of each channel once the runs are known; see `with_rails`.
         seed: of the places where samples are lost.
+        runs: numbers of the runs in which it is there; empty: in all.
     """
 
     effect: str
@@ -31,11 +39,12 @@ class Fault:
     form: str = ""
     rails: dict[str, tuple[float, float]] = field(default_factory=dict)
     seed: int = 0
+    runs: tuple[int, ...] = ()
 
     def describe(self) -> dict[str, object]:
         """Give the fault as plain data."""
         said: dict[str, object] = {"channels": list(self.channels), "size": self.size, "form": self.form}
-        return {**said, "rails": self.rails} if self.rails else said
+        return said | ({"rails": self.rails} if self.rails else {}) | ({"runs": list(self.runs)} if self.runs else {})
 
 
 def with_rails(fault: Fault, runs: list[dict[str, Array]]) -> Fault:
@@ -57,9 +66,11 @@ def apply_before_logger(fault: Fault, channels: dict[str, Array], time: Array, t
     for name in fault.channels:
         if fault.effect == "channel_gain":
             channels[name] = channels[name] * (1.0 + fault.size)
-        elif fault.effect == "channel_sign":
+        elif fault.effect in ("channel_sign", "reversed"):
             channels[name] = -channels[name]
-        elif fault.effect == "channel_offset":
+        elif fault.effect == "dead" and fault.form == "noisy":
+            channels[name] = np.full_like(channels[name], fault.size)
+        elif fault.effect in ("channel_offset", "gravity"):
             channels[name] = channels[name] + fault.size
         elif fault.effect == "channel_drift":
             warm = 3.0 * (1.0 - np.exp(-time / 3.0)) if fault.form == "warming up" else time
@@ -105,7 +116,7 @@ def late_by(faults: list[Fault], name: str, time: Array) -> Array | float:
     late: Array | float = 0.0
     for fault in faults:
         if name in fault.channels:
-            if fault.effect == "channel_delay":
+            if fault.effect in ("channel_delay", "late"):
                 late = late + fault.size
             elif fault.effect == "clock_skew":
                 late = late + fault.size * time
@@ -113,11 +124,17 @@ def late_by(faults: list[Fault], name: str, time: Array) -> Array | float:
 
 
 def apply_after_logger(fault: Fault, channels: dict[str, Array], number: int) -> None:
-    """Change samples of the campaign's run `number` in place: rails and lost samples."""
+    """Change samples of the campaign's run `number` in place: rails, lost samples, constants and zeros."""
     if fault.effect == "channel_clipping":
         for name in fault.channels:
             low, high = fault.rails[name]
             channels[name] = np.clip(channels[name], low, high)
+    elif fault.effect == "dead" and fault.form == "constant":
+        for name in fault.channels:
+            channels[name] = np.full_like(channels[name], fault.size)
+    elif fault.effect == "tared":
+        for name in fault.channels:
+            channels[name] = channels[name] - channels[name][:TARE].mean()
     elif fault.effect == "dropped_samples":
         rng = np.random.default_rng([fault.seed, number])
         count = channels[fault.channels[0]].size

@@ -1,14 +1,16 @@
-"""Logger and sensors: low-pass filter, small time offsets, 500 Hz samples, noise, faults."""
+"""Logger and sensors: low-pass filter, small time offsets, samples, noise, steps of the converter, faults."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
-from scipy.signal import butter, lfilter, sosfilt, sosfiltfilt
+from scipy.signal import butter, sosfilt, sosfiltfilt
 
 from bench.faults import Fault, apply_after_logger, apply_before_logger, late_by
+from bench.noise import coloured, hum, quantised
 from bench.settings import PADS
 
 Array = NDArray[np.float64]
@@ -34,6 +36,11 @@ def sensor(name: str) -> str:
     return name.split("_")[0]
 
 
+@cache
+def _sections(order: int, lowpass: float, rate: float) -> Array:
+    return np.asarray(butter(order, lowpass, fs=rate, output="sos"))
+
+
 @dataclass(frozen=True)
 class Logger:
     """What the laboratory's chain does to every channel.
@@ -45,8 +52,13 @@ class Logger:
         stated: whether campaign.toml says so.
         noise: kind of sensor -> standard deviation [SI].
         correlation: of a sample's noise with the one before [1].
-        hum: amplitude at 50 Hz as a share of the noise [1].
+        pink: share of the noise's variance that goes as 1/f [1].
+        hum: amplitude of the mains as a share of the noise [1].
+        mains: frequency of the hum [Hz].
         late: channel -> small offset in time [s].
+        rate: of the samples [Hz].
+        bits: of the converter; 0: its steps are too fine to see.
+        ranges: channel -> what the converter reaches to either side [SI].
     """
 
     lowpass: float = 100.0
@@ -55,12 +67,17 @@ class Logger:
     stated: bool = True
     noise: dict[str, float] = field(default_factory=lambda: dict(NOISE))
     correlation: float = 0.0
+    pink: float = 0.0
     hum: float = 0.0
+    mains: float = 50.0
     late: dict[str, float] = field(default_factory=dict)
+    rate: float = RATE
+    bits: int = 0
+    ranges: dict[str, float] = field(default_factory=dict)
 
     def filtered(self, signal: Array, rate: float) -> Array:
         """Pass a signal (n,) sampled at `rate` [Hz] through the low-pass filter."""
-        sos = butter(self.order, self.lowpass, fs=rate, output="sos")
+        sos = _sections(self.order, self.lowpass, rate)
         if self.phase == "zero":
             return np.asarray(sosfiltfilt(sos, signal))
         return signal[0] + np.asarray(sosfilt(sos, signal - signal[0]))
@@ -86,11 +103,9 @@ def draw_logger(rng: np.random.Generator, rich: bool) -> Logger:
 
 
 def _noise(logger: Logger, kind: str, count: int, rng: np.random.Generator) -> Array:
-    rho = logger.correlation
-    white = rng.normal(size=count + 50)
-    noise = np.asarray(lfilter([np.sqrt(1.0 - rho * rho)], [1.0, -rho], white))[50:]
+    noise = coloured(count, logger.correlation, logger.pink, rng)
     if logger.hum:
-        noise += logger.hum * np.sin(2.0 * np.pi * 50.0 / RATE * np.arange(count) + rng.uniform(0.0, 2.0 * np.pi))
+        noise += logger.hum * hum(count, logger.mains / logger.rate, rng)
     return logger.noise[kind] * noise
 
 
@@ -109,15 +124,16 @@ def measure(
         names: channels to record.
         logger: the chain.
         faults: of gauges, in order.
-        rng: for noise. None: no noise.
+        rng: for noise. None: no noise, and a converter without steps.
         number: of the run in its campaign.
 
     Returns:
-        "time" [s] and the channels at 500 Hz, SI.
+        "time" [s] and the channels at the logger's rate, SI.
     """
     time = true["time"]
     rate = 1.0 / (time[1] - time[0])
-    stride = int(round(rate / RATE))
+    stride = int(round(rate / logger.rate))
+    faults = [fault for fault in faults if not fault.runs or number in fault.runs]
     channels = {name: true[name] for name in names}
     for fault in faults:
         apply_before_logger(fault, channels, time, true)
@@ -133,6 +149,8 @@ def measure(
             recorded[name] = smooth[::stride].copy()
         if rng is not None:
             recorded[name] += _noise(logger, sensor(name), samples.size, rng)
+            if logger.bits:
+                recorded[name] = quantised(recorded[name], logger.ranges[name], logger.bits)
     for fault in faults:
         apply_after_logger(fault, recorded, number)
     return {"time": samples, **recorded}

@@ -73,24 +73,31 @@ def hide(effects: Sequence[str], size: str, base: Settings, rng: np.random.Gener
     details: dict[str, dict[str, Any]] = {}
     for name in effects:
         scale = SIZES[size] * float(np.exp(rng.uniform(np.log(0.8), np.log(1.25))))
-        family, _, kind = name.partition(":")
-        missing.append(family)
-        if family in GAUGE_EFFECTS:
-            fault = GAUGE_EFFECTS[family](rng, scale)
-            faults.append(fault)
-            details[family] = {"scale": scale, "form": fault.form, "channels": list(fault.channels), "size": fault.size}
-            continue
-        if family == "unknown":
-            change, form = unknown(kind or str(rng.choice(list(UNKNOWN_KINDS))), rng, scale)
-        else:
-            change, form = {**PAD_EFFECTS, **RIG_EFFECTS}[family](rng, scale, base)
-        settings.update(change)
-        details[family] = {
-            "scale": scale,
-            "form": form,
-            **{key: np.asarray(value).tolist() for key, value in change.items()},
-        }
+        one = hide_one(name, scale, base, rng)
+        missing += one.missing
+        settings |= one.settings
+        faults += one.faults
+        details |= one.details
     return Hidden(tuple(missing), settings, tuple(faults), details)
+
+
+def hide_one(name: str, scale: float, base: Settings, rng: np.random.Generator) -> Hidden:
+    """Draw the law of one effect; `scale` is in multiples of what is typical of the rig.
+
+    Raises:
+        KeyError: an effect or a kind that does not exist.
+    """
+    family, _, kind = name.partition(":")
+    if family in GAUGE_EFFECTS:
+        fault = GAUGE_EFFECTS[family](rng, scale)
+        said = {"scale": scale, "form": fault.form, "channels": list(fault.channels), "size": fault.size}
+        return Hidden((family,), faults=(fault,), details={family: said})
+    if family == "unknown":
+        change, form = unknown(kind or str(rng.choice(list(UNKNOWN_KINDS))), rng, scale)
+    else:
+        change, form = {**PAD_EFFECTS, **RIG_EFFECTS}[family](rng, scale, base)
+    plain = {key: np.asarray(value).tolist() for key, value in change.items()}
+    return Hidden((family,), dict(change), details={family: {"scale": scale, "form": form, **plain}})
 
 
 def _rich(effects: Sequence[str], rng: np.random.Generator) -> bool:

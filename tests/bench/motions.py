@@ -29,6 +29,12 @@ class Motion:
         """Give the same motion with other amplitudes."""
         return replace(self, ax=self.ax * horizontal, ay=self.ay * horizontal, az=self.az * vertical)
 
+    def followed_by_rest(self, seconds: float) -> "Motion":
+        """Give the same motion with a still table after it."""
+        still = np.zeros(int(round(seconds / self.step)))
+        ax, ay, az = (np.concatenate([part, still]) for part in (self.ax, self.ay, self.az))
+        return replace(self, ax=ax, ay=ay, az=az)
+
     def without_vertical(self) -> "Motion":
         """Give the same motion with the vertical part switched off."""
         return replace(self, az=np.zeros_like(self.az))

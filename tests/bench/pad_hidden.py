@@ -33,17 +33,33 @@ def pressure_factor(p, load):
 
 @njit(cache=True)
 def heat_factor(p, heat):
-    """1 first order: falls exponentially with stored work; 2 half-space: kT of Kumar (2015) from 20 degrees C."""
-    if p.heat_form == 1:
+    """1 first order, 3 three bodies: exponential in stored work; 2 half-space: kT of Kumar (2015) from 20 degrees C."""
+    if p.heat_form != 2:
         return math.exp(-p.heat * heat / 1300.0)
     return 0.789 * (0.7 ** ((20.0 + p.heat * heat) / 50.0) + 0.4) / 0.99968
 
 
 @njit(cache=True)
+def bodies_heat(stored):
+    """Work [J] that counts of what three bodies store (3,): face, sheet and plate."""
+    return 0.5 * stored[0] + 0.3 * stored[1] + 0.2 * stored[2]
+
+
+@njit(cache=True)
+def warm_bodies(p, stored, work, step):
+    """Let work [W] into three bodies that lose it in a fifth of `heat_time`, in that time and in five times that."""
+    stored[0] += step * (work - 5.0 * stored[0] / p.heat_time)
+    stored[1] += step * (work - stored[1] / p.heat_time)
+    stored[2] += step * (work - 0.2 * stored[2] / p.heat_time)
+
+
+@njit(cache=True)
 def wear_factor(p, distance):
-    """1 exponential, 2 hyperbolic: a transfer film that settles with slid distance."""
+    """1 exponential, 2 hyperbolic, 3 a small power: a transfer film that settles with slid distance."""
     if p.wear_form == 1:
         return 1.0 + p.wear * math.exp(-distance / p.wear_length)
+    if p.wear_form == 3:
+        return 1.0 + p.wear / (1.0 + distance / p.wear_length) ** 0.3
     return 1.0 + p.wear / (1.0 + distance / p.wear_length) ** 1.5
 
 

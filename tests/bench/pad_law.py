@@ -50,7 +50,7 @@ def preslide(form, zx, zy, vx, vy, bound, asymmetry, length, damping, step):
     """Hidden pre-sliding: friction = bound times the filled share of a length u_y.
 
     Forms: 1 Dahl, dz/dt = v - |v| z/u_y, taken implicitly so that no step overshoots; 2 elastic-plastic, z cut at
-    u_y; both with a little viscous damping below it. (Form 3 is `slide` with a soft stick.)
+    u_y; both with a little viscous damping below it. (Form 3 is `slide` with a soft stick, 4 is `bristle`.)
     """
     speed = math.sqrt(vx * vx + vy * vy)
     zx += vx * step
@@ -67,3 +67,17 @@ def preslide(form, zx, zy, vx, vy, bound, asymmetry, length, damping, step):
     force = bound * (1.0 + asymmetry * direction) / length
     open_share = 1.0 - filled if filled < 1.0 else 0.0
     return force * zx + damping * vx * open_share, force * zy + damping * vy * open_share, zx, zy
+
+
+@njit(cache=True)
+def bristle(zx, zy, vx, vy, bound, asymmetry, length, lag, step):
+    """LuGre: F = bound (z + t_d dz/dt)/u, dz/dt = v - |v| z/u, z taken implicitly; F may overshoot the bound.
+
+    Source: Canudas de Wit et al. (1995), without the viscous term.
+    """
+    shrink = 1.0 / (1.0 + math.sqrt(vx * vx + vy * vy) * step / length)
+    new_x, new_y = (zx + vx * step) * shrink, (zy + vy * step) * shrink
+    bent_x = new_x + lag * (new_x - zx) / step
+    bent_y = new_y + lag * (new_y - zy) / step
+    force = bound * (1.0 + asymmetry * new_x / length) / length
+    return force * bent_x, force * bent_y, new_x, new_y

@@ -15,6 +15,7 @@ from numba import njit
 
 from bench.buffer_law import (
     damping_force,
+    dashpot_speed,
     elastic_force,
     hysteresis_rate,
     impact_force,
@@ -22,8 +23,8 @@ from bench.buffer_law import (
     rubbing_force,
     through_gap,
 )
-from bench.pad_hidden import grow_older, hidden_bound, unknown_bound
-from bench.pad_law import base_bound, preslide, slide, stick_stiffness
+from bench.pad_hidden import bodies_heat, grow_older, hidden_bound, unknown_bound, warm_bodies
+from bench.pad_law import base_bound, bristle, preslide, slide, stick_stiffness
 from bench.settings import GRAVITY, PAD_SIGN_X, PAD_SIGN_Y
 
 GIRDER = 6  # places in the state: x, y, z, roll, pitch, yaw
@@ -36,7 +37,7 @@ def pad_forces(p, g, w, a, time, step, mem, heat_rates, heat_weights, row, total
     """Add the forces of the four pads to `total` (force x, y, z; moment x, y, z about the centre of gravity).
 
     g, w, a: (6,) places, speeds, and accelerations of the step before. mem: (4, n) memories of the pads:
-    0-1 stick, 2-3 shadow's stick, 4 age, 5 heat, 6 slid distance, 7 lagged bound, 8.. heat of the half-space.
+    0-1 stick, 2-3 shadow's stick, 4 age, 5 heat, 6 slid distance, 7 lagged bound, 8.. heat of half-space or bodies.
     """
     stiff = stick_stiffness(p, p.stick_length)
     damp = 2.0 * p.stick_damping * math.sqrt(stiff * 0.25 * p.mass)
@@ -70,6 +71,8 @@ def pad_forces(p, g, w, a, time, step, mem, heat_rates, heat_weights, row, total
             heat = 0.0
             for j in range(heat_rates.size):
                 heat += heat_weights[j] * m[8 + j]
+        elif p.heat_form == 3:
+            heat = bodies_heat(m[8:11])
         if p.unknown_form:
             m[7] += (bound - m[7]) * min(step / max(p.unknown_place, step), 1.0) if p.unknown_form == 9 else 0.0
             load_rate = p.pad_stiffness * closing
@@ -78,6 +81,10 @@ def pad_forces(p, g, w, a, time, step, mem, heat_rates, heat_weights, row, total
         bound = max(bound, 0.002 * load)
         if p.presliding_form == 3:
             fx, fy, m[0], m[1] = slide(m[0], m[1], vx, vy, bound, p.asymmetry, soft, soft_damp, step)
+        elif p.presliding_form == 4:
+            fx, fy, m[0], m[1] = bristle(
+                m[0], m[1], vx, vy, bound, p.asymmetry, p.presliding_length, p.presliding_lag, step
+            )
         elif p.presliding_form:
             fx, fy, m[0], m[1] = preslide(
                 p.presliding_form, m[0], m[1], vx, vy, bound, p.asymmetry, p.presliding_length, soft_damp, step
@@ -92,6 +99,8 @@ def pad_forces(p, g, w, a, time, step, mem, heat_rates, heat_weights, row, total
         elif p.heat_form == 2:
             for j in range(heat_rates.size):
                 m[8 + j] += step * (work / p.pad_area - m[8 + j] * heat_rates[j])
+        elif p.heat_form == 3:
+            warm_bodies(p, m[8:11], work, step)
         fx += load * (p.tilt + p.curvature * place)
         fy += load * p.curvature * (g[1] + p.height * g[3] + rx * g[5])
         at = MIDDLE + PER_PAD * i
@@ -111,7 +120,7 @@ def pad_forces(p, g, w, a, time, step, mem, heat_rates, heat_weights, row, total
 
 @njit(cache=True)
 def buffer_forces(p, g, w, step, mem, row, total):
-    """Add the buffers and their keys. mem: (2, 3): loop share, largest excursion, key's elastic way."""
+    """Add the buffers and their keys. mem: (2, 4): loop share, largest excursion, key's way, dashpot's speed."""
     rz = p.buffer_height - p.height
     for j in range(2):
         side = 1.0 - 2.0 * j
@@ -124,7 +133,8 @@ def buffer_forces(p, g, w, step, mem, row, total):
         stiffness = 0.5 * p.buffer_stiffness * (1.0 + side * p.mismatch)
         push = through_gap(x, p.clearance)
         m = mem[j]
-        fx = elastic_force(p, stiffness, push, m[1]) + impact_force(p, push, x, vx) + damping_force(p, vx)
+        m[3] = dashpot_speed(p, m[3], vx, step) if p.buffer_damping_form == 3 else vx
+        fx = elastic_force(p, stiffness, push, m[1]) + impact_force(p, push, x, vx) + damping_force(p, m[3])
         if p.hysteresis_form:
             m[0] += step * hysteresis_rate(p, m[0], vx)
             fx += 0.5 * p.hysteresis_force * m[0]
@@ -162,7 +172,7 @@ def run(p, start, table, table_step, step, settle, steps, every, pads, buffers, 
         steps: steps with motion.
         every: steps for a row.
         pads: (4, n) memories, changed in place.
-        buffers: (2, 3) memories, changed in place.
+        buffers: (2, 4) memories, changed in place.
         heat_rates: decay rates of the half-space kernel [1/s].
         heat_weights: its weights [K m^2/J].
         out: (rows, columns).

@@ -86,7 +86,7 @@ def simulate(
     pads = np.zeros((4, _PAD_MEMORY + rates.size))
     pads[:, 4] = _LONG_REST
     pads[:, 6] = memory.distance
-    buffers = np.zeros((2, 3))
+    buffers = np.zeros((2, 4))
     buffers[:, 1] = memory.largest
     table = np.ascontiguousarray(np.stack([motion.ax, motion.ay, motion.az], axis=1))
     steps = int(round(motion.duration / step))

@@ -1,7 +1,7 @@
 """How right the verdicts on hidden-effect campaigns are: exact names, confusion, calibration."""
 
 from collections import Counter, defaultdict
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 #: Never a missing effect by itself.
@@ -99,8 +99,16 @@ def confusion(results: Sequence[dict[str, Any]]) -> dict[str, Counter[str]]:
     return dict(sorted(table.items()))
 
 
-def calibration(results: Sequence[dict[str, Any]], bins: int = 10) -> list[dict[str, float]]:
-    """Give for every tenth of probability the mean probability, the share right, and the count."""
+def calibration(
+    results: Sequence[dict[str, Any]], bins: int = 10, judge: Callable[[dict[str, Any], dict[str, Any]], bool] = right
+) -> list[dict[str, float]]:
+    """Give for every tenth of probability the mean probability, the share right, and the count.
+
+    Args:
+        results: each holds truth and said.
+        bins: that probability is cut into.
+        judge: tells from truth and said whether a verdict is right.
+    """
     rows = []
     for i in range(bins):
         low, high = i / bins, (i + 1) / bins
@@ -116,7 +124,7 @@ def calibration(results: Sequence[dict[str, Any]], bins: int = 10) -> list[dict[
                     "low": low,
                     "high": high,
                     "said": sum(r["said"]["probability"] for r in here) / len(here),
-                    "right": sum(right(r["truth"], r["said"]) for r in here) / len(here),
+                    "right": sum(judge(r["truth"], r["said"]) for r in here) / len(here),
                     "count": len(here),
                 }
             )

@@ -20,7 +20,8 @@ ONES: Four = (1.0, 1.0, 1.0, 1.0)
 class Settings(NamedTuple):
     """The rig and its hidden effects.
 
-    A `_form` chooses between laws of one effect (0: absent). Lengths [m], forces [N], speeds [m/s], masses [kg].
+    A `_form` chooses between laws of one effect (0: absent). Lengths [m], forces [N], speeds [m/s], masses [kg],
+    times [s].
     """
 
     # specimen: a box of 3 x 5 x 0.5 m on pads 3 m apart in x and 5 m in y
@@ -55,6 +56,7 @@ class Settings(NamedTuple):
     breakaway_ageing: float = 0.0
     presliding_form: int = 0
     presliding_length: float = 1.0e-4
+    presliding_lag: float = 0.0
     heat_form: int = 0
     heat: float = 0.0
     heat_time: float = 10.0
@@ -79,6 +81,7 @@ class Settings(NamedTuple):
     # buffers and key
     buffer_damping_form: int = 0
     buffer_damping: float = 0.0
+    buffer_relaxation: float = 0.02
     hysteresis_form: int = 0
     hysteresis_force: float = 0.0
     hysteresis_length: float = 2.0e-3

@@ -1,7 +1,7 @@
 """A campaign's folder in the form of the contract: campaign.toml, one CSV for each run, and the answer apart."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -34,18 +34,30 @@ def unit_of(channel: str) -> tuple[str, float]:
 
 
 def write_csv(path: Path, channels: Mapping[str, Array]) -> None:
-    """Write channels (SI) with five digits, units in the header."""
+    """Write channels (SI) with five digits, time with eight, units in the header."""
     units = {name: unit_of(name) for name in channels}
     header = ",".join(f"{name} [{unit}]" for name, (unit, _) in units.items())
     table = np.stack([values * units[name][1] for name, values in channels.items()], axis=1)
-    row = ",".join(["%.5g"] * table.shape[1])
+    row = ",".join("%.8g" if name == "time" else "%.5g" for name in channels)
     lines = [row % tuple(one) for one in table.tolist()]
     path.write_text("\n".join([header, *lines]) + "\n", encoding="utf-8")
 
 
-def campaign_toml(name: str, rig: str, logger: Logger) -> str:
-    """Give the text of campaign.toml; the logger is described where the laboratory knows it."""
+def campaign_toml(
+    name: str, rig: str, logger: Logger, runs: Sequence[tuple[str, str]] = RUNS, mass: float | None = None
+) -> str:
+    """Give the text of campaign.toml; the logger is described where the laboratory knows it.
+
+    Args:
+        name: of the campaign.
+        rig: that it says it is.
+        logger: the chain.
+        runs: file without suffix, role.
+        mass: that it says the girder has [kg]. None: it does not say.
+    """
     lines = [f'name = "{name}"', f'rig = "{rig}"', ""]
+    if mass is not None:
+        lines += ["[specimen]", f'mass = "{mass:.5g} kg"', ""]
     if logger.stated:
         lines += [
             "[logger]",
@@ -54,16 +66,32 @@ def campaign_toml(name: str, rig: str, logger: Logger) -> str:
             f'phase = "{logger.phase}"',
             "",
         ]
-    lines += ["# One specimen, five runs. The girder was at rest before each run.", ""]
-    for run, role in RUNS:
+    count = {2: "two", 3: "three", 4: "four", 5: "five"}[len(runs)]
+    lines += [f"# One specimen, {count} runs. The girder was at rest before each run.", ""]
+    for run, role in runs:
         lines += ["[[run]]", f'file = "{run}.csv"', f'role = "{role}"', 'rest_before = "30 min"', ""]
     return "\n".join(lines)
 
 
-def write_campaign(folder: Path, rig: str, logger: Logger, runs: Mapping[str, Mapping[str, Array]]) -> None:
-    """Write campaign.toml and the runs' CSV files into `folder`, which is made when it is not there."""
+def write_campaign(
+    folder: Path,
+    rig: str,
+    logger: Logger,
+    runs: Mapping[str, Mapping[str, Array]],
+    roles: Sequence[tuple[str, str]] = RUNS,
+    mass: float | None = None,
+) -> None:
+    """Write campaign.toml and the runs' CSV files into `folder`, which is made when it is not there.
+
+    Args:
+        folder: of the campaign; its name becomes the campaign's.
+        rig, logger, mass: as in `campaign_toml`.
+        runs: file without suffix -> channels [SI].
+        roles: file without suffix, role.
+    """
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "campaign.toml").write_text(campaign_toml(folder.name, rig, logger), encoding="utf-8")
+    text = campaign_toml(folder.name, rig, logger, roles, mass)
+    (folder / "campaign.toml").write_text(text, encoding="utf-8")
     for run, channels in runs.items():
         write_csv(folder / f"{run}.csv", channels)
 

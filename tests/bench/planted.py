@@ -1,0 +1,111 @@
+"""What is planted in a dirty campaign: laws with a size that can be changed while everything else of them stays."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from bench.dirt import GAUGE_DIRT, RIG_DIRT
+from bench.faults import Fault
+from bench.hidden import Hidden, hide_one
+from bench.other_forms import OTHER_FORMS
+from bench.score import INSTRUMENT
+from bench.settings import Settings
+
+#: Beyond it a law is no longer what its author meant (a large effect of the clean bench has 2.5).
+LARGEST = 4.0
+
+
+@dataclass(frozen=True)
+class Plant:
+    """One effect.
+
+    Attributes:
+        effect: name of the catalogue, with a colon and a form where it is one of `OTHER_FORMS`; "unknown:washboard" for
+            a law outside it.
+        scale: size in multiples of what is typical, of dirt or of a hidden effect [1].
+        seed: of everything about its law but the size.
+        dirt: whether it is one of `bench.dirt`.
+        target: size wanted, in multiples of what is material; dirt may be smaller, not larger [1].
+        floors: least size wanted after a fit of the base parameters [floors]; the larger of the two sizes counts.
+    """
+
+    effect: str
+    scale: float
+    seed: int
+    dirt: bool
+    target: float
+    floors: float = 0.0
+
+    @property
+    def name(self) -> str:
+        """Name as a verdict should give it."""
+        return self.effect.partition(":")[0]
+
+    @property
+    def of_gauge(self) -> bool:
+        """Whether it is a fault of a gauge: the rig moves as if it were not there."""
+        return self.name in INSTRUMENT
+
+    def scaled(self, factor: float) -> "Plant":
+        """Give the same law, `factor` times as large where it can be."""
+        largest = self.scale if self.dirt else max(LARGEST, self.scale)
+        return replace(self, scale=float(np.clip(self.scale * factor, 1.0e-3, largest)))
+
+    def hidden(self, base: Settings) -> Hidden:
+        """Give what it changes in the specimen `base`."""
+        rng = np.random.default_rng(self.seed)
+        if self.dirt and self.name in GAUGE_DIRT:
+            faults = tuple(GAUGE_DIRT[self.name][1](rng, self.scale))
+            said = {"scale": self.scale, "form": "dirt", "faults": [fault.describe() for fault in faults]}
+            return Hidden((self.name,), faults=faults, details={self.name: said})
+        if self.dirt:
+            return self._law(RIG_DIRT[self.name][1](rng, self.scale, base), "dirt")
+        if self.effect in OTHER_FORMS:
+            return self._law(*OTHER_FORMS[self.effect](rng, self.scale, base))
+        return hide_one(self.effect, self.scale, base, rng)
+
+    def _law(self, change: dict[str, Any], form: str) -> Hidden:
+        plain = {key: np.asarray(value).tolist() for key, value in change.items()}
+        said = {"scale": self.scale, "form": form, **plain}
+        return Hidden((self.name,), change, details={self.name: said})
+
+
+def together(plants: Iterable[Plant], base: Settings) -> Hidden:
+    """Give all of them in one specimen; faults of one name add, laws of one name do not meet."""
+    settings: dict[str, Any] = {}
+    missing, faults = [], []
+    details: dict[str, dict[str, Any]] = {}
+    for plant in plants:
+        one = plant.hidden(base)
+        missing += [name for name in one.missing if name not in missing]
+        settings |= one.settings
+        faults += one.faults
+        details |= {name + (" (dirt)" if plant.dirt else ""): said for name, said in one.details.items()}
+    return Hidden(tuple(missing), settings, tuple(faults), details)
+
+
+def without(plants: Sequence[Plant], name: str) -> list[Plant]:
+    """Leave out everything of one name."""
+    return [plant for plant in plants if plant.name != name]
+
+
+def faults_of(hidden: Hidden, names: Sequence[str]) -> list[Fault]:
+    """Give the faults of gauges that a campaign has."""
+    kept = []
+    for fault in hidden.faults:
+        channels = tuple(name for name in fault.channels if name in names)
+        if channels:
+            kept.append(replace(fault, channels=channels))
+    return kept
+
+
+def named(plants: Iterable[Plant]) -> list[str]:
+    """Give every name once."""
+    return list(dict.fromkeys(plant.name for plant in plants))
+
+
+def only(plants: Sequence[Plant], name: str) -> list[Plant]:
+    """Keep everything of one name."""
+    return [plant for plant in plants if plant.name == name]
