@@ -20,7 +20,7 @@ from slipwise.errors import SlipwiseError  # noqa: E402
 from slipwise.motion.detect import detect  # noqa: E402
 from slipwise.motion.source_file import source_of  # noqa: E402
 from slipwise.motion.stated import Given  # noqa: E402
-from unit.motion import agency_samples, samples  # noqa: E402
+from unit.motion import agency_samples, samples  # noqa: E402  # pyright: ignore[reportMissingImports]
 
 _PIECES = [
     b"", b"-", b".", b"9", b"0", b" ", b"\n", b"\r", b",", b";", b"\t", b"E", b"nan", b"\x00", b"\xff", b"(", b"]",

@@ -56,7 +56,8 @@ def zero_state(records: Sequence[Record], weight: float | None) -> ZeroState:
         sign = np.sign(means[0])
         if all(abs(sign * mean - GRAVITY) < _NEAR * GRAVITY for mean in means):
             gravity[name] = float(sign) * GRAVITY
-    weighing = [record for record in records if record.has_all(*LOADS)]
+    # cells that never move are dead, whatever they were set to
+    weighing = [r for r in records if r.has_all(*LOADS) and all(np.ptp(r[name]) > 0.0 for name in LOADS)]
     if weight is None or not weighing:
         return ZeroState(gravity, None)
     sums = [float(np.median(np.sum([record[name] for name in LOADS], axis=0))) for record in weighing]

@@ -23,6 +23,7 @@ from slipwise.estimation.intervals import intervals
 from slipwise.estimation.prediction_interval import predicted_friction
 from slipwise.evidence.floor import noise_floor
 from slipwise.instruments.checks import Checks, check_instruments
+from slipwise.instruments.suspects import effect_of
 from slipwise.model import Model
 from slipwise.model_file import as_model
 
@@ -122,12 +123,13 @@ def _refuse_wrong_loads(checks: Checks) -> None:
     Raises:
         InputError: a load cell counts compression negative, or does not show the girder's weight.
     """
+    turned, shifted = (effect_of(kind).name for kind in ("turned", "shifted"))
     wrong = [
         f
         for f in checks.report.findings
         if f.channel.startswith("pad_")
         and f.channel.endswith("_N")
-        and (f.what == "channel_sign" or f.name == "channel_offset:pad_*_N")
+        and (f.what == turned or (f.what == shifted and f.channel == "pad_*_N"))
     ]
     if wrong:
         names = " ".join(f"--correct '{finding.name}'" for finding in wrong)

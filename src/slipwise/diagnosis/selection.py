@@ -15,7 +15,7 @@ from slipwise.instruments.sample_faults import RAILS, SampleFault, sample_faults
 from slipwise.model import Model
 
 #: Faults of samples that a gauge has; a gap is the clock's.
-_OF_GAUGES = ("turned", *RAILS, "held", "lost")
+_OF_GAUGES = ("turned", "shifted", *RAILS, "held", "lost")
 
 
 @dataclass(frozen=True)

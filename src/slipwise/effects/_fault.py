@@ -7,7 +7,7 @@ from fnmatch import fnmatchcase
 from slipwise.channels import channel
 
 #: Faults that the samples show by themselves.
-SAMPLE_FAULTS: tuple[str, ...] = ("dead", "upper rail", "lower rail", "held", "lost", "gap", "turned")
+SAMPLE_FAULTS: tuple[str, ...] = ("dead", "upper rail", "lower rail", "held", "lost", "gap", "turned", "shifted")
 
 
 @dataclass(frozen=True)

@@ -37,6 +37,7 @@ EFFECT = Effect(
         settled_by="zero readings before and after, with the girder lifted for load cells",
         unit="channel",
         least={"m/s^2": 0.03, "m": 1e-4, "N": 40.0, "rad": 1e-4},
+        samples=("shifted",),
     ),
     moves=("*",),
     signature="even and constant, at rest too; zero readings before and after show it",

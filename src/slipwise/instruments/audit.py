@@ -21,7 +21,7 @@ from slipwise.instruments.rows import noise_of_channels, noise_of_runs, prepare_
 from slipwise.instruments.sample_faults import RAILS, SampleFault, coarse, sample_faults
 from slipwise.instruments.sentences import as_sentence, confusable, how_to_settle, nearest, sentence
 from slipwise.instruments.suspects import Suspect, effect_of
-from slipwise.instruments.zeros import effect_of_zero, values_of_zero, words_of_zero
+from slipwise.instruments.zeros import values_of_zero, words_of_zero
 from slipwise.signals.noise import quantum, white_level
 
 #: Nobody is surer than this.
@@ -101,7 +101,7 @@ def _same_fault(rival: str, suspect: Suspect) -> bool:
 
 def _of_samples(campaign: Campaign, fault: SampleFault) -> Finding:
     """Turn bad samples, a wrong sign or a zero that is far off into a finding."""
-    effect = effect_of_zero() if fault.kind == "shifted" else effect_of(fault.kind)
+    effect = effect_of(fault.kind)
     place = _place(fault.channels)
     unit = channel(fault.channels[0]).unit if fault.kind in (*RAILS, "shifted") else "1"
     words = {

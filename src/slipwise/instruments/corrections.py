@@ -9,8 +9,7 @@ from slipwise.errors import InputError, unknown_name
 from slipwise.instruments.repairs import bridged
 from slipwise.instruments.report import AuditReport, Finding
 from slipwise.instruments.sample_faults import sample_faults
-from slipwise.instruments.suspects import declared
-from slipwise.instruments.zeros import EFFECT
+from slipwise.instruments.suspects import declared, effect_of
 from slipwise.record import Record
 
 
@@ -52,7 +51,7 @@ def _check_known_weight(finding: Finding, campaign: Campaign) -> None:
     Raises:
         InputError: the load cells are tared, and the campaign does not give the girder's mass.
     """
-    if finding.what == EFFECT and finding.channel == "pad_*_N" and "mass" not in campaign.known:
+    if finding.what == effect_of("shifted").name and finding.channel == "pad_*_N" and "mass" not in campaign.known:
         raise InputError(
             f'{finding.words}: to put it back, give the girder\'s mass in campaign.toml, [specimen] mass = "10.02 t"; '
             "each cell then gets a quarter of the weight"

@@ -2,11 +2,8 @@
 
 from slipwise.campaign import Campaign
 from slipwise.campaign.zero_state import LOADS, ZeroState, zero_state
-from slipwise.effects import Effect, catalogue
 from slipwise.effects._gauges import span
-
-#: The effect of the catalogue that such a zero is.
-EFFECT = "channel_offset"
+from slipwise.instruments.suspects import effect_of
 
 
 def shifted_zeros(campaign: Campaign) -> list[tuple[tuple[str, ...], float]]:
@@ -25,14 +22,9 @@ def words_of_zero(campaign: Campaign, channels: tuple[str, ...]) -> str:
     return words[channels]
 
 
-def effect_of_zero() -> Effect:
-    """Give the effect that a shifted zero is."""
-    return catalogue()[EFFECT]
-
-
 def values_of_zero(channels: tuple[str, ...], size: float) -> dict[str, float]:
     """Give the parameters of that effect."""
-    return {effect_of_zero().parameters[0].name: size / span(channels[0])}
+    return {effect_of("shifted").parameters[0].name: size / span(channels[0])}
 
 
 def _state(campaign: Campaign) -> ZeroState:
