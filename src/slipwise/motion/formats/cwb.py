@@ -10,6 +10,7 @@ import numpy as np
 from slipwise.errors import InputError
 from slipwise.motion.origin import Origin, time_in
 from slipwise.motion.source_file import SourceFile, check_count, header_field, number, positive
+from slipwise.motion.spaced_table import spaced_table
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
 from slipwise.motion.trace import Trace, check_header_peak, half_last_digit
@@ -44,7 +45,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
         raise InputError(f"{place}: the sequence {sequence[1]!r} cannot be read; 'Time U(+); N(+); E(+)' is")
     length, place = field(r"RecordLength\(sec\)", r"([\d.]+)")
     count = round(number(length[1], place) * per_second)
-    table = _table(source, len(names) + 1)
+    table = spaced_table(source, _rows(source), len(names) + 1)
     check_count(len(table), count, source, "the header's record length")
     if np.abs(table[:, 0] - table[0, 0] - np.arange(count) * dt).max() > 0.5 * dt:
         raise InputError(
@@ -78,19 +79,8 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
     return traces
 
 
-def _table(source: SourceFile, columns: int) -> np.ndarray:
-    rows = []
-    for i, line in enumerate(source.lines):
-        if not line.strip() or line.lstrip().startswith("#"):
-            continue
-        fields = line.split()
-        if len(fields) != columns:
-            raise InputError(
-                f"{source.at(i)}: {columns} values were expected, the line has {len(fields)}; "
-                "the record is truncated or damaged, fetch the file again"
-            )
-        rows.append([number(value, source.at(i)) for value in fields])
-    return np.array(rows, dtype=float).reshape(-1, columns)
+def _rows(source: SourceFile) -> list[int]:
+    return [i for i, line in enumerate(source.lines) if not line.lstrip().startswith("#")]
 
 
 def _peak(source: SourceFile, name: str, factor: float) -> HeaderPeak | None:

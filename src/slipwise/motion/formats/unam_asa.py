@@ -3,11 +3,10 @@
 Values of channels in the header stand between slashes: "/V/N00E/N90E". Source: the files' own headers.
 """
 
-import numpy as np
-
 from slipwise.errors import InputError
 from slipwise.motion.origin import Origin, time_in
 from slipwise.motion.source_file import SourceFile, check_count, header_field, number, positive
+from slipwise.motion.spaced_table import spaced_table
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
 from slipwise.motion.trace import Trace, check_header_peak, half_last_digit
@@ -44,7 +43,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
         )
     dt, dt_words = settle_step(steps[0], given, source)
     factor, unit_words = settle_unit(field("UNIDADES DE LOS DATOS"), given, source)
-    table = _table(source, len(names))
+    table = spaced_table(source, range(_HEADER_LINES, len(source.lines)), len(names))
     check_count(len(table), counts[0], source, "NUM. TOTAL DE MUESTRAS")
     peaks, at = parts(r"ACEL\. MAX\.\(Gal\), C1-C6"), parts(r"ACEL\. MAX\., C1-C6")
     station = field("CLAVE DE LA ESTACION")
@@ -75,18 +74,3 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
             )
         )
     return traces
-
-
-def _table(source: SourceFile, columns: int) -> np.ndarray:
-    rows = []
-    for i in range(_HEADER_LINES, len(source.lines)):
-        fields = source.lines[i].split()
-        if not fields:
-            continue
-        if len(fields) != columns:
-            raise InputError(
-                f"{source.at(i)}: {columns} values were expected, the line has {len(fields)}; "
-                "the record is truncated or damaged, fetch the file again"
-            )
-        rows.append([number(value, source.at(i)) for value in fields])
-    return np.array(rows, dtype=float).reshape(-1, columns)
