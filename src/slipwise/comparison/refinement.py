@@ -67,7 +67,7 @@ class _Point:
     residual: Array
 
 
-def refine(base: BaseFit, keys: Sequence[str], *, rounds: int = 5, threads: int = 2) -> Refined:
+def refine(base: BaseFit, keys: Sequence[str], *, rounds: int = 12, threads: int = 2) -> Refined:
     """Refine numbers of a component-level fit against the replay.
 
     Args:

@@ -19,8 +19,10 @@ from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import Surface, leftover, structured
 from slipwise.diagnosis.unknown_surface import above_noise as left_above_noise
 from slipwise.estimation.parameters import Term
+from slipwise.evidence.acceptance import LEAST
 from slipwise.evidence.calibration import Calibration, calibration
-from slipwise.evidence.score import largest_drop
+from slipwise.evidence.residual_summary import ResidualSummary
+from slipwise.evidence.score import relative_drop
 from slipwise.instruments.sample_faults import SampleFault
 from slipwise.instruments.suspects import effect_of
 
@@ -30,6 +32,8 @@ _EVEN_ODDS = 0.5
 _UNCONFIRMED = 0.9
 #: Share of what the base model leaves above the noise of a held-out run that may stay there where effects hold [1].
 _CARRIED_OVER = 0.5
+#: Mean squared residual of a held-out run over that of the motions left out, up to which they are left alike [1].
+_AS_LEFT_OUT = 1.5
 #: An effect that is less likely than this to be there is not listed [1].
 _LISTED = 0.5
 
@@ -157,13 +161,21 @@ def _confirmed(state: Search, probability: float) -> float:
 
 
 def confirmed(state: Search) -> bool | None:
-    """Tell whether the held-out runs agree with what was found; None where none is held out or nothing was found."""
+    """Tell whether the held-out runs agree with what was found; None where none is held out or nothing was found.
+
+    They agree where every balance that the effects improve has lost half of its excess over the noise there as well,
+    or is left as well as the motions that were left out.
+    """
     origin, final = state.path[0].summary, state.final.summary
-    relation = largest_drop(origin, final)[1]
-    if not state.final.terms or not relation or not origin.counts[relation][1]:
+    improved = [r for r in origin.fitted if relative_drop(origin, final, r) >= LEAST.law and origin.counts[r][1]]
+    if not state.final.terms or not improved:
         return None
+    return all(_carries_over(origin, final, relation) for relation in improved)
+
+
+def _carries_over(origin: ResidualSummary, final: ResidualSummary, relation: str) -> bool:
     before, after = (s.held_out_level(relation) - 1.0 for s in (origin, final))
-    return after < _CARRIED_OVER * max(before, 1.0)
+    return after < max(_CARRIED_OVER * before, _AS_LEFT_OUT * final.left_out_level(relation) - 1.0)
 
 
 def with_faults(found: Verdict, faults: Sequence[SampleFault], terms: Sequence[Term] = ()) -> Verdict:

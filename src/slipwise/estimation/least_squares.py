@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from slipwise.estimation.parameters import Free
 from slipwise.estimation.problem import Problem
 from slipwise.estimation.residuals import Residuals
+from slipwise.parallel import on_every_core
 from slipwise.statistics.least_squares import Bounds, LevenbergMarquardt, Move, Slopes, gauss_newton
 
 Array = NDArray[np.float64]
@@ -85,16 +86,22 @@ def jacobian(
     base = now.stacked(which, problem.relations)
     nearby = problem.near(values)
     out = np.empty((len(free), len(base))).T  # column by column
-    for j, f in enumerate(free):
-        if known is not None and f.key in known:
-            out[:, j] = known[f.key]
-            continue
-        step = _STEP * f.scale
-        if values[f.key] + step > f.high:
+    taken = known or {}
+    missing = [j for j, f in enumerate(free) if f.key not in taken]
+
+    def column(j: int) -> Array:
+        step = _STEP * free[j].scale
+        if values[free[j].key] + step > free[j].high:
             step = -step
-        there = nearby.residuals({**values, f.key: values[f.key] + step}, fitted_only=True)
-        np.subtract(there.stacked(which, problem.relations), base, out=out[:, j])
-        out[:, j] *= f.scale / step
+        there = nearby.residuals({**values, free[j].key: values[free[j].key] + step}, fitted_only=True)
+        return (there.stacked(which, problem.relations) - base) * (free[j].scale / step)
+
+    if problem.balanced:  # one slider's laws are so quick that to share them out takes longer
+        columns = on_every_core(lambda k: column(missing[k]), len(missing))
+    else:
+        columns = map(column, missing)
+    for j, f in enumerate(free):
+        out[:, j] = taken[f.key] if f.key in taken else next(columns)
     return out
 
 

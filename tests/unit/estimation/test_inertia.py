@@ -30,7 +30,7 @@ def test_yaw_made_from_forces_tells_the_inertia_about_the_vertical() -> None:
     term = Term(catalogue()["buffer_mismatch"])
     found = final_refit_of(polished(refit(base, [term], {term.label: term.effect.typical()})))
     assert found.solution.values[YAW_INERTIA] == pytest.approx(made.truth.base.inertia_yaw, rel=0.03)
-    assert found.summary.level("pads", held_out=True) < 1.5**2
+    assert found.summary.held_out_level("pads") < 1.5**2
 
 
 @pytest.mark.slow
@@ -44,7 +44,7 @@ def test_a_table_that_rocks_tells_the_inertia_of_pitch() -> None:
     start[kind] = hidden["pitch_per_acceleration"]
     found = final_refit_of(polished(polished(refit(base, [term], {term.label: start}))))
     assert found.solution.values[PITCH_INERTIA] == pytest.approx(made.truth.base.inertia_pitch, rel=0.05)
-    assert found.summary.level("pitch", held_out=True) < 1.5**2
+    assert found.summary.held_out_level("pitch") < 1.5**2
 
 
 def test_the_noise_that_drives_a_rocking_table_is_counted() -> None:
@@ -67,4 +67,4 @@ def test_pitch_is_weighed_with_the_resonance_that_is_there_however_far_from_the_
     stated = Logger(LowPass(chain.lowpass, chain.order, chain.phase), known=True)
     base = fit_base(replace(as_campaign(made), logger=stated))
     assert made.truth.base.inertia_pitch == 1.6e4
-    assert summarised(base.problem, base.solution).level("pitch", held_out=True) < 1.1
+    assert summarised(base.problem, base.solution).held_out_level("pitch") < 1.1
