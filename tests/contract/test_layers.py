@@ -28,13 +28,13 @@ ARROWS: dict[str, str] = {
     "model_file": "effects errors model params record rig units",
     "simulation": "cache channels effects errors model model_file motion record rig shown",
     "campaign": "channels errors record rig shown signals text_encoding units",
-    "instruments": "campaign channels effects errors record rig shown signals statistics",
+    "instruments": "campaign channels effects errors parallel record rig shown signals statistics",
     "estimation": (
         "campaign channels effects errors instruments model parallel record rig signals statistics simulation"
     ),
     "evidence": "campaign channels errors estimation record signals statistics",
     "comparison": (
-        "campaign channels effects errors estimation evidence instruments model model_file motion record"
+        "campaign channels effects errors estimation evidence instruments model model_file motion parallel record"
         " shown signals statistics simulation"
     ),
     "diagnosis": (
@@ -42,8 +42,8 @@ ARROWS: dict[str, str] = {
         " parallel params record shown signals simulation units"
     ),
     "experiment": (
-        "campaign comparison diagnosis effects errors estimation evidence model motion record shown signals"
-        " simulation units"
+        "campaign comparison diagnosis effects errors estimation evidence model motion parallel record shown"
+        " signals simulation units"
     ),
     "studies": "channels effects errors model motion parallel record rig signals simulation units",
     "view": (

@@ -26,11 +26,13 @@ from slipwise.instruments.checks import Checks, check_instruments
 from slipwise.instruments.suspects import effect_of
 from slipwise.model import Model
 from slipwise.model_file import as_model
+from slipwise.parallel import one_thread_algebra
 
 #: Noise that the replay is fed with is the same in every comparison, so that two of them can be compared.
 _SEED = 1
 
 
+@one_thread_algebra()
 def compare(
     campaign: Campaign | Path | str,
     model: Model | Path | str | None = None,

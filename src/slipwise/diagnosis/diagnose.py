@@ -1,7 +1,7 @@
 """The verb: diagnose a campaign."""
 
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -24,6 +24,7 @@ from slipwise.diagnosis.verdict import Verdict, confirmed, decide_verdict, with_
 from slipwise.effects import Effect
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.intervals import Interval, intervals
 from slipwise.estimation.least_squares import jacobian
 from slipwise.estimation.prediction_interval import PredictedFriction, predicted_friction
 from slipwise.evidence.residual_summary import error_of
@@ -31,11 +32,13 @@ from slipwise.evidence.score import largest_drop, score
 from slipwise.instruments.suspects import effect_of
 from slipwise.model import Model
 from slipwise.model_file import as_model
+from slipwise.parallel import one_thread_algebra
 
 #: Hypotheses that are listed.
 _LISTED = 6
 
 
+@one_thread_algebra()
 def diagnose(
     campaign: Campaign | Path | str,
     model: Model | Path | str | None = None,
@@ -67,7 +70,8 @@ def diagnose(
     base, state = selected.base, selected.search
     tell("replaying without each effect", part)
     found = as_fit(base, state.final, with_slopes=not state.final.problem.balanced)
-    evidence = findings(state, importance_of_effects(found, state.final.terms), measured.materiality)
+    sizes = intervals(found).entries if state.final.terms else ()
+    evidence = findings(state, importance_of_effects(found, state.final.terms, sizes), measured.materiality)
     decided = decide_verdict(state, evidence, measured.materiality)
     shown = state.final if decided.effects else state.path[0]
     verdict = with_faults(decided, selected.faults, state.best.terms)
@@ -94,7 +98,7 @@ def diagnose(
         final_error=max(b for _, b in relations.values()),
         relations=relations,
         system=replayed,
-        candidates=_listed(selected, decided, verdict, final),
+        candidates=_listed(selected, decided, verdict, sizes),
         confirmed=confirmed(state) if decided.effects else None,
         predicted_friction=_predicted_friction(final),
         least=least_sizes(state.all_screened, state.path[0]),
@@ -147,9 +151,11 @@ def _component(state: Search, verdict: Verdict) -> str:
     return {"pads": "pad friction", "girder": "girder", "heave": "pad load"}.get(relation, "pad load")
 
 
-def _listed(selected: SelectionResult, decided: Verdict, verdict: Verdict, final: BaseFit) -> tuple[Candidate, ...]:
+def _listed(
+    selected: SelectionResult, decided: Verdict, verdict: Verdict, sizes: Sequence[Interval]
+) -> tuple[Candidate, ...]:
     """Give hypotheses, and faults of samples: before them where they alone are what is missing."""
-    hypotheses = _candidates(selected.search, decided, final)
+    hypotheses = _candidates(selected.search, decided, sizes)
     recorded, kept = selected.uncorrected, selected.search.path[0].summary
     where = max(recorded.fitted, key=lambda relation: error_of(recorded, relation))
     before, after = error_of(recorded, where), error_of(kept, where)
@@ -158,7 +164,7 @@ def _listed(selected: SelectionResult, decided: Verdict, verdict: Verdict, final
     return (*hypotheses, *faults) if decided.effects else (*faults, *hypotheses)
 
 
-def _candidates(state: Search, verdict: Verdict, final: BaseFit) -> tuple[Candidate, ...]:
+def _candidates(state: Search, verdict: Verdict, sizes: Sequence[Interval]) -> tuple[Candidate, ...]:
     origin = state.path[0]
     unique: dict[tuple[str, ...], Hypothesis] = {}
     for h in sorted(state.tried, key=lambda h: -score(origin.summary, h.summary)):
@@ -182,7 +188,7 @@ def _candidates(state: Search, verdict: Verdict, final: BaseFit) -> tuple[Candid
                 holdout_before=error_of(origin.summary, where),
                 holdout_after=error_of(shown.summary, where),
                 absorbed_by_base=max(absorbed.get(t.label, 0.0) for t in h.terms),
-                parameters=named_sizes(shown, final if verdict.effects and h is best else None),
+                parameters=named_sizes(shown, sizes if verdict.effects and h is best else ()),
             )
         )
     return tuple(out)

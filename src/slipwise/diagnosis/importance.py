@@ -17,7 +17,7 @@ from slipwise.comparison.measured_replay import measured_motion, simulation_step
 from slipwise.comparison.system_level import replayed_model
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.intervals import Interval, intervals
+from slipwise.estimation.intervals import Interval
 from slipwise.estimation.parameters import Term
 from slipwise.estimation.run_data import FitRun
 from slipwise.model import Model
@@ -66,19 +66,20 @@ class Importance:
         return max(shares, default=0.0)
 
 
-def importance_of_effects(final: BaseFit, terms: Sequence[Term]) -> dict[str, Importance]:
+def importance_of_effects(final: BaseFit, terms: Sequence[Term], sizes: Sequence[Interval]) -> dict[str, Importance]:
     """Give the importance of every effect that was added to a model.
 
     Args:
         final: the fitted model.
         terms: that were added; those of one effect are left out together.
+        sizes: its fitted numbers with their intervals.
     """
     if not terms:
         return {}
     added: dict[str, list[Term]] = {}
     for term in terms:
         added.setdefault(term.effect.name, []).append(term)
-    problem, sizes = final.problem, intervals(final).entries
+    problem = final.problem
     shown = (problem.held_out or [len(problem.runs) - 1])[0]
     places = {name: list(dict.fromkeys([shown, _where_most(final, of)])) for name, of in added.items()}
     asked = [("", place) for place in dict.fromkeys(p for of in places.values() for p in of)]

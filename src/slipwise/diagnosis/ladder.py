@@ -26,6 +26,7 @@ from slipwise.estimation.base_fit import BaseFit, fit_base
 from slipwise.evidence.residual_summary import ResidualSummary, error_of
 from slipwise.model import Model
 from slipwise.model_file import as_model
+from slipwise.parallel import one_thread_algebra
 from slipwise.shown import Drawn, Tabular
 
 #: An error below this has reached the noise floor [floors].
@@ -103,6 +104,7 @@ class Ladder(Drawn, Tabular):
         return [{**row, "effects": " + ".join(["base", *row["effects"]])} for row in self.table()]
 
 
+@one_thread_algebra()
 def ladder(
     campaign: Campaign | Path | str,
     add: Sequence[str] = (),

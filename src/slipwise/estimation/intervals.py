@@ -28,6 +28,7 @@ from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.noise_model import TIMING
 from slipwise.estimation.parameters import Free
 from slipwise.estimation.profile_likelihood import is_strength, upper_limit
+from slipwise.parallel import on_every_core
 
 Array = NDArray[np.float64]
 Shared = tuple[Array, NDArray[np.int64]]
@@ -120,13 +121,10 @@ def intervals(base: BaseFit) -> Intervals:
     ends = {f.key: (f.low, f.high) for f in solution.free}
     entries = (_widened_by_card_delay(e, *ends[e.key]) if e.key in own_lag else e for e in found.entries)
     found = replace(found, entries=tuple(entries))
-    limited = [
-        _limited(base, found.entries, j, left, block, shared)
-        if is_strength(base, f) and not found.entries[j].low > f.low
-        else e
-        for j, (f, e) in enumerate(zip(solution.free, found.entries, strict=True))
-    ]
-    return replace(found, entries=tuple(limited))
+    low = [j for j, f in enumerate(solution.free) if is_strength(base, f) and not found.entries[j].low > f.low]
+    limits = on_every_core(lambda i: _limited(base, found.entries, low[i], left, block, shared), len(low))
+    limited = dict(zip(low, limits, strict=True))
+    return replace(found, entries=tuple(limited.get(j, e) for j, e in enumerate(found.entries)))
 
 
 def _shared(base: BaseFit, count: int) -> Shared:

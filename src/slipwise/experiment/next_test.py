@@ -38,6 +38,7 @@ from slipwise.experiment.motions import LIBRARY, Limits, motions_for
 from slipwise.experiment.result import NextTest, Proposal
 from slipwise.model import Model
 from slipwise.motion import parse_motion
+from slipwise.parallel import one_thread_algebra
 from slipwise.record import Record
 from slipwise.signals.filters import lowpass
 from slipwise.simulation.replay import replay
@@ -48,6 +49,7 @@ _SUREST = 0.99
 _MOST = 3
 
 
+@one_thread_algebra()
 def next_test(
     found: Diagnosis | Campaign | Path | str,
     limits: Limits | None = None,

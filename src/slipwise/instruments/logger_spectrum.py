@@ -21,6 +21,7 @@ from scipy.signal import welch
 
 from slipwise.campaign import Campaign, Logger
 from slipwise.instruments.report import LoggerEstimate
+from slipwise.parallel import on_every_core
 from slipwise.signals.filters import LowPass
 
 Array = NDArray[np.float64]
@@ -63,10 +64,10 @@ def estimate_logger(campaign: Campaign) -> LoggerEstimate:
     frequency, power, weight = spectrum
     if len(frequency) < 24:
         return _unknown(f"sampled too slowly: nothing is seen above {frequency[-1] if len(frequency) else 0.0:.0f} Hz")
-    shapes = [_fit(frequency, power, weight, order, phase) for order, phase in _SHAPES]
+    # the last one is without a filter at all: a corner far above everything
+    asked = [*((order, phase, None) for order, phase in _SHAPES), (1, "causal", 50.0 * frequency[-1])]
+    *shapes, plain = on_every_core(lambda i: _fit(frequency, power, weight, *asked[i]), len(asked))
     best = min(shapes, key=lambda shape: shape.cost)
-    # without a filter at all: a corner far above everything
-    plain = _fit(frequency, power, weight, 1, "causal", corner=50.0 * frequency[-1])
     if plain.cost - best.cost < 10.0 or best.corner > _BELOW * frequency[-1]:
         return _unknown("the spectrum of friction falls evenly into the noise: no filter is seen", Logger(known=True))
     by = LowPass(best.corner, best.order, best.phase)

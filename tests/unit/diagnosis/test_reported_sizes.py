@@ -29,11 +29,11 @@ def test_an_interval_is_wider_than_that_of_a_true_law(fitted: tuple[Hypothesis, 
     found, fit = fitted
     key = "buffer_height.height"
     true = next(i for i in intervals(fit).entries if i.key == key)
-    wide = named_sizes(found, fit)[key]
+    wide = named_sizes(found, intervals(fit).entries)[key]
     half = np.hypot(1.5 * (true.high - true.value), 0.02 * true.value)
     assert wide.value == true.value
     assert wide.high - wide.value == pytest.approx(half) == wide.value - wide.low
-    assert set(named_sizes(found, fit)) == {key}, "numbers of the rig are not named"
+    assert set(named_sizes(found, intervals(fit).entries)) == {key}, "numbers of the rig are not named"
 
 
 def test_an_interval_ends_where_a_parameter_does(fitted: tuple[Hypothesis, BaseFit]) -> None:
@@ -41,10 +41,11 @@ def test_an_interval_ends_where_a_parameter_does(fitted: tuple[Hypothesis, BaseF
     value = found.solution.values["buffer_height.height"]
     close = tuple(replace(f, high=1.001 * value) if f.key.startswith("buffer_height") else f for f in fit.free)
     solution = replace(found.solution, free=close)
-    narrow = named_sizes(replace(found, solution=solution), replace(fit, solution=replace(fit.solution, free=close)))
+    narrowed = intervals(replace(fit, solution=replace(fit.solution, free=close))).entries
+    narrow = named_sizes(replace(found, solution=solution), narrowed)
     assert narrow["buffer_height.height"].high == pytest.approx(1.001 * value)
 
 
 def test_without_a_fit_of_its_own_a_size_has_no_interval(fitted: tuple[Hypothesis, BaseFit]) -> None:
-    only = named_sizes(fitted[0], None)["buffer_height.height"]
+    only = named_sizes(fitted[0], ())["buffer_height.height"]
     assert np.isnan(only.low) and np.isnan(only.high) and only.value > 0.0
