@@ -56,12 +56,14 @@ def one_dirty(folder: Path, name: str, seed: int, keep: bool) -> dict[str, Any]:
 
 def diagnosed(folder: Path) -> dict[str, Any]:
     """Diagnose a campaign; one that breaks the diagnosis is counted as wrong, and shown."""
+    from bench.evidence import evidence_in  # pyright: ignore[reportMissingImports]
     from slipwise.campaign import load_campaign
     from slipwise.diagnosis.diagnose import diagnose
 
     began = time.perf_counter()
     try:
-        said = diagnose(load_campaign(folder), system=False).as_json()
+        found = diagnose(load_campaign(folder), system=False)
+        said = {**found.as_json(), "evidence": evidence_in(found)}
     except Exception as error:
         said = {"verdict": f"failed: {type(error).__name__}: {error}", "effects": [], "probability": 0.0}
     return {**said, "seconds": time.perf_counter() - began}

@@ -197,6 +197,7 @@ def findings_of(
                 at_bound=tuple(p for label, p in bounds if label in {t.label for t in terms}),
                 importance=importance,
                 material=importance.share_of_limit(limits or Materiality()),
+                stays=1.0,
             )
         )
     return sorted(out, key=lambda f: -f.material)

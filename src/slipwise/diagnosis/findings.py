@@ -10,6 +10,7 @@ from slipwise.diagnosis.hypothesis import Hypothesis, parameters_at_bound
 from slipwise.diagnosis.importance import Importance
 from slipwise.diagnosis.removal import without
 from slipwise.diagnosis.search_state import Search, left_with
+from slipwise.diagnosis.small_faults import shares_that_stay
 from slipwise.estimation.parameters import Term
 from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.evidence.score import lead, score
@@ -44,7 +45,8 @@ class Finding:
         rival: the effect that could best take its place; None where none comes near.
         at_bound: parameters that ended on a bound which is not their absence.
         importance: what leaving it out changes.
-        material: importance over what matters [1].
+        material: importance over what matters, of what stays beside small faults of all gauges [1].
+        stays: the share of its size that does [1].
     """
 
     name: str
@@ -56,6 +58,7 @@ class Finding:
     at_bound: tuple[str, ...]
     importance: Importance
     material: float
+    stays: float
 
     @property
     def is_gauge(self) -> bool:
@@ -83,6 +86,8 @@ def findings(state: Search, importances: dict[str, Importance], limits: Material
     rivals = _rivals(state, {n: parts[n] for n in names})
     bounds = parameters_at_bound(final)
     base, end = above_noise(origin, final.summary), above_noise(final.summary, final.summary)
+    sizes = {n: importances[n].share_of_limit(limits) for n in names}
+    stays = shares_that_stay(final, sizes, state.all_screened, limits)
     out = [
         Finding(
             name=n,
@@ -93,7 +98,8 @@ def findings(state: Search, importances: dict[str, Importance], limits: Material
             rival=rivals.get(n),
             at_bound=tuple(p for label, p in bounds if label in {t.label for t in parts[n]}),
             importance=importances[n],
-            material=importances[n].share_of_limit(limits),
+            material=sizes[n] * stays[n],
+            stays=stays[n],
         )
         for n in names
     ]

@@ -102,7 +102,7 @@ def refit(
     else:
         known = None  # a slider's laws change it too much for slopes of before, and are quick
         if problem.balanced:
-            known = slopes_of(base.solution)
+            known = slopes_of((before or base).solution)
         solution = solve(problem, values, free, most=most, enough=_ENOUGH, rough=_ROUGH, known=known)
         contained = before if before is not None and labels <= {t.label for t in terms} else base
         if solution.cost > contained.solution.cost:  # the base has moved too far for its slopes of before

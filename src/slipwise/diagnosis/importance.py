@@ -98,8 +98,9 @@ def importance_of_effects(final: BaseFit, terms: Sequence[Term], sizes: Sequence
         channels: dict[str, float] = {}
         for place in places[name]:
             one, other = answers["", place].channels, answers[name, place].channels
-            for c in (c for c in one if c in problem.runs[place].record):
-                channels[c] = max(channels.get(c, 0.0), _share(one[c], other[c]))
+            measured = problem.runs[place].record
+            for c in (c for c in one if c in measured):
+                channels[c] = max(channels.get(c, 0.0), _share(other[c] - one[c], measured[c]))
         out[name] = Importance(responses, channels, of[0].effect.port == "gauge")
     return out
 
@@ -178,9 +179,9 @@ def _driven(model: Model, final: BaseFit, place: int) -> _Answer:
     return _Answer({"energy": energy}, record.channels)
 
 
-def _share(whole: Array, without: Array) -> float:
-    size = float(np.std(whole))
-    return float(np.sqrt(np.mean((without - whole) ** 2)) / size) if size > 0.0 else 0.0
+def _share(change: Array, measured: Array) -> float:
+    size = float(np.std(measured))
+    return float(np.sqrt(np.mean(change**2)) / size) if size > 0.0 else 0.0
 
 
 def _change(value: float, spread: float) -> Change:

@@ -1,10 +1,4 @@
-"""From the evidence to a verdict: what matters is named, what does not is listed, and how sure that is was calibrated.
-
-complete    nothing that matters was found, and nothing that matters is left
-unknown     what is left matters, and what was found explains too little of the balance in which it stands
-ambiguous   another effect is as likely in the place of one that is named
-named       effects that matter; `instrument` where all of them are faults of gauges
-"""
+"""The verdict of a search: what its evidence decides, and what was fitted in the place of an effect."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -20,22 +14,19 @@ from slipwise.diagnosis.unknown_surface import Surface, leftover, structured
 from slipwise.diagnosis.unknown_surface import above_noise as left_above_noise
 from slipwise.estimation.parameters import Term
 from slipwise.evidence.acceptance import LEAST
-from slipwise.evidence.calibration import Calibration, calibration
+from slipwise.evidence.calibration import calibration
+from slipwise.evidence.decision import EVEN_ODDS, decide
 from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.evidence.score import relative_drop
 from slipwise.instruments.sample_faults import SampleFault
 from slipwise.instruments.suspects import effect_of
 
-#: Beside a fault of samples something else is missing that has no name.
-_EVEN_ODDS = 0.5
 #: Nobody is surer than this of what no run has confirmed that was not fitted [1].
 _UNCONFIRMED = 0.9
 #: Share of what the base model leaves above the noise of a held-out run that may stay there where effects hold [1].
 _CARRIED_OVER = 0.5
 #: Mean squared residual of a held-out run over that of the motions left out, up to which they are left alike [1].
 _AS_LEFT_OUT = 1.5
-#: An effect that is less likely than this to be there is not listed [1].
-_LISTED = 0.5
 
 
 @dataclass(frozen=True)
@@ -83,44 +74,36 @@ def decide_verdict(state: Search, found: Sequence[Finding], limits: Materiality)
         found: evidence for every effect of its final model.
         limits: what matters.
     """
-    chances = calibration()
     origin, final = state.path[0], state.final
     surface = leftover(final)
     surface = surface if structured(surface) else None
-    over = left_above_noise(final)
-    where = max(over, key=lambda relation: over[relation])
-    remains = over[where] >= limits.channel
-    explained = explained_share(origin, final)
-    sure = {f.name: chances.present(evidence_of(f)) for f in found}
-    listed = [f for f in found if sure[f.name] >= _LISTED]
-    named = [f for f in listed if f.matters]
-    minor = tuple(f.name for f in listed if not f.matters)
-    if remains:
-        family = explained_share(origin, final, where) if found else 0.0
-        left_over = {"left": surface.explained if surface else 0.0, "relative": float(np.log(over[where]))}
-        right = chances.family({"explained": family, **left_over})
-        if right < _EVEN_ODDS or not named:
-            whole = leftover(origin)  # what is drawn is all that is missing, not what unnamed effects have left of it
-            drawn = whole if structured(whole) else surface
-            return Verdict("unknown", (), minor, 1.0 - right, "unknown", explained, drawn, (), tuple(found))
-    else:
-        right = 1.0
-    left = "unknown" if remains else "none"
-    probability = _confirmed(state, right * _all_right(chances, found, sure))
-    if not named:
-        return Verdict("complete", (), minor, probability, left, explained, surface, (), tuple(found))
-    names = tuple(f.name for f in named)
-    kind = "instrument" if all(f.is_gauge for f in named) else "named"
-    rivals = [f for f in named if f.rival is not None and chances.leads(f.rival.behind) < _EVEN_ODDS]
-    if rivals:
-        others = tuple(f.rival.hypothesis for f in rivals if f.rival)
-        every = tuple(dict.fromkeys([*names, *(n for f in rivals for n in _in_place(state, f))]))
-        return Verdict("ambiguous", every, minor, probability, left, explained, surface, others, tuple(found))
+    rest = evidence_of_rest(origin, final, surface)
+    of_effects = {f.name: evidence_of(f) for f in found}
+    decided = decide(of_effects, rest, limits.channel, calibration())
+    remains = np.exp(rest["relative"]) >= limits.channel
+    verdict = Verdict(
+        decided.kind,
+        decided.named,
+        decided.minor,
+        decided.probability if decided.kind == "unknown" else _confirmed(state, decided.probability),
+        "unknown" if remains else "none",
+        explained_share(origin, final),
+        surface,
+        (),
+        tuple(found),
+    )
+    if decided.kind == "unknown":  # what is drawn is all that is missing, not what unnamed effects have left of it
+        whole = leftover(origin)
+        return replace(verdict, surface=whole if structured(whole) else surface)
+    if decided.tied:
+        rivals = [(f, f.rival) for f in found if f.name in decided.tied and f.rival is not None]
+        every = dict.fromkeys([*decided.named, *(n for f, _ in rivals for n in _in_place(state, f))])
+        return replace(verdict, effects=tuple(every), rivals=tuple(rival.hypothesis for _, rival in rivals))
     for pair, unless in alike_pairs(known_effects(state).values()).items():
-        if len(pair & set(names)) == 1 and not distinguishable(final.problem, unless):
-            every = (*sorted(pair), *(n for n in names if n not in pair))
-            return Verdict("ambiguous", every, minor, probability, left, explained, surface, (), tuple(found))
-    return Verdict(kind, names, minor, probability, left, explained, surface, (), tuple(found))
+        if len(pair & set(decided.named)) == 1 and not distinguishable(final.problem, unless):
+            every = (*sorted(pair), *(n for n in decided.named if n not in pair))
+            return replace(verdict, kind="ambiguous", effects=every)
+    return verdict
 
 
 def _in_place(state: Search, finding: Finding) -> list[str]:
@@ -138,20 +121,26 @@ def evidence_of(finding: Finding) -> dict[str, float]:
         "rival": float(np.clip(behind, 0.0, 10.0)),
         "bound": float(bool(finding.at_bound)),
         "gauge": float(finding.is_gauge),
+        "stays": finding.stays,
         "size": float(np.log(max(finding.material, 1e-3))),
     }
 
 
-def _all_right(chances: Calibration, found: Sequence[Finding], sure: dict[str, float]) -> float:
-    """Give the chance that every name is right and none is on the wrong side of what matters."""
-    product = 1.0
-    for f in found:
-        side = chances.side(float(np.log(max(f.material, 1e-3))))
-        if f.matters:
-            product *= sure[f.name] * side
-        else:  # immaterial, or not there at all: only one that matters after all would be wrong
-            product *= 1.0 - sure[f.name] * (1.0 - side)
-    return product
+def evidence_of_rest(origin: Hypothesis, final: Hypothesis, surface: Surface | None) -> dict[str, float]:
+    """Give the numbers on which rests whether the effects that were found are the right ones, whatever they leave.
+
+    Args:
+        origin: the base model.
+        final: the model with the effects.
+        surface: structure in what is left.
+    """
+    over = left_above_noise(final)
+    where = max(over, key=lambda relation: over[relation])
+    return {
+        "explained": explained_share(origin, final, where) if final.terms else 0.0,
+        "left": surface.explained if surface else 0.0,
+        "relative": float(np.log(max(over[where], 1e-6))),
+    }
 
 
 def _confirmed(state: Search, probability: float) -> float:
@@ -192,7 +181,8 @@ def with_faults(found: Verdict, faults: Sequence[SampleFault], terms: Sequence[T
     if found.kind == "complete":
         return replace(found, kind="instrument", effects=names, probability=found.probability)
     if found.kind == "unknown":
-        return replace(found, kind="instrument", effects=names, probability=_EVEN_ODDS)
+        # something else is missing that has no name
+        return replace(found, kind="instrument", effects=names, probability=EVEN_ODDS)
     moved = {name for f in faults if f.kind == "lost" for name in f.channels}
     # a channel whose lost samples moved up the rest is delayed by that
     same = {t.effect.name for t in terms if t.effect.delays_channel and moved.issuperset(t.targets)}

@@ -39,12 +39,14 @@ class Calibration:
         right_side: of an effect's importance: that it lies on that side of what matters, by how far it lies off.
         right_family: of effects that leave something with structure: that they are of the right family all the same.
         leads_rival: of a hypothesis: that it and not its nearest rival is right, by how many standard errors it leads.
+        all_right: of a verdict, by the product of these chances: they are not independent.
     """
 
     present: Logistic
     right_side: Logistic
     right_family: Logistic
     leads_rival: Logistic
+    all_right: Logistic
 
     def side(self, log_share: float) -> float:
         """Give the chance that an importance, as the logarithm of its share of what matters, is on the right side."""
@@ -57,6 +59,11 @@ class Calibration:
     def leads(self, errors: float) -> float:
         """Give the chance that a hypothesis is right and not its nearest rival."""
         return self.leads_rival({"lead": errors})
+
+    def whole(self, product: float) -> float:
+        """Give the chance that a verdict is right, by the product of the chances of its parts."""
+        kept = float(np.clip(product, 1e-6, 1.0 - 1e-6))
+        return self.all_right({"product": float(np.log(kept / (1.0 - kept)))})
 
 
 @cache

@@ -26,6 +26,8 @@ _FAST, _STEPS = 0.2, 1.5
 #: Samples repeat when so many more of them equal their neighbour than rounding explains (standard deviations), and
 #: this part of all [1].
 _SURE, _REPEATED = 6.0, 0.002
+#: What rounding does may be misjudged by this share: a converter's steps and a file's digits do not fit each other [1].
+_MISJUDGED = 1.0
 #: Equal values at the end of a run, and of all runs, where single ones are rare: as many were lost before.
 _TAIL, _TAILS, _RARE = 4, 8, 0.15
 #: Steps are of one size within this; a size that more than this part of all steps have shows coarse rounding [1].
@@ -164,7 +166,7 @@ def _held(name: str, runs: Sequence[Run]) -> SampleFault | None:
         equal, expected, count = equal + same.sum(), expected + chance_of_equal(values).sum(), count + len(values)
         bad[run.name] = same
     more = float(equal - expected)
-    if more < _SURE * np.sqrt(expected + 1.0) or more < _REPEATED * count:
+    if more < max(_SURE * np.sqrt(expected + 1.0), _REPEATED * count, _MISJUDGED * expected):
         return None
     return SampleFault("held", (name,), more / float(count), bad, tuple(n for n, b in bad.items() if b.any()))
 

@@ -1,0 +1,69 @@
+"""From a few numbers for every effect to what is said: the part of a verdict that was calibrated.
+
+complete    nothing that matters was found, and nothing that matters is left
+unknown     what is left matters, and what was found explains too little of the balance in which it stands
+ambiguous   another effect is as likely in the place of one that is named
+named       effects that matter; `instrument` where all of them are faults of gauges
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from slipwise.evidence.calibration import Calibration
+
+#: Effects that are less likely to be there than this are not listed, rivals that are more likely are named too [1].
+EVEN_ODDS = 0.5
+
+
+@dataclass(frozen=True)
+class Decision:
+    """What the evidence says.
+
+    Attributes:
+        kind: complete, named, ambiguous, unknown or instrument.
+        named: effects that matter, most important first.
+        minor: effects that are there and do not matter.
+        tied: those of the named whose nearest rival is as likely.
+        probability: that kind and names are right.
+    """
+
+    kind: str
+    named: tuple[str, ...]
+    minor: tuple[str, ...]
+    tied: tuple[str, ...]
+    probability: float
+
+
+def decide(
+    effects: Mapping[str, Mapping[str, float]], rest: Mapping[str, float], least: float, chances: Calibration
+) -> Decision:
+    """Decide what is missing.
+
+    Args:
+        effects: name -> its evidence, most important first: "lead" and so on as the calibration asks, "size" (logarithm
+            of its importance over what matters), "gauge" (1 for a fault of gauges) and "rival" (standard errors by
+            which the nearest rival is behind).
+        rest: evidence on what is left: "relative" (logarithm of its share of what a balance is made of) and so on.
+        least: share of a balance that matters [1].
+        chances: the calibration.
+    """
+    sure = {name: chances.present(of) for name, of in effects.items()}
+    listed = [name for name in effects if sure[name] >= EVEN_ODDS]
+    named = tuple(name for name in listed if effects[name]["size"] >= 0.0)
+    minor = tuple(name for name in listed if name not in named)
+    remains = np.exp(rest["relative"]) >= least
+    right = chances.family(rest) if remains else 1.0
+    if remains and (right < EVEN_ODDS or not named):
+        return Decision("unknown", (), minor, (), 1.0 - right)
+    for name, of in effects.items():
+        side = chances.side(of["size"])
+        # what does not matter, or is not there at all, would be wrong only if it mattered after all
+        right *= sure[name] * side if of["size"] >= 0.0 else 1.0 - sure[name] * (1.0 - side)
+    probability = chances.whole(right)
+    if not named:
+        return Decision("complete", (), minor, (), probability)
+    tied = tuple(name for name in named if chances.leads(effects[name]["rival"]) < EVEN_ODDS)
+    kind = "instrument" if all(effects[name]["gauge"] for name in named) else "named"
+    return Decision("ambiguous" if tied else kind, named, minor, tied, probability)
