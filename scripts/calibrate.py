@@ -89,11 +89,9 @@ def fitted(cases: Sequence[Case], names: Sequence[str], before: Logistic) -> Log
     found = LogisticRegression(C=1.0).fit((numbers - middle) / spread, answers)
     weights = found.coef_[0] / spread
     constant = float(found.intercept_[0] - weights @ middle)
-    print(
-        f"  {len(cases)} cases, {int(answers.sum())} right: "
-        + ", ".join(f"{n} {w:.2f}" for n, w in zip(names, weights))
-    )
-    return Logistic(round(constant, 3), {n: round(float(w), 3) for n, w in zip(names, weights, strict=True)})
+    kept = {name: round(float(weight), 3) for name, weight in zip(names, weights, strict=True)}
+    print(f"  {len(cases)} cases, {int(answers.sum())} right: {kept}")
+    return Logistic(round(constant, 3), kept)
 
 
 def parts_fitted(results: Sequence[Result], before: Calibration) -> Calibration:
