@@ -101,8 +101,9 @@ def refit(
         solution = _several_starts(problem, values, free, terms)
     else:
         known = None  # a slider's laws change it too much for slopes of before, and are quick
-        if problem.balanced:
-            known = slopes_of((before or base).solution)
+        if problem.balanced:  # a hypothesis of other runs gives a start, but no slopes
+            alike = before is not None and len(before.solution.jacobian) == len(base.solution.jacobian)
+            known = slopes_of(before.solution if before is not None and alike else base.solution)
         solution = solve(problem, values, free, most=most, enough=_ENOUGH, rough=_ROUGH, known=known)
         contained = before if before is not None and labels <= {t.label for t in terms} else base
         if solution.cost > contained.solution.cost:  # the base has moved too far for its slopes of before
