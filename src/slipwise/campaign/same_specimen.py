@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.campaign import Campaign, Run
-from slipwise.campaign.zero_state import zero_state
+from slipwise.campaign.zero_state import shifted_zeros
 from slipwise.errors import InputError
 from slipwise.record import Record
 from slipwise.rig.load_modes import load_modes
@@ -44,9 +44,9 @@ def check_same_specimen(campaign: Campaign) -> tuple[str, ...]:
     weighing = [run for run in campaign.runs if run.record.has_all(*(f"pad_{p}_N" for p in "ABCD"))]
     if not weighing or not campaign.specimen.free:
         return tuple(notes)
-    state = zero_state([run.record for run in campaign.runs], campaign.specimen.weight)
-    notes += [f"{words}; `slipwise audit` says how to put it right" for words in state.words()]
-    if state.missing_weight is not None:
+    zeros = shifted_zeros([run.record for run in campaign.runs], campaign.specimen.weight)
+    notes += [f"{zero.words}; `slipwise audit` says how to put it right" for zero in zeros]
+    if any(zero.tared for zero in zeros):
         return tuple(notes)
     weights = [(run, float(np.median(load_modes(_pressing(run.record)).heave))) for run in weighing]
     _compare(weights, _WEIGHT, "the four load cells carry", "kN", 1e3)
