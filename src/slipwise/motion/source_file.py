@@ -12,7 +12,7 @@ from slipwise.text_encoding import decoded
 #: How much of a file the recognition of its format sees.
 HEAD_BYTES = 4096
 #: Beyond this a number in a file is damage, and its square would overflow.
-_LARGEST = 1e30
+LARGEST = 1e30
 #: Fortran writes double precision with a D: 1.5D-03.
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?")
 _FORTRAN = str.maketrans("dD", "ee")
@@ -92,7 +92,7 @@ def number(text: str, place: str) -> float:
     # float() would also take "1_000", "nan" and "infinity".
     if _NUMBER.fullmatch(stripped):
         value = float(stripped.translate(_FORTRAN))
-        if abs(value) < _LARGEST:
+        if abs(value) < LARGEST:
             return value
         raise InputError(f"{place}: {stripped[:40]!r} is too large to be a measurement; the file is damaged")
     if stripped.lower().lstrip("+-") in ("nan", "inf", "infinity"):
