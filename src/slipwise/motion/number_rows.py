@@ -6,13 +6,13 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.motion.source_file import LARGEST, SourceFile, is_number, number
+from slipwise.motion.source_file import FORTRAN, LARGEST, SourceFile, is_number, number
 
 Array = NDArray[np.float64]
 DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+(?:[eEdD][+-]?\d+)?")
 #: Lines that are read at once.
 _BLOCK = 20_000
-_PLAIN = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_PLAIN = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?"
 
 
 def split_row(line: str) -> list[str]:
@@ -82,7 +82,7 @@ def _alike(lines: list[str], columns: int) -> Array | None:
     if not all(map(row.fullmatch, lines)):
         return None
     mark = separator if separator in ",;" else " "
-    values = np.fromstring(mark.join(lines), sep=mark)
+    values = np.fromstring(mark.join(lines).translate(FORTRAN), sep=mark)
     if values.size != len(lines) * columns or not np.all(np.abs(values) < LARGEST):
         return None
     return values.reshape(-1, columns)
