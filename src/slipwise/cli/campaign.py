@@ -8,7 +8,18 @@ import typer
 
 import slipwise as sw
 from slipwise.cli.console import OUT, out_folder, print_json
-from slipwise.cli.diagnose import CampaignFolder, Json, ModelFile, Own, System, own_effects, start_model, steps
+from slipwise.cli.diagnose import (
+    Allowed,
+    CampaignFolder,
+    Json,
+    ModelFile,
+    Own,
+    System,
+    Trusted,
+    own_effects,
+    start_model,
+    steps,
+)
 
 Correct = Annotated[
     list[str] | None,
@@ -72,6 +83,8 @@ def compare(
         "out/compare"
     ),
     model: ModelFile = None,
+    effect: Allowed = None,
+    trust: Trusted = False,
     system: System = True,
     correct: Correct = None,
     recording: Annotated[bool, typer.Option(help="Write measured and simulated side by side for the viewer.")] = True,
@@ -85,7 +98,7 @@ def compare(
     from slipwise.view.files import save_json, save_page
 
     measured = sw.load_campaign(campaign)
-    start = start_model(campaign, model)
+    start = start_model(campaign, model, trust, effect)
     folder = out_folder(out)
     with steps() as tell:
         if correct:

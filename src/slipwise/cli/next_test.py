@@ -7,7 +7,7 @@ import typer
 
 import slipwise as sw
 from slipwise.cli.console import OUT, out_folder, print_json, steps
-from slipwise.cli.diagnose import CampaignFolder, Json, ModelFile, Own, own_effects, start_model
+from slipwise.cli.diagnose import CampaignFolder, Json, ModelFile, Own, Trusted, own_effects, start_model
 
 
 def next_motion(
@@ -18,6 +18,7 @@ def next_motion(
     acceleration: Annotated[str, typer.Option(help="The table's largest acceleration.")] = "1 g",
     model: ModelFile = None,
     effect: Own = None,
+    trust: Trusted = False,
     json: Json = False,
 ) -> None:
     """Rank table motions by how well they would tell the remaining rivals apart.
@@ -35,7 +36,8 @@ def next_motion(
         sw.quantity(acceleration, "m/s^2", "--acceleration"),
     )
     measured = sw.load_campaign(campaign)
-    start, own = start_model(campaign, model), own_effects(effect)
+    start = start_model(campaign, model, trust, effect)
+    own = own_effects(effect, start)
     folder = None if out is None else out_folder(out)
     with steps() as tell:
         ranked = sw.next_test(measured, limits, progress=tell, model=start, own=own)

@@ -1,0 +1,68 @@
+"""Code beside a campaign is run only where the command says so; names from files cannot steer a terminal or a page."""
+
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+
+import slipwise as package
+from slipwise.effects import find_effect
+from slipwise.errors import InputError
+from slipwise.model_file import add_effect, draft_model, load_model, remove_effect, save_model
+
+DEMO = Path(package.__file__).parent / "demo_data"
+RAN = 'from pathlib import Path\nPath(__file__).with_name("CODE_RAN").write_text("yes")\n'
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """The demo campaign with a model that names a file beside it, which leaves a mark when it is run."""
+    here = tmp_path / "campaign"
+    shutil.copytree(DEMO, here)
+    source = Path(find_effect("run_in").path).read_text()
+    docstring, _, rest = source.partition('"""\n\n')
+    (here / "mine.py").write_text(f'{docstring}"""\n\n{rest}\n{RAN}')
+    (here / "model.toml").write_text('rig = "bridge1"\n[[effect]]\nfile = "mine.py"\n')
+    return here
+
+
+@pytest.mark.parametrize("entry", ['file = "mine.py"', 'name = "mine.py"', 'file = "./mine.py"'])
+@pytest.mark.parametrize(
+    "command", [("compare",), ("diagnose",), ("ladder",), ("next",), ("remove", "run_in", "--campaign")]
+)
+def test_no_command_runs_a_file_that_only_the_model_names(slipwise, folder, tmp_path, command, entry):
+    (folder / "model.toml").write_text(f'rig = "bridge1"\n[[effect]]\n{entry}\n[[effect]]\nname = "run_in"\n')
+    out = () if command[0] == "remove" else ("--out", tmp_path / "out")
+    code, _, err = slipwise(*command, folder, *out)
+    assert code == 2 and "mine.py" in err and "less '" in err and "--trust" in err
+    assert not (folder / "CODE_RAN").exists()
+
+
+@pytest.mark.parametrize("flag", ["--trust", "--effect"])
+def test_the_flags_that_the_refusal_names_let_it_run(slipwise, folder, tmp_path, flag):
+    plain = ("compare", folder, "--no-system", "--no-recording", "--out", tmp_path / "out")
+    _, _, err = slipwise(*plain)
+    named = re.search(r"--effect '(.+?)'", err)
+    assert named
+    code, _, _ = slipwise(*plain, *(("--trust",) if flag == "--trust" else ("--effect", named[1])))
+    assert code == 0 and (folder / "CODE_RAN").exists()
+
+
+def test_trust_in_one_file_is_none_in_another(folder):
+    shutil.copy(folder / "mine.py", folder / "other.py")
+    with pytest.raises(InputError, match=r"mine\.py"):
+        load_model(folder / "model.toml", trust=[folder / "other.py"])
+    assert "mine" in load_model(folder / "model.toml", trust=[str(folder / "mine.py")])
+
+
+def test_a_model_is_edited_without_running_what_it_no_longer_holds(tmp_path, folder):
+    path = folder / "model.toml"
+    save_model(load_model(path, trust=True).without("mine"), path)
+    (folder / "CODE_RAN").unlink()
+    assert "mine" not in path.read_text()
+    path.write_text(draft_model("bridge1") + '\n[[effect]]\nfile = "mine.py"\n')
+    assert "mine" not in remove_effect(path, "mine")
+    assert not (folder / "CODE_RAN").exists()
+    add_effect(path, str(folder / "mine.py"))
+    assert (folder / "CODE_RAN").exists()
