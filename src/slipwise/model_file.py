@@ -186,7 +186,7 @@ def _read(path: Path) -> tomlkit.TOMLDocument:
         raise InputError(f"{path}: no such file; `slipwise init {path.parent}` drafts one")
     try:
         document = tomlkit.parse(path.read_text(encoding="utf-8-sig"))
-    except (TOMLKitError, UnicodeDecodeError) as error:
+    except (TOMLKitError, UnicodeDecodeError, RecursionError) as error:
         raise InputError(f"{path}: not valid TOML: {error}") from None
     for key in document:
         if key not in _TOP:

@@ -41,9 +41,12 @@ _SPELLINGS: dict[str, str] = {
 _TON = re.compile(r"\btons?\b", re.IGNORECASE)
 #: A name of letters, perhaps with a power behind it: mm2, s-2, s^-2.
 _NAMED = re.compile(r"([A-Za-z_°'%]+)(?:(?:\^|\*\*)?(-?\d+))?")
-#: A unit is no longer than this, and has no power of a power and none beyond 9: pint would compute it for ever.
+#: A unit is no longer than this, holds nothing else than these, and has no power of a power and none beyond 9.
 _LONGEST = 400
+_ALLOWED = re.compile(r"[\w\s*/^().+%°'·−-]*")
 _TOWER = re.compile(r"(?:\*\*|\^)\s*\(?\s*[+-]?\s*(?:\d{2,}|[\d.]*\s*\)?\s*(?:\*\*|\^))|(?:\*\*|\^)\s*\([^)]*[*/^]")
+#: A whole number by itself; as a float it overflows at once where pint would compute all its digits.
+_WHOLE = re.compile(r"(?<![\w.])\d+(?![\w.])")
 _SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 
 
@@ -58,7 +61,8 @@ def _clean(text: str) -> str:
         name, power = found.groups()
         return _SPELLINGS.get(name, name) + (f"**{power}" if power else "")
 
-    return _NAMED.sub(named, re.sub(r"(?<=[A-Za-z0-9]) +(?=[A-Za-z])", "*", text))
+    powers = _NAMED.sub(named, re.sub(r"(?<=[A-Za-z0-9]) +(?=[A-Za-z])", "*", text))
+    return _WHOLE.sub(lambda found: f"{found[0]}.0", powers)
 
 
 def parse_unit(unit: str, dimension_of: str, what: str) -> float:
@@ -124,9 +128,12 @@ def quantity(text: str | float | int, dimension_of: str, what: str, *, plain_uni
         ) from None
     if not unit.strip() and dimension_of != "1":
         raise UnitError(f"{what}: {given!r} has no unit; write for example '{number} {dimension_of}'")
-    cleaned = _clean(unit)
-    if len(unit) > _LONGEST or _TOWER.search(cleaned):
-        raise UnitError(f"{what}: {shown[:_LONGEST]!r} is no unit; a unit like '{dimension_of}' is needed")
+    cleaned = _clean(unit[: _LONGEST + 1])
+    if len(unit) > _LONGEST or not _ALLOWED.fullmatch(unit.translate(_SUPERSCRIPTS)) or _TOWER.search(cleaned):
+        raise UnitError(
+            f"{what}: {shown[:60]!r} is no unit; a unit like '{dimension_of}' is needed, of at most {_LONGEST} "
+            "characters, with powers up to 9 and no powers of powers"
+        )
     try:
         parsed = registry.Quantity(value, cleaned)
         return float(parsed.to(_clean(dimension_of)).magnitude)

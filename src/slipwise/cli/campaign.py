@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import OUT, out_folder, print_json
+from slipwise.cli.console import out_folder, print_json, say
 from slipwise.cli.diagnose import (
     Allowed,
     CampaignFolder,
@@ -37,10 +37,10 @@ def init(
     """
     ask = None if yes or not sys.stdin.isatty() else _ask
     path = sw.init_campaign(folder, ask=ask)
-    OUT.print(f"wrote {path}; read it, and decide what is marked in it", markup=False, highlight=False, soft_wrap=True)
+    say(f"wrote {path}; read it, and decide what is marked in it")
     for line in path.read_text(encoding="utf-8").splitlines():
         if line.startswith("# not read: "):
-            OUT.print(line.removeprefix("# "), markup=False, highlight=False, soft_wrap=True)
+            say(line.removeprefix("# "))
 
 
 def _ask(question: str, default: str) -> str:
@@ -68,13 +68,13 @@ def audit(campaign: CampaignFolder, effect: Own = None, correct: Correct = None,
         print_json({**found.as_json(), "notes": [*notes, *found.notes]})
         return
     for words in (*notes, found.words):
-        OUT.print(words, markup=False, highlight=False, soft_wrap=True)
+        say(words)
     if found.rows:
         print_table("Findings", found.rows)
     for words in found.notes:
-        OUT.print(f"note: {words}", markup=False, highlight=False, soft_wrap=True)
+        say(f"note: {words}")
     for words in found.cannot:
-        OUT.print(f"could not be tested: {words}", markup=False, highlight=False, soft_wrap=True)
+        say(f"could not be tested: {words}")
 
 
 def compare(
@@ -124,9 +124,9 @@ def compare(
     print_table("Error in multiples of the noise floor", rows)
     print_table("Noise floor of one sample", floor_rows(found.floor))
     for question, answer in one_minute(found):
-        OUT.print(f"{question} {answer}", markup=False, highlight=False, soft_wrap=True)
+        say(f"{question} {answer}")
     for path in files:
-        OUT.print(f"wrote {path}", markup=False, highlight=False, soft_wrap=True)
+        say(f"wrote {path}")
 
 
 def register(app: typer.Typer) -> None:

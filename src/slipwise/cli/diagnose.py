@@ -7,8 +7,8 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import ERR, OUT, out_folder, print_json, steps
-from slipwise.errors import InputError
+from slipwise.cli.console import ERR, OUT, out_folder, print_json, say, steps
+from slipwise.errors import InputError, visible
 
 CampaignFolder = Annotated[Path, typer.Argument(help="Folder with campaign.toml and the measured runs.")]
 System = Annotated[bool, typer.Option(help="Replay the models in MuJoCo as well (system level).")]
@@ -98,9 +98,9 @@ def _tell(found: "sw.Diagnosis") -> None:
     """Print the verdict, its rivals and what it rests on."""
     from slipwise.view.terminal import print_table
 
-    OUT.print(found.sentence, markup=False, highlight=False)
+    OUT.print(visible(found.sentence), markup=False, highlight=False)
     for words in found.discriminating_tests:
-        OUT.print(f"to tell apart: {words}", markup=False, highlight=False, soft_wrap=True)
+        say(f"to tell apart: {words}")
     before = "held-out before" if found.held_out else "fitted runs before"
     rows = [
         {"hypothesis": c.effect, "probability": round(c.probability, 3), before: round(c.holdout_before, 2),
@@ -110,9 +110,9 @@ def _tell(found: "sw.Diagnosis") -> None:
     if rows:
         print_table("Hypotheses, in multiples of the noise floor", rows)
     for run in found.predicted_friction:
-        OUT.print(run.words, markup=False, highlight=False, soft_wrap=True)
+        say(run.words)
     for words in found.cannot_tell:
-        OUT.print(f"cannot tell {words}", markup=False, highlight=False, soft_wrap=True)
+        say(f"cannot tell {words}")
 
 
 def _record(found: "sw.Diagnosis", folder: Path) -> list[Path]:
@@ -122,7 +122,7 @@ def _record(found: "sw.Diagnosis", folder: Path) -> list[Path]:
     try:
         measured, simulated = found.replays()
     except InputError as error:
-        ERR.print(f"no recording: {error}", markup=False, highlight=False, soft_wrap=True)
+        say(f"no recording: {error}", ERR)
         return []
     geometry = geometry_of(found.final.campaign.specimen)
     return [write_comparison(measured, simulated, geometry, folder / "before_and_after.rrd", found.sentence)]
@@ -180,7 +180,7 @@ def print_rungs(found: "sw.Ladder") -> None:
 
 def _wrote(files: list[Path]) -> None:
     for path in files:
-        OUT.print(f"wrote {path}", markup=False, highlight=False, soft_wrap=True)
+        say(f"wrote {path}")
 
 
 def register(app: typer.Typer) -> None:

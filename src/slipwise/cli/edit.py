@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import OUT, steps
+from slipwise.cli.console import say, steps
 from slipwise.cli.diagnose import Allowed, Trusted, start_model
 
 Folder = Annotated[Path, typer.Option("--campaign", help="Folder with campaign.toml; model.toml is kept there too.")]
@@ -50,7 +50,7 @@ def _finish(changed: "sw.ModelChange", campaign: Path) -> None:
     print_table("Held-out error in multiples of the noise floor", changed.rows())
     path = campaign / "model.toml"
     sw.save_model(changed.model, path)
-    OUT.print(f"wrote {path}", markup=False, highlight=False, soft_wrap=True)
+    say(f"wrote {path}")
 
 
 def register(app: typer.Typer) -> None:

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import OUT, out_folder, print_json, progress
+from slipwise.cli.console import out_folder, print_json, progress, say
 from slipwise.errors import SettingError
 
 
@@ -145,9 +145,9 @@ def _tell(numbers: dict, motion: "sw.TableMotion", files: list[Path]) -> None:
 
     print_summary(numbers)
     for words in motion.treatment:
-        OUT.print(f"motion: {words}", markup=False, highlight=False, soft_wrap=True)
+        say(f"motion: {words}")
     for path in files:
-        OUT.print(f"wrote {path}", markup=False, highlight=False, soft_wrap=True)
+        say(f"wrote {path}")
 
 
 def register(app: typer.Typer) -> None:

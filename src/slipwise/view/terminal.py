@@ -9,6 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from slipwise.channels import PADS
+from slipwise.errors import visible
 from slipwise.view.numbers import NOTHING
 
 #: Rows of a replay's summary: key, what it is called, unit.
@@ -56,10 +57,12 @@ def print_table(title: str, rows: Sequence[Mapping[str, Any]], console: Console 
         console: where to print; the standard output if not given.
     """
     columns = list(dict.fromkeys(key for row in rows for key in row))
-    table = Table(title=Text(title, style="bold"), title_justify="left", box=box.SIMPLE_HEAD, header_style="bold")
+    table = Table(
+        title=Text(visible(title), style="bold"), title_justify="left", box=box.SIMPLE_HEAD, header_style="bold"
+    )
     for key in columns:
         numeric = all(isinstance(row.get(key), int | float) for row in rows if row.get(key) is not None)
-        table.add_column(Text(str(key)), justify="right" if numeric else "left", overflow="fold")
+        table.add_column(Text(visible(str(key))), justify="right" if numeric else "left", overflow="fold")
     for row in rows:
         # Text, so that brackets in names and units are printed and not taken for markup.
         table.add_row(*(Text(cell(row.get(key))) for key in columns))
@@ -102,4 +105,4 @@ def cell(value: Any) -> str:
         return f"{value:.4g}"
     if isinstance(value, list | tuple):
         return ", ".join(cell(item) for item in value)
-    return str(value)
+    return visible(str(value))

@@ -66,3 +66,26 @@ def test_a_model_is_edited_without_running_what_it_no_longer_holds(tmp_path, fol
     assert not (folder / "CODE_RAN").exists()
     add_effect(path, str(folder / "mine.py"))
     assert (folder / "CODE_RAN").exists()
+
+
+def test_control_characters_of_a_file_are_shown_and_steer_nothing(slipwise, tmp_path):
+    name = "a\x1b[31mred\x07.csv"
+    (tmp_path / name).write_text("time [s],slip_x [mm],\x1b]0;title\x07 [kN]\n0,1,2\n0.01,2,3\n0.02,3,4\n0.03,2,3\n")
+    (tmp_path / "campaign.toml").write_text(
+        'rig = "pad"\nname = "x\\u001b[2J"\n[constants]\npad_A_N = "1 kN"\n'
+        '[[run]]\nfile = "a\\u001b[31mred\\u0007.csv"\nrole = "fit"\n'
+    )
+    told = ""
+    for words in (("audit", tmp_path), ("replay", tmp_path / name), ("compare", tmp_path, "--out", tmp_path / "o")):
+        _, out, err = slipwise(*words)
+        told += out + err
+    assert "\x1b" not in told and "\x07" not in told
+    assert "\\x1b[31mred\\x07" in told
+
+
+def test_control_characters_are_shown_in_pages_and_notebooks():
+    from slipwise.shown import _cell
+    from slipwise.view.html import paragraph
+
+    assert "\\x1b[0m&lt;b&gt;" in paragraph("\x1b[0m<b>").text
+    assert _cell("\x9b\u202e<") == "\\x9b\\u202e&lt;"
