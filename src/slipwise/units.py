@@ -5,6 +5,7 @@ Inside Slipwise everything is SI (m, s, kg, N, Pa, rad, K); this file is the onl
 
 import re
 from functools import cache
+from math import isfinite
 
 import pint
 
@@ -126,6 +127,8 @@ def quantity(text: str | float | int, dimension_of: str, what: str, *, plain_uni
         raise UnitError(
             f"{what}: {given!r} is not a number with a unit; write for example '1.5 {dimension_of}'"
         ) from None
+    if not isfinite(value):
+        raise UnitError(f"{what}: {given[:60]!r} is not a finite number; write for example '1.5 {dimension_of}'")
     if not unit.strip() and dimension_of != "1":
         raise UnitError(f"{what}: {given!r} has no unit; write for example '{number} {dimension_of}'")
     cleaned = _clean(unit[: _LONGEST + 1])
@@ -136,7 +139,7 @@ def quantity(text: str | float | int, dimension_of: str, what: str, *, plain_uni
         )
     try:
         parsed = registry.Quantity(value, cleaned)
-        return float(parsed.to(_clean(dimension_of)).magnitude)
+        si = float(parsed.to(_clean(dimension_of)).magnitude)
     except pint.DimensionalityError:
         raise UnitError(
             f"{what}: the unit {shown!r} has the wrong dimension; a unit like '{dimension_of}' is needed"
@@ -147,6 +150,9 @@ def quantity(text: str | float | int, dimension_of: str, what: str, *, plain_uni
         raise UnitError(
             f"{what}: {shown!r} cannot be read as a unit ({type(error).__name__}); write for example '{dimension_of}'"
         ) from None
+    if not isfinite(si):
+        raise UnitError(f"{what}: {given[:60]!r} is beyond every number; write for example '1.5 {dimension_of}'")
+    return si
 
 
 def _exponent(text: str, i: int) -> bool:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from datetime import date, datetime, time
 from pathlib import Path
 from typing import Any
+from zipfile import ZipFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,8 @@ from slipwise.errors import InputError
 
 Array = NDArray[np.float64]
 _LOOK_AT = 500
+#: A workbook that unpacks to more is no record of a rig [bytes].
+_LARGEST = 800_000_000
 
 
 @dataclass(frozen=True)
@@ -103,7 +106,16 @@ def _workbook(path: Path) -> Any:
             "sheet as CSV"
         ) from None
     try:
+        with ZipFile(path) as packed:
+            unpacked = sum(part.file_size for part in packed.infolist())
+        if unpacked > _LARGEST:
+            raise InputError(
+                f"{path}: this workbook unpacks to {unpacked / 1e6:.0f} MB, more than {_LARGEST / 1e6:g} MB; save the "
+                "sheet of one run as CSV"
+            )
         return load_workbook(path, read_only=True, data_only=True)
+    except InputError:
+        raise
     except Exception as error:  # zip, xml and key errors of damaged files come through as they are
         raise InputError(f"{path}: not a readable workbook ({error}); save it again, or as CSV") from None
 

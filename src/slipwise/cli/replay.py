@@ -100,6 +100,10 @@ def _shaped(
 ) -> "sw.TableMotion":
     first, last = sw.quantity(start, "s", "--start"), None if end is None else sw.quantity(end, "s", "--end")
     scales = sw.rig.LENGTH_SCALE
+    if first < 0.0:
+        raise SettingError(
+            f"--start {start!r} lies before the motion begins; give a time of 0 s to {motion.duration:g} s"
+        )
     if first > 0.0 or last is not None:
         motion = sw.motion.trim(motion, first, last)
     if similarity is not None:
