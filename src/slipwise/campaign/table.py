@@ -109,14 +109,14 @@ def _of_columns(path: Path, columns: dict[str, Array], step: float | None = None
 
 
 def _parquet(path: Path) -> Table:
+    headers = []
     try:
         metadata, schema = pq.read_metadata(path), pq.read_schema(path)
+        for entry in schema:
+            unit = (entry.metadata or {}).get(b"unit")
+            headers.append(f"{entry.name} [{unit.decode('utf-8', 'replace')}]" if unit is not None else entry.name)
     except Exception as error:  # Arrow lets errors of Thrift, of memory and of text through
         raise InputError(f"{path}: not a readable parquet file ({error}); write it again") from None
-    headers = []
-    for entry in schema:
-        unit = (entry.metadata or {}).get(b"unit")
-        headers.append(f"{entry.name} [{unit.decode('utf-8', 'replace')}]" if unit is not None else entry.name)
 
     def columns(wanted: Sequence[int]) -> Columns:
         if 8 * metadata.num_rows * len(wanted) > _LARGEST:
@@ -124,6 +124,9 @@ def _parquet(path: Path) -> Table:
                 f"{path}: {len(wanted)} columns of {metadata.num_rows} rows are more than {_LARGEST / 1e6:g} MB; save "
                 "one run in a file"
             )
+        twice = [schema.names[i] for i in wanted if schema.names.count(schema.names[i]) > 1]
+        if twice:
+            raise InputError(f"{path}: the column {twice[0]!r} stands there twice; give one of them another name")
         try:
             table = pq.read_table(path, columns=[schema.names[i] for i in wanted])
         except Exception as error:  # as above
