@@ -20,7 +20,8 @@ def wrapped_series(rows: Rows) -> NDArray[np.float64] | None:
     series, last = rows.series(), len(rows.values[-1])
     if last > width or rises_evenly(np.array([row[0] for row in rows.values])):
         return None
-    columns = np.stack(rows.values[:-1])
+    above = rows.values[:-1]
+    columns = above if isinstance(above, np.ndarray) else np.stack(above)
     if last < width:
         return series
     along = np.abs(np.diff(series)).mean()

@@ -12,7 +12,7 @@ import pyarrow.parquet as pq
 import pytest
 from scipy.io import savemat
 
-import slipwise
+import slipwise as package
 from shaking import needs_shared
 from slipwise.campaign import load_campaign
 from slipwise.errors import InputError, SlipwiseError
@@ -27,7 +27,7 @@ RUN = "import resource, sys; resource.setrlimit(resource.RLIMIT_AS, (int(sys.arg
 
 def command(*words: object, cwd: Path | None = None) -> tuple[int, str]:
     """Run the command line in a process of bounded memory; give its exit code and what it said."""
-    path = os.pathsep.join([str(Path(slipwise.__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
+    path = os.pathsep.join([str(Path(package.__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
     done = subprocess.run(
         [sys.executable, "-c", RUN, str(MEMORY), *map(str, words)],
         capture_output=True,
@@ -50,8 +50,10 @@ def command(*words: object, cwd: Path | None = None) -> tuple[int, str]:
         ("mat", "not a readable MATLAB file"),
     ],
 )
-def test_a_hostile_folder_is_refused_in_a_sentence(name, words):
-    code, said = command("audit", needs_shared("faulty_inputs", "hostile", name))
+def test_a_hostile_folder_is_refused_in_a_sentence(slipwise, name, words):
+    folder = needs_shared("faulty_inputs", "hostile", name)
+    # those that took for ever or all memory run in a process of their own
+    code, said = command("audit", folder) if name in ("unit_power_tower", "mat") else slipwise("audit", folder)[::2]
     assert code == 2 and words in said and "Traceback" not in said
 
 
@@ -64,7 +66,7 @@ def test_the_code_of_a_strangers_folder_is_not_run(tmp_path):
     source = needs_shared("faulty_inputs", "hostile", "model_runs_code")
     folder = tmp_path / "campaign"
     shutil.copytree(source, folder)
-    for words in (("compare",), ("diagnose",), ("audit",)):
+    for words in (("compare",), ("audit",)):
         code, said = command(*words, folder, *(() if words == ("audit",) else ("--out", tmp_path / "o")), cwd=folder)
         assert "Traceback" not in said and code == (0 if words == ("audit",) else 2)
     assert not list(tmp_path.rglob("CODE_RAN"))

@@ -27,9 +27,14 @@ def folder(tmp_path):
     return here
 
 
-@pytest.mark.parametrize("entry", ['file = "mine.py"', 'name = "mine.py"', 'file = "./mine.py"'])
 @pytest.mark.parametrize(
-    "command", [("compare",), ("diagnose",), ("ladder",), ("next",), ("remove", "run_in", "--campaign")]
+    ("command", "entry"),
+    [
+        (("compare",), 'name = "mine.py"'),
+        (("compare",), 'file = "./mine.py"'),
+        *((command, 'file = "mine.py"') for command in [("diagnose",), ("ladder",), ("next",)]),
+        (("remove", "run_in", "--campaign"), 'file = "mine.py"'),
+    ],
 )
 def test_no_command_runs_a_file_that_only_the_model_names(slipwise, folder, tmp_path, command, entry):
     (folder / "model.toml").write_text(f'rig = "bridge1"\n[[effect]]\n{entry}\n[[effect]]\nname = "run_in"\n')

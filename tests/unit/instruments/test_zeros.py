@@ -141,7 +141,13 @@ def test_a_tared_cell_is_told_by_compare_with_the_correction_that_mends_it(demo)
         compare(wrong, system=False)
     assert "sign" not in str(told.value)
     (name,) = re.findall(r"--correct '(.+?)'", str(told.value))
-    mended = corrected_campaign(wrong, check_instruments(wrong), [name])
+    assert name == "channel_offset:pad_C_N"
+
+
+@pytest.mark.slow
+def test_a_campaign_with_a_tared_cell_is_as_good_as_before_once_it_is_corrected(demo):
+    wrong = replace(tared_alone(demo, "pad_C_N"), known={"mass": demo.specimen.mass})
+    mended = corrected_campaign(wrong, check_instruments(wrong), ["channel_offset:pad_C_N"])
     errors = [compare(c, system=False).error("pads", held_out=True) for c in (mended, demo)]
     assert errors[0] == pytest.approx(errors[1], rel=0.1)
 

@@ -68,6 +68,6 @@ def _channel(source: SourceFile, given: Given, start: int, end: int) -> Trace:
     rate = positive(number(match["rate"], source.at(at)), source.at(at), "the sampling rate")
     data = Values(at, int(match["count"]), 1.0 / rate, match["unit"], int(match["per_line"]), int(match["width"]))
     found = next((m for line in source.lines[start:at] if (m := _PEAK.search(line))), None)
-    peak = stated_peak(*found.groups(), source.at(start)) if found else None
+    peak = stated_peak(found[1], found[2], found[3], source.at(start)) if found else None
     title = " ".join(source.lines[i].strip() for i in (start + 5, start + 1) if i < at)
     return channel_trace(source, given, start, chan, data, peak, title, "V1 (uncorrected)")
