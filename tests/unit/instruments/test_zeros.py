@@ -152,6 +152,19 @@ def test_a_campaign_with_a_tared_cell_is_as_good_as_before_once_it_is_corrected(
     assert errors[0] == pytest.approx(errors[1], rel=0.1)
 
 
+@pytest.mark.parametrize("names", [("pad_B_N",), LOADS])
+def test_cells_that_were_tared_before_some_runs_only_are_told_and_mended_as_the_message_says(demo, names):
+    wrong = tared_alone(demo, *names)
+    some = replace(demo, runs=(*demo.runs[:3], *wrong.runs[3:]))
+    with pytest.raises(
+        InputError, match="in quake_hv_again, quake2_hv alone .* set to zero under the girder.*of their"
+    ):
+        check_same_specimen(some)
+    check_same_specimen(replace(demo, runs=demo.runs[:3]))
+    notes = check_same_specimen(replace(demo, runs=wrong.runs[3:]))
+    assert any("set to zero under the girder" in words for words in notes)
+
+
 def test_a_pad_that_carries_nothing_and_a_dead_cell_are_not_taken_for_tared(demo):
     quarter = demo.specimen.weight / 4.0
     lifted = {"pad_A_N": -1.0, "pad_D_N": -1.0, "pad_B_N": 1.0, "pad_C_N": 1.0}
