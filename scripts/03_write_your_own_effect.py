@@ -133,7 +133,7 @@ def main() -> None:
     file = settings.out / "model.toml"
     file.write_text(draft_model("bridge1"), encoding="utf-8")
     add_effect(file, str(path), values={"time_constant": "50 ms"})
-    print(f"{file} now holds {', '.join(u.label for u in load_model(file).uses)}. Picture: {picture}")
+    print(f"{file} now holds {', '.join(u.label for u in load_model(file, trust=[path]).uses)}. Picture: {picture}")
     print(f"Use it: slipwise replay sine:2Hz,0.3g --effect {path} --out out/with_it")
 
 

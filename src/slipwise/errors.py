@@ -3,8 +3,12 @@
 Every message says what was given, what is possible, and what to do. The command line prints it and exits 2.
 """
 
+import re
 from collections.abc import Iterable
 from difflib import get_close_matches
+
+#: Characters that steer a terminal, or turn the direction of writing, instead of being seen.
+_UNSEEN = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
 
 
 class SlipwiseError(Exception):
@@ -51,3 +55,8 @@ def unknown_name(kind: str, given: str, known: Iterable[str], where: str = "") -
     near = get_close_matches(given, names, n=3, cutoff=0.5)
     hint = f"did you mean {' or '.join(near)}?" if near else f"possible: {', '.join(names[:40])}."
     return UnknownNameError(f"no {kind} is called {given!r}: {hint}{' ' + where if where else ''}")
+
+
+def visible(text: str) -> str:
+    """Give a text whose control characters are written as escapes: names from files must not steer a terminal."""
+    return _UNSEEN.sub(lambda found: found[0].encode("unicode_escape").decode("ascii"), text)

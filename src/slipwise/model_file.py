@@ -29,15 +29,15 @@ import tomlkit
 from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT, Item, Table
 
-from slipwise.effects import Effect, base_effects, catalogue, find_effect, load_effect
+from slipwise.effects import Effect, Trust, base_effects, catalogue, check_trusted, find_effect, load_effect
 from slipwise.errors import InputError, SettingError, unknown_name
 from slipwise.model import EffectUse, Model, base_model, use
-from slipwise.params import Parameter
+from slipwise.params import same_number
 from slipwise.record import write_text
 from slipwise.rig import load_specimen
 from slipwise.rig.known import SPECIMEN_UNITS, better_known, known_better, read_known
 from slipwise.rig.specimen import RIGS, Specimen
-from slipwise.units import parse_unit, quantity
+from slipwise.units import quantity
 
 _TOP = ("rig", "specimen", "effect")
 _ENTRY = ("name", "file", "target")
@@ -58,16 +58,20 @@ def draft_model(rig: str) -> str:
     return re.sub(r"\n{3,}", "\n\n", tomlkit.dumps(document))
 
 
-def load_model(path: Path | str) -> Model:
+def load_model(path: Path | str, *, trust: Trust = False) -> Model:
     """Read a model.toml.
 
+    Args:
+        path: of the file.
+        trust: effect files that it names and that may be run: none, these, or all (True).
+
     Raises:
-        InputError: no file, no TOML, or something that is needed is missing.
+        InputError: no file, no TOML, something that is needed is missing, or an effect file that is not trusted.
         UnknownNameError: a rig, effect, parameter or key that does not exist, with the nearest ones.
         UnitError: a value without a unit or of the wrong dimension.
         SettingError: a value out of bounds, or effects that cannot go together.
     """
-    return _model(_read(Path(path)), Path(path))
+    return _model(_read(Path(path)), Path(path), trust)
 
 
 def as_model(given: Model | Specimen | Path | str) -> Model:
@@ -105,9 +109,9 @@ def save_model(model: Model, path: Path | str) -> None:
     labels = [u.label for u in model.uses]
     entries = _entries(document)
     for i in reversed(range(len(entries))):
-        if _use(entries[i], path).label not in labels:
+        if _label(entries[i], path) not in labels:
             del entries[i]
-    written = {_use(entry, path).label: entry for entry in entries}
+    written = {_label(entry, path): entry for entry in entries}
     for wanted in model.uses:
         if wanted.label in written:
             _write_values(written[wanted.label], wanted)
@@ -116,7 +120,14 @@ def save_model(model: Model, path: Path | str) -> None:
     write_text(path, tomlkit.dumps(document))
 
 
-def add_effect(path: Path, name: str, target: str = "", values: Mapping[str, str | float] | None = None) -> Model:
+def add_effect(
+    path: Path,
+    name: str,
+    target: str = "",
+    values: Mapping[str, str | float] | None = None,
+    *,
+    trust: Trust = False,
+) -> Model:
     """Add an effect to a model.toml.
 
     Args:
@@ -124,6 +135,7 @@ def add_effect(path: Path, name: str, target: str = "", values: Mapping[str, str
         name: of an effect of the catalogue, or a path of one's own file ("mine.py").
         target: the channel, for effects that need one.
         values: parameter -> quantity with unit, or number [SI]; typical values for the others.
+        trust: other effect files of the model that may be run; the one that is named may.
 
     Returns:
         The model as it is now.
@@ -135,17 +147,18 @@ def add_effect(path: Path, name: str, target: str = "", values: Mapping[str, str
     document = _read(path)
     effect = find_effect(name)
     _append(document, _made(effect, target, values or {}, name), _file_of(effect, path))
-    model = _model(document, path)
+    model = _model(document, path, trust if isinstance(trust, bool) and trust else [effect.path, *(trust or ())])
     write_text(path, tomlkit.dumps(document))
     return model
 
 
-def remove_effect(path: Path, name: str) -> Model:
+def remove_effect(path: Path, name: str, *, trust: Trust = False) -> Model:
     """Take an effect out of a model.toml.
 
     Args:
         path: of the model.toml.
         name: of the effect, or its label where it acts on several channels, e.g. "channel_gain[pad_A_N]".
+        trust: effect files of what is left of the model that may be run.
 
     Returns:
         The model as it is now.
@@ -156,14 +169,14 @@ def remove_effect(path: Path, name: str) -> Model:
     """
     document = _read(path)
     entries = _entries(document)
-    uses = [_use(entry, path) for entry in entries]
-    found = [i for i, u in enumerate(uses) if name in (u.effect.name, u.label)]
+    labels = [_label(entry, path) for entry in entries]
+    found = [i for i, label in enumerate(labels) if name in (label.partition("[")[0], label)]
     if not found:
-        raise unknown_name(f"effect (in {path.name})", name, [u.label for u in uses])
+        raise unknown_name(f"effect (in {path.name})", name, labels)
     if len(found) > 1:
-        raise SettingError(f"{name} acts on several channels; say which: {', '.join(uses[i].label for i in found)}")
+        raise SettingError(f"{name} acts on several channels; say which: {', '.join(labels[i] for i in found)}")
     del entries[found[0]]
-    model = _model(document, path)
+    model = _model(document, path, trust)
     write_text(path, tomlkit.dumps(document))
     return model
 
@@ -173,7 +186,7 @@ def _read(path: Path) -> tomlkit.TOMLDocument:
         raise InputError(f"{path}: no such file; `slipwise init {path.parent}` drafts one")
     try:
         document = tomlkit.parse(path.read_text(encoding="utf-8-sig"))
-    except (TOMLKitError, UnicodeDecodeError) as error:
+    except (TOMLKitError, UnicodeDecodeError, RecursionError) as error:
         raise InputError(f"{path}: not valid TOML: {error}") from None
     for key in document:
         if key not in _TOP:
@@ -189,18 +202,34 @@ def _entries(document: tomlkit.TOMLDocument) -> AoT:
     return cast(AoT, document.get("effect", AoT([])))
 
 
-def _model(document: tomlkit.TOMLDocument, path: Path) -> Model:
+def _model(document: tomlkit.TOMLDocument, path: Path, trust: Trust) -> Model:
     specimen = load_specimen(str(document["rig"]), path.parent)
     part = cast(Mapping[str, Any], document.get("specimen", {}))
     known = read_known(part, f"[specimen] of {path.name}")
-    uses = tuple(_use(entry, path) for entry in _entries(document))
+    uses = tuple(_use(entry, path, trust) for entry in _entries(document))
     return Model(better_known(specimen, known, path.name), uses)
 
 
-def _use(entry: Table, path: Path) -> EffectUse:
+def _file_in(entry: Table, path: Path) -> Path | None:
+    """Give the effect file that an entry names, None for an effect of the catalogue."""
     if ("name" in entry) == ("file" in entry):
         raise InputError(f'{path}: each [[effect]] needs either name = "heating" or file = "mine.py"')
-    effect = load_effect(path.parent / str(entry["file"])) if "file" in entry else find_effect(str(entry["name"]))
+    given = str(entry["file"] if "file" in entry else entry["name"])
+    return path.parent / given if "file" in entry or given.endswith(".py") else None
+
+
+def _label(entry: Table, path: Path) -> str:
+    """Give an entry's label without running its file."""
+    file = _file_in(entry, path)
+    name = str(entry["name"]) if file is None else file.stem
+    return f"{name}[{entry['target']}]" if entry.get("target") else name
+
+
+def _use(entry: Table, path: Path, trust: Trust) -> EffectUse:
+    file = _file_in(entry, path)
+    if file is not None:
+        check_trusted(file, path, trust)
+    effect = find_effect(str(entry["name"])) if file is None else load_effect(file)
     values = {key: entry[key] for key in entry if key not in _ENTRY}
     return _made(effect, str(entry.get("target", "")), values, f"{path.name}, effect {effect.name}")
 
@@ -214,10 +243,6 @@ def _made(effect: Effect, target: str, values: Mapping[str, Any], where: str) ->
         found = float(value) if plain else quantity(value, parameter.unit, f"{where}, {name}")
         si[name] = parameter.snapped(found)
     return use(effect, target, **si)
-
-
-def _same(value: float, other: float) -> bool:
-    return abs(value - other) <= 1e-13 * abs(other)
 
 
 def _file_of(effect: Effect, path: Path) -> str:
@@ -234,8 +259,8 @@ def _append(document: tomlkit.TOMLDocument, wanted: EffectUse, file: str) -> Non
     if wanted.target:
         entry["target"] = wanted.target
     for parameter in wanted.effect.parameters:
-        bounds = [_shown(bound, parameter, short=True).partition(" ")[0] for bound in (parameter.low, parameter.high)]
-        value = tomlkit.item(_written(wanted.values[parameter.name], parameter))
+        bounds = [parameter.shown(bound, short=True).partition(" ")[0] for bound in (parameter.low, parameter.high)]
+        value = tomlkit.item(parameter.written(wanted.values[parameter.name]))
         entry.add(parameter.name, value.comment(f"{parameter.meaning}; {' to '.join(bounds)}"))
     if "effect" not in document:
         document.add(tomlkit.nl())
@@ -250,10 +275,10 @@ def _write_values(entry: Table, wanted: EffectUse) -> None:
     for parameter in wanted.effect.parameters:
         value = wanted.values[parameter.name]
         if parameter.name in entry:
-            if not _same(quantity(str(entry[parameter.name]), parameter.unit, parameter.name), value):
-                entry[parameter.name] = _written(value, parameter)
+            if not same_number(quantity(str(entry[parameter.name]), parameter.unit, parameter.name), value):
+                entry[parameter.name] = parameter.written(value)
         elif value != parameter.typical:
-            entry[parameter.name] = _written(value, parameter)
+            entry[parameter.name] = parameter.written(value)
 
 
 def _write_specimen(document: tomlkit.TOMLDocument, known: Mapping[str, float | str]) -> None:
@@ -270,21 +295,5 @@ def _write_specimen(document: tomlkit.TOMLDocument, known: Mapping[str, float | 
     for name, value in known.items():
         if isinstance(value, str):
             part[name] = value
-        elif name not in part or not _same(quantity(str(part[name]), SPECIMEN_UNITS[name], name), value):
+        elif name not in part or not same_number(quantity(str(part[name]), SPECIMEN_UNITS[name], name), value):
             part[name] = f"{value:.15g} {SPECIMEN_UNITS[name]}".removesuffix(" 1")
-
-
-def _written(value: float, parameter: Parameter) -> str | float:
-    """Give a value as it is written: a pure number bare, anything else with the unit in which people read it."""
-    text = _shown(value, parameter)
-    return text if " " in text else float(text)
-
-
-def _shown(value: float, parameter: Parameter, *, short: bool = False) -> str:
-    """Write a value in the unit in which people read it, with as many digits as bring the same number back."""
-    unit = parameter.shown_in or parameter.unit
-    in_unit = value / parse_unit(unit, parameter.unit, parameter.name)
-    digits = 4
-    while not short and digits < 15 and not _same(float(f"{in_unit:.{digits}g}"), in_unit):
-        digits += 1
-    return f"{in_unit:.{digits}g}{'' if unit == '1' else ' ' + unit}"

@@ -104,6 +104,32 @@ class Parameter:
     def snapped(self, value: float) -> float:
         """Undo what the conversion from "300 mm" did to the last digit of a bound or of the neutral value."""
         for exact in (self.neutral, self.typical, self.low, self.high):
-            if exact is not None and abs(value - exact) <= 1e-13 * abs(exact):
+            if exact is not None and same_number(value, exact):
                 return exact
         return value
+
+    def shown(self, value: float, *, short: bool = False) -> str:
+        """Write a value [SI] in the unit in which people read it, with as many digits as bring the same number back.
+
+        Args:
+            value: the value.
+            short: four digits are enough.
+        """
+        from slipwise.units import parse_unit
+
+        unit = self.shown_in or self.unit
+        in_unit = value / parse_unit(unit, self.unit, self.name)
+        digits = 4
+        while not short and digits < 15 and not same_number(float(f"{in_unit:.{digits}g}"), in_unit):
+            digits += 1
+        return f"{in_unit:.{digits}g}{'' if unit == '1' else ' ' + unit}"
+
+    def written(self, value: float) -> str | float:
+        """Give a value [SI] as a file has it: a pure number bare, anything else with its unit."""
+        text = self.shown(value)
+        return text if " " in text else float(text)
+
+
+def same_number(value: float, other: float) -> bool:
+    """Tell whether two numbers differ by no more than conversions of units do."""
+    return abs(value - other) <= 1e-13 * abs(other)

@@ -1,11 +1,11 @@
 """How every result shows itself: one line, a table in a notebook, a pandas frame, a picture."""
 
+import html
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from html import escape
 from typing import TYPE_CHECKING, Any
 
-from slipwise.errors import InputError
+from slipwise.errors import InputError, visible
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -33,7 +33,7 @@ class Shown(ABC):
         """Give the headline and the table; this is what Jupyter shows."""
         rows = self._rows()
         more = f"<p>and {len(rows) - _MOST_ROWS} rows more</p>" if len(rows) > _MOST_ROWS else ""
-        return f"<p>{escape(self._headline())}</p>{_html(rows[:_MOST_ROWS])}{more}"
+        return f"<p>{_escape(self._headline())}</p>{_html(rows[:_MOST_ROWS])}{more}"
 
 
 class Tabular(Shown):
@@ -81,7 +81,7 @@ def _html(rows: Sequence[Mapping[str, Any]]) -> str:
     names = list(dict.fromkeys(name for row in rows for name in row))
     if not names:
         return ""
-    head = "".join(f"<th>{escape(name)}</th>" for name in names)
+    head = "".join(f"<th>{_escape(name)}</th>" for name in names)
     body = "".join("<tr>" + "".join(f"<td>{_cell(row.get(name))}</td>" for name in names) + "</tr>" for row in rows)
     return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
 
@@ -89,4 +89,8 @@ def _html(rows: Sequence[Mapping[str, Any]]) -> str:
 def _cell(value: Any) -> str:
     if value is None:
         return ""
-    return escape(f"{value:.4g}" if isinstance(value, float) else str(value))
+    return _escape(f"{value:.4g}" if isinstance(value, float) else str(value))
+
+
+def _escape(text: str) -> str:
+    return html.escape(visible(text))

@@ -5,6 +5,7 @@ Inside Slipwise everything is SI (m, s, kg, N, Pa, rad, K); this file is the onl
 
 import re
 from functools import cache
+from math import isfinite
 
 import pint
 
@@ -41,9 +42,12 @@ _SPELLINGS: dict[str, str] = {
 _TON = re.compile(r"\btons?\b", re.IGNORECASE)
 #: A name of letters, perhaps with a power behind it: mm2, s-2, s^-2.
 _NAMED = re.compile(r"([A-Za-z_°'%]+)(?:(?:\^|\*\*)?(-?\d+))?")
-#: A unit is no longer than this, and has no power of a power and none beyond 9: pint would compute it for ever.
+#: A unit is no longer than this, holds nothing else than these, and has no power of a power and none beyond 9.
 _LONGEST = 400
+_ALLOWED = re.compile(r"[\w\s*/^().+%°'·−-]*")
 _TOWER = re.compile(r"(?:\*\*|\^)\s*\(?\s*[+-]?\s*(?:\d{2,}|[\d.]*\s*\)?\s*(?:\*\*|\^))|(?:\*\*|\^)\s*\([^)]*[*/^]")
+#: A whole number by itself; as a float it overflows at once where pint would compute all its digits.
+_WHOLE = re.compile(r"(?<![\w.])\d+(?![\w.])")
 _SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 
 
@@ -58,7 +62,8 @@ def _clean(text: str) -> str:
         name, power = found.groups()
         return _SPELLINGS.get(name, name) + (f"**{power}" if power else "")
 
-    return _NAMED.sub(named, re.sub(r"(?<=[A-Za-z0-9]) +(?=[A-Za-z])", "*", text))
+    powers = _NAMED.sub(named, re.sub(r"(?<=[A-Za-z0-9]) +(?=[A-Za-z])", "*", text))
+    return _WHOLE.sub(lambda found: f"{found[0]}.0", powers)
 
 
 def parse_unit(unit: str, dimension_of: str, what: str) -> float:
@@ -122,14 +127,19 @@ def quantity(text: str | float | int, dimension_of: str, what: str, *, plain_uni
         raise UnitError(
             f"{what}: {given!r} is not a number with a unit; write for example '1.5 {dimension_of}'"
         ) from None
+    if not isfinite(value):
+        raise UnitError(f"{what}: {given[:60]!r} is not a finite number; write for example '1.5 {dimension_of}'")
     if not unit.strip() and dimension_of != "1":
         raise UnitError(f"{what}: {given!r} has no unit; write for example '{number} {dimension_of}'")
-    cleaned = _clean(unit)
-    if len(unit) > _LONGEST or _TOWER.search(cleaned):
-        raise UnitError(f"{what}: {shown[:_LONGEST]!r} is no unit; a unit like '{dimension_of}' is needed")
+    cleaned = _clean(unit[: _LONGEST + 1])
+    if len(unit) > _LONGEST or not _ALLOWED.fullmatch(unit.translate(_SUPERSCRIPTS)) or _TOWER.search(cleaned):
+        raise UnitError(
+            f"{what}: {shown[:60]!r} is no unit; a unit like '{dimension_of}' is needed, of at most {_LONGEST} "
+            "characters, with powers up to 9 and no powers of powers"
+        )
     try:
         parsed = registry.Quantity(value, cleaned)
-        return float(parsed.to(_clean(dimension_of)).magnitude)
+        si = float(parsed.to(_clean(dimension_of)).magnitude)
     except pint.DimensionalityError:
         raise UnitError(
             f"{what}: the unit {shown!r} has the wrong dimension; a unit like '{dimension_of}' is needed"
@@ -140,6 +150,9 @@ def quantity(text: str | float | int, dimension_of: str, what: str, *, plain_uni
         raise UnitError(
             f"{what}: {shown!r} cannot be read as a unit ({type(error).__name__}); write for example '{dimension_of}'"
         ) from None
+    if not isfinite(si):
+        raise UnitError(f"{what}: {given[:60]!r} is beyond every number; write for example '1.5 {dimension_of}'")
+    return si
 
 
 def _exponent(text: str, i: int) -> bool:

@@ -135,7 +135,7 @@ def test_the_model_of_the_formats_page_can_be_read(tmp_path):
     mine = next(t for t in blocks(ROOT / "docs" / "contributing.md", "python") if "EFFECT" in t)
     (tmp_path / "model.toml").write_text(text, encoding="utf-8")
     (tmp_path / "mine.py").write_text(mine, encoding="utf-8")
-    names = [u.effect.name for u in load_model(tmp_path / "model.toml").uses]
+    names = [u.effect.name for u in load_model(tmp_path / "model.toml", trust=[tmp_path / "mine.py"]).uses]
     assert names == ["shear_rate", "channel_gain", "mine"]
 
 

@@ -19,6 +19,7 @@ ALLOWED = {
     ("view/series.py", "table_pitch"),  # the channel
     ("rig/build.py", "table_pitch"),  # a joint of the rig
     ("rig/known.py", "buffer_height"),  # a number of the rig
+    ("rig/specimen.py", "buffer_height"),  # the same, with its bounds
     ("view/paper_page.py", "buffer_height"),  # the same, in an example of a command
     ("comparison/motion_states.py", "breakaway"),  # a state of motion
     ("cli/effects.py", "heating"),  # an example of a command

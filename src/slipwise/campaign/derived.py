@@ -26,6 +26,8 @@ _TOKEN = re.compile(
 #: Inside a product of units, pint would read these letters as gram and as nothing.
 _ENGINEERS = {"g": "gee", "G": "gee", "t": "ton_metric", "%": "percent"}
 _TEMPERATURES = {"degC": "degC", "°C": "degC", "C": "degC", "degF": "degF", "°F": "degF", "F": "degF"}
+#: An expression has no more parts than these, no deeper brackets and signs, and no larger powers.
+_PARTS, _DEEPEST, _LARGEST_POWER = 200, 20, 9
 _FUNCTIONS = {"abs": np.abs, "sqrt": np.sqrt}
 
 
@@ -87,6 +89,12 @@ class _Parser:
             kind = match.lastgroup if match.lastgroup != "unit" else "number"
             self.tokens.append((str(kind), match[str(kind)], match["unit"] or ""))
             position = match.end()
+            if len(self.tokens) > _PARTS:
+                raise InputError(
+                    f"{what}: the expression {text[:40]!r}... has more than {_PARTS} parts; compute it in channels of "
+                    "its own, such as pad_A_N_raw"
+                )
+        self.depth = 0
         self.tokens.append(("end", "", ""))
 
     def _take(self, *signs: str) -> str:
@@ -133,11 +141,23 @@ class _Parser:
             kind, text, unit = self.tokens.pop(0)
             if kind != "number" or unit or not text.isdigit():
                 raise InputError(f"{self.what}: an exponent must be a whole number, not {text + unit!r}")
+            if len(text) > 1:
+                raise InputError(
+                    f"{self.what}: the power {text[:20]} is too large; powers up to {_LARGEST_POWER} are read"
+                )
             exponent = -int(text) if negative else int(text)
             return _Value(value.numbers ** float(exponent), f"({value.unit})**({exponent})")
         return value
 
     def factor(self) -> _Value:
+        self.depth += 1
+        if self.depth > _DEEPEST:
+            raise InputError(f"{self.what}: {self.text[:40]!r} is nested deeper than {_DEEPEST} brackets and signs")
+        value = self.innermost()
+        self.depth -= 1
+        return value
+
+    def innermost(self) -> _Value:
         if self._take("-"):
             kind, text, unit = self.tokens[0]
             if kind == "number" and unit in _TEMPERATURES:

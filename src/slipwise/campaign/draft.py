@@ -28,7 +28,7 @@ _WORDS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("time", "zeit", "tempo", "t"), "time"),
     (("slip", "disp", "displacement", "position", "travel", "weg"), "slip_x"),
     (("vel", "velocity", "speed"), "slip_vx"),
-    (("normal", "load", "vertical"), "pad_A_N"),
+    (("normal", "axial", "load", "vertical"), "pad_A_N"),
     (("pressure", "druck"), "pad_A_P"),
     (("force", "friction", "shear", "kraft"), "pad_A_Fx"),
     (("temperature", "temp"), "pad_A_T"),

@@ -27,6 +27,8 @@ _ALONG = {"x", "long", "longitudinal", "h", "hor", "horz", "horiz", "horizontal"
 _ACROSS = {"y", "trans", "transverse", "ay", "fy", "lat", "lateral"}
 #: A load varies by less than this part of its mean [1]; fewer samples than these show nothing.
 _STEADY, _ENOUGH = 0.6, 100
+#: No pad of a shaking table carries more [N].
+_LARGEST_LOAD = 1e8
 #: Table and girder are told apart where the girder's forces explain this much more of one than of the other [1].
 _APART = 0.01
 
@@ -99,7 +101,8 @@ def map_columns(columns: Sequence[Column], known: Mapping[str, Array]) -> dict[s
         return out
     step = float(np.median(np.diff(instants)))
     channels = dict(known)
-    forces = [c for c in columns if c.kind == "force" and np.ptp(c.values) > 0.0]
+    # a load may be kept constant by the machine; a friction that never moves is a dead gauge
+    forces = [c for c in columns if c.kind == "force" and (np.ptp(c.values) > 0.0 or _is_load(c))]
     loads = [c for c in forces if _is_load(c)]
     total = np.asarray(np.sum([np.abs(c.values) for c in loads], axis=0), dtype=np.float64) if loads else None
     frictions = [c.values for c in forces if not _is_load(c) and not c.words & _ACROSS]
@@ -114,7 +117,7 @@ def map_columns(columns: Sequence[Column], known: Mapping[str, Array]) -> dict[s
 def _is_load(column: Column) -> bool:
     """Tell a load, which stands, from a friction, which has no mean."""
     middle = abs(float(np.median(column.values)))
-    return middle > 0.0 and float(np.std(column.values)) < _STEADY * middle
+    return 0.0 < middle < _LARGEST_LOAD and float(np.std(column.values)) < _STEADY * middle
 
 
 def _put(out: dict[str, Mapped], channels: dict[str, Array], column: Column, mapped: Mapped) -> None:

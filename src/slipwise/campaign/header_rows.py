@@ -16,6 +16,8 @@ from slipwise.units import parse_unit
 _PREAMBLE = 400
 #: Rows that are looked at to be sure of a table, and lines that may stand between its names and its numbers.
 _SURE, _HEADER_LINES = 3, 4
+#: What Campbell loggers write among the units for a time stamp and a record's number; read as units, tera- and ronna-.
+_NO_UNITS = ("TS", "RN")
 NUMBER = re.compile(r"^[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?$")
 MISSING = ("", "nan", "NaN", "NAN", "na", "NA", "N/A", "#N/A", "-", "--", "null", "inf", "-inf", "Inf", "-Inf", "+Inf")
 
@@ -44,6 +46,7 @@ class Header:
         out = []
         for k, name in enumerate(self.names):
             unit = self.units[k].strip().strip("[]()").strip() if self.units else ""
+            unit = "" if unit in _NO_UNITS else unit
             if k in self.stamps and "[" not in name:
                 unit = "s"  # time stamps are read as seconds since the first one
             out.append(f"{name} [{unit}]" if unit and "[" not in name else name)

@@ -24,6 +24,8 @@ _DEEPEST = 12
 #: A file that unpacks to more bytes than this is no record of a rig.
 _LARGEST = 800_000_000
 _HEADER, _TAG, _COMPRESSED = 128, 8, 15
+#: Bytes of an unpacked variable that hold its name.
+_NAMED = 400
 
 
 def matlab_variables(path: Path) -> dict[str, Array]:
@@ -69,17 +71,35 @@ def _check_size(path: Path) -> None:
         kind, size = struct.unpack_from(f"{order}II", data, at)
         if kind == _COMPRESSED:
             unpack, part = zlib.decompressobj(), data[at + _TAG : at + _TAG + size]
+            head = b""
             try:
                 while part and total <= _LARGEST:
-                    total += len(unpack.decompress(part, 1 << 24))
-                    part = unpack.unconsumed_tail
+                    block = unpack.decompress(part, 1 << 24)
+                    head, total, part = head or block[:_NAMED], total + len(block), unpack.unconsumed_tail
             except zlib.error as error:
                 raise InputError(f"{path}: not a readable MATLAB file ({error}); save it again") from None
         if total > _LARGEST:
             raise InputError(
-                f"{path}: it unpacks to more than {_LARGEST / 1e6:g} MB; save the channels of one run in a file"
+                f"{path}: with {_variable(head, order)} it unpacks to more than {_LARGEST / 1e6:g} MB; save the "
+                "channels of one run in a file"
             )
         at += _TAG + size
+
+
+def _variable(head: bytes, order: str) -> str:
+    """Give name and shape of a variable, from the beginning of its unpacked element."""
+    try:
+        # tag 8, array flags 16, then dimensions and name, each behind a tag and filled up to 8 bytes
+        count = struct.unpack_from(f"{order}I", head, 28)[0]
+        shape = struct.unpack_from(f"{order}{min(count // 4, 8)}i", head, 32)
+        at = 32 + -(-count // 8) * 8
+        kind = struct.unpack_from(f"{order}I", head, at)[0]
+        # names of up to four letters stand in the tag itself
+        size, at = (kind >> 16, at + 4) if kind >> 16 else (struct.unpack_from(f"{order}I", head, at + 4)[0], at + 8)
+        name = head[at : at + size].decode("ascii", "replace")
+    except struct.error:
+        return "a variable that is damaged"
+    return f"the variable {name!r} of {' x '.join(map(str, shape))}"
 
 
 def _add(columns: dict[str, Array], name: str, value: Any, depth: int) -> None:
@@ -134,7 +154,8 @@ def _hdf5(path: Path) -> dict[str, Any]:
         total += item.size * item.dtype.itemsize
         if total > _LARGEST:
             raise InputError(
-                f"{path}: it holds more than {_LARGEST / 1e6:g} MB; save the channels of one run in a file"
+                f"{path}: with {item.name!r} of {' x '.join(map(str, item.shape))} it holds more than "
+                f"{_LARGEST / 1e6:g} MB; save the channels of one run in a file"
             )
         # MATLAB stores columns first
         array = np.asarray(item).T

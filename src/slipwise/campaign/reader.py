@@ -27,6 +27,8 @@ from slipwise.units import affine
 Array = NDArray[np.float64]
 #: Our own headers: "pad_A_N [kN]".
 HEADER = re.compile(r"^(?P<name>[A-Za-z]\w*)\s*(?:\[(?P<unit>[^\]]*)\])?$")
+#: Temperatures of a sliding face: from liquid air to molten steel [K].
+_TEMPERATURES = (70.0, 2000.0)
 
 
 @dataclass(frozen=True)
@@ -65,6 +67,7 @@ def load_campaign(folder: Path | str) -> Campaign:
     _check_names(runs)
     check_untouched(runs)
     notes = list(dict.fromkeys(note for file in files.values() for note in file.notes))
+    notes += _outside(folder, settings)
     campaign = Campaign(
         name=settings.name,
         rig=settings.rig,
@@ -76,6 +79,15 @@ def load_campaign(folder: Path | str) -> Campaign:
         materiality=settings.materiality,
     )
     return replace(campaign, notes=(*notes, *check_same_specimen(campaign)))
+
+
+def _outside(folder: Path, settings: Settings) -> list[str]:
+    """Name the files that campaign.toml takes from elsewhere than its folder."""
+    home = folder.resolve()
+    rig = [settings.rig] if settings.rig.endswith(".xml") else []
+    given = dict.fromkeys([*rig, *(run.file for run in settings.runs)])
+    away = [name for name in given if not (home / name).resolve().is_relative_to(home)]
+    return [f"campaign.toml takes {name} from outside its folder" for name in away]
 
 
 def as_campaign(given: Campaign | Path | str) -> Campaign:
@@ -126,9 +138,24 @@ def _read_file(path: Path, settings: Settings) -> _File:
         if name in channels:
             raise InputError(f"{path.name}: {name} is both recorded and one of [derived]; remove one of them")
         channels[name] = evaluate(expression, {"time": time, **channels}, name, f"[derived] {name} ({path.name})")
+    _check_temperatures(path.name, channels)
     channels, added = completed(time, channels)
     made = tuple(f"{path.name}: {word}" for word in added)
     return _File(time, channels, _sha256(table.path), (*table.notes, *words, *made, *notes), made)
+
+
+def _check_temperatures(name: str, channels: Mapping[str, Array]) -> None:
+    """Refuse temperatures that no slide has: a unit or an offset is wrong."""
+    for key, values in channels.items():
+        finite = values[np.isfinite(values)]
+        if channel(key.removesuffix("_raw")).unit != "K" or not len(finite):
+            continue
+        low, high = float(finite.min()), float(finite.max())
+        if not _TEMPERATURES[0] <= low <= high <= _TEMPERATURES[1]:
+            raise InputError(
+                f"{name}: {key} runs from {low:.4g} K to {high:.4g} K; possible are {_TEMPERATURES[0]:g} K to "
+                f"{_TEMPERATURES[1]:g} K: is its unit right (degC, K)?"
+            )
 
 
 def _choose(table: Table, mapped: Sequence[ColumnMap]) -> tuple[list[tuple[int, ColumnMap]], list[str]]:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.campaign import Campaign, Run
-from slipwise.campaign.zero_state import zero_state
+from slipwise.campaign.zero_state import shifted_zeros
 from slipwise.errors import InputError
 from slipwise.record import Record
 from slipwise.rig.load_modes import load_modes
@@ -44,10 +44,11 @@ def check_same_specimen(campaign: Campaign) -> tuple[str, ...]:
     weighing = [run for run in campaign.runs if run.record.has_all(*(f"pad_{p}_N" for p in "ABCD"))]
     if not weighing or not campaign.specimen.free:
         return tuple(notes)
-    state = zero_state([run.record for run in campaign.runs], campaign.specimen.weight)
-    notes += [f"{words}; `slipwise audit` says how to put it right" for words in state.words()]
-    if state.missing_weight is not None:
+    zeros = shifted_zeros([run.record for run in campaign.runs], campaign.specimen.weight)
+    notes += [f"{zero.words}; `slipwise audit` says how to put it right" for zero in zeros]
+    if any(zero.tared for zero in zeros):
         return tuple(notes)
+    _refuse_some_tared(weighing, campaign.specimen.weight)
     weights = [(run, float(np.median(load_modes(_pressing(run.record)).heave))) for run in weighing]
     _compare(weights, _WEIGHT, "the four load cells carry", "kN", 1e3)
     levers = [(run, lever) for run in weighing if (lever := lever_of(run.record)) is not None]
@@ -60,6 +61,22 @@ def check_same_specimen(campaign: Campaign) -> tuple[str, ...]:
             f"{rated / 1e3:.3g} kN: check the units, the rig, or give its mass in [specimen]"
         )
     return tuple(notes)
+
+
+def _refuse_some_tared(runs: Sequence[Run], weight: float) -> None:
+    """Refuse load cells that were set to zero under the girder before some of the runs only.
+
+    Raises:
+        InputError: some were; no single correction suits all runs.
+    """
+    tared = {run.name: [z for z in shifted_zeros([run.record], weight) if z.tared] for run in runs}
+    found = {name: zeros for name, zeros in tared.items() if zeros}
+    if found:
+        words = "; ".join(zero.words for zero in next(iter(found.values())))
+        raise InputError(
+            f"in {', '.join(found)} alone {words}; put these runs into a campaign of their own: there "
+            "`slipwise audit --correct` puts the load back"
+        )
 
 
 def _different_channels(runs: Sequence[Run]) -> list[str]:

@@ -79,7 +79,7 @@ def read_settings(path: Path) -> Settings:
         raise InputError(f"{path.parent} has no campaign.toml; `slipwise init {path.parent}` drafts one from its files")
     try:
         content = tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise InputError(f"{path}: not valid TOML: {error}") from None
     _keys(content, _TOP, f"{path.name}")
     for needed, example in (("rig", '"bridge1"'), ("run", '[[run]] with file = "..." and role = "fit"')):

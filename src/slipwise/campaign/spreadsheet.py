@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from datetime import date, datetime, time
 from pathlib import Path
 from typing import Any
+from zipfile import ZipFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,8 @@ from slipwise.errors import InputError
 
 Array = NDArray[np.float64]
 _LOOK_AT = 500
+#: A workbook that unpacks to more is no record of a rig [bytes].
+_LARGEST = 800_000_000
 
 
 @dataclass(frozen=True)
@@ -55,7 +58,7 @@ def inspect_sheet(path: Path, wanted: str | None) -> Sheet:
         raise InputError(f"{path}: no sheet is called {wanted!r}; it has {', '.join(names)}")
     found: list[tuple[str, Header, list[list[str]]]] = []
     for name in names if wanted is None else [wanted]:
-        rows = [row for _, row in zip(range(_LOOK_AT), _rows(book[name]), strict=False)]
+        rows = [row for _, row in zip(range(_LOOK_AT), _rows(book[name], path), strict=False)]
         width = max((len(row) for row in rows), default=0)
         header = find_header([_without_tail(row) for row in rows]) if width > 1 else None
         if header:
@@ -74,7 +77,7 @@ def read_sheet(path: Path, sheet: Sheet, wanted: Sequence[int]) -> list[Array]:
         InputError: a cell that is no number.
     """
     columns: list[list[str]] = [[] for _ in wanted]
-    for number, row in enumerate(_rows(_workbook(path)[sheet.name])):
+    for number, row in enumerate(_rows(_workbook(path)[sheet.name], path)):
         if number < sheet.header.first:
             continue
         if not any(row):
@@ -103,14 +106,31 @@ def _workbook(path: Path) -> Any:
             "sheet as CSV"
         ) from None
     try:
+        with ZipFile(path) as packed:
+            unpacked = sum(part.file_size for part in packed.infolist())
+        if unpacked > _LARGEST:
+            raise InputError(
+                f"{path}: this workbook unpacks to {unpacked / 1e6:.0f} MB, more than {_LARGEST / 1e6:g} MB; save the "
+                "sheet of one run as CSV"
+            )
         return load_workbook(path, read_only=True, data_only=True)
+    except InputError:
+        raise
     except Exception as error:  # zip, xml and key errors of damaged files come through as they are
         raise InputError(f"{path}: not a readable workbook ({error}); save it again, or as CSV") from None
 
 
-def _rows(sheet: Any) -> Iterator[list[str]]:
-    for row in sheet.iter_rows(values_only=True):
-        yield [_text(cell) for cell in row]
+def _rows(sheet: Any, path: Path) -> Iterator[list[str]]:
+    """Give the rows of a sheet as texts.
+
+    Raises:
+        InputError: the sheet is damaged.
+    """
+    try:
+        for row in sheet.iter_rows(values_only=True):
+            yield [_text(cell) for cell in row]
+    except Exception as error:  # rows are unpacked and parsed as they are asked for: zip, xml and value errors
+        raise InputError(f"{path}: the sheet {sheet.title!r} is damaged ({error}); save it again, or as CSV") from None
 
 
 def _text(cell: Any) -> str:

@@ -17,6 +17,8 @@ from slipwise.campaign.text_file import inspect_text, read_text_columns
 from slipwise.errors import InputError
 
 Array = NDArray[np.float64]
+#: Columns that take more memory than this are no record of a rig [bytes].
+_LARGEST = 800_000_000
 TEXT_SUFFIXES: tuple[str, ...] = (".csv", ".tsv", ".txt", ".dat", ".asc", ".lvm")
 SUFFIXES: tuple[str, ...] = (*TEXT_SUFFIXES, ".mat", ".parquet", ".tdms", ".xlsx")
 
@@ -107,21 +109,32 @@ def _of_columns(path: Path, columns: dict[str, Array], step: float | None = None
 
 
 def _parquet(path: Path) -> Table:
-    try:
-        schema = pq.read_schema(path)
-    except (pa.ArrowException, OSError) as error:
-        raise InputError(f"{path}: not a readable parquet file ({error})") from None
     headers = []
-    for entry in schema:
-        unit = (entry.metadata or {}).get(b"unit")
-        headers.append(f"{entry.name} [{unit.decode('utf-8', 'replace')}]" if unit is not None else entry.name)
+    try:
+        metadata, schema = pq.read_metadata(path), pq.read_schema(path)
+        for entry in schema:
+            unit = (entry.metadata or {}).get(b"unit")
+            headers.append(f"{entry.name} [{unit.decode('utf-8', 'replace')}]" if unit is not None else entry.name)
+    except Exception as error:  # Arrow lets errors of Thrift, of memory and of text through
+        raise InputError(f"{path}: not a readable parquet file ({error}); write it again") from None
 
     def columns(wanted: Sequence[int]) -> Columns:
+        if 8 * metadata.num_rows * len(wanted) > _LARGEST:
+            raise InputError(
+                f"{path}: {len(wanted)} columns of {metadata.num_rows} rows are more than {_LARGEST / 1e6:g} MB; save "
+                "one run in a file"
+            )
+        twice = [schema.names[i] for i in wanted if schema.names.count(schema.names[i]) > 1]
+        if twice:
+            raise InputError(f"{path}: the column {twice[0]!r} stands there twice; give one of them another name")
         try:
             table = pq.read_table(path, columns=[schema.names[i] for i in wanted])
-        except (pa.ArrowException, OSError) as error:
-            first = str(error).splitlines()[0]
-            raise InputError(f"{path}: not a readable parquet file ({first}); write it again") from None
+        except Exception as error:  # as above
+            names = ", ".join(schema.names[i] for i in wanted)
+            first = (str(error).splitlines() or [type(error).__name__])[0]
+            raise InputError(
+                f"{path}: the columns {names} of {metadata.num_rows} rows cannot be read ({first}); write it again"
+            ) from None
         read = []
         for i in wanted:
             column = table.column(schema.names[i])

@@ -156,14 +156,6 @@ def _parsed(
     names = [str(i) for i in range(len(layout.headers))]
     chosen = [names[i] for i in wanted]
     stamps = {names[i] for i in layout.stamps}
-    bad: list[str] = []
-
-    def ragged(row: pa_csv.InvalidRow) -> str:
-        if row.text is not None and not row.text.strip(layout.delimiter + " \t\x1a\x00"):
-            return "skip"
-        bad.append(f"a row with {row.actual_columns} columns where the header has {row.expected_columns}: {row.text!r}")
-        return "error"
-
     try:
         table = pa_csv.read_csv(
             source,
@@ -173,7 +165,7 @@ def _parsed(
                 encoding=encoding,
                 block_size=_WIDE_BLOCK if len(names) > 500 else None,
             ),
-            parse_options=pa_csv.ParseOptions(delimiter=layout.delimiter, invalid_row_handler=ragged),
+            parse_options=pa_csv.ParseOptions(delimiter=layout.delimiter),
             convert_options=pa_csv.ConvertOptions(
                 column_types={name: pa.string() if name in stamps else pa.float64() for name in chosen},
                 include_columns=chosen,
@@ -183,7 +175,7 @@ def _parsed(
             ),
         )
     except (pa.ArrowException, UnicodeDecodeError, LookupError, OSError) as error:
-        raise InputError(f"{path.name}: {bad[0] if bad else _cell_error(str(error), layout)}") from None
+        raise InputError(f"{path.name}: {_cell_error(str(error), layout)}") from None
     return [
         seconds_of_stamps([text or "" for text in table.column(name).to_pylist()], f"{path.name}, column {number}")
         if name in stamps
@@ -199,7 +191,8 @@ def _cell_error(message: str, layout: TextLayout) -> str:
         return message
     column, row, words = found.groups()
     where = f"column {layout.headers[int(column)]!r}" + (f", row {row}" if row else "")
-    return f"{where}: {words.replace('CSV conversion error to double: ', '')}"
+    words = words.replace("CSV conversion error to double: ", "")
+    return f"{where}: {words}; correct the cell, or leave it empty where no value was measured"
 
 
 def _split(line: str, delimiter: str) -> list[str]:

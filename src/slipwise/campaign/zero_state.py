@@ -1,10 +1,11 @@
 """What gauges read at rest that they should not, or do not read that they should: gravity, and a girder tared away.
 
 A DC accelerometer that stands upright reads plus or minus 1 g at rest; channels here are accelerations of the motion.
-Load cells that were set to zero under the girder do not show its weight.
+Load cells that were set to zero under the girder do not show its weight: all four of them, or single ones, which then
+show nothing while the others carry what the girder weighs less theirs.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,55 +14,73 @@ from slipwise.channels import PADS
 from slipwise.record import Record
 
 GRAVITY = 9.80665
-#: A mean this near to gravity is gravity's [1]; loads below this part of the weight are tared [1].
+#: A mean this near to gravity is gravity's [1]; four loads below this part of the weight are tared [1].
 _NEAR, _TARED = 0.1, 0.15
+#: A single cell is tared if it shows less than this part of a quarter of the weight, if at least that part of a quarter
+#: is missing in the sum, and if it moves by that part of what the others do: a dead cell or a lifted pad is none [1].
+_NOTHING, _MISSING, _ALIVE = 0.3, 0.5, 0.2
 LOADS: tuple[str, ...] = tuple(f"pad_{pad}_N" for pad in PADS)
 _VERTICAL = ("table_az", "girder_az")
 
 
 @dataclass(frozen=True)
-class ZeroState:
-    """What stands in the zeros of a campaign's gauges.
+class ShiftedZero:
+    """Channels whose zero is far off.
 
     Attributes:
-        gravity: channel -> what it reads of gravity, plus or minus 9.80665 [m/s^2].
-        missing_weight: of the girder, that four tared load cells do not show [N]; None where they show it.
+        channels: one, or all four load cells.
+        size: what each of them reads too much [SI]: gravity, or minus the load that it was tared of.
     """
 
-    gravity: Mapping[str, float]
-    missing_weight: float | None
+    channels: tuple[str, ...]
+    size: float
 
-    def words(self) -> list[str]:
-        """Say each in a sentence."""
-        found = [f"gravity is in {name}: it reads {size:+.3g} m/s^2 at rest" for name, size in self.gravity.items()]
-        if self.missing_weight is not None:
-            found.append(
-                "pad_*_N were set to zero under the girder: its weight of "
-                f"{self.missing_weight / 1e3:.4g} kN is missing in them"
-            )
-        return found
+    @property
+    def tared(self) -> bool:
+        """Whether a load is missing."""
+        return self.channels[0] in LOADS
+
+    @property
+    def words(self) -> str:
+        """Say it in a sentence."""
+        name, missing = self.channels[0], -self.size * len(self.channels) / 1e3
+        if not self.tared:
+            return f"gravity is in {name}: it reads {self.size:+.3g} m/s^2 at rest"
+        if len(self.channels) > 1:
+            return f"pad_*_N were set to zero under the girder: its weight of {missing:.4g} kN is missing in them"
+        return f"{name} was set to zero under the girder: its part of the weight, {missing:.4g} kN, is missing in it"
 
 
-def zero_state(records: Sequence[Record], weight: float | None) -> ZeroState:
-    """Look at the means of all runs.
+def shifted_zeros(records: Sequence[Record], weight: float | None) -> tuple[ShiftedZero, ...]:
+    """Look at the medians of all runs.
 
     Args:
         records: of the runs.
         weight: of the girder that stands on the cells [N], None where no free girder does.
     """
-    gravity = {}
+    found = []
     names = dict.fromkeys(name for record in records for name in record.channels if name.startswith(_VERTICAL))
     for name in names:
         means = [float(np.median(record[name])) for record in records if name in record]
         sign = np.sign(means[0])
         if all(abs(sign * mean - GRAVITY) < _NEAR * GRAVITY for mean in means):
-            gravity[name] = float(sign) * GRAVITY
+            found.append(ShiftedZero((name,), float(sign) * GRAVITY))
     # cells that never move are dead, whatever they were set to
     weighing = [r for r in records if r.has_all(*LOADS) and all(np.ptp(r[name]) > 0.0 for name in LOADS)]
-    if weight is None or not weighing:
-        return ZeroState(gravity, None)
-    sums = [float(np.median(np.sum([record[name] for name in LOADS], axis=0))) for record in weighing]
+    return (*found, *_tared(weighing, weight)) if weight is not None and weighing else tuple(found)
+
+
+def _tared(records: Sequence[Record], weight: float) -> list[ShiftedZero]:
+    medians = np.array([[np.median(record[name]) for name in LOADS] for record in records])
     # Cells of which one is turned round show half the weight: each of them must show next to nothing.
-    each = [max(abs(float(np.median(record[name]))) for name in LOADS) for record in weighing]
-    tared = all(abs(total) < _TARED * weight for total in sums) and all(one < _TARED * weight / 2.0 for one in each)
-    return ZeroState(gravity, weight if tared else None)
+    if np.all(np.abs(medians.sum(axis=1)) < _TARED * weight) and np.all(np.abs(medians) < _TARED * weight / 2.0):
+        return [ShiftedZero(LOADS, -weight / len(LOADS))]
+    swing = np.array([[np.std(record[name]) for name in LOADS] for record in records])
+    alive = swing > _ALIVE * np.median(swing, axis=1, keepdims=True)
+    quarter = weight / len(LOADS)
+    nothing = np.flatnonzero(np.all((np.abs(medians) < _NOTHING * quarter) & alive, axis=0))
+    missing = weight - np.abs(medians).sum(axis=1)
+    if not len(nothing) or np.any(missing < _MISSING * quarter * len(nothing)):
+        return []
+    each = float(np.median(missing)) / len(nothing)
+    return [ShiftedZero((LOADS[i],), -each) for i in nothing]

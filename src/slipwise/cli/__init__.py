@@ -8,7 +8,7 @@ import typer
 
 import slipwise as sw
 from slipwise.cli import campaign, demo, diagnose, edit, effects, lists, next_test, paper, replay, view
-from slipwise.errors import SlipwiseError, SlipwiseWarning
+from slipwise.errors import SlipwiseError, SlipwiseWarning, visible
 
 app = typer.Typer(
     name="slipwise",
@@ -47,7 +47,7 @@ def _options(
 
 def _show_warning(message: Warning | str, category: type[Warning], *_: object, **__: object) -> None:
     if issubclass(category, SlipwiseWarning):
-        print(f"warning: {message}", file=sys.stderr)
+        print(f"warning: {visible(str(message))}", file=sys.stderr)
 
 
 def main() -> None:
@@ -59,10 +59,10 @@ def main() -> None:
             code = app(standalone_mode=False)
         except typer.TyperException as error:
             words = getattr(error, "format_message", error.__str__)()
-            print(f"error: {words.rstrip('.')}; `slipwise --help` shows what is possible", file=sys.stderr)
+            print(f"error: {visible(words.rstrip('.'))}; `slipwise --help` shows what is possible", file=sys.stderr)
             code = 2
         except SlipwiseError as error:
-            print(f"error: {error}", file=sys.stderr)
+            print(f"error: {visible(str(error))}", file=sys.stderr)
             code = 2
         except (KeyboardInterrupt, typer.Abort):
             print("interrupted: nothing half-written was left", file=sys.stderr)

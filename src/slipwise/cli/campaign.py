@@ -7,8 +7,19 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import OUT, out_folder, print_json
-from slipwise.cli.diagnose import CampaignFolder, Json, ModelFile, Own, System, own_effects, start_model, steps
+from slipwise.cli.console import out_folder, print_json, say
+from slipwise.cli.diagnose import (
+    Allowed,
+    CampaignFolder,
+    Json,
+    ModelFile,
+    Own,
+    System,
+    Trusted,
+    own_effects,
+    start_model,
+    steps,
+)
 
 Correct = Annotated[
     list[str] | None,
@@ -26,10 +37,10 @@ def init(
     """
     ask = None if yes or not sys.stdin.isatty() else _ask
     path = sw.init_campaign(folder, ask=ask)
-    OUT.print(f"wrote {path}; read it, and decide what is marked in it", markup=False, highlight=False, soft_wrap=True)
+    say(f"wrote {path}; read it, and decide what is marked in it")
     for line in path.read_text(encoding="utf-8").splitlines():
         if line.startswith("# not read: "):
-            OUT.print(line.removeprefix("# "), markup=False, highlight=False, soft_wrap=True)
+            say(line.removeprefix("# "))
 
 
 def _ask(question: str, default: str) -> str:
@@ -57,13 +68,13 @@ def audit(campaign: CampaignFolder, effect: Own = None, correct: Correct = None,
         print_json({**found.as_json(), "notes": [*notes, *found.notes]})
         return
     for words in (*notes, found.words):
-        OUT.print(words, markup=False, highlight=False, soft_wrap=True)
+        say(words)
     if found.rows:
         print_table("Findings", found.rows)
     for words in found.notes:
-        OUT.print(f"note: {words}", markup=False, highlight=False, soft_wrap=True)
+        say(f"note: {words}")
     for words in found.cannot:
-        OUT.print(f"could not be tested: {words}", markup=False, highlight=False, soft_wrap=True)
+        say(f"could not be tested: {words}")
 
 
 def compare(
@@ -72,6 +83,8 @@ def compare(
         "out/compare"
     ),
     model: ModelFile = None,
+    effect: Allowed = None,
+    trust: Trusted = False,
     system: System = True,
     correct: Correct = None,
     recording: Annotated[bool, typer.Option(help="Write measured and simulated side by side for the viewer.")] = True,
@@ -85,7 +98,7 @@ def compare(
     from slipwise.view.files import save_json, save_page
 
     measured = sw.load_campaign(campaign)
-    start = start_model(campaign, model)
+    start = start_model(campaign, model, trust, effect)
     folder = out_folder(out)
     with steps() as tell:
         if correct:
@@ -111,9 +124,9 @@ def compare(
     print_table("Error in multiples of the noise floor", rows)
     print_table("Noise floor of one sample", floor_rows(found.floor))
     for question, answer in one_minute(found):
-        OUT.print(f"{question} {answer}", markup=False, highlight=False, soft_wrap=True)
+        say(f"{question} {answer}")
     for path in files:
-        OUT.print(f"wrote {path}", markup=False, highlight=False, soft_wrap=True)
+        say(f"wrote {path}")
 
 
 def register(app: typer.Typer) -> None:

@@ -8,10 +8,15 @@ from pathlib import Path
 
 from rich.console import Console
 
-from slipwise.errors import InputError
+from slipwise.errors import InputError, visible
 
 OUT = Console()
 ERR = Console(stderr=True)
+
+
+def say(words: str, console: Console = OUT) -> None:
+    """Print a sentence as it is, in one line; brackets are no markup, and control characters are shown."""
+    console.print(visible(words), markup=False, highlight=False, soft_wrap=True)
 
 
 def print_json(content: object) -> None:

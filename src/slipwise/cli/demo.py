@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import OUT, out_folder, steps
+from slipwise.cli.console import OUT, out_folder, say, steps
 from slipwise.cli.diagnose import print_effects, print_rungs
 
 #: Worst places of the error that are told.
@@ -63,7 +63,7 @@ def demo(
     ]
     print_table("Where the model fails", rows)
     for place in compared.places[:_TOLD]:
-        OUT.print(f"  - {place.words}", markup=False, highlight=False, soft_wrap=True)
+        say(f"  - {place.words}")
     with steps() as tell:
         found = sw.diagnose(measured, system=True, progress=tell)
     ladder = found.ladder()
@@ -90,7 +90,7 @@ def demo(
         f"slipwise diagnose {campaign} --model {campaign / 'model.toml'}   ({found.left_over})",
         *(f"slipwise effects {name}   (what it is, and where it comes from)" for name in found.verdict.effects),
     ):
-        OUT.print(f"  {line}", markup=False, highlight=False, soft_wrap=True)
+        say(f"  {line}")
     OUT.print(f"\n{time.perf_counter() - began:.0f} s")
 
 

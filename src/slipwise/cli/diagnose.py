@@ -7,8 +7,8 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import ERR, OUT, out_folder, print_json, steps
-from slipwise.errors import InputError
+from slipwise.cli.console import ERR, OUT, out_folder, print_json, say, steps
+from slipwise.errors import InputError, visible
 
 CampaignFolder = Annotated[Path, typer.Argument(help="Folder with campaign.toml and the measured runs.")]
 System = Annotated[bool, typer.Option(help="Replay the models in MuJoCo as well (system level).")]
@@ -19,20 +19,35 @@ ModelFile = Annotated[
 Own = Annotated[
     list[str] | None, typer.Option("--effect", help="An effect of your own that competes too, by its file (./mine.py).")
 ]
+Trusted = Annotated[
+    bool, typer.Option("--trust", help="Run the effect files that model.toml names; they are code: look at them first.")
+]
+Allowed = Annotated[
+    list[str] | None, typer.Option("--effect", help="Run this effect file where model.toml names it; may be repeated.")
+]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON for a program to read.")]
 
 
-def start_model(campaign: Path, given: Path | None) -> "sw.Model | None":
-    """Give the user's model: the file named, or model.toml beside campaign.toml, or nothing."""
+def start_model(
+    campaign: Path, given: Path | None, trust: bool = False, allowed: list[str] | None = None
+) -> "sw.Model | None":
+    """Give the user's model: the file named, or model.toml beside campaign.toml, or nothing.
+
+    Args:
+        campaign: its folder.
+        given: the model.toml that the user names.
+        trust: run every effect file that it names.
+        allowed: effect files that the command names, and that may be run for that.
+    """
     beside = campaign / "model.toml"
-    if given is not None:
-        return sw.load_model(given)
-    return sw.load_model(beside) if beside.is_file() else None
+    path = given or (beside if beside.is_file() else None)
+    return None if path is None else sw.load_model(path, trust=trust or allowed or ())
 
 
-def own_effects(given: list[str] | None) -> "tuple[sw.Effect, ...]":
-    """Give the effects of a user's own files."""
-    return tuple(sw.effects.find_effect(path) for path in given or [])
+def own_effects(given: list[str] | None, start: "sw.Model | None" = None) -> "tuple[sw.Effect, ...]":
+    """Give the effects of a user's own files, but for those that the model to start from holds already."""
+    held = {use.effect.path for use in start.uses} if start is not None else set()
+    return tuple(effect for path in given or [] if (effect := sw.effects.find_effect(path)).path not in held)
 
 
 def diagnose(
@@ -42,6 +57,7 @@ def diagnose(
     ),
     model: ModelFile = None,
     effect: Own = None,
+    trust: Trusted = False,
     system: System = True,
     recording: Annotated[
         bool, typer.Option(help="Write the model before and after beside the measurement, for the viewer.")
@@ -55,8 +71,8 @@ def diagnose(
     measured = sw.load_campaign(campaign)
     folder = out_folder(out)
     with steps() as tell:
-        start = start_model(campaign, model)
-        found = sw.diagnose(measured, start, own=own_effects(effect), system=system, progress=tell)
+        start = start_model(campaign, model, trust, effect)
+        found = sw.diagnose(measured, start, own=own_effects(effect, start), system=system, progress=tell)
     try:
         if not json:  # before anything is drawn: who waits, waits for this
             _tell(found)
@@ -83,12 +99,12 @@ def _tell(found: "sw.Diagnosis") -> None:
     from slipwise.view.diagnosis_words import error_name, floors
     from slipwise.view.terminal import print_table
 
-    OUT.print(found.sentence, markup=False, highlight=False)
+    OUT.print(visible(found.sentence), markup=False, highlight=False)
     for thing in found.first:
-        OUT.print(f"before any fit: {thing.words}", markup=False, highlight=False, soft_wrap=True)
+        say(f"before any fit: {thing.words}")
     print_effects(found)
     for words in found.discriminating_tests:
-        OUT.print(f"to tell apart: {words}", markup=False, highlight=False, soft_wrap=True)
+        say(f"to tell apart: {words}")
     rows = [
         {"hypothesis": c.effect, "probability": f"{100 * c.probability:.1f} %", "before": floors(c.holdout_before),
          "after": floors(c.holdout_after)}
@@ -97,9 +113,9 @@ def _tell(found: "sw.Diagnosis") -> None:
     if rows:
         print_table(f"Hypotheses; {error_name(found)} before and after, in noise floors", rows)
     for run in found.predicted_friction:
-        OUT.print(run.words, markup=False, highlight=False, soft_wrap=True)
+        say(run.words)
     for words in found.cannot_tell:
-        OUT.print(f"cannot tell {words}", markup=False, highlight=False, soft_wrap=True)
+        say(f"cannot tell {words}")
 
 
 def print_effects(found: "sw.Diagnosis") -> None:
@@ -109,7 +125,7 @@ def print_effects(found: "sw.Diagnosis") -> None:
     from slipwise.view.terminal import print_table
 
     if words := confirmed_words(found):
-        OUT.print(words, markup=False, highlight=False)
+        say(words)
     if rows := importance_rows(found, brief=True):
         print_table(f"Changes without each effect; peak slip, energy and largest load of {replayed_run(found)}", rows)
 
@@ -121,7 +137,7 @@ def _record(found: "sw.Diagnosis", folder: Path) -> list[Path]:
     try:
         measured, simulated = found.replays()
     except InputError as error:
-        ERR.print(f"no recording: {error}", markup=False, highlight=False, soft_wrap=True)
+        say(f"no recording: {error}", ERR)
         return []
     geometry = geometry_of(found.final.campaign.specimen)
     return [write_comparison(measured, simulated, geometry, folder / "before_and_after.rrd", found.sentence)]
@@ -133,6 +149,7 @@ def ladder(
     add: Annotated[list[str] | None, typer.Option(help="Add these effects in this order instead of searching.")] = None,
     model: ModelFile = None,
     effect: Own = None,
+    trust: Trusted = False,
     system: System = True,
     json: Json = False,
 ) -> None:
@@ -148,8 +165,8 @@ def ladder(
     measured = sw.load_campaign(campaign)
     folder = out_folder(out)
     with steps() as tell:
-        start = start_model(campaign, model)
-        found = sw.ladder(measured, add or [], start, own=own_effects(effect), system=system, progress=tell)
+        start = start_model(campaign, model, trust, effect)
+        found = sw.ladder(measured, add or [], start, own=own_effects(effect, start), system=system, progress=tell)
     content = save_json(found.as_json(), folder / "ladder.json")
     with styled():
         picture = save_figure(ladder_figure(found), folder / "ladder.png")
@@ -179,7 +196,7 @@ def print_rungs(found: "sw.Ladder") -> None:
 
 def _wrote(files: list[Path]) -> None:
     for path in files:
-        OUT.print(f"wrote {path}", markup=False, highlight=False, soft_wrap=True)
+        say(f"wrote {path}")
 
 
 def register(app: typer.Typer) -> None:

@@ -6,8 +6,8 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import OUT, steps
-from slipwise.cli.diagnose import start_model
+from slipwise.cli.console import say, steps
+from slipwise.cli.diagnose import Allowed, Trusted, start_model
 
 Folder = Annotated[Path, typer.Option("--campaign", help="Folder with campaign.toml; model.toml is kept there too.")]
 
@@ -15,6 +15,8 @@ Folder = Annotated[Path, typer.Option("--campaign", help="Folder with campaign.t
 def add(
     name: Annotated[str, typer.Argument(help="An effect of `slipwise effects`, or a file of your own: ./mine.py.")],
     campaign: Folder = Path(),
+    effect: Allowed = None,
+    trust: Trusted = False,
 ) -> None:
     """Add an effect to model.toml, refit everything, and print the error before and after.
 
@@ -22,13 +24,15 @@ def add(
     """
     measured = sw.load_campaign(campaign)
     with steps() as tell:
-        changed = sw.add(name, measured, start_model(campaign, None), progress=tell)
+        changed = sw.add(name, measured, start_model(campaign, None, trust, effect), progress=tell)
     _finish(changed, campaign, held_out=bool(measured.with_role("holdout")))
 
 
 def remove(
     name: Annotated[str, typer.Argument(help="Name of an effect of model.toml.")],
     campaign: Folder = Path(),
+    effect: Allowed = None,
+    trust: Trusted = False,
 ) -> None:
     """Take an effect out of model.toml, refit everything, and print the error before and after.
 
@@ -36,7 +40,7 @@ def remove(
     """
     measured = sw.load_campaign(campaign)
     with steps() as tell:
-        changed = sw.remove(name, measured, start_model(campaign, None), progress=tell)
+        changed = sw.remove(name, measured, start_model(campaign, None, trust, effect), progress=tell)
     _finish(changed, campaign, held_out=bool(measured.with_role("holdout")))
 
 
@@ -47,7 +51,7 @@ def _finish(changed: "sw.ModelChange", campaign: Path, *, held_out: bool) -> Non
     print_table(f"{which} in multiples of the noise floor", changed.rows())
     path = campaign / "model.toml"
     sw.save_model(changed.model, path)
-    OUT.print(f"wrote {path}", markup=False, highlight=False, soft_wrap=True)
+    say(f"wrote {path}")
 
 
 def register(app: typer.Typer) -> None:

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import OUT, print_json
+from slipwise.cli.console import OUT, print_json, say
 
 
 def effects(
@@ -38,7 +38,7 @@ def effects(
     else:
         print_effect(effect, OUT)
         for words in _asks(effect):
-            OUT.print(words, markup=False, highlight=False, soft_wrap=True)
+            say(words)
     if picture:
         from slipwise.view.canvas import save_figure
         from slipwise.view.effects import effect_picture
@@ -49,7 +49,7 @@ def effects(
         with styled():
             saved = save_figure(effect_picture(effect), picture)
         if not json and not source:
-            OUT.print(f"Picture: {saved}", markup=False, highlight=False, soft_wrap=True)
+            say(f"Picture: {saved}")
 
 
 def _asks(effect: "sw.Effect") -> list[str]:

@@ -6,8 +6,8 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import OUT, out_folder, print_json, steps
-from slipwise.cli.diagnose import CampaignFolder, Json, ModelFile, Own, own_effects, start_model
+from slipwise.cli.console import out_folder, print_json, say, steps
+from slipwise.cli.diagnose import CampaignFolder, Json, ModelFile, Own, Trusted, own_effects, start_model
 
 
 def next_motion(
@@ -18,6 +18,7 @@ def next_motion(
     acceleration: Annotated[str, typer.Option(help="The table's largest acceleration.")] = "1 g",
     model: ModelFile = None,
     effect: Own = None,
+    trust: Trusted = False,
     json: Json = False,
 ) -> None:
     """Rank table motions by how well they would tell the remaining rivals apart.
@@ -35,7 +36,8 @@ def next_motion(
         sw.quantity(acceleration, "m/s^2", "--acceleration"),
     )
     measured = sw.load_campaign(campaign)
-    start, own = start_model(campaign, model), own_effects(effect)
+    start = start_model(campaign, model, trust, effect)
+    own = own_effects(effect, start)
     folder = None if out is None else out_folder(out)
     with steps() as tell:
         ranked = sw.next_test(measured, limits, progress=tell, model=start, own=own)
@@ -47,7 +49,7 @@ def next_motion(
     else:
         _tell(ranked)
         if folder is not None:
-            OUT.print(f"wrote {folder / 'next.json'}", markup=False, highlight=False, soft_wrap=True)
+            say(f"wrote {folder / 'next.json'}")
 
 
 def _tell(ranked: "sw.NextTest") -> None:
@@ -66,13 +68,13 @@ def _tell(ranked: "sw.NextTest") -> None:
         for p in ranked.proposals
         if not p.refused and not p.failed
     ]
-    OUT.print(f"{ranked.sentence}\n{told}:", markup=False, highlight=False, soft_wrap=True)
+    say(f"{ranked.sentence}\n{told}:")
     if rows:
         print_table("What each motion would tell; separation in variances of the noise", rows)
     left = [f"the table cannot make {p.motion}: {p.refused}" for p in ranked.proposals if p.refused]
     left += [f"{p.motion} could not be judged: {p.failed}" for p in ranked.proposals if p.failed]
     for words in (*left, *filter(None, [ranked.words])):
-        OUT.print(words, markup=False, highlight=False, soft_wrap=True)
+        say(words)
 
 
 def register(app: typer.Typer) -> None:

@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import OUT, out_folder, print_json, progress
+from slipwise.cli.console import OUT, out_folder, print_json, progress, say
 from slipwise.errors import InputError
 
 #: Motions of the ensemble in quick mode.
@@ -73,7 +73,7 @@ def paper(
     counts = ", ".join(f"{count} {verdict}" for verdict, count in result.verdicts().items())
     OUT.print(f"\n{counts}; {result.replays} replays in {result.seconds:.0f} s", markup=False, highlight=False)
     for path in (page, folder / "paper.json"):
-        OUT.print(f"wrote {path}", markup=False, highlight=False, soft_wrap=True)
+        say(f"wrote {path}")
 
 
 def _cluster(address: str) -> Executor:

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import OUT, out_folder, print_json, progress
+from slipwise.cli.console import out_folder, print_json, progress, say
 from slipwise.errors import SettingError
 
 
@@ -100,6 +100,10 @@ def _shaped(
 ) -> "sw.TableMotion":
     first, last = sw.quantity(start, "s", "--start"), None if end is None else sw.quantity(end, "s", "--end")
     scales = sw.rig.LENGTH_SCALE
+    if first < 0.0:
+        raise SettingError(
+            f"--start {start!r} lies before the motion begins; give a time of 0 s to {motion.duration:g} s"
+        )
     if first > 0.0 or last is not None:
         motion = sw.motion.trim(motion, first, last)
     if similarity is not None:
@@ -145,9 +149,9 @@ def _tell(numbers: dict, motion: "sw.TableMotion", files: list[Path]) -> None:
 
     print_summary(numbers)
     for words in motion.treatment:
-        OUT.print(f"motion: {words}", markup=False, highlight=False, soft_wrap=True)
+        say(f"motion: {words}")
     for path in files:
-        OUT.print(f"wrote {path}", markup=False, highlight=False, soft_wrap=True)
+        say(f"wrote {path}")
 
 
 def register(app: typer.Typer) -> None:

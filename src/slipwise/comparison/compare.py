@@ -23,6 +23,7 @@ from slipwise.estimation.intervals import intervals
 from slipwise.estimation.prediction_interval import predicted_friction
 from slipwise.evidence.floor import noise_floor
 from slipwise.instruments.checks import Checks, check_instruments
+from slipwise.instruments.corrections import is_tared
 from slipwise.instruments.suspects import effect_of
 from slipwise.model import Model
 from slipwise.model_file import as_model
@@ -62,7 +63,7 @@ def compare(
     start = None if model is None else as_model(model)
     tell("auditing the instruments", 0.05)
     checks = checks or check_instruments(campaign)
-    _refuse_wrong_loads(checks)
+    _refuse_wrong_loads(checks, campaign)
     tell("fitting base parameters", 0.25)
     base = fit_finely(campaign, start)
     tell("locating errors", 0.5)
@@ -119,25 +120,22 @@ def compare(
     )
 
 
-def _refuse_wrong_loads(checks: Checks) -> None:
+def _refuse_wrong_loads(checks: Checks, campaign: Campaign) -> None:
     """Refuse loads with which no law of friction can be held against anything.
 
     Raises:
         InputError: a load cell counts compression negative, or does not show the girder's weight.
     """
-    turned, shifted = (effect_of(kind).name for kind in ("turned", "shifted"))
-    wrong = [
-        f
-        for f in checks.report.findings
-        if f.channel.startswith("pad_")
-        and f.channel.endswith("_N")
-        and (f.what == turned or (f.what == shifted and f.channel == "pad_*_N"))
-    ]
+    turned = effect_of("turned").name
+    loads = [f for f in checks.report.findings if f.channel.startswith("pad_") and f.channel.endswith("_N")]
+    wrong = [finding for finding in loads if finding.what == turned or is_tared(finding, campaign)]
     if wrong:
         names = " ".join(f"--correct '{finding.name}'" for finding in wrong)
+        signs = any(finding.what == turned for finding in wrong)
+        mapped = ", or write sign = -1 in [columns] of campaign.toml" if signs else ""
         raise InputError(
             f"{'; '.join(finding.words for finding in wrong)}: loads are positive in compression and hold the girder's "
-            f"weight here; {names} puts the records right, or write sign = -1 in [columns] of campaign.toml"
+            f"weight here; {names} puts the records right{mapped}"
         )
 
 

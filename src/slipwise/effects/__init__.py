@@ -6,6 +6,7 @@ from slipwise.effects._effect import RESPONSE, Effect, moved_channels, read_effe
 from slipwise.effects._fault import GaugeFault
 from slipwise.effects._hooks import COMPONENTS, HOOKS, PORTS
 from slipwise.effects._states import BalanceStates
+from slipwise.effects._trust import Trust, check_trusted
 
 __all__ = [
     "BalanceStates",
@@ -17,8 +18,10 @@ __all__ = [
     "Effect",
     "GaugeFault",
     "Gauges",
+    "Trust",
     "base_effects",
     "catalogue",
+    "check_trusted",
     "find_effect",
     "load_effect",
     "moved_channels",

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from slipwise.campaign import Campaign
+from slipwise.campaign.zero_state import ShiftedZero
 from slipwise.channels import channel
 from slipwise.effects import Effect, catalogue
 from slipwise.effects._gauges import span
@@ -21,7 +22,7 @@ from slipwise.instruments.rows import noise_of_channels, noise_of_runs, prepare_
 from slipwise.instruments.sample_faults import RAILS, SampleFault, coarse, sample_faults
 from slipwise.instruments.sentences import as_sentence, confusable, how_to_settle, nearest, sentence
 from slipwise.instruments.suspects import Suspect, effect_of
-from slipwise.instruments.zeros import values_of_zero, words_of_zero
+from slipwise.instruments.zeros import values_of_zero, with_refined_zeros
 from slipwise.signals.noise import quantum, white_level
 
 #: Nobody is surer than this.
@@ -45,7 +46,7 @@ def audit(campaign: Campaign, own: Iterable[Effect] = ()) -> AuditReport:
     noise = noise_of_runs(runs, noise_of_channels(clean, runs, band), band)
     mass_error = KNOWN_MASS if "mass" in campaign.known else RATED_MASS
     logger = None if campaign.logger.known else estimate_logger(clean)
-    findings, notes = [_of_samples(campaign, fault) for fault in samples], _rounded(campaign)
+    findings, notes = [_of_samples(fault) for fault in samples], _rounded(campaign)
     plain = AuditReport(campaign.name, tuple(findings), (), (), {}, logger, tuple(cannot), tuple(notes))
     if not any(relation.accuses and relation.rows in ("moving", "inner") for relation in allowed):
         return plain
@@ -55,7 +56,7 @@ def audit(campaign: Campaign, own: Iterable[Effect] = ()) -> AuditReport:
     case = Case(runs, allowed, campaign.specimen, noise, mass_error, highest, tuple(effects.values()))
     first = start(case)
     selection = select_faults(case, first)
-    findings += [_of_evidence(evidence) for evidence in selection.accepted]
+    findings = with_refined_zeros(findings, [_of_evidence(evidence) for evidence in selection.accepted])
     notes += [f"{as_sentence(e.suspect, e.size)}: too little to matter" for e in selection.small]
     notes += [f"{as_sentence(e.suspect, e.size)} would explain something, but {e.why_not}" for e in selection.refused]
     return replace(
@@ -99,7 +100,7 @@ def _same_fault(rival: str, suspect: Suspect) -> bool:
     return effect == suspect.effect.name and place.startswith(suspect.target)
 
 
-def _of_samples(campaign: Campaign, fault: SampleFault) -> Finding:
+def _of_samples(fault: SampleFault) -> Finding:
     """Turn bad samples, a wrong sign or a zero that is far off into a finding."""
     effect = effect_of(fault.kind)
     place = _place(fault.channels)
@@ -107,7 +108,7 @@ def _of_samples(campaign: Campaign, fault: SampleFault) -> Finding:
     words = {
         "dead": f"{place} is dead in {', '.join(fault.runs)}",
         "lost": f"{place} has lost samples: what follows them came early, and the end repeats one value",
-        "shifted": words_of_zero(campaign, fault.channels) if fault.kind == "shifted" else "",
+        "shifted": ShiftedZero(fault.channels, fault.size).words,
         "gap": f"the logger has lost {fault.size:.2%} of all samples",
     }.get(fault.kind, sentence(effect, place, fault.size, unit))
     if fault.kind in RAILS:
@@ -115,7 +116,7 @@ def _of_samples(campaign: Campaign, fault: SampleFault) -> Finding:
         place_of_rail = effect.parameters[0 if upper else 1].name
         values = {place_of_rail: (1.0 if upper else -1.0) * fault.size / span(fault.channels[0])}
     elif fault.kind == "shifted":
-        values = values_of_zero(fault.channels, fault.size)
+        values = values_of_zero(ShiftedZero(fault.channels, fault.size))
     else:
         values = {effect.parameters[0].name: fault.size}
     return Finding(

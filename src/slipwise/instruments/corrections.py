@@ -10,6 +10,7 @@ from slipwise.instruments.repairs import bridged
 from slipwise.instruments.report import AuditReport, Finding
 from slipwise.instruments.sample_faults import sample_faults
 from slipwise.instruments.suspects import declared, effect_of
+from slipwise.instruments.zeros import tared_cells
 from slipwise.record import Record
 
 
@@ -51,11 +52,22 @@ def _check_known_weight(finding: Finding, campaign: Campaign) -> None:
     Raises:
         InputError: the load cells are tared, and the campaign does not give the girder's mass.
     """
-    if finding.what == effect_of("shifted").name and finding.channel == "pad_*_N" and "mass" not in campaign.known:
+    if is_tared(finding, campaign) and "mass" not in campaign.known:
+        each = (
+            "each cell then gets a quarter of the weight"
+            if finding.channel == "pad_*_N"
+            else ("the cell then gets what the others do not carry")
+        )
         raise InputError(
             f'{finding.words}: to put it back, give the girder\'s mass in campaign.toml, [specimen] mass = "10.02 t"; '
-            "each cell then gets a quarter of the weight"
+            f"{each}"
         )
+
+
+def is_tared(finding: Finding, campaign: Campaign) -> bool:
+    """Tell whether a finding is a load cell, or all four, that was set to zero under the girder."""
+    cells = tared_cells(campaign)
+    return finding.what == effect_of("shifted").name and bool(cells) and finding.channel in (*cells, "pad_*_N")
 
 
 def _corrected(record: Record, finding: Finding, campaign: Campaign, run: str) -> Record:

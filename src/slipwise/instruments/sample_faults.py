@@ -11,7 +11,7 @@ from scipy.ndimage import uniform_filter1d
 from slipwise.campaign import Campaign, Run
 from slipwise.channels import PADS
 from slipwise.instruments.signs import wrong_signs
-from slipwise.instruments.zeros import shifted_zeros
+from slipwise.instruments.zeros import tared_cells, zeros_of
 from slipwise.signals.noise import quantum, white_level
 
 Array = NDArray[np.float64]
@@ -77,7 +77,7 @@ def sample_faults(campaign: Campaign) -> list[SampleFault]:
 
 def _turned(campaign: Campaign) -> list[SampleFault]:
     """Wrong signs; four cells of a kind are one card."""
-    every, wrong = tuple(run.name for run in campaign.runs), wrong_signs(campaign)
+    every, wrong = tuple(run.name for run in campaign.runs), wrong_signs(campaign, tared_cells(campaign))
     cards = [tuple(f"pad_{pad}_{kind}" for pad in PADS) for kind in ("N", "Fx", "Fy")]
     whole = [card for card in cards if set(card) <= set(wrong)]
     alone = [(name,) for name in wrong if not any(name in card for card in whole)]
@@ -86,7 +86,7 @@ def _turned(campaign: Campaign) -> list[SampleFault]:
 
 def _shifted(campaign: Campaign) -> list[SampleFault]:
     every = tuple(run.name for run in campaign.runs)
-    return [SampleFault("shifted", channels, size, {}, every) for channels, size in shifted_zeros(campaign)]
+    return [SampleFault("shifted", zero.channels, zero.size, {}, every) for zero in zeros_of(campaign)]
 
 
 def _dead(name: str, runs: Sequence[Run]) -> SampleFault | None:
@@ -205,7 +205,8 @@ def _rounding(values: Array) -> Array:
     steps = np.zeros(len(values))
     for number in np.unique(place):
         here = place == number
-        apart = np.diff(np.unique(size[here]))
+        # with their signs: where a mean was subtracted, steps below zero do not lie opposite to those above
+        apart = np.diff(np.unique(values[here]))
         apart = apart[apart > 1e-9 * max(float(size[here].max()), 1e-300)]
         steps[here] = float(apart.min()) if len(apart) else float(size[here].max())
     return steps

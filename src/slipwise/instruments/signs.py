@@ -11,7 +11,7 @@ On 32 planted signs this and a search through the balances of forces and moments
 0.08 s, the balances 3.3 s.
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,11 +36,12 @@ _UNTIED = 0.5
 _STRONG = 3.0
 
 
-def wrong_signs(campaign: Campaign) -> list[str]:
+def wrong_signs(campaign: Campaign, tared: Collection[str] = ()) -> list[str]:
     """Give the channels that are wired the wrong way round; on a slider only loads, which have nothing but their sign.
 
     Args:
         campaign: as recorded.
+        tared: load cells that were set to zero under the girder: they neither press nor pull, and have no sign to see.
     """
     if not campaign.specimen.free:
         return _against({name: [_presses(run.record, name) for run in campaign.runs] for name in _loads(campaign)})
@@ -53,7 +54,7 @@ def wrong_signs(campaign: Campaign) -> list[str]:
     for run in campaign.runs:
         for name, value in _forces(run.record, found):
             rest.setdefault(name, []).append(value)
-    return [*found, *_against(rest)]
+    return [*found, *(name for name in _against(rest) if name not in tared)]
 
 
 def _loads(campaign: Campaign) -> list[str]:

@@ -1,32 +1,46 @@
 """Zeros that are far off, found before any balance: gravity in vertical accelerometers, load cells tared under load."""
 
+from collections.abc import Iterable
+from dataclasses import replace
+
 from slipwise.campaign import Campaign
-from slipwise.campaign.zero_state import LOADS, ZeroState, zero_state
+from slipwise.campaign.zero_state import ShiftedZero, shifted_zeros
 from slipwise.effects._gauges import span
+from slipwise.instruments.report import Finding
 from slipwise.instruments.suspects import effect_of
 
 
-def shifted_zeros(campaign: Campaign) -> list[tuple[tuple[str, ...], float]]:
-    """Give channels and what they read too much [SI]: gravity, or minus the quarter of the weight that was tared."""
-    state = _state(campaign)
-    found: list[tuple[tuple[str, ...], float]] = [((name,), size) for name, size in state.gravity.items()]
-    if state.missing_weight is not None:
-        found.append((LOADS, -state.missing_weight / len(LOADS)))
-    return found
-
-
-def words_of_zero(campaign: Campaign, channels: tuple[str, ...]) -> str:
-    """Say what stands in the zero of these channels."""
-    state = _state(campaign)
-    words = dict(zip([*((name,) for name in state.gravity), LOADS], state.words(), strict=False))
-    return words[channels]
-
-
-def values_of_zero(channels: tuple[str, ...], size: float) -> dict[str, float]:
-    """Give the parameters of that effect."""
-    return {effect_of("shifted").parameters[0].name: size / span(channels[0])}
-
-
-def _state(campaign: Campaign) -> ZeroState:
+def zeros_of(campaign: Campaign) -> tuple[ShiftedZero, ...]:
+    """Give the channels of a campaign whose zero is far off."""
     weight = campaign.specimen.weight if campaign.specimen.free else None
-    return zero_state([run.record for run in campaign.runs], weight)
+    return shifted_zeros([run.record for run in campaign.runs], weight)
+
+
+def tared_cells(campaign: Campaign) -> tuple[str, ...]:
+    """Give the load cells that do not show the girder's weight."""
+    return tuple(name for zero in zeros_of(campaign) if zero.tared for name in zero.channels)
+
+
+def values_of_zero(zero: ShiftedZero) -> dict[str, float]:
+    """Give the parameters of the effect that a shifted zero is."""
+    return {effect_of("shifted").parameters[0].name: zero.size / span(zero.channels[0])}
+
+
+def with_refined_zeros(shifted: Iterable[Finding], refined: Iterable[Finding]) -> list[Finding]:
+    """Join what the weight says of a cell's zero with what the balances add to it: one cell has one zero.
+
+    Args:
+        shifted: findings of zeros that are far off, among others.
+        refined: what the balances found once those were put right.
+    """
+    found, offset = list(shifted), effect_of("shifted").name
+    for more in refined:
+        at = next((i for i, first in enumerate(found) if first.name == more.name and more.what == offset), None)
+        if at is None:
+            found.append(more)
+            continue
+        first = found[at]
+        zero = ShiftedZero((first.channel,), first.size + more.size)
+        ends = {"low": first.size + more.low, "high": first.size + more.high}
+        found[at] = replace(first, size=zero.size, words=zero.words, values=values_of_zero(zero), **ends)
+    return found

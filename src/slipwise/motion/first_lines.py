@@ -45,22 +45,22 @@ def read_first_lines(rows: Rows, given_step: float | None, source: SourceFile) -
         top = [float(v) for row in numbers for v in row]
         if len(values) < lines + 2 or len(top) not in (1, 2):
             continue
-        below = sum(len(row) for row in values[lines:])
+        below = rows.below(lines).series().size
         counts = {below, len(values) - lines}
-        rest = Rows(rows.names, rows.units, rows.header, values[lines:], rows.places[lines:])
+        rest = rows.below(lines)
         for count, step in (top, top[::-1]) if len(top) == 2 else ((top[0], None),):
             if count in counts and (step is None or _STEP_RANGE[0] <= step <= _STEP_RANGE[1]):
                 return FirstLines(rest, int(count), step)
     if len(values) < 4 or any(len(row) != 1 for row in values[:4]):
         return FirstLines(rows)
-    series = np.concatenate(values)
+    series = rows.series()
     jumps = np.abs(np.diff(series))
     usual = float(jumps[1:].max())
     written = source.lines[rows.places[0]].strip()
     is_given_step = given_step is not None and _same(series[0], given_step)
     if jumps[0] <= _OUT_OF_LINE * usual and (not is_given_step or _decimals(written) == _decimals_below(rows, source)):
         return FirstLines(rows)
-    rest = Rows(rows.names, rows.units, rows.header, values[1:], rows.places[1:])
+    rest = rows.below(1)
     if is_given_step:
         return FirstLines(rest, None, given_step)
     like = "the step" if _STEP_RANGE[0] <= series[0] <= _STEP_RANGE[1] else "the number of values"

@@ -20,6 +20,7 @@ def fixed_width(source: SourceFile, start: int, count: int, per_line: int, width
     Raises:
         InputError: the record ends too early, a line is shifted or too short, a field is no number.
     """
+    check_format(per_line, width, source.at(start - 1))
     values: list[float] = []
     needed = -(-count // per_line)
     if start + needed > len(source.lines):
@@ -38,6 +39,16 @@ def fixed_width(source: SourceFile, start: int, count: int, per_line: int, width
             )
         values.extend(number(line[k : k + width], source.at(i)) for k in range(0, len(line), width))
     return values
+
+
+def check_format(per_line: int, width: int, place: str) -> None:
+    """Refuse a Fortran format that no line of a record has.
+
+    Raises:
+        InputError: no columns, or more and wider ones than a line holds.
+    """
+    if not (0 < per_line <= 20 and 0 < width <= 30):
+        raise InputError(f"{place}: the format of {per_line} columns of {width} characters is not possible")
 
 
 def lines_of(count: int, per_line: int) -> int:

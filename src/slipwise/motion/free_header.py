@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from slipwise.errors import InputError
 from slipwise.motion.orientation import orientation
 from slipwise.motion.origin import Origin, time_in
-from slipwise.motion.source_file import SourceFile, is_number
+from slipwise.motion.source_file import LARGEST, SourceFile, is_number
 
 _SECONDS = {"": 1.0, "s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0, "ms": 1e-3, "msec": 1e-3}
 _PER_SECOND = ("", "hz", "sps", "samples s", "samples sec", "samples second", "1 s", "s 1", "points s", "samples")
@@ -136,6 +136,8 @@ def _fact(raw: str, in_key: str, value: str) -> tuple[str, object]:
         return "", None
     quantity = _QUANTITY.match(value)
     number = float(quantity[1].replace(",", ".").lower().replace("d", "e")) if quantity else None
+    if number is not None and not abs(number) < LARGEST:
+        return "", None
     unit = (quantity[2] if quantity else "").strip(".")
     if fact in ("step", "peak time") and number is not None:
         factor = _SECONDS.get((in_key or rest or unit).lower().strip("."))

@@ -1,14 +1,15 @@
 """Text files whose lines are rows of numbers, below a header of any kind."""
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.errors import InputError
 from slipwise.motion.column_kind import is_column_word, is_time_word
+from slipwise.motion.number_rows import DECIMAL_COMMA, numbers_of, rows_of_numbers, split_row
 from slipwise.motion.source_file import SourceFile, is_number, number
 
 #: "Time[s]", "time (s)", "table_ax [m/s^2]": a name and, in brackets, its unit.
@@ -18,7 +19,6 @@ _BRACKETS = re.compile(r"^(?P<name>[^\[(]*?)\s*[\[(](?P<unit>.*)[\])]$")
 _OWN_ROWS, _HEADER_LINES = 12, 200
 #: Lines below the numbers that may mark the end: words, no digits.
 _END_MARKS = 3
-_DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+(?:[eEdD][+-]?\d+)?")
 
 
 @dataclass(frozen=True)
@@ -29,15 +29,15 @@ class Rows:
         names: of the columns, empty if the header does not name each of them.
         units: of the columns as written, likewise; "" of a column whose name has no unit.
         header: the lines above the numbers that are not empty, without comment signs.
-        values: the rows as written; the last may be shorter.
+        values: (n, columns), or the rows one by one where not all are of one length.
         places: index of the line of each row.
     """
 
     names: tuple[str, ...]
     units: tuple[str, ...]
     header: tuple[str, ...]
-    values: tuple[NDArray[np.float64], ...]
-    places: tuple[int, ...]
+    values: NDArray[np.float64] | tuple[NDArray[np.float64], ...]
+    places: Sequence[int]
 
     @property
     def title(self) -> str:
@@ -50,6 +50,8 @@ class Rows:
         Raises:
             InputError: rows of different lengths.
         """
+        if isinstance(self.values, np.ndarray):
+            return self.values
         columns = len(self.values[0])
         for i, row in zip(self.places, self.values, strict=True):
             if len(row) != columns:
@@ -59,37 +61,18 @@ class Rows:
                 )
         return np.stack(self.values)
 
+    def series(self) -> NDArray[np.float64]:
+        """Give all numbers in reading order."""
+        return self.values.ravel() if isinstance(self.values, np.ndarray) else np.concatenate(self.values)
 
-def split_row(line: str) -> list[str]:
-    """Cut a line at its commas, semicolons or tabs, or at blanks where there is none of these."""
-    text = line.strip()
-    separators = (";", "\t", ",") if _has_decimal_commas(text) else (",", ";", "\t")
-    for separator in separators:
-        if separator in text and not (separator == "," and _has_decimal_commas(text)):
-            fields = [field.strip() for field in text.split(separator)]
-            return fields[:-1] if fields[-1] == "" else fields
-    return text.split()
-
-
-def _has_decimal_commas(text: str) -> bool:
-    """Tell whether a line is written with decimal commas: "0,01;1,5" and "0,01 1,5", but not "1,5"."""
-    fields = re.split(r"[;\t]|\s+", text.strip().rstrip(";"))
-    fields = [field for field in fields if field]
-    return len(fields) > 1 and "." not in text and any(_DECIMAL_COMMA.fullmatch(f) for f in fields) and all(
-        _DECIMAL_COMMA.fullmatch(f) or is_number(f) for f in fields
-    )  # fmt: skip
-
-
-def _numbers_of(line: str) -> list[str]:
-    """Give the fields of a line that holds nothing but numbers, with decimal points; none for another line."""
-    comma = _has_decimal_commas(line)
-    fields = [field.replace(",", ".") if comma else field for field in split_row(line)]
-    return fields if fields and all(is_number(field) for field in fields) else []
+    def below(self, lines: int) -> "Rows":
+        """Give the rows below the first ones."""
+        return replace(self, values=self.values[lines:], places=self.places[lines:])
 
 
 def find_first_row(lines: Sequence[str]) -> int | None:
     """Give the index of the first line that holds nothing but numbers, None if there is none."""
-    return next((i for i, line in enumerate(lines) if _numbers_of(line)), None)
+    return next((i for i, line in enumerate(lines) if numbers_of(line)), None)
 
 
 def read_rows(source: SourceFile) -> Rows:
@@ -103,19 +86,16 @@ def read_rows(source: SourceFile) -> Rows:
         raise InputError(f"{source.name}: no line of numbers is in this file; see `slipwise motions` for what is read")
     start = _after_the_headers_own(source.lines, start)
     end = _before_end_marks(source.lines, start)
-    lines = [(i, line) for i, line in enumerate(source.lines[start:end], start) if line.strip()]
+    places: Sequence[int] = [i for i in range(start, end) if source.lines[i].strip()]
+    if len(places) == end - start:
+        places = range(start, end)  # two million numbers less
     header = [line.strip().lstrip("#%/! ").rstrip(" ,;") for line in source.lines[:start]]
     header = [line for line in header if line]
-    single = _single_decimal_commas([line for _, line in lines])
+    single = _single_decimal_commas(source.lines[i] for i in places)
     columns = 1 if single else len(split_row(source.lines[start]))
     _refuse_damaged_first_row(source, start, columns)
-    values = []
-    for i, line in lines:
-        comma = single or _has_decimal_commas(line)
-        fields = [line.strip()] if single else split_row(line)
-        values.append(np.array([number(f.replace(",", ".") if comma else f, source.at(i)) for f in fields]))
     names, units = _column_names(header, columns)
-    return Rows(names, units, tuple(header), tuple(values), tuple(i for i, _ in lines))
+    return Rows(names, units, tuple(header), rows_of_numbers(source, places, columns, single), places)
 
 
 def _after_the_headers_own(lines: Sequence[str], start: int) -> int:
@@ -124,7 +104,7 @@ def _after_the_headers_own(lines: Sequence[str], start: int) -> int:
     for i in range(start, min(len(lines), _HEADER_LINES)):
         if not lines[i].strip():
             continue
-        if _numbers_of(lines[i]):
+        if numbers_of(lines[i]):
             own += 1
         elif own > _OWN_ROWS or any(is_number(field) for field in split_row(lines[i])):
             # A line that is half numbers is a damaged row, not a header.
@@ -149,10 +129,15 @@ def _before_end_marks(lines: Sequence[str], start: int) -> int:
     return len(lines)
 
 
-def _single_decimal_commas(lines: Sequence[str]) -> bool:
+def _single_decimal_commas(lines: Iterable[str]) -> bool:
     """Tell whether every line is one number with a decimal comma: "0,0123", so that the comma separates nothing."""
-    texts = [line.strip() for line in lines]
-    return bool(texts) and all(_DECIMAL_COMMA.fullmatch(text) for text in texts) and any(t[0] == "-" for t in texts)
+    any_line = signed = False
+    for line in lines:
+        text = line.strip()
+        if not DECIMAL_COMMA.fullmatch(text):
+            return False
+        any_line, signed = True, signed or text[0] == "-"
+    return any_line and signed
 
 
 def _column_names(header: Sequence[str], columns: int) -> tuple[tuple[str, ...], tuple[str, ...]]:

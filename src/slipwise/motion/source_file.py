@@ -12,10 +12,10 @@ from slipwise.text_encoding import decoded
 #: How much of a file the recognition of its format sees.
 HEAD_BYTES = 4096
 #: Beyond this a number in a file is damage, and its square would overflow.
-_LARGEST = 1e30
+LARGEST = 1e30
 #: Fortran writes double precision with a D: 1.5D-03.
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?")
-_FORTRAN = str.maketrans("dD", "ee")
+FORTRAN = str.maketrans("dD", "ee")
 
 
 @dataclass(frozen=True)
@@ -91,8 +91,8 @@ def number(text: str, place: str) -> float:
     stripped = text.strip()
     # float() would also take "1_000", "nan" and "infinity".
     if _NUMBER.fullmatch(stripped):
-        value = float(stripped.translate(_FORTRAN))
-        if abs(value) < _LARGEST:
+        value = float(stripped.translate(FORTRAN))
+        if abs(value) < LARGEST:
             return value
         raise InputError(f"{place}: {stripped[:40]!r} is too large to be a measurement; the file is damaged")
     if stripped.lower().lstrip("+-") in ("nan", "inf", "infinity"):

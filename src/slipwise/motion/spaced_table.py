@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.errors import InputError
-from slipwise.motion.source_file import SourceFile, number
+from slipwise.motion.number_rows import rows_of_numbers
+from slipwise.motion.source_file import SourceFile
 
 
 def spaced_table(source: SourceFile, places: Iterable[int], columns: int) -> NDArray[np.float64]:
@@ -20,15 +21,12 @@ def spaced_table(source: SourceFile, places: Iterable[int], columns: int) -> NDA
     Raises:
         InputError: a line with more or fewer of them, or with something else than a number.
     """
-    rows = []
-    for i in places:
-        fields = source.lines[i].split()
-        if not fields:
-            continue
-        if len(fields) != columns:
+    filled = [i for i in places if source.lines[i].strip()]
+    values = rows_of_numbers(source, filled, columns, single=False) if filled else ()
+    for i, row in zip(filled, values, strict=True) if not isinstance(values, np.ndarray) else ():
+        if len(row) != columns:
             raise InputError(
-                f"{source.at(i)}: {columns} values were expected, the line has {len(fields)}; "
+                f"{source.at(i)}: {columns} values were expected, the line has {len(row)}; "
                 "the record is truncated or damaged, fetch the file again"
             )
-        rows.append([number(value, source.at(i)) for value in fields])
-    return np.array(rows, dtype=float).reshape(-1, columns)
+    return np.reshape(values, (-1, columns))

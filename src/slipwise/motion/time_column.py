@@ -4,7 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.errors import InputError
-from slipwise.motion.rows import Rows, split_row
+from slipwise.motion.number_rows import split_row
+from slipwise.motion.rows import Rows
 from slipwise.motion.source_file import SourceFile
 from slipwise.units import parse_unit
 

@@ -14,14 +14,15 @@ def wrapped_series(rows: Rows) -> NDArray[np.float64] | None:
 
     A short last line is a sign of it; without one, neighbours in a line must be closer than neighbours in a column.
     """
-    widths = [len(row) for row in rows.values]
-    if rows.names or len(widths) < 2 or widths[0] < 3 or any(w != widths[0] for w in widths[:-1]):
+    count, width = len(rows.values), len(rows.values[0])
+    if rows.names or count < 2 or width < 3 or any(len(row) != width for row in rows.values[:-1]):
         return None
-    series = np.concatenate(rows.values)
-    if widths[-1] > widths[0] or rises_evenly(np.array([row[0] for row in rows.values])):
+    series, last = rows.series(), len(rows.values[-1])
+    if last > width or rises_evenly(np.array([row[0] for row in rows.values])):
         return None
-    columns = np.stack(rows.values[:-1])
-    if widths[-1] < widths[0]:
+    above = rows.values[:-1]
+    columns = above if isinstance(above, np.ndarray) else np.stack(above)
+    if last < width:
         return series
     along = np.abs(np.diff(series)).mean()
     down = np.abs(np.diff(columns, axis=0)).mean() if len(columns) > 1 else 0.0

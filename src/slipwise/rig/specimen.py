@@ -9,10 +9,30 @@ import numpy as np
 
 from slipwise.channels import BUFFERS, PADS
 from slipwise.errors import InputError, SettingError, unknown_name
+from slipwise.rig.mjcf_parts import check_parts
 from slipwise.rig.similarity import LENGTH_SCALE
 
 #: Specimens that ship with the package.
 RIGS: tuple[str, ...] = ("bridge1", "bridge2", "block", "pad")
+
+
+#: What any rig can have, from a tribometer to a bridge at full size: low, high, unit. Assumed.
+_BOUNDS: dict[str, tuple[float, float, str]] = {
+    "mass": (1e-3, 1e8, "kg"),
+    "centre_height": (1e-4, 100.0, "m"),
+    "centre_x": (-100.0, 100.0, "m"),
+    "centre_y": (-100.0, 100.0, "m"),
+    "pad_radius": (1e-5, 10.0, "m"),
+    "pad_stiffness": (1.0, 1e15, "N/m"),
+    "pad_damping": (0.0, 1e15, "N s/m"),
+    "plastic_pressure": (1.0, 1e14, "Pa"),
+    "shear_strength": (1e-3, 1e14, "Pa"),
+    "buffer_stiffness": (0.0, 1e15, "N/m"),
+    "buffer_height": (-100.0, 100.0, "m"),
+    "bending_frequency": (1e-2, 1e5, "Hz"),
+    "bending_damping": (0.0, 1.0, "of critical"),
+    "gravity": (1e-2, 1e3, "m/s^2"),
+}
 
 
 @dataclass(frozen=True)
@@ -77,18 +97,14 @@ class Specimen:
 
     def __post_init__(self) -> None:
         """Refuse values that no rig can have."""
-        positive = (
-            "mass",
-            "centre_height",
-            "pad_radius",
-            "pad_stiffness",
-            "plastic_pressure",
-            "shear_strength",
-            "gravity",
-        )
-        for name in positive:
-            if not getattr(self, name) > 0.0:
-                raise SettingError(f"{self.name}: {name} = {getattr(self, name):g} must be above zero")
+        for name, (low, high, unit) in _BOUNDS.items():
+            given = getattr(self, name)
+            for value in given if isinstance(given, tuple) else (given,):
+                if not low <= value <= high:
+                    raise SettingError(
+                        f"{self.name}: {name} = {value:g} {unit} cannot be; possible are {low:g} to {high:g} {unit}: "
+                        "look at its unit"
+                    )
         if not 0.0 <= self.bending_mass < self.mass:
             raise SettingError(
                 f"{self.name}: bending_mass = {self.bending_mass:g} kg must be below the mass {self.mass:g} kg"
@@ -181,6 +197,7 @@ def load_specimen(rig: str | Path, beside: Path | None = None) -> Specimen:
         model = mujoco.MjModel.from_xml_path(str(path))
     except ValueError as error:
         raise InputError(f"{path.name} cannot be read by MuJoCo: {error}") from None
+    check_parts(model, path)
     names = {model.geom(i).name for i in range(model.ngeom)}
     tendons = {model.tendon(i).name for i in range(model.ntendon)}
     pads = tuple(pad for pad in PADS if f"pad_{pad}" in names)
@@ -200,6 +217,8 @@ def load_specimen(rig: str | Path, beside: Path | None = None) -> Specimen:
             mass=float(girder.mass[0]),
             inertia=tuple(float(v) for v in girder.inertia),  # type: ignore[arg-type]
             centre_height=float(girder.pos[2]),
+            centre_x=float(girder.pos[0]),
+            centre_y=float(girder.pos[1]),
             pads=pads,
             pad_places=tuple((float(p[0]), float(p[1])) for p in (model.geom(f"pad_{pad}").pos for pad in pads)),
             pad_radius=float(model.geom("pad_A").size[0]),

@@ -119,6 +119,9 @@ def simulate(
     every = round(output_dt / dt)
     if every < 1 or abs(every * dt - output_dt) > 1e-9:
         raise SettingError(f"the output step {output_dt * 1e3:g} ms must be a multiple of the step {dt * 1e3:g} ms")
+    lasts = (len(acceleration) - 1) * dt
+    if output_dt > lasts:
+        raise SettingError(f"an output step of {output_dt:g} s leaves no record of {lasts:g} s; give a smaller one")
     began = time.perf_counter()
     own = user_effects(model)
     engine = engine_for(own) if engine == ENGINES[0] else engine
@@ -153,7 +156,7 @@ def simulate(
     if stopped:
         raise SimulationDiverged(
             f"the simulation was stopped at {collector.done * dt:.3f} s: {stopped}. The record until then is kept. "
-            "Try a smaller step (--dt), a smaller motion (--scale) or check the model's values",
+            "Try a smaller step (--step), a smaller motion (--scale) or check the model's values",
             answer,
         )
     return answer

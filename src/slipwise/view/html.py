@@ -4,14 +4,15 @@ Text is escaped here, once: pass plain text and the pieces that these functions 
 """
 
 import base64
+import html as markup
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from html import escape
 from typing import Any, Literal
 
 from matplotlib.figure import Figure
 
+from slipwise.errors import visible
 from slipwise.view.canvas import figure_svg
 from slipwise.view.html_style import STYLE
 from slipwise.view.terminal import cell
@@ -151,6 +152,11 @@ def _tone(tone: str) -> str:
 
 def _join(pieces: Sequence[Piece]) -> str:
     return "".join(piece.text if isinstance(piece, Html) else paragraph(piece).text for piece in pieces)
+
+
+def escape(text: str, quote: bool = True) -> str:
+    """Write plain text as HTML; control characters are shown."""
+    return markup.escape(visible(text), quote=quote)
 
 
 def _inline(text: str) -> str:

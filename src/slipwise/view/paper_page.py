@@ -1,7 +1,6 @@
 """The page of the re-enacted paper: in the paper's order, what it states, what we get, whether it holds."""
 
 from collections.abc import Callable, Mapping
-from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +11,20 @@ from slipwise.studies.paper.finding import FAILS, HOLDS, LIMITS, UNCHECKED, Find
 from slipwise.studies.paper.reenact import Reenactment, assumptions
 from slipwise.studies.paper.settings import SETTINGS
 from slipwise.units import convert
-from slipwise.view.html import Html, Piece, Section, Tone, callout, details, figure, page, paragraph, table, verdict
+from slipwise.view.html import (
+    Html,
+    Piece,
+    Section,
+    Tone,
+    callout,
+    details,
+    escape,
+    figure,
+    page,
+    paragraph,
+    table,
+    verdict,
+)
 from slipwise.view.paper_law_pictures import claims_figure, identification_figure, law_figure, map_figure
 from slipwise.view.paper_rig_pictures import energies_figure, extreme_figure, input_figure, loads_figure, loops_figure
 

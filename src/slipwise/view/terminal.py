@@ -9,6 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from slipwise.channels import PADS
+from slipwise.errors import visible
 from slipwise.view.numbers import NOTHING
 
 #: Rows of a replay's summary: key, what it is called, unit.
@@ -59,12 +60,12 @@ def print_table(title: str, rows: Sequence[Mapping[str, Any]], console: Console 
     table = Table(box=box.SIMPLE_HEAD, header_style="bold")
     for key in columns:
         numeric = all(isinstance(row.get(key), int | float) for row in rows if row.get(key) is not None)
-        table.add_column(Text(str(key)), justify="right" if numeric else "left", overflow="fold")
+        table.add_column(Text(visible(str(key))), justify="right" if numeric else "left", overflow="fold")
     for row in rows:
         # Text, so that brackets in names and units are printed and not taken for markup.
         table.add_row(*(Text(cell(row.get(key))) for key in columns))
     console = console or Console()
-    console.print(Text(title, style="bold"))  # a table's own title is broken at the table's width
+    console.print(Text(visible(title), style="bold"))  # a table's own title is broken at the table's width
     console.print(table)
 
 
@@ -104,4 +105,4 @@ def cell(value: Any) -> str:
         return f"{value:.4g}"
     if isinstance(value, list | tuple):
         return ", ".join(cell(item) for item in value)
-    return str(value)
+    return visible(str(value))

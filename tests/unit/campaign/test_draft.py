@@ -50,6 +50,16 @@ def test_a_word_whose_unit_does_not_fit_is_left_to_the_user(tmp_path):
     assert re.search(r'^# "force \[mm\]".*decide', draft, re.MULTILINE)
 
 
+@pytest.mark.parametrize("load", [150.0, -150.0])
+def test_a_load_that_the_machine_keeps_is_a_load_with_its_sign(tmp_path, load):
+    table = slider(1)
+    table[:, 2] = load
+    draft = drafted(tmp_path, a=text(table, "Time [s],Position [mm],Axial Force [kN],Lateral Force [kN]"))
+    entry = {"channel": "pad_A_N", "unit": "kN"} | ({"sign": -1} if load < 0 else {})
+    assert tomllib.loads(draft)["columns"]["Axial Force [kN]"] == entry
+    assert load_campaign(tmp_path).runs[0].record["pad_A_N"][0] == pytest.approx(150e3)
+
+
 def test_a_pad_without_a_load_is_asked_for_one(tmp_path):
     draft = drafted(tmp_path, a="time [s],slip_x [mm],pad_A_Fx [kN]\n0,1,2\n1,2,3\n")
     assert '# pad_A_N = "10 kN"' in draft

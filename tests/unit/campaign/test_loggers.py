@@ -96,8 +96,8 @@ def stamps(form: str = "%Y-%m-%d %H:%M:%S.%f", start=datetime.datetime(2031, 2, 
 
 def test_campbells_three_header_rows_and_time_stamps_over_midnight(tmp_path):
     table = read(tmp_path, toa5(stamps()), "fast.dat")
-    assert table.headers[0] == "TIMESTAMP [s]"
-    assert table.headers[2:] == ("Slip [mm]", "Shear [kN]")
+    # "RN" is a record's number, no ronnanewton
+    assert table.headers == ("TIMESTAMP [s]", "RECORD", "Slip [mm]", "Shear [kN]")
     np.testing.assert_allclose(values(table, 0, 2, 3), DATA, atol=1e-4)
 
 
@@ -208,9 +208,23 @@ def test_a_tdms_file_gives_names_units_and_step(tmp_path):
     table = open_table(tmp_path / "run.tdms")
     assert (table.headers, table.step) == (("Slip [mm]", "Force [kN]"), 0.01)
     np.testing.assert_allclose(values(table), DATA[:, 1:])
-    (tmp_path / "bad.tdms").write_bytes(b"TDSm" + b"\x0e\xff" * 200)
-    with pytest.raises(InputError, match=r"\.tdms file"):
+    (tmp_path / "bad.tdms").write_bytes(b"TDMx" + b"\x0e\xff" * 200)
+    with pytest.raises(InputError, match=r"not a readable \.tdms file: no segment begins at byte 0"):
         open_table(tmp_path / "bad.tdms")
+
+
+@pytest.mark.parametrize("kept", [0.02, 0.2, 0.5, 0.8, 0.97])
+def test_a_tdms_file_that_was_cut_off_is_refused_in_words(tmp_path, capfd, kept):
+    nptdms = pytest.importorskip("nptdms")
+    with nptdms.TdmsWriter(str(tmp_path / "run.tdms")) as writer:
+        about = {"wf_increment": 0.01, "unit_string": "mm"}
+        for _ in range(3):
+            writer.write_segment([nptdms.ChannelObject("Rig", name, SLIP, about) for name in ("Slip", "Force")])
+    whole = (tmp_path / "run.tdms").read_bytes()
+    (tmp_path / "run.tdms").write_bytes(whole[: int(kept * len(whole))])
+    with pytest.raises(InputError, match=r"run\.tdms: the file ends before its segment number \d .*export it again"):
+        open_table(tmp_path / "run.tdms")
+    assert capfd.readouterr().err == ""
 
 
 def test_a_workbook_gives_the_first_sheet_with_a_table_and_names_the_others(tmp_path):

@@ -108,3 +108,33 @@ def test_a_format_that_cannot_be_read_says_which_ones_can(tmp_path, name, messag
     (tmp_path / name).write_bytes(b"PK\x03\x04 nothing")
     with pytest.raises(InputError, match=message):
         open_table(tmp_path / name)
+
+
+@pytest.mark.parametrize("kind", ["xlsx", "parquet"])
+def test_a_packed_file_that_is_damaged_anywhere_is_refused_in_words(tmp_path, kind):
+    path = tmp_path / f"a.{kind}"
+    values = np.random.default_rng(1).standard_normal(300)
+    if kind == "parquet":
+        pq.write_table(pa.table({"time [s]": 0.01 * np.arange(300), "slip_x [mm]": values}), path)
+    else:
+        book = pytest.importorskip("openpyxl").Workbook()
+        for row in [["time [s]", "slip_x [mm]"], *zip(0.01 * np.arange(300), values, strict=True)]:
+            book.active.append([cell if isinstance(cell, str) else float(cell) for cell in row])
+        book.save(path)
+    whole = path.read_bytes()
+    refused = 0
+    for at in range(20, len(whole), len(whole) // 60):
+        path.write_bytes(whole[:at] + b"\xff\x00\xfe" + whole[at + 3 :])
+        try:
+            open_table(path).columns([0, 1])
+        except InputError as error:
+            assert "a." in str(error)
+            refused += 1
+    assert refused > 5
+
+
+def test_a_parquet_column_that_stands_twice_is_refused(tmp_path):
+    columns = [pa.array([0.0, 1.0]), pa.array([1.0, 2.0])]
+    pq.write_table(pa.table(columns, names=["time [s]", "time [s]"]), tmp_path / "a.parquet")
+    with pytest.raises(InputError, match=r"'time \[s\]' stands there twice"):
+        open_table(tmp_path / "a.parquet").columns([0])

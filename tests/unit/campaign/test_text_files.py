@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from slipwise.campaign.table import open_table
 from slipwise.campaign.text_file import inspect_text, read_text_columns
 from slipwise.errors import InputError
 
@@ -93,3 +94,16 @@ def test_a_file_that_is_no_table_is_refused_with_what_is_needed(tmp_path, conten
 def test_a_bad_row_says_where_it_is_and_what_it_holds(tmp_path, row, message):
     with pytest.raises(InputError, match=message):
         read(tmp_path / "run.csv", (written(",") + row + "\n").encode())
+
+
+@pytest.mark.parametrize("tail", ["Ende der Messung f\xfcr heute\n", "9,9,9 \xb2\n"])
+def test_a_western_letter_far_below_an_ascii_table_makes_no_noise(tmp_path, capfd, tail):
+    body = "time [s],slip_x [mm]\n" + "".join(f"{0.01 * i:.2f},1.0\n" for i in range(20_000))
+    (tmp_path / "a.csv").write_bytes((body + tail).encode("cp1252"))
+    table = open_table(tmp_path / "a.csv")
+    if tail[0] == "9":
+        with pytest.raises(InputError, match=r"line 20002: a row with 3 columns where the header has 2"):
+            table.columns([0, 1])
+    else:
+        assert len(table.columns([0, 1]).values[0]) == 20_000
+    assert capfd.readouterr().err == ""

@@ -1,5 +1,6 @@
 """Gravity in vertical gauges, cells that count compression negative or were tared: each by its name."""
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -10,9 +11,11 @@ import pytest
 import slipwise
 from slipwise.campaign import Campaign, load_campaign
 from slipwise.campaign.same_specimen import check_same_specimen
+from slipwise.comparison.compare import compare
 from slipwise.errors import InputError
 from slipwise.instruments.checks import check_instruments, corrected_campaign
 from slipwise.instruments.signs import wrong_signs
+from slipwise.instruments.zeros import tared_cells
 from slipwise.record import Record
 
 DEMO = Path(slipwise.__file__).parent / "demo_data"
@@ -100,3 +103,72 @@ def test_the_missing_weight_is_put_back_on_request_where_the_mass_is_known(demo)
     total = np.sum([right.runs[0].record[name][:40].mean() for name in LOADS])
     assert total == pytest.approx(demo.specimen.weight, rel=1e-3)
     assert not any("pad_*_N" in words and "zero" in words for words in accused(right).values())
+
+
+def tared_alone(campaign: Campaign, *names: str) -> Campaign:
+    rest = {name: float(np.mean(campaign.runs[0].record[name][:40])) for name in names}
+    return altered(campaign, **{name: (lambda v, r=r: v - r) for name, r in rest.items()})
+
+
+@pytest.mark.parametrize("names", [("pad_B_N",), ("pad_A_N", "pad_D_N")])
+def test_single_cells_that_were_tared_are_each_named_with_their_part_and_nobody_else_is(demo, names):
+    wrong = tared_alone(demo, *names)
+    found = accused(wrong)
+    assert set(found) == {f"channel_offset:{name}" for name in names}
+    for name in names:
+        assert re.match(
+            rf"{name} was set to zero under the girder: its part of the weight, 2\d\.\d+ kN, is",
+            found[f"channel_offset:{name}"],
+        )
+        assert any(words.startswith(f"{name} was set to zero") for words in check_same_specimen(wrong))
+
+
+def test_the_part_of_a_single_tared_cell_is_put_back_where_the_mass_is_known(demo):
+    wrong = replace(tared_alone(demo, "pad_B_N"), known={})
+    checks = check_instruments(wrong)
+    with pytest.raises(InputError, match=r"give the girder's mass in campaign\.toml.*what the others do not carry"):
+        corrected_campaign(wrong, checks, ["channel_offset:pad_B_N"])
+    known = replace(wrong, known={"mass": demo.specimen.mass})
+    right = corrected_campaign(known, checks, ["channel_offset:pad_B_N"])
+    before, after = (campaign.runs[0].record["pad_B_N"][:40].mean() for campaign in (demo, right))
+    assert after == pytest.approx(before, rel=0.01)
+    assert not accused(right)
+
+
+def test_a_tared_cell_is_told_by_compare_with_the_correction_that_mends_it(demo):
+    wrong = replace(tared_alone(demo, "pad_C_N"), known={"mass": demo.specimen.mass})
+    with pytest.raises(InputError, match=r"pad_C_N was set to zero under the girder.*") as told:
+        compare(wrong, system=False)
+    assert "sign" not in str(told.value)
+    (name,) = re.findall(r"--correct '(.+?)'", str(told.value))
+    assert name == "channel_offset:pad_C_N"
+
+
+@pytest.mark.slow
+def test_a_campaign_with_a_tared_cell_is_as_good_as_before_once_it_is_corrected(demo):
+    wrong = replace(tared_alone(demo, "pad_C_N"), known={"mass": demo.specimen.mass})
+    mended = corrected_campaign(wrong, check_instruments(wrong), ["channel_offset:pad_C_N"])
+    errors = [compare(c, system=False).error("pads", held_out=True) for c in (mended, demo)]
+    assert errors[0] == pytest.approx(errors[1], rel=0.1)
+
+
+@pytest.mark.parametrize("names", [("pad_B_N",), LOADS])
+def test_cells_that_were_tared_before_some_runs_only_are_told_and_mended_as_the_message_says(demo, names):
+    wrong = tared_alone(demo, *names)
+    some = replace(demo, runs=(*demo.runs[:3], *wrong.runs[3:]))
+    with pytest.raises(
+        InputError, match="in quake_hv_again, quake2_hv alone .* set to zero under the girder.*of their"
+    ):
+        check_same_specimen(some)
+    check_same_specimen(replace(demo, runs=demo.runs[:3]))
+    notes = check_same_specimen(replace(demo, runs=wrong.runs[3:]))
+    assert any("set to zero under the girder" in words for words in notes)
+
+
+def test_a_pad_that_carries_nothing_and_a_dead_cell_are_not_taken_for_tared(demo):
+    quarter = demo.specimen.weight / 4.0
+    lifted = {"pad_A_N": -1.0, "pad_D_N": -1.0, "pad_B_N": 1.0, "pad_C_N": 1.0}
+    seated = altered(demo, **{name: (lambda v, s=s: v + 0.95 * s * quarter) for name, s in lifted.items()})
+    dead = altered(demo, pad_B_N=lambda v: np.zeros_like(v))
+    faint = altered(demo, pad_B_N=lambda v: 0.02 * v)
+    assert [tared_cells(campaign) for campaign in (demo, seated, dead, faint)] == [(), (), (), ()]

@@ -10,7 +10,7 @@ import re
 import numpy as np
 
 from slipwise.errors import InputError, UnitError
-from slipwise.motion.fixed_width import fixed_width, lines_of
+from slipwise.motion.fixed_width import check_format, fixed_width, lines_of
 from slipwise.motion.origin import Origin, time_in
 from slipwise.motion.source_file import SourceFile, header_field, number, positive
 from slipwise.motion.stated import Given, settle_step, settle_unit
@@ -72,8 +72,6 @@ def _record(source: SourceFile, given: Given, start: int, end: int, text_lines: 
         )
     found, data = header_field(source, _DATA.pattern, at, end, "number, unit and format of its values")
     count, per_line, width = int(found["count"]), int(found["per_line"]), int(found["width"])
-    if not (0 < per_line <= 20 and 0 < width <= 30):
-        raise InputError(f"{source.at(data)}: the format {per_line}F{width} is not possible")
     step = positive(reals[61] * 1e-3, source.name, "the step in the real header (number 62)")
     dt, dt_words = settle_step(step, given, source)
     factor, unit_words = settle_unit(found["unit"], given, source)
@@ -109,8 +107,7 @@ def _numbers(source: SourceFile, at: int, what: str) -> tuple[list[float], int]:
     if match is None:
         raise InputError(f"{source.at(min(at, len(source.lines) - 1))}: {what} should begin here; the file is damaged")
     count, per_line, width = (int(part) for part in match.groups())
-    if not (0 < per_line <= 20 and 0 < width <= 30):
-        raise InputError(f"{source.at(at)}: the format {per_line} of {width} is not possible")
+    check_format(per_line, width, source.at(at))
     end = at + 1 + lines_of(count, per_line)
     # Numbers of a header do not touch, and hand-made files shift them.
     values = [

@@ -6,15 +6,11 @@ Volume 3 files hold spectra: both are refused by name. Source: the files' own he
 
 import re
 
-import numpy as np
-
 from slipwise.errors import InputError
-from slipwise.motion.fixed_width import fixed_width
-from slipwise.motion.formats.csmip_channel import channel_of, origin_of
+from slipwise.motion.formats.csmip_channel import Values, channel_of, channel_trace, stated_peak
 from slipwise.motion.source_file import SourceFile, number, positive
-from slipwise.motion.stated import Given, acceleration_factor, settle_step, settle_unit
-from slipwise.motion.table_motion import HeaderPeak
-from slipwise.motion.trace import Trace, check_header_peak, half_last_digit
+from slipwise.motion.stated import Given
+from slipwise.motion.trace import Trace
 
 _START = re.compile(r"^\s*uncorrected accelerogram data", re.IGNORECASE)
 _DATA = re.compile(
@@ -70,31 +66,8 @@ def _channel(source: SourceFile, given: Given, start: int, end: int) -> Trace:
         )
     chan = channel_of(source, start, at)
     rate = positive(number(match["rate"], source.at(at)), source.at(at), "the sampling rate")
-    dt, dt_words = settle_step(1.0 / rate, given, source)
-    factor, unit_words = settle_unit(match["unit"], given, source)
-    per_line, width = int(match["per_line"]), int(match["width"])
-    if not (0 < per_line <= 20 and 0 < width <= 30):
-        raise InputError(f"{source.at(at)}: the format {per_line}f{width} is not possible")
-    values = np.array(fixed_width(source, at + 1, int(match["count"]), per_line, width)) * factor
-    peak = next((m for line in source.lines[start:at] if (m := _PEAK.search(line))), None)
-    stated = None
-    if peak:
-        peak_factor = acceleration_factor(peak[2], source.at(start))
-        size = number(peak[1], source.at(start)) * peak_factor
-        stated = HeaderPeak(size, number(peak[3], source.at(start)), half_last_digit(peak[1]) * peak_factor)
-        check_header_peak(values, dt, stated, source, chan.name)
-    return Trace(
-        source=source,
-        name=chan.name,
-        title=f"{source.lines[start + 5].strip()} {source.lines[start + 1].strip()}"[:80],
-        dt=dt,
-        acceleration=values,
-        baseline="none",
-        treatment=(
-            f"read as CSMIP/CESMD V1 (uncorrected): {source.name}, channel {chan.name}",
-            f"{unit_words}; {dt_words}",
-        ),
-        header_peak=stated,
-        origin=origin_of(source, start, at, chan.place),
-        aliases=chan.aliases,
-    )
+    data = Values(at, int(match["count"]), 1.0 / rate, match["unit"], int(match["per_line"]), int(match["width"]))
+    found = next((m for line in source.lines[start:at] if (m := _PEAK.search(line))), None)
+    peak = stated_peak(found[1], found[2], found[3], source.at(start)) if found else None
+    title = " ".join(source.lines[i].strip() for i in (start + 5, start + 1) if i < at)
+    return channel_trace(source, given, start, chan, data, peak, title, "V1 (uncorrected)")

@@ -7,15 +7,12 @@ Two dialects: the newer one states its Fortran format, "in cm/sec2. (8f10.5)"; t
 import re
 import warnings
 
-import numpy as np
-
 from slipwise.errors import InputError, SlipwiseWarning
-from slipwise.motion.fixed_width import fixed_width, lines_of
-from slipwise.motion.formats.csmip_channel import channel_of, origin_of
+from slipwise.motion.fixed_width import lines_of
+from slipwise.motion.formats.csmip_channel import Values, channel_of, channel_trace, stated_peak
 from slipwise.motion.source_file import SourceFile, header_field, number
-from slipwise.motion.stated import Given, acceleration_factor, settle_step, settle_unit
-from slipwise.motion.table_motion import HeaderPeak
-from slipwise.motion.trace import Trace, check_header_peak, half_last_digit
+from slipwise.motion.stated import Given
+from slipwise.motion.trace import Trace
 
 _DATA = re.compile(
     r"^\s*(?P<count>\d{1,9})\s+points\s+of\s+accel\s+data\s+equally\s+spaced\s+at\s+(?P<dt>[\d.]+)\s*sec\b[.,]*\s*"
@@ -68,38 +65,22 @@ def _channel(source: SourceFile, given: Given, start: int, end: int) -> Trace:
             f"{source.at(start if at is None else at)}: channel {name}: the line 'N points of accel data equally "
             "spaced at ... sec, in cm/sec2' is missing or cannot be read; the file is truncated or damaged"
         )
-    dt, dt_words = settle_step(number(match["dt"], source.at(at)), given, source)
-    factor, unit_words = settle_unit(match["unit"], given, source)
-    count, per_line, width = int(match["count"]), int(match["per_line"] or 8), int(match["width"] or 10)
-    if not (0 < per_line <= 20 and 0 < width <= 30):
-        raise InputError(f"{source.at(at)}: the format {per_line}f{width} is not possible")
-    values = np.array(fixed_width(source, at + 1, count, per_line, width)) * factor
-    if not any(_END.match(line) for line in source.lines[at + lines_of(count, per_line) : end]):
+    data = Values(
+        at,
+        int(match["count"]),
+        number(match["dt"], source.at(at)),
+        match["unit"],
+        int(match["per_line"] or 8),
+        int(match["width"] or 10),
+    )
+    pattern = r"peak acceleration\s*=\s*(-?[\d.]+)\s*(\S+)\s+at\s+([\d.]+)\s*sec"
+    found, i = header_field(source, pattern, start, at, "the peak acceleration")
+    station = source.lines[start + 6][:40].strip() if start + 6 < at else source.stem
+    title = f"{station} {source.lines[min(start + 2, at)].strip()}"
+    peak = stated_peak(found[1], found[2], found[3], source.at(i))
+    trace = channel_trace(source, given, start, chan, data, peak, title, "V2")
+    if not any(_END.match(line) for line in source.lines[at + lines_of(data.count, data.per_line) : end]):
         raise InputError(
             f"{source.name}: channel {name} has no 'End of data' line: the record is truncated; fetch the file again"
         )
-    pattern = r"peak acceleration\s*=\s*(-?[\d.]+)\s*(\S+)\s+at\s+([\d.]+)\s*sec"
-    peak, i = header_field(source, pattern, start, at, "the peak acceleration")
-    peak_factor = acceleration_factor(peak[2], source.at(i))
-    stated = HeaderPeak(
-        number(peak[1], source.at(i)) * peak_factor,
-        number(peak[3], source.at(i)),
-        half_last_digit(peak[1]) * peak_factor,
-    )
-    check_header_peak(values, dt, stated, source, name)
-    station = source.lines[start + 6][:40].strip() if start + 6 < at else source.stem
-    return Trace(
-        source=source,
-        name=name,
-        title=f"{station} {source.lines[start + 2].strip()}"[:80].strip(),
-        dt=dt,
-        acceleration=values,
-        baseline="none",
-        treatment=(
-            f"read as CSMIP/CESMD V2: {source.name}, channel {name}{f' at {chan.place}' if chan.place else ''}",
-            f"{unit_words}; {dt_words}",
-        ),
-        header_peak=stated,
-        origin=origin_of(source, start, at, chan.place),
-        aliases=chan.aliases,
-    )
+    return trace

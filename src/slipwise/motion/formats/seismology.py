@@ -6,6 +6,8 @@ obspy is an extra (`seismology`), imported only here and only when such a file i
 import io
 import re
 import struct
+from datetime import datetime
+from typing import Any
 
 import numpy as np
 
@@ -40,25 +42,10 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
         InputError: obspy is not installed, the file is damaged, or a channel has gaps.
         UnitError: no unit is given, or the file says that it holds velocity or displacement.
     """
-    try:
-        from obspy import read as read_stream
-    except ModuleNotFoundError:
-        raise InputError(
-            f"{source.name}: SAC and miniSEED are read by obspy; install it with `pip install 'slipwise[seismology]'`, "
-            "or export the motion as text"
-        ) from None
-    try:
-        stream = read_stream(io.BytesIO(source.data), format="MSEED" if _MINISEED.match(source.data) else "SAC")
-    except Exception as error:  # obspy lets struct, value and its own errors of C code through
-        raise InputError(f"{source.name}: not a readable SAC or miniSEED file ({error}); fetch it again") from None
-    stream.merge(method=0)
+    stream = _stream(source)
     traces = []
     for found in stream:
         stats = found.stats
-        if np.ma.isMaskedArray(found.data):
-            raise InputError(
-                f"{source.name}: channel {found.id} has gaps; fill or cut them, a table cannot follow them"
-            )
         kind = _SAC_KINDS.get(int(stats.sac.get("idep", 0))) if "sac" in stats else None
         if kind:
             raise UnitError(f"{source.name}: the header says that this is a {kind}; a table needs acceleration")
@@ -80,10 +67,46 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
                 origin=Origin(
                     station=f"{stats.network}.{stats.station}".strip("."),
                     sensor=stats.location,
-                    start=stats.starttime.datetime,
+                    start=_start(stats),
                 ),
             )
         )
     if not traces:
         raise InputError(f"{source.name}: no trace is in this file; fetch it again")
     return traces
+
+
+def _stream(source: SourceFile) -> Any:
+    """Read a file as obspy's stream, one trace for each channel.
+
+    Raises:
+        InputError: obspy is not installed, the file is damaged, or a channel has gaps.
+    """
+    try:
+        from obspy import read as read_stream
+    except ModuleNotFoundError:
+        raise InputError(
+            f"{source.name}: SAC and miniSEED are read by obspy; install it with `pip install 'slipwise[seismology]'`, "
+            "or export the motion as text"
+        ) from None
+    try:
+        stream = read_stream(io.BytesIO(source.data), format="MSEED" if _MINISEED.match(source.data) else "SAC")
+        # before they are joined: a gap of years would be filled with gigabytes
+        broken = [gap[:4] for gap in stream.get_gaps(min_gap=0.0)]
+        if not broken:
+            stream.merge(method=0)
+    except Exception as error:  # obspy lets struct, value and its own errors of C code through
+        raise InputError(f"{source.name}: not a readable SAC or miniSEED file ({error}); fetch it again") from None
+    broken += [(*found.id.split("."),) for found in stream if np.ma.isMaskedArray(found.data)]
+    if broken:
+        raise InputError(
+            f"{source.name}: channel {'.'.join(broken[0])} has gaps; fill or cut them, a table cannot follow them"
+        )
+    return stream
+
+
+def _start(stats: Any) -> datetime | None:
+    try:
+        return stats.starttime.datetime
+    except (ValueError, OverflowError):  # a year that no calendar has
+        return None
