@@ -185,7 +185,9 @@ def _further(state: Search) -> Search | None:
         starts = {s.term.label: s.values for s in several}
         together = try_one(state, [*before.terms, *(s.term for s in several)], starts, before)
         if _is_kept(origin, before, together) and not _new_at_bound(together, before):
-            return pruned(state.stepped_to(together))
+            further = pruned(state.stepped_to(together))
+            if not _been_there(state, further.best):  # what goes again at once would come back for ever
+                return further
     chosen = limit_per_effect(worth_refitting(found, before, 2 * _REFITTED_PAIRS, together=False), _REFITTED_PAIRS + 1)
     chosen = [s for s in with_bounds_checked(as_base(state, before), chosen, 0.0) if s.gain > 0.0]
     tried = list[Hypothesis]()
@@ -196,6 +198,11 @@ def _further(state: Search) -> Search | None:
         if good:
             return state.stepped_to(max(good, key=lambda h: score(before.summary, h.summary)))
     return None
+
+
+def _been_there(state: Search, found: Hypothesis) -> bool:
+    """Tell whether a search has stood at these effects before."""
+    return any({t.label for t in h.terms} == {t.label for t in found.terms} for h in state.path)
 
 
 def _new_at_bound(found: Hypothesis, before: Hypothesis) -> bool:
