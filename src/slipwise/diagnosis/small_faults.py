@@ -3,7 +3,8 @@
 A forward selection takes what helps most alone. Where four cells read half a per cent wrong and the pads sit unevenly,
 one cell with two per cent may do nearly as well, and is accused. So the fit is asked once more, as a straight line from
 where it ended: every effect that was found and every fault of a gauge at once, each with a normal prior about its
-absence whose width is half of what matters. What the data tell apart stays as it was, what they do not is shared out.
+absence. It is half of what matters wide, and for what was found as wide as that is large. What the data tell apart stays
+as it was, what they do not is shared out.
 
 Source: Hoerl, Kennard (1970), Ridge regression, Technometrics 12; as a prior: Lindley, Smith (1972), Bayes estimates
 for the linear model, Journal of the Royal Statistical Society B 34.
@@ -55,7 +56,8 @@ def shares_that_stay(
     precision = np.zeros(len(free))
     for name, own in owned.items():
         size = float(np.max(np.abs(places[own]), initial=0.0))
-        precision[own] = (max(importances[name], 1e-6) / (_USUAL * max(size, 1e-12))) ** 2
+        width = max(_USUAL, importances[name])  # what was found may well be as large as it was found
+        precision[own] = (max(importances[name], 1e-6) / (width * max(size, 1e-12))) ** 2
     small = _small_columns(found, screened, limits)
     slopes = np.column_stack([solution.jacobian[:, kept], *small]) * weights[:, None]
     precision = np.concatenate([precision, np.full(len(small), _USUAL**-2)])
