@@ -3,8 +3,8 @@
 A forward selection takes what helps most alone. Where four cells read half a per cent wrong and the pads sit unevenly,
 one cell with two per cent may do nearly as well, and is accused. So the fit is asked once more, as a straight line from
 where it ended: every effect that was found and every fault of a gauge at once, each with a normal prior about its
-absence. It is half of what matters wide, and for what was found as wide as that is large. What the data tell apart stays
-as it was, what they do not is shared out.
+absence. It is half of what matters wide, and for what was found as wide as that is large. What the data tell apart
+stays as it was, what they do not is shared out.
 
 Source: Hoerl, Kennard (1970), Ridge regression, Technometrics 12; as a prior: Lindley, Smith (1972), Bayes estimates
 for the linear model, Journal of the Royal Statistical Society B 34.
