@@ -5,10 +5,10 @@
     python scripts/calibrate.py out/dirty/results.jsonl --check    # writes nothing
 
 Each model is a logistic regression in a few numbers (scikit-learn, ridge 1 on numbers of unit spread): whether an
-effect that was found is there, whether its importance lies on the right side of what matters, whether effects are of
-the right family whatever they leave, whether a hypothesis or its nearest rival is right, and whether all of a verdict
-is right, by the product of these. That last one is fitted to verdicts that models of other campaigns have made (in
-five parts), or it would be told how well the others remember.
+effect that was found is there, whether it matters, whether effects are of the right family whatever they leave,
+whether a hypothesis or its nearest rival is right, and whether all of a verdict is right, by the product of these. That
+last one is fitted to verdicts that models of other campaigns have made (in five parts), or it would be told how well
+the others remember.
 
 Probabilities that are published are checked on other seeds than those given here.
 """
@@ -32,6 +32,7 @@ from slipwise.evidence.decision import decide
 TESTS = Path(__file__).parents[1] / "tests"
 OUT = Path(__file__).parents[1] / "src" / "slipwise" / "evidence" / "calibration.json"
 PRESENT = ("lead", "worth", "share", "rival", "gauge", "stays")
+MATTERS = ("size", "gauge")
 FAMILY = ("explained", "left", "relative")
 PARTS = 5
 Case = tuple[dict[str, float], bool]
@@ -46,14 +47,13 @@ def cases_of_presence(result: Result) -> list[Case]:
     return [(of, name in there) for name, of in _effects(result).items()]
 
 
-def cases_of_side(result: Result) -> list[Case]:
-    """Give how far from the limit every effect that is there seems, and whether it lies on that side."""
-    truth = result["truth"]["effects"]
-    return [
-        ({"off": abs(of["size"])}, (of["size"] >= 0.0) == (truth[name]["of_limit"] >= 1.0))
-        for name, of in _effects(result).items()
-        if name in truth
-    ]
+def cases_of_matter(result: Result) -> list[Case]:
+    """Give every effect that was found and is there, and whether it matters; not those near the limit, see NEAR."""
+    from bench.score_dirty import NEAR  # pyright: ignore[reportMissingImports]
+
+    sizes = {name: entry["of_limit"] for name, entry in result["truth"]["effects"].items()}
+    found = {name: of for name, of in _effects(result).items() if name in sizes}
+    return [(of, sizes[name] >= 1.0) for name, of in found.items() if not NEAR <= sizes[name] < 1.0]
 
 
 def cases_of_family(result: Result) -> list[Case]:
@@ -102,7 +102,7 @@ def parts_fitted(results: Sequence[Result], before: Calibration) -> Calibration:
 
     return Calibration(
         fitted(over(cases_of_presence), PRESENT, before.present),
-        fitted(over(cases_of_side), ("off",), before.right_side),
+        fitted(over(cases_of_matter), MATTERS, before.matters),
         fitted(over(cases_of_family), FAMILY, before.right_family),
         fitted(over(cases_of_rivals), ("lead",), before.leads_rival),
         Logistic(0.0, {"product": 1.0}),

@@ -65,11 +65,6 @@ class Finding:
         """Whether it is a fault of gauges."""
         return self.terms[0].effect.component == "instrument"
 
-    @property
-    def matters(self) -> bool:
-        """Whether it changes more than what is material."""
-        return self.material >= 1.0
-
 
 def findings(state: Search, importances: dict[str, Importance], limits: Materiality) -> list[Finding]:
     """Give the evidence for every effect of a search's final model, most important first.

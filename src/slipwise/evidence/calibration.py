@@ -36,21 +36,17 @@ class Calibration:
 
     Attributes:
         present: of an effect that was found: that it is there.
-        right_side: of an effect's importance: that it lies on that side of what matters, by how far it lies off.
+        matters: of an effect that is there: that it matters. What was found because it seemed large is a little less.
         right_family: of effects that leave something with structure: that they are of the right family all the same.
         leads_rival: of a hypothesis: that it and not its nearest rival is right, by how many standard errors it leads.
         all_right: of a verdict, by the product of these chances: they are not independent.
     """
 
     present: Logistic
-    right_side: Logistic
+    matters: Logistic
     right_family: Logistic
     leads_rival: Logistic
     all_right: Logistic
-
-    def side(self, log_share: float) -> float:
-        """Give the chance that an importance, as the logarithm of its share of what matters, is on the right side."""
-        return self.right_side({"off": abs(log_share)})
 
     def family(self, evidence: Mapping[str, float]) -> float:
         """Give the chance that effects which leave something with structure are of the right family."""

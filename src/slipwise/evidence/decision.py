@@ -51,16 +51,16 @@ def decide(
     """
     sure = {name: chances.present(of) for name, of in effects.items()}
     listed = [name for name in effects if sure[name] >= EVEN_ODDS]
-    named = tuple(name for name in listed if effects[name]["size"] >= 0.0)
+    material = {name: chances.matters(of) for name, of in effects.items()}
+    named = tuple(name for name in listed if material[name] >= EVEN_ODDS)
     minor = tuple(name for name in listed if name not in named)
     remains = np.exp(rest["relative"]) >= least
     right = chances.family(rest) if remains else 1.0
     if remains and (right < EVEN_ODDS or not named):
         return Decision("unknown", (), minor, (), 1.0 - right)
-    for name, of in effects.items():
-        side = chances.side(of["size"])
-        # what does not matter, or is not there at all, would be wrong only if it mattered after all
-        right *= sure[name] * side if of["size"] >= 0.0 else 1.0 - sure[name] * (1.0 - side)
+    for name in effects:  # what is not named would be wrong only if it were there and mattered
+        both = sure[name] * material[name]
+        right *= both if name in named else 1.0 - both
     probability = chances.whole(right)
     if not named:
         return Decision("complete", (), minor, (), probability)
