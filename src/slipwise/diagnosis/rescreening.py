@@ -72,6 +72,8 @@ def worth_refitting(found: Sequence[Screened], before: Hypothesis, most: int, *,
     for s in found:
         if len(out) == most:
             break
+        if together and any(at_odds(s.term, chosen.term) for chosen in out):
+            continue
         column = away_from(basis, weights * s.column)
         length = float(column @ column)
         amount = -float(column @ residual) / length if length > 1e-6 else 0.0
