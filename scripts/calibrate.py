@@ -32,9 +32,11 @@ from slipwise.evidence.decision import decide
 TESTS = Path(__file__).parents[1] / "tests"
 OUT = Path(__file__).parents[1] / "src" / "slipwise" / "evidence" / "calibration.json"
 PRESENT = ("lead", "worth", "share", "rival", "gauge", "stays")
-MATTERS = ("size", "gauge")
+MATTERS = ("size",)
 FAMILY = ("explained", "left", "relative")
 PARTS = 5
+#: Fewer cases leave a model as it was.
+LEAST = 10
 Case = tuple[dict[str, float], bool]
 Result = dict[str, Any]
 
@@ -79,9 +81,9 @@ def _effects(result: Result) -> dict[str, dict[str, Any]]:
 
 
 def fitted(cases: Sequence[Case], names: Sequence[str], before: Logistic) -> Logistic:
-    """Fit a logistic model; the one of before where the cases are all of one kind or fewer than 20."""
+    """Fit a logistic model; the one of before where the cases are all of one kind or too few."""
     answers = np.array([right for _, right in cases])
-    if len(cases) < 20 or answers.all() or not answers.any():
+    if len(cases) < LEAST or answers.all() or not answers.any():
         print(f"  {len(cases)} cases of one kind or too few: kept as it was")
         return before
     numbers = np.array([[of[name] for name in names] for of, _ in cases])
@@ -144,9 +146,11 @@ def main() -> None:
         whole += verdict_cases(results[part::PARTS], parts_fitted(others, before))
     chances = parts_fitted(results, before)
     chances = replace(chances, all_right=fitted(whole, ("product",), before.all_right))
+    kept = [name for name, model in vars(chances).items() if model is getattr(before, name)]
     content["provenance"] = (
         f"{len(results)} dirty campaigns of the bench, {results[0]['name']} to {results[-1]['name']}, "
-        f"{datetime.now(UTC):%Y-%m-%d}; scripts/calibrate.py"
+        f"{datetime.now(UTC):%Y-%m-%d}; scripts/calibrate.py; "
+        f"too few cases, chosen by judgement: {', '.join(kept) or 'none'}"
     )
     content["models"] = {n: {"constant": m.constant, "weights": m.weights} for n, m in vars(chances).items()}
     print(json.dumps(content, indent=1))

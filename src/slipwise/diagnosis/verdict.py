@@ -21,7 +21,7 @@ from slipwise.evidence.score import relative_drop
 from slipwise.instruments.sample_faults import SampleFault
 from slipwise.instruments.suspects import effect_of
 
-#: Nobody is surer than this of what no run has confirmed that was not fitted [1].
+#: Share of a probability that is left where no run is held out, which could have confirmed it [1].
 _UNCONFIRMED = 0.9
 #: Share of what the base model leaves above the noise of a held-out run that may stay there where effects hold [1].
 _CARRIED_OVER = 0.5
@@ -146,7 +146,7 @@ def evidence_of_rest(origin: Hypothesis, final: Hypothesis, surface: Surface | N
 def _confirmed(state: Search, probability: float) -> float:
     if any(held for _, held in state.path[0].summary.counts.values()):
         return probability
-    return min(probability, _UNCONFIRMED)
+    return _UNCONFIRMED * probability
 
 
 def confirmed(state: Search) -> bool | None:

@@ -13,8 +13,10 @@ import numpy as np
 
 from slipwise.evidence.calibration import Calibration
 
-#: Effects that are less likely to be there than this are not listed, rivals that are more likely are named too [1].
+#: What is more likely than this to be there and to matter is named, and so is a rival [1].
 EVEN_ODDS = 0.5
+#: What does not matter is listed where it is likelier than this to be there: nobody asked for it [1].
+_LISTED = 0.9
 
 
 @dataclass(frozen=True)
@@ -50,17 +52,15 @@ def decide(
         chances: the calibration.
     """
     sure = {name: chances.present(of) for name, of in effects.items()}
-    listed = [name for name in effects if sure[name] >= EVEN_ODDS]
-    material = {name: chances.matters(of) for name, of in effects.items()}
-    named = tuple(name for name in listed if material[name] >= EVEN_ODDS)
-    minor = tuple(name for name in listed if name not in named)
+    both = {name: sure[name] * chances.matters(of) for name, of in effects.items()}
+    named = tuple(name for name in effects if both[name] >= EVEN_ODDS)
+    minor = tuple(name for name in effects if sure[name] >= _LISTED and name not in named)
     remains = np.exp(rest["relative"]) >= least
     right = chances.family(rest) if remains else 1.0
     if remains and (right < EVEN_ODDS or not named):
         return Decision("unknown", (), minor, (), 1.0 - right)
     for name in effects:  # what is not named would be wrong only if it were there and mattered
-        both = sure[name] * material[name]
-        right *= both if name in named else 1.0 - both
+        right *= both[name] if name in named else 1.0 - both[name]
     probability = chances.whole(right)
     if not named:
         return Decision("complete", (), minor, (), probability)

@@ -71,13 +71,13 @@ def test_what_is_there_and_does_not_matter_is_minor_and_not_named() -> None:
 def test_many_effects_are_all_named_the_most_important_first() -> None:
     of = base(pads=400.0, girder=100.0)
     names = ("heating", "run_in", "buffer_damping", "uneven_seating", "slide_tilt")
-    found = _decided(of, left_by(*names, of=of), **{name: 2.0 + i for i, name in enumerate(names)})
+    found = _decided(of, left_by(*names, of=of), **{name: 4.0 + i for i, name in enumerate(names)})
     assert found.kind == "named" and found.effects == tuple(reversed(names))
 
 
 def test_the_nearer_to_what_matters_the_less_sure_it_is():
     of = base(pads=400.0)
-    chances = [_decided(of, left_by("heating", of=of), heating=share).probability for share in (5.0, 1.5, 1.02)]
+    chances = [_decided(of, left_by("heating", of=of), heating=share).probability for share in (9.0, 4.0, 2.5)]
     assert chances[0] > chances[1] > chances[2]
 
 
