@@ -148,7 +148,7 @@ def test_the_page_says_what_each_effect_changes_and_what_is_minor():
     state = searched(of, left_by("heating", "table_pitch", of=of))
     text = diagnosis_page(diagnosed(state, material={"table_pitch": 0.5}))
     assert "An effect is missing: heating<" in text and "<td>minor</td>" in text
-    assert "There, but immaterial: table_pitch." in text and "+5.0 % (+4.0 to +6.0)" in text
+    assert "There, but most likely immaterial: table_pitch;" in text and "+5.0 % (+4.0 to +6.0)" in text
     small = diagnosis_page(diagnosed(state, material={"heating": 0.5, "table_pitch": 0.5}))
     assert "Nothing that matters is missing<" in small
     assert "What each effect changes" not in diagnosis_page(diagnosed(searched(base())))
