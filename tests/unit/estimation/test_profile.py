@@ -42,6 +42,7 @@ class Line:
     relations: tuple[str, ...] = ("pads",)
     runs: list[FitRun] = field(default_factory=only_run)
     sigmas: dict[str, list[np.ndarray]] = field(default_factory=lambda: {"pads": [np.ones((COUNT, 1))]})
+    balanced: bool = False
 
     @property
     def terms(self) -> tuple[Term, ...]:

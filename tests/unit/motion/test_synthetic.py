@@ -133,7 +133,7 @@ def test_every_kind_is_listed_with_syntax_meaning_and_an_example_that_works():
         ("sine:2Hz,0.3m", UnitError, "wrong dimension"),
         ("sine:12rad/s,0.3g", UnitError, "give it in Hz"),
         ("sine:-2Hz,0.3g", InputError, "must be positive"),
-        ("sine:nan Hz,0.3g", InputError, "must be positive"),
+        ("sine:nan Hz,0.3g", UnitError, "is not a finite number"),
         ("sine:2Hz,1e9g", InputError, "no table reaches"),
         ("sine:5kHz,0.3g", InputError, "up to 100 Hz"),
         ("quake:4Hz", InputError, "takes options only"),
