@@ -1,6 +1,6 @@
-"""What was wrong before any balance: dead, reversed and tared channels, and gravity in a gauge. The rest is diagnosed.
+"""What was wrong before any balance: dead, late, reversed and tared channels, and gravity in a gauge.
 
-Such a fault is put right, or its channel is left out, before the first fit.
+The rest is diagnosed. Such a fault is put right, or its channel is left out, before the first fit.
 """
 
 from collections.abc import Sequence
@@ -10,7 +10,7 @@ from typing import Any
 from slipwise.instruments.sample_faults import SampleFault
 
 #: Kind of a fault of samples -> how it is told; a zero that is far off is gravity, or the weight that cells lack.
-_KINDS = {"turned": "reversed", "dead": "dead", "shifted": "gravity"}
+_KINDS = {"late": "late", "turned": "reversed", "dead": "dead", "shifted": "gravity"}
 
 
 @dataclass(frozen=True)
@@ -18,7 +18,7 @@ class FirstThing:
     """One of them.
 
     Attributes:
-        kind: "dead", "reversed", "tared" or "gravity".
+        kind: "dead", "late", "reversed", "tared" or "gravity".
         channels: that show it.
         words: in a sentence.
     """
@@ -41,6 +41,9 @@ def _told(fault: SampleFault) -> FirstThing:
     places = ", ".join(fault.channels)
     if fault.kind == "turned":
         return FirstThing("reversed", fault.channels, f"{places}: reversed; turned round before any fit")
+    if fault.kind == "late":
+        words = f"{places}: {fault.size:.3f} s behind the other channels; brought forward before any fit"
+        return FirstThing("late", fault.channels, words)
     if fault.kind == "dead":
         runs = ", ".join(fault.runs)
         return FirstThing("dead", fault.channels, f"{places}: dead in {runs}; left out there")

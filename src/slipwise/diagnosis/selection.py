@@ -16,7 +16,7 @@ from slipwise.instruments.sample_faults import RAILS, SampleFault, sample_faults
 from slipwise.model import Model
 
 #: Faults of samples that a gauge has; a gap is the clock's.
-_OF_GAUGES = ("turned", "shifted", "dead", *RAILS, "held", "lost")
+_OF_GAUGES = ("late", "turned", "shifted", "dead", *RAILS, "held", "lost")
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,17 @@ from fnmatch import fnmatchcase
 from slipwise.channels import channel
 
 #: Faults that the samples show by themselves.
-SAMPLE_FAULTS: tuple[str, ...] = ("dead", "upper rail", "lower rail", "held", "lost", "gap", "turned", "shifted")
+SAMPLE_FAULTS: tuple[str, ...] = (
+    "dead",
+    "upper rail",
+    "lower rail",
+    "held",
+    "lost",
+    "gap",
+    "turned",
+    "shifted",
+    "late",
+)
 
 
 @dataclass(frozen=True)

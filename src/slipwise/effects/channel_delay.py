@@ -39,6 +39,7 @@ EFFECT = Effect(
         unit="s",
         least={"*": 0.4e-3},
         step=5e-4,
+        samples=("late",),
     ),
     moves=("*",),
     signature="residual goes with the channel's rate of change: biggest at reversals, a constant time",

@@ -105,10 +105,12 @@ def _of_samples(fault: SampleFault) -> Finding:
     effect = effect_of(fault.kind)
     place = _place(fault.channels)
     unit = channel(fault.channels[0]).unit if fault.kind in (*RAILS, "shifted") else "1"
+    unit = "s" if fault.kind == "late" else unit
     words = {
         "dead": f"{place} is dead in {', '.join(fault.runs)}",
         "lost": f"{place} has lost samples: what follows them came early, and the end repeats one value",
         "shifted": ShiftedZero(fault.channels, fault.size).words,
+        "late": f"{place} comes {fault.size:.3f} s late: its logger was started later",
         "gap": f"the logger has lost {fault.size:.2%} of all samples",
     }.get(fault.kind, sentence(effect, place, fault.size, unit))
     if fault.kind in RAILS:

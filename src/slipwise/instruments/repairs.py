@@ -14,6 +14,7 @@ from scipy.interpolate import CubicSpline
 from slipwise.campaign import Campaign
 from slipwise.campaign.aligned import spread
 from slipwise.channels import VELOCITY_CHANNELS
+from slipwise.instruments.late_cells import in_step, without_partner
 from slipwise.instruments.sample_faults import RAILS, SampleFault
 from slipwise.record import Record
 
@@ -38,7 +39,7 @@ def for_balances(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[dic
     records, out = {}, {}
     for run in campaign.runs:
         channels = dict(_with_signs(run.record, faults).channels)
-        leave = np.zeros(len(run.record), dtype=bool)
+        leave = _without_partner(run.record, faults)
         for fault in faults:
             bad = fault.bad.get(run.name)
             if bad is None:
@@ -69,11 +70,14 @@ def for_fits(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[Campaig
     invalid: dict[str, dict[str, Mask]] = {}
     for run in campaign.runs:
         record, found = _with_signs(run.record, faults), dict[str, Mask]()
+        unpaired = _without_partner(record, faults)
         for name in dict.fromkeys(name for fault in faults for name in fault.channels if name in record):
-            values = run.record[name]
+            values = _in_step(run.record, faults)[name]
             own = [
                 fault for fault in faults if name in fault.channels and fault.kind in (*RAILS, "held", "lost", "dead")
             ]
+            if unpaired.any():
+                found[name] = unpaired
             if not own:
                 continue
             bad = np.any([_bad_samples(fault, run.name, values) for fault in own], axis=0)
@@ -81,13 +85,26 @@ def for_fits(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[Campaig
                 between = np.interp(record.time, record.time[~bad], record[name][~bad])
                 record = record.replaced(**{name: between})
             reach = _REACH_OF_MOTION if name in VELOCITY_CHANNELS else _REACH
-            found[name] = np.convolve(bad, np.ones(2 * reach + 1), mode="same") > 0.5
+            found[name] = unpaired | (np.convolve(bad, np.ones(2 * reach + 1), mode="same") > 0.5)
         records[run.name] = record
         invalid[run.name] = found
     return replace(campaign, runs=tuple(replace(r, record=records[r.name]) for r in campaign.runs)), invalid
 
 
+def _in_step(record: Record, faults: Sequence[SampleFault]) -> Record:
+    for fault in (f for f in faults if f.kind == "late"):
+        record = in_step(record, fault.channels, fault.size)
+    return record
+
+
+def _without_partner(record: Record, faults: Sequence[SampleFault]) -> Mask:
+    """Give the samples (n,) at which channels that were late have ended before the others."""
+    late = [without_partner(len(record), record.dt, fault.size) for fault in faults if fault.kind == "late"]
+    return np.any([np.zeros(len(record), dtype=bool), *late], axis=0)
+
+
 def _with_signs(record: Record, faults: Sequence[SampleFault]) -> Record:
+    record = _in_step(record, faults)
     shift = {n: fault.size for fault in faults if fault.kind == "shifted" for n in fault.channels if n in record}
     level = record.replaced(**{name: record[name] - size for name, size in shift.items()})
     wrong = [name for fault in faults if fault.kind == "turned" for name in fault.channels if name in record]

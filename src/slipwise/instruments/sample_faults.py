@@ -10,6 +10,7 @@ from scipy.ndimage import uniform_filter1d
 
 from slipwise.campaign import Campaign, Run
 from slipwise.channels import PADS
+from slipwise.instruments.late_cells import in_step_campaign, late_cells
 from slipwise.instruments.signs import wrong_signs
 from slipwise.instruments.zeros import tared_cells, zeros_of
 from slipwise.signals.noise import quantum, white_level
@@ -43,9 +44,9 @@ class SampleFault:
     """Bad samples of one channel, or of several at the same instants.
 
     Attributes:
-        kind: "turned", "shifted", "dead", "upper rail", "lower rail", "held", "lost" or "gap".
+        kind: "late", "turned", "shifted", "dead", "upper rail", "lower rail", "held", "lost" or "gap".
         channels: that show it.
-        size: rail or shift in the channel's unit; -1 for a wrong sign; else share of all samples [1].
+        size: rail or shift in the channel's unit; delay [s]; -1 for a wrong sign; else share of all samples [1].
         bad: run -> samples that are no measurement (n,); none of a wrong sign or zero, which is put right.
         runs: names of the runs that show it.
     """
@@ -58,8 +59,15 @@ class SampleFault:
 
 
 def sample_faults(campaign: Campaign) -> list[SampleFault]:
-    """Look for wrong signs, zeros that are far off and bad samples in every channel of every run."""
+    """Look for cells that are late, wrong signs, zeros that are far off and bad samples in every channel of every run.
+
+    All but the first are looked for with late cells brought forward.
+    """
+    late = late_cells(campaign)
+    campaign = in_step_campaign(campaign, late)
     found = [*_turned(campaign), *_shifted(campaign)]
+    if late is not None:
+        found.append(SampleFault("late", late.channels, late.delay, {}, tuple(run.name for run in campaign.runs)))
     names = list(dict.fromkeys(name for run in campaign.runs for name in run.record.channels))
     # what every channel repeats at its end is a record that was cut, no gauge's loss
     cut = {run.name: min(_tail(values) for values in run.record.channels.values()) for run in campaign.runs}
