@@ -110,7 +110,7 @@ def _of_samples(fault: SampleFault) -> Finding:
         "dead": f"{place} is dead in {', '.join(fault.runs)}",
         "lost": f"{place} has lost samples: what follows them came early, and the end repeats one value",
         "shifted": ShiftedZero(fault.channels, fault.size).words,
-        "late": f"{place} comes {fault.size:.3f} s late: its logger was started later",
+        "late": f"the cells of the pads come {fault.size:.3f} s late: their logger was started later",
         "gap": f"the logger has lost {fault.size:.2%} of all samples",
     }.get(fault.kind, sentence(effect, place, fault.size, unit))
     if fault.kind in RAILS:
