@@ -26,8 +26,8 @@ import numpy as np
 from sklearn.linear_model import LogisticRegression
 
 from slipwise.campaign.materiality import Materiality
-from slipwise.evidence.calibration import Calibration, Logistic
-from slipwise.evidence.decision import decide
+from slipwise.evidence.calibration import Calibration, Logistic, log_odds
+from slipwise.evidence.decision import decide, remains
 
 TESTS = Path(__file__).parents[1] / "tests"
 OUT = Path(__file__).parents[1] / "src" / "slipwise" / "evidence" / "calibration.json"
@@ -61,7 +61,7 @@ def cases_of_matter(result: Result) -> list[Case]:
 def cases_of_family(result: Result) -> list[Case]:
     """Give what is left where that matters, and whether nothing is hidden that the catalogue does not have."""
     rest = result["said"]["evidence"]["rest"]
-    if np.exp(rest["relative"]) < Materiality().channel:
+    if not remains(rest, Materiality().channel):
         return []
     return [(rest, "unknown" not in result["truth"]["missing"])]
 
@@ -121,11 +121,10 @@ def verdict_cases(results: Sequence[Result], chances: Calibration) -> list[Case]
         decided = decide(evidence["effects"], evidence["rest"], Materiality().channel, chances)
         faults = [name for name in result["said"]["effects"] if name not in evidence["effects"]]
         said = {**result["said"], "verdict": decided.kind, "effects": [*decided.named, *faults], "leftover": ""}
-        if decided.kind == "named" and np.exp(evidence["rest"]["relative"]) >= Materiality().channel:
+        if decided.kind == "named" and remains(evidence["rest"], Materiality().channel):
             said["leftover"] = "unknown"
         if decided.kind != "unknown":
-            kept = float(np.clip(decided.probability, 1e-6, 1.0 - 1e-6))
-            out.append(({"product": float(np.log(kept / (1.0 - kept)))}, right(result["truth"], said)))
+            out.append(({"product": log_odds(decided.probability)}, right(result["truth"], said)))
     return out
 
 

@@ -100,7 +100,7 @@ def importance_of_effects(final: BaseFit, terms: Sequence[Term], sizes: Sequence
             one, other = answers["", place].channels, answers[name, place].channels
             measured = problem.runs[place].record
             for c in (c for c in one if c in measured):
-                channels[c] = max(channels.get(c, 0.0), _share(other[c] - one[c], measured[c]))
+                channels[c] = max(channels.get(c, 0.0), share_of_channel(other[c] - one[c], measured[c]))
         out[name] = Importance(responses, channels, of[0].effect.port == "gauge")
     return out
 
@@ -179,7 +179,8 @@ def _driven(model: Model, final: BaseFit, place: int) -> _Answer:
     return _Answer({"energy": energy}, record.channels)
 
 
-def _share(change: Array, measured: Array) -> float:
+def share_of_channel(change: Array, measured: Array) -> float:
+    """Give the rms of a change (n,) over the rms of the measured channel (n,) about its mean [1]; 0 if it stands."""
     size = float(np.std(measured))
     return float(np.sqrt(np.mean(change**2)) / size) if size > 0.0 else 0.0
 

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.diagnosis.importance import share_of_channel
 from slipwise.diagnosis.pairs import at_odds
 from slipwise.diagnosis.rescreening import row_weights
 from slipwise.diagnosis.screening import Screened
@@ -101,14 +102,14 @@ def _small_columns(found: Hypothesis, screened: Sequence[Screened], limits: Mate
 
 
 def _share_changed(candidate: Screened, run: FitRun) -> float:
-    """Give the rms by which a fault changes its channel, over the channel's rms about its mean [1]."""
+    """Give by how much a fault changes the channel that it changes most, see `share_of_channel` [1]."""
     values = {f"{candidate.term.label}.{k}": v for k, v in candidate.values.items()}
     try:
         changed = faulted([candidate.term], values, run.record)
     except SlipwiseError:
         return 0.0
     shares = [
-        float(np.sqrt(np.mean((changed[n] - run.record[n]) ** 2)) / max(float(np.std(run.record[n])), 1e-300))
+        share_of_channel(changed[n] - run.record[n], run.record[n])
         for n in candidate.term.targets
         if n in run.record and n in changed
     ]

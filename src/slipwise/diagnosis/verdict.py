@@ -15,7 +15,7 @@ from slipwise.diagnosis.unknown_surface import above_noise as left_above_noise
 from slipwise.estimation.parameters import Term
 from slipwise.evidence.acceptance import LEAST
 from slipwise.evidence.calibration import calibration
-from slipwise.evidence.decision import EVEN_ODDS, decide
+from slipwise.evidence.decision import EVEN_ODDS, decide, remains
 from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.evidence.score import relative_drop
 from slipwise.instruments.sample_faults import SampleFault
@@ -80,13 +80,12 @@ def decide_verdict(state: Search, found: Sequence[Finding], limits: Materiality)
     rest = evidence_of_rest(origin, final, surface)
     of_effects = {f.name: evidence_of(f) for f in found}
     decided = decide(of_effects, rest, limits.channel, calibration())
-    remains = np.exp(rest["relative"]) >= limits.channel
     verdict = Verdict(
         decided.kind,
         decided.named,
         decided.minor,
         decided.probability if decided.kind == "unknown" else _confirmed(state, decided.probability),
-        "unknown" if remains else "none",
+        "unknown" if remains(rest, limits.channel) else "none",
         explained_share(origin, final),
         surface,
         (),

@@ -58,8 +58,13 @@ class Calibration:
 
     def whole(self, product: float) -> float:
         """Give the chance that a verdict is right, by the product of the chances of its parts."""
-        kept = float(np.clip(product, 1e-6, 1.0 - 1e-6))
-        return self.all_right({"product": float(np.log(kept / (1.0 - kept)))})
+        return self.all_right({"product": log_odds(product)})
+
+
+def log_odds(probability: float) -> float:
+    """Give the log-odds of a probability, finite also at 0 and 1."""
+    kept = float(np.clip(probability, 1e-6, 1.0 - 1e-6))
+    return float(np.log(kept / (1.0 - kept)))
 
 
 @cache

@@ -38,6 +38,11 @@ class Decision:
     probability: float
 
 
+def remains(rest: Mapping[str, float], least: float) -> bool:
+    """Tell whether what is left matters; arguments as of `decide`."""
+    return bool(np.exp(rest["relative"]) >= least)
+
+
 def decide(
     effects: Mapping[str, Mapping[str, float]], rest: Mapping[str, float], least: float, chances: Calibration
 ) -> Decision:
@@ -55,9 +60,9 @@ def decide(
     both = {name: sure[name] * chances.matters(of) for name, of in effects.items()}
     named = tuple(name for name in effects if both[name] >= EVEN_ODDS)
     minor = tuple(name for name in effects if sure[name] >= _LISTED and name not in named)
-    remains = np.exp(rest["relative"]) >= least
-    right = chances.family(rest) if remains else 1.0
-    if remains and (right < EVEN_ODDS or not named):
+    left = remains(rest, least)
+    right = chances.family(rest) if left else 1.0
+    if left and (right < EVEN_ODDS or not named):
         return Decision("unknown", (), minor, (), 1.0 - right)
     for name in effects:  # what is not named would be wrong only if it were there and mattered
         right *= both[name] if name in named else 1.0 - both[name]

@@ -38,7 +38,7 @@ def for_balances(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[dic
     """
     records, out = {}, {}
     for run in campaign.runs:
-        channels = dict(_with_signs(run.record, faults).channels)
+        channels = dict(_with_signs(_in_step(run.record, faults), faults).channels)
         leave = _without_partner(run.record, faults)
         for fault in faults:
             bad = fault.bad.get(run.name)
@@ -69,13 +69,12 @@ def for_fits(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[Campaig
     records: dict[str, Record] = {}
     invalid: dict[str, dict[str, Mask]] = {}
     for run in campaign.runs:
-        record, found = _with_signs(run.record, faults), dict[str, Mask]()
+        aligned, found = _in_step(run.record, faults), dict[str, Mask]()
+        record = _with_signs(aligned, faults)
         unpaired = _without_partner(record, faults)
         for name in dict.fromkeys(name for fault in faults for name in fault.channels if name in record):
-            values = _in_step(run.record, faults)[name]
-            own = [
-                fault for fault in faults if name in fault.channels and fault.kind in (*RAILS, "held", "lost", "dead")
-            ]
+            values = aligned[name]
+            own = [fault for fault in faults if name in fault.channels and fault.kind in _INVALID]
             if unpaired.any():
                 found[name] = unpaired
             if not own:
@@ -104,7 +103,6 @@ def _without_partner(record: Record, faults: Sequence[SampleFault]) -> Mask:
 
 
 def _with_signs(record: Record, faults: Sequence[SampleFault]) -> Record:
-    record = _in_step(record, faults)
     shift = {n: fault.size for fault in faults if fault.kind == "shifted" for n in fault.channels if n in record}
     level = record.replaced(**{name: record[name] - size for name, size in shift.items()})
     wrong = [name for fault in faults if fault.kind == "turned" for name in fault.channels if name in record]
