@@ -3,7 +3,7 @@
 from collections.abc import Collection
 from pathlib import Path
 
-from slipwise.errors import InputError
+from slipwise.errors import InputError, visible
 
 #: Files of effects that may be run: none, those that are named, or all that a model names.
 Trust = bool | Collection[Path | str]
@@ -22,7 +22,7 @@ def check_trusted(file: Path, named_in: Path, trust: Trust) -> None:
     """
     if trust is True or (trust and file.resolve() in {Path(known).resolve() for known in trust}):
         return
-    shown = str(file).encode("unicode_escape").decode("ascii")
+    shown = visible(str(file))
     raise InputError(
         f"{named_in.name} names an effect file, {shown!r}: it is code, which can do with this machine what you can, "
         f"and is not run unasked. Look at it with a text viewer, for example `less '{shown}'`; then allow this file by "
