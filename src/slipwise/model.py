@@ -98,14 +98,23 @@ class Model(Tabular):
     uses: tuple[EffectUse, ...] = ()
 
     def __post_init__(self) -> None:
-        """Refuse the same effect twice on the same target, and two effects that both decide how a pad sticks."""
+        """Refuse what cannot act together: one effect twice on a target, two that say how friction turns round."""
         labels = [u.label for u in self.uses]
         for label in labels:
             if labels.count(label) > 1:
                 raise SettingError(f"the model lists {label} twice")
         sticking = [u.label for u in self.uses if "stick" in u.effect.hooks]
-        if len(sticking) > 1:
-            raise SettingError(f"only one effect can say how a pad sticks; the model lists {' and '.join(sticking)}")
+        train = [u.label for u in self.uses if "stretch" in u.effect.hooks]
+        if len(sticking) > 1 or (sticking and train):
+            raise SettingError(
+                f"only one effect can say how a pad sticks, and none beside a loading train; the model lists "
+                f"{' and '.join([*sticking, *train])}"
+            )
+        if train and self.specimen.free:
+            raise SettingError(
+                f"{train[0]} stands between an actuator and a slider; on a rig that slides freely there is none: use "
+                "it on a rig whose slip is prescribed, such as `pad`"
+            )
 
     def __contains__(self, name: str) -> bool:
         return any(u.effect.name == name for u in self.uses)
@@ -122,6 +131,11 @@ class Model(Tabular):
         raise SettingError(
             f"the model has no effect {name!r}; it has: {', '.join(u.label for u in self.uses) or 'none'}"
         )
+
+    @property
+    def reverses(self) -> bool:
+        """Whether an effect says over which slip friction turns round after a reversal."""
+        return any(u.effect.reverses for u in self.uses)
 
     def on_port(self, *ports: str) -> tuple[EffectUse, ...]:
         """Give the effects on these ports: by port; then what replaces, what adds, what scales; then as listed.

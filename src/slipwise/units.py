@@ -169,3 +169,9 @@ def _exponent(text: str, i: int) -> bool:
 def convert(value: float, unit: str, to: str) -> float:
     """Convert a number from one unit to another, e.g. from SI to mm for a table."""
     return value * parse_unit(unit, to, "conversion")
+
+
+@cache
+def powers_of(unit: str) -> dict[str, float]:
+    """Give the units of which an SI unit is a product, in full, with their powers: {"newton": 1, "meter": -1}."""
+    return {str(name): float(power) for name, power in _registry().parse_units(_clean(unit))._units.items()}

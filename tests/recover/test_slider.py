@@ -5,7 +5,7 @@ import pytest
 
 from slipwise.campaign import load_campaign
 from slipwise.diagnosis.diagnose import diagnose
-from slipwise.effects.presliding import RATED
+from slipwise.effects import catalogue
 from unit.campaign.slider import HEADER, RUNS, text
 
 pytestmark = pytest.mark.slow
@@ -34,7 +34,7 @@ def test_the_presliding_of_a_slider_is_named(tmp_path):
     found = diagnose(load_campaign(tmp_path))
     assert found.verdict.effects == ("presliding",)
     values = {key.rpartition(".")[2]: i.value for key, i in found.candidates[0].parameters.items()}
-    length = values["length"] * (1200.0 / RATED) ** values["growth"]  # one load does not tell the two apart
+    length = values["length"] * (1200.0 / values["rated"]) ** values["growth"]  # one load does not tell the two apart
     assert length == pytest.approx(1e-3 * LENGTH, rel=0.03)
     assert found.final_error < 0.3 * found.base_error
 

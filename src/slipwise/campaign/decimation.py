@@ -10,21 +10,26 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.campaign.campaign import Campaign
+from slipwise.campaign.campaign import Campaign, Run
 from slipwise.record import Record
+from slipwise.rig import Specimen
 from slipwise.signals.ends import in_frequency
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 #: Samples a second that every law, the pads' pitch of 50 to 100 Hz and a logger's usual filter need [Hz].
 ENOUGH = 400.0
+#: Samples of one run of a slider that tell as much as more of them [1].
+ENOUGH_OF_SLIDER = 8000
 #: Where the filter before thinning out begins and ends, as shares of the new half rate [1].
 _PASSED, _STOPPED = 1.0, 1.3
 
 
-def thinning(dt: float) -> int:
-    """Give the whole number of samples of which one is kept, for a step [s]: 1 where nothing is to be thinned out."""
-    return max(1, int(np.floor(1.0 / (dt * ENOUGH) + 1e-6)))
+def thinning(run: Run, specimen: Specimen) -> int:
+    """Give the whole number of samples of which one is kept: 1 where nothing is to be thinned out."""
+    if not specimen.free:  # how fast things go there only its record knows
+        return max(1, len(run.record) // ENOUGH_OF_SLIDER)
+    return max(1, int(np.floor(1.0 / (run.record.dt * ENOUGH) + 1e-6)))
 
 
 def decimated(
@@ -36,7 +41,7 @@ def decimated(
         campaign: as recorded.
         invalid: run -> channel -> samples (n,) at which it is no measurement.
     """
-    every = {run.name: thinning(run.record.dt) for run in campaign.runs}
+    every = {run.name: thinning(run, campaign.specimen) for run in campaign.runs}
     if max(every.values()) == 1:
         return campaign, {run: dict(of) for run, of in invalid.items()}
     records = {run.name: _thinned(run.record, every[run.name]) for run in campaign.runs}

@@ -24,9 +24,9 @@ _RINGING = 0.2
 _ENDS = 8
 
 
-def is_stuck(speed: Array, error: float) -> Mask:
-    """Tell where a slider is stuck (n,), by its speed (n,) and the error of that [m/s]."""
-    limit = min(_STUCK, _STUCK_PART * float(np.quantile(speed, 0.95)))
+def is_stuck(speed: Array, error: float, scale: float = 1.0) -> Mask:
+    """Tell where a slider is stuck (n,), by its speed (n,), the error of that [m/s], and the scale of speeds [1]."""
+    limit = min(_STUCK * scale, _STUCK_PART * float(np.quantile(speed, 0.95)))
     limit = max(limit, _STUCK_ERRORS * error)  # a run that never slides is stuck throughout
     return long_enough(speed < limit, _STUCK_SAMPLES)
 
@@ -44,9 +44,9 @@ def is_at_rest(along: Array, speed: Array, error: float) -> Mask:
     return ~moving & ~(slides[piece] & (way != 0.0))
 
 
-def is_slow(speed: Array, velocity: Array, dt: float, lowpass: LowPass | None) -> Mask:
+def is_slow(speed: Array, velocity: Array, dt: float, lowpass: LowPass | None, scale: float = 1.0) -> Mask:
     """Tell where the slider is slow or has just turned, (n,)."""
-    slow = speed < min(_FAST, _FAST_PART * float(np.quantile(speed, 0.95)))
+    slow = speed < min(_FAST * scale, _FAST_PART * float(np.quantile(speed, 0.95)))
     turns = np.zeros(len(speed), dtype=bool)
     turns[1:] = np.signbit(velocity[1:]) != np.signbit(velocity[:-1])
     reach = int(np.ceil(0.5 / (lowpass.frequency * dt))) if lowpass else 2

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from slipwise.campaign.campaign import Campaign, Run
 from slipwise.campaign.completed import completed
 from slipwise.campaign.derived import evaluate
+from slipwise.campaign.friction_coefficient import forces_of, is_coefficient
 from slipwise.campaign.held_out_check import check_untouched
 from slipwise.campaign.same_specimen import check_same_specimen
 from slipwise.campaign.settings import ColumnMap, RunSettings, Settings, read_settings
@@ -22,7 +23,7 @@ from slipwise.channels import CHANNELS, channel
 from slipwise.errors import InputError, UnitError
 from slipwise.record import Record
 from slipwise.rig import Specimen, load_specimen
-from slipwise.units import affine
+from slipwise.units import affine, parse_unit
 
 Array = NDArray[np.float64]
 #: Our own headers: "pad_A_N [kN]".
@@ -57,12 +58,12 @@ def load_campaign(folder: Path | str) -> Campaign:
     if not folder.is_dir():
         raise InputError(f"{folder}: no such folder; a campaign is a folder with campaign.toml and data files")
     settings = read_settings(folder / "campaign.toml")
-    specimen = load_specimen(settings.rig, folder)
+    specimen = _better_known(load_specimen(settings.rig, folder), settings.specimen)
     files: dict[str, _File] = {}
     runs: list[Run] = []
     for run in settings.runs:
         if run.file not in files:
-            files[run.file] = _read_file(folder / run.file, settings)
+            files[run.file] = _read_file(folder / run.file, settings, specimen.pad_area)
         runs.append(_run(run, files[run.file], settings))
     _check_names(runs)
     check_untouched(runs)
@@ -71,7 +72,7 @@ def load_campaign(folder: Path | str) -> Campaign:
     campaign = Campaign(
         name=settings.name,
         rig=settings.rig,
-        specimen=_better_known(specimen, settings.specimen),
+        specimen=specimen,
         logger=settings.logger,
         runs=tuple(runs),
         folder=folder,
@@ -113,14 +114,18 @@ def _better_known(specimen: Specimen, known: Mapping[str, float | str]) -> Speci
     return replace(specimen, **values, sources=sources)  # type: ignore[arg-type]
 
 
-def _read_file(path: Path, settings: Settings) -> _File:
+def _read_file(path: Path, settings: Settings, pad_area: float) -> _File:
     table = open_table(path)
     chosen, notes = _choose(table, settings.columns)
     read = table.columns([i for i, _ in chosen])
     time: Array | None = None
     channels: dict[str, Array] = {}
+    coefficients: dict[str, Array] = {}
     for i, mapped in chosen:
         values = read.values.pop(0)  # of a long file each column is worth letting go
+        if is_coefficient(mapped.channel, mapped.unit):
+            coefficients[mapped.channel] = parse_unit(mapped.unit, "1", mapped.header) * (mapped.sign * values)
+            continue
         factor, offset = _to_si(path, table.headers[i], mapped)
         # The sign is that of the number as written: -20 degC turned round is 20 degC.
         converted = factor * (mapped.sign * values) + offset
@@ -138,6 +143,7 @@ def _read_file(path: Path, settings: Settings) -> _File:
         if name in channels:
             raise InputError(f"{path.name}: {name} is both recorded and one of [derived]; remove one of them")
         channels[name] = evaluate(expression, {"time": time, **channels}, name, f"[derived] {name} ({path.name})")
+    channels |= forces_of(coefficients, channels, pad_area, path.name)
     _check_temperatures(path.name, channels)
     channels, added = completed(time, channels)
     made = tuple(f"{path.name}: {word}" for word in added)

@@ -5,12 +5,13 @@ not white puts more than its share into low frequencies, `colour` times as much,
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import detrend
 
+from slipwise.campaign.steady_noise import steady_level
 from slipwise.record import Record
 from slipwise.signals.noise import noise, quantum
 
@@ -50,7 +51,15 @@ def noise_of_gauges(records: Sequence[Record]) -> dict[str, Gauge]:
     """Give the noise of every channel of a campaign's runs."""
     quiet = [_at_rest(r) for r in records]
     channels = dict.fromkeys(c for r in records for c in r.channels)
-    return {c: _gauge([(r[c], q) for r, q in zip(records, quiet, strict=True) if c in r]) for c in channels}
+    found = {c: _gauge([(r[c], q) for r, q in zip(records, quiet, strict=True) if c in r]) for c in channels}
+    return {c: _with_contact(g, records, c) if all(q is None for q in quiet) else g for c, g in found.items()}
+
+
+def _with_contact(gauge: Gauge, records: Sequence[Record], channel: str) -> Gauge:
+    """Give the noise of a slider's gauge as steady sliding shows it, that of the contact included."""
+    if not channel.startswith("pad_"):
+        return gauge
+    return replace(gauge, level=max(gauge.level, steady_level(records, channel)))
 
 
 def noise_of_slip(gauges: Mapping[str, Gauge], axis: str) -> tuple[float, float] | None:

@@ -7,7 +7,7 @@ mm/s after each reversal.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -17,6 +17,7 @@ from slipwise.campaign.aligned import aligned_run
 from slipwise.campaign.campaign import Campaign, Run
 from slipwise.campaign.phases import is_at_rest, is_inside, is_lifted, is_slow, is_stuck
 from slipwise.campaign.rest_noise import Gauge, noise_of_slip
+from slipwise.campaign.scales import Scales, scales_of
 from slipwise.channels import PADS
 from slipwise.errors import InputError
 from slipwise.record import Record
@@ -24,7 +25,7 @@ from slipwise.rig import Specimen
 from slipwise.rig.load_modes import load_modes, vertical_acceleration
 from slipwise.signals.derivative import derivative
 from slipwise.signals.filters import LowPass
-from slipwise.signals.fused import Fused, fuse
+from slipwise.signals.fused import Fused, fuse, fuse_scaled
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -60,6 +61,7 @@ class States:
         yaw_rate_error: the same of the yaw rate [rad/s]; 0 where yaw was not measured.
         record: all channels of the run on the same axis, lag taken out, not smoothed.
         missing: what could not be made for want of a channel, in words.
+        scales: of the campaign.
     """
 
     specimen: Specimen
@@ -84,6 +86,7 @@ class States:
     yaw_rate_error: float
     record: Record
     missing: tuple[str, ...]
+    scales: Scales = field(default_factory=Scales)
 
     @property
     def dt(self) -> float:
@@ -148,7 +151,8 @@ def measured_states(run: Run, campaign: Campaign) -> States:
     missing: list[str] = []
     pads = [pad for pad in PADS if any(f"pad_{pad}_{kind}" in record for kind in ("N", "P", "Fx"))]
     load = _loads(record, specimen, pads, run, missing)
-    along = _along(record, specimen, campaign.gauges, missing)
+    scales = scales_of(campaign)
+    along = _along(record, specimen, campaign.gauges, missing, scales, aligned.measured)
     across = _across(record, campaign.gauges, missing)
     yaw = fuse(record.time, record["yaw"]) if "yaw" in record else None
     if yaw is None and specimen.free:
@@ -156,7 +160,7 @@ def measured_states(run: Run, campaign: Campaign) -> States:
     velocity = np.stack([along.velocity, across.velocity if across else np.zeros(len(record))], axis=1)
     speed = np.hypot(velocity[:, 0], velocity[:, 1])
     error = along.velocity_error if specimen.free else 0.0
-    stuck = is_stuck(speed, error)
+    stuck = is_stuck(speed, error, scales.speed)
     velocity[stuck & is_at_rest(velocity[:, 0], speed, error)] = 0.0
     slowest = next((f for f in lowpass.values() if f is not None), None)
     nothing = np.zeros(len(record))
@@ -173,7 +177,7 @@ def measured_states(run: Run, campaign: Campaign) -> States:
         girder_acceleration=_accelerations(record, "girder"),
         table_acceleration=_accelerations(record, "table"),
         stuck=stuck,
-        near_reversal=~stuck & is_slow(speed, velocity[:, 0], record.dt, slowest),
+        near_reversal=~stuck & is_slow(speed, velocity[:, 0], record.dt, slowest, scales.speed),
         uplift=is_lifted(load, record.dt, pads),
         valid=aligned.measured & is_inside(len(record)),
         has_y=across is not None,
@@ -183,6 +187,7 @@ def measured_states(run: Run, campaign: Campaign) -> States:
         yaw_rate_error=yaw.velocity_error if yaw else 0.0,
         record=record,
         missing=tuple(missing),
+        scales=scales,
     )
 
 
@@ -235,12 +240,21 @@ def girder_pitch(record: Record, specimen: Specimen) -> Array | None:
     return (pitch - np.median(pitch)) / (len(PADS) * specimen.pad_stiffness * specimen.half_spacing[0])
 
 
-def _along(record: Record, specimen: Specimen, gauges: Mapping[str, Gauge], missing: list[str]) -> Fused:
+def _along(
+    record: Record,
+    specimen: Specimen,
+    gauges: Mapping[str, Gauge],
+    missing: list[str],
+    scales: Scales,
+    measured: Mask,
+) -> Fused:
     recorded = record["slip_vx"] if "slip_vx" in record else None
     if not record.has_all("girder_ax", "table_ax"):
         if specimen.free:
             missing.append("girder_ax and table_ax: velocity is made from the slip gauge alone")
-        return fuse(record.time, record["slip_x"], velocity=recorded)
+        return fuse_scaled(
+            record.time, np.where(measured, record["slip_x"], np.nan), recorded, scales.time, scales.length
+        )
     relative = record["girder_ax"] - record["table_ax"]
     levels = noise_of_slip(gauges, "x")
     pitch = girder_pitch(record, specimen)

@@ -104,7 +104,7 @@ def replayed_model(base: BaseFit) -> tuple[Model, tuple[str, ...]]:
     length = values.get("rig.stick_length", 0.0)
     # a bristle of this length swings the girder once in some steps: a shorter one is too stiff for them
     stiff = _STIFFEST * DT**2 * model.specimen.gravity
-    if not model.with_hook("stick") and length > stiff:
+    if not model.reverses and length > stiff:
         model = model.adding(*(use(e, length=length) for e in base_effects("stick")))
         notes.append(f"pads stick elastically over {length * 1e6:.1f} um, as the base fit found")
     return model, tuple(notes)

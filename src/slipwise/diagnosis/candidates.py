@@ -5,7 +5,7 @@ from fnmatch import fnmatchcase
 
 import numpy as np
 
-from slipwise.effects import NEEDS, Effect, catalogue
+from slipwise.effects import NEEDS, Effect, catalogue, scaled
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.parameters import Term
 from slipwise.estimation.problem import Problem
@@ -29,7 +29,9 @@ def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], d
     problem, model = base.problem, base.model
     terms: list[Term] = []
     cannot: dict[str, str] = {}
-    for name, effect in (catalogue() | {e.name: e for e in own}).items():
+    scale = problem.runs[0].scales.of
+    for name, as_rated in (catalogue() | {e.name: e for e in own}).items():
+        effect = scaled(as_rated, scale)
         if effect.base == "springs" or (name in model and not effect.target):
             continue
         if effect.in_samples:
@@ -100,6 +102,7 @@ HAS: dict[str, Callable[[Problem], bool]] = {
     "balances": lambda problem: problem.balanced,
     "heave": lambda problem: "heave" in problem.relations,
     "across": lambda problem: "across" in problem.relations,
+    "prescribed slip": lambda problem: not problem.specimen.free,
     "several pads": lambda problem: len(problem.runs[0].pads) > 1,
     "both directions": lambda problem: not _one_way(problem),
     "changing load": _load_varies,

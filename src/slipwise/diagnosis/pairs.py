@@ -59,6 +59,7 @@ def leading_pair(
 
 
 def at_odds(a: Term, b: Term) -> bool:
-    """Tell whether two terms cannot be in one hypothesis: both decide how a pad sticks, or are one on a channel."""
-    both_stick = "stick" in a.effect.hooks and "stick" in b.effect.hooks
-    return both_stick or (a.effect.name == b.effect.name and bool(set(a.targets) & set(b.targets)))
+    """Tell whether two terms cannot be in one hypothesis: one sticks beside a stick or train, or one on a channel."""
+    if a.effect.reverses and b.effect.reverses and ("stick" in a.effect.hooks or "stick" in b.effect.hooks):
+        return True
+    return a.effect.name == b.effect.name and bool(set(a.targets) & set(b.targets))

@@ -39,7 +39,7 @@ def without(found: Hypothesis, terms: Sequence[Term], refit: Callable[[Sequence[
 
 def _needs_refit(term: Term) -> bool:
     effect = term.effect
-    return not strengths(effect) or bool(numbers_replaced([effect])) or "stick" in effect.hooks
+    return not strengths(effect) or bool(numbers_replaced([effect])) or effect.reverses
 
 
 def _linear(found: Hypothesis, terms: Sequence[Term], labels: set[str]) -> LinearFit | None:

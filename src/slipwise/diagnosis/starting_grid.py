@@ -8,7 +8,7 @@ from slipwise.effects import Effect
 from slipwise.params import Parameter
 
 #: Constants that only say where a law is neutral: free, they are one with its strength; a grid puts that at a bound.
-REFERENCES: frozenset[str] = frozenset({"rated"})
+REFERENCES: frozenset[str] = frozenset({"rated", "reference"})
 #: Most points of the grid over shape constants, and of the one over places that is looked at where a fit leaves some.
 _MOST_POINTS, _MOST_POINTS_AGAIN = 5, 60
 #: Multiples of a constant's typical value that are tried: a fit that begins a decade off ends in another local minimum.

@@ -15,6 +15,8 @@ from slipwise.evidence.score import score
 Start = tuple[list[Term], dict[str, dict[str, float]]]
 #: A longer stick is tried at this many times the longest of the base [1].
 _LONGER = 4.0
+#: Play is tried at these shares of the stroke [1].
+_PLAY = (0.02, 0.08)
 
 
 def starts_of(chosen: Sequence[Screened], beside: Sequence[Term] = ()) -> list[Start]:
@@ -32,8 +34,10 @@ def starting_points(state: Search, chosen: Sequence[Screened], tried: Sequence[H
         chosen: candidates.
         tried: what came of the starting points so far.
     """
-    yield starts_of(chosen, state.best.terms) + longer_stick(state, state.best)
-    yield _as_alone(state, chosen, state.best.terms)
+    yield (
+        starts_of(chosen, state.best.terms) + longer_stick(state, state.best) + _other_part_of_train(state, state.best)
+    )
+    yield _as_alone(state, chosen, best.terms)
     yield _from_typical([h for h in tried if strength_at_bound(h)])
 
 
@@ -43,10 +47,25 @@ def longer_stick(state: Search, before: Hypothesis) -> list[Start]:
     if before.solution.values.get(STICK_LENGTH, 0.0) < (1.0 - 1e-6) * most:
         return []
     out = []
-    for term in (t for t in state.terms if "stick" in t.effect.hooks):
+    for term in (t for t in state.terms if t.effect.reverses):
         lengths = [p.name for p in strengths(term.effect) if p.unit == "m"]
         longer = {**term.effect.typical(), **dict.fromkeys(lengths, _LONGER * most)}
         out.append(([*before.terms, term], {term.label: longer}))
+    return out
+
+
+def _other_part_of_train(state: Search, before: Hypothesis) -> list[Start]:
+    """Ask for play beside a machine that gives way, and the other way round: no screen sees play at its absence."""
+    if not any("stretch" in t.effect.hooks for t in before.terms):
+        return []
+    stroke = max(float(np.ptp(state.base.problem.runs[i].slip)) for i in state.base.problem.fitted)
+    out = []
+    for term in state.terms:
+        lengths = [p.name for p in strengths(term.effect) if p.unit == "m"]
+        if "stretch" in term.effect.hooks and lengths and term.label not in {t.label for t in before.terms}:
+            for share in _PLAY:
+                wide = {**term.effect.typical(), **dict.fromkeys(lengths, share * stroke)}
+                out.append(([*before.terms, term], {term.label: wide}))
     return out
 
 

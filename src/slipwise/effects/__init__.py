@@ -5,6 +5,7 @@ from slipwise.effects._declared import NEEDS, Gauges
 from slipwise.effects._effect import RESPONSE, Effect, moved_channels, read_effect
 from slipwise.effects._fault import GaugeFault
 from slipwise.effects._hooks import COMPONENTS, HOOKS, PORTS
+from slipwise.effects._scaled import holding, scaled
 from slipwise.effects._states import BalanceStates
 from slipwise.effects._trust import Trust, check_trusted
 
@@ -23,7 +24,9 @@ __all__ = [
     "catalogue",
     "check_trusted",
     "find_effect",
+    "holding",
     "load_effect",
     "moved_channels",
     "read_effect",
+    "scaled",
 ]

@@ -10,6 +10,7 @@ NEEDS: dict[str, str] = {
     "balances": "needs the balances of a girder: load and friction of all four pads, and accelerations",
     "heave": "needs girder_az and the loads of four pads",
     "across": "needs motion across, and friction of the pads along y",
+    "prescribed slip": "the girder slides freely: no machine stands between gauge and contact",
     "several pads": "one slider only",
     "both directions": "the slider moves one way only, so what is even in velocity is one with friction",
     "changing load": "the load never changes, so this is one with an offset, an asymmetry or the base law",

@@ -11,6 +11,7 @@ arithmetic, `math` and `memory[...]` may be used):
     stick(bound, ...) -> (force_x, force_y)    pad(...) -> (force_x, force_y)
     advance(...) -> None, changes memory[...] after the force is known
     deflection(deflection, ...) -> deflection  spring(force, ...) -> force         settle(...) -> None (buffer's memory)
+    stretch(force, ...) -> stretch of the loading train between gauge and contact, of one slider
     lift(force_x, force_y, ...) -> force_z (of all shear keys, which share it as they share the horizontal force)
     drag(...) -> (force_x, force_y)
 
@@ -136,6 +137,11 @@ class Effect(Drawn, Tabular):
     def instant_hooks(self) -> dict[str, Callable[..., Any]]:
         """The hooks that are compiled into the step."""
         return {n: f for n, f in self.hooks.items() if HOOKS[n].instant}
+
+    @property
+    def reverses(self) -> bool:
+        """Whether it says over which slip friction turns round after a reversal: a stick, or a loading train."""
+        return not {"stick", "stretch"}.isdisjoint(self.hooks)
 
     @property
     def delays_channel(self) -> bool:

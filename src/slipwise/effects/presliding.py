@@ -10,7 +10,8 @@ and then slips (elastic-plastic). Motion across relaxes the bristle by exp(-i s/
 towards the middle: the bound is a circle. The update is exact over any step: w = 1 - z/u, w^(1-i) falls by (1-i) s/u.
 
 A length of its own (q = 0) belongs to the surface; a spring of its own, F_0 / u_0 (q = 1), to what is in series with
-it, a rubber layer or the cell; a round contact that slips from its rim inwards is between (q = 2/3). F_0 = 2.77 kN.
+it, a rubber layer or the cell; a round contact that slips from its rim inwards is between (q = 2/3). F_0 only says
+at which force u is u_0.
 
 Valid: u 0.02 to 0.5 mm for bare sheet, 1 to 5 mm with a rubber layer in series.
 Source: Dahl (1968), with his exponent; Mindlin (1949) for q = 2/3; Canudas de Wit et al. (1995), LuGre, for a bristle
@@ -24,17 +25,16 @@ import numpy as np
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
 
-RATED = 2770.0
 LEAST = 1e-3
 
 
 def stick(
     bound: float, slip_x: float, slip_y: float, time: float, dt: float, memory: np.ndarray,
-    length: float, exponent: float, growth: float, damping: float,
+    length: float, exponent: float, growth: float, damping: float, rated: float,
 ) -> tuple[float, float]:  # fmt: skip
     """Bend the bristle by the slip since the instant before; give its force [N]."""
     if growth > 0.0:
-        length *= max(bound / RATED, LEAST) ** growth
+        length *= max(bound / rated, LEAST) ** growth
     way_x, way_y = slip_x - memory[2], slip_y - memory[3]
     if abs(time - memory[4] - dt) > 0.5 * dt:  # a new run: its gauge may stand anywhere
         way_x, way_y = 0.0, 0.0
@@ -62,9 +62,11 @@ def stick(
     return stiffness * bent_x, stiffness * bent_y
 
 
-def begin(memory: np.ndarray, share_x: float, share_y: float, bound: float, length: float, growth: float) -> None:
+def begin(
+    memory: np.ndarray, share_x: float, share_y: float, bound: float, length: float, growth: float, rated: float
+) -> None:
     """Bend the bristle as far as a force asks for."""
-    most = length * max(bound / RATED, LEAST) ** growth
+    most = length * max(bound / rated, LEAST) ** growth
     memory[0], memory[1] = share_x * most, share_y * most
 
 
@@ -77,6 +79,7 @@ EFFECT = Effect(
         Parameter("exponent", "1", 1.0, 0.0, 1.0, None, "Dahl (1968): 1", "i: 1 Dahl, 0 elastic-plastic"),
         Parameter("growth", "1", 0.0, 0.0, 1.0, None, "a length of the surface: 0", "q: 1 a spring in series"),
         Parameter("damping", "s", 0.0, 0.0, 0.02, None, "Dahl (1968): none", "t_d: of the bristle", "ms"),
+        Parameter("rated", "N", 2770.0, 10.0, 1e5, None, "a choice: friction of a pad of the rig", "F_0", "kN"),
     ),
     moves=RESPONSE,
     signature="after each reversal force lags by a constant distance; small cycles never develop full friction",

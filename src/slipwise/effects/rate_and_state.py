@@ -4,7 +4,7 @@
 
 A jump of speed raises friction at once by a ln(V2/V1) (the direct effect); then, while the contacts of the old speed
 are replaced over the distance D_c, it falls by b ln(V2/V1). Steady sliding gives a straight line (a - b) ln(V/V_0).
-V_0 = 0.1 m/s is where the steady law changes nothing; below V_c the direct effect levels off.
+V_0 is where the steady law changes nothing; below V_c the direct effect levels off.
 
 `slip` blends in Ruina's slip law, dphi/dt = -(V/D_c) (phi + ln(V/V_0)): contacts then age only as they slide. Both
 laws are one near steady sliding; after a jump of many times the speed the slip law forgets over D_c, whichever way.
@@ -21,30 +21,35 @@ import numpy as np
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
 
-REFERENCE = 0.1
-
 
 def shear(
-    shear: float, true_pressure: float, speed: float, memory: np.ndarray, direct: float, state: float, cutoff: float
+    shear: float,
+    true_pressure: float,
+    speed: float,
+    memory: np.ndarray,
+    direct: float,
+    state: float,
+    cutoff: float,
+    reference: float,
 ) -> float:
     """Add the two logarithms' share of the real pressure to the shear strength [Pa]."""
-    return shear + (direct * log((speed + cutoff) / REFERENCE) + state * memory[0]) * true_pressure
+    return shear + (direct * log((speed + cutoff) / reference) + state * memory[0]) * true_pressure
 
 
-def advance(speed: float, dt: float, memory: np.ndarray, length: float, slip: float) -> None:
+def advance(speed: float, dt: float, memory: np.ndarray, length: float, slip: float, reference: float) -> None:
     """Let the contacts age and be replaced; each law is exact while the speed is constant."""
     ratio, used = exp(memory[0]), speed * dt / length
     if used < 1e-9:
-        memory[0] = log(ratio + (1.0 - slip) * REFERENCE * dt / length)
+        memory[0] = log(ratio + (1.0 - slip) * reference * dt / length)
         return
-    steady = REFERENCE / speed
+    steady = reference / speed
     aged, line = log(steady + (ratio - steady) * exp(-(1.0 - slip) * used)), log(steady)
     memory[0] = line + (aged - line) * exp(-slip * used)
 
 
-def rest(memory: np.ndarray, seconds: float, length: float, slip: float) -> None:
+def rest(memory: np.ndarray, seconds: float, length: float, slip: float, reference: float) -> None:
     """Let the contacts age through a pause."""
-    memory[0] = log(exp(memory[0]) + (1.0 - slip) * REFERENCE * seconds / length)
+    memory[0] = log(exp(memory[0]) + (1.0 - slip) * reference * seconds / length)
 
 
 EFFECT = Effect(
@@ -57,6 +62,7 @@ EFFECT = Effect(
         Parameter("length", "m", 20e-6, 1e-6, 1e-3, None, "1 to 100 um, assumed", "D_c: of renewal", "um"),
         Parameter("slip", "1", 0.0, 0.0, 1.0, None, "Dieterich's ageing law", "0 ageing law, 1 slip law"),
         Parameter("cutoff", "m/s", 1e-4, 1e-6, 1e-2, None, "assumed", "V_c: end of the direct effect", "mm/s"),
+        Parameter("reference", "m/s", 0.1, 1e-3, 1.0, None, "a choice: mean speed of the rig", "V_0", "mm/s"),
     ),
     moves=RESPONSE,
     signature="odd; F/N is a straight line over log V; an overshoot at each jump of speed",

@@ -6,6 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from slipwise.campaign import Campaign, Logger
+from slipwise.campaign.scales import Scales, scales_of
+from slipwise.effects import holding, scaled
 from slipwise.estimation.gauge_zero import free_zero
 from slipwise.estimation.least_squares import Solution, jacobian, slopes_of, solve
 from slipwise.estimation.parameters import (
@@ -75,7 +77,7 @@ def fit_base(campaign: Campaign, model: Model | None = None, invalid: InvalidSam
     Raises:
         InputError: a run lacks what every fit needs.
     """
-    model = model or base_model(campaign.specimen)
+    model = scaled_model(model or base_model(campaign.specimen), scales_of(campaign), typical=model is None)
     start: Mapping[str, float] = {}
     if not campaign.logger.known and model.specimen.free:  # of one slider no filter is told from a law
         fitted = tuple(run for run in campaign.runs if run.role != "holdout")
@@ -88,10 +90,40 @@ def fit_base(campaign: Campaign, model: Model | None = None, invalid: InvalidSam
     return _fitted(campaign, model, Problem(fit_runs(campaign, invalid), model.specimen, terms_of(model)), start)
 
 
+def scaled_model(model: Model, scales: Scales, *, typical: bool) -> Model:
+    """Give a model whose effects may have the values that a record of these scales asks for.
+
+    Of the plastic pressure and the shear strength only the ratio counts, s/H: both go with the pressure.
+
+    Args:
+        model: as stated.
+        scales: of the campaign.
+        typical: whether its values are typical ones, to be scaled too; those that a user has stated are kept.
+    """
+    if scales == Scales():
+        return model
+    uses = []
+    for entry in model.uses:
+        effect = scaled(entry.effect, scales.of)
+        values = {n: scales.of(effect.parameter(n).unit) * v if typical else v for n, v in entry.values.items()}
+        uses.append(replace(entry, effect=holding(effect, values), values=values))
+    if not typical:
+        return replace(model, uses=tuple(uses))
+    rated = model.specimen
+    specimen = replace(
+        rated,
+        plastic_pressure=scales.pressure * rated.plastic_pressure,
+        shear_strength=scales.pressure * rated.shear_strength,
+    )
+    return Model(specimen, tuple(uses))
+
+
 def _free(campaign: Campaign, model: Model, problem: Problem) -> list[Free]:
-    free = base_free(model, balances=problem.balanced, logger_known=campaign.logger.known)
+    free = base_free(
+        model, balances=problem.balanced, logger_known=campaign.logger.known, length=problem.runs[0].scales.length
+    )
     stroke = min(float(np.ptp(problem.runs[i].slip)) for i in problem.fitted)
-    most = max(_STICK_SHARE * stroke, 1e-7)
+    most = max(_STICK_SHARE * stroke, 1e-7 * problem.runs[0].scales.length)
     if not model.specimen.free and ZERO not in numbers_replaced(u.effect for u in model.uses):
         zero = free_zero([problem.runs[i] for i in problem.fitted])
         free += [zero] if zero else []
@@ -146,8 +178,10 @@ def final_refit(problem: Problem, solution: Solution) -> tuple[Problem, Solution
     """
     problem, free, start = problem.weighed_anew(solution.values, finer=True), list(solution.free), solution.values
     if any(f.key in DAMPED_STICK for f in free):
-        free.append(Free("rig.stick_damping", *STICK_DAMPING, "s"))
-        starts = ({**start, "rig.stick_damping": 0.0}, {**start, **DAMPED_STICK})
+        scale = problem.runs[0].scales
+        free.append(Free("rig.stick_damping", *(scale.time * x for x in STICK_DAMPING), "s"))
+        damped = {f.key: scale.of(f.unit) * DAMPED_STICK[f.key] for f in free if f.key in DAMPED_STICK}
+        starts = ({**start, "rig.stick_damping": 0.0}, {**start, **damped})
         start = min(starts, key=lambda values: _cost(problem, values))
     begin = slopes_of(solution)
     solution = solve(problem, start, free, most=4, enough=_TO_WEIGH, rough=_MUCH_LEFT, begin=begin)

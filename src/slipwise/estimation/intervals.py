@@ -135,7 +135,7 @@ def _shared(base: BaseFit, count: int) -> Shared:
     for place, i in enumerate(problem.fitted):
         run = problem.runs[i]
         rate = np.gradient(forces[i], run.dt, axis=0) / problem.sigmas["pads"][i]
-        rate = _SHARED_TIMING * np.where(run.judged["pads"], rate, 0.0)
+        rate = _SHARED_TIMING * run.scales.time * np.where(run.judged["pads"], rate, 0.0)
         rows, pads = slice(start, start + rate.size), rate.shape[1]
         moved[0, rows] = rate.ravel()
         moved[1, rows] = (np.abs(rate) * np.sign(forces[i])).ravel()
@@ -235,5 +235,6 @@ def _bound(free: Free, value: float) -> str:
 
 def _block_length(base: BaseFit) -> float:
     seconds = sum(float(base.problem.runs[i].time[-1] - base.problem.runs[i].time[0]) for i in base.problem.fitted)
+    scale = base.problem.runs[0].scales.time
     longest = seconds / (_BLOCKS_EACH * max(len(base.free), 1))
-    return min(BLOCK, longest) if seconds < 200.0 else seconds / 400.0
+    return min(BLOCK * scale, longest) if seconds < 200.0 * scale else seconds / 400.0

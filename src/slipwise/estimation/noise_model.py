@@ -24,7 +24,7 @@ def reversal_noise(run: FitRun, plain: Array, shifted: Array) -> Array:
         plain: (n, p) predicted by the law [N].
         shifted: (n, p) predicted with velocities that are wrong by as much as they may be [N].
     """
-    squared = (shifted - plain) ** 2 + (TIMING * np.gradient(plain, run.dt, axis=0)) ** 2
+    squared = (shifted - plain) ** 2 + (TIMING * run.scales.time * np.gradient(plain, run.dt, axis=0)) ** 2
     if run.filtered is not None:
         reach = int(np.ceil(_SPREAD / (run.filtered.frequency * run.dt)))
         # a few newtons beside a reversal, the same at every reversal, are below one sample's noise but bend the fit
@@ -51,9 +51,9 @@ def noise_across(run: FitRun, state: Instants, law_forces: PadForces) -> Array:
     loads = run.gauge_noise[1]
     force = law_forces.force[:: run.fine, :, 1]
     friction = np.abs(force) / np.maximum(run.load, 0.05 * run.load.mean())
-    speed = np.maximum(np.hypot(*np.moveaxis(state.velocity[:: run.fine], 2, 0)), FAST)
+    speed = np.maximum(np.hypot(*np.moveaxis(state.velocity[:: run.fine], 2, 0)), FAST * run.scales.speed)
     direction = law_forces.bound[:: run.fine] * run.states.pad_velocity_error.max() / speed
-    timing = TIMING * np.gradient(force, run.dt, axis=0)
+    timing = TIMING * run.scales.time * np.gradient(force, run.dt, axis=0)
     return np.sqrt(gauge**2 + (0.6 * friction * loads) ** 2 + direction**2 + timing**2)
 
 

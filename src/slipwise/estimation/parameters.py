@@ -113,13 +113,14 @@ def terms_of(model: Model) -> tuple[Term, ...]:
     return tuple(Term(u.effect, (u.target,), u.target) for u in model.uses)
 
 
-def base_free(model: Model, *, balances: bool, logger_known: bool = True) -> list[Free]:
+def base_free(model: Model, *, balances: bool, logger_known: bool = True, length: float = 1.0) -> list[Free]:
     """Give the base parameters: those of the model's effects, and the rig's numbers where balances can see them.
 
     Args:
         model: the user's model.
         balances: whether the campaign has what the girder's balances need.
         logger_known: whether the campaign says what the logger did.
+        length: scale of lengths [1].
     """
     out: list[Free] = []
     for entry in model.uses:
@@ -127,8 +128,8 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True) -> lis
             value = entry.values[p.name]
             scale = abs(value) or abs(p.typical) or 0.1 * (p.high - p.low)
             out.append(Free(f"{entry.label}.{p.name}", value, p.low, p.high, scale, p.unit))
-    if not model.with_hook("stick"):
-        out.append(Free("rig.stick_length", *_STICK_LENGTH, "m"))
+    if not model.reverses:
+        out.append(Free("rig.stick_length", *(length * x for x in _STICK_LENGTH), "m"))
     specimen = model.specimen
     if "rig.shear_strength" not in numbers_replaced(u.effect for u in model.uses):
         out.append(_around("rig.shear_strength", specimen.shear_strength, 1e-3, 1e3, "Pa"))

@@ -40,7 +40,7 @@ Array = NDArray[np.float64]
 _RECORDING_KEYS = ("rig.stick_length", "rig.stick_damping", "rig.late_force", ZERO, "rig.logger")
 #: Numbers that no balance knows of.
 _PAD_KEYS = ("rig.pitch_slip", "rig.shear_strength", *_RECORDING_KEYS)
-_PAD_PORTS = ("area", "shear", "stick", "pad")
+_PAD_PORTS = ("area", "shear", "stick", "train", "pad")
 #: Where a model has its own memory of slip, or nothing is fitted yet [m].
 _SHORT_STICK = 1e-6
 
@@ -133,8 +133,8 @@ class Problem:
 
     @property
     def has_stick(self) -> bool:
-        """Whether an effect decides how a pad sticks."""
-        return any("stick" in t.effect.hooks for t in self.terms)
+        """Whether an effect says over which slip friction turns round."""
+        return any(t.effect.reverses for t in self.terms)
 
     def model(self, values: Mapping[str, float]) -> Model:
         """Give the model that these numbers describe."""
@@ -279,7 +279,10 @@ class Problem:
 
     def _along(self, values: Mapping[str, float], states: list[Instants], law_forces: list[PadForces]) -> list[Array]:
         """Give the pads' forces along x at the instants, a list of (f, p) [N]."""
-        length, damping = values.get("rig.stick_length", _SHORT_STICK), values.get("rig.stick_damping", 0.0)
+        length, damping = (
+            values.get("rig.stick_length", self.runs[0].scales.length * _SHORT_STICK),
+            values.get("rig.stick_damping", 0.0),
+        )
         sharp = not self.has_stick
         shares = [stick_share(s, length, damping) if sharp else None for s in states]
         return [force_along(*each) for each in zip(law_forces, states, shares, strict=False)]

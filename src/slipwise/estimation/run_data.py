@@ -9,6 +9,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from slipwise.campaign import Campaign, Run
+from slipwise.campaign.scales import Scales
 from slipwise.campaign.states import States, measured_states
 from slipwise.channels import PADS
 from slipwise.errors import InputError
@@ -83,6 +84,11 @@ class FitRun:
     def dt(self) -> float:
         """Sampling step [s]."""
         return self.states.dt
+
+    @property
+    def scales(self) -> Scales:
+        """Scales of the campaign."""
+        return self.states.scales
 
     @property
     def slip(self) -> Array:
@@ -217,7 +223,7 @@ def _fit_run(run: Run, campaign: Campaign, invalid: Mapping[str, Mask]) -> FitRu
     here = [states.pads.index(p) for p in pads]
     load = states.load[:, here]
     states = replace(states, pads=pads, load=load, force=states.force[:, here])
-    margin = max(2, round(_STUCK_MARGIN / states.dt))
+    margin = max(2, round(_STUCK_MARGIN * states.scales.time / states.dt))
     grounded = states.usable & np.isfinite(load).all(axis=1)
     sliding = grounded & ~_widened(states.stuck, margin)
     force = _stacked(states.record, pads, "Fx", states.load)
@@ -225,7 +231,7 @@ def _fit_run(run: Run, campaign: Campaign, invalid: Mapping[str, Mask]) -> FitRu
     rest = 0.0 if run.rest_before is None else run.rest_before
     nothing = np.empty((len(force), 0))
     across = _stacked(states.record, pads, "Fy", nothing) if states.has_y else nothing
-    fast = np.hypot(*states.velocity.T) > FAST
+    fast = np.hypot(*states.velocity.T) > FAST * states.scales.speed
     # samples were looked at as recorded; a gap of theirs is filled on the axis of the states
     bad = {c: np.interp(states.time, run.record.time, m.astype(float)) > 0.0 for c, m in invalid.items()}
     kept = sample_masks(grounded, sliding, fast, away_from_cuts(states.at_rest, states.dt), pads, bad)

@@ -82,7 +82,7 @@ def _in_blocks(problem: Problem, residual: Array) -> dict[str, Array]:
             shape = run.judged[name].shape
             end = start + int(np.prod(shape, dtype=np.int64))
             squares = (residual[start:end] ** 2).reshape(shape[0], -1).sum(axis=1)
-            edges = np.arange(0, shape[0], max(1, round(BLOCK / run.dt)))
+            edges = np.arange(0, shape[0], max(1, round(BLOCK * run.scales.time / run.dt)))
             sums.append(np.add.reduceat(squares, edges))
             start = end
         out[name] = np.concatenate(sums)

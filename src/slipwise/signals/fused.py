@@ -2,7 +2,8 @@
 
 State [x, v, b]: dx/dt = v, dv/dt = a - b, db/dt = white noise. x is measured with white noise, a (relative
 acceleration) with white noise per sample, b is the bias of the accelerometers. Without accelerometers a = 0, and b,
-now minus the acceleration itself, wanders faster. A recorded velocity is a second measurement.
+now minus the acceleration itself, wanders faster; where an actuator changes its speed at once, v may jump. A recorded
+velocity is a second measurement.
 
 Source: Rauch, Tung, Striebel (1965), AIAA Journal 3:1445-1450. Speed decides everything near a reversal: differentiated
 slip errs by 1-7 mm/s, this by 0.15 mm/s for noise of 0.02 mm and 0.036 m/s^2 at 500 Hz.
@@ -26,6 +27,9 @@ _BIAS_WALK = 3e-4
 _FIRST = (1.0, 3.0, 0.5)
 #: Without accelerometers b is the acceleration itself.
 _FIRST_ACCELERATION = 300.0
+#: Jumps of the speed at most, samples about the strongest acceleration in which one is looked for, and by how much it
+#: must make the measurements likelier [nats].
+_MOST_JUMPS, _NEAR_JUMP, _SURE_JUMP = 8, 60, 20.0
 #: Samples used to find the noise levels; more tell nothing new.
 _SEARCH = 20000
 
@@ -92,7 +96,10 @@ def fuse(
     else:
         found = _likeliest(steps, ramp, half, place, first, accelerometers=acceleration is not None)
     variances = _variances(found, dt, accelerometers=acceleration is not None)
-    state, spread = _smooth(steps, ramp, half, place, *variances)
+    jumps = np.zeros(len(steps))
+    if acceleration is None and velocity is None:
+        found, variances, jumps = _with_jumps(steps, ramp, half, place, found)
+    state, spread = _smooth(steps, ramp, half, place, *variances, jumps)
     with_bias = state[:, 2] if acceleration is not None else np.zeros(len(time))
     relative = -state[:, 2] if acceleration is None else acceleration - state[:, 2]
     return Fused(
@@ -103,6 +110,29 @@ def fuse(
         velocity_error=float(np.sqrt(spread[len(time) // 2])),
         position_noise=float(found[0]),
         acceleration_noise=float(found[2]) if acceleration is not None else 0.0,
+    )
+
+
+def fuse_scaled(time: Array, position: Array, velocity: Array | None, seconds: float, metres: float) -> Fused:
+    """Smooth a displacement gauge alone, in units of a test whose times and lengths are of another size.
+
+    Args:
+        time: as `fuse`.
+        position: as `fuse`.
+        velocity: as `fuse`.
+        seconds: how many times longer things take than on the reference rig [1].
+        metres: how many times longer its ways are [1].
+    """
+    speed = metres / seconds
+    found = fuse(time / seconds, position / metres, velocity=None if velocity is None else velocity / speed)
+    return Fused(
+        position=found.position * metres,
+        velocity=found.velocity * speed,
+        acceleration=found.acceleration * speed / seconds,
+        bias=found.bias * speed / seconds,
+        velocity_error=found.velocity_error * speed,
+        position_noise=found.position_noise * metres,
+        acceleration_noise=found.acceleration_noise * speed / seconds,
     )
 
 
@@ -135,19 +165,30 @@ def _variances(levels: Array, dt: float, accelerometers: bool) -> tuple[float, f
 
 
 def _likeliest(
-    steps: Array, ramp: Array, half: Array, place: Array, first: Array, *, accelerometers: bool
+    steps: Array,
+    ramp: Array,
+    half: Array,
+    place: Array,
+    first: Array,
+    *,
+    accelerometers: bool,
+    jumps: Array | None = None,
 ) -> NDArray[np.float64]:
     """Search the noise levels of largest likelihood, over their logarithms."""
     part = slice(0, _SEARCH)
     dt = float(np.median(steps))
     free = [0, 2] if np.isnan(place[:, 1]).all() else [0, 1, 2]
 
+    none = np.zeros(len(steps)) if jumps is None else jumps
+
     def unlikely(logs: Array) -> float:
         levels = first.copy()
         levels[free] *= np.exp(np.clip(logs, -7.0, 7.0))
         variances = _variances(levels, dt, accelerometers)
         penalty = 0.5 * float(np.sum(np.square(logs))) / 3.0**2
-        return _unlikelihood(steps[part], ramp[part], half[part], place[: _SEARCH + 1], *variances) + penalty
+        return (
+            _unlikelihood(steps[part], ramp[part], half[part], place[: _SEARCH + 1], *variances, none[part]) + penalty
+        )
 
     start = np.zeros(len(free))
     spread = np.vstack([start, *(0.7 * np.eye(len(free)))])
@@ -156,6 +197,46 @@ def _likeliest(
     levels = first.copy()
     levels[free] *= np.exp(np.clip(found.x, -7.0, 7.0))
     return levels
+
+
+def _with_jumps(
+    steps: Array, ramp: Array, half: Array, place: Array, smooth: Array
+) -> tuple[Array, tuple[float, float, float, float, Array], Array]:
+    """Let the speed jump where that makes the measurements much likelier; gives levels, variances, jumps [m^2/s^2].
+
+    An actuator that is told another speed changes it within a sample or two; noise levels of the whole record would
+    smear that over a second.
+
+    Args:
+        steps: (n - 1,) [s].
+        ramp: as `_increments`.
+        half: as `_increments`.
+        place: (n, 2) what was measured.
+        smooth: noise levels without any jump.
+    """
+    dt, levels = float(np.median(steps)), smooth
+    jumps = np.zeros(len(steps))
+    variances = _variances(levels, dt, accelerometers=False)
+    for _ in range(_MOST_JUMPS):
+        state, _ = _smooth(steps, ramp, half, place, *variances, jumps)
+        here = _unlikelihood(steps, ramp, half, place, *variances, jumps)
+        strongest = int(np.argmax(np.where(np.append(jumps, 0.0) > 0.0, 0.0, np.abs(state[:, 2]))))
+        size = float(np.ptp(state[:, 1])) ** 2
+        best, where = here, -1
+        for at in range(max(strongest - _NEAR_JUMP, 0), min(strongest + _NEAR_JUMP, len(steps))):
+            tried = jumps.copy()
+            tried[at] = size
+            cost = _unlikelihood(steps, ramp, half, place, *variances, tried)
+            if cost < best:
+                best, where = cost, at
+        if where < 0 or here - best < _SURE_JUMP:
+            break
+        jumps[where] = size
+        levels = _likeliest(steps, ramp, half, place, levels, accelerometers=False, jumps=jumps)
+        variances = _variances(levels, dt, accelerometers=False)
+    else:  # a motion that never stops to jump is better smoothed everywhere alike
+        return smooth, _variances(smooth, dt, accelerometers=False), np.zeros(len(steps))
+    return levels, variances, jumps
 
 
 @numba.njit(cache=True)
@@ -201,7 +282,7 @@ def _correct(x, p, row, measured, variance):  # pragma: no cover
 
 
 @numba.njit(cache=True)
-def _unlikelihood(steps, ramp, half, place, gauge, speed, drive, walk, first):  # pragma: no cover
+def _unlikelihood(steps, ramp, half, place, gauge, speed, drive, walk, first, jumps):  # pragma: no cover
     """Give minus log likelihood of the measurements."""
     x = np.zeros(3)
     p = np.diag(first)
@@ -209,6 +290,7 @@ def _unlikelihood(steps, ramp, half, place, gauge, speed, drive, walk, first):  
     for k in range(place.shape[0]):
         if k > 0:
             _predict(x, p, steps[k - 1], ramp[k - 1], half[k - 1], drive, walk)
+            p[1, 1] += jumps[k - 1]
         cost = _correct(x, p, 0, place[k, 0], gauge) + _correct(x, p, 1, place[k, 1], speed)
         # the first samples only find the state
         if k > 3:
@@ -217,7 +299,7 @@ def _unlikelihood(steps, ramp, half, place, gauge, speed, drive, walk, first):  
 
 
 @numba.njit(cache=True)
-def _smooth(steps, ramp, half, place, gauge, speed, drive, walk, first):  # pragma: no cover
+def _smooth(steps, ramp, half, place, gauge, speed, drive, walk, first, jumps):  # pragma: no cover
     """Filter forward and smooth backward; give the states (n, 3) and the variance of the velocity (n,)."""
     n = place.shape[0]
     before, after = np.zeros((n, 3)), np.zeros((n, 3))
@@ -227,6 +309,7 @@ def _smooth(steps, ramp, half, place, gauge, speed, drive, walk, first):  # prag
     for k in range(n):
         if k > 0:
             _predict(x, p, steps[k - 1], ramp[k - 1], half[k - 1], drive, walk)
+            p[1, 1] += jumps[k - 1]
         before[k], spread_before[k] = x, p
         _correct(x, p, 0, place[k, 0], gauge)
         _correct(x, p, 1, place[k, 1], speed)

@@ -14,6 +14,8 @@ _UNIFORM = 0.01
 _ROUNDED = 0.75
 #: A step longer than this many median steps is a gap.
 _GAP = 1.6
+#: So many long steps that differ by less than this share are no gaps: there the logger was set to a slower rate [1].
+_STEADY, _SAME_STEP = 8, 0.05
 
 
 @dataclass(frozen=True)
@@ -22,7 +24,7 @@ class UniformTime:
 
     Attributes:
         time: (m,) uniform [s].
-        measured: (m,) False where the samples have a gap.
+        measured: (m,) False where the samples have a gap, and between the samples of a slower rate.
         moved: whether values must be interpolated to it; if not, sample i stays sample i.
     """
 
@@ -52,7 +54,21 @@ def uniform_time(time: Array) -> UniformTime:
     count = int(np.floor((time[-1] - time[0]) / dt + 1e-6)) + 1
     new = time[0] + dt * np.arange(count)
     after = np.clip(np.searchsorted(time, new, side="right"), 1, len(time) - 1)
-    return UniformTime(new, steps[after - 1] <= _GAP * dt, moved=True)
+    measured = steps[after - 1] <= _GAP * dt
+    slower = _slower_rate(steps, dt)
+    taken = np.searchsorted(new, time[np.concatenate([slower, slower[-1:]])] - 0.5 * dt)
+    measured[taken[taken < count]] = True
+    return UniformTime(new, measured, moved=True)
+
+
+def _slower_rate(steps: Array, dt: float) -> NDArray[np.bool_]:
+    """Tell which steps (n,) are those of a logger that was set to a slower rate for a while."""
+    same = np.abs(np.diff(steps, prepend=0.0)) <= _SAME_STEP * steps
+    length = np.zeros(len(steps), dtype=int)
+    edges = np.flatnonzero(np.concatenate([[True], ~same[1:], [True]]))
+    for start, end in zip(edges[:-1], edges[1:], strict=True):
+        length[start:end] = end - start
+    return (length >= _STEADY) & (steps > _GAP * dt)
 
 
 def resampled(time: Array, values: Array, new_time: Array) -> Array:

@@ -81,6 +81,7 @@ class Predictor:
             slip: (n_pads, 2) [m].
             force: (n_pads, 2) [N].
         """
+        self.numbers[places.TRAIN_FORCE : places.TRAIN_FORCE + len(force)] = force[:, 0]
         entries = self.model.with_hook("begin")
         if not entries:
             return
@@ -121,7 +122,9 @@ def predictor(model: Model, *, engine: str | None = None, dt: float = 0.002) -> 
 def user_effects(model: Model) -> tuple[Effect, ...]:
     """Give the effects of a model that the catalogue does not hold."""
     known = catalogue()
-    return tuple(u.effect for u in model.uses if known.get(u.effect.name) is not u.effect)
+    return tuple(
+        u.effect for u in model.uses if u.effect.name not in known or known[u.effect.name].hooks is not u.effect.hooks
+    )
 
 
 def shaking(model: Model, acceleration: Array, girder: Array, dt: float) -> Array:

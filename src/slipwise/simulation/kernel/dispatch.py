@@ -25,8 +25,9 @@ from slipwise.simulation.kernel.places import CHAINS, EFFECT_COUNT
 class Dispatch(Protocol):
     """The module of that text: what the effects do, hook by hook, and where their memory stands.
 
-    Every function takes the array `u`, then the place `z` of the memory of the pad or buffer at hand (not `drag`), then
-    what `_HOOKS` lists. It is a module, because numba resolves a module's functions and numbers while it compiles.
+    Every function takes the array `u`, then the place `z` of the memory of the pad or buffer at hand (not `drag` and
+    `stretch`), then what `_HOOKS` lists. It is a module, because numba resolves a module's functions and numbers while
+    it compiles.
 
     Attributes:
         area: gives the real area of contact [m^2].
@@ -34,6 +35,7 @@ class Dispatch(Protocol):
         stick: gives the force of what says how a pad sticks, along x and y [N].
         pad: gives the sum of the further forces at a pad, along x and y [N].
         advance: lets the memory of a pad go on.
+        stretch: gives how far the loading train of a slider stretches under a force [m].
         deflection: gives what is left of a buffer's deflection [m].
         spring: gives a buffer's force [N].
         settle: lets the memory of a buffer go on.
@@ -50,6 +52,7 @@ class Dispatch(Protocol):
     stick: Callable[..., tuple[float, float]]
     pad: Callable[..., tuple[float, float]]
     advance: Callable[..., None]
+    stretch: Callable[..., float]
     deflection: Callable[..., float]
     spring: Callable[..., float]
     settle: Callable[..., None]
@@ -87,6 +90,7 @@ _HOOKS: dict[str, _Hook] = {
     "stick": _Hook(("u", "z", "bound", *_PAD), _NOTHING, ("force_x, force_y = {call}",), _FORCES),
     "pad": _Hook(("u", "z", "bound", "friction", *_PAD), _NOTHING, _ADD, _FORCES),
     "advance": _Hook(("u", "z", "bound", "friction", *_PAD), (), ("{call}",), "None"),
+    "stretch": _Hook(("u", "force", "load"), ("stretched = 0.0",), ("stretched += {call}",), "stretched"),
     "deflection": _Hook(("u", "z", *_BUFFER), (), ("deflection = {call}",), "deflection"),
     "spring": _Hook(("u", "z", "force", *_BUFFER), (), ("force = {call}",), "force"),
     "settle": _Hook(("u", "z", "force", *_BUFFER), (), ("{call}",), "None"),

@@ -117,9 +117,11 @@ def fill(layout: Layout, model: Model, dt: float) -> NDArray[np.float64]:
 def set_values(layout: Layout, array: NDArray[np.float64], model: Model) -> None:
     """Write the parameter values of a model's effects into an array in place.
 
-    An effect on how a pad sticks takes the place of the rigid stick: at its neutral value it must not be called at all.
+    An effect on how a pad sticks, and a loading train, take the place of the rigid stick: at its neutral value such an
+    effect must not be called at all.
     """
-    array[places.N_STICK] = sum("stick" in u.effect.hooks and not u.is_neutral for u in model.uses)
+    for place, hook in ((places.N_STICK, "stick"), (places.N_TRAIN, "stretch")):
+        array[place] = sum(hook in u.effect.hooks and not u.is_neutral for u in model.uses)
     for entry in model.uses:
         start = layout.parameters.get(entry.effect.name)
         if start is not None:

@@ -8,8 +8,18 @@ from numpy.typing import NDArray
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.dispatch import Dispatch
 from slipwise.simulation.kernel.girder import buffer_spring
+from slipwise.simulation.kernel.loading_train import follow_train
 from slipwise.simulation.kernel.pads import pad_advance, pad_bound, pad_explicit, pad_further
-from slipwise.simulation.kernel.places import BUFFER_STIFFNESS, DT, N_ADVANCE, N_PAD, N_STICK, SIDE
+from slipwise.simulation.kernel.places import (
+    BUFFER_STIFFNESS,
+    DT,
+    N_ADVANCE,
+    N_PAD,
+    N_STICK,
+    N_TRAIN,
+    SIDE,
+    TRAIN_VELOCITY,
+)
 
 Array = NDArray[np.float64]
 
@@ -37,6 +47,7 @@ def pads_over_record(
         last: the one behind the last of them.
     """
     bristle, further, remembers = u[N_STICK] > 0.0, u[N_PAD] > 0.0, u[N_ADVANCE] > 0.0
+    train = u[N_TRAIN] > 0.0
     first_dt = time[1] - time[0] if len(time) > 1 else u[DT]
     for pad in range(first, last):
         z = effects.pad_memory + pad * effects.pad_block
@@ -48,19 +59,26 @@ def pads_over_record(
             velocity_y = velocity[i, pad, 1]
             slip_x = slip[i, pad, 0]
             slip_y = slip[i, pad, 1]
-            bound = pad_bound(
-                effects, u, z, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time[i], dt
-            )
-            if bristle:
-                force_x, force_y = pad_explicit(
-                    effects, u, z, bound, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y,
-                    time[i], dt,
-                )  # fmt: skip
+            if train:
+                force_x, bound = follow_train(
+                    effects, u, z, pad, load[i, pad], velocity_x, slip_x, slip_y, side_x, side_y, time[i], dt
+                )
+                force_y = 0.0
+                velocity_x, velocity_y = u[TRAIN_VELOCITY + pad], 0.0  # from here on those of the contact
             else:
-                speed = sqrt(velocity_x * velocity_x + velocity_y * velocity_y)
-                share = bound / speed if speed > 0.0 else 0.0
-                force_x = share * velocity_x
-                force_y = share * velocity_y
+                bound = pad_bound(
+                    effects, u, z, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time[i], dt
+                )
+                if bristle:
+                    force_x, force_y = pad_explicit(
+                        effects, u, z, bound, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y,
+                        time[i], dt,
+                    )  # fmt: skip
+                else:
+                    speed = sqrt(velocity_x * velocity_x + velocity_y * velocity_y)
+                    share = bound / speed if speed > 0.0 else 0.0
+                    force_x = share * velocity_x
+                    force_y = share * velocity_y
             friction = sqrt(force_x * force_x + force_y * force_y) if further or remembers else 0.0
             if further:
                 more_x, more_y = pad_further(
@@ -70,11 +88,12 @@ def pads_over_record(
                 force_x += more_x
                 force_y += more_y
             if remembers and i + 1 < len(time):
-                # Half a step of speed makes an old contact look young: it is worn out over some micrometres.
+                if not train:  # half a step of speed makes an old contact look young: it is worn out over micrometres
+                    velocity_x = 0.5 * (velocity_x + velocity[i + 1, pad, 0])
+                    velocity_y = 0.5 * (velocity_y + velocity[i + 1, pad, 1])
                 pad_advance(
-                    effects, u, z, bound, friction, load[i, pad], 0.5 * (velocity_x + velocity[i + 1, pad, 0]),
-                    0.5 * (velocity_y + velocity[i + 1, pad, 1]), slip_x, slip_y, side_x, side_y, time[i],
-                    time[i + 1] - time[i],
+                    effects, u, z, bound, friction, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x,
+                    side_y, time[i], time[i + 1] - time[i],
                 )  # fmt: skip
             force[i, pad, 0] = force_x
             force[i, pad, 1] = force_y

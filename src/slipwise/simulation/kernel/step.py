@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.dispatch import Dispatch
 from slipwise.simulation.kernel.girder import buffer_spring, girder_drag, girder_lift
+from slipwise.simulation.kernel.loading_train import follow_train
 from slipwise.simulation.kernel.pads import pad_advance, pad_bound, pad_explicit, pad_further
 from slipwise.simulation.kernel.places import (
     BOUND,
@@ -32,9 +33,11 @@ from slipwise.simulation.kernel.places import (
     N_DOFS,
     N_PADS,
     N_STICK,
+    N_TRAIN,
     RATE_AGE,
     SIDE,
     TENDON,
+    TRAIN_VELOCITY,
     USER_SENSOR,
 )
 
@@ -87,14 +90,19 @@ def push_pad(
     slip_y = ten_length[tendon_y]
     side_x = u[SIDE + 2 * pad]
     side_y = u[SIDE + 2 * pad + 1]
-    bound = pad_bound(effects, u, z, load, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt)
-    u[BOUND + pad] = bound
     force_x = 0.0
     force_y = 0.0
+    if u[N_TRAIN] > 0.0:
+        force_x, bound = follow_train(effects, u, z, pad, load, velocity_x, slip_x, slip_y, side_x, side_y, time, dt)
+        velocity_x, velocity_y = u[TRAIN_VELOCITY + pad], 0.0
+    else:
+        bound = pad_bound(effects, u, z, load, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt)
+    u[BOUND + pad] = bound
     if u[N_STICK] > 0.0:
         force_x, force_y = pad_explicit(
             effects, u, z, bound, load, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt
         )
+    if u[N_STICK] + u[N_TRAIN] > 0.0:
         frictionloss[int(u[FRICTION_ROW + 2 * pad])] = TINY
         frictionloss[int(u[FRICTION_ROW + 2 * pad + 1])] = TINY
     else:
@@ -230,9 +238,12 @@ def sensor_step(
         force_y = friction_y + u[EXPLICIT + 2 * pad + 1]
         friction = sqrt(force_x * force_x + force_y * force_y)
         z = effects.pad_memory + pad * effects.pad_block
+        velocity_x, velocity_y = ten_velocity[tendon_x], ten_velocity[tendon_y]
+        if u[N_TRAIN] > 0.0:
+            velocity_x, velocity_y = u[TRAIN_VELOCITY + pad], 0.0
         pad_advance(
-            effects, u, z, u[BOUND + pad], friction, u[LOAD + pad], ten_velocity[tendon_x], ten_velocity[tendon_y],
-            ten_length[tendon_x], ten_length[tendon_y], u[SIDE + 2 * pad], u[SIDE + 2 * pad + 1], time, u[DT],
+            effects, u, z, u[BOUND + pad], friction, u[LOAD + pad], velocity_x, velocity_y, ten_length[tendon_x],
+            ten_length[tendon_y], u[SIDE + 2 * pad], u[SIDE + 2 * pad + 1], time, u[DT],
         )  # fmt: skip
         u[FORCE + 2 * pad] = friction_x
         u[FORCE + 2 * pad + 1] = friction_y

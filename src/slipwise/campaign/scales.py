@@ -1,0 +1,81 @@
+"""The scales of a slider's record: its stroke, its speed, its load and its pressure, over those of the reference rig.
+
+A girder on four pads is of the size of the reference rig, and so is what is looked for there. One slider may be rock
+that creeps by micrometres a second or a brake: lengths, times and forces that a fit begins with, and may reach, then
+come from its own record, so that an answer does not depend on the units, or on the size, of a test.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.campaign.campaign import Campaign, Run
+from slipwise.rig import Specimen
+from slipwise.units import powers_of
+
+#: Of the reference rig: stroke from end to end [m], mean speed [m/s], load of a pad [N], and its pressure [Pa].
+_STROKE, _SPEED, _LOAD, _PRESSURE = 0.1, 0.1, 24.5e3, 12.5e6
+#: Parts of a record whose means give its path, of so many samples at least: slip gauges are noisy [1].
+_PARTS, _SAMPLES = 1000, 4
+
+
+@dataclass(frozen=True)
+class Scales:
+    """How many times larger things are than in the reference rig.
+
+    Attributes:
+        length: stroke [1].
+        speed: mean speed of slip [1].
+        load: mean load of a pad [1].
+        pressure: mean load over the pad's area [1].
+    """
+
+    length: float = 1.0
+    speed: float = 1.0
+    load: float = 1.0
+    pressure: float = 1.0
+
+    @property
+    def time(self) -> float:
+        """Stroke over speed [1]."""
+        return self.length / self.speed
+
+    def of(self, unit: str) -> float:
+        """Give the scale of a quantity by its SI unit, such as "m/N" or "s/m"; 1 for pure numbers [1]."""
+        mass = self.load * self.time**2 / self.length
+        known = {"meter": self.length, "second": self.time, "newton": self.load, "pascal": self.pressure}
+        known |= {"kilogram": mass, "hertz": 1.0 / self.time}
+        return float(np.prod([known.get(name, 1.0) ** power for name, power in powers_of(unit).items()]))
+
+
+def scales_of(campaign: Campaign) -> Scales:
+    """Give the scales of a campaign: of its fitted runs where an actuator prescribes the slip, 1 for a free girder."""
+    return scales_of_runs([r for r in campaign.runs if r.role != "holdout"] or campaign.runs, campaign.specimen)
+
+
+def scales_of_runs(runs: Sequence[Run], specimen: Specimen) -> Scales:
+    """Give the scales of these runs of a specimen; 1 for a free girder, and where slip or load was not recorded."""
+    records = [run.record for run in runs if "slip_x" in run.record]
+    if specimen.free or not records:
+        return Scales()
+    stroke = float(np.median([np.ptp(record["slip_x"]) for record in records]))
+    speeds = [_path(record["slip_x"]) / float(record.time[-1] - record.time[0]) for record in records]
+    loads = [
+        float(np.mean(record[name])) * (1.0 if name.endswith("_N") else specimen.pad_area)
+        for record in records
+        for name in (f"pad_{specimen.pads[0]}_N", f"pad_{specimen.pads[0]}_P")
+        if name in record
+    ]
+    load, speed = float(np.median(loads)) if loads else 0.0, float(np.median(speeds))
+    if not (stroke > 0.0 and speed > 0.0 and load > 0.0):
+        return Scales()
+    return Scales(stroke / _STROKE, speed / _SPEED, load / _LOAD, load / specimen.pad_area / _PRESSURE)
+
+
+def _path(slip: NDArray[np.float64]) -> float:
+    """Give the length of the path of a slip (n,), its noise averaged out [m]."""
+    edges = np.linspace(0, len(slip), max(2, min(_PARTS, len(slip) // _SAMPLES)) + 1).astype(int)
+    means = [float(np.mean(slip[a:b])) for a, b in zip(edges[:-1], edges[1:], strict=True) if b > a]
+    return float(np.sum(np.abs(np.diff(means))))

@@ -1,0 +1,36 @@
+"""Effects for a slider of another size: typical values and bounds as its record scales them."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from slipwise.effects._effect import Effect
+from slipwise.params import Parameter
+
+#: What a record says of its scales is their order of magnitude: bounds are this much wider on both sides [1].
+_ROOM = 10.0
+
+
+def scaled(effect: Effect, scale: Callable[[str], float]) -> Effect:
+    """Give an effect whose typical values and bounds are scaled by their units; itself where nothing is.
+
+    Args:
+        effect: with the numbers of the reference rig.
+        scale: SI unit -> how many times larger such quantities are [1].
+    """
+    if all(scale(p.unit) == 1.0 for p in effect.parameters):
+        return effect
+    return replace(effect, parameters=tuple(_scaled(p, scale(p.unit)) for p in effect.parameters))
+
+
+def _scaled(p: Parameter, factor: float) -> Parameter:
+    if factor == 1.0:
+        return p
+    low = p.low * factor * (_ROOM if p.low < 0.0 else 1.0 / _ROOM)
+    neutral = None if p.neutral is None else p.neutral * factor
+    return replace(p, typical=p.typical * factor, low=low, high=p.high * factor * _ROOM, neutral=neutral)
+
+
+def holding(effect: Effect, values: dict[str, float]) -> Effect:
+    """Give an effect whose bounds hold these values: what a user has stated is possible."""
+    kept = [replace(p, low=min(p.low, values[p.name]), high=max(p.high, values[p.name])) for p in effect.parameters]
+    return replace(effect, parameters=tuple(kept)) if tuple(kept) != effect.parameters else effect
