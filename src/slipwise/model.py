@@ -110,11 +110,6 @@ class Model(Tabular):
                 f"only one effect can say how a pad sticks, and none beside a loading train; the model lists "
                 f"{' and '.join([*sticking, *train])}"
             )
-        if train and self.specimen.free:
-            raise SettingError(
-                f"{train[0]} stands between an actuator and a slider; on a rig that slides freely there is none: use "
-                "it on a rig whose slip is prescribed, such as `pad`"
-            )
 
     def __contains__(self, name: str) -> bool:
         return any(u.effect.name == name for u in self.uses)

@@ -5,7 +5,6 @@ import pytest
 
 from slipwise.campaign import load_campaign
 from slipwise.diagnosis.diagnose import diagnose
-from slipwise.effects import catalogue
 from unit.campaign.slider import HEADER, RUNS, text
 
 pytestmark = pytest.mark.slow

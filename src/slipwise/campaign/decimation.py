@@ -21,6 +21,8 @@ Mask = NDArray[np.bool_]
 ENOUGH = 400.0
 #: Samples of one run of a slider that tell as much as more of them [1].
 ENOUGH_OF_SLIDER = 8000
+#: Steps that differ by more than this share are those of a logger whose rate was changed [1].
+_UNIFORM = 0.1
 #: Where the filter before thinning out begins and ends, as shares of the new half rate [1].
 _PASSED, _STOPPED = 1.0, 1.3
 
@@ -28,7 +30,9 @@ _PASSED, _STOPPED = 1.0, 1.3
 def thinning(run: Run, specimen: Specimen) -> int:
     """Give the whole number of samples of which one is kept: 1 where nothing is to be thinned out."""
     if not specimen.free:  # how fast things go there only its record knows
-        return max(1, len(run.record) // ENOUGH_OF_SLIDER)
+        steps = np.diff(run.record.time)
+        uniform = bool(np.ptp(steps) < _UNIFORM * run.record.dt)
+        return max(1, len(run.record) // ENOUGH_OF_SLIDER) if uniform else 1
     return max(1, int(np.floor(1.0 / (run.record.dt * ENOUGH) + 1e-6)))
 
 

@@ -37,7 +37,7 @@ def starting_points(state: Search, chosen: Sequence[Screened], tried: Sequence[H
     yield (
         starts_of(chosen, state.best.terms) + longer_stick(state, state.best) + _other_part_of_train(state, state.best)
     )
-    yield _as_alone(state, chosen, best.terms)
+    yield _as_alone(state, chosen, state.best.terms)
     yield _from_typical([h for h in tried if strength_at_bound(h)])
 
 

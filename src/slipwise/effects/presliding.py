@@ -79,7 +79,7 @@ EFFECT = Effect(
         Parameter("exponent", "1", 1.0, 0.0, 1.0, None, "Dahl (1968): 1", "i: 1 Dahl, 0 elastic-plastic"),
         Parameter("growth", "1", 0.0, 0.0, 1.0, None, "a length of the surface: 0", "q: 1 a spring in series"),
         Parameter("damping", "s", 0.0, 0.0, 0.02, None, "Dahl (1968): none", "t_d: of the bristle", "ms"),
-        Parameter("rated", "N", 2770.0, 10.0, 1e5, None, "a choice: friction of a pad of the rig", "F_0", "kN"),
+        Parameter("rated", "N", 2770.0, 10.0, 1e5, None, "a choice, assumed: friction of a pad", "F_0", "kN"),
     ),
     moves=RESPONSE,
     signature="after each reversal force lags by a constant distance; small cycles never develop full friction",

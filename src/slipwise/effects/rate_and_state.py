@@ -62,7 +62,7 @@ EFFECT = Effect(
         Parameter("length", "m", 20e-6, 1e-6, 1e-3, None, "1 to 100 um, assumed", "D_c: of renewal", "um"),
         Parameter("slip", "1", 0.0, 0.0, 1.0, None, "Dieterich's ageing law", "0 ageing law, 1 slip law"),
         Parameter("cutoff", "m/s", 1e-4, 1e-6, 1e-2, None, "assumed", "V_c: end of the direct effect", "mm/s"),
-        Parameter("reference", "m/s", 0.1, 1e-3, 1.0, None, "a choice: mean speed of the rig", "V_0", "mm/s"),
+        Parameter("reference", "m/s", 0.1, 1e-3, 1.0, None, "a choice, assumed: mean speed of the rig", "V_0", "mm/s"),
     ),
     moves=RESPONSE,
     signature="odd; F/N is a straight line over log V; an overshoot at each jump of speed",

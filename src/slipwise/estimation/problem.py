@@ -279,11 +279,8 @@ class Problem:
 
     def _along(self, values: Mapping[str, float], states: list[Instants], law_forces: list[PadForces]) -> list[Array]:
         """Give the pads' forces along x at the instants, a list of (f, p) [N]."""
-        length, damping = (
-            values.get("rig.stick_length", self.runs[0].scales.length * _SHORT_STICK),
-            values.get("rig.stick_damping", 0.0),
-        )
-        sharp = not self.has_stick
+        length = values.get("rig.stick_length", self.runs[0].scales.length * _SHORT_STICK)
+        sharp, damping = not self.has_stick, values.get("rig.stick_damping", 0.0)
         shares = [stick_share(s, length, damping) if sharp else None for s in states]
         return [force_along(*each) for each in zip(law_forces, states, shares, strict=False)]
 

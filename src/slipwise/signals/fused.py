@@ -11,7 +11,6 @@ slip errs by 1-7 mm/s, this by 0.15 mm/s for noise of 0.02 mm and 0.036 m/s^2 at
 
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
@@ -20,6 +19,7 @@ from scipy.optimize import minimize
 from slipwise.errors import InputError
 from slipwise.signals.ends import Array
 from slipwise.signals.noise import white_level
+from slipwise.signals.smoother import smooth, unlikelihood
 
 #: A bias wanders by about this in one second [m/s^2].
 _BIAS_WALK = 3e-4
@@ -99,7 +99,7 @@ def fuse(
     jumps = np.zeros(len(steps))
     if acceleration is None and velocity is None:
         found, variances, jumps = _with_jumps(steps, ramp, half, place, found)
-    state, spread = _smooth(steps, ramp, half, place, *variances, jumps)
+    state, spread = smooth(steps, ramp, half, place, *variances, jumps)
     with_bias = state[:, 2] if acceleration is not None else np.zeros(len(time))
     relative = -state[:, 2] if acceleration is None else acceleration - state[:, 2]
     return Fused(
@@ -186,9 +186,7 @@ def _likeliest(
         levels[free] *= np.exp(np.clip(logs, -7.0, 7.0))
         variances = _variances(levels, dt, accelerometers)
         penalty = 0.5 * float(np.sum(np.square(logs))) / 3.0**2
-        return (
-            _unlikelihood(steps[part], ramp[part], half[part], place[: _SEARCH + 1], *variances, none[part]) + penalty
-        )
+        return unlikelihood(steps[part], ramp[part], half[part], place[: _SEARCH + 1], *variances, none[part]) + penalty
 
     start = np.zeros(len(free))
     spread = np.vstack([start, *(0.7 * np.eye(len(free)))])
@@ -200,7 +198,7 @@ def _likeliest(
 
 
 def _with_jumps(
-    steps: Array, ramp: Array, half: Array, place: Array, smooth: Array
+    steps: Array, ramp: Array, half: Array, place: Array, plain: Array
 ) -> tuple[Array, tuple[float, float, float, float, Array], Array]:
     """Let the speed jump where that makes the measurements much likelier; gives levels, variances, jumps [m^2/s^2].
 
@@ -212,21 +210,21 @@ def _with_jumps(
         ramp: as `_increments`.
         half: as `_increments`.
         place: (n, 2) what was measured.
-        smooth: noise levels without any jump.
+        plain: noise levels without any jump.
     """
-    dt, levels = float(np.median(steps)), smooth
+    dt, levels = float(np.median(steps)), plain
     jumps = np.zeros(len(steps))
     variances = _variances(levels, dt, accelerometers=False)
     for _ in range(_MOST_JUMPS):
-        state, _ = _smooth(steps, ramp, half, place, *variances, jumps)
-        here = _unlikelihood(steps, ramp, half, place, *variances, jumps)
+        state, _ = smooth(steps, ramp, half, place, *variances, jumps)
+        here = unlikelihood(steps, ramp, half, place, *variances, jumps)
         strongest = int(np.argmax(np.where(np.append(jumps, 0.0) > 0.0, 0.0, np.abs(state[:, 2]))))
         size = float(np.ptp(state[:, 1])) ** 2
         best, where = here, -1
         for at in range(max(strongest - _NEAR_JUMP, 0), min(strongest + _NEAR_JUMP, len(steps))):
             tried = jumps.copy()
             tried[at] = size
-            cost = _unlikelihood(steps, ramp, half, place, *variances, tried)
+            cost = unlikelihood(steps, ramp, half, place, *variances, tried)
             if cost < best:
                 best, where = cost, at
         if where < 0 or here - best < _SURE_JUMP:
@@ -235,97 +233,5 @@ def _with_jumps(
         levels = _likeliest(steps, ramp, half, place, levels, accelerometers=False, jumps=jumps)
         variances = _variances(levels, dt, accelerometers=False)
     else:  # a motion that never stops to jump is better smoothed everywhere alike
-        return smooth, _variances(smooth, dt, accelerometers=False), np.zeros(len(steps))
+        return plain, _variances(plain, dt, accelerometers=False), np.zeros(len(steps))
     return levels, variances, jumps
-
-
-@numba.njit(cache=True)
-def _predict(x, p, dt, ramp, half, drive, walk):  # pragma: no cover
-    """Carry state and covariance over one step, in place."""
-    x[0] += dt * x[1] - 0.5 * dt * dt * x[2] + half
-    x[1] += ramp - dt * x[2]
-    f01, f02, f12 = dt, -0.5 * dt * dt, -dt
-    # F P
-    for j in range(3):
-        p[0, j] += f01 * p[1, j] + f02 * p[2, j]
-        p[1, j] += f12 * p[2, j]
-    # (F P) F'
-    for i in range(3):
-        p[i, 0] += f01 * p[i, 1] + f02 * p[i, 2]
-        p[i, 1] += f12 * p[i, 2]
-    t2, t3 = dt * dt, dt * dt * dt
-    p[0, 0] += drive * t3 / 3.0 + walk * t3 * t2 / 20.0
-    p[0, 1] += drive * t2 / 2.0 + walk * t2 * t2 / 8.0
-    p[1, 0] += drive * t2 / 2.0 + walk * t2 * t2 / 8.0
-    p[1, 1] += drive * dt + walk * t3 / 3.0
-    p[0, 2] -= walk * t3 / 6.0
-    p[2, 0] -= walk * t3 / 6.0
-    p[1, 2] -= walk * t2 / 2.0
-    p[2, 1] -= walk * t2 / 2.0
-    p[2, 2] += walk * dt
-
-
-@numba.njit(cache=True)
-def _correct(x, p, row, measured, variance):  # pragma: no cover
-    """Take one measurement of state `row` in, in place; give its minus twice log likelihood."""
-    if np.isnan(measured):
-        return 0.0
-    expected = p[row, row] + variance
-    surprise = measured - x[row]
-    gain = p[:, row] / expected
-    across = p[row, :].copy()
-    for i in range(3):
-        x[i] += gain[i] * surprise
-        for j in range(3):
-            p[i, j] -= gain[i] * across[j]
-    return np.log(expected) + surprise * surprise / expected
-
-
-@numba.njit(cache=True)
-def _unlikelihood(steps, ramp, half, place, gauge, speed, drive, walk, first, jumps):  # pragma: no cover
-    """Give minus log likelihood of the measurements."""
-    x = np.zeros(3)
-    p = np.diag(first)
-    total = 0.0
-    for k in range(place.shape[0]):
-        if k > 0:
-            _predict(x, p, steps[k - 1], ramp[k - 1], half[k - 1], drive, walk)
-            p[1, 1] += jumps[k - 1]
-        cost = _correct(x, p, 0, place[k, 0], gauge) + _correct(x, p, 1, place[k, 1], speed)
-        # the first samples only find the state
-        if k > 3:
-            total += cost
-    return 0.5 * total
-
-
-@numba.njit(cache=True)
-def _smooth(steps, ramp, half, place, gauge, speed, drive, walk, first, jumps):  # pragma: no cover
-    """Filter forward and smooth backward; give the states (n, 3) and the variance of the velocity (n,)."""
-    n = place.shape[0]
-    before, after = np.zeros((n, 3)), np.zeros((n, 3))
-    spread_before, spread_after = np.zeros((n, 3, 3)), np.zeros((n, 3, 3))
-    x = np.zeros(3)
-    p = np.diag(first)
-    for k in range(n):
-        if k > 0:
-            _predict(x, p, steps[k - 1], ramp[k - 1], half[k - 1], drive, walk)
-            p[1, 1] += jumps[k - 1]
-        before[k], spread_before[k] = x, p
-        _correct(x, p, 0, place[k, 0], gauge)
-        _correct(x, p, 1, place[k, 1], speed)
-        after[k], spread_after[k] = x, p
-    variance = np.empty(n)
-    variance[n - 1] = p[1, 1]
-    later = p.copy()
-    for k in range(n - 2, -1, -1):
-        dt = steps[k]
-        across = spread_after[k].copy()
-        for i in range(3):
-            across[i, 0] += dt * across[i, 1] - 0.5 * dt * dt * across[i, 2]
-            across[i, 1] -= dt * across[i, 2]
-        # C = P F' (P-)^-1
-        c = np.linalg.solve(spread_before[k + 1].T, across.T).T
-        after[k] += c @ (after[k + 1] - before[k + 1])
-        later = spread_after[k] + c @ (later - spread_before[k + 1]) @ c.T
-        variance[k] = later[1, 1]
-    return after, variance

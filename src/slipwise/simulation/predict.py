@@ -81,7 +81,7 @@ class Predictor:
             slip: (n_pads, 2) [m].
             force: (n_pads, 2) [N].
         """
-        self.numbers[places.TRAIN_FORCE : places.TRAIN_FORCE + len(force)] = force[:, 0]
+        self.numbers[places.TRAIN_FORCE : places.TRAIN_FORCE + force.size] = force.ravel()
         entries = self.model.with_hook("begin")
         if not entries:
             return

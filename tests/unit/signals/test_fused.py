@@ -7,7 +7,7 @@ from bench import build_campaign
 from measured import as_campaign
 from slipwise.campaign import measured_states
 from slipwise.errors import InputError
-from slipwise.signals.fused import fuse
+from slipwise.signals.fused import fuse, fuse_scaled
 
 #: Root of the mean square of the error that is allowed [m/s].
 ALLOWED = 3e-4
@@ -87,3 +87,14 @@ def test_what_cannot_be_fused_is_refused(count, gap, message):
         acceleration[gap] = np.nan
     with pytest.raises(InputError, match=message):
         fuse(time, position, acceleration)
+
+
+def test_a_speed_that_an_actuator_changes_at_once_is_followed_at_once():
+    rng = np.random.default_rng(5)
+    time = 0.01 * np.arange(3000)
+    speed = np.where(time < 15.0, 1e-3, 3e-3)
+    slip = np.cumsum(speed) * 0.01 + 2e-5 * rng.standard_normal(len(time))
+    found = fuse_scaled(time, slip, None, 30.0, 0.6)
+    near = np.abs(time - 15.0) < 0.3
+    assert np.count_nonzero(np.abs(found.velocity - speed)[near] > 2e-4) <= 3
+    assert np.abs(found.velocity - speed)[~near].max() < 1e-4

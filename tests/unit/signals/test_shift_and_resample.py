@@ -82,3 +82,18 @@ def test_resampling_goes_through_what_was_measured_and_is_constant_beyond_the_en
     new = np.array([-1.0, 0.0005, 0.5013, 9.0])
     expected = np.sin(2.0 * np.pi * 5.0 * np.clip(new, TIME[0], TIME[-1]))
     assert resampled(TIME, values, new) == pytest.approx(expected, abs=1e-6)
+
+
+def test_a_rate_that_was_changed_on_purpose_leaves_its_samples_measured():
+    slow, fast = 0.1 * np.arange(50), 5.0 + 0.01 * np.arange(1000)
+    axis = uniform_time(np.concatenate([slow, fast]))
+    here = axis.time[axis.measured]
+    assert np.count_nonzero(here < 4.95) == 50
+    np.testing.assert_allclose(here[here < 4.95], slow[:50], atol=5e-3)
+    assert axis.measured[axis.time > 5.0].all()
+
+
+def test_single_long_steps_are_gaps():
+    time = np.delete(0.01 * np.arange(400), [100, 101, 102, 250, 251])
+    axis = uniform_time(time)
+    assert not axis.measured[100:102].any() and not axis.measured[250]

@@ -34,7 +34,7 @@ import sys
 
 from numba import cfunc, njit, types
 
-from slipwise.simulation.kernel import girder, pads, pointers, records, step
+from slipwise.simulation.kernel import girder, loading_train, pads, pointers, records, step
 from slipwise.simulation.kernel.compilable import INNER
 from slipwise.simulation.kernel.pointers import Fields
 

@@ -28,6 +28,7 @@ from slipwise.simulation.kernel.compiled import module_text
 from slipwise.simulation.kernel.dispatch import dispatch_text, function_name
 from slipwise.simulation.kernel.girder import buffer_spring, girder_drag, girder_lift
 from slipwise.simulation.kernel.layout import Layout, make_layout
+from slipwise.simulation.kernel.loading_train import follow_train
 from slipwise.simulation.kernel.pads import pad_advance, pad_bound, pad_explicit, pad_further
 from slipwise.simulation.kernel.records import buffers_over_record, pads_over_record
 from slipwise.simulation.kernel.step import control_step, sensor_step
@@ -35,8 +36,8 @@ from slipwise.simulation.kernel.step import control_step, sensor_step
 ENGINES: tuple[str, ...] = ("compiled", "python")
 #: What is asked for from Python; all else is only called by these.
 _FUNCTIONS: tuple[Callable[..., Any], ...] = (
-    pad_bound, pad_explicit, pad_further, pad_advance, buffer_spring, girder_drag, girder_lift, control_step,
-    sensor_step, pads_over_record, buffers_over_record,
+    pad_bound, follow_train, pad_explicit, pad_further, pad_advance, buffer_spring, girder_drag, girder_lift,
+    control_step, sensor_step, pads_over_record, buffers_over_record,
 )  # fmt: skip
 
 

@@ -9,18 +9,8 @@ MAX_BUFFERS = 2
 MAX_DOFS = 11
 #: Hooks whose effects act one after another in the order of the model.
 CHAINS: tuple[str, ...] = (
-    "area",
-    "shear",
-    "stick",
-    "pad",
-    "advance",
-    "stretch",
-    "deflection",
-    "spring",
-    "settle",
-    "lift",
-    "drag",
-)
+    "area", "shear", "stick", "pad", "advance", "stretch", "deflection", "spring", "settle", "lift", "drag",
+)  # fmt: skip
 
 #: Step [s].
 DT = 0
@@ -71,12 +61,12 @@ FORCE = EXPLICIT + 2 * MAX_PADS
 BUFFER_FORCE = FORCE + 2 * MAX_PADS
 #: Further force on the girder along x, y, z [N].
 GIRDER_FORCE = BUFFER_FORCE + 2 * MAX_BUFFERS
-#: Per pad: force of the loading train [N] and time [s] of the step before; rate of the contact [m/s].
+#: Per pad: force of the loading train along x and y [N], and time [s] of the step before; rate of the contact [m/s].
 TRAIN_FORCE = GIRDER_FORCE + 3
-TRAIN_TIME = TRAIN_FORCE + MAX_PADS
+TRAIN_TIME = TRAIN_FORCE + 2 * MAX_PADS
 TRAIN_VELOCITY = TRAIN_TIME + MAX_PADS
 #: Per hook in the order of `CHAINS`: how many of the model's effects have it.
-EFFECT_COUNT = TRAIN_VELOCITY + MAX_PADS
+EFFECT_COUNT = TRAIN_VELOCITY + 2 * MAX_PADS
 N_STICK = EFFECT_COUNT + CHAINS.index("stick")
 N_PAD = EFFECT_COUNT + CHAINS.index("pad")
 N_ADVANCE = EFFECT_COUNT + CHAINS.index("advance")

@@ -60,11 +60,11 @@ def pads_over_record(
             slip_x = slip[i, pad, 0]
             slip_y = slip[i, pad, 1]
             if train:
-                force_x, bound = follow_train(
-                    effects, u, z, pad, load[i, pad], velocity_x, slip_x, slip_y, side_x, side_y, time[i], dt
-                )
-                force_y = 0.0
-                velocity_x, velocity_y = u[TRAIN_VELOCITY + pad], 0.0  # from here on those of the contact
+                force_x, force_y, bound = follow_train(
+                    effects, u, z, pad, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time[i],
+                    dt,
+                )  # fmt: skip
+                velocity_x, velocity_y = u[TRAIN_VELOCITY + 2 * pad], u[TRAIN_VELOCITY + 2 * pad + 1]  # of the contact
             else:
                 bound = pad_bound(
                     effects, u, z, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time[i], dt

@@ -93,8 +93,10 @@ def push_pad(
     force_x = 0.0
     force_y = 0.0
     if u[N_TRAIN] > 0.0:
-        force_x, bound = follow_train(effects, u, z, pad, load, velocity_x, slip_x, slip_y, side_x, side_y, time, dt)
-        velocity_x, velocity_y = u[TRAIN_VELOCITY + pad], 0.0
+        force_x, force_y, bound = follow_train(
+            effects, u, z, pad, load, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt
+        )
+        velocity_x, velocity_y = u[TRAIN_VELOCITY + 2 * pad], u[TRAIN_VELOCITY + 2 * pad + 1]
     else:
         bound = pad_bound(effects, u, z, load, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt)
     u[BOUND + pad] = bound
@@ -240,7 +242,7 @@ def sensor_step(
         z = effects.pad_memory + pad * effects.pad_block
         velocity_x, velocity_y = ten_velocity[tendon_x], ten_velocity[tendon_y]
         if u[N_TRAIN] > 0.0:
-            velocity_x, velocity_y = u[TRAIN_VELOCITY + pad], 0.0
+            velocity_x, velocity_y = u[TRAIN_VELOCITY + 2 * pad], u[TRAIN_VELOCITY + 2 * pad + 1]
         pad_advance(
             effects, u, z, u[BOUND + pad], friction, u[LOAD + pad], velocity_x, velocity_y, ten_length[tendon_x],
             ten_length[tendon_y], u[SIDE + 2 * pad], u[SIDE + 2 * pad + 1], time, u[DT],
