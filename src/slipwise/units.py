@@ -174,4 +174,5 @@ def convert(value: float, unit: str, to: str) -> float:
 @cache
 def powers_of(unit: str) -> dict[str, float]:
     """Give the units of which an SI unit is a product, in full, with their powers: {"newton": 1, "meter": -1}."""
-    return {str(name): float(power) for name, power in _registry().parse_units(_clean(unit))._units.items()}
+    powers = dict(_registry().parse_units(_clean(unit))._units)
+    return {str(name): float(str(power)) for name, power in powers.items()}

@@ -39,7 +39,7 @@ ARROWS: dict[str, str] = {
     ),
     "diagnosis": (
         "campaign channels comparison effects errors estimation evidence instruments model model_file"
-        " parallel params record shown signals simulation units"
+        " parallel params record rig shown signals simulation units"
     ),
     "experiment": (
         "campaign comparison diagnosis effects errors estimation evidence model motion parallel record shown"

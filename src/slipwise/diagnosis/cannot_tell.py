@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign import Run
+from slipwise.diagnosis.held_out_regime import not_testable
 from slipwise.diagnosis.identifiability import unidentified
 from slipwise.diagnosis.indistinguishable import known_effects
 from slipwise.diagnosis.screening import projector
@@ -22,6 +23,8 @@ from slipwise.estimation.parameters import ZERO, Term
 Array = NDArray[np.float64]
 #: Two effects look alike when their columns agree so well: one run gives 0.95, two after a long rest 0.8 at most [1].
 _ALIKE = 0.85
+#: A model that leaves less than this share of a floor shows that the floor is too high [1].
+_CREDIBLE = 0.9
 #: Runs that are named one by one.
 _NAMED = 3
 #: A column of which the base leaves a smaller share does what the base does [1].
@@ -44,6 +47,8 @@ def cannot_tell(state: Search, final: BaseFit) -> list[tuple[str, str]]:
         *_rests_not_given(state),
         *_zero_not_shown(state, final),
         *_nothing_held_out(state.base),
+        *_beyond_what_was_fitted(state.base),
+        *_floors_not_credible(state),
         *_gauges_not_tried(state),
         *_without_response(state, project),
     ]
@@ -62,6 +67,20 @@ def _alike(state: Search, project: Callable[[Array], Array]) -> Iterator[tuple[s
             reason = ", and ".join([*_lacking(base.campaign.runs), message])
             apart = fading.confused_with[lasting.name]
             yield f"{fading.name} against {lasting.name}", f"{reason}; what tells them apart: {apart}"
+
+
+def _beyond_what_was_fitted(base: BaseFit) -> Iterator[tuple[str, str]]:
+    for place, reason in not_testable(base.problem).items():
+        yield f"held-out run {base.problem.runs[place].name}", f"not testable here, no fitted run covers it: {reason}"
+
+
+def _floors_not_credible(state: Search) -> Iterator[tuple[str, str]]:
+    """Find balances of which a model leaves less than their noise: it was taken for larger than it is."""
+    final = state.final.summary
+    for relation in final.fitted:
+        left = float(np.sqrt(final.fitted_level(relation)))
+        if left < _CREDIBLE:
+            yield f"floor of {relation}", f"floor not credible: the model leaves {left:.2f} of it on the fitted runs"
 
 
 def _zero_not_shown(state: Search, fit: BaseFit) -> Iterator[tuple[str, str]]:

@@ -103,7 +103,7 @@ def diagnose(
         predicted_friction=_predicted_friction(final),
         least=least_sizes(state.all_screened, state.path[0]),
         cannot_tell=tuple(cannot),
-        first=first_things(selected.faults),
+        first=first_things(selected.faults, selected.other_rig),
         search=state,
         final=final,
         seconds=time.perf_counter() - began,

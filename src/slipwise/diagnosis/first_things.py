@@ -1,4 +1,4 @@
-"""What was wrong before any balance: dead, late, reversed and tared channels, and gravity in a gauge.
+"""What was wrong before any balance: dead, late, reversed and tared channels, gravity in a gauge, the wrong rig.
 
 The rest is diagnosed. Such a fault is put right, or its channel is left out, before the first fit.
 """
@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from slipwise.diagnosis.declared_rig import WrongRig
 from slipwise.instruments.sample_faults import SampleFault
 
 #: Kind of a fault of samples -> how it is told; a zero that is far off is gravity, or the weight that cells lack.
@@ -18,8 +19,8 @@ class FirstThing:
     """One of them.
 
     Attributes:
-        kind: "dead", "late", "reversed", "tared" or "gravity".
-        channels: that show it.
+        kind: "dead", "late", "reversed", "tared", "gravity" or "wrong_rig".
+        channels: that show it; none for the wrong rig.
         words: in a sentence.
     """
 
@@ -32,9 +33,10 @@ class FirstThing:
         return {"kind": self.kind, "channels": list(self.channels), "words": self.words}
 
 
-def first_things(faults: Sequence[SampleFault]) -> tuple[FirstThing, ...]:
-    """Give what comes before any balance among the faults of samples."""
-    return tuple(_told(fault) for fault in faults if fault.kind in _KINDS)
+def first_things(faults: Sequence[SampleFault], other_rig: WrongRig | None) -> tuple[FirstThing, ...]:
+    """Give what comes before any balance: faults of samples, and another rig than the declared one."""
+    rig = (FirstThing("wrong_rig", (), other_rig.words),) if other_rig else ()
+    return (*(_told(fault) for fault in faults if fault.kind in _KINDS), *rig)
 
 
 def _told(fault: SampleFault) -> FirstThing:

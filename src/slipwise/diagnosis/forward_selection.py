@@ -21,7 +21,7 @@ from slipwise.diagnosis.substitutes import substitutes
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit, at_rated
 from slipwise.evidence.acceptance import LEAST, all_down, is_kept, least_drop
-from slipwise.evidence.score import score
+from slipwise.evidence.score import lead, score
 
 Array = NDArray[np.float64]
 #: Share of what is worth a name from which on a screen's gain is worth a refit [1].
@@ -42,6 +42,8 @@ _REFITTED_PHYSICS = 2
 _BASE_MISFIT, _FAR_FROM_NOISE = 1000.0, 30.0
 #: Share of what is worth being kept that a step has reached where it is worth a fit to the end [1].
 _NEAR = 0.5
+#: Standard errors by which a gauge must explain more than what the rig may have before it is blamed in its place [1].
+_SURE_ENOUGH = 2.0
 #: Effects after which a search ends, whatever is left: more are no finding any more, and each takes a second.
 MOST_EFFECTS = 16
 
@@ -237,5 +239,15 @@ def _exchanged(state: Search) -> Search | None:
         left -= len(chosen)
         if chosen:
             found = try_all(state, starts_of(chosen, rest), left_with(state, rest, best) if rest else None)
-            better += [h for h in found if score(origin, h.summary) > top]
+            better += [h for h in found if score(origin, h.summary) > top and not _accuses_for_little(best, h)]
     return state.stepped_to(max(better, key=lambda h: score(origin, h.summary))) if better else None
+
+
+def _accuses_for_little(best: Hypothesis, found: Hypothesis) -> bool:
+    """Tell whether a hypothesis blames more gauges than another, and is hardly better for it."""
+    more = _gauges(found) > _gauges(best)
+    return more and lead(found.summary, best.summary) < _SURE_ENOUGH
+
+
+def _gauges(found: Hypothesis) -> int:
+    return sum(t.effect.component == "instrument" for t in found.terms)

@@ -52,6 +52,12 @@ class Hypothesis:
         """Give the fitted parameters of one effect."""
         return {n: self.solution.values[f"{term.label}.{n}"] for n in term.effect.parameter_names}
 
+    def level_of(self, relation: str, runs: Sequence[int]) -> float:
+        """Give the mean squared residual of a relation over some runs [noise variance]."""
+        parts = self.solution.residuals.parts[relation]
+        samples = sum(int(np.count_nonzero(self.problem.runs[i].judged[relation])) for i in runs)
+        return sum(float(np.sum(parts[i] ** 2)) for i in runs) / max(samples, 1)
+
 
 def base_hypothesis(base: BaseFit) -> Hypothesis:
     """Give the base model as a hypothesis without effects."""
@@ -127,6 +133,15 @@ def polished(found: Hypothesis) -> Hypothesis:
             break
         before = solution.cost
     return _hypothesis(found.terms, found.problem, solution)
+
+
+def weighed_as(found: Hypothesis, other: Problem) -> Hypothesis:
+    """Give a hypothesis with the noise of another problem, fitted on with that: only so their residuals compare."""
+    if found.problem.sigmas is other.sigmas:
+        return found
+    problem = other.having(found.problem.terms)
+    solution = solve(problem, found.solution.values, found.solution.free, most=4, enough=_ENOUGH, rough=_ROUGH)
+    return _hypothesis(found.terms, problem, solution)
 
 
 def final_refit_of(found: Hypothesis) -> Hypothesis:

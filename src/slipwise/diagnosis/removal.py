@@ -11,10 +11,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.diagnosis.hypothesis import Hypothesis, weighed_as
 from slipwise.diagnosis.starting_grid import strengths
 from slipwise.errors import SlipwiseError
-from slipwise.estimation.parameters import Term, numbers_replaced
+from slipwise.estimation.parameters import ZERO, Term, numbers_replaced
 from slipwise.evidence.left_out import LinearFit, linear_fit
 from slipwise.evidence.residual_summary import ResidualSummary, summarised_linear
 
@@ -31,15 +31,17 @@ def without(found: Hypothesis, terms: Sequence[Term], refit: Callable[[Sequence[
     """
     labels = {t.label for t in terms}
     rest = [t for t in found.terms if t.label not in labels]
-    linear = None if any(map(_needs_refit, terms)) else _linear(found, terms, labels)
+    slider = not found.problem.specimen.free
+    linear = None if any(_needs_refit(t, slider) for t in terms) else _linear(found, terms, labels)
     if linear is None:
-        return refit(rest).summary
+        return weighed_as(refit(rest), found.problem).summary
     return summarised_linear(found.problem, linear, found.summary.held_out, found.summary.counts)
 
 
-def _needs_refit(term: Term) -> bool:
+def _needs_refit(term: Term, slider: bool) -> bool:
     effect = term.effect
-    return not strengths(effect) or bool(numbers_replaced([effect])) or effect.reverses
+    replaced = numbers_replaced([effect]) - (set[str]() if slider else {ZERO})  # which only a slider's base has
+    return not strengths(effect) or bool(replaced) or effect.reverses
 
 
 def _linear(found: Hypothesis, terms: Sequence[Term], labels: set[str]) -> LinearFit | None:

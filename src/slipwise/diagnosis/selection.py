@@ -1,10 +1,11 @@
 """From a campaign to a finished selection: samples corrected, base fitted, effects searched."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from slipwise.campaign import Campaign
 from slipwise.campaign.decimation import decimated
+from slipwise.diagnosis.declared_rig import WrongRig, wrong_rig
 from slipwise.diagnosis.forward_selection import search
 from slipwise.diagnosis.hypothesis import base_hypothesis
 from slipwise.diagnosis.search_state import Search
@@ -28,12 +29,14 @@ class SelectionResult:
         search: what was looked at.
         faults: of samples, which were reversed, bridged or left out before.
         uncorrected: residuals of the base fit of the campaign as it was recorded.
+        other_rig: the rig that was shaken, where it is not the declared one.
     """
 
     base: BaseFit
     search: Search
     faults: tuple[SampleFault, ...]
     uncorrected: ResidualSummary
+    other_rig: WrongRig | None = None
 
 
 def prepared(campaign: Campaign) -> tuple[Campaign, InvalidSamples, tuple[SampleFault, ...]]:
@@ -63,6 +66,11 @@ def select_effects(
     own = tuple(own)
     whole, invalid, faults = prepared(campaign)
     base = fit_base(whole, model, invalid)
+    other = wrong_rig(base)
+    if other is not None:  # from its rated numbers the fit begins anew, and the rest is diagnosed
+        whole = replace(whole, specimen=other.fitting)
+        model = None if model is None else replace(model, specimen=other.fitting)
+        base = fit_base(whole, model, invalid)
     state = search(base, own, progress)
     # what an effect seems to explain may be a local minimum that the base fit has missed
     better = restarted(base, state.best.solution.values) if state.best.terms else None
@@ -72,4 +80,4 @@ def select_effects(
     uncorrected = (
         base_hypothesis(fit_base(decimated(campaign, {})[0], model)).summary if faults else state.path[0].summary
     )
-    return SelectionResult(base, state, faults, uncorrected)
+    return SelectionResult(base, state, faults, uncorrected, other)

@@ -7,6 +7,7 @@ import numpy as np
 
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.findings import Finding, above_noise
+from slipwise.diagnosis.held_out_regime import not_testable
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.indistinguishable import alike_pairs, distinguishable, known_effects
 from slipwise.diagnosis.search_state import Search
@@ -16,7 +17,6 @@ from slipwise.estimation.parameters import Term
 from slipwise.evidence.acceptance import LEAST
 from slipwise.evidence.calibration import calibration
 from slipwise.evidence.decision import EVEN_ODDS, decide, remains
-from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.evidence.score import relative_drop
 from slipwise.instruments.sample_faults import SampleFault
 from slipwise.instruments.suspects import effect_of
@@ -149,21 +149,24 @@ def _confirmed(state: Search, probability: float) -> float:
 
 
 def confirmed(state: Search) -> bool | None:
-    """Tell whether the held-out runs agree with what was found; None where none is held out or nothing was found.
+    """Tell whether the held-out runs agree with what was found; None where none can tell or nothing was found.
 
     They agree where every balance that the effects improve has lost half of its excess over the noise there as well,
-    or is left as well as the motions that were left out.
+    or is left as well as the motions that were left out. Runs beyond what was fitted take no part.
     """
-    origin, final = state.path[0].summary, state.final.summary
+    base, found = state.path[0], state.final
+    origin, final = base.summary, found.summary
+    beyond = not_testable(found.problem)
+    runs = [i for i in found.problem.held_out if i not in beyond]
     improved = [r for r in origin.fitted if relative_drop(origin, final, r) >= LEAST.law and origin.counts[r][1]]
-    if not state.final.terms or not improved:
+    if not found.terms or not improved or not runs:
         return None
-    return all(_carries_over(origin, final, relation) for relation in improved)
+    return all(_carries_over(base, found, relation, runs) for relation in improved)
 
 
-def _carries_over(origin: ResidualSummary, final: ResidualSummary, relation: str) -> bool:
-    before, after = (s.held_out_level(relation) - 1.0 for s in (origin, final))
-    return after < max(_CARRIED_OVER * before, _AS_LEFT_OUT * final.left_out_level(relation) - 1.0)
+def _carries_over(base: Hypothesis, found: Hypothesis, relation: str, runs: Sequence[int]) -> bool:
+    before, after = (h.level_of(relation, runs) - 1.0 for h in (base, found))
+    return after < max(_CARRIED_OVER * before, _AS_LEFT_OUT * found.summary.left_out_level(relation) - 1.0)
 
 
 def with_faults(found: Verdict, faults: Sequence[SampleFault], terms: Sequence[Term] = ()) -> Verdict:

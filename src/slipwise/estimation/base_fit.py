@@ -12,13 +12,13 @@ from slipwise.estimation.gauge_zero import free_zero
 from slipwise.estimation.least_squares import Solution, jacobian, slopes_of, solve
 from slipwise.estimation.parameters import (
     DAMPED_STICK,
-    STICK_DAMPING,
     YAW_INERTIA,
     ZERO,
     Free,
     base_free,
     inertia_free,
     numbers_replaced,
+    stick_damping_free,
     terms_of,
 )
 from slipwise.estimation.problem import Problem
@@ -179,7 +179,7 @@ def final_refit(problem: Problem, solution: Solution) -> tuple[Problem, Solution
     problem, free, start = problem.weighed_anew(solution.values, finer=True), list(solution.free), solution.values
     if any(f.key in DAMPED_STICK for f in free):
         scale = problem.runs[0].scales
-        free.append(Free("rig.stick_damping", *(scale.time * x for x in STICK_DAMPING), "s"))
+        free.append(stick_damping_free(scale.time))
         damped = {f.key: scale.of(f.unit) * DAMPED_STICK[f.key] for f in free if f.key in DAMPED_STICK}
         starts = ({**start, "rig.stick_damping": 0.0}, {**start, **damped})
         start = min(starts, key=lambda values: _cost(problem, values))

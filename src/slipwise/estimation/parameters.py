@@ -44,7 +44,7 @@ _INERTIAS: dict[str, tuple[int, tuple[float, float]]] = {YAW_INERTIA: (2, (0.6, 
 #: Slip over which a pad's friction reverses without any effect of its own [m]; longer than that it is `presliding`.
 _STICK_LENGTH = (1e-6, 1e-8, 8e-6, 1e-6)
 #: How that is damped [s], and the stick from which a damped one is looked for: one that reverses at once has no slopes.
-STICK_DAMPING, DAMPED_STICK = (0.0, 0.0, 0.02, 2e-4), {"rig.stick_length": 5e-6, "rig.stick_damping": 3e-3}
+_STICK_DAMPING, DAMPED_STICK = (0.0, 0.0, 0.02, 2e-4), {"rig.stick_length": 5e-6, "rig.stick_damping": 3e-3}
 #: The friction channels' filter where the campaign does not know it [Hz].
 _LOGGER = (100.0, 20.0, 240.0, 20.0)
 
@@ -129,7 +129,7 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True, length
             scale = abs(value) or abs(p.typical) or 0.1 * (p.high - p.low)
             out.append(Free(f"{entry.label}.{p.name}", value, p.low, p.high, scale, p.unit))
     if not model.reverses:
-        out.append(Free("rig.stick_length", *(length * x for x in _STICK_LENGTH), "m"))
+        out.append(stick_free(length))
     specimen = model.specimen
     if "rig.shear_strength" not in numbers_replaced(u.effect for u in model.uses):
         out.append(_around("rig.shear_strength", specimen.shear_strength, 1e-3, 1e3, "Pa"))
@@ -149,6 +149,18 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True, length
             out.append(Free("rig.logger", *_LOGGER, "Hz"))
     delayed = {entry.target for entry in model.uses if entry.effect.lag}
     return [f for f in out if f.key not in _LAGS or not _covered(_LAGS[f.key], delayed, specimen)]
+
+
+def stick_free(length: float) -> Free:
+    """Give the slip over which a pad's friction reverses, for a scale of lengths [1]."""
+    start, low, high, scale = (length * x for x in _STICK_LENGTH)
+    return Free("rig.stick_length", start, low, high, scale, "m")
+
+
+def stick_damping_free(time: float) -> Free:
+    """Give how that is damped, for a scale of times [1]."""
+    start, low, high, scale = (time * x for x in _STICK_DAMPING)
+    return Free("rig.stick_damping", start, low, high, scale, "s")
 
 
 def _covered(channels: str, delayed: set[str], specimen: Specimen) -> bool:

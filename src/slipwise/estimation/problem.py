@@ -75,11 +75,10 @@ class Problem:
 
     @property
     def balanced(self) -> bool:
-        """Whether the balances of a girder are there, not only sliders."""
+        """Whether the balances of a girder are there."""
         return len(self.relations) > 1 + ("across" in self.relations)
 
     def _sort(self) -> None:
-        """Sort the terms by what they touch."""
         self._on_force = [t for t in self.terms if t.effect.port == "gauge" and acts_on_force(t)]
         self._on_girder = [t for t in self.terms if t.effect.port == "gauge" and "girder_ax" in t.targets]
         self._law: PadLaw | None = None
@@ -96,7 +95,11 @@ class Problem:
 
     def adding(self, *terms: Term) -> "Problem":
         """Give the same problem with more terms; the noise stays."""
-        return self._with((*self.terms, *terms), self.kinematics.yaw)
+        return self.having((*self.terms, *terms))
+
+    def having(self, terms: tuple[Term, ...]) -> "Problem":
+        """Give the same problem with other terms; the noise stays."""
+        return self._with(terms, self.kinematics.yaw)
 
     def with_yaw(self) -> "Problem":
         """Give the same problem with the girder's yaw made from the measured forces, whatever the terms."""
@@ -112,7 +115,7 @@ class Problem:
         """Give the problem of which slopes at these values are to be taken."""
         if not shifts(self.terms):
             return self
-        other = self._with(self.terms, self.kinematics.yaw)
+        other = self.having(self.terms)
         other.kinematics = self.kinematics.near(values)
         return other
 
@@ -123,7 +126,7 @@ class Problem:
             values: key -> value of everything.
             finer: evaluate the laws at twice the instants from now on.
         """
-        anew = self._with(self.terms, self.kinematics.yaw)
+        anew = self.having(self.terms)
         anew.kinematics.recent = Recent()
         if finer:
             anew.kinematics.refine(FINER)
@@ -165,8 +168,8 @@ class Problem:
         states = self.kinematics.states(values, count)
         key = (count, *self._pad_key(values, faults=False))
         law_forces = self.kinematics.recent.get("law", key, lambda: self._law_of(model).at_instants(runs, states))
-        key = (*key, *(values.get(k, 0.0) for k in _RECORDING_KEYS))
-        forces = self.kinematics.recent.get("forces", key, lambda: self._logged(values, runs, states, law_forces))
+        more = (*key, *(values.get(k, 0.0) for k in _RECORDING_KEYS))
+        forces = self.kinematics.recent.get("forces", more, lambda: self._logged(values, runs, states, law_forces))
         parts, outputs, clean = [], [], []
         for i, (run, force) in enumerate(zip(runs, forces, strict=True)):
             measured, offset = on_force(self._on_force, values, run, force, self.kinematics.around)
@@ -267,13 +270,11 @@ class Problem:
         rig = [v for k, v in values.items() if k.startswith("rig.") and k not in _PAD_KEYS]
         return (*values_of(own, values), *self.kinematics.yaw_key(values), *rig)
 
-    def _by(self, values: Mapping[str, float]) -> LowPass | None:
-        """Give the logger's filter as fitted, where the campaign does not know it."""
+    def _by(self, values: Mapping[str, float]) -> LowPass | None:  # the logger's filter where the campaign knows none
         return LowPass(values["rig.logger"]) if "rig.logger" in values else None
 
     def _law_of(self, model: Model) -> PadLaw:
-        if self._law is None:
-            self._law = PadLaw(model)
+        self._law = self._law or PadLaw(model)
         self._law.set(model)
         return self._law
 

@@ -1,0 +1,31 @@
+"""A held-out run that goes beyond what was fitted confirms nothing, and is told by name."""
+
+from dataclasses import replace
+
+from hypotheses import measured
+from slipwise.campaign import Campaign
+from slipwise.diagnosis.held_out_regime import not_testable
+from slipwise.estimation.base_fit import fit_base
+from slipwise.estimation.problem import Problem
+
+
+def _problem(campaign: Campaign, factor: float) -> Problem:
+    """The held-out run slides this many times as far and as fast."""
+    problem = fit_base(campaign).problem
+    runs = list(problem.runs)
+    for i in problem.held_out:
+        states = runs[i].states
+        runs[i] = replace(runs[i], states=replace(states, slip=factor * states.slip, velocity=factor * states.velocity))
+    return replace(problem, runs=runs)
+
+
+def test_a_run_within_what_was_fitted_can_be_tested():
+    assert not_testable(_problem(measured(), 1.0)) == {}
+
+
+def test_a_run_that_goes_beyond_is_told_with_what_it_reaches():
+    problem = _problem(measured(), 3.0)
+    found = not_testable(problem)
+    assert list(found) == problem.held_out
+    assert "speeds reach" in found[problem.held_out[0]] and "strokes reach" in found[problem.held_out[0]]
+    assert "loads" not in found[problem.held_out[0]]
