@@ -1,7 +1,8 @@
 """Fit the probabilities of a diagnosis to answers of the benches, and write `evidence/calibration.json`.
 
     python scripts/07_bench.py --dirty --count 200 --seed 81000 --out out/dirty
-    python scripts/calibrate.py out/dirty/results.jsonl
+    python scripts/07_bench.py --count 200 --seed 81000 --out out/clean
+    python scripts/calibrate.py out/dirty/results.jsonl out/clean/results.jsonl
     python scripts/calibrate.py out/dirty/results.jsonl --check    # writes nothing
 
 Each model is a logistic regression in a few numbers (scikit-learn, ridge 1 on numbers of unit spread): whether an
@@ -9,6 +10,8 @@ effect that was found is there, whether it matters, whether effects are of the r
 whether a hypothesis or its nearest rival is right, and whether all of a verdict is right, by the product of these. That
 last one is fitted to verdicts that models of other campaigns have made (in five parts), or it would be told how well
 the others remember.
+
+Clean campaigns tell what is there, but not whether it matters to anybody: their answer key has no limits.
 
 Probabilities that are published are checked on other seeds than those given here.
 """
@@ -45,7 +48,8 @@ def cases_of_presence(result: Result) -> list[Case]:
     """Give every effect that was found, and whether it is there."""
     from bench.score_dirty import may_be_named  # pyright: ignore[reportMissingImports]
 
-    there = set(result["truth"]["effects"]) | may_be_named(result["truth"])
+    truth = result["truth"]
+    there = set(truth["effects"]) | may_be_named(truth) if _is_dirty(result) else _clean_names(truth)
     return [(of, name in there) for name, of in _effects(result).items()]
 
 
@@ -53,6 +57,8 @@ def cases_of_matter(result: Result) -> list[Case]:
     """Give every effect that was found and is there, and whether it matters; not those near the limit, see NEAR."""
     from bench.score_dirty import NEAR  # pyright: ignore[reportMissingImports]
 
+    if not _is_dirty(result):
+        return []
     sizes = {name: entry["of_limit"] for name, entry in result["truth"]["effects"].items()}
     found = {name: of for name, of in _effects(result).items() if name in sizes}
     return [(of, sizes[name] >= 1.0) for name, of in found.items() if not NEAR <= sizes[name] < 1.0]
@@ -68,12 +74,43 @@ def cases_of_family(result: Result) -> list[Case]:
 
 def cases_of_rivals(result: Result) -> list[Case]:
     """Give by how much an effect leads its nearest rival, and whether it is the one that is there."""
-    truth, out = result["truth"]["effects"], []
+    truth, out = result["truth"]["effects"] if _is_dirty(result) else _clean_names(result["truth"]), []
     for name, of in _effects(result).items():
         instead = of["instead"]
         if len(instead) == 1 and (name in truth) != (instead[0] in truth):
             out.append(({"lead": of["rival"]}, name in truth))
     return out
+
+
+def _is_dirty(result: Result) -> bool:
+    return "effects" in result["truth"]
+
+
+def _clean_names(truth: dict[str, Any]) -> set[str]:
+    """Give every name that is right in a clean campaign: what is missing, and what is one thing with it."""
+    from bench.score import SAME  # pyright: ignore[reportMissingImports]
+
+    missing = set(truth["missing"])
+    return missing.union(*(pair for pair in SAME if pair & missing)) | _moved_by_gaps(missing)
+
+
+def _moved_by_gaps(missing: set[str]) -> set[str]:
+    """Give what lost samples look like where they moved up the rest."""
+    return {"channel_delay"} if "dropped_samples" in missing else set()
+
+
+def _right_of_clean(truth: dict[str, Any], kind: str, names: set[str]) -> bool:
+    """Tell whether a verdict without its last step, which joins what is one thing, is right on a clean campaign."""
+    from bench.score import SAME, SMALLEST  # pyright: ignore[reportMissingImports]
+
+    missing = set(truth["missing"])
+    if not missing or missing == {"unknown"}:
+        return kind == ("unknown" if missing else "complete")
+    if kind == "complete":
+        return truth["size_after_fit"] < SMALLEST
+    seen = {name for name in missing if truth.get("alone", {}).get(name, SMALLEST) >= SMALLEST}
+    found = all(name in names or any(name in pair and pair & names for pair in SAME) for name in seen)
+    return kind != "unknown" and found and names <= _clean_names(truth)
 
 
 def _effects(result: Result) -> dict[str, dict[str, Any]]:
@@ -117,22 +154,34 @@ def verdict_cases(results: Sequence[Result], chances: Calibration) -> list[Case]
 
     out = []
     for result in results:
-        evidence = result["said"]["evidence"]
+        truth, evidence = result["truth"], result["said"]["evidence"]
         decided = decide(evidence["effects"], evidence["rest"], Materiality().channel, chances)
         faults = [name for name in result["said"]["effects"] if name not in evidence["effects"]]
         said = {**result["said"], "verdict": decided.kind, "effects": [*decided.named, *faults], "leftover": ""}
         if decided.kind == "named" and remains(evidence["rest"], Materiality().channel):
             said["leftover"] = "unknown"
         if decided.kind != "unknown":
-            out.append(({"product": log_odds(decided.probability)}, right(result["truth"], said)))
+            names = set(said["effects"])
+            good = (
+                right(truth, said)
+                if _is_dirty(result)
+                else _right_of_clean(truth, "instrument" if faults else decided.kind, names)
+            )
+            out.append(({"product": log_odds(decided.probability)}, good))
     return out
+
+
+def _seeds(path: Path) -> str:
+    """Give the names of a bench's first and last campaign."""
+    names = sorted(json.loads(line)["name"] for line in path.read_text(encoding="utf-8").splitlines())
+    return f"{names[0]} to {names[-1]}"
 
 
 def main() -> None:
     """Read results, fit, write."""
     sys.path.insert(0, str(TESTS))
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("results", type=Path, nargs="+", help="results.jsonl of dirty benches")
+    parser.add_argument("results", type=Path, nargs="+", help="results.jsonl of benches")
     parser.add_argument("--check", action="store_true", help="write nothing")
     chosen = parser.parse_args()
     lines = [line for path in chosen.results for line in path.read_text(encoding="utf-8").splitlines()]
@@ -147,7 +196,7 @@ def main() -> None:
     chances = replace(chances, all_right=fitted(whole, ("product",), before.all_right))
     kept = [name for name, model in vars(chances).items() if model is getattr(before, name)]
     content["provenance"] = (
-        f"{len(results)} dirty campaigns of the bench, {results[0]['name']} to {results[-1]['name']}, "
+        f"{len(results)} campaigns of the benches, {', '.join(sorted({_seeds(path) for path in chosen.results}))}, "
         f"{datetime.now(UTC):%Y-%m-%d}; scripts/calibrate.py; "
         f"too few cases, chosen by judgement: {', '.join(kept) or 'none'}"
     )
