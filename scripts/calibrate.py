@@ -74,7 +74,9 @@ def cases_of_family(result: Result) -> list[Case]:
 
 def cases_of_rivals(result: Result) -> list[Case]:
     """Give by how much an effect leads its nearest rival, and whether it is the one that is there."""
-    truth, out = result["truth"]["effects"] if _is_dirty(result) else _clean_names(result["truth"]), []
+    if not _is_dirty(result):  # there rivals are so far behind that they tell nothing of ties
+        return []
+    truth, out = result["truth"]["effects"], []
     for name, of in _effects(result).items():
         instead = of["instead"]
         if len(instead) == 1 and (name in truth) != (instead[0] in truth):

@@ -12,7 +12,7 @@ from slipwise.diagnosis.cannot_tell import cannot_tell
 from slipwise.diagnosis.detectable_size import least_sizes
 from slipwise.diagnosis.findings import findings
 from slipwise.diagnosis.first_things import first_things
-from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.diagnosis.hypothesis import Hypothesis, final_refit_of
 from slipwise.diagnosis.importance import importance_of_effects
 from slipwise.diagnosis.indistinguishable import alike_pairs
 from slipwise.diagnosis.replays import replayed_errors
@@ -27,7 +27,7 @@ from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Interval, intervals
 from slipwise.estimation.least_squares import jacobian
 from slipwise.estimation.prediction_interval import PredictedFriction, predicted_friction
-from slipwise.evidence.residual_summary import error_of
+from slipwise.evidence.residual_summary import ResidualSummary, error_of
 from slipwise.evidence.score import largest_drop, score
 from slipwise.instruments.suspects import effect_of
 from slipwise.model import Model
@@ -73,7 +73,8 @@ def diagnose(
     sizes = intervals(found).entries if state.final.terms else ()
     evidence = findings(state, importance_of_effects(found, state.final.terms, sizes), measured.materiality)
     decided = decide_verdict(state, evidence, measured.materiality)
-    shown = state.final if decided.effects else state.path[0]
+    before = final_refit_of(state.path[0])
+    shown = state.final if decided.effects else before
     verdict = with_faults(decided, selected.faults, state.best.terms)
     final = found if shown is state.final else as_fit(base, shown, with_slopes=True)
     cannot = [f"{name}: {reason}" for name, reason in [*state.cannot.items(), *cannot_tell(state, final)]]
@@ -82,23 +83,23 @@ def diagnose(
         tell("replaying", part)
         try:
             roles = ("holdout",) if base.problem.held_out else ("fit", "repeat")
-            models = [base] if final is base else [base, final]
+            models = [final] if shown is before else [as_fit(base, before), final]
             errors = replayed_errors(models, roles, lambda share: tell("replaying", part + (1.0 - part) * share))
             replayed = {"base": errors[0], "final": errors[-1]}
         except InputError as error:
             cannot.append(f"system level: {error}")
-    relations = _relations(state, shown)
-    before = max(error_of(selected.uncorrected, r) for r in selected.uncorrected.fitted)
+    relations = {r: (error_of(before.summary, r), error_of(shown.summary, r)) for r in before.summary.fitted}
+    recorded = selected.uncorrected or before.summary
     tell("done", 1.0)
     return Diagnosis(
         campaign=measured.name,
         verdict=verdict,
         component=_component(state, verdict),
-        base_error=before,
+        base_error=max(error_of(recorded, r) for r in recorded.fitted),
         final_error=max(b for _, b in relations.values()),
         relations=relations,
         system=replayed,
-        candidates=_listed(selected, decided, verdict, sizes),
+        candidates=_listed(selected, before.summary, decided, verdict, sizes),
         confirmed=confirmed(state) if decided.effects else None,
         predicted_friction=_predicted_friction(final),
         least=least_sizes(state.all_screened, state.path[0]),
@@ -125,18 +126,13 @@ def as_fit(base: BaseFit, found: Hypothesis, *, with_slopes: bool = True) -> Bas
         found: the hypothesis.
         with_slopes: take its slopes, those that it has are of a fit nearby; `final_refit_of` has taken its own.
     """
-    if not found.terms:
+    if found.solution is base.solution:
         return base
     solution = found.solution
     if with_slopes:
         slopes = jacobian(found.problem, solution.values, solution.free, solution.residuals)
         solution = replace(solution, jacobian=slopes)
     return BaseFit(base.campaign, base.model, found.problem, solution.free, solution)
-
-
-def _relations(state: Search, shown: Hypothesis) -> dict[str, tuple[float, float]]:
-    origin, best = state.path[0].summary, shown.summary
-    return {r: (error_of(origin, r), error_of(best, r)) for r in origin.fitted}
 
 
 def _component(state: Search, verdict: Verdict) -> str:
@@ -152,19 +148,21 @@ def _component(state: Search, verdict: Verdict) -> str:
 
 
 def _listed(
-    selected: SelectionResult, decided: Verdict, verdict: Verdict, sizes: Sequence[Interval]
+    selected: SelectionResult, before: ResidualSummary, decided: Verdict, verdict: Verdict, sizes: Sequence[Interval]
 ) -> tuple[Candidate, ...]:
     """Give hypotheses, and faults of samples: before them where they alone are what is missing."""
-    hypotheses = _candidates(selected.search, decided, sizes)
-    recorded, kept = selected.uncorrected, selected.search.path[0].summary
+    hypotheses = _candidates(selected.search, before, decided, sizes)
+    recorded, kept = selected.uncorrected or before, before
     where = max(recorded.fitted, key=lambda relation: error_of(recorded, relation))
-    before, after = error_of(recorded, where), error_of(kept, where)
+    with_fault, without = error_of(recorded, where), error_of(kept, where)
     labels = dict.fromkeys(f"{effect_of(f.kind).name}[{name}]" for f in selected.faults for name in f.channels)
-    faults = tuple(Candidate(label, verdict.probability, before, after, 0.0, {}) for label in labels)
+    faults = tuple(Candidate(label, verdict.probability, with_fault, without, 0.0, {}) for label in labels)
     return (*hypotheses, *faults) if decided.effects else (*faults, *hypotheses)
 
 
-def _candidates(state: Search, verdict: Verdict, sizes: Sequence[Interval]) -> tuple[Candidate, ...]:
+def _candidates(
+    state: Search, before: ResidualSummary, verdict: Verdict, sizes: Sequence[Interval]
+) -> tuple[Candidate, ...]:
     origin = state.path[0]
     unique: dict[tuple[str, ...], Hypothesis] = {}
     for h in sorted(state.tried, key=lambda h: -score(origin.summary, h.summary)):
@@ -185,7 +183,7 @@ def _candidates(state: Search, verdict: Verdict, sizes: Sequence[Interval]) -> t
             Candidate(
                 effect=" + ".join(t.label for t in h.terms),
                 probability=probability,
-                holdout_before=error_of(origin.summary, where),
+                holdout_before=error_of(before, where),
                 holdout_after=error_of(shown.summary, where),
                 absorbed_by_base=max(absorbed.get(t.label, 0.0) for t in h.terms),
                 parameters=named_sizes(shown, sizes if verdict.effects and h is best else ()),

@@ -3,7 +3,7 @@
 import time
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,7 @@ from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.diagnose import as_fit
 from slipwise.diagnosis.forward_selection import MOST_EFFECTS
-from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, polished, refit
+from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, final_refit_of, polished, refit
 from slipwise.diagnosis.replays import replayed_errors
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.screening import Screened, screen
@@ -26,7 +26,7 @@ from slipwise.estimation.base_fit import BaseFit, fit_base
 from slipwise.evidence.residual_summary import ResidualSummary, error_of
 from slipwise.model import Model
 from slipwise.model_file import as_model
-from slipwise.parallel import one_thread_algebra
+from slipwise.parallel import on_every_core, one_thread_algebra
 from slipwise.shown import Drawn, Tabular
 
 #: An error below this has reached the noise floor [floors].
@@ -181,8 +181,13 @@ def left_over(found: Diagnosis) -> str:
 
 
 def _hypothesis_path(state: Search) -> list[Hypothesis]:
-    """Give the hypotheses of a search step by step, the last one as it is reported."""
-    return [*state.path[:-1], state.final]
+    """Give the hypotheses of a search step by step, each once, fitted as all that is reported is."""
+    last = {frozenset(t.label for t in h.terms): h for h in state.path[:-1]}
+    last.pop(frozenset(t.label for t in state.best.terms), None)
+    before = list(last.values())
+    summaries = on_every_core(lambda i: final_refit_of(before[i]).summary, len(before))
+    refitted = [replace(h, summary=summary) for h, summary in zip(before, summaries, strict=True)]
+    return [*refitted, state.final if state.best.terms else final_refit_of(state.best)]
 
 
 def _asked(
@@ -207,7 +212,7 @@ def _asked(
         best = found[0]
         path.append(polished(refit(base, [*before.terms, best.term], {best.term.label: best.values}, before)))
         tell((i + 1) / len(add))
-    return path, (screened, len(add)), "these effects were asked for"
+    return [final_refit_of(h) for h in path], (screened, len(add)), "these effects were asked for"
 
 
 def _why(state: Search) -> str:

@@ -34,7 +34,7 @@ def replays(found: Diagnosis) -> tuple[Record, list[tuple[str, Record]]]:
     states = measured_states(run, campaign)
     motion = measured_motion(states)
     models = [("base model", found.search.base)]
-    if found.final is not found.search.base:
+    if found.added:
         models.append((f"with {' and '.join(found.added)}", found.final))
     dt = simulation_step(states.dt)
     return states.record, [

@@ -7,7 +7,7 @@ from slipwise.campaign import Campaign
 from slipwise.campaign.decimation import decimated
 from slipwise.diagnosis.declared_rig import WrongRig, wrong_rig
 from slipwise.diagnosis.forward_selection import search
-from slipwise.diagnosis.hypothesis import base_hypothesis
+from slipwise.diagnosis.hypothesis import base_hypothesis, final_refit_of
 from slipwise.diagnosis.search_state import Search
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit, fit_base, restarted
@@ -28,14 +28,14 @@ class SelectionResult:
         base: the base fit.
         search: what was looked at.
         faults: of samples, which were reversed, bridged or left out before.
-        uncorrected: residuals of the base fit of the campaign as it was recorded.
+        uncorrected: residuals of the base fit of the campaign as it was recorded, where samples had faults.
         other_rig: the rig that was shaken, where it is not the declared one.
     """
 
     base: BaseFit
     search: Search
     faults: tuple[SampleFault, ...]
-    uncorrected: ResidualSummary
+    uncorrected: ResidualSummary | None
     other_rig: WrongRig | None = None
 
 
@@ -78,6 +78,6 @@ def select_effects(
         base = better
         state = search(base, own, progress, state)
     uncorrected = (
-        base_hypothesis(fit_base(decimated(campaign, {})[0], model)).summary if faults else state.path[0].summary
+        final_refit_of(base_hypothesis(fit_base(decimated(campaign, {})[0], model))).summary if faults else None
     )
     return SelectionResult(base, state, faults, uncorrected, other)
