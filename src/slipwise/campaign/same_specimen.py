@@ -28,6 +28,8 @@ _UNEXPLAINED = 0.2
 #: Two levers of one run that differ by more than this are none: with and without a table that rocks as it is shaken,
 #: of its first and its last motion, between which a gauge lost samples and came out of step with the others [1].
 _SAME = 0.3
+#: A cell that scatters less than this share of what the others do is dead [1].
+_ALIVE = 0.02
 #: A channel that stands at its largest or smallest value for more than this share of its samples is clipped [1].
 _AT_RAIL = 0.005
 #: Samples beyond this part of a channel's largest are left out: a clipped channel is a fault, not another rig [1].
@@ -41,7 +43,7 @@ def check_same_specimen(campaign: Campaign) -> tuple[str, ...]:
         InputError: weight or lever of the weight differ between runs by more than one specimen can.
     """
     notes = _different_channels(campaign.runs)
-    weighing = [run for run in campaign.runs if run.record.has_all(*(f"pad_{p}_N" for p in "ABCD"))]
+    weighing = [run for run in campaign.runs if _weighs(run.record)]
     if not weighing or not campaign.specimen.free:
         return tuple(notes)
     zeros = shifted_zeros([run.record for run in campaign.runs], campaign.specimen.weight)
@@ -61,6 +63,14 @@ def check_same_specimen(campaign: Campaign) -> tuple[str, ...]:
             f"{rated / 1e3:.3g} kN: check the units, the rig, or give its mass in [specimen]"
         )
     return tuple(notes)
+
+
+def _weighs(record: Record) -> bool:
+    """Tell whether four load cells are there and none is dead beside the others: a dead one is no other rig."""
+    if not record.has_all(*(f"pad_{p}_N" for p in "ABCD")):
+        return False
+    scatter = record.stacked("pad_{}_N").std(axis=0)
+    return bool(scatter.min() >= _ALIVE * np.median(scatter))
 
 
 def _refuse_some_tared(runs: Sequence[Run], weight: float) -> None:

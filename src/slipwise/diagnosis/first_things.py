@@ -33,7 +33,7 @@ class FirstThing:
         return {"kind": self.kind, "channels": list(self.channels), "words": self.words}
 
 
-def first_things(faults: Sequence[SampleFault], other_rig: WrongRig | None) -> tuple[FirstThing, ...]:
+def first_things(faults: Sequence[SampleFault], other_rig: WrongRig | None = None) -> tuple[FirstThing, ...]:
     """Give what comes before any balance: faults of samples, and another rig than the declared one."""
     rig = (FirstThing("wrong_rig", (), other_rig.words),) if other_rig else ()
     return (*(_told(fault) for fault in faults if fault.kind in _KINDS), *rig)

@@ -14,7 +14,7 @@ from scipy.interpolate import CubicSpline
 from slipwise.campaign import Campaign
 from slipwise.campaign.aligned import spread
 from slipwise.channels import VELOCITY_CHANNELS
-from slipwise.instruments.late_cells import in_step, without_partner
+from slipwise.instruments.lags import in_step, without_partner
 from slipwise.instruments.sample_faults import RAILS, SampleFault
 from slipwise.record import Record
 

@@ -10,7 +10,9 @@ from scipy.ndimage import uniform_filter1d
 
 from slipwise.campaign import Campaign, Run
 from slipwise.channels import PADS
-from slipwise.instruments.late_cells import in_step_campaign, late_cells
+from slipwise.instruments.lags import in_step_campaign
+from slipwise.instruments.late_cells import late_cells
+from slipwise.instruments.late_motion import late_motion
 from slipwise.instruments.signs import wrong_signs
 from slipwise.instruments.zeros import tared_cells, zeros_of
 from slipwise.signals.noise import quantum, white_level
@@ -59,15 +61,17 @@ class SampleFault:
 
 
 def sample_faults(campaign: Campaign) -> list[SampleFault]:
-    """Look for cells that are late, wrong signs, zeros that are far off and bad samples in every channel of every run.
+    """Look for late loggers, wrong signs, zeros that are far off and bad samples in every channel of every run.
 
-    All but the first are looked for with late cells brought forward.
+    Cells are looked at with the gauges of the motion in step, and all else with the cells in step too.
     """
-    late = late_cells(campaign)
+    late = [one for one in (late_motion(campaign),) if one is not None]
     campaign = in_step_campaign(campaign, late)
+    cells = [one for one in (late_cells(campaign),) if one is not None]
+    campaign = in_step_campaign(campaign, cells)
+    every = tuple(run.name for run in campaign.runs)
     found = [*_turned(campaign), *_shifted(campaign)]
-    if late is not None:
-        found.append(SampleFault("late", late.channels, late.delay, {}, tuple(run.name for run in campaign.runs)))
+    found += [SampleFault("late", one.channels, one.delay, {}, every) for one in (*late, *cells)]
     names = list(dict.fromkeys(name for run in campaign.runs for name in run.record.channels))
     # what every channel repeats at its end is a record that was cut, no gauge's loss
     cut = {run.name: min(_tail(values) for values in run.record.channels.values()) for run in campaign.runs}

@@ -119,6 +119,14 @@ def test_load_cells_that_are_all_dead_are_no_other_rig(made):
     assert any("carry 0 kN together" in note for note in notes)
 
 
+def test_a_load_cell_that_is_dead_in_one_run_is_no_other_rig(made):
+    campaign = as_campaign(made)
+    first, *others = campaign.runs
+    dead = np.random.default_rng(3).normal(0.0, 2.0, len(first.record))
+    runs = (replace(first, record=first.record.replaced(pad_A_N=dead)), *others)
+    assert not any("carry" in note for note in check_same_specimen(replace(campaign, runs=runs)))
+
+
 def test_a_clipped_accelerometer_is_no_other_rig(made, tmp_path):
     recorded = {name: dict(channels) for name, channels in made.recorded.items()}
     clipped = recorded["sine_hv"]["girder_ax"]

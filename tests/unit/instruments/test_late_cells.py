@@ -9,7 +9,9 @@ from bench import build_campaign
 from measured import as_campaign
 from slipwise.campaign import Campaign
 from slipwise.diagnosis.first_things import first_things
-from slipwise.instruments.late_cells import in_step, late_cells, without_partner
+from slipwise.instruments.lags import in_step, without_partner
+from slipwise.instruments.late_cells import late_cells
+from slipwise.instruments.late_motion import late_motion
 from slipwise.instruments.repairs import for_fits
 from slipwise.instruments.sample_faults import sample_faults
 
@@ -27,7 +29,7 @@ def late_by(sound: Campaign, delay: float, channels: tuple[str, ...] = CELLS) ->
 
 
 def test_cells_that_are_in_step_are_not_late(sound: Campaign) -> None:
-    assert late_cells(sound) is None
+    assert late_cells(sound) is None and late_motion(sound) is None
     assert "late" not in {fault.kind for fault in sample_faults(sound)}
 
 
@@ -59,3 +61,28 @@ def test_late_cells_are_brought_forward_and_their_end_is_not_judged(sound: Campa
 def test_the_samples_without_partners_lie_at_the_end_that_is_missing() -> None:
     assert list(np.flatnonzero(without_partner(100, 0.01, 0.05))) == [94, 95, 96, 97, 98, 99]
     assert list(np.flatnonzero(without_partner(100, 0.01, -0.05))) == [0, 1, 2, 3, 4, 5]
+
+
+GIRDER, TABLE = ("girder_ax", "girder_ay", "girder_az"), ("table_ax", "table_ay", "table_az")
+
+
+@pytest.mark.parametrize(
+    ("channels", "delay"),
+    [(GIRDER, 0.3), (GIRDER, -1.2), (TABLE, 0.2), (TABLE, 2.0), ((*GIRDER, *TABLE), 0.4), (("slip_x", "slip_y"), 0.25)],
+)
+def test_gauges_of_the_motion_on_a_late_logger_are_found(
+    sound: Campaign, channels: tuple[str, ...], delay: float
+) -> None:
+    there = tuple(name for name in channels if name in sound.runs[0].record)
+    found = late_motion(late_by(sound, delay, there))
+    assert found is not None
+    assert set(there) <= set(found.channels)
+    assert {name.split("_")[0] for name in found.channels} - {"yaw"} == {name.split("_")[0] for name in there}
+    assert found.delay == pytest.approx(delay, abs=2e-3)
+
+
+def test_a_late_table_and_late_cells_are_told_apart(sound: Campaign) -> None:
+    both = late_by(late_by(sound, 0.2, TABLE), 0.5)
+    late = [(set(f.channels), f.size) for f in sample_faults(both) if f.kind == "late"]
+    assert [channels & {"table_ax", "pad_A_N"} for channels, _ in late] == [{"table_ax"}, {"pad_A_N"}]
+    assert [size for _, size in late] == pytest.approx([0.2, 0.5], abs=3e-3)
