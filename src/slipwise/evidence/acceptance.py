@@ -8,6 +8,8 @@ is kept need not matter to anybody: whether it does is told by `materiality`.
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+import numpy as np
+
 from slipwise.estimation.parameters import Term
 from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.evidence.score import FLOOR, largest_drop, score
@@ -22,11 +24,15 @@ class Acceptance:
         everywhere: of what acts on every force or motion at once, and so takes up a modeller's errors.
         spoilt: by how much a relation may have become worse before a step that repairs it: right effects raised none
             by more than 0.012, wrong ones one by 0.08.
+        hidden: unless its mean squared residual is so large that something else must be hidden there [noise variance],
+        gained: and the score gains more than this many times what the relation loses.
     """
 
     law: float = 0.05
     everywhere: float = 0.10
     spoilt: float = 0.03
+    hidden: float = 2.0
+    gained: float = 3.0
 
 
 LEAST = Acceptance()
@@ -57,8 +63,16 @@ def is_kept(base: ResidualSummary, before: ResidualSummary, after: ResidualSumma
 
 
 def worsens(before: ResidualSummary, after: ResidualSummary) -> bool:
-    """Tell whether a step repairs some relation at the cost of another."""
-    return largest_drop(after, before)[0] > LEAST.spoilt
+    """Tell whether a step repairs some relation at the cost of another.
+
+    Where something else is still hidden in that relation a right effect may cost some, if the score gains far more.
+    """
+    worse, relation = largest_drop(after, before)
+    if worse <= LEAST.spoilt:
+        return False
+    there, here = (max(s.left_out_level(relation), FLOOR) for s in (before, after))
+    lost = 0.5 * before.counts[relation][0] * float(np.log(here / there))
+    return there < LEAST.hidden or score(before, after) < LEAST.gained * lost
 
 
 def all_down(summary: ResidualSummary) -> bool:

@@ -56,6 +56,8 @@ def test_constants_cost_what_chance_would_gain_with_them() -> None:
 def test_a_step_that_repairs_one_balance_at_the_cost_of_another_worsens() -> None:
     assert worsens(left(9.0, girder=1.0), left(1.0, girder=1.2))
     assert not worsens(left(9.0, girder=1.0), left(1.0, girder=1.01))
+    assert not worsens(left(9.0, girder=4.0), left(1.0, girder=4.4)), "something else is hidden there"
+    assert worsens(left(9.0, girder=4.0), left(8.0, girder=4.4))
     assert largest_drop(left(9.0), left(3.0)) == (pytest.approx(2.0 / 3.0), "pads")
 
 
