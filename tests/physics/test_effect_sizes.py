@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 SCRIPT = runpy.run_path(str(Path(__file__).parents[2] / "scripts" / "01_sizes_of_effects.py"))
 ROWS, COLUMNS = SCRIPT["ROWS"], SCRIPT["COLUMNS"]
 #: (effect, column) that differ by more, and why.
@@ -23,7 +25,6 @@ def ours() -> dict[str, dict[str, float]]:
     return {name: dict(zip(COLUMNS, n, strict=True)) for name, n in zip(names, numbers, strict=True)}
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.name)
 def test_every_row_has_the_order_of_magnitude_of_the_other_program(row) -> None:
     for column, theirs in zip(COLUMNS, row.expected, strict=True):

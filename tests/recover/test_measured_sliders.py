@@ -1,0 +1,45 @@
+"""Measured records of sliders: what is known of them is named."""
+
+import shutil
+
+import pytest
+
+from shaking import needs_shared
+from slipwise.campaign import load_campaign
+from slipwise.diagnosis.diagnose import diagnose
+
+pytestmark = pytest.mark.slow
+
+ROCK = """name = "rock basalt"
+rig = "pad"
+[specimen]
+pad_radius = "28.2 mm"
+[columns]
+"Time(s)" = { channel = "time", unit = "s" }
+"Displ(microns)" = { channel = "slip_x", unit = "um" }
+"Friction" = { channel = "pad_A_Fx", unit = "1" }
+"Normal_stress(MPa)" = { channel = "pad_A_P", unit = "MPa" }
+[[run]]
+file = "run.txt"
+role = "fit"
+"""
+
+
+def test_rate_and_state_of_rock_is_named_with_the_constants_of_another_fit(tmp_path):
+    """Ruina's slip law with a machine in series, fitted apart from the library, gave a = 0.0087 and b = 0.0090."""
+    shutil.copy(needs_shared("friction", "rock_basalt", "run.txt"), tmp_path)
+    (tmp_path / "campaign.toml").write_text(ROCK)
+    found = diagnose(load_campaign(tmp_path))
+    assert "rate_and_state" in found.verdict.effects
+    assert found.base_error > 1.5 and found.final_error < 1.3
+    values = {key: interval.value for key, interval in found.candidates[0].parameters.items()}
+    assert values["rate_and_state.direct"] == pytest.approx(0.0087, rel=0.3)
+    assert values["rate_and_state.state"] == pytest.approx(0.0090, rel=0.3)
+
+
+def test_the_loading_train_of_a_brake_with_backlash_is_named():
+    found = diagnose(load_campaign(needs_shared("friction", "band_brake")))
+    assert {"backlash", "machine_compliance"} <= set(found.verdict.effects)
+    assert found.final_error < 0.5 * found.base_error
+    values = {key: interval.value for key, interval in found.candidates[0].parameters.items()}
+    assert 1e-3 < values["backlash.play"] < 6e-3
