@@ -8,7 +8,7 @@ import numpy as np
 
 from slipwise.diagnosis.first_things import FirstThing
 from slipwise.diagnosis.importance import Importance
-from slipwise.diagnosis.rivals import discriminating_tests, explanations
+from slipwise.diagnosis.rivals import discriminating_tests, explanations, nearest_family
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import Surface
@@ -160,7 +160,13 @@ class Diagnosis(Drawn, Tabular):
             case _:
                 surface = self.verdict.surface
                 shape = surface.words if surface else "no state that was measured organises it"
-                return f"Something outside the catalogue ({chance}). {shape[0].upper()}{shape[1:]}."
+                return f"Something outside the catalogue ({chance}). {shape[0].upper()}{shape[1:]}{self._nearest}."
+
+    @property
+    def _nearest(self) -> str:
+        """Which law of the catalogue comes nearest to what has no name, as the end of a sentence."""
+        found = nearest_family(self.search)
+        return f"; nearest in the catalogue: {found[0]}, which explains {found[1]:.0%} of it" if found else ""
 
     @property
     def _minor(self) -> str:

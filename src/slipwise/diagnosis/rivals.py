@@ -1,14 +1,29 @@
-"""What an ambiguous verdict leaves open: the explanations, and what would tell each two of them apart."""
+"""What a verdict leaves open: explanations and what would tell each two of them apart, and what comes nearest."""
 
 from collections.abc import Mapping
 from itertools import combinations, product
 
 from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects
 from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.verdict import Verdict
+from slipwise.diagnosis.verdict import Verdict, explained_share
 from slipwise.effects import Effect
+from slipwise.evidence.score import score
 
 Explanation = tuple[str, ...]
+#: A law that explains less is not near [1].
+_LEAST_SHARE = 0.05
+
+
+def nearest_family(state: Search) -> tuple[str, float] | None:
+    """Give the law of the catalogue that alone explains most, and its share of what stands above the noise [1].
+
+    None where no law that was fitted explains as much as `_LEAST_SHARE`.
+    """
+    origin = state.path[0]
+    laws = [h for h in state.tried if len(h.terms) == 1 and h.terms[0].effect.component != "instrument"]
+    best = max(laws, key=lambda h: score(origin.summary, h.summary), default=None)
+    share = explained_share(origin, best) if best is not None else 0.0
+    return (best.names[0], share) if best is not None and share >= _LEAST_SHARE else None
 
 
 def explanations(found: Verdict, state: Search) -> tuple[Explanation, ...]:
