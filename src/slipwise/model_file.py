@@ -29,7 +29,7 @@ import tomlkit
 from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT, Item, Table
 
-from slipwise.effects import Effect, Trust, base_effects, catalogue, check_trusted, find_effect, load_effect
+from slipwise.effects import Effect, Trust, base_effects, catalogue, check_trusted, find_effect, holding, load_effect
 from slipwise.errors import InputError, SettingError, unknown_name
 from slipwise.model import EffectUse, Model, base_model, use
 from slipwise.params import same_number
@@ -206,7 +206,7 @@ def _model(document: tomlkit.TOMLDocument, path: Path, trust: Trust) -> Model:
     specimen = load_specimen(str(document["rig"]), path.parent)
     part = cast(Mapping[str, Any], document.get("specimen", {}))
     known = read_known(part, f"[specimen] of {path.name}")
-    uses = tuple(_use(entry, path, trust) for entry in _entries(document))
+    uses = tuple(_use(entry, path, trust, slider=not specimen.free) for entry in _entries(document))
     return Model(better_known(specimen, known, path.name), uses)
 
 
@@ -225,16 +225,16 @@ def _label(entry: Table, path: Path) -> str:
     return f"{name}[{entry['target']}]" if entry.get("target") else name
 
 
-def _use(entry: Table, path: Path, trust: Trust) -> EffectUse:
+def _use(entry: Table, path: Path, trust: Trust, *, slider: bool) -> EffectUse:
     file = _file_in(entry, path)
     if file is not None:
         check_trusted(file, path, trust)
     effect = find_effect(str(entry["name"])) if file is None else load_effect(file)
     values = {key: entry[key] for key in entry if key not in _ENTRY}
-    return _made(effect, str(entry.get("target", "")), values, f"{path.name}, effect {effect.name}")
+    return _made(effect, str(entry.get("target", "")), values, f"{path.name}, effect {effect.name}", slider=slider)
 
 
-def _made(effect: Effect, target: str, values: Mapping[str, Any], where: str) -> EffectUse:
+def _made(effect: Effect, target: str, values: Mapping[str, Any], where: str, *, slider: bool = False) -> EffectUse:
     si: dict[str, float] = {}
     for name, value in values.items():
         parameter = effect.parameter(name)
@@ -242,6 +242,8 @@ def _made(effect: Effect, target: str, values: Mapping[str, Any], where: str) ->
         plain = isinstance(value, float | int) and not isinstance(value, Item)
         found = float(value) if plain else quantity(value, parameter.unit, f"{where}, {name}")
         si[name] = parameter.snapped(found)
+    if slider:  # its sizes are of no reference rig
+        effect = holding(effect, {**effect.typical(), **si})
     return use(effect, target, **si)
 
 

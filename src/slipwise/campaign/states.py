@@ -252,9 +252,9 @@ def _along(
     if not record.has_all("girder_ax", "table_ax"):
         if specimen.free:
             missing.append("girder_ax and table_ax: velocity is made from the slip gauge alone")
-        return fuse_scaled(
-            record.time, np.where(measured, record["slip_x"], np.nan), recorded, scales.time, scales.length
-        )
+            return fuse(record.time, record["slip_x"], velocity=recorded)
+        slip = np.where(measured, record["slip_x"], np.nan)
+        return fuse_scaled(record.time, slip, recorded, scales.time, scales.length)
     relative = record["girder_ax"] - record["table_ax"]
     levels = noise_of_slip(gauges, "x")
     pitch = girder_pitch(record, specimen)

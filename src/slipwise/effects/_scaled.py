@@ -1,6 +1,6 @@
 """Effects for a slider of another size: typical values and bounds as its record scales them."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from slipwise.effects._effect import Effect
@@ -30,7 +30,11 @@ def _scaled(p: Parameter, factor: float) -> Parameter:
     return replace(p, typical=p.typical * factor, low=low, high=p.high * factor * _ROOM, neutral=neutral)
 
 
-def holding(effect: Effect, values: dict[str, float]) -> Effect:
-    """Give an effect whose bounds hold these values: what a user has stated is possible."""
-    kept = [replace(p, low=min(p.low, values[p.name]), high=max(p.high, values[p.name])) for p in effect.parameters]
-    return replace(effect, parameters=tuple(kept)) if tuple(kept) != effect.parameters else effect
+def holding(effect: Effect, values: Mapping[str, float]) -> Effect:
+    """Give an effect whose bounds hold these values, pure numbers apart: what was stated of a slider is possible."""
+    kept = tuple(_holding(p, values[p.name]) if p.unit != "1" else p for p in effect.parameters)
+    return effect if kept == effect.parameters else replace(effect, parameters=kept)
+
+
+def _holding(p: Parameter, value: float) -> Parameter:
+    return replace(p, low=min(p.low, value), high=max(p.high, value))

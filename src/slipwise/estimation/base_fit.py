@@ -7,7 +7,7 @@ import numpy as np
 
 from slipwise.campaign import Campaign, Logger
 from slipwise.campaign.scales import Scales, scales_of
-from slipwise.effects import holding, scaled
+from slipwise.effects import catalogue, holding, scaled
 from slipwise.estimation.gauge_zero import free_zero
 from slipwise.estimation.least_squares import Solution, jacobian, slopes_of, solve
 from slipwise.estimation.parameters import (
@@ -104,7 +104,7 @@ def scaled_model(model: Model, scales: Scales, *, typical: bool) -> Model:
         return model
     uses = []
     for entry in model.uses:
-        effect = scaled(entry.effect, scales.of)
+        effect = scaled(catalogue().get(entry.effect.name, entry.effect), scales.of)
         values = {n: scales.of(effect.parameter(n).unit) * v if typical else v for n, v in entry.values.items()}
         uses.append(replace(entry, effect=holding(effect, values), values=values))
     if not typical:

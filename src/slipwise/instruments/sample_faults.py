@@ -16,6 +16,7 @@ from slipwise.instruments.late_motion import late_motion
 from slipwise.instruments.signs import wrong_signs
 from slipwise.instruments.zeros import tared_cells, zeros_of
 from slipwise.signals.noise import quantum, white_level
+from slipwise.signals.resample import slower_rate
 
 Array = NDArray[np.float64]
 #: A pad's cell, and the share of what its like scatter below which it shows nothing but noise [1].
@@ -246,7 +247,7 @@ def _gaps(campaign: Campaign) -> list[SampleFault]:
     for run in campaign.runs:
         steps = np.diff(run.record.time)
         dt = float(np.median(steps))
-        wide = steps > _GAP * dt
+        wide = (steps > _GAP * dt) & ~slower_rate(steps, dt)
         # a clock that is only rounded has no gap: its steps make up for each other
         if np.any(wide) and np.sum(steps[wide]) - dt * wide.sum() > 2.0 * dt:
             lost += int(np.sum(np.round(steps[wide] / dt) - 1))

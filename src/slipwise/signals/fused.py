@@ -63,6 +63,8 @@ def fuse(
     acceleration: Array | None = None,
     velocity: Array | None = None,
     levels: tuple[float, float] | None = None,
+    *,
+    may_jump: bool = False,
 ) -> Fused:
     """Fuse a displacement gauge with accelerometers, or smooth it alone.
 
@@ -76,6 +78,7 @@ def fuse(
         velocity: (n,) recorded velocity [m/s], NaN where missing; None when there is none.
         levels: noise of one sample of position [m] and acceleration [m/s^2], as if it were white; None: not known. A
             recorded velocity, or no acceleration, leaves more to be known, and they are not used.
+        may_jump: whether the speed may change at once, as an actuator's does; looked for where only the gauge is known.
 
     Raises:
         InputError: fewer than 8 samples, or an acceleration with gaps.
@@ -97,7 +100,7 @@ def fuse(
         found = _likeliest(steps, ramp, half, place, first, accelerometers=acceleration is not None)
     variances = _variances(found, dt, accelerometers=acceleration is not None)
     jumps = np.zeros(len(steps))
-    if acceleration is None and velocity is None:
+    if may_jump and acceleration is None and velocity is None:
         found, variances, jumps = _with_jumps(steps, ramp, half, place, found)
     state, spread = smooth(steps, ramp, half, place, *variances, jumps)
     with_bias = state[:, 2] if acceleration is not None else np.zeros(len(time))
@@ -114,7 +117,7 @@ def fuse(
 
 
 def fuse_scaled(time: Array, position: Array, velocity: Array | None, seconds: float, metres: float) -> Fused:
-    """Smooth a displacement gauge alone, in units of a test whose times and lengths are of another size.
+    """Smooth the gauge of an actuator, in units of a test whose times and lengths are of another size.
 
     Args:
         time: as `fuse`.
@@ -124,7 +127,9 @@ def fuse_scaled(time: Array, position: Array, velocity: Array | None, seconds: f
         metres: how many times longer its ways are [1].
     """
     speed = metres / seconds
-    found = fuse(time / seconds, position / metres, velocity=None if velocity is None else velocity / speed)
+    found = fuse(
+        time / seconds, position / metres, velocity=None if velocity is None else velocity / speed, may_jump=True
+    )
     return Fused(
         position=found.position * metres,
         velocity=found.velocity * speed,

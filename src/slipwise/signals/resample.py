@@ -55,14 +55,19 @@ def uniform_time(time: Array) -> UniformTime:
     new = time[0] + dt * np.arange(count)
     after = np.clip(np.searchsorted(time, new, side="right"), 1, len(time) - 1)
     measured = steps[after - 1] <= _GAP * dt
-    slower = _slower_rate(steps, dt)
+    slower = slower_rate(steps, dt)
     taken = np.searchsorted(new, time[np.concatenate([slower, slower[-1:]])] - 0.5 * dt)
     measured[taken[taken < count]] = True
     return UniformTime(new, measured, moved=True)
 
 
-def _slower_rate(steps: Array, dt: float) -> NDArray[np.bool_]:
-    """Tell which steps (n,) are those of a logger that was set to a slower rate for a while."""
+def slower_rate(steps: Array, dt: float) -> NDArray[np.bool_]:
+    """Tell which steps (n,) are those of a logger that was set to a slower rate for a while.
+
+    Args:
+        steps: between samples (n,) [s].
+        dt: the usual step [s].
+    """
     same = np.abs(np.diff(steps, prepend=0.0)) <= _SAME_STEP * steps
     length = np.zeros(len(steps), dtype=int)
     edges = np.flatnonzero(np.concatenate([[True], ~same[1:], [True]]))
