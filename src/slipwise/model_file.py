@@ -242,9 +242,8 @@ def _made(effect: Effect, target: str, values: Mapping[str, Any], where: str, *,
         plain = isinstance(value, float | int) and not isinstance(value, Item)
         found = float(value) if plain else quantity(value, parameter.unit, f"{where}, {name}")
         si[name] = parameter.snapped(found)
-    if slider:  # its sizes are of no reference rig
-        effect = holding(effect, {**effect.typical(), **si})
-    return use(effect, target, **si)
+    # a slider's sizes are of no reference rig
+    return use(holding(effect, {**effect.typical(), **si}) if slider else effect, target, **si)
 
 
 def _file_of(effect: Effect, path: Path) -> str:

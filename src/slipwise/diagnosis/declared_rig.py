@@ -9,6 +9,8 @@ from slipwise.estimation.base_fit import BaseFit
 from slipwise.rig import load_specimen
 from slipwise.rig.specimen import RIGS, Specimen
 
+#: What is held against every rig: only balances tell it, and rigs differ by it.
+HELD_AGAINST: tuple[str, ...] = ("centre_height", "buffer_stiffness")
 #: A rig's numbers may be off by this share, and so by this one another rig's that fits [1]. Fits of the bench's dirty
 #: campaigns found the height within 7 %, and the buffers' stiffness within 6 %, of what they were.
 _OFF, _FITS = 0.35, 0.15
@@ -38,7 +40,7 @@ def wrong_rig(base: BaseFit) -> WrongRig | None:
     values, declared = base.solution.values, base.model.specimen
     if not base.problem.balanced or not declared.buffer_stiffness:
         return None
-    found = {"centre_height": values["rig.centre_height"], "buffer_stiffness": values["rig.buffer_stiffness"]}
+    found = {name: values[f"rig.{name}"] for name in HELD_AGAINST}
     off = _distance(found, declared)
     if off < np.log1p(_OFF):
         return None

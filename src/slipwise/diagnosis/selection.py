@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from slipwise.campaign import Campaign
 from slipwise.campaign.decimation import decimated
-from slipwise.diagnosis.declared_rig import WrongRig, wrong_rig
+from slipwise.diagnosis.declared_rig import HELD_AGAINST, WrongRig, wrong_rig
 from slipwise.diagnosis.forward_selection import search
 from slipwise.diagnosis.hypothesis import base_hypothesis, final_refit_of
 from slipwise.diagnosis.search_state import Search
@@ -15,6 +15,7 @@ from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.instruments.repairs import InvalidSamples, for_fits
 from slipwise.instruments.sample_faults import RAILS, SampleFault, sample_faults
 from slipwise.model import Model
+from slipwise.rig.known import better_known
 
 #: Faults of samples that a gauge has; a gap is the clock's.
 _OF_GAUGES = ("late", "turned", "shifted", "dead", *RAILS, "held", "lost")
@@ -68,8 +69,10 @@ def select_effects(
     base = fit_base(whole, model, invalid)
     other = wrong_rig(base)
     if other is not None:  # from its rated numbers the fit begins anew, and the rest is diagnosed
-        whole = replace(whole, specimen=other.fitting)
-        model = None if model is None else replace(model, specimen=other.fitting)
+        known = {name: value for name, value in whole.known.items() if name not in HELD_AGAINST}
+        specimen = better_known(other.fitting, known, "campaign.toml")
+        whole = replace(whole, specimen=specimen)
+        model = None if model is None else replace(model, specimen=specimen)
         base = fit_base(whole, model, invalid)
     state = search(base, own, progress)
     # what an effect seems to explain may be a local minimum that the base fit has missed
