@@ -1,4 +1,4 @@
-"""Measured records of sliders: what is known of them is named."""
+"""A measured record of a slider: what is known of it is named."""
 
 import shutil
 
@@ -38,11 +38,3 @@ def test_rate_and_state_of_rock_is_named_with_the_constants_of_another_fit(tmp_p
     sizes = found.candidates[0].parameters
     assert sizes["rate_and_state.direct"].low < 0.0087 < sizes["rate_and_state.direct"].high
     assert sizes["rate_and_state.state"].value == pytest.approx(0.0090, rel=0.3)
-
-
-def test_the_loading_train_of_a_brake_with_backlash_is_named():
-    found = diagnose(load_campaign(needs_shared("friction", "band_brake")))
-    assert {"backlash", "machine_compliance"} <= set(found.verdict.effects)
-    assert found.final_error < 0.5 * found.base_error
-    values = {key: interval.value for key, interval in found.candidates[0].parameters.items()}
-    assert 1e-3 < values["backlash.play"] < 6e-3
