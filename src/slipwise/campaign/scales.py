@@ -5,14 +5,12 @@ that creeps by micrometres a second or a brake: lengths, times and forces that a
 come from its own record, so that an answer does not depend on the units, or on the size, of a test.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.campaign.campaign import Campaign, Run
-from slipwise.rig import Specimen
+from slipwise.campaign.campaign import Campaign
 from slipwise.units import powers_of
 
 #: Of the reference rig: stroke from end to end [m], mean speed [m/s], load of a pad [N], and its pressure [Pa].
@@ -51,12 +49,12 @@ class Scales:
 
 
 def scales_of(campaign: Campaign) -> Scales:
-    """Give the scales of a campaign: of its fitted runs where an actuator prescribes the slip, 1 for a free girder."""
-    return scales_of_runs([r for r in campaign.runs if r.role != "holdout"] or campaign.runs, campaign.specimen)
+    """Give the scales of a campaign, from its fitted runs.
 
-
-def scales_of_runs(runs: Sequence[Run], specimen: Specimen) -> Scales:
-    """Give the scales of these runs of a specimen; 1 for a free girder, and where slip or load was not recorded."""
+    They are 1 for a free girder, and where slip or load was not recorded.
+    """
+    specimen = campaign.specimen
+    runs = [run for run in campaign.runs if run.role != "holdout"] or campaign.runs
     records = [run.record for run in runs if "slip_x" in run.record]
     if specimen.free or not records:
         return Scales()

@@ -38,14 +38,18 @@ def steady_level(records: Sequence[Record], channel: str) -> float:
 def _steady(slip: Array) -> Iterator[slice]:
     for start in range(0, len(slip) - _LENGTH + 1, _LENGTH):
         part = slice(start, start + _LENGTH)
-        place = np.linspace(-1.0, 1.0, _LENGTH)
-        fit = np.polynomial.polynomial.polyfit(place, slip[part], 2)
-        left = float(np.std(slip[part] - np.polynomial.polynomial.polyval(place, fit)))
-        if abs(4.0 * fit[2]) < _CHANGE * abs(fit[1]) and abs(fit[1]) > _MOVED * left / np.sqrt(_LENGTH):
+        (_, rate, bend), left = _about_a_curve(slip[part])
+        if abs(4.0 * bend) < _CHANGE * abs(rate) and abs(rate) > _MOVED * float(np.std(left)) / np.sqrt(_LENGTH):
             yield part
 
 
 def _scatter(values: Array) -> float:
+    curve, left = _about_a_curve(values)
+    return float(np.sqrt(left @ left / (len(values) - len(curve))))
+
+
+def _about_a_curve(values: Array) -> tuple[Array, Array]:
+    """Give the parabola through values (n,), its coefficients over -1 to 1, and what is left of them (n,)."""
     place = np.linspace(-1.0, 1.0, len(values))
-    fit = np.polynomial.polynomial.polyfit(place, values, 2)
-    return float(np.sqrt(np.sum((values - np.polynomial.polynomial.polyval(place, fit)) ** 2) / (len(values) - 3)))
+    curve = np.polynomial.polynomial.polyfit(place, values, 2)
+    return curve, values - np.polynomial.polynomial.polyval(place, curve)

@@ -11,8 +11,8 @@ from slipwise.rig.specimen import RIGS, Specimen
 
 #: What is held against every rig: only balances tell it, and rigs differ by it.
 HELD_AGAINST: tuple[str, ...] = ("centre_height", "buffer_stiffness")
-#: A rig's numbers may be off by this share, and by this one those of another rig that fits [1]: chosen by judgement, the
-#: two rigs of the paper differ by factors of 2 and 1.5.
+#: A rig's numbers may be off by this share, and by this one those of another rig that fits [1]: chosen by judgement,
+#: the two rigs of the paper differ by factors of 2 and 1.5.
 _OFF, _FITS = 0.35, 0.15
 
 
