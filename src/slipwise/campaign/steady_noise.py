@@ -51,5 +51,5 @@ def _scatter(values: Array) -> float:
 def _about_a_curve(values: Array) -> tuple[Array, Array]:
     """Give the parabola through values (n,), its coefficients over -1 to 1, and what is left of them (n,)."""
     place = np.linspace(-1.0, 1.0, len(values))
-    curve = np.polynomial.polynomial.polyfit(place, values, 2)
+    curve = np.asarray(np.polynomial.polynomial.polyfit(place, values, 2), dtype=np.float64)
     return curve, values - np.polynomial.polynomial.polyval(place, curve)
