@@ -47,6 +47,16 @@ def test_a_dashpot_of_smaller_exponent_is_flatter_and_odd() -> None:
     np.testing.assert_allclose(found, 1e4 * 0.1 * np.sign(rates) * np.sqrt(np.abs(rates) / 0.1), rtol=1e-12)
 
 
+@pytest.mark.parametrize("frequency", [0.5, 8.0])
+def test_a_dashpot_with_a_spring_in_series_has_the_loss_of_zeners_solid(frequency: float) -> None:
+    """Loss modulus c w / (1 + (w t_r)^2)."""
+    omega, relaxation = 2 * np.pi * frequency, 0.02
+    time, x, v = sine(frequency, cycles=2)
+    found = area(x, force(bridge("buffer_damping", damping=7e3, relaxation=relaxation), time, x, v)[:, 0])
+    expected = np.pi * 7e3 * omega / (1.0 + (omega * relaxation) ** 2) * AMPLITUDE**2
+    assert found == pytest.approx(expected, rel=3e-3)
+
+
 @pytest.mark.parametrize("frequency", [0.5, 3.0])
 def test_hysteresis_has_the_same_loop_at_every_frequency(frequency: float) -> None:
     """Elastic-plastic: a parallelogram 4 H (X - u)."""

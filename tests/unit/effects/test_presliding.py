@@ -11,9 +11,11 @@ LOAD = 24.5e3
 U = 0.3e-3
 
 
-def _share(slip_x: np.ndarray, exponent: float = 1.0, slip_y: np.ndarray | None = None) -> np.ndarray:
+def _share(
+    slip_x: np.ndarray, exponent: float = 1.0, slip_y: np.ndarray | None = None, spectrum: float = 0.0
+) -> np.ndarray:
     """Drive pad A along a path of slip at constant load without speed term; force over bound, (n, 2)."""
-    model = base_model("bridge1", [use("presliding", length=U, exponent=exponent)])
+    model = base_model("bridge1", [use("presliding", length=U, exponent=exponent, spectrum=spectrum)])
     time = 0.002 * np.arange(len(slip_x))
     slip = np.zeros((len(time), 4, 2))
     slip[:, :, 0] = slip_x[:, None]
@@ -61,6 +63,16 @@ def test_between_them_the_exact_step_agrees_with_a_differential_equation(exponen
         z = found.y[0, -1]
         exact.append(z / U)
     np.testing.assert_allclose(_share(slip, exponent)[:, 0], exact, atol=1e-6)
+
+
+def test_an_even_spectrum_is_iwans_parabola_and_follows_masings_rule() -> None:
+    """First loading F/F_b = s/u - (s/2u)^2 up to 2u; a branch after a reversal is twice as large in both directions."""
+    s = np.linspace(0.0, 1.5 * U, 301)
+    first = _share(s, 0.0, spectrum=1.0)[:, 0]
+    np.testing.assert_allclose(first, s / U - (s / (2 * U)) ** 2, atol=0.005)
+    path = np.concatenate([s, s[-1] - 2.0 * s[1:]])
+    back = _share(path, 0.0, spectrum=1.0)[len(s) :, 0]
+    np.testing.assert_allclose(back, first[-1] - 2.0 * first[1:], atol=1e-9)
 
 
 @pytest.mark.parametrize("exponent", [0.0, 0.5, 1.0])
@@ -134,9 +146,10 @@ def test_a_contact_that_slips_has_its_whole_friction_while_that_falls() -> None:
     np.testing.assert_allclose(share[slip[:, 0, 0] > 2.0 * U], 1.0, rtol=1e-12)
 
 
+@pytest.mark.parametrize("spectrum", [0.0, 0.8])
 @pytest.mark.parametrize("share", [(0.4, 0.0), (-1.0, 0.0), (1.2, 0.9)])
-def test_a_record_may_begin_with_a_bristle_that_is_bent_already(share: tuple[float, float]) -> None:
-    law = predictor(base_model("bridge1", [use("presliding", length=U, growth=0.5)]))
+def test_a_record_may_begin_with_a_bristle_that_is_bent_already(share: tuple[float, float], spectrum: float) -> None:
+    law = predictor(base_model("bridge1", [use("presliding", length=U, growth=0.5, spectrum=spectrum)]))
     still, load = np.zeros((4, 2)), np.full(4, 0.2 * LOAD)
     time, path = 0.002 * np.arange(2), np.zeros((2, 4, 2))
     bound = law.pads(time, np.stack([load, load]), path, path).bound[0]
