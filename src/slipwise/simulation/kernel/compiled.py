@@ -1,7 +1,8 @@
 """The module that numba compiles and keeps on disk: the effects' hooks, their calls, the law bound to them.
 
 Machine code is kept by file, so the module is written to a file of its own. Only the functions that stand in it are
-kept; the law's functions are compiled into them.
+kept; the law's functions are compiled into them. MuJoCo's callbacks hold all of the law once more and take as long to
+compile as all else: they are compiled where a simulation first asks for them.
 """
 
 import inspect
@@ -48,14 +49,16 @@ FIELDS = {fields(offsets(), layout.size)!r}
 {chr(10).join(bound)}
 
 
-@cfunc(types.void(types.intp, types.intp), cache=True)
-def control_callback(model, data):
-    pointers.control_at(EFFECTS, FIELDS, data)
+def callback_addresses():
+    @cfunc(types.void(types.intp, types.intp), cache=True)
+    def control_callback(model, data):
+        pointers.control_at(EFFECTS, FIELDS, data)
 
+    @cfunc(types.void(types.intp, types.intp, types.intc), cache=True)
+    def sensor_callback(model, data, stage):
+        pointers.sensor_at(EFFECTS, FIELDS, data, stage)
 
-@cfunc(types.void(types.intp, types.intp, types.intc), cache=True)
-def sensor_callback(model, data, stage):
-    pointers.sensor_at(EFFECTS, FIELDS, data, stage)
+    return control_callback.address, sensor_callback.address
 '''
 
 

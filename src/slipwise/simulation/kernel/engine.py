@@ -6,6 +6,7 @@ hash of everything it was made from, so that no stale code is ever run.
 
 import hashlib
 import importlib.util
+import inspect
 import linecache
 import os
 import sys
@@ -13,12 +14,13 @@ import tempfile
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import cache, cached_property, partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import mujoco
+import numpy as np
 
 from slipwise import effects
 from slipwise.cache import cache_folder
@@ -41,6 +43,9 @@ _FUNCTIONS: tuple[Callable[..., Any], ...] = (
 )  # fmt: skip
 
 
+_BY_NAME: dict[str, Callable[..., Any]] = {function.__name__: function for function in _FUNCTIONS}
+
+
 @dataclass(frozen=True)
 class Kernel:
     """The law, ready to run.
@@ -49,13 +54,19 @@ class Kernel:
         layout: of the flat array that its functions take first.
         engine: "compiled" or "python".
         functions: by name: control_step, sensor_step, pads_over_record, buffers_over_record and their parts.
-        callbacks: addresses of the C callbacks (control, sensor); None for the Python engine.
+        callback_addresses: compiles the C callbacks and gives their addresses (control, sensor), none for the Python
+            engine.
     """
 
     layout: Layout
     engine: str
     functions: dict[str, Callable[..., Any]]
-    callbacks: tuple[int, int] | None
+    callback_addresses: Callable[[], tuple[int, int] | None]
+
+    @cached_property
+    def callbacks(self) -> tuple[int, int] | None:
+        """Addresses of the C callbacks (control, sensor); None for the Python engine."""
+        return self.callback_addresses()
 
 
 def kernel(engine: str = "compiled", user_effects: Sequence[Effect] = ()) -> Kernel:
@@ -115,7 +126,12 @@ class _Hidden:
 @cache
 def _made(engine: str, files: tuple[str, ...], user: _Hidden) -> Kernel:
     layout = make_layout([*catalogue().values(), *user.effects])
-    return _python(layout) if engine == "python" else _compiled(layout)
+    if engine == "python":
+        return _python(layout)
+    law = _compiled(layout)
+    if user.effects:
+        _compile_hooks(law)
+    return law
 
 
 def _python(layout: Layout) -> Kernel:
@@ -126,7 +142,7 @@ def _python(layout: Layout) -> Kernel:
     exec(compile(text, file, "exec"), vars(calls))  # the text is our own: see dispatch.py
     linecache.cache[file] = (len(text), None, text.splitlines(keepends=True), file)  # a debugger can show it
     functions = {function.__name__: partial(function, calls) for function in _FUNCTIONS}
-    return Kernel(layout, "python", functions, None)
+    return Kernel(layout, "python", functions, lambda: None)
 
 
 def _compiled(layout: Layout) -> Kernel:
@@ -137,11 +153,29 @@ def _compiled(layout: Layout) -> Kernel:
     about = f"{mujoco.__version__} {sys.version} {_numba_version()}"
     digest = hashlib.sha256((text + sources + about).encode()).hexdigest()[:16]
     module = _import(f"slipwise_kernel_{digest}", text)
+    functions = {f.__name__: getattr(module, f.__name__) for f in _FUNCTIONS}
+    return Kernel(layout, "compiled", functions, module.callback_addresses)
+
+
+def _compile_hooks(law: Kernel) -> None:
+    """Compile what calls the hooks, on records of nothing: a user's file that cannot be compiled is told of at once.
+
+    Raises:
+        SettingError: it cannot be compiled.
+    """
+    numbers, nothing = np.zeros(law.layout.size), np.zeros((0, 1, 2))
     try:
-        addresses = (int(module.control_callback.address), int(module.sensor_callback.address))
-    except AttributeError as error:
-        raise SettingError(f"the law could not be compiled: {error}") from error
-    return Kernel(layout, "compiled", {f.__name__: getattr(module, f.__name__) for f in _FUNCTIONS}, addresses)
+        law.functions["pads_over_record"](
+            numbers, nothing[:, 0, 0], nothing[..., 0], *(nothing,) * 3, nothing[..., 0], 0, 0
+        )
+        law.functions["buffers_over_record"](numbers, nothing[:, 0, 0], *(nothing,) * 3)
+        for name in ("girder_drag", "girder_lift"):
+            law.functions[name](numbers, *(0.0,) * (len(inspect.signature(_BY_NAME[name]).parameters) - 2))
+    except Exception as error:
+        raise SettingError(
+            f"the law cannot be compiled ({type(error).__name__}: {str(error).strip().splitlines()[0]}); "
+            "a hook of one instant may use arithmetic, math and memory[...] only. --engine python runs it as it is"
+        ) from error
 
 
 def _numba_version() -> str:
@@ -170,12 +204,5 @@ def _import(name: str, text: str) -> ModuleType:
         raise SettingError(f"the compiled law cannot be read back from {path}")
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
-    try:
-        spec.loader.exec_module(module)
-    except Exception as error:
-        del sys.modules[name]
-        raise SettingError(
-            f"the law cannot be compiled ({type(error).__name__}: {str(error).strip().splitlines()[0]}); "
-            "a hook of one instant may use arithmetic, math and memory[...] only. --engine python runs it as it is"
-        ) from error
+    spec.loader.exec_module(module)
     return module
