@@ -4,7 +4,7 @@ from slipwise.effects._catalogue import base_effects, catalogue, find_effect, lo
 from slipwise.effects._declared import NEEDS, Gauges
 from slipwise.effects._effect import RESPONSE, Effect, moved_channels, read_effect
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._hooks import COMPONENTS, HOOKS, PORTS
+from slipwise.effects._hooks import COMPONENTS, DERIVED, HOOKS, LAGGING, PORTS
 from slipwise.effects._scaled import holding, scaled
 from slipwise.effects._states import BalanceStates
 from slipwise.effects._trust import Trust, check_trusted
@@ -12,7 +12,9 @@ from slipwise.effects._trust import Trust, check_trusted
 __all__ = [
     "BalanceStates",
     "COMPONENTS",
+    "DERIVED",
     "HOOKS",
+    "LAGGING",
     "NEEDS",
     "PORTS",
     "RESPONSE",

@@ -8,6 +8,7 @@ Hooks of one instant (plain scalars in, scalars out; compiled into the step and 
 arithmetic, `math` and `memory[...]` may be used):
 
     area(real_area, ...) -> real_area          shear(shear, ...) -> shear
+    coefficient(coefficient, ...) -> coefficient of friction, which follows from both and the load
     stick(bound, ...) -> (force_x, force_y)    pad(...) -> (force_x, force_y)
     advance(...) -> None, changes memory[...] after the force is known
     deflection(deflection, ...) -> deflection  spring(force, ...) -> force         settle(...) -> None (buffer's memory)
@@ -49,7 +50,7 @@ from typing import Any
 from slipwise.channels import CHANNELS
 from slipwise.effects._declared import BASE_ROLES, COMPONENT_NEEDS, NEEDS, SITS, Gauges
 from slipwise.effects._fault import SAMPLE_FAULTS, GaugeFault
-from slipwise.effects._hooks import COMPONENTS, HOOKS, PORTS, SIDES
+from slipwise.effects._hooks import COMPONENTS, DERIVED, HOOKS, LAGGING, PORTS, SIDES
 from slipwise.errors import SettingError, unknown_name
 from slipwise.params import Parameter
 from slipwise.shown import Drawn, Tabular
@@ -137,6 +138,12 @@ class Effect(Drawn, Tabular):
     def instant_hooks(self) -> dict[str, Callable[..., Any]]:
         """The hooks that are compiled into the step."""
         return {n: f for n, f in self.hooks.items() if HOOKS[n].instant}
+
+    @property
+    def derived(self) -> tuple[str, ...]:
+        """The derived states that its hooks of one instant ask for, in the order of `DERIVED`."""
+        asked = {name for hook in self.instant_hooks.values() for name in inspect.signature(hook).parameters}
+        return tuple(name for name in DERIVED if name in asked)
 
     @property
     def reverses(self) -> bool:
@@ -265,6 +272,10 @@ def _check_arguments(path: Path, effect: Effect, hook: str, function: Callable[.
             raise SettingError(
                 f"{path.name}: {hook}() asks for {argument!r}, which is neither one of its parameters "
                 f"({', '.join(effect.parameter_names)}) nor something this hook can have: {', '.join(sorted(known))}"
+            )
+        if argument in LAGGING and "time_constant" not in effect.parameter_names:
+            raise SettingError(
+                f'{path.name}: {hook}() asks for {argument!r}: it needs a Parameter("time_constant", "s", ...)'
             )
 
 

@@ -3,6 +3,24 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+#: States made from the others, see `simulation.kernel.derived_states`; a first-order lag is that of the effect's own
+#: parameter `time_constant`.
+DERIVED: dict[str, str] = {
+    "speed_rate": "rate of the speed d|v|/dt [m/s^2]",
+    "lagged_load": "load behind a lag of `time_constant` [N]",
+    "load_rate": "rate of the load behind that lag [N/s]",
+    "time_since_reversal": "time since the motion turned back [s]",
+    "distance_since_reversal": "way slid since then [m]",
+    "last_peak_speed": "largest speed of the stroke before [m/s]",
+    "last_stroke": "length of the stroke before [m]",
+    "slid": "distance slid since the pad was new [m]",
+    "heat": "of friction per area, lost in `time_constant` [J/m^2]",
+    "outward": "+1 away from the middle, -1 towards it [1]",
+    "path_curvature": "of the path of slip in the plane [1/m]",
+}
+#: Of these, the ones that need a time constant, and those that a buffer has, of its deflection.
+LAGGING: frozenset[str] = frozenset({"lagged_load", "load_rate", "heat"})
+_OF_BUFFERS = DERIVED.keys() - LAGGING - {"path_curvature"}
 PAD_INPUTS: dict[str, str] = {
     "load": "normal load N of the pad [N]",
     "pressure": "load over apparent area P [Pa]",
@@ -18,6 +36,7 @@ PAD_INPUTS: dict[str, str] = {
     "side_y": "+1 for pads A and B, -1 for C and D [1]",
     "time": "since the start of the run [s]",
     "dt": "time since the instant before [s]",
+    **DERIVED,
 }
 _FORCE_INPUTS: dict[str, str] = {
     "bound": "friction force that the pad can carry, s A_r [N]",
@@ -30,6 +49,7 @@ BUFFER_INPUTS: dict[str, str] = {
     "side": "+1 for buffer 1, -1 for buffer 2 [1]",
     "time": "since the start of the run [s]",
     "dt": "time since the instant before [s]",
+    **{name: DERIVED[name] for name in DERIVED if name in _OF_BUFFERS},
 }
 GIRDER_INPUTS: dict[str, str] = {
     "velocity_x": "girder over table [m/s]",
@@ -61,6 +81,7 @@ _AFTERWARDS = {n: words for n, words in PAD_INPUTS.items() if n not in ("real_ar
 HOOKS: dict[str, Hook] = {
     "area": _hook(PAD_INPUTS, "real_area", memory="pad"),
     "shear": _hook(PAD_INPUTS, "shear", memory="pad"),
+    "coefficient": _hook(_AFTERWARDS, "coefficient", memory="pad"),
     "stick": _hook(_AFTERWARDS, "bound", memory="pad"),
     "pad": _hook({**_AFTERWARDS, **_FORCE_INPUTS}, memory="pad"),
     "advance": _hook({**_AFTERWARDS, **_FORCE_INPUTS}, memory="pad"),
@@ -87,7 +108,7 @@ PORTS: dict[str, tuple[str, ...]] = {
     "rig": ("rig", "balance", "disturb"),
     "table": ("table", "balance", "disturb"),
     "area": ("area", "advance", "rest"),
-    "shear": ("shear", "advance", "rest", "flat", "disturb"),
+    "shear": ("shear", "coefficient", "advance", "rest", "flat", "disturb"),
     "stick": ("stick", "shear", "advance", "rest", "begin"),
     "pad": ("pad", "advance", "rest", "disturb"),
     "train": ("stretch",),

@@ -14,12 +14,13 @@ Which effects act, and in which order, is data, so one compilation serves every 
 """
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple, Protocol
 
-from slipwise.effects import Effect
-from slipwise.simulation.kernel.layout import Layout
-from slipwise.simulation.kernel.places import CHAINS, EFFECT_COUNT
+from slipwise.effects import DERIVED, Effect
+from slipwise.simulation.kernel import derived_states
+from slipwise.simulation.kernel.layout import OBSERVED, Layout, observes
+from slipwise.simulation.kernel.places import CHAINS, EFFECT_COUNT, N_OBSERVE, N_OBSERVE_BUFFER
 
 
 class Dispatch(Protocol):
@@ -32,6 +33,7 @@ class Dispatch(Protocol):
     Attributes:
         area: gives the real area of contact [m^2].
         shear: gives the shear strength of the contact [Pa].
+        coefficient: gives the coefficient of friction [1].
         stick: gives the force of what says how a pad sticks, along x and y [N].
         pad: gives the sum of the further forces at a pad, along x and y [N].
         advance: lets the memory of a pad go on.
@@ -41,6 +43,8 @@ class Dispatch(Protocol):
         settle: lets the memory of a buffer go on.
         lift: gives the vertical force at the shear keys [N].
         drag: gives the force against the girder's motion, along x and y [N].
+        observe: brings the derived states of a pad up to date.
+        observe_buffer: the same of a buffer's direction.
         pad_memory: place in `u` of the first pad's memory.
         pad_block: size of one pad's memory.
         buffer_memory: place in `u` of the memory of the first buffer along x.
@@ -49,6 +53,7 @@ class Dispatch(Protocol):
 
     area: Callable[..., float]
     shear: Callable[..., float]
+    coefficient: Callable[..., float]
     stick: Callable[..., tuple[float, float]]
     pad: Callable[..., tuple[float, float]]
     advance: Callable[..., None]
@@ -58,6 +63,8 @@ class Dispatch(Protocol):
     settle: Callable[..., None]
     lift: Callable[..., float]
     drag: Callable[..., tuple[float, float]]
+    observe: Callable[..., None]
+    observe_buffer: Callable[..., None]
     pad_memory: int
     pad_block: int
     buffer_memory: int
@@ -87,6 +94,7 @@ _FORCES = "force_x, force_y"
 _HOOKS: dict[str, _Hook] = {
     "area": _Hook(("u", "z", "real_area", "true_pressure", *_PAD), (), ("real_area = {call}",), "real_area"),
     "shear": _Hook(("u", "z", "shear", "real_area", "true_pressure", *_PAD), (), ("shear = {call}",), "shear"),
+    "coefficient": _Hook(("u", "z", "coefficient", *_PAD), (), ("coefficient = {call}",), "coefficient"),
     "stick": _Hook(("u", "z", "bound", *_PAD), _NOTHING, ("force_x, force_y = {call}",), _FORCES),
     "pad": _Hook(("u", "z", "bound", "friction", *_PAD), _NOTHING, _ADD, _FORCES),
     "advance": _Hook(("u", "z", "bound", "friction", *_PAD), (), ("{call}",), "None"),
@@ -98,6 +106,18 @@ _HOOKS: dict[str, _Hook] = {
     "drag": _Hook(("u", *_GIRDER), _NOTHING, _ADD, _FORCES),
 }
 
+#: What the functions that bring derived states up to date are given, and what they pass on.
+_OBSERVED_BY: dict[str, tuple[str, ...]] = {
+    "observe": (
+        "friction", "load", "apparent_area", "velocity_x", "velocity_y", "slip_x", "slip_y", "time", "dt",
+    ),
+    "observe_buffer": ("0.0", "0.0", "1.0", "rate", "0.0", "deflection", "0.0", "time", "dt"),
+}  # fmt: skip
+_OBSERVE: dict[str, tuple[str, ...]] = {
+    "observe": ("u", "z", *_OBSERVED_BY["observe"]),
+    "observe_buffer": ("u", "z", "deflection", "rate", "time", "dt"),
+}
+
 
 def function_name(effect: Effect, hook: str) -> str:
     """Name of an effect's hook among the functions of all effects."""
@@ -106,7 +126,8 @@ def function_name(effect: Effect, hook: str) -> str:
 
 def dispatch_text(layout: Layout, decorator: str = "") -> str:
     """Write the module that is a `Dispatch`; the effects' hooks stand in it under `function_name`."""
-    functions = "\n\n\n".join(decorator + _function(layout, hook) for hook in CHAINS)
+    written = [*(_function(layout, hook) for hook in CHAINS), *(_observing(layout, name) for name in OBSERVED)]
+    functions = "\n\n\n".join(decorator + text for text in written)
     return f"""pad_memory, pad_block = {layout.at["pad_memory"]}, {layout.pad_block}
 buffer_memory, buffer_block = {layout.at["buffer_memory"]}, {layout.buffer_block}
 
@@ -118,16 +139,40 @@ buffer_memory, buffer_block = {layout.at["buffer_memory"]}, {layout.buffer_block
 def _function(layout: Layout, hook: str) -> str:
     """Write the function that lets the effects which have a hook act one after another."""
     how = _HOOKS[hook]
+    calls = {
+        i: [line.replace("{call}", _call(layout, effect, hook)) for line in how.each]
+        for i, effect in enumerate(layout.effects)
+        if hook in effect.hooks
+    }
     lines = [f"def {hook}({', '.join(how.arguments)}):", *(f"    {line}" for line in how.begin)]
-    users = [(i, effect) for i, effect in enumerate(layout.effects) if hook in effect.hooks]
-    if users:
-        first = layout.at[hook]
-        lines.append(f"    for place in range({first}, {first} + int(u[{EFFECT_COUNT + CHAINS.index(hook)}])):")
-        lines.append("        which = int(u[place])")
-    for n, (i, effect) in enumerate(users):
-        lines.append(f"        {'if' if n == 0 else 'elif'} which == {i}:")
-        lines.extend(f"            {line.replace('{call}', _call(layout, effect, hook))}" for line in how.each)
+    lines += _one_by_one(layout.at[hook], EFFECT_COUNT + CHAINS.index(hook), calls)
     return "\n".join([*lines, f"    return {how.answer}"])
+
+
+def _observing(layout: Layout, name: str) -> str:
+    """Write the function that brings the derived states of those effects up to date which ask for them."""
+    calls = {}
+    for i, effect in enumerate(layout.effects):
+        if observes(effect) == name:
+            start, own = layout.derived[effect.name], effect.parameter_names
+            place = layout.parameters[effect.name] + (own.index("time_constant") if "time_constant" in own else 0)
+            lag = f"u[{place}]" if "time_constant" in own else "1.0"
+            memory = f"u[z + {start} : z + {start + derived_states.SIZE}]"
+            calls[i] = [f"derived_states.observe({memory}, {', '.join(_OBSERVED_BY[name])}, {lag})"]
+    lines = [f"def {name}({', '.join(_OBSERVE[name])}):"]
+    count = N_OBSERVE if name == "observe" else N_OBSERVE_BUFFER
+    return "\n".join([*lines, *_one_by_one(layout.at[name], count, calls), "    return None"])
+
+
+def _one_by_one(first: int, count: int, calls: Mapping[int, Sequence[str]]) -> list[str]:
+    """Write the loop over a list of effects: the list begins at `first` in `u`, its length stands at `count`."""
+    if not calls:
+        return []
+    lines = [f"    for place in range({first}, {first} + int(u[{count}])):", "        which = int(u[place])"]
+    for n, (i, call) in enumerate(calls.items()):
+        lines.append(f"        {'if' if n == 0 else 'elif'} which == {i}:")
+        lines.extend(f"            {line}" for line in call)
+    return lines
 
 
 def _call(layout: Layout, effect: Effect, hook: str) -> str:
@@ -141,6 +186,8 @@ def _call(layout: Layout, effect: Effect, hook: str) -> str:
             place = layout.pad_memory if effect.name in layout.pad_memory else layout.buffer_memory
             first = place[effect.name]
             arguments.append(f"u[z + {first} : z + {first + len(effect.memory)}]")
+        elif name in DERIVED:
+            arguments.append(f"u[z + {layout.derived[effect.name] + tuple(DERIVED).index(name)}]")
         else:
             arguments.append(name)
     return f"{function_name(effect, hook)}({', '.join(arguments)})"

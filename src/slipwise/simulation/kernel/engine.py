@@ -26,6 +26,7 @@ from slipwise import effects
 from slipwise.cache import cache_folder
 from slipwise.effects import Effect, catalogue
 from slipwise.errors import SettingError, SlipwiseWarning
+from slipwise.simulation.kernel import derived_states
 from slipwise.simulation.kernel.compiled import module_text
 from slipwise.simulation.kernel.dispatch import dispatch_text, function_name
 from slipwise.simulation.kernel.girder import buffer_spring, girder_drag, girder_lift
@@ -138,6 +139,7 @@ def _python(layout: Layout) -> Kernel:
     """Call the law's functions as they stand in their files; only the calls of the hooks are made from text."""
     text, file = dispatch_text(layout), "<calls of the effects' hooks>"
     calls = ModuleType("slipwise_kernel_python")
+    vars(calls)["derived_states"] = derived_states
     vars(calls).update({function_name(e, hook): e.hooks[hook] for e in layout.effects for hook in e.instant_hooks})
     exec(compile(text, file, "exec"), vars(calls))  # the text is our own: see dispatch.py
     linecache.cache[file] = (len(text), None, text.splitlines(keepends=True), file)  # a debugger can show it

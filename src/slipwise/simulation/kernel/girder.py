@@ -37,6 +37,7 @@ def buffer_spring(
         time: since the start of the run [s].
         dt: step [s].
     """
+    effects.observe_buffer(u, z, deflection, rate, time, dt)
     left = effects.deflection(u, z, deflection, rate, stiffness, side, time, dt)
     if left == 0.0 and deflection != 0.0:
         rate = 0.0

@@ -14,8 +14,11 @@ from numpy.typing import NDArray
 from slipwise.effects import Effect
 from slipwise.errors import SettingError
 from slipwise.model import EffectUse, Model
-from slipwise.simulation.kernel import places
+from slipwise.simulation.kernel import derived_states, places
 from slipwise.simulation.kernel.places import CHAINS, MAX_BUFFERS, MAX_PADS
+
+#: Lists of the effects that ask for derived states of pads, and of buffers.
+OBSERVED: tuple[str, ...] = ("observe", "observe_buffer")
 
 
 @dataclass(frozen=True)
@@ -24,10 +27,12 @@ class Layout:
 
     Attributes:
         effects: the effects that the kernel knows, whether a model uses them or not.
-        at: offset of the list of effects of each hook of `CHAINS`, of "pad_memory" and of "buffer_memory".
+        at: offset of the list of effects of each hook of `CHAINS`, of those that ask for derived states ("observe",
+            "observe_buffer"), of "pad_memory" and of "buffer_memory".
         parameters: effect name -> offset of its first parameter.
         pad_memory: effect name -> offset of its memory within one pad's block.
         buffer_memory: the same within one buffer's direction.
+        derived: effect name -> offset of its derived states within that block.
         pad_block: size of one pad's memory.
         buffer_block: size of one buffer direction's memory.
         size: of the whole array.
@@ -38,6 +43,7 @@ class Layout:
     parameters: dict[str, int]
     pad_memory: dict[str, int]
     buffer_memory: dict[str, int]
+    derived: dict[str, int]
     pad_block: int
     buffer_block: int
     size: int
@@ -51,25 +57,40 @@ def make_layout(effects: Sequence[Effect]) -> Layout:
     for chain in CHAINS:
         at[chain] = offset
         offset += sum(chain in e.hooks for e in instant)
+    for observed in OBSERVED:
+        at[observed] = offset
+        offset += sum(observes(e) == observed for e in instant)
     parameters: dict[str, int] = {}
     for effect in instant:
         parameters[effect.name] = offset
         offset += len(effect.parameters)
-    pad_memory, pad_block = _memory([e for e in instant if e.port != "buffer"])
-    buffer_memory, buffer_block = _memory([e for e in instant if e.port == "buffer"])
+    derived: dict[str, int] = {}
+    pad_memory, pad_block = _memory([e for e in instant if e.port != "buffer"], derived)
+    buffer_memory, buffer_block = _memory([e for e in instant if e.port == "buffer"], derived)
     at["pad_memory"] = offset
     offset += MAX_PADS * pad_block
     at["buffer_memory"] = offset
     offset += 2 * MAX_BUFFERS * buffer_block
-    return Layout(instant, at, parameters, pad_memory, buffer_memory, pad_block, buffer_block, offset)
+    return Layout(instant, at, parameters, pad_memory, buffer_memory, derived, pad_block, buffer_block, offset)
 
 
-def _memory(effects: Sequence[Effect]) -> tuple[dict[str, int], int]:
+def observes(effect: Effect) -> str:
+    """Give which of `OBSERVED` an effect that asks for derived states belongs to; "" where it asks for none."""
+    if not effect.derived:
+        return ""
+    return "observe_buffer" if effect.port == "buffer" else "observe"
+
+
+def _memory(effects: Sequence[Effect], derived: dict[str, int]) -> tuple[dict[str, int], int]:
+    """Give where each effect's memory stands in a block, and its size; fills where its derived states stand."""
     first: dict[str, int] = {}
     offset = 0
     for effect in effects:
         first[effect.name] = offset
         offset += len(effect.memory)
+        if observes(effect):
+            derived[effect.name] = offset
+            offset += derived_states.SIZE
     return first, offset
 
 
@@ -110,6 +131,10 @@ def fill(layout: Layout, model: Model, dt: float) -> NDArray[np.float64]:
             raise SettingError(f"this kernel was not compiled for {', '.join(unknown)}")
         array[places.EFFECT_COUNT + CHAINS.index(chain)] = len(uses)
         array[layout.at[chain] : layout.at[chain] + len(uses)] = [index[u.effect.name] for u in uses]
+    for place, observed in zip((places.N_OBSERVE, places.N_OBSERVE_BUFFER), OBSERVED, strict=True):
+        watching = [index[u.effect.name] for u in model.uses if observes(u.effect) == observed]
+        array[place] = len(watching)
+        array[layout.at[observed] : layout.at[observed] + len(watching)] = watching
     set_values(layout, array, model)
     return array
 
@@ -155,6 +180,10 @@ def apply_rest(layout: Layout, array: NDArray[np.float64], model: Model, seconds
             blocks, start = buffer_memories(layout, array).reshape(-1, layout.buffer_block), layout.buffer_memory[name]
         for block in blocks:
             entry.effect.hooks["rest"](block[start : start + size], seconds, **entry.values)
+    for entry in (u for u in model.uses if observes(u.effect) == "observe" and "time_constant" in u.values):
+        start = layout.derived[entry.effect.name]
+        for block in pad_memories(layout, array):
+            derived_states.cool(block[start : start + derived_states.SIZE], seconds, entry.values["time_constant"])
 
 
 def begin_memory(

@@ -1,6 +1,6 @@
 """The friction of one pad at one instant.
 
-    bound = s A_r,         A_r = N / H,        each of s and A_r changed by the effects on it, one after another
+    bound = mu N,  mu = s A_r / N,  A_r = N / H,    each of A_r, s, mu changed by the effects on it, one after another
     F = stick(bound) + sum of pad(bound, |F|);     dry friction up to the bound where no effect says how a pad sticks
 
 All functions take the chosen effects, the array `u` (see `places`) and the place `z` in it of the pad's memory, then
@@ -50,7 +50,11 @@ def pad_bound(
         u, z, u[SHEAR_STRENGTH], real_area, true_pressure, load, pressure, apparent_area, speed, velocity_x,
         velocity_y, slip_x, slip_y, side_x, side_y, time, dt,
     )  # fmt: skip
-    return max(shear * real_area, 0.0)
+    coefficient = effects.coefficient(
+        u, z, shear * real_area / load, load, pressure, apparent_area, speed, velocity_x, velocity_y, slip_x, slip_y,
+        side_x, side_y, time, dt,
+    )  # fmt: skip
+    return max(coefficient * load, 0.0)
 
 
 @compilable

@@ -9,7 +9,8 @@ MAX_BUFFERS = 2
 MAX_DOFS = 11
 #: Hooks whose effects act one after another in the order of the model.
 CHAINS: tuple[str, ...] = (
-    "area", "shear", "stick", "pad", "advance", "stretch", "deflection", "spring", "settle", "lift", "drag",
+    "area", "shear", "coefficient", "stick", "pad", "advance", "stretch", "deflection", "spring", "settle", "lift",
+    "drag",
 )  # fmt: skip
 
 #: Step [s].
@@ -72,4 +73,7 @@ N_PAD = EFFECT_COUNT + CHAINS.index("pad")
 N_ADVANCE = EFFECT_COUNT + CHAINS.index("advance")
 #: How many of the loading train's parts stretch at all.
 N_TRAIN = EFFECT_COUNT + len(CHAINS)
-END = N_TRAIN + 1
+#: How many of the model's effects of pads, and of buffers, ask for derived states.
+N_OBSERVE = N_TRAIN + 1
+N_OBSERVE_BUFFER = N_OBSERVE + 1
+END = N_OBSERVE_BUFFER + 1

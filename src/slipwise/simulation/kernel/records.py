@@ -11,9 +11,11 @@ from slipwise.simulation.kernel.girder import buffer_spring
 from slipwise.simulation.kernel.loading_train import follow_train
 from slipwise.simulation.kernel.pads import pad_advance, pad_bound, pad_explicit, pad_further
 from slipwise.simulation.kernel.places import (
+    APPARENT_AREA,
     BUFFER_STIFFNESS,
     DT,
     N_ADVANCE,
+    N_OBSERVE,
     N_PAD,
     N_STICK,
     N_TRAIN,
@@ -47,18 +49,23 @@ def pads_over_record(
         last: the one behind the last of them.
     """
     bristle, further, remembers = u[N_STICK] > 0.0, u[N_PAD] > 0.0, u[N_ADVANCE] > 0.0
-    train = u[N_TRAIN] > 0.0
+    train, observed = u[N_TRAIN] > 0.0, u[N_OBSERVE] > 0.0
     first_dt = time[1] - time[0] if len(time) > 1 else u[DT]
     for pad in range(first, last):
         z = effects.pad_memory + pad * effects.pad_block
         side_x = u[SIDE + 2 * pad]
         side_y = u[SIDE + 2 * pad + 1]
+        friction = 0.0
         for i in range(len(time)):
             dt = time[i] - time[i - 1] if i > 0 else first_dt
             velocity_x = velocity[i, pad, 0]
             velocity_y = velocity[i, pad, 1]
             slip_x = slip[i, pad, 0]
             slip_y = slip[i, pad, 1]
+            if observed:
+                effects.observe(
+                    u, z, friction, load[i, pad], u[APPARENT_AREA], velocity_x, velocity_y, slip_x, slip_y, time[i], dt
+                )
             if train:
                 force_x, force_y, bound = follow_train(
                     effects, u, z, pad, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time[i],
@@ -79,7 +86,7 @@ def pads_over_record(
                     share = bound / speed if speed > 0.0 else 0.0
                     force_x = share * velocity_x
                     force_y = share * velocity_y
-            friction = sqrt(force_x * force_x + force_y * force_y) if further or remembers else 0.0
+            friction = sqrt(force_x * force_x + force_y * force_y) if further or remembers or observed else 0.0
             if further:
                 more_x, more_y = pad_further(
                     effects, u, z, bound, friction, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x,

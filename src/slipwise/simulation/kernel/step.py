@@ -16,6 +16,7 @@ from slipwise.simulation.kernel.girder import buffer_spring, girder_drag, girder
 from slipwise.simulation.kernel.loading_train import follow_train
 from slipwise.simulation.kernel.pads import pad_advance, pad_bound, pad_explicit, pad_further
 from slipwise.simulation.kernel.places import (
+    APPARENT_AREA,
     BOUND,
     BUFFER_FORCE,
     BUFFER_STIFFNESS,
@@ -31,6 +32,7 @@ from slipwise.simulation.kernel.places import (
     MAX_DOFS,
     N_BUFFERS,
     N_DOFS,
+    N_OBSERVE,
     N_PADS,
     N_STICK,
     N_TRAIN,
@@ -92,6 +94,12 @@ def push_pad(
     side_y = u[SIDE + 2 * pad + 1]
     force_x = 0.0
     force_y = 0.0
+    if u[N_OBSERVE] > 0.0:
+        before = sqrt(
+            (u[FORCE + 2 * pad] + u[EXPLICIT + 2 * pad]) ** 2
+            + (u[FORCE + 2 * pad + 1] + u[EXPLICIT + 2 * pad + 1]) ** 2
+        )
+        effects.observe(u, z, before, load, u[APPARENT_AREA], velocity_x, velocity_y, slip_x, slip_y, time, dt)
     if u[N_TRAIN] > 0.0:
         force_x, force_y, bound = follow_train(
             effects, u, z, pad, load, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt
