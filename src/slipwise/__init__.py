@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from slipwise.diagnosis.ladder import Ladder, ladder
     from slipwise.diagnosis.model_change import ModelChange, add, remove
     from slipwise.diagnosis.result import Diagnosis
+    from slipwise.discovery.discover import discover
+    from slipwise.discovery.law import Discovery
     from slipwise.effects import Effect
     from slipwise.errors import SlipwiseError
     from slipwise.experiment.motions import Limits
@@ -63,6 +65,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "corrected_campaign": ("instruments.checks", "corrected_campaign"),
     "compare": ("comparison.compare", "compare"),
     "diagnose": ("diagnosis.diagnose", "diagnose"),
+    "discover": ("discovery.discover", "discover"),
     "ladder": ("diagnosis.ladder", "ladder"),
     "add": ("diagnosis.model_change", "add"),
     "remove": ("diagnosis.model_change", "remove"),
@@ -75,6 +78,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "Checks": ("instruments.checks", "Checks"),
     "Comparison": ("comparison.result", "Comparison"),
     "Diagnosis": ("diagnosis.result", "Diagnosis"),
+    "Discovery": ("discovery.law", "Discovery"),
     "Effect": ("effects", "Effect"),
     "Ladder": ("diagnosis.ladder", "Ladder"),
     "Limits": ("experiment.motions", "Limits"),
@@ -99,6 +103,7 @@ __all__ = [
     "Checks",
     "Comparison",
     "Diagnosis",
+    "Discovery",
     "Effect",
     "Ladder",
     "Limits",
@@ -119,6 +124,7 @@ __all__ = [
     "compare",
     "corrected_campaign",
     "diagnose",
+    "discover",
     "effects",
     "init_campaign",
     "ladder",

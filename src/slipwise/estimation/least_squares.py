@@ -3,12 +3,12 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.estimation.parameters import Free
-from slipwise.estimation.problem import Problem
 from slipwise.estimation.residuals import Residuals
 from slipwise.parallel import on_every_core
 from slipwise.statistics.least_squares import Bounds, LevenbergMarquardt, Move, Slopes, gauss_newton
@@ -17,6 +17,33 @@ Array = NDArray[np.float64]
 #: A fit is over when a step promises less than this much of the squared residual [1].
 _ENOUGH = 0.05
 _STEP = 1e-3
+
+
+class Fittable(Protocol):
+    """What can be fitted: a `Problem`, or one with something added to its residuals."""
+
+    @property
+    def fitted(self) -> list[int]:
+        """Places of the runs that may be fitted."""
+        ...
+
+    @property
+    def relations(self) -> tuple[str, ...]:
+        """Names of the relations, in the order in which their residuals are stacked."""
+        ...
+
+    @property
+    def balanced(self) -> bool:
+        """Whether the balances of a girder are there."""
+        ...
+
+    def near(self, values: Mapping[str, float]) -> "Fittable":
+        """Give what slopes at these values are taken of."""
+        ...
+
+    def residuals(self, values: Mapping[str, float], *, fitted_only: bool = False) -> Residuals:
+        """Evaluate every relation."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -75,7 +102,7 @@ def slopes_of(solution: Solution) -> dict[str, Array]:
 
 
 def jacobian(
-    problem: Problem,
+    problem: Fittable,
     values: Mapping[str, float],
     free: Sequence[Free],
     now: Residuals,
@@ -106,7 +133,7 @@ def jacobian(
 
 
 def solve(
-    problem: Problem,
+    problem: Fittable,
     start: Mapping[str, float],
     free: Sequence[Free],
     *,

@@ -68,7 +68,7 @@ class Problem:
         """Make ready what never changes."""
         balances = (r for r in BALANCES if all(r in available(x, self.specimen) for x in self.runs))
         across = ("across",) if all(r.across.size for r in self.runs) else ()
-        self.relations = ("pads", *balances, *across)
+        self.relations: tuple[str, ...] = ("pads", *balances, *across)
         yaw_is_computable = self.balanced and not self.runs[0].states.has_yaw
         self.kinematics = Kinematics(self.runs, self.specimen, self.terms, False, yaw_is_computable, Recent())
         self._sort()
@@ -225,7 +225,7 @@ class Problem:
         if self.specimen.free:
             states = self.kinematics.states_with_velocity_error(values)
             law_forces = law.at_instants(runs, states)
-            found = self._along(values, states, law_forces)
+            found = self.along(values, states, law_forces)
             soft = self.kinematics.compliance(model.built_specimen())
             pairs = zip(found, runs, strict=True)
             self.kinematics.lost = [lost_velocity(f, r, soft, self._by(values)) for f, r in pairs]
@@ -278,8 +278,8 @@ class Problem:
         self._law.set(model)
         return self._law
 
-    def _along(self, values: Mapping[str, float], states: list[Instants], law_forces: list[PadForces]) -> list[Array]:
-        """Give the pads' forces along x at the instants, a list of (f, p) [N]."""
+    def along(self, values: Mapping[str, float], states: list[Instants], law_forces: list[PadForces]) -> list[Array]:
+        """Give the pads' forces along x at the instants of the first runs, a list of (f, p) [N]."""
         length = values.get("rig.stick_length", self.runs[0].scales.length * _SHORT_STICK)
         sharp, damping = not self.has_stick, values.get("rig.stick_damping", 0.0)
         shares = [stick_share(s, length, damping) if sharp else None for s in states]
@@ -290,7 +290,7 @@ class Problem:
     ) -> list[Array]:
         """Give the pads' forces along x as measured, a list of (n, p) [N]."""
         by, delay, averaged = self._by(values), values.get("rig.late_force", 0.0), not self.has_stick
-        forces = self._along(values, states[: len(law_forces)], law_forces)
+        forces = self.along(values, states[: len(law_forces)], law_forces)
         zero = values.get(ZERO, 0.0)
         return [zero + as_logged(f, r, by, averaged=averaged, delay=delay) for f, r in zip(forces, runs, strict=False)]
 

@@ -66,8 +66,9 @@ def observe(
         way = 0.5 * (before + speed) * elapsed
         memory[_RATE] = (speed - before) / elapsed
         kept = exp(-elapsed / time_constant)
-        memory[_LAGGED] = load + (memory[_LAGGED] - load) * kept
-        memory[_LOAD_RATE] = (load - memory[_LAGGED]) / time_constant
+        lagged = load + (memory[_LAGGED] - load) * kept
+        memory[_LOAD_RATE] = (lagged - memory[_LAGGED]) / elapsed
+        memory[_LAGGED] = lagged
         memory[_HEAT] = memory[_HEAT] * kept + friction * before / area * time_constant * (1.0 - kept)
         turned = abs(memory[_VX] * velocity_y - memory[_VY] * velocity_x)
         memory[_CURVATURE] = turned / (before * speed * way) if before * speed * way > 0.0 else 0.0

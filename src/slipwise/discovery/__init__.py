@@ -1,0 +1,1 @@
+"""From an unknown effect to a law."""

@@ -1,0 +1,32 @@
+"""What a screen has found: on which states a residual depends, and how that enters."""
+
+from dataclasses import dataclass
+
+from slipwise.discovery.ports import Gate, Port
+from slipwise.discovery.splines import Spline
+from slipwise.discovery.states import State
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A dependence on one state, or on two.
+
+    Attributes:
+        states: that drive it.
+        port: how it enters.
+        gate: on which pads, and which way.
+        spline: over the states.
+        share: of the residual above noise that it explains, each motion by what the others ask for [1].
+    """
+
+    states: tuple[State, ...]
+    port: Port
+    gate: Gate
+    spline: Spline
+    share: float
+
+    @property
+    def label(self) -> str:
+        """In a few words."""
+        gate = "" if self.gate.name == "all" else f", {self.gate.name}"
+        return f"{' x '.join(s.label for s in self.states)}: {self.port.name}{gate}"

@@ -1,0 +1,261 @@
+"""From unknown to a law: on which state a missing force depends, how it enters, in which form, and how sure that is.
+
+Everything is judged on the fitted runs; the held-out ones are looked at once, at the end, and can only take back.
+Source: forward selection of one law at a time by curves over states, then forms; the shares were a trial's beginning.
+"""
+
+import time
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from slipwise.campaign import Campaign, as_campaign
+from slipwise.diagnosis.diagnose import as_fit, diagnose
+from slipwise.diagnosis.result import Diagnosis
+from slipwise.discovery.candidate import Candidate
+from slipwise.discovery.law import Discovery, Law, LawConstant
+from slipwise.discovery.law_problem import STRENGTH, TIME_CONSTANT, FittedLaw, LawProblem
+from slipwise.discovery.matching import constants_of
+from slipwise.discovery.search import LEVEL, Found, different, find_law
+from slipwise.discovery.states import UNITS, WORDS, pad_instants, pad_states
+from slipwise.effects import Effect
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.intervals import Interval, intervals
+from slipwise.estimation.least_squares import Solution, jacobian
+from slipwise.estimation.problem import Problem
+from slipwise.model import Model
+from slipwise.parallel import one_thread_algebra
+
+#: Shares of the error above noise at which a law, a state, an organising state may be said [1].
+LAW, STATE, ORGANISED = 0.95, 0.9, 0.5
+#: A law's held-out error is at most this many floors.
+HELD_OUT = 1.25
+#: Two laws tie within this much of the squared residual: so much, this share of what the better one leaves above noise,
+#: this share of what the base leaves [1].
+_TIE, _TIE_OF_LEFT, _TIE_OF_ALL = 60.0, 0.25, 1e-3
+#: A further law takes this share of what the base leaves, and motions left out confirm this part of its gain [1].
+_FURTHER, _CONFIRMED, _MOST_LAWS = 0.025, 0.4, 3
+
+
+@one_thread_algebra()
+def discover(
+    campaign: Campaign | Path | str,
+    model: Model | Path | str | None = None,
+    *,
+    own: Iterable[Effect] = (),
+    diagnosis: Diagnosis | None = None,
+    progress: Callable[[str, float], None] | None = None,
+) -> Discovery:
+    """Find the law of what a model lacks where the catalogue ends.
+
+    Args:
+        campaign: or its folder.
+        model: the user's current model, as for `diagnose`.
+        own: effects beside those of the catalogue.
+        diagnosis: of the same campaign and model; made where not given.
+        progress: called with what is being done and the share done.
+
+    Raises:
+        InputError: the campaign lacks what every fit needs.
+    """
+    tell = progress or (lambda words, share: None)
+    measured = as_campaign(campaign)
+    if diagnosis is None:
+        diagnosis = diagnose(measured, model, own=own, progress=lambda words, share: tell(words, 0.5 * share))
+    began = time.perf_counter()
+    starts = [diagnosis.final]
+    state = diagnosis.search
+    if diagnosis.verdict.kind == "unknown" and state.final.terms:
+        starts.append(as_fit(state.base, state.final))
+    best: Discovery | None = None
+    for number, start in enumerate(starts):
+        tell("looking for a law", 0.5 + 0.5 * number / len(starts))
+        found = _from(measured.name, start)
+        if best is None or _rank(found) > _rank(best):
+            best = found
+        if best.evidence in ("law", "nothing"):
+            break
+    tell("done", 1.0)
+    assert best is not None
+    return replace(best, seconds=time.perf_counter() - began)
+
+
+def _rank(found: Discovery) -> tuple[float, float]:
+    order = {"law": 4.0, "nothing": 3.5, "state": 3.0, "organised": 2.0, "unknown": 1.0}
+    return order[found.evidence], found.share
+
+
+def _from(name: str, base: BaseFit) -> Discovery:
+    """Search from one fit on."""
+    problem, solution = base.problem, base.solution
+    if len(solution.jacobian) == 0 or solution.jacobian.shape[1] != len(solution.free):
+        solution = replace(solution, jacobian=jacobian(problem, solution.values, solution.free, solution.residuals))
+    whole = _excess(problem, solution)
+    now, here = LawProblem(pad_instants(problem, solution.values), problem, ()), solution
+    laws: list[Law] = []
+    organised: Candidate | None = None
+    acted: set[str] = set()
+    for number in range(_MOST_LAWS):
+        if not any(_level(problem, here, r) > LEVEL for r in problem.relations):
+            break
+        found = find_law(now, here, base.model, _name(number))
+        organised = organised or (found.candidates[0] if found.candidates else None)
+        leader, tied = _leader(found, problem, whole)
+        if leader is None or not _earned(leader, here, whole, first=not laws):
+            break
+        gained = here.cost - leader.solution.cost
+        laws.append(_law(leader, tied, base, gained / max(whole, 1e-9)))
+        acted.add(leader.law.match.candidate.port.relation)
+        now, here = leader.problem, leader.solution
+    share = (solution.cost - here.cost) / max(whole, 1e-9)
+    relations = {r: (_held_out(problem, solution, r), _held_out(problem, here, r)) for r in problem.relations}
+    worst = next(iter(acted), max(problem.relations, key=lambda r: _level(problem, solution, r)))
+    evidence = _evidence(laws, share, relations, worst, whole)
+    if evidence == "nothing":
+        organised = None
+    seen = share if laws else (organised.share if organised else 0.0)
+    return Discovery(
+        name, evidence, tuple(laws), organised, seen, relations, worst, tuple(_cannot_judge(now)), None, 0.0
+    )
+
+
+def _name(number: int) -> str:
+    return "law" if number == 0 else f"law_{number + 1}"
+
+
+def _evidence(
+    laws: Sequence[Law], share: float, relations: dict[str, tuple[float, float]], worst: str, whole: float
+) -> str:
+    if not laws:
+        return "nothing" if max(e for e, _ in relations.values()) < LEVEL or whole <= 0.0 else "unknown"
+    single = not any(law.tied or law.rivals for law in laws)
+    after = relations[worst][1]
+    if share >= LAW and after <= HELD_OUT and single:
+        return "law"
+    if share >= STATE and not any(law.rivals for law in laws):
+        return "state"
+    return "organised" if share >= ORGANISED else "unknown"
+
+
+def _earned(leader: FittedLaw, before: Solution, whole: float, *, first: bool) -> bool:
+    """Tell whether a law explains enough: half by the first, a further one less, but motions left out confirm it."""
+    gain = before.cost - leader.solution.cost
+    confirmed = leader.law.match.candidate.share
+    if first:
+        return gain > _FURTHER * whole and confirmed > 0.0
+    return gain > _FURTHER * whole and confirmed > _CONFIRMED * min(gain / max(whole, 1e-9), 1.0)
+
+
+def _leader(found: Found, problem: Problem, whole: float) -> tuple[FittedLaw | None, list[FittedLaw]]:
+    """Give the law of fewest constants among those that tie, and the others of them."""
+    fitted = different(found.fitted)
+    if not fitted:
+        return None, []
+    best = fitted[0].solution
+    samples = sum(int(np.count_nonzero(problem.runs[i].judged[r])) for r in problem.relations for i in problem.fitted)
+    left = max(best.cost - samples, 0.0)
+    within = best.cost + max(_TIE, _TIE_OF_LEFT * left, _TIE_OF_ALL * whole)
+    tied = [f for f in fitted if f.solution.cost <= within]
+    leader = min(tied, key=lambda f: (_constants(f), f.solution.cost))
+    return leader, [f for f in tied if f is not leader]
+
+
+def _constants(f: FittedLaw) -> int:
+    match = f.law.match
+    return len(match.free) + bool(f.law.lag) + 2 * (len(match.forms) - 1) + (match.candidate.gate.name != "all")
+
+
+def _law(leader: FittedLaw, tied: Sequence[FittedLaw], base: BaseFit, share: float) -> Law:
+    match = leader.law.match
+    candidate = match.candidate
+    alike = [f for f in tied if _same_place(f.law.match.candidate, candidate)]
+    others = [f for f in tied if not _same_place(f.law.match.candidate, candidate) and not _contains(f, leader)]
+    names = tuple(s.name for s in candidate.states)
+    fit = replace(base, free=leader.solution.free, solution=leader.solution)
+    known = {i.key: i for i in intervals(fit).entries}
+    return Law(
+        name=leader.law.label,
+        states=names,
+        port=candidate.port.name,
+        where=candidate.gate.name,
+        parity=candidate.port.parity,
+        form=match.name,
+        tied=tuple(dict.fromkeys(f.law.match.name for f in alike)),
+        rivals=tuple(dict.fromkeys(f"{f.law.match.candidate.label}, {f.law.match.name}" for f in others)),
+        constants=tuple(_constant(leader, name, known) for name in _ordered(leader)),
+        share=share,
+        valid={s.name: _ends(s.values, base.problem.fitted) for s in candidate.states},
+        fitted=leader,
+    )
+
+
+def _ordered(leader: FittedLaw) -> list[str]:
+    """Give the names of its numbers: strength, constants, time constant."""
+    names = [STRENGTH, *constants_of(leader.law.match.forms)]
+    return [*names, TIME_CONSTANT] if leader.law.lag else names
+
+
+def _constant(leader: FittedLaw, name: str, known: dict[str, Interval]) -> LawConstant:
+    match = leader.law.match
+    found = known.get(f"{leader.law.label}.{name}")
+    low, high = (found.low, found.high) if found else (float("nan"),) * 2
+    if name == STRENGTH:
+        unit = match.candidate.port.unit
+    elif name == TIME_CONSTANT:
+        unit = "s"
+    else:
+        state = match.candidate.states[1 if name.startswith("second_") else 0].name
+        unit = "1" if constants_of(match.forms)[name].kind == "number" else UNITS.get(state, "m")
+    return LawConstant(name, leader.values[name], low, high, unit)
+
+
+def _same_place(one: Candidate, other: Candidate) -> bool:
+    return (
+        [s.name for s in one.states] == [s.name for s in other.states]
+        and one.port.name == other.port.name
+        and one.gate.name == other.gate.name
+    )
+
+
+def _contains(other: FittedLaw, leader: FittedLaw) -> bool:
+    """Tell whether a rival is the leader with something more: a second state, or no gate."""
+    mine, theirs = leader.law.match.candidate, other.law.match.candidate
+    return mine.port.name == theirs.port.name and {s.name for s in mine.states} < {s.name for s in theirs.states}
+
+
+def _ends(values: Sequence[np.ndarray], fitted: Sequence[int]) -> tuple[float, float]:
+    whole = np.concatenate([values[i].ravel() for i in fitted])
+    return float(whole.min()), float(whole.max())
+
+
+def _excess(problem: Problem, solution: Solution) -> float:
+    """Give the squared residual above noise of the relations that have any [1]."""
+    out = 0.0
+    for r in problem.relations:
+        left = sum(float(np.sum(solution.residuals.parts[r][i] ** 2)) for i in problem.fitted)
+        out += max(left - sum(int(np.count_nonzero(problem.runs[i].judged[r])) for i in problem.fitted), 0.0)
+    return out
+
+
+def _level(problem: Problem, solution: Solution, relation: str) -> float:
+    return _rms(problem, solution, relation, problem.fitted)
+
+
+def _held_out(problem: Problem, solution: Solution, relation: str) -> float:
+    return _rms(problem, solution, relation, problem.held_out or problem.fitted)
+
+
+def _rms(problem: Problem, solution: Solution, relation: str, runs: Sequence[int]) -> float:
+    left = sum(float(np.sum(solution.residuals.parts[relation][i] ** 2)) for i in runs)
+    return float(np.sqrt(left / max(sum(int(np.count_nonzero(problem.runs[i].judged[relation])) for i in runs), 1)))
+
+
+def _cannot_judge(here: LawProblem) -> list[str]:
+    """Say which states hardly vary, and where there is one motion only."""
+    there = {s.name for s in pad_states(here.every)}
+    out = [f"{WORDS[name]}: it does not vary in this campaign" for name in WORDS if name not in there]
+    if len(here.fitted) < 2:
+        out.append("whether a law carries over to another motion: there is one fitted run only")
+    return out

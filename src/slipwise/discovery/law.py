@@ -1,0 +1,169 @@
+"""What a discovery answers: laws with their constants, what they explain, and what may be said of them."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from slipwise.discovery.candidate import Candidate
+from slipwise.discovery.form import FUNCTIONS
+from slipwise.discovery.law_problem import FittedLaw
+from slipwise.discovery.states import WORDS
+
+#: What may be said, from most to least.
+EVIDENCE: tuple[str, ...] = ("law", "state", "organised", "unknown", "nothing")
+
+
+@dataclass(frozen=True)
+class LawConstant:
+    """One number of a law, with its 95 % interval [SI]; a reference, which is chosen, has none (NaN)."""
+
+    name: str
+    value: float
+    low: float
+    high: float
+    unit: str
+
+
+@dataclass(frozen=True)
+class Law:
+    """A law that was found.
+
+    Attributes:
+        name: of its effect and file.
+        states: names of the states that drive it.
+        port: how it enters.
+        where: on which pads, or which way of sliding; "all".
+        parity: "odd" where its force turns with the velocity, else "even".
+        form: its name; factors of a product joined by " x ".
+        tied: other forms of the same state that cannot be told apart.
+        rivals: other states or ports that explain as much, in words.
+        constants: strength first.
+        share: of the error above noise that it explains, everything else fitted again [1].
+        valid: state -> range of the data [SI].
+        fitted: the fit behind it.
+    """
+
+    name: str
+    states: tuple[str, ...]
+    port: str
+    where: str
+    parity: str
+    form: str
+    tied: tuple[str, ...]
+    rivals: tuple[str, ...]
+    constants: tuple[LawConstant, ...]
+    share: float
+    valid: Mapping[str, tuple[float, float]]
+    fitted: FittedLaw
+
+    @property
+    def driver(self) -> str:
+        """What it depends on, in words."""
+        return " and ".join(WORDS[s] for s in self.states)
+
+    @property
+    def equation(self) -> str:
+        """The law in one line, with the names of its constants."""
+        return equation_of(self.port, [f.value for f in self.fitted.law.match.forms], self.states)
+
+
+def equation_of(port: str, values: list[str], states: tuple[str, ...]) -> str:
+    """Write how a law enters, its form left as the text of its file with the state by its name."""
+    shown = []
+    for place, (text, state) in enumerate(zip(values, states, strict=True)):
+        shown.append(with_names(text, state, place))
+    form = " * ".join(f"({t})" if len(shown) > 1 else t for t in shown)
+    return {
+        "adds to mu": f"mu += strength * {form}",
+        "multiplies mu": f"mu *= 1 + strength * {form}",
+        "adds to friction": f"F += strength * N_0 * {form}",
+        "even force on pads": f"F_x += strength * N * {form}",
+        "girder": f"F_girder += strength * {form}, against the motion",
+        "buffer": f"F_buffers += strength * {form}, against the displacement",
+        "multiplies buffers": f"F_buffers *= 1 + strength * {form}",
+    }[port]
+
+
+def with_names(text: str, state: str, place: int) -> str:
+    """Put a state's name, and for a second factor the constants' names, into the text of a form."""
+
+    def name(found: "re.Match[str]") -> str:
+        word = found.group(0)
+        if word == "s":
+            return state
+        return word if word in FUNCTIONS or place == 0 else f"second_{word}"
+
+    return re.sub(r"[A-Za-z_]\w*", name, text)
+
+
+@dataclass(frozen=True)
+class Discovery:
+    """The answer.
+
+    Attributes:
+        campaign: its name.
+        evidence: of `EVIDENCE`.
+        laws: in the order in which they were found; empty where nothing may be called one.
+        organised: what explains most, whether or not it may be called a law; None where nothing does.
+        share: of the error above noise that all laws, or that, explain [1].
+        relations: relation -> held-out error in floors before and after; of the fitted runs where none is held out.
+        worst: relation that the laws act on.
+        cannot_judge: states that could not be judged, and why.
+        file: of the effect that was written; None where none was.
+        seconds: it took.
+    """
+
+    campaign: str
+    evidence: str
+    laws: tuple[Law, ...]
+    organised: Candidate | None
+    share: float
+    relations: Mapping[str, tuple[float, float]]
+    worst: str
+    cannot_judge: tuple[str, ...]
+    file: Path | None
+    seconds: float
+
+    @property
+    def sentence(self) -> str:
+        """The answer in words."""
+        from slipwise.discovery.words import sentence
+
+        return sentence(self)
+
+    def as_json(self) -> dict[str, Any]:
+        """Give the answer for a program to read."""
+        before, after = self.relations.get(self.worst, (float("nan"),) * 2)
+        return {
+            "campaign": self.campaign,
+            "evidence": self.evidence,
+            "words": self.sentence,
+            "laws": [
+                {
+                    "name": law.name,
+                    "states": list(law.states),
+                    "port": "one pad" if law.where.startswith(("pad", "side")) else law.port,
+                    "where": law.where,
+                    "parity": law.parity,
+                    "form": law.form,
+                    "equation": law.equation,
+                    "tied": list(law.tied),
+                    "rivals": list(law.rivals),
+                    "constants": {
+                        c.name: {"value": c.value, "low": c.low, "high": c.high, "unit": c.unit} for c in law.constants
+                    },
+                    "share": law.share,
+                    "valid": {state: list(ends) for state, ends in law.valid.items()},
+                }
+                for law in self.laws
+            ],
+            "organised": None if self.organised is None else self.organised.label,
+            "share": self.share,
+            "held_out": {"before": before, "after": after},
+            "relations": {name: list(errors) for name, errors in self.relations.items()},
+            "cannot_judge": list(self.cannot_judge),
+            "file": None if self.file is None else str(self.file),
+            "seconds": self.seconds,
+        }

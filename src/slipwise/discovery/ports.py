@@ -1,0 +1,141 @@
+"""How a missing force may enter: what it is multiplied by where it acts, as a column over a run.
+
+adds to mu            N s f          s: along the motion, -1 to 1, as the base law's own friction reverses
+multiplies mu         F f            F: the base law's force
+adds to friction      N_0 s f        whatever the load, N_0 the mean load
+even force on pads    N f            whichever way the pad slides
+girder                sign(v) f      a force on the girder that no pad carries, against its motion
+buffer                sign(x) f      the same against its displacement
+multiplies buffers    x f            a share of the springs' force
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.discovery.states import PadInstants, State
+from slipwise.estimation.problem import Problem
+
+Array = NDArray[np.float64]
+#: Speed [m/s], and displacement [m], over which the sign of what a girder does is smoothed.
+_SLOW, _NEAR = 1e-3, 1e-5
+
+
+@dataclass(frozen=True)
+class Port:
+    """Where a law acts.
+
+    Attributes:
+        name: as above.
+        relation: of the fit whose residual it explains.
+        parity: "odd" where the force turns with the velocity.
+        unit: of f.
+        carrier: per run (f, p) what f is multiplied by, in the unit of the relation's prediction.
+        states: names of the states that may drive it; all, if empty.
+    """
+
+    name: str
+    relation: str
+    parity: str
+    unit: str
+    carrier: tuple[Array, ...]
+    states: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Gate:
+    """Which pads, and which way of sliding, a law acts on.
+
+    Attributes:
+        name: in words.
+        side_x: +1 or -1 for the pads on that side; 0 for both.
+        side_y: the same along y.
+        way: +1 forth, -1 back, 0 both.
+    """
+
+    name: str
+    side_x: int = 0
+    side_y: int = 0
+    way: int = 0
+
+    def open(self, places: Sequence[tuple[float, float]], velocity: Array) -> Array:
+        """Give 1 where it is open, (f, p), else 0.
+
+        Args:
+            places: of the pads, from the middle [m].
+            velocity: (f, p) along x [m/s].
+        """
+        here = [
+            (not self.side_x or self.side_x * x > 0.0) and (not self.side_y or self.side_y * y > 0.0) for x, y in places
+        ]
+        moving = self.way * velocity > 0.0 if self.way else np.ones(velocity.shape, dtype=bool)
+        return np.where(moving & np.array(here), 1.0, 0.0)
+
+
+EVERYWHERE = Gate("all")
+
+
+def gates(places: Sequence[tuple[float, float]], names: Sequence[str]) -> list[Gate]:
+    """Give the gates: directions, sides, single pads. A side with one pad on it is that pad."""
+    out = [Gate("sliding forth", way=1), Gate("sliding back", way=-1)]
+    sides_x = [(f"side x{'+' if s > 0 else '-'}", s, 0) for s in (1, -1)]
+    sides_y = [(f"side y{'+' if s > 0 else '-'}", 0, s) for s in (1, -1)]
+    for name, x, y in [*sides_x, *sides_y]:
+        gate = Gate(name, x, y)
+        if 1 < int(np.count_nonzero(gate.open(places, np.zeros((1, len(places)))))) < len(places):
+            out.append(gate)
+    signs = [(1 if x >= 0.0 else -1, 1 if y >= 0.0 else -1) for x, y in places]
+    if len(signs) > 1 and len(set(signs)) == len(signs):
+        out += [Gate(f"pad {n}", x, y) for n, (x, y) in zip(names, signs, strict=True)]
+    return out
+
+
+def pad_ports(here: PadInstants) -> list[Port]:
+    """Give the ports of the pads over the runs."""
+    along = [a / np.maximum(f.bound, 1e-9) for a, f in zip(here.along, here.forces, strict=True)]
+    sense = [np.clip(s, -1.0, 1.0) for s in along]
+    mean = float(np.mean(np.concatenate([s.load for s in here.states])))
+    load = [s.load for s in here.states]
+    return [
+        Port("adds to mu", "pads", "odd", "1", tuple(n * s for n, s in zip(load, sense, strict=True))),
+        Port("multiplies mu", "pads", "odd", "1", here.along),
+        Port("adds to friction", "pads", "odd", "1", tuple(mean * s for s in sense)),
+        Port("even force on pads", "pads", "even", "1", tuple(load)),
+    ]
+
+
+def girder_ports(problem: Problem, values: Mapping[str, float], here: PadInstants) -> list[Port]:
+    """Give the ports of the girder's balance, a force on it being an acceleration against it; none without one."""
+    if "girder" not in problem.relations:
+        return []
+    mass = values.get("rig.mass", problem.specimen.mass)
+    lengths = _scaled(here, lambda s: s.slip[:, :1, 0])
+    rates = _scaled(here, lambda s: s.velocity[:, :1, 0])
+    against = tuple(-np.tanh(v / _SLOW) / mass for v in rates)
+    away = tuple(-np.tanh(x / _NEAR) / mass for x in lengths)
+    stiffness = values.get("rig.buffer_stiffness", sum(problem.specimen.buffer_stiffness))
+    spring = tuple(-stiffness * x / mass for x in lengths)
+    out = [Port("girder", "girder", "odd", "N", against)]
+    if stiffness > 0.0:
+        out += [
+            Port("buffer", "girder", "even", "N", away, ("slip_size",)),
+            Port("multiplies buffers", "girder", "even", "1", spring),
+        ]
+    return out
+
+
+def girder_states(here: PadInstants, pads: Sequence[State]) -> list[State]:
+    """Give the states of the girder: those of its first pad that do not belong to a pad's load."""
+    own = [
+        State(s.name, 0.0, tuple(v[:, :1] for v in s.values))
+        for s in pads
+        if s.name in ("speed", "time", "speed_rate", "time_since_reversal", "distance_since_reversal",
+                      "last_peak_speed", "last_stroke", "slid", "outward")
+    ]  # fmt: skip
+    return [*own, State("slip_size", 0.0, tuple(np.abs(s.slip[:, :1, 0]) for s in here.states))]
+
+
+def _scaled(here: PadInstants, part: Callable) -> list[Array]:
+    return [np.ascontiguousarray(part(s)) for s in here.states]

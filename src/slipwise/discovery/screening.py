@@ -1,0 +1,106 @@
+"""Screening: which state, in which port, on which pads, explains most of a residual.
+
+Curves are made on some motions and judged on another, so that a state that only tells runs apart gains nothing.
+"""
+
+from collections.abc import Sequence
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.discovery.candidate import Candidate
+from slipwise.discovery.ports import EVERYWHERE, Gate, Port
+from slipwise.discovery.residual_field import ResidualField
+from slipwise.discovery.splines import spline
+from slipwise.discovery.states import State
+from slipwise.estimation.instants import Instants
+
+Array = NDArray[np.float64]
+#: Knots over one state, over the slip (a plate may be grooved), and over each of two.
+_KNOTS, _KNOTS_OF_SLIP, _KNOTS_OF_TWO = 12, 60, 6
+#: Dependences that are looked at again with every gate, and states that are tried in pairs.
+_GATED, _PAIRED = 8, 7
+#: A gate, or a second state, must explain this much more of the residual above noise [1].
+_MORE = 0.04
+#: Above this share a single state is enough [1].
+_ENOUGH = 0.97
+
+
+def screen_states(
+    field: ResidualField, states: Sequence[State], ports: Sequence[Port], gates: Sequence[Gate],
+    places: Sequence[tuple[float, float]], instants: Sequence[Instants],
+) -> list[Candidate]:  # fmt: skip
+    """Screen single states in every port, the best of them with every gate, then pairs; best first.
+
+    Args:
+        field: the residual.
+        states: over all runs.
+        ports: of the field's relation.
+        gates: to be tried; none where all pads move as one.
+        places: of the pads [m].
+        instants: of all runs.
+    """
+    carriers = {p.name: field.at_samples(p.carrier) for p in ports}
+    values = {s.label: field.at_samples(s.values) for s in states}
+    singles = [
+        _candidate(field, (s,), p, EVERYWHERE, carriers[p.name], values)
+        for p in ports
+        for s in states
+        if not p.states or s.name in p.states
+    ]
+    singles.sort(key=lambda c: -c.share)
+    found = list(singles)
+    best = _different(singles, _GATED)
+    if gates:
+        way = [s.velocity[:, :, 0] for s in instants]
+        opened = {g.name: field.at_samples([g.open(places, v) for v in way]) for g in gates}
+        found += [
+            _candidate(field, c.states, c.port, g, carriers[c.port.name] * opened[g.name], values)
+            for c in best
+            for g in gates
+        ]
+    if max((c.share for c in found), default=0.0) < _ENOUGH:
+        found += _pairs(field, singles, carriers, values)
+    return sorted(found, key=lambda c: -_weighed(c))
+
+
+def _weighed(found: Candidate) -> float:
+    """Give the share less what a gate and a second state must earn."""
+    return found.share - _MORE * (len(found.states) - 1) - _MORE * (found.gate is not EVERYWHERE)
+
+
+def _pairs(
+    field: ResidualField, singles: Sequence[Candidate], carriers: dict[str, Array], values: dict[str, Array]
+) -> list[Candidate]:
+    out = []
+    for port in dict.fromkeys(c.port.name for c in singles[:_GATED]):
+        own = [c for c in singles if c.port.name == port]
+        kept: dict[str, Candidate] = {}
+        for c in own:  # of lags of one state the best only
+            kept.setdefault(c.states[0].name, c)
+        for one, other in combinations(list(kept.values())[:_PAIRED], 2):
+            both = (one.states[0], other.states[0])
+            out.append(_candidate(field, both, one.port, EVERYWHERE, carriers[port], values))
+    return out
+
+
+def _different(singles: Sequence[Candidate], count: int) -> list[Candidate]:
+    """Give the best of each state and port, whichever lag."""
+    kept: dict[tuple[str, str], Candidate] = {}
+    for c in singles:
+        kept.setdefault((c.states[0].name, c.port.name), c)
+    return list(kept.values())[:count]
+
+
+def _candidate(
+    field: ResidualField, states: Sequence[State], port: Port, gate: Gate, carrier: Array, values: dict[str, Array]
+) -> Candidate:
+    if len(states) > 1:
+        counts: tuple[int, ...] = (_KNOTS_OF_TWO, _KNOTS_OF_TWO)
+    elif states[0].name == "slip":
+        counts = (_KNOTS_OF_SLIP,)
+    else:
+        counts = (_KNOTS,)
+    made = spline(field, carrier, tuple(values[s.label] for s in states), counts)
+    return Candidate(tuple(states), port, gate, made, made.carried_over() / max(field.excess, 1e-9))

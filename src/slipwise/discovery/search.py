@@ -1,0 +1,124 @@
+"""The search for one law: screened, matched with forms, fitted with everything else free; best first.
+
+A law that is missing may have dragged the base parameters far away, where curves are bent: the search begins from the
+fit and from the rated numbers of the base law, and what leaves least leads.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from slipwise.discovery.candidate import Candidate
+from slipwise.discovery.form import forms
+from slipwise.discovery.law_problem import FittedLaw, LawProblem, PlacedLaw, fit_law, fit_on
+from slipwise.discovery.matching import Match, matched
+from slipwise.discovery.ports import gates, girder_ports, girder_states, pad_ports
+from slipwise.discovery.residual_field import residual_field
+from slipwise.discovery.screening import screen_states
+from slipwise.discovery.states import pad_instants, pad_states
+from slipwise.estimation.least_squares import Solution, jacobian
+from slipwise.model import Model
+
+#: A relation is looked at above this level [1].
+LEVEL = 1.15
+#: Candidates, forms of each, and matches of each start that are fitted, and of these the ones that are fitted finely.
+_CANDIDATES, _FORMS, _FITTED, _FINELY = 6, 5, 9, 3
+#: A candidate explains at least this much of what its relation leaves above noise [1].
+_LEAST = 0.1
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a search gives.
+
+    Attributes:
+        candidates: of all screens, best first.
+        fitted: laws, that which leaves least first.
+    """
+
+    candidates: tuple[Candidate, ...]
+    fitted: tuple[FittedLaw, ...]
+
+
+def find_law(before: LawProblem, solution: Solution, model: Model, label: str) -> Found:
+    """Search for one more law.
+
+    Args:
+        before: the fit's problem, with laws that were found before.
+        solution: of the fit, with slopes of its own.
+        model: the user's model, whose law has rated numbers.
+        label: of the law, for the keys of its numbers.
+    """
+    candidates: list[Candidate] = []
+    tried: list[FittedLaw] = []
+    for start in _starts(before, solution, model):
+        every = pad_instants(before.plain, start.values)
+        here = replace(before, every=every)
+        screened = _screened(here, start)
+        candidates += screened
+        found = [m for c in screened[:_CANDIDATES] if c.share > _LEAST for m in matched(c, forms())[:_FORMS]]
+        found.sort(key=lambda m: -m.gain)
+        for match in found[:_FITTED]:
+            tried.append(fit_law(here, start, _placed(label, match, here), match.strength))
+    tried.sort(key=lambda f: f.solution.cost)
+    fine = [fit_on(f) for f in tried[:_FINELY]]
+    return Found(
+        tuple(sorted(candidates, key=lambda c: -c.share)),
+        tuple(sorted([*fine, *tried[_FINELY:]], key=lambda f: f.solution.cost)),
+    )
+
+
+def _placed(label: str, match: Match, here: LawProblem) -> PlacedLaw:
+    gate, runs = match.candidate.gate, here.every.states
+    if match.candidate.port.relation != "pads":
+        return PlacedLaw(label, match, tuple(np.ones((len(s.time), 1)) for s in runs))
+    return PlacedLaw(label, match, tuple(gate.open(_places(here), s.velocity[:, :, 0]) for s in runs))
+
+
+def _places(here: LawProblem) -> list[tuple[float, float]]:
+    specimen = here.plain.specimen
+    places = [specimen.pad_places[specimen.pads.index(p)] for p in here.plain.runs[0].pads]
+    return [(float(place[0]), float(place[1])) for place in places]
+
+
+def _screened(here: LawProblem, start: Solution) -> list[Candidate]:
+    states = pad_states(here.every)
+    out: list[Candidate] = []
+    for relation in (r for r in ("pads", "girder") if r in here.relations):
+        field = residual_field(here.plain, start, relation)
+        if field.residual @ field.residual < LEVEL**2 * len(field.residual):
+            continue
+        if relation == "pads":
+            places = _places(here)
+            opened = gates(places, here.plain.runs[0].pads) if here.plain.specimen.free else []
+            out += screen_states(field, states, pad_ports(here.every), opened, places, here.every.states)
+        else:
+            ports = girder_ports(here.plain, start.values, here.every)
+            out += screen_states(field, girder_states(here.every, states), ports, [], [], here.every.states)
+    return out
+
+
+def _starts(before: LawProblem, solution: Solution, model: Model) -> list[Solution]:
+    """Give the fit, and the fit with the base law's own numbers as rated where they are others."""
+    own = {f"{u.label}.{name}": value for u in model.uses for name, value in u.values.items()}
+    rated = {k: v for k, v in own.items() if k in solution.values}
+    if "rig.shear_strength" in solution.values:
+        rated["rig.shear_strength"] = model.specimen.shear_strength
+    values = {**solution.values, **rated}
+    if values == solution.values:
+        return [solution]
+    residuals = before.residuals(values)
+    slopes = jacobian(before, values, solution.free, residuals)
+    left = residuals.stacked(before.fitted, before.relations)
+    there = replace(solution, values=values, residuals=residuals, jacobian=slopes, cost=float(left @ left))
+    return [solution, there]
+
+
+def different(fitted: Sequence[FittedLaw]) -> list[FittedLaw]:
+    """Give the best of each state, port, gate and form, whichever start it came from."""
+    kept: dict[tuple[str, ...], FittedLaw] = {}
+    for f in fitted:
+        c = f.law.match.candidate
+        kept.setdefault((*(s.name for s in c.states), c.port.name, c.gate.name, f.law.match.name), f)
+    return list(kept.values())

@@ -1,0 +1,151 @@
+"""What a missing force may depend on: states of the pads and of the girder at every instant of all runs.
+
+They are the arguments that a hook may ask for, made by the very functions that make them in a simulation.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from slipwise.effects import DERIVED, LAGGING
+from slipwise.estimation.instants import Instants
+from slipwise.estimation.pad_forces import PadLaw
+from slipwise.estimation.problem import Problem
+from slipwise.estimation.run_data import FitRun
+from slipwise.simulation.kernel import derived_states
+from slipwise.simulation.predict import PadForces
+
+Array = NDArray[np.float64]
+#: Time constants at which lags of the load are looked for, and those of heat [s], on the time scale of a girder.
+_LAGS, _COOLING = (0.001, 0.003, 0.008, 0.02, 0.05, 0.15), (0.3, 1.0, 3.0, 10.0)
+#: Unit, in SI, and the unit in which people read it.
+UNITS: dict[str, str] = {
+    "speed": "m/s", "slip": "m", "load": "N", "time": "s", "speed_rate": "m/s^2", "lagged_load": "N",
+    "load_rate": "N/s", "time_since_reversal": "s", "distance_since_reversal": "m", "last_peak_speed": "m/s",
+    "last_stroke": "m", "slid": "m", "heat": "J/m^2", "outward": "1", "path_curvature": "1/m",
+}  # fmt: skip
+WORDS: dict[str, str] = {
+    "speed": "the slip speed", "slip": "the slip", "load": "the normal load", "time": "the time",
+    "speed_rate": "the rate of the speed", "lagged_load": "the load behind a lag", "load_rate": "the rate of the load",
+    "time_since_reversal": "the time since the last reversal",
+    "distance_since_reversal": "the distance since the last reversal",
+    "last_peak_speed": "the peak speed of the last stroke", "last_stroke": "the length of the last stroke",
+    "slid": "the distance slid", "heat": "the heat", "outward": "motion outward or inward",
+    "path_curvature": "the curvature of the path",
+}  # fmt: skip
+#: Of these, the ones that only grow: they tell one run from another whatever the law is.
+GROWING: frozenset[str] = frozenset({"time", "slid"})
+#: A state that varies by less than this share of its size cannot be judged [1].
+_VARIES = 1e-3
+
+
+@dataclass(frozen=True)
+class State:
+    """One state over all runs.
+
+    Attributes:
+        name: of `UNITS`.
+        time_constant: of its lag [s]; 0 for one without.
+        values: per run (f, p) at the instants at which the laws are evaluated.
+    """
+
+    name: str
+    time_constant: float
+    values: tuple[Array, ...]
+
+    @property
+    def signed(self) -> bool:
+        """Whether it takes both signs."""
+        return self.name in ("slip", "speed_rate", "load_rate", "outward")
+
+    @property
+    def label(self) -> str:
+        """Name with its lag."""
+        return f"{self.name} ({1e3 * self.time_constant:.3g} ms)" if self.time_constant else self.name
+
+
+@dataclass(frozen=True)
+class PadInstants:
+    """All runs at the instants, as a fit has them.
+
+    Attributes:
+        runs: in their order.
+        states: of the pads.
+        forces: of the law.
+        along: per run (f, p) force along x with the sharp reversal of a stick smoothed [N].
+        area: apparent, of a pad [m^2].
+    """
+
+    runs: tuple[FitRun, ...]
+    states: tuple[Instants, ...]
+    forces: tuple[PadForces, ...]
+    along: tuple[Array, ...]
+    area: float
+
+
+def pad_instants(problem: Problem, values: Mapping[str, float]) -> PadInstants:
+    """Give all runs at the instants, as a fit's numbers have them."""
+    runs, _ = problem.kinematics.corrected(values)
+    states = problem.kinematics.states(values)
+    forces = PadLaw(problem.model(values)).at_instants(runs, states)
+    along = problem.along(values, states, forces)
+    return PadInstants(tuple(runs), tuple(states), tuple(forces), tuple(along), problem.specimen.pad_area)
+
+
+def pad_states(every: PadInstants) -> list[State]:
+    """Give the states of the pads over all runs; those that hardly vary are left out.
+
+    What lags is there once for each of the usual time constants.
+    """
+    scale = every.runs[0].scales.time
+    plain = {
+        "speed": [np.hypot(*np.moveaxis(s.velocity, 2, 0)) for s in every.states],
+        "slip": [s.slip[:, :, 0] for s in every.states],
+        "load": [s.load for s in every.states],
+        "time": [np.repeat((s.time - s.time[0])[:, None], s.load.shape[1], axis=1) for s in every.states],
+    }
+    out = [State(name, 0.0, tuple(values)) for name, values in plain.items()]
+    for lags, wanted in ((_LAGS, ("lagged_load", "load_rate")), (_COOLING, ("heat",))):
+        for lag in (scale * t for t in lags):
+            found = derived(every, lag)
+            out += [State(name, lag, tuple(found[name])) for name in wanted]
+    out += [State(name, 0.0, tuple(found[name])) for name in DERIVED if name not in LAGGING]
+    return [s for s in out if _varies(s)]
+
+
+def derived(every: PadInstants, time_constant: float) -> dict[str, list[Array]]:
+    """Give the derived states of all runs, name -> per run (f, p), with this time constant [s]."""
+    memory = np.zeros((every.states[0].load.shape[1], derived_states.SIZE))
+    out: dict[str, list[Array]] = {name: [] for name in DERIVED}
+    for run, state, force in zip(every.runs, every.states, every.forces, strict=True):
+        for block in memory:
+            derived_states.cool(block, run.rest_before, time_constant)
+        found = np.zeros((*state.load.shape, len(DERIVED)))
+        of = (state.time, state.load, np.ascontiguousarray(force.bound), state.velocity, state.slip)
+        _observed(*of, every.area, time_constant, memory, found)
+        for i, name in enumerate(DERIVED):
+            out[name].append(found[:, :, i])
+    return out
+
+
+@njit(cache=True)
+def _observed(time, load, friction, velocity, slip, area, lag, memory, out):  # pragma: no cover - compiled
+    """Let every pad's derived states follow a record; fills (f, p, states)."""
+    count = out.shape[2]
+    for pad in range(load.shape[1]):
+        for i in range(len(time)):
+            before = friction[max(i - 1, 0), pad]
+            dt = time[1] - time[0]
+            derived_states.observe(
+                memory[pad], before, load[i, pad], area, velocity[i, pad, 0], velocity[i, pad, 1], slip[i, pad, 0],
+                slip[i, pad, 1], time[i], dt, lag,
+            )  # fmt: skip
+            out[i, pad] = memory[pad, :count]
+
+
+def _varies(state: State) -> bool:
+    whole = np.concatenate([v.ravel() for v in state.values])
+    return bool(np.isfinite(whole).all()) and float(np.std(whole)) > _VARIES * float(np.max(np.abs(whole)) or np.inf)
