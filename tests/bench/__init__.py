@@ -4,6 +4,7 @@ from bench.campaign import Campaign, build_campaign, make_campaign, with_faults
 from bench.dirty import DirtyCampaign, build_dirty, make_dirty
 from bench.faults import GROUPS, Fault
 from bench.hidden import INSTRUMENTS, PHYSICS, SIZES, Case, draw, plan
+from bench.law_campaign import LawCampaign, build_law_campaign, make_law_campaign
 from bench.motions import Motion
 from bench.rig_ode import Memory, simulate
 from bench.settings import Settings, random_rig, rated
@@ -19,15 +20,18 @@ __all__ = [
     "Case",
     "DirtyCampaign",
     "Fault",
+    "LawCampaign",
     "Memory",
     "Motion",
     "Settings",
     "Truth",
     "build_campaign",
     "build_dirty",
+    "build_law_campaign",
     "draw",
     "make_campaign",
     "make_dirty",
+    "make_law_campaign",
     "plan",
     "random_rig",
     "rated",

@@ -18,7 +18,7 @@ from bench.dirty_runs import draw_dirty_runs
 from bench.dirty_truth import DirtyTruth
 from bench.faults import Fault, with_rails
 from bench.first_things import First, draw_first
-from bench.gauges import RICH, USUAL, measure
+from bench.gauges import RICH, USUAL, Logger, measure
 from bench.motions import Motion
 from bench.planted import Plant, faults_of, together
 from bench.rig_ode import Memory
@@ -53,13 +53,14 @@ class DirtyCampaign:
     recorded: dict[str, Run]
 
 
-def build_dirty(seed: int, *, name: str = "", plan: Plan | None = None) -> DirtyCampaign:
+def build_dirty(seed: int, *, name: str = "", plan: Plan | None = None, logger: Logger | None = None) -> DirtyCampaign:
     """Make a dirty campaign in memory.
 
     Args:
         seed: of everything random.
         name: for the answer.
         plan: what is hidden and how it is shaken; None: what the seed stands for.
+        logger: the chain; None: a laboratory's as it is, drawn.
     """
     rngs = np.random.default_rng([seed, 17]).spawn(6)
     plan = draw_plan(seed) if plan is None else plan
@@ -69,7 +70,7 @@ def build_dirty(seed: int, *, name: str = "", plan: Plan | None = None) -> Dirty
     first = [draw_first(kind, names, plan.runs, rngs[1]) for kind in plan.first]
     late = max((one.fault.size for one in first if one.fault is not None and one.kind == "late"), default=0.0)
     motions, roles = draw_dirty_runs(rig, base, plan, rngs[2])
-    logger = draw_dirty_logger(rngs[3], names)
+    logger = draw_dirty_logger(rngs[3], names) if logger is None else logger
     clock = float(rngs[4].uniform(0.0, 100.0))
 
     def scene(memories: Mapping[str, Memory]) -> Scene:

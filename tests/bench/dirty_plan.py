@@ -75,7 +75,7 @@ def draw_plan(seed: int) -> Plan:
     effects = _draw_effects(group, rng)
     rich = rich or bool(_ACROSS & set(effects))
     plants = [_hide(effect, rng) for effect in effects]
-    plants += _draw_dirt({plant.name for plant in plants}, rng)
+    plants += draw_dirt({plant.name for plant in plants}, rng)
     runs = int(rng.choice([2, 3, 4, 5], p=[0.12, 0.13, 0.15, 0.6]))
     kinds = [KINDS[int(inside * len(KINDS))]]  # every kind as often as the others
     if rng.random() < 0.25:
@@ -118,7 +118,13 @@ def _hide(effect: str, rng: np.random.Generator) -> Plant:
     return Plant(effect, 1.0, int(rng.integers(2**31)), False, target, floors)
 
 
-def _draw_dirt(taken: set[str], rng: np.random.Generator) -> list[Plant]:
+def draw_dirt(taken: set[str], rng: np.random.Generator) -> list[Plant]:
+    """Draw the dirt round hidden effects: all of it, and sometimes a law of the catalogue, below what is material.
+
+    Args:
+        taken: names that are hidden on purpose.
+        rng: generator.
+    """
     plants = []
     for effect, (often, _) in {**RIG_DIRT, **GAUGE_DIRT}.items():
         there = rng.random() < often

@@ -10,6 +10,7 @@ from bench.faults import Fault
 from bench.hidden_gauge import GAUGE_EFFECTS, ON_REQUEST
 from bench.hidden_pad import PAD_EFFECTS
 from bench.hidden_rig import RIG_EFFECTS, UNKNOWN_KINDS, unknown
+from bench.laws import LAWS
 from bench.settings import Settings
 
 #: Middle of each size, in multiples of what is typical of the rig.
@@ -84,6 +85,8 @@ def hide(effects: Sequence[str], size: str, base: Settings, rng: np.random.Gener
 def hide_one(name: str, scale: float, base: Settings, rng: np.random.Generator) -> Hidden:
     """Draw the law of one effect; `scale` is in multiples of what is typical of the rig.
 
+    "law:speed bump" is a law of `bench.laws`, outside the catalogue.
+
     Raises:
         KeyError: an effect or a kind that does not exist.
     """
@@ -92,7 +95,9 @@ def hide_one(name: str, scale: float, base: Settings, rng: np.random.Generator) 
         fault = GAUGE_EFFECTS[family](rng, scale)
         said = {"scale": scale, "form": fault.form, "channels": list(fault.channels), "size": fault.size}
         return Hidden((family,), faults=(fault,), details={family: said})
-    if family == "unknown":
+    if family == "law":
+        change, form = LAWS[kind].change(rng, scale), kind
+    elif family == "unknown":
         change, form = unknown(kind or str(rng.choice(list(UNKNOWN_KINDS))), rng, scale)
     else:
         change, form = {**PAD_EFFECTS, **RIG_EFFECTS}[family](rng, scale, base)

@@ -23,6 +23,9 @@ from bench.buffer_law import (
     rubbing_force,
     through_gap,
 )
+from bench.law_drivers import hidden_driver
+from bench.law_force import law_bound, middle_force
+from bench.law_states import POWER
 from bench.pad_hidden import bodies_heat, grow_older, hidden_bound, unknown_bound, warm_bodies
 from bench.pad_law import base_bound, bristle, preslide, slide, stick_stiffness
 from bench.settings import GRAVITY, PAD_SIGN_X, PAD_SIGN_Y
@@ -33,11 +36,12 @@ PER_PAD = 6  # N, Fx, Fy, slip speed in x, base law's Fx and Fy
 
 
 @njit(cache=True)
-def pad_forces(p, g, w, a, time, step, mem, heat_rates, heat_weights, row, total):
+def pad_forces(p, g, w, a, time, step, mem, heat_rates, heat_weights, law, driver, row, total):
     """Add the forces of the four pads to `total` (force x, y, z; moment x, y, z about the centre of gravity).
 
     g, w, a: (6,) places, speeds, and accelerations of the step before. mem: (4, n) memories of the pads:
     0-1 stick, 2-3 shadow's stick, 4 age, 5 heat, 6 slid distance, 7 lagged bound, 8.. heat of half-space or bodies.
+    law, driver: memories and driver of a law outside the catalogue.
     """
     stiff = stick_stiffness(p, p.stick_length)
     damp = 2.0 * p.stick_damping * math.sqrt(stiff * 0.25 * p.mass)
@@ -78,6 +82,9 @@ def pad_forces(p, g, w, a, time, step, mem, heat_rates, heat_weights, row, total
             load_rate = p.pad_stiffness * closing
             bound = unknown_bound(p, bound, load, m[7], load_rate, vx, speed, place, a[0], time)
         bound = hidden_bound(p, i, bound, load, speed, place, m[4], heat, m[6])
+        if p.law_port:
+            turning = a[0] - p.height * a[4] - ry * a[5]
+            bound = law_bound(p, i, bound, law[i], vx, speed, place, load, turning, driver, step)
         bound = max(bound, 0.002 * load)
         if p.presliding_form == 3:
             fx, fy, m[0], m[1] = slide(m[0], m[1], vx, vy, bound, p.asymmetry, soft, soft_damp, step)
@@ -93,6 +100,7 @@ def pad_forces(p, g, w, a, time, step, mem, heat_rates, heat_weights, row, total
             fx, fy, m[0], m[1] = slide(m[0], m[1], vx, vy, bound, p.asymmetry, stiff, damp, step)
         fy *= 1.0 + p.anisotropy
         work = abs(fx * vx + fy * vy)
+        law[i, POWER] = work / p.pad_area
         m[6] += speed * step
         if p.heat_form == 1:
             m[5] += step * (work - m[5] / p.heat_time)
@@ -119,8 +127,11 @@ def pad_forces(p, g, w, a, time, step, mem, heat_rates, heat_weights, row, total
 
 
 @njit(cache=True)
-def buffer_forces(p, g, w, step, mem, row, total):
-    """Add the buffers and their keys. mem: (2, 4): loop share, largest excursion, key's way, dashpot's speed."""
+def buffer_forces(p, g, w, step, mem, more, row, total):
+    """Add the buffers and their keys, and `more` [N] at both together.
+
+    mem: (2, 4): loop share, largest excursion, key's way, dashpot's speed.
+    """
     rz = p.buffer_height - p.height
     for j in range(2):
         side = 1.0 - 2.0 * j
@@ -138,6 +149,7 @@ def buffer_forces(p, g, w, step, mem, row, total):
         if p.hysteresis_form:
             m[0] += step * hysteresis_rate(p, m[0], vx)
             fx += 0.5 * p.hysteresis_force * m[0]
+        fx += 0.5 * more
         if p.unknown_form == 8:
             # one bar on each side, on the line of the buffers, so that the girder does not turn
             total[0] -= 0.5 * rubbing_force(p, x, vx)
@@ -159,7 +171,9 @@ def buffer_forces(p, g, w, step, mem, row, total):
 
 
 @njit(cache=True)
-def run(p, start, table, table_step, step, settle, steps, every, pads, buffers, heat_rates, heat_weights, out):
+def run(
+    p, start, table, table_step, step, settle, steps, every, pads, buffers, heat_rates, heat_weights, law, body, out
+):
     """Integrate from rest and fill `out` with one row every `every` steps.
 
     Args:
@@ -175,6 +189,8 @@ def run(p, start, table, table_step, step, settle, steps, every, pads, buffers, 
         buffers: (2, 4) memories, changed in place.
         heat_rates: decay rates of the half-space kernel [1/s].
         heat_weights: its weights [K m^2/J].
+        law: (5, n) memories of a law outside the catalogue: pads, and the middle.
+        body: (n,) memory of a body beside the rig that drives such a law.
         out: (rows, columns).
     """
     g = start.copy()
@@ -200,8 +216,14 @@ def run(p, start, table, table_step, step, settle, steps, every, pads, buffers, 
                 ay = table[i, 1] + f * (table[i + 1, 1] - table[i, 1])
                 az = table[i, 2] + f * (table[i + 1, 2] - table[i, 2])
         total[:] = 0.0
-        pad_forces(p, g, w, a, s * step, step, pads, heat_rates, heat_weights, row, total)
-        buffer_forces(p, g, w, step, buffers, row, total)
+        driver = hidden_driver(p, body, s * step, az, step) if p.law_port else 0.0
+        pad_forces(p, g, w, a, s * step, step, pads, heat_rates, heat_weights, law, driver, row, total)
+        force = middle_force(p, g, w, a, step, law[4], driver, 0.25 * total[2]) if p.law_port > 2 else 0.0
+        buffer_forces(p, g, w, step, buffers, force if p.law_port == 4 else 0.0, row, total)
+        if p.law_port == 3:
+            total[0] -= force
+        elif p.law_port == 5:
+            total[2] += force
         tip_a = 0.0
         if p.pitch_form and s >= 0:
             drive = ax if p.pitch_form == 1 else row[3]

@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from bench.law_drivers import fresh_driver
+from bench.law_states import fresh_memory
 from bench.motions import Motion
 from bench.rig_loop import MIDDLE, PER_PAD, run
 from bench.settings import GRAVITY, PAD_SIGN_X, PAD_SIGN_Y, PADS, Settings
@@ -93,7 +95,8 @@ def simulate(
     out = np.zeros((-(-steps // every), MIDDLE + 4 * PER_PAD + 4))
     settle = int(round(SETTLE / step))
     start = rest_place(settings)
-    run(settings, start, table, motion.step, step, settle, steps, every, pads, buffers, rates, weights, out)
+    memories = (fresh_memory(0.25 * settings.mass * GRAVITY), fresh_driver())
+    run(settings, start, table, motion.step, step, settle, steps, every, pads, buffers, rates, weights, *memories, out)
     memory.distance = pads[:, 6].copy()
     memory.largest = buffers[:, 1].copy()
     channels = {name: np.ascontiguousarray(out[:, i]) for i, name in enumerate(COLUMNS)}

@@ -113,6 +113,20 @@ class Settings(NamedTuple):
     unknown_scale: float = 1.0
     unknown_place: float = 0.0
     clock: float = 0.0
+    # a law of `bench.laws`: numbers of its port, form and states; along the slip velocity or not; share of each pad
+    law_port: int = 0
+    law_form: int = 0
+    law_state: int = 0
+    law_other: int = 0
+    law_signed: int = 1
+    law_pads: Four = ONES
+    law_size: float = 0.0
+    law_place: float = 0.0
+    law_scale: float = 1.0
+    law_back: float = 0.0
+    law_phase: float = 0.0
+    law_exponent: float = 1.0
+    law_time: float = 0.01
     # whether the base law's shadow knows each pad's own slip speed (yaw recorded) or only that of the pads' middle
     yaw_known: int = 0
 
