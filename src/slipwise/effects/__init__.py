@@ -8,6 +8,8 @@ from slipwise.effects._hooks import COMPONENTS, DERIVED, HOOKS, LAGGING, PORTS
 from slipwise.effects._scaled import holding, scaled
 from slipwise.effects._states import BalanceStates
 from slipwise.effects._trust import Trust, check_trusted
+from slipwise.effects._written import WrittenEffect, effect_text, write_effect
+from slipwise.effects._written_hook import WrittenHook
 
 __all__ = [
     "BalanceStates",
@@ -22,13 +24,17 @@ __all__ = [
     "GaugeFault",
     "Gauges",
     "Trust",
+    "WrittenEffect",
+    "WrittenHook",
     "base_effects",
     "catalogue",
     "check_trusted",
+    "effect_text",
     "find_effect",
     "holding",
     "load_effect",
     "moved_channels",
     "read_effect",
     "scaled",
+    "write_effect",
 ]
