@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli import campaign, demo, diagnose, edit, effects, lists, next_test, paper, replay, view
+from slipwise.cli import campaign, demo, diagnose, discover, edit, effects, lists, next_test, paper, replay, view
 from slipwise.errors import SlipwiseError, SlipwiseWarning, visible
 
 app = typer.Typer(
@@ -22,6 +22,7 @@ demo.register(app)
 replay.register(app)
 campaign.register(app)
 diagnose.register(app)
+discover.register(app)
 edit.register(app)
 next_test.register(app)
 paper.register(app)

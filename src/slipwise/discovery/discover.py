@@ -94,7 +94,7 @@ def _from(name: str, base: BaseFit) -> Discovery:
         solution = replace(solution, jacobian=jacobian(problem, solution.values, solution.free, solution.residuals))
     whole = _excess(problem, solution)
     now, here = LawProblem(pad_instants(problem, solution.values), problem, ()), solution
-    laws: list[Law] = []
+    leaders: list[tuple[FittedLaw, list[FittedLaw], float]] = []
     organised: Candidate | None = None
     acted: set[str] = set()
     for number in range(_MOST_LAWS):
@@ -103,12 +103,14 @@ def _from(name: str, base: BaseFit) -> Discovery:
         found = find_law(now, here, base.model, _name(number))
         organised = organised or (found.candidates[0] if found.candidates else None)
         leader, tied = _leader(found, problem, whole)
-        if leader is None or not _earned(leader, here, whole, first=not laws):
+        if leader is None or not _earned(leader, here, whole, first=not leaders):
             break
-        gained = here.cost - leader.solution.cost
-        laws.append(_law(leader, tied, base, gained / max(whole, 1e-9)))
+        leaders.append((leader, tied, (here.cost - leader.solution.cost) / max(whole, 1e-9)))
         acted.add(leader.law.match.candidate.port.relation)
         now, here = leader.problem, leader.solution
+    if leaders and (solution.cost - here.cost) < STATE * whole:  # what no law explains is not told by a sum of them
+        leaders, here = leaders[:1], leaders[0][0].solution
+    laws = [_law(replace(f, solution=here), tied, base, share) for f, tied, share in leaders]
     share = (solution.cost - here.cost) / max(whole, 1e-9)
     relations = {r: (_held_out(problem, solution, r), _held_out(problem, here, r)) for r in problem.relations}
     worst = next(iter(acted), max(problem.relations, key=lambda r: _level(problem, solution, r)))
@@ -116,9 +118,7 @@ def _from(name: str, base: BaseFit) -> Discovery:
     if evidence == "nothing":
         organised = None
     seen = share if laws else (organised.share if organised else 0.0)
-    return Discovery(
-        name, evidence, tuple(laws), organised, seen, relations, worst, tuple(_cannot_judge(now)), None, 0.0
-    )
+    return Discovery(name, evidence, tuple(laws), organised, seen, relations, worst, tuple(_cannot_judge(now)), (), 0.0)
 
 
 def _name(number: int) -> str:
@@ -182,7 +182,7 @@ def _law(leader: FittedLaw, tied: Sequence[FittedLaw], base: BaseFit, share: flo
         where=candidate.gate.name,
         parity=candidate.port.parity,
         form=match.name,
-        tied=tuple(dict.fromkeys(f.law.match.name for f in alike)),
+        tied=tuple(dict.fromkeys(f.law.match.name for f in alike if not _more_general(f, leader))),
         rivals=tuple(dict.fromkeys(f"{f.law.match.candidate.label}, {f.law.match.name}" for f in others)),
         constants=tuple(_constant(leader, name, known) for name in _ordered(leader)),
         share=share,
@@ -217,6 +217,12 @@ def _same_place(one: Candidate, other: Candidate) -> bool:
         and one.port.name == other.port.name
         and one.gate.name == other.gate.name
     )
+
+
+def _more_general(other: FittedLaw, leader: FittedLaw) -> bool:
+    """Tell whether another form is the leader's with more constants."""
+    pairs = zip(other.law.match.forms, leader.law.match.forms, strict=True)
+    return all(mine.name == theirs.name or theirs.name in mine.contains for mine, theirs in pairs)
 
 
 def _contains(other: FittedLaw, leader: FittedLaw) -> bool:

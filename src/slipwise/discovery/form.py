@@ -60,7 +60,8 @@ class Form:
         constants: besides the strength, which multiplies it.
         signed: whether the state must take both signs; a form of a size is nothing for them.
         sized: whether the state must not be negative.
-        odd: whether f(-s) = -f(s): a state of two signs is a size for its even forms.
+        contains: names of simpler forms that it is with some value of a constant, but for what is the same at every
+            state: it is no rival of theirs.
         name: the file's name; set when the file is read.
         words: first line of its docstring; set when the file is read.
     """
@@ -69,7 +70,7 @@ class Form:
     constants: tuple[Constant, ...] = ()
     signed: bool = False
     sized: bool = False
-    odd: bool = False
+    contains: tuple[str, ...] = ()
     name: str = ""
     words: str = ""
 

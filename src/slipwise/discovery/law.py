@@ -111,7 +111,7 @@ class Discovery:
         relations: relation -> held-out error in floors before and after; of the fitted runs where none is held out.
         worst: relation that the laws act on.
         cannot_judge: states that could not be judged, and why.
-        file: of the effect that was written; None where none was.
+        files: of the effects that were written.
         seconds: it took.
     """
 
@@ -123,7 +123,7 @@ class Discovery:
     relations: Mapping[str, tuple[float, float]]
     worst: str
     cannot_judge: tuple[str, ...]
-    file: Path | None
+    files: tuple[Path, ...]
     seconds: float
 
     @property
@@ -164,6 +164,7 @@ class Discovery:
             "held_out": {"before": before, "after": after},
             "relations": {name: list(errors) for name, errors in self.relations.items()},
             "cannot_judge": list(self.cannot_judge),
-            "file": None if self.file is None else str(self.file),
+            "file": str(self.files[0]) if self.files else None,
+            "files": [str(path) for path in self.files],
             "seconds": self.seconds,
         }

@@ -159,6 +159,16 @@ class FittedLaw:
     solution: Solution
 
     @property
+    def rated_load(self) -> float:
+        """Mean load of the runs [N]."""
+        return float(np.mean(np.concatenate([s.load for s in self.problem.every.states])))
+
+    @property
+    def buffers(self) -> int:
+        """How many buffers share a force on the girder."""
+        return max(len(self.problem.plain.specimen.buffer_stiffness), 1)
+
+    @property
     def values(self) -> dict[str, float]:
         """The law's numbers by name: strength, constants, references, time constant."""
         own = {k.partition(".")[2]: v for k, v in self.solution.values.items() if k.startswith(f"{self.law.label}.")}

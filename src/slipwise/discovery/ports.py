@@ -96,7 +96,7 @@ def pad_ports(here: PadInstants) -> list[Port]:
     """Give the ports of the pads over the runs."""
     along = [a / np.maximum(f.bound, 1e-9) for a, f in zip(here.along, here.forces, strict=True)]
     sense = [np.clip(s, -1.0, 1.0) for s in along]
-    mean = float(np.mean(np.concatenate([s.load for s in here.states])))
+    mean = float(np.mean(np.concatenate([s.load for s in here.states])))  # as `FittedLaw.rated_load`
     load = [s.load for s in here.states]
     return [
         Port("adds to mu", "pads", "odd", "1", tuple(n * s for n, s in zip(load, sense, strict=True))),

@@ -3,4 +3,4 @@
 from slipwise.discovery.form import Constant, Form
 
 REFERENCE = Constant("reference", "reference")
-FORM = Form("(s / reference) ** 3", (REFERENCE,), odd=True)
+FORM = Form("(s / reference) ** 3", (REFERENCE,))

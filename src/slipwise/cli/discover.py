@@ -1,0 +1,62 @@
+"""`slipwise discover`: from an unknown effect to a law that can be added."""
+
+from datetime import date
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import slipwise as sw
+from slipwise.cli.console import OUT, out_folder, print_json, say, steps
+from slipwise.cli.diagnose import CampaignFolder, Json, ModelFile, Own, Trusted, own_effects, start_model
+from slipwise.errors import visible
+
+
+def discover(
+    campaign: CampaignFolder,
+    out: Annotated[Path, typer.Option(help="Folder for discovery.json and the law's effect file.")] = Path(
+        "out/discovery"
+    ),
+    name: Annotated[str, typer.Option(help="Name of the effect that is written, and of its file.")] = "law",
+    model: ModelFile = None,
+    effect: Own = None,
+    trust: Trusted = False,
+    json: Json = False,
+) -> None:
+    """Find the law of what the catalogue does not hold, and write it as an effect.
+
+    Example: `slipwise discover campaigns/march --out out/march`
+    """
+    from slipwise.discovery.effect_file import write_discovered
+    from slipwise.view.files import save_json
+
+    measured = sw.load_campaign(campaign)
+    folder = out_folder(out)
+    with steps() as tell:
+        start = start_model(campaign, model, trust, effect)
+        found = sw.discover(measured, start, own=own_effects(effect, start), progress=tell)
+    found = write_discovered(found, folder, name, date.today().isoformat())
+    saved = save_json(found.as_json(), folder / "discovery.json")
+    if json:
+        print_json(found.as_json())
+        return
+    OUT.print(visible(found.sentence), markup=False, highlight=False)
+    for law in found.laws:
+        for c in law.constants:
+            say(f"{law.name}.{c.name} = {c.value:.4g} {c.unit}" + _interval(c.low, c.high))
+        for words in law.rivals:
+            say(f"explains as much: {words}")
+    for words in found.cannot_judge:
+        say(f"cannot judge {words}")
+    for path in found.files:
+        say(f"Effect: {path}; add it with: slipwise add {campaign} {path}")
+    say(f"Written: {saved}")
+
+
+def _interval(low: float, high: float) -> str:
+    return f" ({low:.4g} to {high:.4g})" if low == low else " (a choice)"
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command()(discover)
