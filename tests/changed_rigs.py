@@ -16,6 +16,9 @@ END = {
     "custom": "  </custom>",
     "file": "</mujoco>",
 }
+#: What is changed -> the changes, and words of the answer.
+Cases = dict[str, tuple[tuple[tuple[str, str], ...], tuple[str, ...]]]
+GIRDER_X = '<joint name="girder_x" type="slide" axis="1 0 0"'
 INERTIA = '<inertial pos="0 0 0" mass="10000" diaginertia="21041.6667 7708.3333 28333.3333"/>'
 
 

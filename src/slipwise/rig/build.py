@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from slipwise.channels import BUFFERS
 from slipwise.errors import SettingError
-from slipwise.rig.specimen import Specimen, models_folder
+from slipwise.rig.specimen import Specimen, models_folder, shipped_file
 
 #: Impedance of the pads' contacts: constant and low, so that a contact is a spring (see `_pad_contact`).
 _IMPEDANCE = 0.001
@@ -97,7 +97,7 @@ def build(specimen: Specimen, dt: float, nuserdata: int) -> Rig:
             f"{specimen.name}: the girder would sink {sag * 1e3:g} mm into its pads, whose radius is "
             f"{specimen.pad_radius * 1e3:g} mm; give a larger pad_stiffness or a smaller mass"
         )
-    spec = mujoco.MjSpec.from_file(str(models_folder() / f"{'bridge1' if specimen.free else 'pad'}.xml"))
+    spec = mujoco.MjSpec.from_file(str(models_folder() / shipped_file(specimen.free)))
     spec.option.timestep = dt
     spec.option.gravity = [0.0, 0.0, -specimen.gravity]
     spec.nuserdata = nuserdata

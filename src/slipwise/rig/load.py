@@ -43,9 +43,10 @@ def load_specimen(rig: str | Path, beside: Path | None = None) -> Specimen:
 def _specimen(file: Mjcf) -> Specimen:
     """Collect a specimen's values, each held to what a rig can have where its element can still be named."""
     model = file.model
-    check_arms(file)
     centre = centre_of_gravity(file)
     pads = pads_of(file)
+    heights = seating(file)
+    check_arms(file)
     numbers = {name: float(model.numeric(name).data[0]) for name in names_of(model, "numeric")}
     texts = {text.name: text.data for text in file.spec.texts}
     body = ("inertial", "", "girder") if file.spec.body("girder").explicitinertial else ("body", "girder", "")
@@ -58,7 +59,7 @@ def _specimen(file: Mjcf) -> Specimen:
         "centre_y": (float(centre[1]), place),
         "pad_places": (pad_places(file), ("geom", f"pad_{pads[0]}", "")),
         "pad_radius": (pad_radius(file), ("geom", f"pad_{pads[0]}", "")),
-        "seating": (seating(file), ("geom", f"pad_{pads[0]}", "")),
+        "seating": (heights, ("geom", f"pad_{pads[0]}", "")),
         "edge_distance": (edge_distance(file), ("site", "girder_edge_1", "")),
         "gravity": (-float(model.opt.gravity[2]), ("option", "", "")),
         "buffer_height": (buffer_height(file), ("tendon", "buffer_1_x", "")),

@@ -1,5 +1,6 @@
 """An MJCF file as text, as it is written and as MuJoCo compiles it."""
 
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -57,8 +58,10 @@ def read_mjcf(path: Path) -> Mjcf:
     elements = read_elements(path)
     _check_inertia(elements)
     try:
-        spec = mujoco.MjSpec.from_file(str(path))
-        model = spec.compile()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of what MuJoCo warns, all is judged later
+            spec = mujoco.MjSpec.from_file(str(path))
+            model = spec.compile()
     except (ValueError, OSError, mujoco.FatalError) as error:
         words = "; ".join(line.strip() for line in visible(str(error)).splitlines() if line.strip())
         raise InputError(f"{path.name} cannot be read by MuJoCo: {words}") from None

@@ -13,7 +13,7 @@ import numpy as np
 
 from slipwise.rig.mjcf import Mjcf
 from slipwise.rig.mjcf_parts import ACTUATORS, buffers_of, is_free, names_of, pads_of
-from slipwise.rig.specimen import models_folder
+from slipwise.rig.specimen import models_folder, shipped_file
 
 #: Fields of each kind of part that follow from others, or only show.
 NOT_FELT: Mapping[str, frozenset[str]] = {
@@ -48,7 +48,7 @@ _WRITTEN = {
     "dof_solref": "solreffriction",
     "dof_solimp": "solimpfriction",
 }
-#: What says the same in a rig, by part and attribute; "" of any attribute.
+#: What says the same in a rig, by part and attribute.
 _INSTEAD = {
     ("pad", "friction"): "a pad's friction is given by the numerics plastic_pressure and shear_strength",
     ("pad", "solref"): "a pad's spring is given by the numerics pad_stiffness and pad_damping",
@@ -70,7 +70,7 @@ _WORDS_OF = {
 
 @cache
 def _shipped(free: bool) -> mujoco.MjModel:
-    return mujoco.MjModel.from_xml_path(str(models_folder() / f"{'bridge1' if free else 'pad'}.xml"))
+    return mujoco.MjModel.from_xml_path(str(models_folder() / shipped_file(free)))
 
 
 def check_attributes(file: Mjcf) -> None:
@@ -142,6 +142,13 @@ def _check_actuator(file: Mjcf, shipped: mujoco.MjModel, name: str) -> None:
     wanted = shipped.joint(int(ours.trnid[0])).name
     if drives != wanted:
         raise file.refused(f"the actuator {name} must drive the joint {wanted}", "actuator", name)
+    if np.any(theirs.biasprm[1:] != ours.biasprm[1:]):
+        raise file.refused(
+            f"the actuator {name!r} has biasprm = {_text(theirs.biasprm)}; its first number, the weight, is set by a "
+            "replay: give no gain on position or velocity",
+            "actuator",
+            name,
+        )
     _compare(file, "actuator", name, name, [("actuator", theirs.id, ours.id)], also=frozenset({"trnid"}))
 
 
@@ -163,7 +170,7 @@ def _compare(
             possible = getattr(shipped, f"{prefix}_{field}")[ours]
             if not np.array_equal(given, possible):
                 written = _WRITTEN.get(f"{prefix}_{field}", _WRITTEN.get(field, field))
-                instead = _INSTEAD.get((part, field), "leave it as bridge1.xml has it")
+                instead = _INSTEAD.get((part, field), f"leave it as {shipped_file(is_free(file.model))} has it")
                 raise file.refused(
                     f"the {kind} {name!r} has {written} = {_text(given)}, which would not be simulated; possible is "
                     f"{_text(possible)}: {instead}",

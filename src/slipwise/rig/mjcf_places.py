@@ -12,6 +12,8 @@ from slipwise.rig.mjcf_parts import buffers_of, is_free, names_of, pads_of
 Places = tuple[tuple[float, float], ...]
 #: Lengths that differ by less are the same [m]: a thousandth of how far a pad sinks.
 _SAME = 1e-7
+#: What a plate of 20 m may be off its pad and still lie on it at any slip of a replay [m].
+_OFF = 4.0
 
 
 def centre_of_gravity(file: Mjcf) -> NDArray[np.float64]:
@@ -75,7 +77,7 @@ def seating(file: Mjcf) -> tuple[float, ...]:
     """Give the height of each pad above the sliding plane (n_pads,) [m].
 
     Raises:
-        InputError: a plate does not lie on the sliding plane, or no pad reaches it, or the girder is inside its pads.
+        InputError: a plate does not lie on its pad, or no pad reaches it, or the girder is inside its pads.
     """
     model, pads = file.model, pads_of(file)
     height = float(model.body("girder").pos[2])
@@ -87,6 +89,14 @@ def seating(file: Mjcf) -> tuple[float, ...]:
             raise file.refused(
                 f"the lower face of plate_{pad} lies {where} (z = {low:g} m); it must be the sliding plane, z = 0: "
                 f"with the girder at z = {height:g} m: pos z = {float(plate.size[2]) - height:g}",
+                "geom",
+                f"plate_{pad}",
+            )
+        off = np.array(model.body("girder").pos[:2]) + plate.pos[:2] - model.geom(f"pad_{pad}").pos[:2]
+        if not np.all(np.abs(off) <= _OFF):
+            raise file.refused(
+                f"plate_{pad} lies {off[0]:g}, {off[1]:g} m off pad_{pad}; it must lie above its pad, however far the "
+                f"girder slips: within {_OFF:g} m",
                 "geom",
                 f"plate_{pad}",
             )
