@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from slipwise.channels import BUFFERS
 from slipwise.errors import SettingError, unknown_name
 from slipwise.rig.similarity import LENGTH_SCALE
 
@@ -112,10 +113,20 @@ class Specimen:
     sources: dict[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Refuse values that no rig can have."""
+        """Refuse values that no rig can have, and values that do not belong together."""
         for name in _BOUNDS:
             if wrong := out_of_bounds(name, getattr(self, name)):
                 raise SettingError(f"{self.name}: {wrong}")
+        if not len(self.pads) == len(self.pad_places) == len(self.seating):
+            raise SettingError(
+                f"{self.name}: {len(self.pads)} pads, {len(self.pad_places)} pad_places and {len(self.seating)} values "
+                "of seating; give one of each for every pad"
+            )
+        if not len(self.buffer_stiffness) == len(self.buffer_places) <= len(BUFFERS):
+            raise SettingError(
+                f"{self.name}: {len(self.buffer_stiffness)} values of buffer_stiffness and {len(self.buffer_places)} "
+                f"buffer_places; give one of each for every buffer, at most {len(BUFFERS)}"
+            )
         if not 0.0 <= self.bending_mass < self.mass:
             raise SettingError(
                 f"{self.name}: bending_mass = {self.bending_mass:g} kg must be below the mass {self.mass:g} kg"
