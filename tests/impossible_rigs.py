@@ -104,7 +104,10 @@ IMPOSSIBLE: Cases = {
     ),
     "a bending mass above the mass": (
         (("custom", '<numeric name="bending_mass" data="2e4"/>'),),
-        ("bending_mass = 20000 kg must be below the mass",),
+        (
+            "line 23",
+            "bending_mass = 20000 kg must be below the mass",
+        ),
     ),
     "pads nowhere": ((("custom", '<text name="pads_on" data="moon"/>'),), ("line 23", "'moon'", "girder, table")),
     # what is missing or is no MJCF

@@ -83,7 +83,9 @@ def _specimen(file: Mjcf) -> Specimen:
             **{name: value for name, (value, _) in values.items() if " " not in name},
         )
     except (SettingError, UnknownNameError) as error:
-        raise file.refused(str(error), "text", next((name for name in WORDS if name in texts), "")) from None
+        heavy = "bending_mass" in numbers and numbers["bending_mass"] >= values["mass"][0]
+        word = next((name for name in WORDS if name in texts), "")
+        raise file.refused(str(error), *(("numeric", "bending_mass") if heavy else ("text", word))) from None
 
 
 def _inertia(file: Mjcf) -> tuple[float, float, float]:
