@@ -8,7 +8,7 @@ import typer
 
 import slipwise as sw
 from slipwise.cli.console import out_folder, print_json, progress, say
-from slipwise.errors import SettingError
+from slipwise.errors import SettingError, SlipwiseError
 
 
 def replay(
@@ -74,14 +74,18 @@ def replay(
     else:
         sw.motion.warn_of_travel(shaking)
     model = _model(rig, law, effect or [])
-    folder = out_folder(out)
     given = {"dt": (step, "--step"), "output_dt": (output_step, "--output-step")}
     settings: dict[str, Any] = {name: sw.quantity(text, "s", option) for name, (text, option) in given.items() if text}
+    new, folder = not out.exists(), out_folder(out)
     try:
         with progress("replay") as report:
             answer = sw.replay(model, shaking, engine=engine, progress=report, **settings)
     except sw.SimulationDiverged as error:
         _write_record(error.replay, folder, csv)
+        raise
+    except SlipwiseError:
+        if new:
+            folder.rmdir()  # what is refused leaves nothing behind
         raise
     began = time.perf_counter()
     files = [_write_record(answer, folder, csv)]

@@ -1,4 +1,8 @@
-"""From a specimen to a MuJoCo model that is ready to be shaken."""
+"""From a specimen to a MuJoCo model that is ready to be shaken.
+
+The model is always the shipped one with the specimen's values in it, whatever file they were read from: so what a file
+holds and a specimen does not cannot act without a record. `mjcf_attributes.py` refuses files that hold such things.
+"""
 
 from dataclasses import dataclass
 
@@ -8,7 +12,7 @@ from numpy.typing import NDArray
 
 from slipwise.channels import BUFFERS
 from slipwise.errors import SettingError
-from slipwise.rig.specimen import Specimen
+from slipwise.rig.specimen import Specimen, models_folder, shipped_file
 
 #: Impedance of the pads' contacts: constant and low, so that a contact is a spring (see `_pad_contact`).
 _IMPEDANCE = 0.001
@@ -83,10 +87,17 @@ def build(specimen: Specimen, dt: float, nuserdata: int) -> Rig:
         nuserdata: numbers that the callbacks keep in `data.userdata`.
 
     Raises:
-        SettingError: the step is too large for the pads' stiffness, or the values are not those of a body.
+        SettingError: the step is too large for the pads' stiffness, the girder would sink through its pads, or the
+            values are not those of a body.
     """
     check_step(specimen, dt)
-    spec = mujoco.MjSpec.from_file(str(specimen.path))
+    sag = specimen.weight / len(specimen.pads) / specimen.pad_stiffness
+    if sag > specimen.pad_radius:
+        raise SettingError(
+            f"{specimen.name}: the girder would sink {sag * 1e3:g} mm into its pads, whose radius is "
+            f"{specimen.pad_radius * 1e3:g} mm; give a larger pad_stiffness or a smaller mass"
+        )
+    spec = mujoco.MjSpec.from_file(str(models_folder() / shipped_file(specimen.free)))
     spec.option.timestep = dt
     spec.option.gravity = [0.0, 0.0, -specimen.gravity]
     spec.nuserdata = nuserdata
@@ -112,7 +123,7 @@ def build(specimen: Specimen, dt: float, nuserdata: int) -> Rig:
         jacobian=_jacobian(model, tendons),
         pad_geoms=tuple(int(model.geom(f"pad_{pad}").id) for pad in specimen.pads),
         user_sensor=int(model.sensor("pads").adr[0]),
-        sag=specimen.weight / len(specimen.pads) / specimen.pad_stiffness,
+        sag=sag,
     )
 
 
@@ -137,6 +148,9 @@ def _place_girder(spec: mujoco.MjSpec, specimen: Specimen) -> None:
             for name in (f"plate_{pad}", f"sole_{pad}"):
                 geom = spec.geom(name)
                 geom.pos = [place[0] - specimen.centre_x, place[1] - specimen.centre_y, geom.pos[2]]
+    if specimen.free:
+        spec.site("girder_edge_1").pos = [specimen.edge_distance, 0.0, 0.0]
+        spec.site("girder_edge_2").pos = [-specimen.edge_distance, 0.0, 0.0]
     if specimen.pads_on == "girder":
         _swap_pads(spec, specimen)
 
@@ -172,6 +186,9 @@ def _place_tendons(spec: mujoco.MjSpec, specimen: Specimen, dt: float) -> None:
             y - specimen.centre_y,
             specimen.buffer_height - specimen.centre_height,
         )
+    for buffer in BUFFERS[len(specimen.buffer_places) :]:
+        for axis in "xy":
+            spec.delete(spec.tendon(f"buffer_{buffer}_{axis}"))
     for name, (x, y, z) in arms.items():
         turning = {
             "x": {"girder_x": 1.0, "girder_pitch": z, "girder_yaw": -y},

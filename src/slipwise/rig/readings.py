@@ -6,8 +6,9 @@ Source: the paper's text; its figures and Table 1 give nothing more here. Each f
 from dataclasses import dataclass, replace
 
 from slipwise.errors import SettingError, unknown_name
+from slipwise.rig.load import load_specimen
 from slipwise.rig.similarity import LENGTH_SCALE
-from slipwise.rig.specimen import Specimen, load_specimen
+from slipwise.rig.specimen import Specimen
 
 #: Plan of the girder model, across and along it [m]. Source: paper, Summary, "a 5 x 3 m girder model".
 PLAN = (5.0, 3.0)

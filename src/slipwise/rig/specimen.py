@@ -1,15 +1,14 @@
-"""A specimen: the rated values of a rig, read from its MJCF file, where they live once."""
+"""A specimen: the rated values of a rig, and where its MJCF file lies."""
 
 from dataclasses import dataclass, field
 from importlib.resources import files
 from pathlib import Path
+from typing import Any
 
-import mujoco
 import numpy as np
 
-from slipwise.channels import BUFFERS, PADS
-from slipwise.errors import InputError, SettingError, unknown_name
-from slipwise.rig.mjcf_parts import check_parts
+from slipwise.channels import BUFFERS
+from slipwise.errors import SettingError, unknown_name
 from slipwise.rig.similarity import LENGTH_SCALE
 
 #: Specimens that ship with the package.
@@ -19,20 +18,36 @@ RIGS: tuple[str, ...] = ("bridge1", "bridge2", "block", "pad")
 #: What any rig can have, from a tribometer to a bridge at full size: low, high, unit. Assumed.
 _BOUNDS: dict[str, tuple[float, float, str]] = {
     "mass": (1e-3, 1e8, "kg"),
+    "inertia": (1e-12, 1e14, "kg m^2"),
     "centre_height": (1e-4, 100.0, "m"),
     "centre_x": (-100.0, 100.0, "m"),
     "centre_y": (-100.0, 100.0, "m"),
+    "pad_places": (-100.0, 100.0, "m"),
     "pad_radius": (1e-5, 10.0, "m"),
     "pad_stiffness": (1.0, 1e15, "N/m"),
     "pad_damping": (0.0, 1e15, "N s/m"),
     "plastic_pressure": (1.0, 1e14, "Pa"),
     "shear_strength": (1e-3, 1e14, "Pa"),
     "buffer_stiffness": (0.0, 1e15, "N/m"),
+    "buffer_places": (-100.0, 100.0, "m"),
     "buffer_height": (-100.0, 100.0, "m"),
+    "seating": (-1.0, 1.0, "m"),
+    "edge_distance": (1e-4, 100.0, "m"),
     "bending_frequency": (1e-2, 1e5, "Hz"),
     "bending_damping": (0.0, 1.0, "of critical"),
     "gravity": (1e-2, 1e3, "m/s^2"),
 }
+
+
+def out_of_bounds(name: str, given: Any) -> str:
+    """Say what is wrong with a value of a specimen, or nothing: a number or a tuple of them [SI]."""
+    if name not in _BOUNDS:
+        return ""
+    low, high, unit = _BOUNDS[name]
+    for value in np.ravel(given):
+        if not low <= value <= high:
+            return f"{name} = {value:g} {unit} cannot be; possible are {low:g} to {high:g} {unit}: look at its unit"
+    return ""
 
 
 @dataclass(frozen=True)
@@ -63,6 +78,7 @@ class Specimen:
         bending_mass: modal mass of the girder's first vertical mode; 0 for a rigid girder [kg].
         bending_frequency: its frequency on a fixed base [Hz].
         bending_damping: its fraction of critical damping [1].
+        edge_distance: of the two gauges of `girder_az_1` and `_2` from the centre of gravity, along x [m].
         gravity: [m/s^2].
         free: whether the girder can move horizontally; False where slip is prescribed.
         sources: where each rated value comes from.
@@ -90,21 +106,27 @@ class Specimen:
     seating: tuple[float, ...] = (0.0, 0.0, 0.0, 0.0)
     stick_capacity: str = "slow"
     buffer_height: float = 0.0
+    edge_distance: float = 1.5
     bending_mass: float = 0.0
     bending_frequency: float = 15.0
     bending_damping: float = 0.02
     sources: dict[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Refuse values that no rig can have."""
-        for name, (low, high, unit) in _BOUNDS.items():
-            given = getattr(self, name)
-            for value in given if isinstance(given, tuple) else (given,):
-                if not low <= value <= high:
-                    raise SettingError(
-                        f"{self.name}: {name} = {value:g} {unit} cannot be; possible are {low:g} to {high:g} {unit}: "
-                        "look at its unit"
-                    )
+        """Refuse values that no rig can have, and values that do not belong together."""
+        for name in _BOUNDS:
+            if wrong := out_of_bounds(name, getattr(self, name)):
+                raise SettingError(f"{self.name}: {wrong}")
+        if not len(self.pads) == len(self.pad_places) == len(self.seating):
+            raise SettingError(
+                f"{self.name}: {len(self.pads)} pads, {len(self.pad_places)} pad_places and {len(self.seating)} values "
+                "of seating; give one of each for every pad"
+            )
+        if not len(self.buffer_stiffness) == len(self.buffer_places) <= len(BUFFERS):
+            raise SettingError(
+                f"{self.name}: {len(self.buffer_stiffness)} values of buffer_stiffness and {len(self.buffer_places)} "
+                f"buffer_places; give one of each for every buffer, at most {len(BUFFERS)}"
+            )
         if not 0.0 <= self.bending_mass < self.mass:
             raise SettingError(
                 f"{self.name}: bending_mass = {self.bending_mass:g} kg must be below the mass {self.mass:g} kg"
@@ -163,6 +185,11 @@ def models_folder() -> Path:
     return packed if packed.is_dir() else Path(__file__).parents[3] / "models"
 
 
+def shipped_file(free: bool) -> str:
+    """Give the name of the shipped file in which a rig is replayed: of a girder that is free, or of prescribed slip."""
+    return "bridge1.xml" if free else "pad.xml"
+
+
 def find_rig(rig: str | Path, beside: Path | None = None) -> Path:
     """Find the MJCF file of a rig given by name or by path.
 
@@ -179,61 +206,3 @@ def find_rig(rig: str | Path, beside: Path | None = None) -> Path:
     if path.suffix == ".xml" and path.is_file():
         return path
     raise unknown_name("rig", str(rig), RIGS, "`slipwise rigs` lists them; the path of an MJCF file works too.")
-
-
-def load_specimen(rig: str | Path, beside: Path | None = None) -> Specimen:
-    """Read a specimen's rated values from its MJCF file.
-
-    Args:
-        rig: a name of `RIGS` or the path of an MJCF file that names its parts as they do.
-        beside: folder from which a relative path is meant.
-
-    Raises:
-        UnknownNameError: no such rig.
-        InputError: the file is no MJCF, or a part is missing in it.
-    """
-    path = find_rig(rig, beside)
-    try:
-        model = mujoco.MjModel.from_xml_path(str(path))
-    except ValueError as error:
-        raise InputError(f"{path.name} cannot be read by MuJoCo: {error}") from None
-    check_parts(model, path)
-    names = {model.geom(i).name for i in range(model.ngeom)}
-    tendons = {model.tendon(i).name for i in range(model.ntendon)}
-    pads = tuple(pad for pad in PADS if f"pad_{pad}" in names)
-    for needed in [f"pad_{pad}_x" for pad in pads] or ["pad_A_x"]:
-        if needed not in tendons:
-            raise InputError(
-                f"{path.name} has no tendon {needed!r}: each pad needs a geom pad_X and tendons pad_X_x, pad_X_y"
-            )
-    try:
-        girder = model.body("girder")
-        buffers = [b for b in BUFFERS if f"buffer_{b}_x" in tendons]
-        number = {model.numeric(i).name: float(model.numeric(i).data[0]) for i in range(model.nnumeric)}
-        texts = mujoco.MjSpec.from_file(str(path)).texts
-        return Specimen(
-            name=path.stem,
-            path=path,
-            mass=float(girder.mass[0]),
-            inertia=tuple(float(v) for v in girder.inertia),  # type: ignore[arg-type]
-            centre_height=float(girder.pos[2]),
-            centre_x=float(girder.pos[0]),
-            centre_y=float(girder.pos[1]),
-            pads=pads,
-            pad_places=tuple((float(p[0]), float(p[1])) for p in (model.geom(f"pad_{pad}").pos for pad in pads)),
-            pad_radius=float(model.geom("pad_A").size[0]),
-            pad_stiffness=number["pad_stiffness"],
-            pad_damping=number["pad_damping"],
-            plastic_pressure=number["plastic_pressure"],
-            shear_strength=number["shear_strength"],
-            buffer_stiffness=tuple(float(model.tendon_stiffness[model.tendon(f"buffer_{b}_x").id]) for b in buffers),
-            buffer_places=tuple((float(p[0]), float(p[1])) for p in (model.geom(f"buffer_{b}").pos for b in buffers)),
-            gravity=-float(model.opt.gravity[2]),
-            free="girder_x" in {model.joint(i).name for i in range(model.njnt)},
-            seating=(0.0,) * len(pads),
-            sources={t.name.removeprefix("source "): t.data for t in texts if t.name.startswith("source ")},
-        )
-    except KeyError as error:
-        raise InputError(
-            f"{path.name} lacks a part that a rig needs: {error}; compare it with models/bridge1.xml"
-        ) from None

@@ -87,6 +87,25 @@ def test_a_step_too_large_for_the_pads_is_refused_with_the_largest_allowed():
     build(specimen, largest_step(specimen) * 0.999, 1)
 
 
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"buffer_stiffness": (1e6,) * 4}, "4 values of buffer_stiffness and 2 buffer_places"),
+        ({"seating": (0.0,)}, "1 values of seating"),
+        ({"pad_places": ((np.nan, 0.0),) * 4}, "pad_places = nan m cannot be"),
+        ({"inertia": (1.0, -1.0, 1.0)}, "inertia = -1 kg m\\^2 cannot be"),
+    ],
+)
+def test_values_that_do_not_belong_together_are_refused(values, words):
+    with pytest.raises(SettingError, match=words):
+        replace(load_specimen("bridge1"), **values)
+
+
+def test_pads_too_soft_to_carry_the_girder_are_refused():
+    with pytest.raises(SettingError, match="would sink 24.5166 mm into its pads"):
+        build(replace(load_specimen("bridge1"), pad_stiffness=1e6), 5e-4, 0)
+
+
 def test_an_unknown_rig_is_answered_with_the_nearest():
     with pytest.raises(UnknownNameError, match="bridge1"):
         load_specimen("bridg1")
