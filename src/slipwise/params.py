@@ -38,12 +38,19 @@ class Parameter:
         """Refuse a parameter that cannot be used.
 
         Raises:
-            SettingError: no unit, no source, or bounds that do not hold the values.
+            SettingError: no unit, no source, a text for a number, or bounds that do not hold the values.
         """
         if not self.unit or not self.source or not self.meaning:
             raise SettingError(
                 f"parameter {self.name!r} needs a unit, a source and a meaning ('1' for a pure number, 'assumed')"
             )
+        for kind in ("typical", "low", "high", "neutral"):
+            value = getattr(self, kind)
+            if not isinstance(value, int | float) and not (value is None and kind == "neutral"):
+                raise SettingError(
+                    f"parameter {self.name!r}: its {kind} value is {value!r} and must be a number; the order is name, "
+                    "unit, typical, low, high, neutral, source, meaning"
+                )
         if not self.low < self.high:
             raise SettingError(f"parameter {self.name!r}: bounds {self.low:g} to {self.high:g} {self.unit} are empty")
         for kind, value in (("typical", self.typical), ("neutral", self.neutral)):

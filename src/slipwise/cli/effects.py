@@ -1,12 +1,13 @@
 """`slipwise effects`: the catalogue, from the effects' own files."""
 
 from pathlib import Path
+from shlex import quote
 from typing import Annotated
 
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import OUT, print_json, say
+from slipwise.cli.console import OUT, out_folder, print_json, say
 
 
 def effects(
@@ -14,14 +15,27 @@ def effects(
     json: Annotated[bool, typer.Option("--json", help="Print JSON for a program to read.")] = False,
     source: Annotated[bool, typer.Option("--source", help="Print its file: a model for one of your own.")] = False,
     picture: Annotated[Path | None, typer.Option(help="Draw what the effect does at typical size (.png).")] = None,
+    new: Annotated[str, typer.Option(help="Write NEW.py, an effect that works, to begin one of your own with.")] = "",
+    port: Annotated[
+        str | None,
+        typer.Option(help="Where the new effect acts: shear (friction) if not given, pad, buffer, gauge ..."),
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="Folder for the new effect; this one if not given.")] = None,
 ) -> None:
-    """List the effects, or show one: equation, sources, parameters, rivals.
+    """List the effects, or show one: equation, sources, parameters, rivals. Or write a new one to begin with.
 
-    Example: `slipwise effects heating --picture heating.png`
+    Example: `slipwise effects heating --picture heating.png`, or `slipwise effects --new my_effect`
     """
     from slipwise.errors import SettingError
     from slipwise.view.effects import effect_rows, print_effect, print_effects
 
+    if new:
+        if name or source or picture or json:
+            raise SettingError("--new writes a file: it goes with --port and --out only")
+        _write_new(new, port, out)
+        return
+    if port is not None or out is not None:
+        raise SettingError("--port and --out belong to a new effect: slipwise effects --new my_effect --port shear")
     if not name:
         if source or picture:
             raise SettingError("--source and --picture show one effect; say which: slipwise effects heating --source")
@@ -50,6 +64,21 @@ def effects(
             saved = save_figure(effect_picture(effect), picture)
         if not json and not source:
             say(f"Picture: {saved}")
+
+
+def _write_new(name: str, port: str | None, out: Path | None) -> None:
+    """Write an effect to begin with, and say what to do next."""
+    skeleton = sw.effects.skeleton(name) if port is None else sw.effects.skeleton(name, port)
+    path = sw.effects.write_effect(skeleton, out_folder(out or Path()))
+    file = quote(str(path) if path.is_absolute() or path.parts[0] == ".." else f"./{path.as_posix()}")
+    say(f"wrote {file}: it works as it is; its comments say what to change")
+    for command, words in (
+        (f"slipwise effects {file}", "says what to mend, or shows it"),
+        (f"slipwise replay sine:2Hz,0.3g,cycles=12 --effect {file} --out {quote(f'out/{name}')}", "shakes Bridge 1"),
+        (f"slipwise add {file} --campaign CAMPAIGN", "fits it to your tests"),
+        (f"slipwise diagnose CAMPAIGN --effect {file}", "lets it compete with the catalogue"),
+    ):
+        say(f"  {command}  # {words}")
 
 
 def _asks(effect: "sw.Effect") -> list[str]:

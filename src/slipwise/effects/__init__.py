@@ -2,10 +2,12 @@
 
 from slipwise.effects._catalogue import base_effects, catalogue, find_effect, load_effect
 from slipwise.effects._declared import NEEDS, Gauges
-from slipwise.effects._effect import RESPONSE, Effect, moved_channels, read_effect
+from slipwise.effects._effect import RESPONSE, Effect, moved_channels
 from slipwise.effects._fault import GaugeFault
 from slipwise.effects._hooks import COMPONENTS, DERIVED, HOOKS, LAGGING, PORTS
+from slipwise.effects._read import read_effect
 from slipwise.effects._scaled import holding, scaled
+from slipwise.effects._skeleton import skeleton
 from slipwise.effects._states import BalanceStates
 from slipwise.effects._trust import Trust, check_trusted
 from slipwise.effects._written import WrittenEffect, effect_text, write_effect
@@ -36,5 +38,6 @@ __all__ = [
     "moved_channels",
     "read_effect",
     "scaled",
+    "skeleton",
     "write_effect",
 ]

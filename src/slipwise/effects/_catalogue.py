@@ -10,11 +10,15 @@ from functools import cache
 from importlib.metadata import entry_points
 from pathlib import Path
 
-from slipwise.effects._effect import Effect, read_effect
+from slipwise.effects._effect import Effect
+from slipwise.effects._read import read_effect
+from slipwise.effects._tried import line_of
 from slipwise.errors import InputError, SettingError, SlipwiseError, unknown_name
 
 #: Packages offer effects by an entry point of this group whose value is a module.
 ENTRY_POINT_GROUP = "slipwise.effects"
+#: For who left something out.
+_PARAMETER = "Parameter takes name, unit, typical, low, high, neutral, source and meaning"
 
 
 @cache
@@ -93,12 +97,23 @@ def load_effect(path: Path | str) -> Effect:
         raise type(error)(f"{path.name}: {error}") from None
     except Exception as error:
         del sys.modules[name]
-        raise InputError(f"{path} cannot be imported: {type(error).__name__}: {error}") from error
+        raise InputError(_not_imported(path, error)) from error
     effect = read_effect(module, path.resolve())
     if effect.name in catalogue():
         raise SettingError(f"{path}: an effect called {effect.name!r} exists already; rename the file")
     _check_others(effect, catalogue())
     return effect
+
+
+def _not_imported(path: Path, error: Exception) -> str:
+    """Say why Python cannot import a file, where, and what to do."""
+    if isinstance(error, SyntaxError):
+        return (
+            f"{path.name} cannot be imported: {error.msg} in line {error.lineno}: {(error.text or '').strip()!r}; mend "
+            "that line, or the one before it"
+        )
+    what = _PARAMETER if str(error).startswith("Parameter.") else f"{type(error).__name__}: {error}"
+    return f"{path.name} cannot be imported: {what}; mend{line_of(error, path) or ' it'}"
 
 
 def find_effect(name: str) -> Effect:

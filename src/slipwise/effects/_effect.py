@@ -39,19 +39,17 @@ every right that a file of the catalogue has, but for a role in the base model a
 """
 
 import fnmatch
-import functools
 import inspect
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 from slipwise.channels import CHANNELS
-from slipwise.effects._declared import BASE_ROLES, COMPONENT_NEEDS, NEEDS, SITS, Gauges
-from slipwise.effects._fault import SAMPLE_FAULTS, GaugeFault
-from slipwise.effects._hooks import COMPONENTS, DERIVED, HOOKS, LAGGING, PORTS, SIDES
-from slipwise.errors import SettingError, unknown_name
+from slipwise.effects._declared import COMPONENT_NEEDS, NEEDS, Gauges
+from slipwise.effects._fault import GaugeFault
+from slipwise.effects._hooks import DERIVED, HOOKS
+from slipwise.errors import unknown_name
 from slipwise.params import Parameter
 from slipwise.shown import Drawn, Tabular
 
@@ -189,112 +187,6 @@ class Effect(Drawn, Tabular):
         return [p.row() for p in self.parameters]
 
 
-def read_effect(module: ModuleType, path: Path) -> Effect:
-    """Read and check the effect that a module defines.
-
-    Args:
-        module: an imported effect file.
-        path: the file.
-
-    Raises:
-        SettingError: the file breaks the contract; the message says where and how to mend it.
-    """
-    name = path.stem
-    found = getattr(module, "EFFECT", None)
-    text = inspect.cleandoc(module.__doc__ or "")
-    if not isinstance(found, Effect):
-        raise SettingError(
-            f"{path.name} defines no EFFECT = Effect(...); `slipwise effects run_in --source` shows a whole file"
-        )
-    for needed in ("Valid:", "Source:"):
-        if needed not in text:
-            raise SettingError(f"{path.name}: the docstring needs a line that starts with {needed!r}")
-    if found.port not in PORTS:
-        raise unknown_name(f"port (of {path.name})", found.port, PORTS)
-    if found.component not in COMPONENTS:
-        raise unknown_name(f"component (of {path.name})", found.component, COMPONENTS)
-    _check_declared(path, found)
-    if len({p.name for p in found.parameters}) < len(found.parameters):
-        raise SettingError(f"{path.name}: two parameters share a name")
-    defined = {n: f for n, f in vars(module).items() if inspect.isfunction(f) and f.__module__ == module.__name__}
-    hooks = {n: f for n, f in defined.items() if not n.startswith("_")}
-    allowed = PORTS[found.port]
-    for hook, function in hooks.items():
-        if hook not in allowed:
-            raise SettingError(
-                f"{path.name}: an effect on port {found.port!r} cannot have a hook {hook!r}; "
-                f"possible: {', '.join(allowed)}"
-            )
-        _check_arguments(path, found, hook, function)
-        if not HOOKS[hook].instant:
-            hooks[hook] = _by_name(hook, function)
-    if not hooks:
-        raise SettingError(f"{path.name} has no hook; an effect on port {found.port!r} may have: {', '.join(allowed)}")
-    if not found.replaces and all(p.neutral is None for p in found.parameters):
-        raise SettingError(f"{path.name}: no parameter has a neutral value, so the effect could never be off")
-    for pattern in found.moves:
-        if not any(_matches(pattern, channel) for channel in CHANNELS) and pattern != "*":
-            raise SettingError(
-                f"{path.name}: 'moves' names {pattern!r}, which is no channel; `slipwise channels` lists them"
-            )
-    asked = {argument for function in hooks.values() for argument in inspect.signature(function).parameters}
-    turns = found.turns or bool(SIDES & asked)
-    return replace(found, name=name, summary=text.splitlines()[0], text=text, hooks=hooks, path=path, turns=turns)
-
-
-def _check_declared(path: Path, effect: Effect) -> None:
-    """Refuse words that mean nothing, and a filter that does not say its lag.
-
-    Raises:
-        SettingError: with what is possible.
-    """
-    for what, given, possible in (
-        *(("need", need, NEEDS) for need in effect.needs),
-        *((("role in the base model", effect.base, BASE_ROLES),) if effect.base else ()),
-        ("way to sit on gauges", effect.gauges.sits, SITS),
-        *((("parameter for its lag", effect.lag, effect.parameter_names),) if effect.lag else ()),
-    ):
-        if given not in possible:
-            raise unknown_name(f"{what} (of {path.name})", given, possible)
-    for kind in effect.fault.samples if effect.fault else ():
-        if kind not in SAMPLE_FAULTS:
-            raise unknown_name(f"fault of samples (of {path.name})", kind, SAMPLE_FAULTS)
-    if effect.plainer and not effect.lag:
-        raise SettingError(f"{path.name}: it has a plainer form ({effect.plainer}), so it must name the `lag` of both")
-
-
-def _check_arguments(path: Path, effect: Effect, hook: str, function: Callable[..., Any]) -> None:
-    known = (
-        HOOKS[hook].inputs | {p.name for p in effect.parameters} | ({"memory"} if HOOKS[hook].memory else set[str]())
-    )
-    for argument in inspect.signature(function).parameters:
-        if argument not in known:
-            raise SettingError(
-                f"{path.name}: {hook}() asks for {argument!r}, which is neither one of its parameters "
-                f"({', '.join(effect.parameter_names)}) nor something this hook can have: {', '.join(sorted(known))}"
-            )
-        if argument in LAGGING and "time_constant" not in effect.parameter_names:
-            raise SettingError(
-                f'{path.name}: {hook}() asks for {argument!r}: it needs a Parameter("time_constant", "s", ...)'
-            )
-
-
-def _by_name(hook: str, function: Callable[..., Any]) -> Callable[..., Any]:
-    """Let a hook of whole arrays be called with everything it may have; it gets what it asks for."""
-    asked = inspect.signature(function).parameters
-
-    @functools.wraps(function)
-    def called(*given: Any, **named: Any) -> Any:
-        everything = {**dict(zip(HOOKS[hook].leading, given, strict=False)), **named}
-        return function(**{name: value for name, value in everything.items() if name in asked})
-
-    return called
-
-
-def _matches(pattern: str, channel: str) -> bool:
-    return fnmatch.fnmatchcase(channel, pattern)
-
-
 def moved_channels(effect: Effect) -> frozenset[str]:
     """Give the names of the channels that an effect may change."""
-    return frozenset(c for c in CHANNELS if any(_matches(pattern, c) for pattern in effect.moves))
+    return frozenset(c for c in CHANNELS if any(fnmatch.fnmatchcase(c, pattern) for pattern in effect.moves))

@@ -62,46 +62,79 @@ GIRDER_INPUTS: dict[str, str] = {
 
 @dataclass(frozen=True)
 class Hook:
-    """What a hook may ask for, and where its memory lives ("pad", "buffer" or nowhere "")."""
+    """What a hook may ask for.
 
-    inputs: frozenset[str]
+    Attributes:
+        inputs: name of the argument -> what it is; its own parameters and `memory` come to these.
+        leading: of these, the ones that a hook of whole arrays is given in this order.
+        memory: where its memory lives: "pad", "buffer" or nowhere "".
+        instant: whether it is a hook of one instant, and compiled.
+    """
+
+    inputs: Mapping[str, str]
     leading: tuple[str, ...]
     memory: str
     instant: bool
 
 
-def _hook(inputs: Mapping[str, str], *leading: str, memory: str = "", instant: bool = True) -> Hook:
-    return Hook(frozenset(inputs) | frozenset(leading), leading, memory, instant)
+def _hook(inputs: Mapping[str, str], own: Mapping[str, str], memory: str = "") -> Hook:
+    return Hook({**own, **inputs}, tuple(own), memory, instant=True)
+
+
+def _arrays(own: Mapping[str, str], memory: str = "") -> Hook:
+    return Hook(own, tuple(own), memory, instant=False)
 
 
 #: A hook that asks for one of these tells one side of the girder from the other.
 SIDES: frozenset[str] = frozenset({"side", "side_y"})
 #: Real area and true pressure are only known while the bound is being made.
 _AFTERWARDS = {n: words for n, words in PAD_INPUTS.items() if n not in ("real_area", "true_pressure")}
+_BOUND = {"bound": _FORCE_INPUTS["bound"]}
+_OF_BUFFER = {"force": "of the buffer so far [N]"}
+_RECORD = {"record": "the run so far, a Record", "target": "channel that it sits on, where EFFECT has a target"}
+_MEMORY = {"memory": "numbers that it remembers"}
 HOOKS: dict[str, Hook] = {
-    "area": _hook(PAD_INPUTS, "real_area", memory="pad"),
-    "shear": _hook(PAD_INPUTS, "shear", memory="pad"),
-    "coefficient": _hook(_AFTERWARDS, "coefficient", memory="pad"),
-    "stick": _hook(_AFTERWARDS, "bound", memory="pad"),
-    "pad": _hook({**_AFTERWARDS, **_FORCE_INPUTS}, memory="pad"),
-    "advance": _hook({**_AFTERWARDS, **_FORCE_INPUTS}, memory="pad"),
-    "deflection": _hook(BUFFER_INPUTS, "deflection", memory="buffer"),
-    "spring": _hook(BUFFER_INPUTS, "force", memory="buffer"),
-    "settle": _hook({**BUFFER_INPUTS, "force": ""}, memory="buffer"),
-    "stretch": _hook({"load": PAD_INPUTS["load"]}, "force"),
-    "lift": _hook(GIRDER_INPUTS, "force_x", "force_y", memory="buffer"),
-    "drag": _hook(GIRDER_INPUTS),
-    "rig": _hook({}, "specimen", instant=False),
-    "table": _hook({}, "acceleration", "dt", "girder", instant=False),
-    "gauge": _hook({}, "record", "target", instant=False),
-    "undo": _hook({}, "record", "target", instant=False),
-    "sharpen": _hook({}, "record", "target", instant=False),
-    "corner": _hook({}, instant=False),
-    "disturb": _hook({}, "records", instant=False),
-    "flat": _hook({}, "coefficient", instant=False),
-    "balance": _hook({}, "states", instant=False),
-    "rest": _hook({}, "memory", "seconds", memory="pad", instant=False),
-    "begin": _hook({}, "memory", "share_x", "share_y", "bound", memory="pad", instant=False),
+    "area": _hook(PAD_INPUTS, {"real_area": PAD_INPUTS["real_area"]}, "pad"),
+    "shear": _hook(PAD_INPUTS, {"shear": "shear strength of the contact so far [Pa]"}, "pad"),
+    "coefficient": _hook(_AFTERWARDS, {"coefficient": "coefficient of friction so far [1]"}, "pad"),
+    "stick": _hook(_AFTERWARDS, _BOUND, "pad"),
+    "pad": _hook({**_AFTERWARDS, **_FORCE_INPUTS}, {}, "pad"),
+    "advance": _hook({**_AFTERWARDS, **_FORCE_INPUTS}, {}, "pad"),
+    "deflection": _hook(BUFFER_INPUTS, {"deflection": BUFFER_INPUTS["deflection"]}, "buffer"),
+    "spring": _hook(BUFFER_INPUTS, _OF_BUFFER, "buffer"),
+    "settle": _hook({**BUFFER_INPUTS, **_OF_BUFFER}, {}, "buffer"),
+    "stretch": _hook({"load": PAD_INPUTS["load"]}, {"force": "that the loading train carries [N]"}),
+    "lift": _hook(
+        GIRDER_INPUTS,
+        {"force_x": "on all buffers [N]", "force_y": "on all buffers [N]"},
+        "buffer",
+    ),
+    "drag": _hook(GIRDER_INPUTS, {}),
+    "rig": _arrays({"specimen": "the rig so far, a Specimen"}),
+    "table": _arrays(
+        {
+            "acceleration": "(n, 4) of the table along x, y, z [m/s^2] and in pitch [rad/s^2]",
+            "dt": "time between two rows [s]",
+            "girder": "(n,) acceleration of the girder along x, where it is known [m/s^2]",
+        }
+    ),
+    "gauge": _arrays(_RECORD),
+    "undo": _arrays(_RECORD),
+    "sharpen": _arrays(_RECORD),
+    "corner": _arrays({}),
+    "disturb": _arrays({"records": "of all runs, each a Record"}),
+    "flat": _arrays({"coefficient": "coefficient of friction at any speed [1]"}),
+    "balance": _arrays({"states": "measured states of one run, BalanceStates"}),
+    "rest": _arrays({**_MEMORY, "seconds": "length of the pause [s]"}, "pad"),
+    "begin": _arrays(
+        {
+            **_MEMORY,
+            "share_x": "of the bound that the force is where the record begins [1]",
+            "share_y": "the same across [1]",
+            **_BOUND,
+        },
+        "pad",
+    ),
 }
 #: Ports in the order in which they act, with the hooks that an effect on them may have.
 PORTS: dict[str, tuple[str, ...]] = {

@@ -113,9 +113,9 @@ def write_effect(written: WrittenEffect, folder: Path, *, replace: bool = False)
         SettingError: the name cannot be that of an effect's file, there is such a file, or as `effect_text`.
     """
     name = written.name
-    if not _is_name(name) or name.startswith("_"):
+    if not _is_name(name) or not name.isascii() or name.startswith("_"):
         raise SettingError(
-            f"{name!r} cannot be the name of an effect: it is also a name in Python; use letters, digits and _, "
+            f"{name!r} cannot be the name of an effect, which is one in Python too: use letters a to z, digits and _, and "
             "begin with a letter, for example my_effect"
         )
     if name in catalogue():
@@ -155,15 +155,22 @@ def _is_name(text: str) -> bool:
 def _entries(written: WrittenEffect) -> list[str]:
     """Give the lines of EFFECT."""
     lines = [f'    port="{written.port}",', *entry("    component=", words(written.component))]
-    lines += [*entry("    equation=", words(written.equation)), "    parameters=("]
-    lines += [line for p in written.parameters for line in _parameter(p)]
-    lines += ["    ),", *(_names("moves", written.moves) if written.moves else ["    moves=RESPONSE,"])]
+    lines += [*entry("    equation=", words(written.equation)), *_parameters(written.parameters)]
+    lines += [*(_names("moves", written.moves) if written.moves else ["    moves=RESPONSE,"])]
     lines += entry("    signature=", words(written.signature))
     rivals = [
         line for rival, test in written.confused_with.items() for line in entry(f'        "{rival}": ', words(test))
     ]
     lines += ["    confused_with={", *rivals, "    },"] if rivals else ["    confused_with={},"]
     return [*lines, *_names("memory", written.memory)] if written.memory else lines
+
+
+def _parameters(parameters: Sequence[Parameter]) -> list[str]:
+    lines = [line for p in parameters for line in _parameter(p)]
+    flat = f"    parameters=({lines[0].strip()}),"
+    if len(lines) == 1 and columns(flat) <= WIDTH:
+        return [flat]
+    return ["    parameters=(", *lines, "    ),"]
 
 
 def _parameter(p: Parameter) -> list[str]:

@@ -1,0 +1,181 @@
+"""What an effect of one's own begins with, port by port: a small law that works, of one strength, neutral at zero."""
+
+from dataclasses import dataclass
+
+from slipwise.effects._written_hook import WrittenHook
+from slipwise.params import Parameter
+
+
+@dataclass(frozen=True)
+class FirstLaw:
+    """What is different from port to port; the words that are said on every port are in `_skeleton`."""
+
+    component: str
+    title: str
+    equation: str
+    signature: str
+    hooks: tuple[WrittenHook, ...]
+    parameters: tuple[Parameter, ...]
+    memory: tuple[str, ...] = ()
+    moves: tuple[str, ...] = ()
+
+
+def _strength(typical: float, low: float, high: float, meaning: str, unit: str = "1", shown: str = "") -> Parameter:
+    return Parameter("strength", unit, typical, low, high, 0.0, "assumed", f"c: {meaning}", shown)
+
+
+def _hook(name: str, arguments: str, words: str, *lines: str) -> WrittenHook:
+    return WrittenHook(name, tuple(arguments.split()), words, lines)
+
+
+_SPEED = Parameter("reference", "m/s", 0.1, 1e-3, 1.0, None, "a choice", "v_0: speed at which c is counted")
+FIRST_LAWS: dict[str, FirstLaw] = {
+    "rig": FirstLaw(
+        "pad load",
+        "The centre of gravity is off the middle, along the girder",
+        "N_i += m (g + a_z) c side_x/(4 b_x)",
+        "pitch of the loads at rest and in step with a_z",
+        (
+            _hook(
+                "rig", "specimen strength", "Give the specimen with its centre of gravity moved",
+                "return replace(specimen, centre_x=specimen.centre_x + strength)",
+            ),
+            _hook(
+                "balance", "states strength", "Give what the nearer pads carry more (n,) [N], for fits",
+                "weight = states.specimen.mass * (states.specimen.gravity + states.girder_acceleration[:, 2])",
+                'return {"pitch": weight * strength / states.specimen.half_spacing[0]}',
+            ),
+        ),
+        (_strength(0.02, -0.3, 0.3, "towards +x", "m", "mm"),),
+    ),
+    "table": FirstLaw(
+        "table",
+        "The table moves more along x than it was told",
+        "a_x *= 1 + c",
+        "everything along x grows, pads and balances stay clean",
+        (
+            _hook(
+                "table", "acceleration strength", "Scale the motion along x",
+                "moved = acceleration.copy()",
+                "moved[:, 0] *= 1.0 + strength",
+                "return moved",
+            ),
+        ),
+        (_strength(0.05, -0.5, 0.5, "of the table over its command", shown="%"),),
+        moves=("table_*", "pad_*", "buffer_*", "girder_*", "slip_*", "yaw", "pitch", "roll", "heave"),
+    ),
+    "area": FirstLaw(
+        "pad friction",
+        "The real area of contact grows with another power of pressure",
+        "A_r *= (P/P_0)^c",
+        "odd in velocity, a function of pressure only",
+        (
+            _hook(
+                "area", "real_area pressure strength reference", "Scale the real area of contact [m^2]",
+                "return real_area * (pressure / reference) ** strength",
+            ),
+        ),
+        (
+            _strength(0.1, -0.5, 0.5, "power"),
+            Parameter("reference", "Pa", 10e6, 1e6, 100e6, None, "a choice", "P_0: pressure without change", "MPa"),
+        ),
+    ),
+    "shear": FirstLaw(
+        "pad friction",
+        "Friction grows with the speed of slip",
+        "mu *= 1 + c V/v_0",
+        "odd in velocity, largest at the highest speed",
+        (
+            _hook(
+                "coefficient", "coefficient speed strength reference", "Scale the coefficient of friction [1]",
+                "return coefficient * (1.0 + strength * speed / reference)",
+            ),
+        ),
+        (_strength(0.1, -0.5, 1.0, "share added at v_0", shown="%"), _SPEED),
+    ),
+    "stick": FirstLaw(
+        "pad friction",
+        "Before it slips a contact gives way like a spring",
+        "F = F_b z/c,  dz/dt = v,  |z| <= c",
+        "after each reversal force needs a certain distance to turn round",
+        (
+            _hook(
+                "stick", "bound slip_x slip_y memory strength", "Bend by the slip since the instant before",
+                "x, y = memory[2] + slip_x - memory[0], memory[3] + slip_y - memory[1]",
+                "size = max(sqrt(x * x + y * y), strength, 1e-12)",
+                "memory[0], memory[1], memory[2], memory[3] = slip_x, slip_y, x * strength / size, y * strength / size",
+                "return bound * x / size, bound * y / size",
+            ),
+        ),
+        (_strength(0.3e-3, 0.0, 5e-3, "distance over which it bends", "m", "mm"),),
+        memory=("last_x", "last_y", "bent_x", "bent_y"),
+    ),
+    "pad": FirstLaw(
+        "pad friction",
+        "A pad is damped by something viscous",
+        "F += c N v",
+        "odd and linear in velocity, beside friction",
+        (
+            _hook(
+                "pad", "load velocity_x velocity_y strength", "Give a further force of the girder on the pad",
+                "return strength * load * velocity_x, strength * load * velocity_y",
+            ),
+        ),
+        (_strength(0.05, 0.0, 0.5, "share of the load at 1 m/s", "s/m"),),
+    ),
+    "train": FirstLaw(
+        "pad friction",
+        "The machine that drives a slider gives way between its gauge and the contact",
+        "x_c = x - c F",
+        "after each reversal force rises along one straight line, at any load",
+        (_hook("stretch", "force strength", "Stretch as a spring [m]", "return strength * force"),),
+        (_strength(20e-9, 0.0, 5e-6, "compliance of the machine", "m/N", "um/kN"),),
+    ),
+    "buffer": FirstLaw(
+        "buffer",
+        "Rubber stiffens with its deflection",
+        "F_b *= 1 + c |x|/x_0",
+        "odd in slip in the girder balance, at the ends of the stroke",
+        (
+            _hook(
+                "spring", "force deflection strength reference", "Stiffen the force [N]",
+                "return force * (1.0 + strength * abs(deflection) / reference)",
+            ),
+        ),
+        (
+            _strength(0.1, -0.3, 2.0, "share of force added at x_0", shown="%"),
+            Parameter("reference", "m", 0.03, 1e-3, 0.3, None, "a choice", "x_0: where c is counted", "mm"),
+        ),
+    ),
+    "girder": FirstLaw(
+        "girder",
+        "Something that is neither pad nor buffer drags on the girder",
+        "m a_x + sum F + F_b + c v = 0",
+        "odd and linear in v in the girder balance; pads and buffers clean",
+        (
+            _hook(
+                "drag", "velocity_x velocity_y strength", "Give the force against the girder's motion",
+                "return strength * velocity_x, strength * velocity_y",
+            ),
+            _hook(
+                "balance", "states strength", "Give the same over a record (n,) [N], for fits",
+                'return {"girder": strength * states.velocity[:, 0]}',
+            ),
+        ),
+        (_strength(500.0, 0.0, 50e3, "damping", "N*s/m", "kN*s/m"),),
+    ),
+    "gauge": FirstLaw(
+        "instrument",
+        "The friction gauge of pad A reads too much",
+        "F_read = (1 + c) F",
+        "odd and flat in one channel, which disagrees with the other pads",
+        (
+            _hook(
+                "gauge", "record strength", "Scale one channel",
+                'return record.replaced(pad_A_Fx=record["pad_A_Fx"] * (1.0 + strength))',
+            ),
+        ),
+        (_strength(0.03, -0.5, 1.0, "error of the gain", shown="%"),),
+        moves=("pad_A_Fx",),
+    ),
+}  # fmt: skip

@@ -1,0 +1,153 @@
+"""An effect's file is read and checked: whoever broke the contract is told where, and how to mend it."""
+
+import fnmatch
+import functools
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from slipwise.channels import CHANNELS
+from slipwise.effects._declared import BASE_ROLES, NEEDS, SITS
+from slipwise.effects._effect import Effect
+from slipwise.effects._fault import SAMPLE_FAULTS
+from slipwise.effects._hooks import COMPONENTS, HOOKS, LAGGING, PORTS, SIDES
+from slipwise.effects._tried import check_answer, try_instant
+from slipwise.errors import SettingError, unknown_name
+
+#: Lines that a docstring must have -> an example.
+_LINES = {"Valid:": "Valid: speeds of 1 to 500 mm/s.", "Source:": "Source: assumed."}
+
+
+def read_effect(module: ModuleType, path: Path) -> Effect:
+    """Read and check the effect that a module defines.
+
+    Args:
+        module: an imported effect file.
+        path: the file.
+
+    Raises:
+        SettingError: the file breaks the contract; the message says where and how to mend it.
+    """
+    name = path.stem
+    found = getattr(module, "EFFECT", None)
+    text = inspect.cleandoc(module.__doc__ or "")
+    if not isinstance(found, Effect):
+        raise SettingError(
+            f"{path.name} defines no EFFECT = Effect(...); `slipwise effects --new my_effect` writes a whole file"
+        )
+    for needed, example in _LINES.items():
+        if needed not in text:
+            raise SettingError(f"{path.name}: add a line to the docstring at the head of the file, such as {example!r}")
+    if found.port not in PORTS:
+        raise unknown_name(f"port (of {path.name})", found.port, PORTS)
+    if found.component not in COMPONENTS:
+        raise unknown_name(f"component (of {path.name})", found.component, COMPONENTS)
+    _check_declared(path, found)
+    if len({p.name for p in found.parameters}) < len(found.parameters):
+        raise SettingError(f"{path.name}: two parameters share a name; rename one of them")
+    defined = {n: f for n, f in vars(module).items() if inspect.isfunction(f) and f.__module__ == module.__name__}
+    hooks = {n: f for n, f in defined.items() if not n.startswith("_")}
+    _check_hooks(path, found, hooks)
+    asked = {argument for function in hooks.values() for argument in inspect.signature(function).parameters}
+    hooks = {n: f if HOOKS[n].instant else _by_name(path, n, f) for n, f in hooks.items()}
+    if not found.replaces and all(p.neutral is None for p in found.parameters):
+        raise SettingError(
+            f"{path.name}: no parameter has a neutral value, so the effect could never be off; give one of them the "
+            "value at which it changes nothing, the sixth of Parameter(name, unit, typical, low, high, neutral, ...)"
+        )
+    _check_asked(path, found, asked)
+    for pattern in found.moves:
+        if not any(fnmatch.fnmatchcase(channel, pattern) for channel in CHANNELS) and pattern != "*":
+            raise SettingError(
+                f"{path.name}: 'moves' names {pattern!r}, which is no channel; `slipwise channels` lists them"
+            )
+    turns = found.turns or bool(SIDES & asked)
+    return replace(found, name=name, summary=text.splitlines()[0], text=text, hooks=hooks, path=path, turns=turns)
+
+
+def _check_declared(path: Path, effect: Effect) -> None:
+    """Refuse words that mean nothing, and a filter that does not say its lag.
+
+    Raises:
+        SettingError: with what is possible.
+    """
+    for what, given, possible in (
+        *(("need", need, NEEDS) for need in effect.needs),
+        *((("role in the base model", effect.base, BASE_ROLES),) if effect.base else ()),
+        ("way to sit on gauges", effect.gauges.sits, SITS),
+        *((("parameter for its lag", effect.lag, effect.parameter_names),) if effect.lag else ()),
+    ):
+        if given not in possible:
+            raise unknown_name(f"{what} (of {path.name})", given, possible)
+    for kind in effect.fault.samples if effect.fault else ():
+        if kind not in SAMPLE_FAULTS:
+            raise unknown_name(f"fault of samples (of {path.name})", kind, SAMPLE_FAULTS)
+    if effect.plainer and not effect.lag:
+        raise SettingError(f"{path.name}: it has a plainer form ({effect.plainer}), so it must name the `lag` of both")
+
+
+def _check_hooks(path: Path, effect: Effect, hooks: Mapping[str, Callable[..., Any]]) -> None:
+    """Refuse functions that the port cannot have, arguments that nothing gives, and answers of another kind."""
+    allowed = PORTS[effect.port]
+    if not hooks:
+        raise SettingError(f"{path.name} has no hook; an effect on port {effect.port!r} may have: {', '.join(allowed)}")
+    for hook, function in hooks.items():
+        if hook not in allowed:
+            raise SettingError(
+                f"{path.name}: an effect on port {effect.port!r} cannot have a hook {hook!r}; "
+                f"possible: {', '.join(allowed)}; a function that helps a hook has a name that begins with _"
+            )
+        _check_arguments(path, effect, hook, function)
+        if HOOKS[hook].instant:
+            try_instant(path, effect, hook, function)
+
+
+def _check_arguments(path: Path, effect: Effect, hook: str, function: Callable[..., Any]) -> None:
+    can = HOOKS[hook].inputs.keys() | ({"memory"} if HOOKS[hook].memory else set[str]())
+    for argument in inspect.signature(function).parameters:
+        if argument not in can and argument not in effect.parameter_names:
+            raise SettingError(
+                f"{path.name}: {hook}() asks for {argument!r}: add a Parameter of that name to EFFECT, which has "
+                f"{', '.join(effect.parameter_names)}, or ask for what this hook can have: {', '.join(sorted(can))}"
+            )
+        if argument in LAGGING and "time_constant" not in effect.parameter_names:
+            raise SettingError(
+                f"{path.name}: {hook}() asks for {argument!r}: it needs a "
+                'Parameter("time_constant", "s", 0.03, 1e-3, 1.0, None, "assumed", "t_c: of the lag") in EFFECT'
+            )
+        if argument == "memory" and not effect.memory:
+            raise SettingError(
+                f"{path.name}: {hook}() asks for memory: EFFECT must name what it remembers, as memory=('largest',)"
+            )
+
+
+def _check_asked(path: Path, effect: Effect, asked: set[str]) -> None:
+    """Refuse a parameter that no hook asks for: a fit could not tell its value.
+
+    Raises:
+        SettingError: with its name.
+    """
+    used = asked | ({"time_constant"} if LAGGING & asked else set[str]())
+    for name in effect.parameter_names:
+        if name not in used:
+            raise SettingError(
+                f"{path.name}: no hook asks for the parameter {name!r}: name it among a hook's arguments, or take it "
+                "out of EFFECT"
+            )
+
+
+def _by_name(path: Path, hook: str, function: Callable[..., Any]) -> Callable[..., Any]:
+    """Let a hook of whole arrays be called with everything it may have; it gets what it asks for."""
+    asked = inspect.signature(function).parameters
+
+    @functools.wraps(function)
+    def called(*given: Any, **named: Any) -> Any:
+        everything = {**dict(zip(HOOKS[hook].leading, given, strict=False)), **named}
+        answer = function(**{name: value for name, value in everything.items() if name in asked})
+        check_answer(path, hook, answer)
+        return answer
+
+    return called
