@@ -27,7 +27,6 @@ def discover(
 
     Example: `slipwise discover campaigns/march --out out/march`
     """
-    from slipwise.discovery.effect_file import write_discovered
     from slipwise.view.files import save_json
 
     measured = sw.load_campaign(campaign)
@@ -35,7 +34,7 @@ def discover(
     with steps() as tell:
         start = start_model(campaign, model, trust, effect)
         found = sw.discover(measured, start, own=own_effects(effect, start), progress=tell)
-    found = write_discovered(found, folder, name, date.today().isoformat())
+    found = found.written(folder, name, date.today().isoformat())
     saved = save_json(found.as_json(), folder / "discovery.json")
     if json:
         print_json(found.as_json())
@@ -49,7 +48,7 @@ def discover(
     for words in found.cannot_judge:
         say(f"cannot judge {words}")
     for path in found.files:
-        say(f"Effect: {path}; add it with: slipwise add {campaign} {path}")
+        say(f"Effect: {path}; add it with: slipwise add {path} --campaign {campaign}")
     say(f"Written: {saved}")
 
 

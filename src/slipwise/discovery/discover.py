@@ -37,6 +37,8 @@ HELD_OUT = 1.25
 _TIE, _TIE_OF_LEFT, _TIE_OF_ALL = 60.0, 0.25, 1e-3
 #: A further law takes this share of what the base leaves, and motions left out confirm this part of its gain [1].
 _FURTHER, _CONFIRMED, _MOST_LAWS = 0.025, 0.4, 3
+#: A force on the girder that leaves more than this in its pitch, in floors, acts below its centre: at the buffers.
+_TIPPED = 1.3
 
 
 @one_thread_algebra()
@@ -186,6 +188,7 @@ def _law(leader: FittedLaw, tied: Sequence[FittedLaw], base: BaseFit, share: flo
         rivals=tuple(dict.fromkeys(f"{f.law.match.candidate.label}, {f.law.match.name}" for f in others)),
         constants=tuple(_constant(leader, name, known) for name in _ordered(leader)),
         share=share,
+        at_buffers="pitch" in base.problem.relations and _level(base.problem, base.solution, "pitch") > _TIPPED,
         valid={s.name: _ends(s.values, base.problem.fitted) for s in candidate.states},
         fitted=leader,
     )

@@ -2,12 +2,12 @@
 
 import dataclasses
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import slipwise
 from slipwise.discovery.form import FUNCTIONS
-from slipwise.discovery.law import Discovery, Law, LawConstant
+from slipwise.discovery.law import Discovery, Law, LawConstant, with_names
 from slipwise.discovery.law_problem import STRENGTH, TIME_CONSTANT
 from slipwise.discovery.matching import constants_of
 from slipwise.discovery.states import UNITS
@@ -18,7 +18,9 @@ from slipwise.params import Parameter
 
 #: State -> argument of a pad's hook; others are called alike. Of a buffer, rate and deflection stand for both.
 _OF_PADS = {"slip": "slip_x"}
-_OF_BUFFERS = {"slip_size": "abs(deflection)", "speed": "abs(rate)"}
+_OF_BUFFERS = {"slip": "deflection", "speed": "abs(rate)"}
+#: What whole arrays take in the place of what a form may call.
+_OF_ARRAYS = {"abs": "np.abs", "max": "np.maximum", "min": "np.minimum", "pi": "np.pi"}
 #: What a further fit may make of a number: this many times its value [1].
 _ROOM = 10.0
 #: A strength is looked for up to this many times its value [1].
@@ -43,10 +45,15 @@ def write_discovered(found: Discovery, folder: Path, name: str, date: str) -> Di
     if found.evidence not in ("law", "state"):
         return found
     files = []
-    for number, law in enumerate(found.laws, start=1):
+    for number, law in enumerate((law for law in found.laws if can_be_written(law)), start=1):
         own = name if number == 1 else f"{name}_{number}"
         files.append(write_law(law, found, folder, own, date, replace=True))
     return dataclasses.replace(found, files=tuple(files))
+
+
+def can_be_written(law: Law) -> bool:
+    """Tell whether an effect can be a law: a force that lifts the girder knows its speed and place only."""
+    return law.port != "load" or set(law.states) <= {"speed", "slip"}
 
 
 def write_law(law: Law, found: Discovery, folder: Path, name: str, date: str, *, replace: bool = False) -> Path:
@@ -78,7 +85,7 @@ def written_law(law: Law, found: Discovery, name: str, date: str) -> WrittenEffe
         f"Found in the data of {found.campaign}: it {explained}; {fell}.{tied}",
         "It is a law of the data. No mechanism is claimed.",
     )
-    port, component, hook = _hook(law)
+    port, component, hooks = _hooks(law)
     return WrittenEffect(
         name=name,
         title=f"Law of {found.campaign}: {'friction' if port != 'buffer' else 'a force'} that goes with {law.driver}.",
@@ -88,7 +95,7 @@ def written_law(law: Law, found: Discovery, name: str, date: str) -> WrittenEffe
         source=f"{found.campaign}, {date}, Slipwise {slipwise.__version__}; share explained {law.share:.3f}.",
         port=port,
         component=component,
-        hooks=(hook,),
+        hooks=hooks,
         parameters=tuple(_parameter(c, law) for c in law.constants) + _rated(law),
         signature=f"goes with {law.driver}",
         confused_with={},
@@ -119,67 +126,87 @@ def _rated(law: Law) -> tuple[Parameter, ...]:
     return (Parameter("rated", "N", load, load / _ROOM, load * _ROOM, None, "mean load of the campaign", "N_0", "kN"),)
 
 
-def _hook(law: Law) -> tuple[str, str, WrittenHook]:
-    """Give port, component and hook of a law."""
-    buffers = law.port in ("buffer", "multiplies buffers") or (law.port == "girder" and law.states != ("speed",))
-    lines, arguments = _form_lines(law, buffers=buffers)
-    own = [c.name for c in law.constants if c.name != TIME_CONSTANT]
-    if set(law.states) & LAGGING:
-        own.append(TIME_CONSTANT)
-    form = "strength * form"
-    if law.port in ("adds to mu", "multiplies mu", "adds to friction"):
-        gate, more = _gate_lines(law, "coefficient")
-        last = {
-            "adds to mu": f"return coefficient + {form}",
-            "multiplies mu": f"return coefficient * (1.0 + {form})",
-            "adds to friction": f"return coefficient + {form} * rated / load",
-        }[law.port]
-        rated = ["load", "rated"] if law.port == "adds to friction" else []
-        names = _once(["coefficient", *more, *arguments, *rated, *own])
-        words = "Change the coefficient of friction [1]"
-        return "shear", "pad friction", WrittenHook("coefficient", names, words, (*gate, *lines, last))
+def _hooks(law: Law) -> tuple[str, str, tuple[WrittenHook, ...]]:
+    """Give port, component and hooks of a law."""
+    own = [c.name for c in law.constants if c.name != TIME_CONSTANT or set(law.states) & LAGGING]
+    if law.port == "load" or (law.port == "girder" and law.states == ("speed",)):
+        return _on_girder(law, own)
+    if law.port in ("girder", "girder by place", "multiplies buffers"):
+        return "buffer", "buffer", (_at_buffers(law, own),)
     if law.port == "even force on pads":
         gate, more = _gate_lines(law, "0.0, 0.0")
+        lines, arguments = _form_lines(law, _OF_PADS)
+        last = "return strength * form * load, 0.0"
         names = _once([*more, "load", *arguments, *own])
-        last = f"return {form} * load, 0.0"
-        return "pad", "pad friction", WrittenHook("pad", names, "Push along x [N]", (*gate, *lines, last))
-    if not buffers:
-        lines = ["speed = max(sqrt(velocity_x * velocity_x + velocity_y * velocity_y), 1e-12)", *lines]
-        last = f"return {form} * velocity_x / speed, {form} * velocity_y / speed"
-        names = _once(["velocity_x", "velocity_y", *own])
-        return "girder", "girder", WrittenHook("drag", names, "Hold the girder back [N]", (*lines, last))
-    share = f"{form} / {law.fitted.buffers}"
-    last, more = {
-        "girder": (f"return force + copysign({share}, rate)", ["rate"]),
-        "buffer": (f"return force + copysign({share}, deflection)", ["deflection"]),
-        "multiplies buffers": (f"return force + {form} * stiffness * deflection", ["stiffness", "deflection"]),
+        return "pad", "pad friction", (WrittenHook("pad", names, "Push along x [N]", (*gate, *lines, last)),)
+    gate, more = _gate_lines(law, "coefficient")
+    lines, arguments = _form_lines(law, _OF_PADS)
+    last = {
+        "adds to mu": "return coefficient + strength * form",
+        "multiplies mu": "return coefficient * (1.0 + strength * form)",
+        "adds to friction": "return coefficient + strength * form * rated / load",
     }[law.port]
-    if law.port != "multiplies buffers":
-        last = last.replace(f"copysign({share}, ", f"{share} * copysign(1.0, ")
+    rated = ["load", "rated"] if law.port == "adds to friction" else []
+    names = _once(["coefficient", *more, *arguments, *rated, *own])
+    words = "Change the coefficient of friction [1]"
+    return "shear", "pad friction", (WrittenHook("coefficient", names, words, (*gate, *lines, last)),)
+
+
+def _at_buffers(law: Law, own: Sequence[str]) -> WrittenHook:
+    """Give the hook of a force on the girder at its buffers, which share it."""
+    lines, arguments = _form_lines(law, _OF_BUFFERS)
+    if law.port == "multiplies buffers":
+        more, last = ["stiffness", "deflection"], "return force + strength * form * stiffness * deflection"
+    elif law.port == "girder":
+        more, last = ["rate"], f"return force + strength * form / {law.fitted.buffers} * copysign(1.0, rate)"
+    else:
+        more, last = [], f"return force + strength * form / {law.fitted.buffers}"
     names = _once(["force", *more, *arguments, *own])
-    return "buffer", "buffer", WrittenHook("spring", names, "Change the force of a buffer [N]", (*lines, last))
+    return WrittenHook("spring", names, "Change the force of a buffer [N]", (*lines, last))
 
 
-def _form_lines(law: Law, *, buffers: bool) -> tuple[list[str], list[str]]:
-    """Give the lines that make `form`, and the arguments that they need."""
+def _on_girder(law: Law, own: Sequence[str]) -> tuple[str, str, tuple[WrittenHook, ...]]:
+    """Give port, component and hooks of a force at the middle of the girder: in a simulation, and in the balances."""
+    scalar, _ = _form_lines(law, {"speed": "sqrt(velocity_x * velocity_x + velocity_y * velocity_y)"})
+    arrays, _ = _form_lines(law, {"speed": "np.hypot(*states.velocity.T)", "slip": "states.slip[:, 0]"}, arrays=True)
+    if law.port == "girder":
+        size = "size = strength * form / max(speed, 1e-12)"
+        lines = (*scalar, size, "return size * velocity_x, size * velocity_y")
+        drag = WrittenHook("drag", _once(["velocity_x", "velocity_y", *own]), "Hold the girder back [N]", lines)
+        force = 'return {"girder": strength * form * states.velocity[:, 0] / np.maximum(speed, 1e-12)}'
+        balance = WrittenHook("balance", _once(["states", *own]), "Give the force (n,) [N]", (*arrays, force))
+        return "girder", "girder", (drag, balance)
+    hooks = [WrittenHook("balance", _once(["states", *own]), "Give what the pads carry more (n,) [N]",
+                         (*arrays, 'return {"heave": -strength * form}'))]  # fmt: skip
+    if law.states == ("speed",):
+        lines = (*scalar, "return strength * form")
+        hooks.insert(0, WrittenHook("lift", _once(["velocity_x", "velocity_y", *own]), "Lift the girder [N]", lines))
+    return "girder", "pad load", tuple(hooks)
+
+
+def _form_lines(law: Law, names: Mapping[str, str], *, arrays: bool = False) -> tuple[list[str], list[str]]:
+    """Give the lines that make `form`, and the arguments that they need.
+
+    Args:
+        law: whose form.
+        names: state -> how the hook knows it, where that is not its name.
+        arrays: whether it acts on whole arrays.
+    """
     lines: list[str] = []
     arguments: list[str] = []
     for place, (form, state) in enumerate(zip(law.fitted.law.match.forms, law.states, strict=True)):
-        value = (_OF_BUFFERS if buffers else _OF_PADS).get(state, state)
-        arguments += re.findall(r"\b(?:deflection|rate)\b", value) if buffers and state in _OF_BUFFERS else [value]
-        if buffers and state in _OF_BUFFERS or value != state:
-            lines.append(f"{state} = {value}")
-        text = re.sub(r"[A-Za-z_]\w*", lambda m, i=place, s=state: _renamed(m.group(0), i, s), form.value)
+        value = names.get(state, state)
+        arguments += [value] if value.isidentifier() else re.findall(r"\b(?:deflection|rate)\b", value)
+        lines += [f"{state} = {value}"] if value != state else []
+        text = with_names(form.value, state, place)
+        if arrays:
+            text = re.sub(r"[A-Za-z_]\w*", lambda m: _of_array(m.group(0)), text)
         lines.append(f"form = {text}" if place == 0 else f"form = form * ({text})")
-    if law.port == "girder" and law.states == ("speed",):
-        arguments = []
     return lines, arguments
 
 
-def _renamed(word: str, place: int, state: str) -> str:
-    if word == "s":
-        return state
-    return word if word in FUNCTIONS or place == 0 else f"second_{word}"
+def _of_array(word: str) -> str:
+    return _OF_ARRAYS.get(word, f"np.{word}") if word in FUNCTIONS else word
 
 
 def _gate_lines(law: Law, unchanged: str) -> tuple[list[str], list[str]]:

@@ -41,6 +41,7 @@ class Law:
         rivals: other states or ports that explain as much, in words.
         constants: strength first.
         share: of the error above noise that it explains, everything else fitted again [1].
+        at_buffers: whether a force on the girder acts at the buffers: it shows in the girder's pitch too.
         valid: state -> range of the data [SI].
         fitted: the fit behind it.
     """
@@ -55,6 +56,7 @@ class Law:
     rivals: tuple[str, ...]
     constants: tuple[LawConstant, ...]
     share: float
+    at_buffers: bool
     valid: Mapping[str, tuple[float, float]]
     fitted: FittedLaw
 
@@ -62,6 +64,15 @@ class Law:
     def driver(self) -> str:
         """What it depends on, in words."""
         return " and ".join(WORDS[s] for s in self.states)
+
+    @property
+    def acts_on(self) -> str:
+        """Its port for a program to read: "one pad" for some pads, and for a force on the girder where it acts."""
+        if self.where.startswith(("pad", "side")):
+            return "one pad"
+        if self.port in ("girder", "girder by place", "multiplies buffers"):
+            return "buffer" if self.at_buffers else "girder"
+        return self.port
 
     @property
     def equation(self) -> str:
@@ -81,7 +92,8 @@ def equation_of(port: str, values: list[str], states: tuple[str, ...]) -> str:
         "adds to friction": f"F += strength * N_0 * {form}",
         "even force on pads": f"F_x += strength * N * {form}",
         "girder": f"F_girder += strength * {form}, against the motion",
-        "buffer": f"F_buffers += strength * {form}, against the displacement",
+        "girder by place": f"F_girder += strength * {form}, whichever way it moves",
+        "load": f"F_z += strength * {form}, upwards on the girder",
         "multiplies buffers": f"F_buffers *= 1 + strength * {form}",
     }[port]
 
@@ -133,6 +145,12 @@ class Discovery:
 
         return sentence(self)
 
+    def written(self, folder: Path, name: str, date: str) -> "Discovery":
+        """Write its laws as effect files; see `effect_file.write_discovered`."""
+        from slipwise.discovery.effect_file import write_discovered
+
+        return write_discovered(self, folder, name, date)
+
     def as_json(self) -> dict[str, Any]:
         """Give the answer for a program to read."""
         before, after = self.relations.get(self.worst, (float("nan"),) * 2)
@@ -144,7 +162,8 @@ class Discovery:
                 {
                     "name": law.name,
                     "states": list(law.states),
-                    "port": "one pad" if law.where.startswith(("pad", "side")) else law.port,
+                    "port": law.acts_on,
+                    "enters": law.port,
                     "where": law.where,
                     "parity": law.parity,
                     "form": law.form,

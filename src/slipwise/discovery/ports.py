@@ -9,7 +9,7 @@ buffer                sign(x) f      the same against its displacement
 multiplies buffers    x f            a share of the springs' force
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,8 +19,8 @@ from slipwise.discovery.states import PadInstants, State
 from slipwise.estimation.problem import Problem
 
 Array = NDArray[np.float64]
-#: Speed [m/s], and displacement [m], over which the sign of what a girder does is smoothed.
-_SLOW, _NEAR = 1e-3, 1e-5
+#: Speed [m/s] over which the sign of a girder's motion is smoothed.
+_SLOW = 1e-3
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,6 @@ class Port:
         parity: "odd" where the force turns with the velocity.
         unit: of f.
         carrier: per run (f, p) what f is multiplied by, in the unit of the relation's prediction.
-        states: names of the states that may drive it; all, if empty.
     """
 
     name: str
@@ -41,7 +40,6 @@ class Port:
     parity: str
     unit: str
     carrier: tuple[Array, ...]
-    states: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -107,35 +105,25 @@ def pad_ports(here: PadInstants) -> list[Port]:
 
 
 def girder_ports(problem: Problem, values: Mapping[str, float], here: PadInstants) -> list[Port]:
-    """Give the ports of the girder's balance, a force on it being an acceleration against it; none without one."""
-    if "girder" not in problem.relations:
-        return []
+    """Give the ports of the girder's balance, a force against its motion being an acceleration the other way."""
     mass = values.get("rig.mass", problem.specimen.mass)
-    lengths = _scaled(here, lambda s: s.slip[:, :1, 0])
-    rates = _scaled(here, lambda s: s.velocity[:, :1, 0])
-    against = tuple(-np.tanh(v / _SLOW) / mass for v in rates)
-    away = tuple(-np.tanh(x / _NEAR) / mass for x in lengths)
     stiffness = values.get("rig.buffer_stiffness", sum(problem.specimen.buffer_stiffness))
-    spring = tuple(-stiffness * x / mass for x in lengths)
-    out = [Port("girder", "girder", "odd", "N", against)]
-    if stiffness > 0.0:
-        out += [
-            Port("buffer", "girder", "even", "N", away, ("slip_size",)),
-            Port("multiplies buffers", "girder", "even", "1", spring),
-        ]
-    return out
+    against = tuple(-np.tanh(s.velocity[:, :1, 0] / _SLOW) / mass for s in here.states)
+    always = tuple(np.full((len(s.time), 1), -1.0 / mass) for s in here.states)
+    spring = tuple(-stiffness * s.slip[:, :1, 0] / mass for s in here.states)
+    return [
+        Port("girder", "girder", "odd", "N", against),
+        Port("girder by place", "girder", "even", "N", always),
+        *((Port("multiplies buffers", "girder", "even", "1", spring),) if stiffness > 0.0 else ()),
+    ]
 
 
-def girder_states(here: PadInstants, pads: Sequence[State]) -> list[State]:
-    """Give the states of the girder: those of its first pad that do not belong to a pad's load."""
-    own = [
-        State(s.name, 0.0, tuple(v[:, :1] for v in s.values))
-        for s in pads
-        if s.name in ("speed", "time", "speed_rate", "time_since_reversal", "distance_since_reversal",
-                      "last_peak_speed", "last_stroke", "slid", "outward")
-    ]  # fmt: skip
-    return [*own, State("slip_size", 0.0, tuple(np.abs(s.slip[:, :1, 0]) for s in here.states))]
+def load_ports(here: PadInstants) -> list[Port]:
+    """Give the port of the heave balance: what lifts the girder is not on the pads."""
+    return [Port("load", "heave", "even", "N", tuple(np.full((len(s.time), 1), -1.0) for s in here.states))]
 
 
-def _scaled(here: PadInstants, part: Callable) -> list[Array]:
-    return [np.ascontiguousarray(part(s)) for s in here.states]
+def girder_states(pads: Sequence[State]) -> list[State]:
+    """Give the states of the girder: those of its first pad that do not belong to a pad's load or place."""
+    left_out = {"load", "lagged_load", "load_rate", "heat"}
+    return [State(s.name, 0.0, tuple(v[:, :1] for v in s.values)) for s in pads if s.name not in left_out]

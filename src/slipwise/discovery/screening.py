@@ -43,12 +43,7 @@ def screen_states(
     """
     carriers = {p.name: field.at_samples(p.carrier) for p in ports}
     values = {s.label: field.at_samples(s.values) for s in states}
-    singles = [
-        _candidate(field, (s,), p, EVERYWHERE, carriers[p.name], values)
-        for p in ports
-        for s in states
-        if not p.states or s.name in p.states
-    ]
+    singles = [_candidate(field, (s,), p, EVERYWHERE, carriers[p.name], values) for p in ports for s in states]
     singles.sort(key=lambda c: -c.share)
     found = list(singles)
     best = _different(singles, _GATED)

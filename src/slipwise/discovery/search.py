@@ -13,7 +13,7 @@ from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.form import forms
 from slipwise.discovery.law_problem import FittedLaw, LawProblem, PlacedLaw, fit_law, fit_on
 from slipwise.discovery.matching import Match, matched
-from slipwise.discovery.ports import gates, girder_ports, girder_states, pad_ports
+from slipwise.discovery.ports import gates, girder_ports, girder_states, load_ports, pad_ports
 from slipwise.discovery.residual_field import residual_field
 from slipwise.discovery.screening import screen_states
 from slipwise.discovery.states import pad_instants, pad_states
@@ -92,7 +92,7 @@ def _places(here: LawProblem) -> list[tuple[float, float]]:
 def _screened(here: LawProblem, start: Solution) -> list[Candidate]:
     states = pad_states(here.every)
     out: list[Candidate] = []
-    for relation in (r for r in ("pads", "girder") if r in here.relations):
+    for relation in (r for r in ("pads", "girder", "heave") if r in here.relations):
         field = residual_field(here.plain, start, relation)
         if field.residual @ field.residual < LEVEL**2 * len(field.residual):
             continue
@@ -100,9 +100,10 @@ def _screened(here: LawProblem, start: Solution) -> list[Candidate]:
             places = _places(here)
             opened = gates(places, here.plain.runs[0].pads) if here.plain.specimen.free else []
             out += screen_states(field, states, pad_ports(here.every), opened, places, here.every.states)
-        else:
-            ports = girder_ports(here.plain, start.values, here.every)
-            out += screen_states(field, girder_states(here.every, states), ports, [], [], here.every.states)
+            continue
+        on_load = relation == "heave"
+        ports = load_ports(here.every) if on_load else girder_ports(here.plain, start.values, here.every)
+        out += screen_states(field, girder_states(states), ports, [], [], here.every.states)
     return out
 
 

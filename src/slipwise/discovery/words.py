@@ -10,7 +10,8 @@ _HOW = {
     "adds to friction": "adds to friction whatever the load",
     "even force on pads": "pushes each pad by a share of its load, whichever way it slides",
     "girder": "holds the girder back, and no pad carries it",
-    "buffer": "holds the girder back by its displacement, and no pad carries it",
+    "girder by place": "pushes the girder whichever way it moves, and no pad carries it",
+    "load": "lifts the girder off its pads",
     "multiplies buffers": "scales the buffers' force",
 }
 
