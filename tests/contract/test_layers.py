@@ -42,7 +42,8 @@ ARROWS: dict[str, str] = {
         " parallel params record rig shown signals simulation units"
     ),
     "discovery": (
-        "campaign diagnosis effects errors estimation evidence model parallel params record rig shown signals simulation"
+        "campaign diagnosis effects errors estimation evidence model parallel params record rig shown signals"
+        " simulation"
     ),
     "experiment": (
         "campaign comparison diagnosis effects errors estimation evidence model motion parallel record shown"

@@ -7,6 +7,6 @@ from slipwise.discovery.form import Constant, Form
 
 REFERENCE = Constant("reference", "reference")
 SIZE = "(abs(s) / reference) ** exponent"
-SLOPE = f"copysign({SIZE} * log(max(abs(s) / reference, 1e-300)), s)"
+SLOPE = f"copysign({SIZE}, s) * log(max(abs(s) / reference, 1e-300))"
 EXPONENT = Constant("exponent", "number", SLOPE, (0.3, 0.5, 1.5, 2.0, 3.0), 0.1, 5.0)
 FORM = Form(f"copysign({SIZE}, s)", (REFERENCE, EXPONENT), contains=("linear", "square", "cube"))
