@@ -23,10 +23,10 @@ if TYPE_CHECKING:
     from slipwise.campaign.draft import init_campaign
     from slipwise.comparison.compare import compare
     from slipwise.comparison.result import Comparison
-    from slipwise.diagnosis.diagnose import diagnose
     from slipwise.diagnosis.ladder import Ladder, ladder
     from slipwise.diagnosis.model_change import ModelChange, add, remove
     from slipwise.diagnosis.result import Diagnosis
+    from slipwise.discovery.discover import diagnose_with_law as diagnose
     from slipwise.discovery.discover import discover
     from slipwise.discovery.law import Discovery
     from slipwise.effects import Effect
@@ -64,7 +64,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "audit": ("instruments.checks", "check_instruments"),
     "corrected_campaign": ("instruments.checks", "corrected_campaign"),
     "compare": ("comparison.compare", "compare"),
-    "diagnose": ("diagnosis.diagnose", "diagnose"),
+    "diagnose": ("discovery.discover", "diagnose_with_law"),
     "discover": ("discovery.discover", "discover"),
     "ladder": ("diagnosis.ladder", "ladder"),
     "add": ("diagnosis.model_change", "add"),

@@ -100,6 +100,8 @@ def _tell(found: "sw.Diagnosis") -> None:
     from slipwise.view.terminal import print_table
 
     OUT.print(visible(found.sentence), markup=False, highlight=False)
+    if found.law:
+        say(f"{found.law['words']} `slipwise discover` writes it as an effect.")
     for thing in found.first:
         say(f"before any fit: {thing.words}")
     print_effects(found)

@@ -68,6 +68,7 @@ class Diagnosis(Drawn, Tabular):
         search: everything that was looked at.
         final: the best hypothesis as a fit, for reports and replays.
         seconds: it took.
+        law: where the verdict is unknown: what `discover` proposes, for a program to read, or None.
     """
 
     campaign: str
@@ -86,6 +87,7 @@ class Diagnosis(Drawn, Tabular):
     search: Search
     final: BaseFit
     seconds: float
+    law: Mapping[str, Any] | None = None
 
     @property
     def added(self) -> tuple[str, ...]:
@@ -201,7 +203,7 @@ class Diagnosis(Drawn, Tabular):
             "screened": [_screened(s) for s in self.search.screened],
             "leftover": verdict.leftover,
             "unknown": _surface(verdict.surface) if verdict.leftover == "unknown" else None,
-            "law": None,
+            "law": None if self.law is None else dict(self.law),
             "predicted_friction": [_predicted_friction(f) for f in self.predicted_friction],
             "least": {k: _number(v) for k, (v, _) in self.least.items()},
             "cannot_tell": list(self.cannot_tell),

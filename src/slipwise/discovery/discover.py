@@ -84,6 +84,34 @@ def discover(
     return replace(best, seconds=time.perf_counter() - began)
 
 
+def diagnose_with_law(
+    campaign: Campaign | Path | str,
+    model: Model | Path | str | None = None,
+    *,
+    own: Iterable[Effect] = (),
+    system: bool = False,
+    progress: Callable[[str, float], None] | None = None,
+) -> Diagnosis:
+    """Say which effect a model lacks, and where the catalogue has none, which law its force follows.
+
+    Args:
+        campaign: or its folder.
+        model: the user's current model, or its model.toml; the paper's law on the campaign's rig when not given.
+        own: effects beside those of the catalogue, as `slipwise.effects.find_effect` gives them.
+        system: replay base and final model as well.
+        progress: called with what is being done and the share done.
+
+    Raises:
+        InputError: the campaign lacks what every fit needs.
+    """
+    measured = as_campaign(campaign)
+    found = diagnose(measured, model, own=own, system=system, progress=progress)
+    if found.verdict.kind != "unknown":
+        return found
+    law = discover(measured, model, diagnosis=found)
+    return replace(found, law=law.proposal, seconds=found.seconds + law.seconds)
+
+
 def _rank(found: Discovery) -> tuple[float, float]:
     order = {"law": 4.0, "nothing": 3.5, "state": 3.0, "organised": 2.0, "unknown": 1.0}
     return order[found.evidence], found.share

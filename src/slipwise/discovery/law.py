@@ -151,6 +151,21 @@ class Discovery:
 
         return write_discovered(self, folder, name, date)
 
+    @property
+    def proposal(self) -> dict[str, Any] | None:
+        """The first law in short, for a diagnosis whose verdict is unknown; None where no law and no state is told."""
+        if self.evidence not in ("law", "state"):
+            return None
+        law = self.laws[0]
+        return {
+            "state": list(law.states),
+            "port": law.acts_on,
+            "form": law.form,
+            "file": str(self.files[0]) if self.files else None,
+            "share": self.share,
+            "words": self.sentence,
+        }
+
     def as_json(self) -> dict[str, Any]:
         """Give the answer for a program to read."""
         before, after = self.relations.get(self.worst, (float("nan"),) * 2)
