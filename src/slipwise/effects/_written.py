@@ -115,8 +115,8 @@ def write_effect(written: WrittenEffect, folder: Path, *, replace: bool = False)
     name = written.name
     if not _is_name(name) or not name.isascii() or name.startswith("_"):
         raise SettingError(
-            f"{name!r} cannot be the name of an effect, which is one in Python too: use letters a to z, digits and _, and "
-            "begin with a letter, for example my_effect"
+            f"{name!r} cannot be the name of an effect, which is one in Python too: use letters a to z, digits and _, "
+            "and begin with a letter, for example my_effect"
         )
     if name in catalogue():
         raise SettingError(f"an effect called {name!r} exists already; give yours another name, for example my_{name}")
