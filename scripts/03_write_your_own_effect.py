@@ -4,6 +4,9 @@ A laboratory finds that friction falls a little whenever the load grows *quickly
 late. That is not in the catalogue. This script writes the law into one file, drives it with a known motion, shakes the
 rig with it, shows what it does to a loop, and puts it into a model.toml. It needs no change in Slipwise.
 
+`slipwise effects --new my_effect` writes a file that works, to begin one of your own with; for a law of friction, or of
+any other port with `--port`. What follows is such a file after its author has made it his own.
+
     python scripts/03_write_your_own_effect.py [--out DIR] [--quick]
 """
 

@@ -52,7 +52,10 @@ class Parameter:
                     "unit, typical, low, high, neutral, source, meaning"
                 )
         if not self.low < self.high:
-            raise SettingError(f"parameter {self.name!r}: bounds {self.low:g} to {self.high:g} {self.unit} are empty")
+            raise SettingError(
+                f"parameter {self.name!r}: bounds {self.low:g} to {self.high:g} {self.unit} are empty; the lower comes "
+                "first"
+            )
         for kind, value in (("typical", self.typical), ("neutral", self.neutral)):
             if value is not None and not self.low <= value <= self.high:
                 raise SettingError(

@@ -16,8 +16,7 @@ from slipwise.campaign.materiality import Materiality
 from slipwise.campaign.settings import read_settings
 from slipwise.cli import app
 from slipwise.diagnosis.importance import RESPONSES
-from slipwise.effects import load_effect
-from slipwise.effects._hooks import PORTS
+from slipwise.effects import DERIVED, HOOKS, LAGGING, PORTS, load_effect
 from slipwise.model_file import load_model
 from slipwise.rig.known import SPECIMEN_UNITS, SPECIMEN_WORDS
 
@@ -183,6 +182,13 @@ def test_every_port_is_explained_with_an_effect_on_it():
     assert [port for port, _ in rows] == list(PORTS)
     for port, example in rows:
         assert sw.effects.catalogue()[example].port == port
+
+
+def test_every_derived_state_is_explained_with_its_unit():
+    rows = re.findall(r"^\| `(\w+)` \| (.*) \| ([^|]*) \| (yes)? *\|$", CONTRIBUTING, re.MULTILINE)
+    assert {name: f"{words} [{unit}]".replace("\\|", "|") for name, words, unit, _ in rows} == DERIVED
+    assert {name for name, *_, buffers in rows if buffers} == DERIVED.keys() & HOOKS["spring"].inputs.keys()
+    assert all(f"`{name}`" in CONTRIBUTING.partition("What lags")[2].partition(" does so")[0] for name in LAGGING)
 
 
 def test_the_drawing_shows_every_package_after_those_that_it_may_import():

@@ -1,5 +1,6 @@
 """One file is all that an effect needs, wherever it lies; a file that breaks the contract is told how to mend it."""
 
+import inspect
 import json
 import shutil
 import subprocess
@@ -260,6 +261,66 @@ REFUSED = {
         UnknownNameError,
         "same_unless.*did you mean run_in",
     ),
+    "misspelt input": (MINE.replace("slip_x", "slip_xx"), SettingError, "did you mean slip_x.*Else add a Parameter"),
+    "no memory": (
+        MINE.replace("slip_x, height", "slip_x, memory, height"),
+        SettingError,
+        "EFFECT must name what it rem",
+    ),
+    "lag without time": (
+        MINE.replace("slip_x", "lagged_load"),
+        SettingError,
+        r'it needs a Parameter\("time_constant", "s", .*\) in EFFECT',
+    ),
+    "parameter nobody asks for": (
+        MINE.replace(", length)", ")").replace("/ length", "/ 0.01"),
+        SettingError,
+        "no hook asks for the parameter 'length': name it among a hook's arguments, or take it out",
+    ),
+    "neutral left out": (
+        MINE.replace("0.5, 0.0, ", "0.5, "),
+        InputError,
+        "Parameter takes name, unit, typical, low, high, neutral, source and meaning; mend line 25",
+    ),
+    "neutral left out of a longer one": (
+        MINE.replace("0.1, None, ", "0.1, "),
+        SettingError,
+        "'length': its neutral value is 'assumed' and must be a number; the order is name, unit, typical",
+    ),
+    "one parameter without a comma": (
+        MINE.replace('"c"),', '"c")').replace(
+            '        Parameter("length", "m", 0.01, 1e-3, 0.1, None, "assumed", "l", "mm"),\n', ""
+        ),
+        SettingError,
+        "with a comma behind each, one alone too",
+    ),
+    "one channel without a comma": (
+        MINE.replace("moves=RESPONSE", 'moves=("slip_x")'),
+        SettingError,
+        r'write moves=\("text",\) in EFFECT',
+    ),
+    "print": (
+        MINE.replace("    return", "    print(slip_x)\n    return"),
+        SettingError,
+        r"shear\(\) prints.*take print out",
+    ),
+    "no return": (
+        MINE.replace("    return shear", "    shear"),
+        SettingError,
+        "returns nothing; it must return one number",
+    ),
+    "two answers": (
+        MINE.replace("/ length))", "/ length)), 0.0"),
+        SettingError,
+        "returns 2 values; it must return one",
+    ),
+    "an answer in words": (MINE.replace("return shear *", "return 'no' or"), SettingError, "returns a str"),
+    "not imported": (
+        MINE.replace("import pi, sin", "import pi"),
+        SettingError,
+        "'sin' is not defined; mend line 17, or",
+    ),
+    "syntax": (MINE.replace("/ length))", "/ length)"), InputError, "was never closed in line 17: .* mend that line"),
     "does not import": (MINE.replace("from math import", "from maths import"), InputError, "cannot be imported"),
 }
 
@@ -270,6 +331,36 @@ def test_a_file_that_breaks_the_contract_is_refused_with_what_to_do(what: str, t
     with pytest.raises(error, match=words) as caught:
         load_effect(written(tmp_path, text))
     assert "washboard.py" in str(caught.value)
+
+
+FORCE = {
+    "one force": ("pad", "pad(load, height)", "return height * load", "returns a float; it must return two numbers"),
+    "a rig lost": ("rig", "rig(specimen, height)", "specimen.mass", "returns nothing; it must return a Specimen"),
+    "a table lost": ("table", "table(acceleration, height)", "pass", "returns nothing; it must return an array"),
+    "no balance": (
+        "girder",
+        "balance(states, height)",
+        "return 1.0",
+        "returns a float; it must return a dictionary",
+    ),
+}
+
+
+@pytest.mark.parametrize("what", FORCE)
+def test_an_answer_of_another_kind_is_refused_where_it_is_given(what: str, tmp_path: Path) -> None:
+    port, head, body, words = FORCE[what]
+    text = MINE.replace('port="shear"', f'port="{port}"').replace("shear(shear, slip_x, height, length)", head)
+    text = text.replace("return shear * (1.0 + height * sin(2.0 * pi * slip_x / length))", body)
+    text = text.replace('        Parameter("length", "m", 0.01, 1e-3, 0.1, None, "assumed", "l", "mm"),\n', "")
+    with pytest.raises(SettingError, match=words):
+        effect = load_effect(written(tmp_path, text))
+        asked = inspect.signature(effect.hooks[head.partition("(")[0]]).parameters
+        effect.hooks[head.partition("(")[0]](**{n: base_model("bridge1").specimen for n in asked})
+
+
+def test_a_law_that_this_state_is_not_made_for_is_no_error(tmp_path: Path) -> None:
+    text = MINE.replace("return shear *", "return shear / (slip_x - 0.01) *")
+    assert load_effect(written(tmp_path, text)).name == "washboard"
 
 
 def test_a_name_that_exists_is_refused(tmp_path: Path) -> None:

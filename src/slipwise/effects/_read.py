@@ -5,9 +5,10 @@ import functools
 import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from difflib import get_close_matches
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, cast
 
 from slipwise.channels import CHANNELS
 from slipwise.effects._declared import BASE_ROLES, NEEDS, SITS
@@ -16,6 +17,7 @@ from slipwise.effects._fault import SAMPLE_FAULTS
 from slipwise.effects._hooks import COMPONENTS, HOOKS, LAGGING, PORTS, SIDES
 from slipwise.effects._tried import check_answer, try_instant
 from slipwise.errors import SettingError, unknown_name
+from slipwise.params import Parameter
 
 #: Lines that a docstring must have -> an example.
 _LINES = {"Valid:": "Valid: speeds of 1 to 500 mm/s.", "Source:": "Source: assumed."}
@@ -41,11 +43,11 @@ def read_effect(module: ModuleType, path: Path) -> Effect:
     for needed, example in _LINES.items():
         if needed not in text:
             raise SettingError(f"{path.name}: add a line to the docstring at the head of the file, such as {example!r}")
+    _check_declared(path, found)
     if found.port not in PORTS:
         raise unknown_name(f"port (of {path.name})", found.port, PORTS)
     if found.component not in COMPONENTS:
         raise unknown_name(f"component (of {path.name})", found.component, COMPONENTS)
-    _check_declared(path, found)
     if len({p.name for p in found.parameters}) < len(found.parameters):
         raise SettingError(f"{path.name}: two parameters share a name; rename one of them")
     defined = {n: f for n, f in vars(module).items() if inspect.isfunction(f) and f.__module__ == module.__name__}
@@ -74,6 +76,13 @@ def _check_declared(path: Path, effect: Effect) -> None:
     Raises:
         SettingError: with what is possible.
     """
+    for name, kind in (("parameters", Parameter), ("moves", str), ("memory", str), ("needs", str)):
+        given: object = getattr(effect, name)
+        if not isinstance(given, tuple) or not all(isinstance(each, kind) for each in cast(tuple[object, ...], given)):
+            what = "Parameter(...)" if kind is Parameter else '"text"'
+            raise SettingError(
+                f"{path.name}: write {name}=({what},) in EFFECT, with a comma behind each, one alone too"
+            )
     for what, given, possible in (
         *(("need", need, NEEDS) for need in effect.needs),
         *((("role in the base model", effect.base, BASE_ROLES),) if effect.base else ()),
@@ -109,9 +118,11 @@ def _check_arguments(path: Path, effect: Effect, hook: str, function: Callable[.
     can = HOOKS[hook].inputs.keys() | ({"memory"} if HOOKS[hook].memory else set[str]())
     for argument in inspect.signature(function).parameters:
         if argument not in can and argument not in effect.parameter_names:
+            near = get_close_matches(argument, [*can, *effect.parameter_names], n=2, cutoff=0.7)
+            meant = f"did you mean {' or '.join(near)}? Else " if near else ""
             raise SettingError(
-                f"{path.name}: {hook}() asks for {argument!r}: add a Parameter of that name to EFFECT, which has "
-                f"{', '.join(effect.parameter_names)}, or ask for what this hook can have: {', '.join(sorted(can))}"
+                f"{path.name}: {hook}() asks for {argument!r}: {meant}add a Parameter of that name to EFFECT, which "
+                f"has {', '.join(effect.parameter_names)}, or ask for what this hook can have: {', '.join(sorted(can))}"
             )
         if argument in LAGGING and "time_constant" not in effect.parameter_names:
             raise SettingError(

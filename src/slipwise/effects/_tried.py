@@ -14,7 +14,8 @@ from slipwise.record import Record
 from slipwise.rig import Specimen
 
 #: Hooks whose answer is not one number -> its kind, in words.
-_TWO, _NOTHING = "two numbers, as in `return force_x, force_y`", "nothing: it changes memory[...]"
+_ONE, _TWO = "one number: `return ...`", "two numbers: `return force_x, force_y`"
+_NOTHING = "nothing: it changes memory[...]"
 _ANSWERS: dict[str, str] = {
     **dict.fromkeys(("stick", "pad", "drag"), _TWO),
     **dict.fromkeys(("advance", "settle"), _NOTHING),
@@ -57,7 +58,7 @@ def try_instant(path: Path, effect: Effect, hook: str, function: Callable[..., A
             f"{path.name}: {hook}() cannot be called: {type(error).__name__}: {error}; mend{line_of(error, path)}, or "
             "import what it uses, as in `from math import exp`"
         ) from error
-    wanted = _ANSWERS.get(hook, "one number, as in `return force`")
+    wanted = _ANSWERS.get(hook, _ONE)
     numbers = answer if isinstance(answer, tuple) else () if answer is None else (answer,)
     count = {_TWO: 2, _NOTHING: 0}.get(wanted, 1)
     if len(numbers) != count or isinstance(answer, tuple) != (count == 2) or not all(map(_is_number, numbers)):
