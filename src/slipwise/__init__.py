@@ -18,7 +18,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from slipwise import channels, effects, motion, rig
+    from slipwise import channels, effects, executors, motion, rig
     from slipwise.campaign import Campaign, load_campaign
     from slipwise.campaign.draft import init_campaign
     from slipwise.comparison.compare import compare
@@ -88,6 +88,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "TableMotion": ("motion", "TableMotion"),
     "channels": ("channels", ""),
     "effects": ("effects", ""),
+    "executors": ("executors", ""),
     "motion": ("motion", ""),
     "paper": ("studies.paper", ""),
     "rig": ("rig", ""),
@@ -120,6 +121,7 @@ __all__ = [
     "corrected_campaign",
     "diagnose",
     "effects",
+    "executors",
     "init_campaign",
     "ladder",
     "load_campaign",
