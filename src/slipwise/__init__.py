@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from slipwise.simulation.pier import pier_top
     from slipwise.simulation.replay import replay
     from slipwise.simulation.simulator import Replay, SimulationDiverged
-    from slipwise.studies import paper
+    from slipwise.studies import ensemble, paper
     from slipwise.units import quantity
 
     __version__: str
@@ -88,6 +88,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "TableMotion": ("motion", "TableMotion"),
     "channels": ("channels", ""),
     "effects": ("effects", ""),
+    "ensemble": ("studies.ensemble", ""),
     "executors": ("executors", ""),
     "motion": ("motion", ""),
     "paper": ("studies.paper", ""),
@@ -121,6 +122,7 @@ __all__ = [
     "corrected_campaign",
     "diagnose",
     "effects",
+    "ensemble",
     "executors",
     "init_campaign",
     "ladder",

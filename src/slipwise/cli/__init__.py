@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli import campaign, demo, diagnose, edit, effects, lists, next_test, paper, replay, view
+from slipwise.cli import campaign, demo, diagnose, edit, effects, ensemble, lists, next_test, paper, replay, view
 from slipwise.errors import SlipwiseError, SlipwiseWarning, visible
 
 app = typer.Typer(
@@ -24,6 +24,7 @@ campaign.register(app)
 diagnose.register(app)
 edit.register(app)
 next_test.register(app)
+ensemble.register(app)
 paper.register(app)
 view.register(app)
 lists.register(app)
