@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from slipwise.simulation.pier import pier_top
     from slipwise.simulation.replay import replay
     from slipwise.simulation.simulator import Replay, SimulationDiverged
-    from slipwise.studies import ensemble, paper
+    from slipwise.studies import campaigns, ensemble, paper
     from slipwise.units import quantity
 
     __version__: str
@@ -86,6 +86,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "SimulationDiverged": ("simulation.simulator", "SimulationDiverged"),
     "SlipwiseError": ("errors", "SlipwiseError"),
     "TableMotion": ("motion", "TableMotion"),
+    "campaigns": ("studies.campaigns", ""),
     "channels": ("channels", ""),
     "effects": ("effects", ""),
     "ensemble": ("studies.ensemble", ""),
@@ -117,6 +118,7 @@ __all__ = [
     "add",
     "audit",
     "base_model",
+    "campaigns",
     "channels",
     "compare",
     "corrected_campaign",
