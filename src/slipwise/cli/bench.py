@@ -30,7 +30,7 @@ def bench(
 
     Example: `slipwise bench practice --out out/practice`
     """
-    from slipwise.view.campaign_tables import failure_sentences, rate_rows, score_rows
+    from slipwise.view.campaign_tables import failure_sentences, rate_rows, score_rows, title
     from slipwise.view.files import save_json
     from slipwise.view.terminal import print_table
 
@@ -51,7 +51,7 @@ def bench(
     if json:
         print_json(content)
     else:
-        print_table(f"{len(scored)} campaigns", score_rows(scored))
+        print_table(title(len(scored)), score_rows(scored))
         for words in failure_sentences(outcomes):
             say(words)
         print_table("Score", rate_rows(scored))

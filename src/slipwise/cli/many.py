@@ -105,7 +105,13 @@ def diagnose_many(
     campaigns: Sequence[Path], out: Path, wanted: Wanted, workers: int | None, cluster: str | None, json: bool
 ) -> None:
     """Diagnose several campaigns; exits with 2 if one cannot be used, with 1 if one met a fault of Slipwise."""
-    from slipwise.view.campaign_tables import campaign_rows, compared_sentences, failure_sentences, summary_json
+    from slipwise.view.campaign_tables import (
+        campaign_rows,
+        compared_sentences,
+        failure_sentences,
+        summary_json,
+        title,
+    )
     from slipwise.view.terminal import print_table
 
     folder = out_folder(out)
@@ -115,13 +121,13 @@ def diagnose_many(
     if json:
         print_json(summary_json(outcomes, compared))
     else:
-        print_table(f"{len(outcomes)} campaigns", campaign_rows(outcomes))
+        print_table(title(len(outcomes)), campaign_rows(outcomes))
         for words in failure_sentences(outcomes):
             say(words)
         common, differs = compared_sentences(compared)
-        for title, sentences in (("common to all", common), ("differs", differs)):
+        for head, sentences in (("common to all", common), ("differs", differs)):
             for words in sentences or ["nothing"]:
-                say(f"{title}: {words}")
+                say(f"{head}: {words}")
         for path in files:
             say(f"wrote {path}")
     end(outcomes)

@@ -8,7 +8,7 @@ from slipwise.studies.campaigns import Compared, EffectDifference, Outcome, Scor
 from slipwise.units import convert
 from slipwise.view.diagnosis_words import floors
 from slipwise.view.fitted_numbers import CALLED
-from slipwise.view.numbers import usual_unit
+from slipwise.view.numbers import counted, usual_unit
 
 #: What `Outcome.has` says -> how it is told of several campaigns.
 _TOLD = {
@@ -19,6 +19,11 @@ _TOLD = {
     "unknown": "something without a name instead: {}",
     "untested": "could not test it: {}",
 }
+
+
+def title(count: int) -> str:
+    """Head a table of campaigns."""
+    return f"{counted(count, 'campaign')}; error before and after, in noise floors"
 
 
 def campaign_rows(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
@@ -131,8 +136,8 @@ def _row(outcome: Outcome) -> dict[str, Any]:
 
 
 def _fall(said: Mapping[str, Any]) -> dict[str, str]:
-    ends = (floors(float("nan") if said[end] is None else said[end]) for end in ("base_error", "final_error"))
-    return {"error before -> after [floors]": " -> ".join(ends)}
+    ends = {"before": said["base_error"], "after": said["final_error"]}
+    return {when: floors(float("nan") if error is None else error) for when, error in ends.items()}
 
 
 def _difference(of: EffectDifference) -> str:

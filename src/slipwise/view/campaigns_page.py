@@ -10,6 +10,7 @@ from slipwise.view.campaign_tables import (
     compared_sentences,
     failure_sentences,
     size_words,
+    title,
 )
 from slipwise.view.html import Html, Section, bullets, details, escape, page, paragraph, table
 
@@ -27,7 +28,7 @@ def campaigns_page(outcomes: Sequence[Outcome], found: Compared) -> str:
     common, differs = compared_sentences(found)
     every = [change_words(change) for change in found.changes]
     sections = [
-        Section("Campaigns", [table(rows, marked=failed), *failure_sentences(outcomes)]),
+        Section("Campaigns", [table(rows, title(len(outcomes)), failed), *failure_sentences(outcomes)]),
         Section("Common to all", [bullets(common) if common else paragraph(_NOTHING)]),
         Section(
             "What differs",

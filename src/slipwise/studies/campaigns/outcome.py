@@ -68,12 +68,13 @@ def numbers_of(found: Diagnosis) -> dict[str, Any]:
     """Give what is kept of a diagnosis, as JSON can hold it."""
     content = found.as_json()
     added = tuple(f"{term.label}." for term in found.search.best.terms) if found.added else ()
+    best = next(iter(content["candidates"]), {"parameters": {}})
     entries = [entry for entry in intervals(found.final).entries if not entry.key.startswith(added)]
     return {
         **{name: content[name] for name in _KEPT},
         "rig": found.final.campaign.rig,
         "held_out": found.held_out,
-        "sizes": content["candidates"][0]["parameters"] if added else {},
+        "sizes": best["parameters"] if added else {},
         "base": {entry.key: written(entry) for entry in entries},
     }
 

@@ -16,7 +16,7 @@ from slipwise.studies.ensemble.members_file import write_members
 from slipwise.studies.ensemble.responses import read_limit
 from slipwise.studies.ensemble.scales import read_scales
 from slipwise.studies.ensemble.tables import Exceedance, Quantiles, tables_of
-from slipwise.studies.ensemble.varied import Array, Varied, draw, read_varied
+from slipwise.studies.ensemble.varied import Array, Varied, check_sampling, draw, read_varied
 
 
 @dataclass(frozen=True)
@@ -132,6 +132,7 @@ def run_scaled(
     """
     if members < 1:
         raise SettingError(f"--members {members}: at least 1 is needed")
+    check_sampling(sampling)
     base = Base(_anywhere(rig, ".xml"), law, tuple(_anywhere(name, ".py") for name in effects))
     model = base.model()
     varied = tuple(read_varied(text, model) for text in vary)

@@ -107,8 +107,7 @@ def draw(varied: Sequence[Varied], count: int, sampling: str, seed: int) -> Arra
     Raises:
         UnknownNameError: no such sampling.
     """
-    if sampling not in SAMPLINGS:
-        raise unknown_name("sampling", sampling, SAMPLINGS)
+    check_sampling(sampling)
     generator = np.random.default_rng(seed)
     make = qmc.Sobol if sampling == "sobol" else qmc.LatinHypercube
     with warnings.catch_warnings():
@@ -120,6 +119,16 @@ def draw(varied: Sequence[Varied], count: int, sampling: str, seed: int) -> Arra
     whole = [v.whole for v in varied]
     values[:, whole] = np.round(values[:, whole])
     return values
+
+
+def check_sampling(name: str) -> None:
+    """Refuse a way of drawing that there is not.
+
+    Raises:
+        UnknownNameError: the message names those that there are.
+    """
+    if name not in SAMPLINGS:
+        raise unknown_name("sampling", name, SAMPLINGS)
 
 
 def _unit(key: str, model: Model) -> tuple[str, bool]:
