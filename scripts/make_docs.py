@@ -114,7 +114,8 @@ def command_line_page() -> str:
     parts = [
         f"{_MADE}# Command line",
         "Every command has `--help`. It exits with 0 when it is done, with 2 and one clear message when something that "
-        "was given cannot be used, and with 130 when it was interrupted.",
+        "was given cannot be used, and with 130 when it was interrupted. Of several campaigns all are worked at: 2 "
+        "then says that one or more could not be used, 1 that one met a fault of Slipwise itself.",
     ]
     commands: dict[str, Any] = getattr(typer.main.get_command(app), "commands", {})
     for name, command in commands.items():

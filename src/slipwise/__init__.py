@@ -18,7 +18,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from slipwise import channels, effects, motion, rig
+    from slipwise import channels, effects, executors, motion, rig
     from slipwise.campaign import Campaign, load_campaign
     from slipwise.campaign.draft import init_campaign
     from slipwise.comparison.compare import compare
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from slipwise.simulation.pier import pier_top
     from slipwise.simulation.replay import replay
     from slipwise.simulation.simulator import Replay, SimulationDiverged
-    from slipwise.studies import paper
+    from slipwise.studies import campaigns, ensemble, paper
     from slipwise.units import quantity
 
     __version__: str
@@ -90,8 +90,11 @@ _PLACES: dict[str, tuple[str, str]] = {
     "SimulationDiverged": ("simulation.simulator", "SimulationDiverged"),
     "SlipwiseError": ("errors", "SlipwiseError"),
     "TableMotion": ("motion", "TableMotion"),
+    "campaigns": ("studies.campaigns", ""),
     "channels": ("channels", ""),
     "effects": ("effects", ""),
+    "ensemble": ("studies.ensemble", ""),
+    "executors": ("executors", ""),
     "motion": ("motion", ""),
     "paper": ("studies.paper", ""),
     "rig": ("rig", ""),
@@ -120,12 +123,15 @@ __all__ = [
     "add",
     "audit",
     "base_model",
+    "campaigns",
     "channels",
     "compare",
     "corrected_campaign",
     "diagnose",
     "discover",
     "effects",
+    "ensemble",
+    "executors",
     "init_campaign",
     "ladder",
     "load_campaign",

@@ -45,6 +45,16 @@ WRITTEN_BY = {
     },
     "ladder.json": {"diagnosis/ladder.py": ("as_json", "table")},
     "next.json": {"experiment/result.py": ("as_json", "_rows")},
+    "Several campaigns as JSON": {
+        "view/campaign_tables.py": ("summary_json",),
+        "studies/campaigns/outcome.py": ("numbers_of",),
+        "cli/many.py": ("diagnose_folder",),
+    },
+    "bench.json": {"cli/bench.py": ("bench",)},
+    "ensemble.json": {
+        "view/ensemble_tables.py": ("ensemble_json", "exceedance_rows", "_row"),
+        "studies/ensemble/member.py": ("_numbers",),
+    },
     "paper.json": {"studies/paper/reenact.py": ("as_json", "assumptions")},
 }
 

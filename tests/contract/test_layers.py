@@ -17,6 +17,7 @@ ARROWS: dict[str, str] = {
     "params": "errors units",
     "channels": "errors",
     "parallel": "errors",
+    "executors": "errors parallel",
     "shown": "errors",
     "signals": "errors",
     "statistics": "",
@@ -49,7 +50,10 @@ ARROWS: dict[str, str] = {
         "campaign comparison diagnosis effects errors estimation evidence model motion parallel record shown"
         " signals simulation units"
     ),
-    "studies": "channels effects errors model motion parallel record rig signals simulation units",
+    "studies": (
+        "campaign channels diagnosis effects errors estimation executors model motion record rig signals"
+        " simulation units"
+    ),
     "view": (
         "channels comparison diagnosis discovery effects errors estimation evidence experiment instruments parallel"
         " params record rig signals studies units"

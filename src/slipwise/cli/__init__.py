@@ -7,7 +7,21 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli import campaign, demo, diagnose, discover, edit, effects, lists, next_test, paper, replay, view
+from slipwise.cli import (
+    bench,
+    campaign,
+    demo,
+    diagnose,
+    discover,
+    edit,
+    effects,
+    ensemble,
+    lists,
+    next_test,
+    paper,
+    replay,
+    view,
+)
 from slipwise.errors import SlipwiseError, SlipwiseWarning, visible
 
 app = typer.Typer(
@@ -25,6 +39,8 @@ diagnose.register(app)
 discover.register(app)
 edit.register(app)
 next_test.register(app)
+ensemble.register(app)
+bench.register(app)
 paper.register(app)
 view.register(app)
 lists.register(app)

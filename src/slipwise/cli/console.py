@@ -2,6 +2,7 @@
 
 import json
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,6 +13,8 @@ from slipwise.errors import InputError, visible
 
 OUT = Console()
 ERR = Console(stderr=True)
+#: Without a terminal, progress is a line after at least so long [s].
+_SAID_EVERY = 30.0
 
 
 def say(words: str, console: Console = OUT) -> None:
@@ -64,3 +67,42 @@ def steps() -> Iterator[Callable[[str, float], None]]:
     with Progress(*columns, console=ERR, transient=True, disable=not ERR.is_terminal) as bar:
         task = bar.add_task("reading", total=1.0)
         yield lambda words, share: bar.update(task, description=words, completed=share)
+
+
+@contextmanager
+def counting(words: str) -> Iterator[Callable[[int, int], None]]:
+    """Show how many pieces of long work are finished, and how long the rest will take.
+
+    Call what it gives with how many of how many; the first call tells what had been finished before. Without a terminal
+    (a batch job's log) it is a line now and then.
+    """
+    from rich.progress import BarColumn, Progress, TextColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.completed:.0f} of {task.total:.0f}"))
+    with Progress(*columns, TextColumn("{task.fields[left]}"), console=ERR, transient=True,
+                  disable=not ERR.is_terminal) as bar:  # fmt: skip
+        task = bar.add_task(words, total=None, left="")
+        begin: list[tuple[int, float]] = []
+        said = time.monotonic()
+
+        def tell(done: int, total: int) -> None:
+            nonlocal said
+            now = time.monotonic()
+            begin.extend([] if begin else [(done, now)])
+            left = _time_left(done - begin[0][0], total - done, now - begin[0][1])
+            bar.update(task, completed=done, total=total, left=left)
+            if not ERR.is_terminal and now - said > _SAID_EVERY:
+                say(f"{words}: {done} of {total}{left and ', '}{left}", ERR)
+                said = now
+
+        yield tell
+
+
+def _time_left(done: int, left: int, seconds: float) -> str:
+    """Say how long it will take at the pace so far; nothing before there is one."""
+    if not done or not left:
+        return ""
+    rest = seconds * left / done
+    if rest < 90.0:
+        return f"{rest:.0f} s left"
+    return f"{rest / 60.0:.0f} min left" if rest < 5400.0 else f"{rest / 3600.0:.1f} h left"

@@ -8,9 +8,13 @@ import typer
 
 import slipwise as sw
 from slipwise.cli.console import ERR, OUT, out_folder, print_json, say, steps
+from slipwise.cli.workers import Cluster, Workers
 from slipwise.errors import InputError, visible
 
 CampaignFolder = Annotated[Path, typer.Argument(help="Folder with campaign.toml and the measured runs.")]
+CampaignFolders = Annotated[
+    list[Path], typer.Argument(help="Folders with campaign.toml and the measured runs; one, or several to compare.")
+]
 System = Annotated[bool, typer.Option(help="Replay the models in MuJoCo as well (system level).")]
 ModelFile = Annotated[
     Path | None,
@@ -51,10 +55,14 @@ def own_effects(given: list[str] | None, start: "sw.Model | None" = None) -> "tu
 
 
 def diagnose(
-    campaign: CampaignFolder,
-    out: Annotated[Path, typer.Option(help="Folder for diagnosis.json, report.html and the recording.")] = Path(
-        "out/diagnosis"
-    ),
+    campaign: CampaignFolders,
+    out: Annotated[
+        Path,
+        typer.Option(
+            help="Folder for diagnosis.json, report.html and the recording; of several campaigns, for a folder of each "
+            "with these, index.html, summary.json and summary.csv."
+        ),
+    ] = Path("out/diagnosis"),
     model: ModelFile = None,
     effect: Own = None,
     trust: Trusted = False,
@@ -62,12 +70,39 @@ def diagnose(
     recording: Annotated[
         bool, typer.Option(help="Write the model before and after beside the measurement, for the viewer.")
     ] = True,
+    workers: Workers = None,
+    cluster: Cluster = None,
     json: Json = False,
 ) -> None:
     """Say which effect the model lacks, with a probability that means what it says.
 
+    Of several campaigns (the same rig a year later), it also says what is common to all and what differs. Each is
+    worked at on one core, with `--workers 1` one after another on all cores; one campaign alone always here, on all
+    cores. One that cannot be used is told in its row, and the exit code is 2. Called again, only what is new or changed
+    is diagnosed. The workers of a cluster must see the same folders.
+
     Example: `slipwise diagnose campaigns/march --out out/march`
     """
+    if len(campaign) > 1:
+        from slipwise.cli.many import Wanted, diagnose_many
+
+        own = tuple(str(Path(name).resolve()) if name.endswith(".py") else name for name in effect or [])
+        wanted = Wanted(model.resolve() if model else None, own, trust, system, recording)
+        diagnose_many(campaign, out, wanted, workers, cluster, json)
+        return
+    _diagnose_one(campaign[0], out, model, effect, trust, system, recording, json)
+
+
+def _diagnose_one(
+    campaign: Path,
+    out: Path,
+    model: Path | None,
+    effect: list[str] | None,
+    trust: bool,
+    system: bool,
+    recording: bool,
+    json: bool,
+) -> None:
     measured = sw.load_campaign(campaign)
     folder = out_folder(out)
     with steps() as tell:
@@ -77,15 +112,15 @@ def diagnose(
         if not json:  # before anything is drawn: who waits, waits for this
             _tell(found)
     finally:  # who listened may have left after some lines, as `head` does
-        files = _write(found, folder, recording and measured.specimen.free)
+        files = write_diagnosis(found, folder, recording and measured.specimen.free)
     if json:
         print_json(found.as_json())
     else:
         _wrote(files)
 
 
-def _write(found: "sw.Diagnosis", folder: Path, recording: bool) -> list[Path]:
-    """Write the diagnosis, its page and, if asked for, its recording."""
+def write_diagnosis(found: "sw.Diagnosis", folder: Path, recording: bool) -> list[Path]:
+    """Write the diagnosis, its page and, if asked for, its recording; gives the files."""
     from slipwise.view.diagnosis_page import diagnosis_page
     from slipwise.view.files import save_json, save_page
 

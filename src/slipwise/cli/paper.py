@@ -1,9 +1,7 @@
 """`slipwise paper`: the whole paper re-enacted."""
 
-from concurrent.futures import Executor
 from contextlib import ExitStack
 from dataclasses import replace
-from importlib import import_module
 from pathlib import Path
 from typing import Annotated
 
@@ -11,7 +9,6 @@ import typer
 
 import slipwise as sw
 from slipwise.cli.console import OUT, out_folder, print_json, progress, say
-from slipwise.errors import InputError
 
 #: Motions of the ensemble in quick mode.
 _QUICK = 8
@@ -51,7 +48,7 @@ def paper(
         settings = replace(settings, ground=shaking.title)
     folder = out_folder(out)
     with ExitStack() as stack:
-        executor = stack.enter_context(_cluster(cluster)) if cluster else None
+        executor = stack.enter_context(sw.executors.on_cluster(cluster)) if cluster else None
         report = stack.enter_context(progress("re-enacting the paper"))
         result = sw.paper.reenact(
             settings, folder, quick=quick, ground=shaking, executor=executor, workers=workers, progress=report
@@ -74,23 +71,6 @@ def paper(
     OUT.print(f"\n{counts}; {result.replays} replays in {result.seconds:.0f} s", markup=False, highlight=False)
     for path in (page, folder / "paper.json"):
         say(f"wrote {path}")
-
-
-def _cluster(address: str) -> Executor:
-    """Connect to a dask scheduler and give its executor.
-
-    Raises:
-        InputError: dask is not installed, or nothing answers at the address.
-    """
-    try:
-        distributed = import_module("distributed")
-    except ModuleNotFoundError:
-        raise InputError('--cluster needs dask: pip install "slipwise[cluster]"') from None
-    try:
-        client = distributed.Client(address, timeout="10s")
-    except OSError as error:
-        raise InputError(f"--cluster {address}: no scheduler answers there ({error})") from None
-    return client.get_executor()
 
 
 def register(app: typer.Typer) -> None:

@@ -40,7 +40,7 @@ def load_motion(
         UnknownNameError: no such kind of motion, option, component or file.
     """
     given = [specs] if isinstance(specs, str | Path) else list(specs)
-    described = [str(spec) for spec in given if _is_description(spec)]
+    described = [str(spec) for spec in given if is_description(spec)]
     if not described:
         step = quantity(dt, "s", "dt") if isinstance(dt, str) else dt
         return read_motion(given, x=x, y=y, z=z, dt=step, unit=unit, baseline=baseline, join_anyway=join_anyway)
@@ -77,7 +77,7 @@ def as_motion(given: TableMotion | str | Path | Sequence[str | Path]) -> TableMo
     return load_motion(given)
 
 
-def _is_description(spec: str | Path) -> bool:
+def is_description(spec: str | Path) -> bool:
     """Tell a synthetic motion from a file; what is there as a file is a file."""
     text = str(spec)
     try:

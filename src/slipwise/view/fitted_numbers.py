@@ -9,7 +9,7 @@ from slipwise.view.error_maps import surface_figure
 from slipwise.view.html import figure, paragraph, table
 
 #: Fitted numbers of the rig -> what they are called, unit in which they are shown.
-_CALLED: dict[str, tuple[str, str]] = {
+CALLED: dict[str, tuple[str, str]] = {
     "rig.mass": ("mass of the girder", "t"),
     "rig.centre_height": ("height of the centre of gravity", "m"),
     "rig.buffer_stiffness": ("buffer stiffness, together", "kN/mm"),
@@ -29,7 +29,7 @@ _LATE = "rig.late_"
 
 def fitted_numbers(found: Comparison) -> list[Any]:
     """Show every fitted number with its interval, what trades off, and the surface of friction that they mean."""
-    names = {**_CALLED, **_of_effects(found)}
+    names = {**CALLED, **_of_effects(found)}
     rows, marked = [], []
     for entry in found.intervals.entries:
         called, unit = _called(names, entry.key, entry.unit)

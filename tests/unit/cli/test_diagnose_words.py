@@ -44,7 +44,7 @@ def test_who_listens_to_the_first_lines_only_finds_all_files(monkeypatch, tmp_pa
     monkeypatch.setattr("slipwise.cli.diagnose._record", lambda _, folder: [folder / "before_and_after.rrd"])
     monkeypatch.setattr("slipwise.cli.diagnose._tell", left)
     with pytest.raises(BrokenPipeError):
-        diagnose(tmp_path, out=tmp_path / "out")
+        diagnose([tmp_path], out=tmp_path / "out")
     assert sorted(f.name for f in (tmp_path / "out").iterdir()) == ["diagnosis.json", "report.html"]
 
 

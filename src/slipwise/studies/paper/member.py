@@ -2,17 +2,15 @@
 
 import hashlib
 import json
-import threading
 from dataclasses import asdict, dataclass, replace
 from functools import cache
 from importlib.metadata import version
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-import slipwise
 from slipwise.errors import SimulationError
+from slipwise.executors import ONE_AT_A_TIME, hash_of_code
 from slipwise.model import Model, use
 from slipwise.motion import TableMotion, load_motion
 from slipwise.simulation.replay import replay
@@ -22,8 +20,6 @@ from slipwise.studies.paper.settings import PaperSettings, paper_model
 
 #: Energy that a searched motion has to reach lies within this fraction; at most so many replays are tried.
 _CLOSE, _TRIES = 5e-4, 12
-#: MuJoCo's callbacks are global to a process: an executor of threads gains nothing, but it works.
-_ONE_AT_A_TIME = threading.Lock()
 #: Parts of the package whose change makes kept results stale.
 _DECIDING = (
     "effects/*.py", "motion/**/*.py", "rig/*.py", "model.py", "simulation/**/*.py",
@@ -74,7 +70,7 @@ class Member:
         specimen = {k: v for k, v in asdict(model.specimen).items() if k not in ("path", "sources")}
         law = {u.label: dict(u.values) for u in model.uses}
         motion = [self.seed, self.peak, self.frequency, self.strong, self.vertical, self.target]
-        text = json.dumps([specimen, law, motion, version("mujoco"), _code()], sort_keys=True)
+        text = json.dumps([specimen, law, motion, version("mujoco"), hash_of_code(*_DECIDING)], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:20]
 
 
@@ -87,21 +83,13 @@ def _model(bridge: str, settings: PaperSettings, effects: tuple[str, ...], slend
     return model
 
 
-@cache
-def _code() -> str:
-    """Give a hash of the code that makes a result: results of older code must not be taken for new ones."""
-    package = Path(slipwise.__file__).parent
-    files = sorted(path for part in _DECIDING for path in package.glob(part))
-    return hashlib.sha256(b"".join(path.read_bytes() for path in files)).hexdigest()[:16]
-
-
 def run_member(member: Member) -> dict[str, Any]:
     """Shake one member and keep its numbers; a simulation that diverges is a result too: "failed" says why.
 
     Returns:
         Numbers that JSON holds exactly, all SI.
     """
-    with _ONE_AT_A_TIME:
+    with ONE_AT_A_TIME:
         try:
             if member.target > 0.0:
                 return _searched(member)
