@@ -41,16 +41,19 @@ ARROWS: dict[str, str] = {
         "campaign channels comparison effects errors estimation evidence instruments model model_file"
         " parallel params record rig shown signals simulation units"
     ),
+    "discovery": (
+        "campaign diagnosis effects errors estimation evidence model parallel params record rig shown signals simulation"
+    ),
     "experiment": (
         "campaign comparison diagnosis effects errors estimation evidence model motion parallel record shown"
         " signals simulation units"
     ),
     "studies": "channels effects errors model motion parallel record rig signals simulation units",
     "view": (
-        "channels comparison diagnosis effects errors estimation evidence experiment instruments parallel params"
+        "channels comparison diagnosis discovery effects errors estimation evidence experiment instruments parallel params"
         " record rig signals studies units"
     ),
-    "cli": "errors view",
+    "cli": "discovery errors view",
 }
 #: Results draw themselves when they are asked to: the only way from numbers to pictures, and never at import.
 MAY_DRAW = frozenset({"__init__.py", "shown.py"})

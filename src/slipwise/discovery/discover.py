@@ -15,7 +15,7 @@ from slipwise.campaign import Campaign, as_campaign
 from slipwise.diagnosis.diagnose import as_fit, diagnose
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.discovery.candidate import Candidate
-from slipwise.discovery.law import Discovery, Law, LawConstant
+from slipwise.discovery.law import Discovery, Law, LawConstant, TiedForm
 from slipwise.discovery.law_problem import STRENGTH, TIME_CONSTANT, FittedLaw, LawProblem
 from slipwise.discovery.matching import constants_of
 from slipwise.discovery.search import LEVEL, Found, different, find_law
@@ -37,6 +37,8 @@ HELD_OUT = 1.25
 _TIE, _TIE_OF_LEFT, _TIE_OF_ALL = 60.0, 0.25, 1e-3
 #: A further law takes this share of what the base leaves, and motions left out confirm this part of its gain [1].
 _FURTHER, _CONFIRMED, _MOST_LAWS = 0.025, 0.4, 3
+#: Candidates of the screen that are kept to be shown.
+_SHOWN = 10
 
 
 @one_thread_algebra()
@@ -96,12 +98,14 @@ def _from(name: str, base: BaseFit) -> Discovery:
     now, here = LawProblem(pad_instants(problem, solution.values), problem, ()), solution
     leaders: list[tuple[FittedLaw, list[FittedLaw], float]] = []
     organised: Candidate | None = None
+    looked_at: tuple[Candidate, ...] = ()
     acted: set[str] = set()
     for number in range(_MOST_LAWS):
         if not any(_level(problem, here, r) > LEVEL for r in problem.relations):
             break
         found = find_law(now, here, base.model, _name(number))
         organised = organised or (found.candidates[0] if found.candidates else None)
+        looked_at = looked_at or _looked_at(found.candidates)
         leader, tied = _leader(found, problem, whole)
         if leader is None or not _earned(leader, here, whole, first=not leaders):
             break
@@ -118,7 +122,18 @@ def _from(name: str, base: BaseFit) -> Discovery:
     if evidence == "nothing":
         organised = None
     seen = share if laws else (organised.share if organised else 0.0)
-    return Discovery(name, evidence, tuple(laws), organised, seen, relations, worst, tuple(_cannot_judge(now)), (), 0.0)
+    cannot, start = tuple(_cannot_judge(now)), replace(base, solution=solution)
+    return Discovery(
+        name, evidence, tuple(laws), organised, looked_at, seen, relations, worst, cannot, start, (), 0.0
+    )  # fmt: skip
+
+
+def _looked_at(candidates: Sequence[Candidate]) -> tuple[Candidate, ...]:
+    """Give the best of each state and port, whichever gate, lag and start, best first."""
+    kept: dict[tuple[tuple[str, ...], str], Candidate] = {}
+    for c in candidates:
+        kept.setdefault((tuple(s.name for s in c.states), c.port.name), c)
+    return tuple(kept.values())[:_SHOWN]
 
 
 def _name(number: int) -> str:
@@ -170,7 +185,7 @@ def _constants(f: FittedLaw) -> int:
 def _law(leader: FittedLaw, tied: Sequence[FittedLaw], base: BaseFit, share: float) -> Law:
     match = leader.law.match
     candidate = match.candidate
-    alike = [f for f in tied if _same_place(f.law.match.candidate, candidate)]
+    alike = [f for f in tied if _same_place(f.law.match.candidate, candidate) and not _more_general(f, leader)]
     others = [f for f in tied if not _same_place(f.law.match.candidate, candidate) and not _contains(f, leader)]
     names = tuple(s.name for s in candidate.states)
     fit = replace(base, free=leader.solution.free, solution=leader.solution)
@@ -182,12 +197,13 @@ def _law(leader: FittedLaw, tied: Sequence[FittedLaw], base: BaseFit, share: flo
         where=candidate.gate.name,
         parity=candidate.port.parity,
         form=match.name,
-        tied=tuple(dict.fromkeys(f.law.match.name for f in alike if not _more_general(f, leader))),
+        tied=tuple(dict.fromkeys(f.law.match.name for f in alike)),
         rivals=tuple(dict.fromkeys(f"{f.law.match.candidate.label}, {f.law.match.name}" for f in others)),
         constants=tuple(_constant(leader, name, known) for name in _ordered(leader)),
         share=share,
         valid={s.name: _ends(s.values, base.problem.fitted) for s in candidate.states},
         fitted=leader,
+        tied_forms=tuple(TiedForm(f.law.match.forms, f.values) for f in alike),
     )
 
 
