@@ -14,20 +14,25 @@ from slipwise.errors import visible
 
 def discover(
     campaign: CampaignFolder,
-    out: Annotated[Path, typer.Option(help="Folder for discovery.json and the law's effect file.")] = Path(
-        "out/discovery"
-    ),
+    out: Annotated[
+        Path, typer.Option(help="Folder for discovery.json, report.html, the recording and the law's effect file.")
+    ] = Path("out/discovery"),
     name: Annotated[str, typer.Option(help="Name of the effect that is written, and of its file.")] = "law",
     model: ModelFile = None,
     effect: Own = None,
     trust: Trusted = False,
+    recording: Annotated[
+        bool, typer.Option(help="Write the model before and with the law beside the measurement, for the viewer.")
+    ] = True,
     json: Json = False,
 ) -> None:
     """Find the law of what the catalogue does not hold, and write it as an effect.
 
     Example: `slipwise discover campaigns/march --out out/march`
     """
-    from slipwise.view.files import save_json
+    from slipwise.view.discovery_page import discovery_page
+    from slipwise.view.discovery_recording import write_discovery_recording
+    from slipwise.view.files import save_json, save_page
 
     measured = sw.load_campaign(campaign)
     folder = out_folder(out)
@@ -35,7 +40,10 @@ def discover(
         start = start_model(campaign, model, trust, effect)
         found = sw.discover(measured, start, own=own_effects(effect, start), progress=tell)
     found = found.written(folder, name, date.today().isoformat())
-    saved = save_json(found.as_json(), folder / "discovery.json")
+    files = [save_json(found.as_json(), folder / "discovery.json")]
+    files.append(save_page(discovery_page(found), folder / "report.html"))
+    if recording:
+        files.append(write_discovery_recording(found, folder / "discovery.rrd"))
     if json:
         print_json(found.as_json())
         return
@@ -49,7 +57,8 @@ def discover(
         say(f"cannot judge {words}")
     for path in found.files:
         say(f"Effect: {path}; add it with: slipwise add {path} --campaign {campaign}")
-    say(f"Written: {saved}")
+    for path in files:
+        say(f"wrote {path}")
 
 
 def _interval(low: float, high: float) -> str:

@@ -15,14 +15,14 @@ from slipwise.campaign import Campaign, as_campaign
 from slipwise.diagnosis.diagnose import as_fit, diagnose
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.discovery.candidate import Candidate
-from slipwise.discovery.law import Discovery, Law, LawConstant
-from slipwise.discovery.law_problem import STRENGTH, TIME_CONSTANT, FittedLaw, LawProblem
-from slipwise.discovery.matching import constants_of
+from slipwise.discovery.law import Discovery, Law
+from slipwise.discovery.law_problem import FittedLaw, LawProblem
+from slipwise.discovery.levels import excess, held_out_level, level
 from slipwise.discovery.search import LEVEL, Found, different, find_law
-from slipwise.discovery.states import UNITS, WORDS, pad_instants, pad_states
+from slipwise.discovery.states import WORDS, pad_instants, pad_states
+from slipwise.discovery.told_law import told_law
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.intervals import Interval, intervals
 from slipwise.estimation.least_squares import Solution, jacobian
 from slipwise.estimation.problem import Problem
 from slipwise.model import Model
@@ -37,8 +37,8 @@ HELD_OUT = 1.25
 _TIE, _TIE_OF_LEFT, _TIE_OF_ALL = 60.0, 0.25, 1e-3
 #: A further law takes this share of what the base leaves, and motions left out confirm this part of its gain [1].
 _FURTHER, _CONFIRMED, _MOST_LAWS = 0.025, 0.4, 3
-#: A force on the girder that leaves more than this in its pitch, in floors, acts below its centre: at the buffers.
-_TIPPED = 1.3
+#: Candidates of the screen that are kept to be shown.
+_SHOWN = 10
 
 
 @one_thread_algebra()
@@ -122,16 +122,18 @@ def _from(name: str, base: BaseFit) -> Discovery:
     problem, solution = base.problem, base.solution
     if len(solution.jacobian) == 0 or solution.jacobian.shape[1] != len(solution.free):
         solution = replace(solution, jacobian=jacobian(problem, solution.values, solution.free, solution.residuals))
-    whole = _excess(problem, solution)
+    whole = excess(problem, solution)
     now, here = LawProblem(pad_instants(problem, solution.values), problem, ()), solution
     leaders: list[tuple[FittedLaw, list[FittedLaw], float]] = []
     organised: Candidate | None = None
+    looked_at: tuple[Candidate, ...] = ()
     acted: set[str] = set()
     for number in range(_MOST_LAWS):
-        if not any(_level(problem, here, r) > LEVEL for r in problem.relations):
+        if not any(level(problem, here, r, problem.fitted) > LEVEL for r in problem.relations):
             break
         found = find_law(now, here, base.model, _name(number))
         organised = organised or (found.candidates[0] if found.candidates else None)
+        looked_at = looked_at or _looked_at(found.candidates)
         leader, tied = _leader(found, problem, whole)
         if leader is None or not _earned(leader, here, whole, first=not leaders):
             break
@@ -140,15 +142,27 @@ def _from(name: str, base: BaseFit) -> Discovery:
         now, here = leader.problem, leader.solution
     if leaders and (solution.cost - here.cost) < STATE * whole:  # what no law explains is not told by a sum of them
         leaders, here = leaders[:1], leaders[0][0].solution
-    laws = [_law(replace(f, solution=here), tied, base, share) for f, tied, share in leaders]
+    laws = [told_law(replace(f, solution=here), tied, base, share) for f, tied, share in leaders]
     share = (solution.cost - here.cost) / max(whole, 1e-9)
-    relations = {r: (_held_out(problem, solution, r), _held_out(problem, here, r)) for r in problem.relations}
-    worst = next(iter(acted), max(problem.relations, key=lambda r: _level(problem, solution, r)))
+    held_out = [{r: held_out_level(problem, x, r) for r in problem.relations} for x in (solution, here)]
+    relations = {r: (held_out[0][r], held_out[1][r]) for r in problem.relations}
+    worst = next(iter(acted), max(problem.relations, key=lambda r: level(problem, solution, r, problem.fitted)))
     evidence = _evidence(laws, share, relations, worst, whole)
     if evidence == "nothing":
         organised = None
     seen = share if laws else (organised.share if organised else 0.0)
-    return Discovery(name, evidence, tuple(laws), organised, seen, relations, worst, tuple(_cannot_judge(now)), (), 0.0)
+    cannot, start = tuple(_cannot_judge(now)), replace(base, solution=solution)
+    return Discovery(
+        name, evidence, tuple(laws), organised, looked_at, seen, relations, worst, cannot, start, (), 0.0
+    )  # fmt: skip
+
+
+def _looked_at(candidates: Sequence[Candidate]) -> tuple[Candidate, ...]:
+    """Give the best of each state and port, whichever gate, lag and start, best first."""
+    kept: dict[tuple[tuple[str, ...], str], Candidate] = {}
+    for c in candidates:
+        kept.setdefault((tuple(s.name for s in c.states), c.port.name), c)
+    return tuple(kept.values())[:_SHOWN]
 
 
 def _name(number: int) -> str:
@@ -195,98 +209,6 @@ def _leader(found: Found, problem: Problem, whole: float) -> tuple[FittedLaw | N
 def _constants(f: FittedLaw) -> int:
     match = f.law.match
     return len(match.free) + bool(f.law.lag) + 2 * (len(match.forms) - 1) + (match.candidate.gate.name != "all")
-
-
-def _law(leader: FittedLaw, tied: Sequence[FittedLaw], base: BaseFit, share: float) -> Law:
-    match = leader.law.match
-    candidate = match.candidate
-    alike = [f for f in tied if _same_place(f.law.match.candidate, candidate)]
-    others = [f for f in tied if not _same_place(f.law.match.candidate, candidate) and not _contains(f, leader)]
-    names = tuple(s.name for s in candidate.states)
-    fit = replace(base, free=leader.solution.free, solution=leader.solution)
-    known = {i.key: i for i in intervals(fit).entries}
-    return Law(
-        name=leader.law.label,
-        states=names,
-        port=candidate.port.name,
-        where=candidate.gate.name,
-        parity=candidate.port.parity,
-        form=match.name,
-        tied=tuple(dict.fromkeys(f.law.match.name for f in alike if not _more_general(f, leader))),
-        rivals=tuple(dict.fromkeys(f"{f.law.match.candidate.label}, {f.law.match.name}" for f in others)),
-        constants=tuple(_constant(leader, name, known) for name in _ordered(leader)),
-        share=share,
-        at_buffers="pitch" in base.problem.relations and _level(base.problem, base.solution, "pitch") > _TIPPED,
-        valid={s.name: _ends(s.values, base.problem.fitted) for s in candidate.states},
-        fitted=leader,
-    )
-
-
-def _ordered(leader: FittedLaw) -> list[str]:
-    """Give the names of its numbers: strength, constants, time constant."""
-    names = [STRENGTH, *constants_of(leader.law.match.forms)]
-    return [*names, TIME_CONSTANT] if leader.law.lag else names
-
-
-def _constant(leader: FittedLaw, name: str, known: dict[str, Interval]) -> LawConstant:
-    match = leader.law.match
-    found = known.get(f"{leader.law.label}.{name}")
-    low, high = (found.low, found.high) if found else (float("nan"),) * 2
-    if name == STRENGTH:
-        unit = match.candidate.port.unit
-    elif name == TIME_CONSTANT:
-        unit = "s"
-    else:
-        state = match.candidate.states[1 if name.startswith("second_") else 0].name
-        unit = "1" if constants_of(match.forms)[name].kind == "number" else UNITS.get(state, "m")
-    return LawConstant(name, leader.values[name], low, high, unit)
-
-
-def _same_place(one: Candidate, other: Candidate) -> bool:
-    return (
-        [s.name for s in one.states] == [s.name for s in other.states]
-        and one.port.name == other.port.name
-        and one.gate.name == other.gate.name
-    )
-
-
-def _more_general(other: FittedLaw, leader: FittedLaw) -> bool:
-    """Tell whether another form is the leader's with more constants."""
-    pairs = zip(other.law.match.forms, leader.law.match.forms, strict=True)
-    return all(mine.name == theirs.name or theirs.name in mine.contains for mine, theirs in pairs)
-
-
-def _contains(other: FittedLaw, leader: FittedLaw) -> bool:
-    """Tell whether a rival is the leader with something more: a second state, or no gate."""
-    mine, theirs = leader.law.match.candidate, other.law.match.candidate
-    return mine.port.name == theirs.port.name and {s.name for s in mine.states} < {s.name for s in theirs.states}
-
-
-def _ends(values: Sequence[np.ndarray], fitted: Sequence[int]) -> tuple[float, float]:
-    whole = np.concatenate([values[i].ravel() for i in fitted])
-    return float(whole.min()), float(whole.max())
-
-
-def _excess(problem: Problem, solution: Solution) -> float:
-    """Give the squared residual above noise of the relations that have any [1]."""
-    out = 0.0
-    for r in problem.relations:
-        left = sum(float(np.sum(solution.residuals.parts[r][i] ** 2)) for i in problem.fitted)
-        out += max(left - sum(int(np.count_nonzero(problem.runs[i].judged[r])) for i in problem.fitted), 0.0)
-    return out
-
-
-def _level(problem: Problem, solution: Solution, relation: str) -> float:
-    return _rms(problem, solution, relation, problem.fitted)
-
-
-def _held_out(problem: Problem, solution: Solution, relation: str) -> float:
-    return _rms(problem, solution, relation, problem.held_out or problem.fitted)
-
-
-def _rms(problem: Problem, solution: Solution, relation: str, runs: Sequence[int]) -> float:
-    left = sum(float(np.sum(solution.residuals.parts[relation][i] ** 2)) for i in runs)
-    return float(np.sqrt(left / max(sum(int(np.count_nonzero(problem.runs[i].judged[relation])) for i in runs), 1)))
 
 
 def _cannot_judge(here: LawProblem) -> list[str]:

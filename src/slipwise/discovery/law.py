@@ -7,9 +7,11 @@ from pathlib import Path
 from typing import Any
 
 from slipwise.discovery.candidate import Candidate
-from slipwise.discovery.form import FUNCTIONS
+from slipwise.discovery.form import FUNCTIONS, Form
 from slipwise.discovery.law_problem import FittedLaw
 from slipwise.discovery.states import WORDS
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.shown import Drawn, Tabular
 
 #: What may be said, from most to least.
 EVIDENCE: tuple[str, ...] = ("law", "state", "organised", "unknown", "nothing")
@@ -24,6 +26,19 @@ class LawConstant:
     low: float
     high: float
     unit: str
+
+
+@dataclass(frozen=True)
+class TiedForm:
+    """A form that cannot be told apart from the one that was chosen, as it was fitted.
+
+    Attributes:
+        forms: one per state.
+        values: its numbers by name, strength first.
+    """
+
+    forms: tuple[Form, ...]
+    values: Mapping[str, float]
 
 
 @dataclass(frozen=True)
@@ -44,6 +59,7 @@ class Law:
         at_buffers: whether a force on the girder acts at the buffers: it shows in the girder's pitch too.
         valid: state -> range of the data [SI].
         fitted: the fit behind it.
+        tied_forms: those of `tied`, to be drawn.
     """
 
     name: str
@@ -59,6 +75,7 @@ class Law:
     at_buffers: bool
     valid: Mapping[str, tuple[float, float]]
     fitted: FittedLaw
+    tied_forms: tuple[TiedForm, ...]
 
     @property
     def driver(self) -> str:
@@ -110,8 +127,8 @@ def with_names(text: str, state: str, place: int) -> str:
     return re.sub(r"[A-Za-z_]\w*", name, text)
 
 
-@dataclass(frozen=True)
-class Discovery:
+@dataclass(frozen=True, repr=False)
+class Discovery(Drawn, Tabular):
     """The answer.
 
     Attributes:
@@ -119,10 +136,12 @@ class Discovery:
         evidence: of `EVIDENCE`.
         laws: in the order in which they were found; empty where nothing may be called one.
         organised: what explains most, whether or not it may be called a law; None where nothing does.
+        looked_at: what explains most in the first screen, one of each state and port, best first.
         share: of the error above noise that all laws, or that, explain [1].
         relations: relation -> held-out error in floors before and after; of the fitted runs where none is held out.
         worst: relation that the laws act on.
         cannot_judge: states that could not be judged, and why.
+        base: the fit from which the search began, with its slopes.
         files: of the effects that were written.
         seconds: it took.
     """
@@ -131,10 +150,12 @@ class Discovery:
     evidence: str
     laws: tuple[Law, ...]
     organised: Candidate | None
+    looked_at: tuple[Candidate, ...]
     share: float
     relations: Mapping[str, tuple[float, float]]
     worst: str
     cannot_judge: tuple[str, ...]
+    base: BaseFit
     files: tuple[Path, ...]
     seconds: float
 
@@ -202,3 +223,14 @@ class Discovery:
             "files": [str(path) for path in self.files],
             "seconds": self.seconds,
         }
+
+    def _headline(self) -> str:
+        return f"{self.campaign}: {self.sentence}"
+
+    def _rows(self) -> list[dict[str, Any]]:
+        return [
+            {"law": law.name, "form": law.form, "constant": c.name, "value": c.value, "low": c.low, "high": c.high,
+             "unit": c.unit}
+            for law in self.laws
+            for c in law.constants
+        ]  # fmt: skip

@@ -137,7 +137,7 @@ def loops_figure(found: Comparison) -> Figure:
     place = shown_run(found)
     run = found.base.problem.runs[place]
     said = found.base.solution.residuals.pad_forces[place]
-    part = _widest(run)
+    part = widest_loop(run)
     with styled():
         if len(run.pads) == 1:
             figure = new_figure(8.0, 5.2)
@@ -185,7 +185,7 @@ def _force_unit(run: FitRun) -> tuple[float, str]:
     return (1e-3, "kN") if float(np.abs(run.force).max()) > 100.0 else (1.0, "N")
 
 
-def _widest(run: FitRun) -> slice:
+def widest_loop(run: FitRun) -> slice:
     """Find two seconds, or the longest there is, round the largest slip: a loop that the eye can follow."""
     peak = int(np.argmax(np.abs(run.slip - np.median(run.slip))))
     turns = np.flatnonzero(np.signbit(run.velocity[1:]) != np.signbit(run.velocity[:-1])) + 1

@@ -11,6 +11,7 @@ from slipwise.view import error_maps
 from slipwise.view.compare_answers import capital, headline, one_minute, place_words, roles, size, tones
 from slipwise.view.fitted_numbers import fitted_numbers, predicted_runs
 from slipwise.view.floor_rows import floor_rows
+from slipwise.view.friction_clouds import friction_clouds
 from slipwise.view.html import Html, Section, bullets, callout, details, figure, page, paragraph, table, verdict
 
 
@@ -22,6 +23,7 @@ def compare_page(found: Comparison) -> str:
         Section("Where it fails", _places(found)),
         Section("Histories", _histories(found)),
         Section("Loops", _loops(found)),
+        Section("Friction over load, against speed and pressure", friction_clouds(found)),
         Section("Are the instruments telling the truth", _audit(found)),
         Section("Noise floor", _floor(found)),
         Section("Fitted numbers", fitted_numbers(found)),

@@ -8,9 +8,12 @@ import numpy as np
 from slipwise.comparison.result import Comparison
 from slipwise.estimation.run_data import FitRun
 from slipwise.record import Record
+from slipwise.view.boards import Board, Dots
 from slipwise.view.compare_figures import shown_run
 from slipwise.view.comparison import write_comparison
+from slipwise.view.friction_clouds import clouds_figure, coefficients, friction
 from slipwise.view.geometry import geometry_of
+from slipwise.view.style import styled
 
 
 def write_compare_recording(found: Comparison, path: Path) -> Path:
@@ -30,7 +33,25 @@ def write_compare_recording(found: Comparison, path: Path) -> Path:
     geometry = geometry_of(found.model.built_specimen())
     if not found.campaign.specimen.free:
         geometry = replace(geometry, buffer_places=())
-    return write_comparison(measured, [(label, simulated)], geometry, path, f"{found.campaign.name}, {run.name}")
+    title = f"{found.campaign.name}, {run.name}"
+    return write_comparison(measured, [(label, simulated)], geometry, path, title, _boards(found, place, run))
+
+
+def _boards(found: Comparison, place: int, run: FitRun) -> list[Board]:
+    """Draw friction over load against speed and pressure; the dots are what the run that is shown measured."""
+    known = friction(found)
+    if not len(known.speed):
+        return []
+    with styled(night=True):
+        drawn = clouds_figure(known)
+    said = found.base.solution.residuals.pad_forces[place]
+    speed, measured, _ = coefficients(run, said)
+    pressure = run.load / found.base.problem.specimen.pad_area
+    dots = [
+        Dots(axes, {pad: np.stack([over[:, i], measured[:, i]], axis=1) for i, pad in enumerate(run.pads)})
+        for axes, over in zip(drawn.axes, (1e3 * speed, 1e-6 * pressure), strict=True)
+    ]
+    return [Board("friction over load", drawn, tuple(dots))]
 
 
 def _pair(found: Comparison, place: int, run: FitRun) -> tuple[Record, Record]:

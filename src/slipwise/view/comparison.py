@@ -12,6 +12,7 @@ from slipwise.channels import PADS
 from slipwise.errors import InputError
 from slipwise.record import Record
 from slipwise.view.arrows import FRICTION_ZOOM
+from slipwise.view.boards import Board, log_board
 from slipwise.view.geometry import RigGeometry
 from slipwise.view.loop_board import log_loops, one_colour
 from slipwise.view.recording import check_drawable, loops_view, rig_view, send_layout, start, write_bytes
@@ -31,7 +32,12 @@ _BLUR = 0.2
 
 
 def write_comparison(
-    measured: Record, simulated: Sequence[tuple[str, Record]], geometry: RigGeometry, path: Path, title: str
+    measured: Record,
+    simulated: Sequence[tuple[str, Record]],
+    geometry: RigGeometry,
+    path: Path,
+    title: str,
+    boards: Sequence[Board] = (),
 ) -> Path:
     """Write a measurement and simulations of it side by side: rigs, loops, series and residuals.
 
@@ -41,6 +47,7 @@ def write_comparison(
         geometry: of the rig that all share.
         path: of the file, ending in .rrd.
         title: of the recording.
+        boards: pictures beside it, their dots at the samples of the measurement.
 
     Returns:
         The path; the file is there whole or not at all.
@@ -55,7 +62,7 @@ def write_comparison(
         check_drawable(record)
     first = max(record.time[0] for record in (measured, *(r for _, r in simulated)))
     last = min(record.time[-1] for record in (measured, *(r for _, r in simulated)))
-    measured = measured.between(first, last)
+    whole, measured = measured, measured.between(first, last)
     if len(measured) < 2:
         raise InputError("the records share no time: align simulations with the measurement first")
     models = [(label, _at(record, measured.time)) for label, record in simulated]
@@ -79,9 +86,13 @@ def write_comparison(
     traces = [one_colour("measured", measured, NIGHT_INK, 2.5)]
     traces += [one_colour(label, record, colours[label]) for label, record in models]
     growing = log_loops(stream, "loops", traces)
-    stream.log("about", TextDocument(_words(title, labels, zoom, coloured), media_type="text/markdown"), static=True)
+    words = _words(title, labels, zoom, coloured, boards)
+    stream.log("about", TextDocument(words, media_type="text/markdown"), static=True)
 
-    tabs = series_tabs("channels", [measured, *(record for _, record in models)], OVERLAID_TABS)
+    tabs: list[rrb.Container] = [
+        rrb.Vertical(log_board(stream, f"boards/{i}", board, whole), name=board.name) for i, board in enumerate(boards)
+    ]
+    tabs += series_tabs("channels", [measured, *(record for _, record in models)], OVERLAID_TABS)
     tabs += series_tabs("residuals", [_residual(measured, record) for _, record in models], {"residuals": _RESIDUALS})
     seen_from = (0.0, -0.6 - 0.58 * len(rigs), 0.3 + 0.3 * len(rigs))
     view = rig_view("rigs", f"Seen from the table (slip drawn {zoom:g} times)", geometry, seen_from)
@@ -121,13 +132,14 @@ def _residual_colours(measured: Record, simulated: Record) -> NDArray[np.uint32]
     return scale[np.rint(32 * np.clip(share, 0.0, 1.0)).astype(int)][frames(measured)]
 
 
-def _words(title: str, labels: Sequence[str], zoom: float, coloured: bool) -> str:
+def _words(title: str, labels: Sequence[str], zoom: float, coloured: bool, boards: Sequence[Board]) -> str:
     pads = (
         "Pads of a simulation are **grey where their friction agrees** with the measurement and "
         f"**magenta where it is off** by {_FULL:.0%} of the measured rms or more (averaged over {_BLUR:g} s)."
         if coloured
         else "Friction of single pads was not recorded on both sides, so pads do not show residuals."
     )
+    dots = ["", "Coloured dots on a picture: where each pad is now."] if any(b.dots for b in boards) else []
     return "\n".join(
         [
             f"# {title}",
@@ -139,5 +151,6 @@ def _words(title: str, labels: Sequence[str], zoom: float, coloured: bool) -> st
             pads,
             "",
             "Loops and series: white is measured, each simulation has a colour. Tab *residuals*: simulated − measured.",
+            *dots,
         ]
     )

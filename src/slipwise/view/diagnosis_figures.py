@@ -16,7 +16,8 @@ from slipwise.view.numbers import in_words, usual_unit
 from slipwise.view.style import EXPECTED, INK, MODEL_COLOURS, MUTED
 
 Array = NDArray[np.float64]
-_RELATIONS = {
+#: Balance -> how it is written under an axis.
+RELATIONS: dict[str, str] = {
     "pads": "pads\nF(N, v)", "girder": "girder\nbalance", "heave": "heave\nsum N", "pitch": "pitch", "roll": "roll",
     "warp": "warp", "motion": "slip against\naccelerometers", "across": "pads\nacross",
 }  # fmt: skip
@@ -43,7 +44,7 @@ def balances_figure(found: Diagnosis) -> Figure:
         axes.bar(places + 0.19, after, 0.36, color=_AFTER, label=_with(found))
     axes.axhline(1.0, color=INK, lw=1.0, ls="--")
     axes.annotate("noise floor", (1.0, 1.0), xycoords=("axes fraction", "data"), ha="right", va="bottom", color=MUTED)
-    axes.set_xticks(places, [_RELATIONS.get(n, n) for n in names])
+    axes.set_xticks(places, [RELATIONS.get(n, n) for n in names])
     held = found.search.base.problem.held_out
     axes.set_ylabel(f"{'held-out error' if held else 'error on fitted runs'} / floor")
     axes.legend()

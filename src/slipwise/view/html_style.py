@@ -1,8 +1,21 @@
 """The style sheet of every report: the colours of the pictures, one column, wide enough for figures."""
 
-from slipwise.view.style import GRID, INK, MUTED, PAD_COLOURS, PAPER, UPLIFT
+from slipwise.view.style import (
+    GRID,
+    INK,
+    MUTED,
+    NIGHT,
+    NIGHT_GRID,
+    NIGHT_INK,
+    NIGHT_MUTED,
+    PAD_COLOURS,
+    PAPER,
+    UPLIFT,
+)
 
 _GOOD, _WARN, _BAD = "#00795c", "#b26a00", UPLIFT
+#: The same on a dark ground; figures stay on paper there.
+_NIGHT_BLUE, _NIGHT_GOOD, _NIGHT_WARN, _NIGHT_BAD = PAD_COLOURS["C"], "#3fc79f", PAD_COLOURS["D"], "#ff6fa5"
 
 STYLE = f"""
 :root {{ --ink: {INK}; --muted: {MUTED}; --line: {GRID}; --paper: {PAPER}; --blue: {PAD_COLOURS["A"]};
@@ -51,6 +64,11 @@ aside strong {{ color: var(--tone); }}
 .bad {{ --tone: var(--bad); }}
 details {{ border: 1px solid var(--line); border-radius: 8px; padding: .6rem 1rem; margin: 1rem 0; }}
 summary {{ cursor: pointer; font-weight: 600; }}
+@media screen and (prefers-color-scheme: dark) {{
+  :root {{ --ink: {NIGHT_INK}; --muted: {NIGHT_MUTED}; --line: {NIGHT_GRID}; --paper: {NIGHT}; --blue: {_NIGHT_BLUE};
+    --good: {_NIGHT_GOOD}; --warn: {_NIGHT_WARN}; --bad: {_NIGHT_BAD}; --soft: #1a2027; color-scheme: dark; }}
+  tr.marked td {{ background: #3a3015; }}
+  figure svg, figure img {{ border-radius: 8px; background: {PAPER}; }} }}
 @media (max-width: 40rem) {{
   main {{ padding: 1rem; }} header, header > div {{ padding-left: .5rem; padding-right: .5rem; }}
   figure .picture {{ overflow-x: auto; }} figure .picture svg {{ min-width: 40rem; }}

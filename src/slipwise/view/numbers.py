@@ -22,3 +22,10 @@ def counted(number: int, thing: str) -> str:
 def usual_unit(unit: str) -> str:
     """Give the unit in which a quantity of this SI unit is read: mm, kN, MPa; the same where there is no other."""
     return _USUAL.get(unit, unit)
+
+
+def unit_of_size(unit: str, size: float) -> str:
+    """Give the unit in which a quantity of this SI unit and size is read: ms below a second, N below a kilonewton."""
+    if unit == "s":
+        return "ms" if abs(size) < 1.0 else "s"
+    return unit if unit == "N" and abs(size) < 1e3 else usual_unit(unit)

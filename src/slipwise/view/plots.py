@@ -46,6 +46,12 @@ def _ladder(found: Any) -> Figure:
     return ladder_figure(found)
 
 
+def _discovery(found: Any) -> Figure:
+    from slipwise.view.discovery_figures import discovery_figure
+
+    return discovery_figure(found)
+
+
 def _effect(effect: Any) -> Figure:
     from slipwise.view.effects import effect_picture
 
@@ -118,6 +124,7 @@ _PICTURES: dict[str, Callable[[Any], Figure]] = {
     "Checks": lambda checks: _audit(checks.report),
     "Comparison": _comparison,
     "Diagnosis": _diagnosis,
+    "Discovery": _discovery,
     "Effect": _effect,
     "Ladder": _ladder,
     "ModelChange": _change,

@@ -21,7 +21,7 @@ from slipwise.view.style import NIGHT, rgb
 from slipwise.view.timeline import TIMELINE
 
 #: Raise it when a recording shows the same record differently.
-_LAYOUT = 1
+_LAYOUT = 2
 _IDS = uuid.UUID("5b1e2f52-6c39-4d0c-9b7e-51a9e5d0c0de")
 
 

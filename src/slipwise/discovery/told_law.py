@@ -1,0 +1,104 @@
+"""A fitted law in the words of its result: numbers with intervals, the range of the data, what ties with it."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from slipwise.discovery.candidate import Candidate
+from slipwise.discovery.law import Law, LawConstant, TiedForm
+from slipwise.discovery.law_problem import STRENGTH, TIME_CONSTANT, FittedLaw
+from slipwise.discovery.levels import level
+from slipwise.discovery.matching import constants_of
+from slipwise.discovery.states import UNITS
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.intervals import Interval, intervals
+
+#: A force on the girder that leaves more than this in its pitch, in floors, acts below its centre: at the buffers.
+_TIPPED = 1.3
+
+
+def told_law(leader: FittedLaw, tied: Sequence[FittedLaw], base: BaseFit, share: float) -> Law:
+    """Tell a law that leads, with those that tie with it.
+
+    Args:
+        leader: its fit, the solution being that of all laws together.
+        tied: what explains as much.
+        base: the fit to which it is added.
+        share: of the error above noise that it explains [1].
+    """
+    match = leader.law.match
+    candidate = match.candidate
+    alike = [f for f in tied if _same_place(f.law.match.candidate, candidate) and not _more_general(f, leader)]
+    others = [f for f in tied if not _same_place(f.law.match.candidate, candidate) and not _contains(f, leader)]
+    names = tuple(s.name for s in candidate.states)
+    fit = replace(base, free=leader.solution.free, solution=leader.solution)
+    known = {i.key: i for i in intervals(fit).entries}
+    return Law(
+        name=leader.law.label,
+        states=names,
+        port=candidate.port.name,
+        where=candidate.gate.name,
+        parity=candidate.port.parity,
+        form=match.name,
+        tied=tuple(dict.fromkeys(f.law.match.name for f in alike)),
+        rivals=tuple(dict.fromkeys(f"{f.law.match.candidate.label}, {f.law.match.name}" for f in others)),
+        constants=tuple(_constant(leader, name, known) for name in _ordered(leader)),
+        share=share,
+        at_buffers="pitch" in base.problem.relations
+        and level(base.problem, base.solution, "pitch", base.problem.fitted) > _TIPPED,
+        valid={s.name: _ends(s.values, base.problem.fitted) for s in candidate.states},
+        fitted=leader,
+        tied_forms=tuple(TiedForm(f.law.match.forms, f.values) for f in alike),
+    )
+
+
+def _tips(base: BaseFit) -> bool:
+    """Tell whether the girder's pitch is left with more than its noise too."""
+    problem = base.problem
+    return "pitch" in problem.relations and level(problem, base.solution, "pitch", problem.fitted) > _TIPPED
+
+
+def _ordered(leader: FittedLaw) -> list[str]:
+    """Give the names of its numbers: strength, constants, time constant."""
+    names = [STRENGTH, *constants_of(leader.law.match.forms)]
+    return [*names, TIME_CONSTANT] if leader.law.lag else names
+
+
+def _constant(leader: FittedLaw, name: str, known: dict[str, Interval]) -> LawConstant:
+    match = leader.law.match
+    found = known.get(f"{leader.law.label}.{name}")
+    low, high = (found.low, found.high) if found else (float("nan"),) * 2
+    if name == STRENGTH:
+        unit = match.candidate.port.unit
+    elif name == TIME_CONSTANT:
+        unit = "s"
+    else:
+        state = match.candidate.states[1 if name.startswith("second_") else 0].name
+        unit = "1" if constants_of(match.forms)[name].kind == "number" else UNITS.get(state, "m")
+    return LawConstant(name, leader.values[name], low, high, unit)
+
+
+def _same_place(one: Candidate, other: Candidate) -> bool:
+    return (
+        [s.name for s in one.states] == [s.name for s in other.states]
+        and one.port.name == other.port.name
+        and one.gate.name == other.gate.name
+    )
+
+
+def _more_general(other: FittedLaw, leader: FittedLaw) -> bool:
+    """Tell whether another form is the leader's with more constants."""
+    pairs = zip(other.law.match.forms, leader.law.match.forms, strict=True)
+    return all(mine.name == theirs.name or theirs.name in mine.contains for mine, theirs in pairs)
+
+
+def _contains(other: FittedLaw, leader: FittedLaw) -> bool:
+    """Tell whether a rival is the leader with something more: a second state, or no gate."""
+    mine, theirs = leader.law.match.candidate, other.law.match.candidate
+    return mine.port.name == theirs.port.name and {s.name for s in mine.states} < {s.name for s in theirs.states}
+
+
+def _ends(values: Sequence[np.ndarray], fitted: Sequence[int]) -> tuple[float, float]:
+    whole = np.concatenate([values[i].ravel() for i in fitted])
+    return float(whole.min()), float(whole.max())
