@@ -68,13 +68,15 @@ def effects(
 
 def _write_new(name: str, port: str | None, out: Path | None) -> None:
     """Write an effect to begin with, and say what to do next."""
-    skeleton = sw.effects.skeleton(name) if port is None else sw.effects.skeleton(name, port)
-    path = sw.effects.write_effect(skeleton, out_folder(out or Path()))
+    begun = sw.effects.skeleton(name) if port is None else sw.effects.skeleton(name, port)
+    path = sw.effects.write_effect(begun, out_folder(out or Path()))
     file = quote(str(path) if path.is_absolute() or path.parts[0] == ".." else f"./{path.as_posix()}")
     say(f"wrote {file}: it works as it is; its comments say what to change")
+    replay = f"slipwise replay sine:2Hz,0.3g,cycles=12 --effect {file} --out {quote(f'out/{name}')}"
     for command, words in (
         (f"slipwise effects {file}", "says what to mend, or shows it"),
-        (f"slipwise replay sine:2Hz,0.3g,cycles=12 --effect {file} --out {quote(f'out/{name}')}", "shakes Bridge 1"),
+        # a replay does not say which of the gauges is faulty
+        *(((replay, "shakes Bridge 1"),) if not begun.target else ()),
         (f"slipwise add {file} --campaign CAMPAIGN", "fits it to your tests"),
         (f"slipwise diagnose CAMPAIGN --effect {file}", "lets it compete with the catalogue"),
     ):

@@ -18,6 +18,7 @@ class FirstLaw:
     parameters: tuple[Parameter, ...]
     memory: tuple[str, ...] = ()
     moves: tuple[str, ...] = ()
+    target: str = ""
 
 
 def _strength(typical: float, low: float, high: float, meaning: str, unit: str = "1", shown: str = "") -> Parameter:
@@ -166,16 +167,21 @@ FIRST_LAWS: dict[str, FirstLaw] = {
     ),
     "gauge": FirstLaw(
         "instrument",
-        "The friction gauge of pad A reads too much",
-        "F_read = (1 + c) F",
-        "odd and flat in one channel, which disagrees with the other pads",
+        "A gauge reads too much",
+        "y = (1 + c) x",
+        "odd and flat in one channel, which disagrees with the others",
         (
             _hook(
-                "gauge", "record strength", "Scale one channel",
-                'return record.replaced(pad_A_Fx=record["pad_A_Fx"] * (1.0 + strength))',
+                "gauge", "record target strength", "Scale the channel",
+                "return record.replaced(**{target: record[target] * (1.0 + strength)})",
+            ),
+            _hook(
+                "undo", "record target strength", "Scale it back",
+                "return record.replaced(**{target: record[target] / (1.0 + strength)})",
             ),
         ),
         (_strength(0.03, -0.5, 1.0, "error of the gain", shown="%"),),
-        moves=("pad_A_Fx",),
+        moves=("pad_*_Fx",),
+        target="channel",
     ),
 }  # fmt: skip

@@ -49,6 +49,7 @@ def skeleton(name: str, port: str = "shear") -> WrittenEffect:
         confused_with={},
         memory=law.memory,
         moves=law.moves,
+        target=law.target,
     )
 
 

@@ -46,6 +46,7 @@ class WrittenEffect:
         confused_with: other effects -> the test that tells them apart.
         memory: names of the numbers it remembers.
         moves: channels that it may change; empty for `RESPONSE`.
+        target: "channel" where it sits on one of these channels at a time.
     """
 
     name: str
@@ -62,6 +63,7 @@ class WrittenEffect:
     confused_with: Mapping[str, str]
     memory: tuple[str, ...] = ()
     moves: tuple[str, ...] = ()
+    target: str = ""
 
 
 def effect_text(written: WrittenEffect) -> str:
@@ -162,7 +164,8 @@ def _entries(written: WrittenEffect) -> list[str]:
         line for rival, test in written.confused_with.items() for line in entry(f'        "{rival}": ', words(test))
     ]
     lines += ["    confused_with={", *rivals, "    },"] if rivals else ["    confused_with={},"]
-    return [*lines, *_names("memory", written.memory)] if written.memory else lines
+    lines += _names("memory", written.memory) if written.memory else []
+    return [*lines, *entry("    target=", words(written.target))] if written.target else lines
 
 
 def _parameters(parameters: Sequence[Parameter]) -> list[str]:
