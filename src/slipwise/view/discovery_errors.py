@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from slipwise.discovery.law import Discovery
+from slipwise.discovery.splines import knots_of
 from slipwise.discovery.states import State
 from slipwise.estimation.least_squares import Solution
 from slipwise.view.canvas import new_figure
@@ -100,8 +101,8 @@ def states_figure(found: Discovery) -> Figure:
 
 
 def binned_rms(values: Array, left: Array) -> tuple[Array, Array]:
-    """Give the middles of bins of equal numbers of samples, and the rms of what is left in each."""
-    edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, _BINS + 1)))
+    """Give the middles of bins that follow the samples and the range by turns, and the rms of what is left in each."""
+    edges = knots_of(values, _BINS + 1)
     place = np.clip(np.searchsorted(edges, values, side="right") - 1, 0, max(len(edges) - 2, 0))
     count = np.bincount(place)
     enough = count >= _FEWEST

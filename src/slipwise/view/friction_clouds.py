@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from slipwise.comparison.result import Comparison
+from slipwise.discovery.splines import knots_of
 from slipwise.estimation.run_data import FitRun
 from slipwise.view.canvas import new_figure
 from slipwise.view.html import Html, figure, paragraph
@@ -20,7 +21,7 @@ Array = NDArray[np.float64]
 _POINTS, _BINS = 1500, 25
 #: A bin of fewer samples is left out; samples between these shares of all are in the picture.
 _FEWEST, _SEEN = 8, (0.002, 0.998)
-#: The other variable is cut into three where it varies by more than this share of its size [1].
+#: A variable that varies by less than this share of its size is one value: nothing is cut by it, or drawn over it [1].
 _VARIES = 0.05
 #: A pad that slides mostly across says little of the friction along [1].
 _ALONG = 0.5
@@ -94,7 +95,9 @@ def clouds_figure(known: Friction) -> Figure:
     axes_of = (("slip speed", "m/s", known.speed), ("pressure", "Pa", known.pressure))
     for axes, over, other in ((left, axes_of[0], axes_of[1]), (right, axes_of[1], axes_of[0])):
         _cloud(axes, known, over, other)
-    low, high = np.quantile(known.measured, _SEEN)
+    lines = [np.asarray(line.get_ydata(), dtype=float) for axes in (left, right) for line in axes.lines]
+    ends = np.concatenate([np.quantile(known.measured, _SEEN), *lines])
+    low, high = float(ends.min()), float(ends.max())
     left.set_ylim(max(0.0, low - 0.15 * (high - low)), high + 0.15 * (high - low))
     left.set_ylabel("friction over load, |F| / N [1]")
     return drawn
@@ -109,7 +112,10 @@ def _cloud(axes: Axes, known: Friction, over: tuple[str, str, Array], other: tup
         axes.scatter(
             factor * at[::step], measured[::step], s=4.0, color=colour, alpha=0.35, linewidths=0.0, rasterized=True
         )
-        middles, law = binned_medians(at, predicted)
+        if _varies(values):
+            middles, law = binned_medians(at, predicted)
+        else:
+            middles, law = np.quantile(at, _SEEN), np.full(2, np.median(predicted))
         axes.plot(factor * middles, law, color=_ink(), lw=3.4, solid_capstyle="round")
         axes.plot(factor * middles, law, "o-", color=colour, lw=1.8, ms=2.0, label=label)
     axes.scatter([], [], s=14.0, color="#9aa5b1", label="measured, one sample each")
@@ -127,8 +133,7 @@ def _ink() -> str:
 def _classes(words: str, unit: str, values: Array) -> list[tuple[str, NDArray[np.bool_], str]]:
     """Cut samples into three by a variable: label, samples, colour; into one where it hardly varies."""
     factor, shown = (1e3 if unit == "m/s" else 1e-6), usual_unit(unit)
-    low, high = np.quantile(values, _SEEN)
-    if high - low < _VARIES * max(abs(high), abs(low)):
+    if not _varies(values):
         return [(f"{words} {factor * np.median(values):.3g} {shown}", np.ones(len(values), dtype=bool), _COLOURS[1])]
     first, second = np.quantile(values, (1 / 3, 2 / 3))
     cuts = (
@@ -139,9 +144,14 @@ def _classes(words: str, unit: str, values: Array) -> list[tuple[str, NDArray[np
     return [(label, chosen, colour) for (label, chosen), colour in zip(cuts, _COLOURS, strict=True) if chosen.any()]
 
 
+def _varies(values: Array) -> bool:
+    low, high = np.quantile(values, _SEEN)
+    return bool(high - low >= _VARIES * abs(high))
+
+
 def binned_medians(values: Array, heights: Array) -> tuple[Array, Array]:
-    """Give medians of values and heights in bins of equal numbers of samples."""
-    edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, _BINS + 1)))
+    """Give medians of values and heights in bins that follow the samples and, where these are rare, the range."""
+    edges = knots_of(values, _BINS + 1)
     place = np.clip(np.searchsorted(edges, values, side="right") - 1, 0, max(len(edges) - 2, 0))
     bins = [chosen for i in range(max(len(edges) - 1, 1)) if np.count_nonzero(chosen := place == i) >= _FEWEST]
     return np.array([np.median(values[b]) for b in bins]), np.array([np.median(heights[b]) for b in bins])
