@@ -1,6 +1,6 @@
 """Pictures of a law: the data, the curve of the screen with its band, and the forms over it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import matplotlib as mpl
 import numpy as np
@@ -29,14 +29,15 @@ _SEEN = (0.003, 0.997)
 _HELD = (0.15, 0.5, 0.85)
 _CLOUD, _CURVE, LAW = "#9aa5b1", MODEL_COLOURS[0], MODEL_COLOURS[5]
 _TIED = (MODEL_COLOURS[2], MODEL_COLOURS[3], MODEL_COLOURS[4], MODEL_COLOURS[1])
+#: A form that is drawn: its name, its factors, its constants.
+_Drawn = tuple[str, tuple[Form, ...], Mapping[str, float]]
 _LEVELS = (MODEL_COLOURS[2], LAW, MODEL_COLOURS[3])
 
 
 def law_figure(law: Law) -> Figure:
     """Draw a law over its data, one panel for each of its states."""
     candidate = law.fitted.law.match.candidate
-    forms: list[tuple[str, tuple[Form, ...], Mapping[str, float]]]
-    forms = [(law.form, law.fitted.law.match.forms, law.fitted.values)]
+    forms: list[_Drawn] = [(law.form, law.fitted.law.match.forms, law.fitted.values)]
     forms += [(name, tied.forms, tied.values) for name, tied in zip(law.tied, law.tied_forms, strict=True)]
     return _figure(law_cloud(law), candidate, forms)
 
@@ -55,7 +56,7 @@ def discovery_figure(found: Discovery) -> Figure:
     return candidate_figure(found, found.organised) if found.organised else errors_figure(found)
 
 
-def _figure(cloud: Cloud, candidate: Candidate, forms: Sequence[tuple[str, tuple[Form, ...], dict]]) -> Figure:
+def _figure(cloud: Cloud, candidate: Candidate, forms: Sequence[_Drawn]) -> Figure:
     count = len(candidate.states)
     figure = new_figure(8.6 if count == 1 else 10.6, 4.6)
     panels = figure.subplots(1, count, sharey=True, squeeze=False)[0]

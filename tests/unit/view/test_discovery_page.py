@@ -46,7 +46,7 @@ def _law(candidate: Candidate, fitted: FittedLaw) -> Law:
 
 @pytest.fixture(scope="module")
 def found() -> Discovery:
-    """A law mu += 0.02 (V / 100 mm/s)^2 that a base fit lacks, and a fit with it that leaves noise; nothing is fitted."""
+    """A law mu += 0.02 (V / 100 mm/s)^2 that a base fit lacks, and a fit with it that leaves noise."""
     of = base(pads=1.0)
     problem, solution = of.problem, of.solution
     every = pad_instants(problem, solution.values)
