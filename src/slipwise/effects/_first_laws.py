@@ -29,7 +29,7 @@ def _hook(name: str, arguments: str, words: str, *lines: str) -> WrittenHook:
     return WrittenHook(name, tuple(arguments.split()), words, lines)
 
 
-_SPEED = Parameter("reference", "m/s", 0.1, 1e-3, 1.0, None, "a choice", "v_0: speed at which c is counted")
+_DECAY = Parameter("decay", "m/s", 0.05, 1e-3, 1.0, None, "assumed", "v_0: speed by which it grows", "mm/s")
 FIRST_LAWS: dict[str, FirstLaw] = {
     "rig": FirstLaw(
         "pad load",
@@ -68,31 +68,29 @@ FIRST_LAWS: dict[str, FirstLaw] = {
     "area": FirstLaw(
         "pad friction",
         "The real area of contact grows with another power of pressure",
-        "A_r *= (P/P_0)^c",
+        "A_r *= (P/10 MPa)^c",
         "odd in velocity, a function of pressure only",
         (
             _hook(
-                "area", "real_area pressure strength reference", "Scale the real area of contact [m^2]",
-                "return real_area * (pressure / reference) ** strength",
+                "area", "real_area pressure strength", "Scale the real area of contact [m^2]",
+                "counted_at = 10e6  # [Pa] a number of its own could not be told from the strength of friction",
+                "return real_area * (pressure / counted_at) ** strength",
             ),
         ),
-        (
-            _strength(0.1, -0.5, 0.5, "power"),
-            Parameter("reference", "Pa", 10e6, 1e6, 100e6, None, "a choice", "P_0: pressure without change", "MPa"),
-        ),
+        (_strength(0.1, -0.5, 0.5, "power"),),
     ),
     "shear": FirstLaw(
         "pad friction",
-        "Friction grows with the speed of slip",
-        "mu *= 1 + c V/v_0",
-        "odd in velocity, largest at the highest speed",
+        "Friction grows with the speed of slip, and levels off",
+        "mu *= 1 + c [1 - exp(-V/v_0)]",
+        "odd in velocity, none at slow speeds",
         (
             _hook(
-                "coefficient", "coefficient speed strength reference", "Scale the coefficient of friction [1]",
-                "return coefficient * (1.0 + strength * speed / reference)",
+                "coefficient", "coefficient speed strength decay", "Scale the coefficient of friction [1]",
+                "return coefficient * (1.0 + strength * (1.0 - exp(-speed / decay)))",
             ),
         ),
-        (_strength(0.1, -0.5, 1.0, "share added at v_0", shown="%"), _SPEED),
+        (_strength(0.1, -0.5, 1.0, "share added at high speeds", shown="%"), _DECAY),
     ),
     "stick": FirstLaw(
         "pad friction",
@@ -135,17 +133,17 @@ FIRST_LAWS: dict[str, FirstLaw] = {
     "buffer": FirstLaw(
         "buffer",
         "Rubber stiffens with its deflection",
-        "F_b *= 1 + c |x|/x_0",
+        "F_b *= 1 + c (|x|/30 mm)^p",
         "odd in slip in the girder balance, at the ends of the stroke",
         (
             _hook(
-                "spring", "force deflection strength reference", "Stiffen the force [N]",
-                "return force * (1.0 + strength * abs(deflection) / reference)",
+                "spring", "force deflection strength power", "Stiffen the force [N]",
+                "return force * (1.0 + strength * (abs(deflection) / 0.03) ** power)",
             ),
         ),
         (
-            _strength(0.1, -0.3, 2.0, "share of force added at x_0", shown="%"),
-            Parameter("reference", "m", 0.03, 1e-3, 0.3, None, "a choice", "x_0: where c is counted", "mm"),
+            _strength(0.1, -0.3, 2.0, "share of force added at 30 mm", shown="%"),
+            Parameter("power", "1", 2.0, 0.5, 8.0, None, "assumed", "p: 2 for a cubic spring"),
         ),
     ),
     "girder": FirstLaw(
