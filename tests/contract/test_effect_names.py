@@ -23,6 +23,10 @@ ALLOWED = {
     ("view/paper_page.py", "buffer_height"),  # the same, in an example of a command
     ("comparison/motion_states.py", "breakaway"),  # a state of motion
     ("cli/effects.py", "heating"),  # an example of a command
+    ("cli/bench.py", "run_in"),  # an example of an answer
+    ("cli/ensemble.py", "shear_rate"),  # an example of a command
+    ("rig/load.py", "buffer_height"),  # a number of the rig
+    ("rig/mjcf_parts.py", "table_pitch"),  # a joint of the rig
     ("model_file.py", "heating"),  # an example of an entry
 }
 

@@ -16,7 +16,7 @@ from slipwise.diagnosis.diagnose import as_fit, diagnose
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.law import Discovery, Law
-from slipwise.discovery.law_problem import FittedLaw, LawProblem
+from slipwise.discovery.law_problem import FittedLaw, LawProblem, with_slopes
 from slipwise.discovery.levels import excess, held_out_level, level
 from slipwise.discovery.search import LEVEL, Found, different, find_law
 from slipwise.discovery.states import WORDS, pad_instants, pad_states
@@ -137,24 +137,28 @@ def _from(name: str, base: BaseFit) -> Discovery:
         leader, tied = _leader(found, problem, whole)
         if leader is None or not _earned(leader, here, whole, first=not leaders):
             break
+        leader = with_slopes(leader)
         leaders.append((leader, tied, (here.cost - leader.solution.cost) / max(whole, 1e-9)))
         acted.add(leader.law.match.candidate.port.relation)
         now, here = leader.problem, leader.solution
-    if leaders and (solution.cost - here.cost) < STATE * whole:  # what no law explains is not told by a sum of them
-        leaders, here = leaders[:1], leaders[0][0].solution
-    laws = [told_law(replace(f, solution=here), tied, base, share) for f, tied, share in leaders]
-    share = (solution.cost - here.cost) / max(whole, 1e-9)
-    held_out = [{r: held_out_level(problem, x, r) for r in problem.relations} for x in (solution, here)]
-    relations = {r: (held_out[0][r], held_out[1][r]) for r in problem.relations}
-    worst = next(iter(acted), max(problem.relations, key=lambda r: level(problem, solution, r, problem.fitted)))
-    evidence = _evidence(laws, share, relations, worst, whole)
-    if evidence == "nothing":
-        organised = None
-    seen = share if laws else (organised.share if organised else 0.0)
     cannot, start = tuple(_cannot_judge(now)), replace(base, solution=solution)
-    return Discovery(
-        name, evidence, tuple(laws), organised, looked_at, seen, relations, worst, cannot, start, (), 0.0
-    )  # fmt: skip
+    worst = next(iter(acted), max(problem.relations, key=lambda r: level(problem, solution, r, problem.fitted)))
+
+    def answer(kept: list[tuple[FittedLaw, list[FittedLaw], float]]) -> Discovery:
+        end = kept[-1][0].solution if kept else solution
+        laws = tuple(told_law(replace(f, solution=end), tied, base, share) for f, tied, share in kept)
+        share = (solution.cost - end.cost) / max(whole, 1e-9)
+        held_out = [{r: held_out_level(problem, x, r) for r in problem.relations} for x in (solution, end)]
+        relations = {r: (held_out[0][r], held_out[1][r]) for r in problem.relations}
+        evidence = _evidence(laws, share, relations, worst, whole)
+        nearest = None if evidence == "nothing" else organised
+        seen = share if laws else (nearest.share if nearest else 0.0)
+        return Discovery(name, evidence, laws, nearest, looked_at, seen, relations, worst, cannot, start, (), 0.0)
+
+    found = answer(leaders)
+    if found.evidence in ("law", "state") or len(leaders) < 2:
+        return found
+    return answer(leaders[:1])  # what no law explains is not told by a sum of them
 
 
 def _looked_at(candidates: Sequence[Candidate]) -> tuple[Candidate, ...]:

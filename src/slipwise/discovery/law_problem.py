@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from slipwise.discovery.matching import Match, constants_of, limits, product_at
 from slipwise.discovery.states import PadInstants, State, derived
-from slipwise.estimation.least_squares import Solution, slopes_of, solve
+from slipwise.estimation.least_squares import Solution, jacobian, slopes_of, solve
 from slipwise.estimation.pad_forces import as_logged
 from slipwise.estimation.parameters import Free
 from slipwise.estimation.problem import Problem
@@ -199,3 +199,10 @@ def fit_on(found: FittedLaw) -> FittedLaw:
         begin=slopes_of(found.solution),
     )  # fmt: skip
     return replace(found, solution=solution)
+
+
+def with_slopes(found: FittedLaw) -> FittedLaw:
+    """Give a fit with slopes of its own at its numbers."""
+    solution = found.solution
+    slopes = jacobian(found.problem, solution.values, solution.free, solution.residuals)
+    return replace(found, solution=replace(solution, jacobian=slopes))

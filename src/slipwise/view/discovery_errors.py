@@ -14,7 +14,7 @@ from slipwise.view.canvas import new_figure
 from slipwise.view.compare_figures import widest_loop
 from slipwise.view.diagnosis_figures import RELATIONS
 from slipwise.view.discovery_figures import LAW
-from slipwise.view.discovery_samples import after, left_over, predicted_acceleration, predicted_forces
+from slipwise.view.discovery_samples import after, left_over, predicted_acceleration, predicted_forces, predicted_load
 from slipwise.view.discovery_words import state_axis
 from slipwise.view.style import MODEL_COLOURS
 
@@ -137,6 +137,8 @@ def loop_words(found: Discovery) -> str:
     """Name the force of which loops are drawn."""
     if found.worst == "girder":
         return "force on the girder that no pad carries"
+    if found.worst == "heave":
+        return "load of all pads"
     return f"friction of pad {found.base.problem.runs[0].pads[_pad(found)]}"
 
 
@@ -151,22 +153,36 @@ def _pad(found: Discovery) -> int:
 def _loop(axes: Axes, found: Discovery, place: int) -> None:
     run, part = found.base.problem.runs[place], widest_loop(found.base.problem.runs[place])
     ink, slip = mpl.rcParams["text.color"], 1e3 * run.slip
-    measured = _force(found, place, run.channel("girder_ax"), run.force)
+    measured = _measured(found, place)
     axes.plot(slip, 1e-3 * measured, color=mpl.rcParams["axes.edgecolor"], lw=0.6, rasterized=True, label="whole run")
     axes.plot(slip[part], 1e-3 * measured[part], color=ink, lw=3.2, label="measured, one cycle")
     for words, with_laws, colour in (("before", False, _BEFORE), ("with the law", True, _AFTER)):
         if with_laws and not found.laws:
             continue
-        forces = predicted_forces(found, place, with_laws=with_laws)
-        rate = predicted_acceleration(found, place, with_laws=with_laws) if found.worst == "girder" else run.velocity
-        said = _force(found, place, rate, run.force if found.worst == "girder" else forces)
+        said = _predicted(found, place, with_laws)
         axes.plot(slip[part], 1e-3 * said[part], color=colour, lw=1.4, label=words)
 
 
-def _force(found: Discovery, place: int, acceleration: Array, pads: Array) -> Array:
-    """Give the force of which a loop is drawn (n,): of a pad, or of what holds the girder back beside its pads."""
-    if found.worst != "girder":
-        return pads[:, _pad(found)]
+def _measured(found: Discovery, place: int) -> Array:
+    """Give the measured force of which a loop is drawn (n,) [N]: see `loop_words`."""
+    run = found.base.problem.runs[place]
+    if found.worst == "girder":
+        return _beside_pads(found, place, run.channel("girder_ax"))
+    return run.load.sum(axis=1) if found.worst == "heave" else run.force[:, _pad(found)]
+
+
+def _predicted(found: Discovery, place: int, with_laws: bool) -> Array:
+    """Give the same as it is predicted."""
+    if found.worst == "girder":
+        return _beside_pads(found, place, predicted_acceleration(found, place, with_laws=with_laws))
+    if found.worst == "heave":
+        return predicted_load(found, place, with_laws=with_laws)
+    return predicted_forces(found, place, with_laws=with_laws)[:, _pad(found)]
+
+
+def _beside_pads(found: Discovery, place: int, acceleration: Array) -> Array:
+    """Give what holds the girder back beside its pads (n,) [N]."""
+    pads = found.base.problem.runs[place].force
     mass = found.base.solution.values.get("rig.mass", found.base.problem.specimen.mass)
     every = len(found.base.problem.specimen.pads) / pads.shape[1]
     return -mass * acceleration - every * pads.sum(axis=1)

@@ -182,9 +182,18 @@ def predicted_forces(found: Discovery, place: int, *, with_laws: bool) -> Array:
 
 def predicted_acceleration(found: Discovery, place: int, *, with_laws: bool) -> Array:
     """Give the girder's acceleration along x as its balance predicts it, (n,) [m/s^2]; measured where not judged."""
-    problem, solution = found.base.problem, (after(found) if with_laws else None) or found.base.solution
-    left = solution.residuals.parts["girder"][place] * problem.sigmas["girder"][place]
-    return problem.runs[place].channel("girder_ax") - left
+    return found.base.problem.runs[place].channel("girder_ax") - _left(found, place, "girder", with_laws)
+
+
+def predicted_load(found: Discovery, place: int, *, with_laws: bool) -> Array:
+    """Give the load of all pads as the heave balance predicts it, (n,) [N]; measured where not judged."""
+    return found.base.problem.runs[place].load.sum(axis=1) - _left(found, place, "heave", with_laws)
+
+
+def _left(found: Discovery, place: int, relation: str, with_laws: bool) -> Array:
+    """Give what a balance leaves of a run (n,), in its own unit."""
+    solution = (after(found) if with_laws else None) or found.base.solution
+    return solution.residuals.parts[relation][place] * found.base.problem.sigmas[relation][place]
 
 
 def _logged(law: FittedLaw, place: int) -> Array:

@@ -6,8 +6,6 @@ from slipwise.discovery.states import UNITS, WORDS
 from slipwise.units import convert
 from slipwise.view.numbers import in_words, unit_of_size
 
-#: The girder's balance has a state of its own.
-_STATES = {**WORDS, "slip_size": "the size of the slip"}
 #: Port -> how it enters, and what its curve is, with its unit.
 _PORTS: dict[str, tuple[str, str]] = {
     "adds to mu": ("adds to the coefficient of friction", "added to the coefficient of friction [1]"),
@@ -15,7 +13,8 @@ _PORTS: dict[str, tuple[str, str]] = {
     "adds to friction": ("adds to friction whatever the load", "added to friction, over the mean load [1]"),
     "even force on pads": ("pushes each pad, whichever way it slides", "push on a pad, over its load [1]"),
     "girder": ("holds the girder back against its motion", "force against the girder's motion [N]"),
-    "buffer": ("holds the girder back against its displacement", "force against the displacement [N]"),
+    "girder by place": ("pushes the girder whichever way it moves", "push on the girder [N]"),
+    "load": ("lifts the girder off its pads", "lift on the girder [N]"),
     "multiplies buffers": ("multiplies the buffers' force", "change of the buffers' force, as a share of it [1]"),
 }
 #: Evidence -> headline of the page.
@@ -40,7 +39,7 @@ _MEANS: dict[str, str] = {
 
 def state_words(name: str) -> str:
     """Name a state in words."""
-    return _STATES[name]
+    return WORDS[name]
 
 
 def state_axis(name: str, size: float) -> tuple[str, float]:
@@ -122,6 +121,6 @@ def looked_at_rows(found: Discovery) -> list[dict[str, str]]:
 
 def gate_words(candidate: Candidate) -> str:
     """Say on which pads, or which way, something acts."""
-    if candidate.port.relation == "girder":
+    if candidate.port.relation != "pads":
         return "the girder"
     return "every pad, both ways" if candidate.gate.name == "all" else candidate.gate.name

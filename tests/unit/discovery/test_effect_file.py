@@ -40,12 +40,12 @@ def law_of(port: str, states: tuple[str, ...], form_names: tuple[str, ...], gate
     fitted = Fitted(PlacedLaw("law", match, ()), LawProblem(None, None, ()), None)  # pyright: ignore[reportArgumentType]
     return Law(
         "law", states, port, gate.name, "odd", " x ".join(form_names), (), (), tuple(constants), 0.97, False,
-        {s: (0.0, 1.0) for s in states}, fitted,
+        {s: (0.0, 1.0) for s in states}, fitted, (),
     )  # fmt: skip
 
 
 def discovery(law: Law) -> Discovery:
-    return Discovery("march", "law", (law,), None, 0.97, {"pads": (7.0, 1.01)}, "pads", (), (), 1.0)
+    return Discovery("march", "law", (law,), None, (), 0.97, {"pads": (7.0, 1.01)}, "pads", (), None, (), 1.0)  # pyright: ignore[reportArgumentType]
 
 
 CASES = [

@@ -39,7 +39,8 @@ def _law(candidate: Candidate, fitted: FittedLaw) -> Law:
     )
     return Law(
         name="law", states=("speed",), port="adds to mu", where="all", parity="odd", form="square",
-        tied=("power",), rivals=(), constants=constants, share=0.99, valid={"speed": (0.0, 0.12)}, fitted=fitted,
+        tied=("power",), rivals=(), constants=constants, share=0.99, at_buffers=False,
+        valid={"speed": (0.0, 0.12)}, fitted=fitted,
         tied_forms=(TiedForm((forms()["power"],), {**NUMBERS, "exponent": 1.9}),),
     )  # fmt: skip
 
@@ -106,8 +107,8 @@ def test_a_cloud_is_thinned_evenly_over_the_range_so_that_rare_states_are_seen(f
     cloud = law_cloud(found.laws[0])
     thin = cloud.thinned()
     assert len(thin.height) < len(cloud.height) and len(thin.height) <= 8000
-    fast = 0.95 * cloud.states[0].max()
-    assert np.mean(thin.states[0] > fast) >= np.mean(cloud.states[0] > fast)
+    before, after = (np.histogram(of.states[0], 20, (0.0, cloud.states[0].max()))[0] for of in (cloud, thin))
+    assert after.max() / after.min() < before.max() / before.min()
 
 
 def test_where_no_form_is_claimed_the_curve_goes_through_what_the_base_fit_leaves(unknown):
