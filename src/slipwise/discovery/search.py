@@ -63,7 +63,7 @@ def find_law(before: LawProblem, solution: Solution, model: Model, label: str) -
             tried.append(fit_law(here, start, _placed(label, match, here), match.strength))
             tried.sort(key=lambda f: f.solution.cost)
             tried[_FINELY:] = [_without_slopes(f) for f in tried[_FINELY:]]
-    fine = [fit_on(f) for f in tried[:_FINELY]]
+    fine = [fit_on(_carried_by_its_fit(f)) for f in tried[:_FINELY]]
     return Found(
         tuple(sorted(candidates, key=lambda c: -c.share)),
         tuple(sorted([*fine, *tried[_FINELY:]], key=lambda f: f.solution.cost)),
@@ -74,6 +74,19 @@ def _without_slopes(found: FittedLaw) -> FittedLaw:
     """Give a fit whose slopes nobody will ask for: they are as long as all the runs together."""
     slopes = np.empty((0, len(found.solution.free)))
     return replace(found, solution=replace(found.solution, jacobian=slopes))
+
+
+def _carried_by_its_fit(found: FittedLaw) -> FittedLaw:
+    """Give a fit whose law multiplies what the fit makes of the base law's friction, not what its start made of it."""
+    problem, values = found.problem, found.solution.values
+    every = pad_instants(problem.plain, values)
+    ports = [*pad_ports(every), *load_ports(every)]
+    if "girder" in problem.relations:
+        ports += girder_ports(problem.plain, values, every)
+    match = found.law.match
+    port = next(p for p in ports if p.name == match.candidate.port.name)
+    law = replace(found.law, match=replace(match, candidate=replace(match.candidate, port=port)))
+    return replace(found, law=law, problem=replace(problem, every=every, laws=(*problem.laws[:-1], law), _kept={}))
 
 
 def _placed(label: str, match: Match, here: LawProblem) -> PlacedLaw:

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from slipwise.effects import DERIVED, LAGGING
@@ -125,25 +124,10 @@ def derived(every: PadInstants, time_constant: float) -> dict[str, list[Array]]:
             derived_states.cool(block, run.rest_before, time_constant)
         found = np.zeros((*state.load.shape, len(DERIVED)))
         of = (state.time, state.load, np.ascontiguousarray(force.bound), state.velocity, state.slip)
-        _observed(*of, every.area, time_constant, memory, found)
+        derived_states.observe_record(*of, every.area, time_constant, memory, found)
         for i, name in enumerate(DERIVED):
             out[name].append(found[:, :, i])
     return out
-
-
-@njit(cache=True)
-def _observed(time, load, friction, velocity, slip, area, lag, memory, out):  # pragma: no cover - compiled
-    """Let every pad's derived states follow a record; fills (f, p, states)."""
-    count = out.shape[2]
-    for pad in range(load.shape[1]):
-        for i in range(len(time)):
-            before = friction[max(i - 1, 0), pad]
-            dt = time[1] - time[0]
-            derived_states.observe(
-                memory[pad], before, load[i, pad], area, velocity[i, pad, 0], velocity[i, pad, 1], slip[i, pad, 0],
-                slip[i, pad, 1], time[i], dt, lag,
-            )  # fmt: skip
-            out[i, pad] = memory[pad, :count]
 
 
 def _varies(state: State) -> bool:

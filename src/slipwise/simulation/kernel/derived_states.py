@@ -10,6 +10,7 @@ stroke had: below that it is noise of a pad that sticks. A pause or another run 
 from math import exp, sqrt
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from slipwise.effects import DERIVED
@@ -99,6 +100,24 @@ def _follow_stroke(memory: Array, velocity_x: float, velocity_y: float, speed: f
         memory[_LAST_PEAK], memory[_LAST_STROKE] = memory[_PEAK], memory[_WAY] - memory[_BACK]
         memory[_BEGIN], memory[_WAY], memory[_TURNING] = memory[_TURNED], memory[_BACK], 0.0
         memory[_X], memory[_Y], memory[_PEAK] = velocity_x / speed, velocity_y / speed, speed
+
+
+@njit(cache=True)
+def observe_record(time, load, friction, velocity, slip, area, lag, memory, out):  # pragma: no cover - compiled
+    """Let every pad's states follow a record; fills `out` (n, p, states).
+
+    Load and friction are (n, p), velocity and slip (n, p, 2), memory is (p, SIZE); the rest as in `observe`. It stands here because numba keeps machine code by the file it is in.
+    """
+    count = out.shape[2]
+    for pad in range(load.shape[1]):
+        for i in range(len(time)):
+            before = friction[max(i - 1, 0), pad]
+            dt = time[1] - time[0]
+            observe(
+                memory[pad], before, load[i, pad], area, velocity[i, pad, 0], velocity[i, pad, 1], slip[i, pad, 0],
+                slip[i, pad, 1], time[i], dt, lag,
+            )  # fmt: skip
+            out[i, pad] = memory[pad, :count]
 
 
 def cool(memory: Array, seconds: float, time_constant: float) -> None:
