@@ -106,7 +106,8 @@ def _follow_stroke(memory: Array, velocity_x: float, velocity_y: float, speed: f
 def observe_record(time, load, friction, velocity, slip, area, lag, memory, out):  # pragma: no cover - compiled
     """Let every pad's states follow a record; fills `out` (n, p, states).
 
-    Load and friction are (n, p), velocity and slip (n, p, 2), memory is (p, SIZE); the rest as in `observe`. It stands here because numba keeps machine code by the file it is in.
+    Load and friction are (n, p), velocity and slip (n, p, 2), memory is (p, SIZE); the rest as in `observe`. It stands
+    here because numba keeps machine code by the file it is in.
     """
     count = out.shape[2]
     for pad in range(load.shape[1]):
