@@ -27,6 +27,9 @@ ALLOWED = {
     ("cli/ensemble.py", "shear_rate"),  # an example of a command
     ("rig/load.py", "buffer_height"),  # a number of the rig
     ("rig/mjcf_parts.py", "table_pitch"),  # a joint of the rig
+    # what a user takes in the place of what an MJCF may not hold
+    *(("rig/mjcf_attributes.py", n) for n in ("buffer_damping", "guide_drag", "key_clearance", "key_friction")),
+    ("rig/mjcf_places.py", "pad_spread"),
     ("model_file.py", "heating"),  # an example of an entry
 }
 

@@ -54,11 +54,11 @@ _INSTEAD = {
     ("pad", "solref"): "a pad's spring is given by the numerics pad_stiffness and pad_damping",
     ("pad", "solimp"): "a pad's spring is given by the numerics pad_stiffness and pad_damping",
     ("pad", "frictionloss"): "a pad's friction is given by the numerics plastic_pressure and shear_strength",
-    ("buffer", "damping"): "a buffer's damping is an effect: `slipwise effects` lists it",
-    ("buffer", "frictionloss"): "friction of a shear key is an effect: `slipwise effects` lists it",
-    ("buffer", "range"): "play of a shear key is an effect: `slipwise effects` lists it",
-    ("girder", "frictionloss"): "friction of a guide is an effect: `slipwise effects` lists it",
-    ("girder", "damping"): "drag on the girder is an effect: `slipwise effects` lists it",
+    ("buffer", "damping"): "a buffer's damping is an effect, buffer_damping",
+    ("buffer", "frictionloss"): "friction of a shear key is an effect, key_friction",
+    ("buffer", "range"): "play of a shear key is an effect, key_clearance",
+    ("girder", "frictionloss"): "friction of a guide is an effect, guide_drag",
+    ("girder", "damping"): "drag on the girder is an effect, guide_drag",
 }
 _WORDS_OF = {
     "integrator": mujoco.mjtIntegrator,

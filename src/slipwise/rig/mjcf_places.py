@@ -66,7 +66,7 @@ def pad_radius(file: Mjcf) -> float:
         if radius != usual:
             raise file.refused(
                 f"pad_{pad} has a radius of {radius:g} m, the others of {usual:g} m; all pads of a rig are alike (how "
-                "friction differs from pad to pad is an effect: `slipwise effects` lists it)",
+                "friction differs from pad to pad is an effect, pad_spread)",
                 "geom",
                 f"pad_{pad}",
             )

@@ -39,7 +39,7 @@ def test_who_listens_to_the_first_lines_only_finds_all_files(monkeypatch, tmp_pa
 
     found = diagnosed(searched(base()))
     monkeypatch.setattr("slipwise.campaign.load_campaign", lambda _: found.final.campaign)
-    monkeypatch.setattr("slipwise.diagnosis.diagnose.diagnose", lambda *_, **__: found)
+    monkeypatch.setattr("slipwise.discovery.discover.diagnose_with_law", lambda *_, **__: found)
     monkeypatch.setattr("slipwise.view.diagnosis_page.diagnosis_page", lambda *_: "the page")
     monkeypatch.setattr("slipwise.cli.diagnose._record", lambda _, folder: [folder / "before_and_after.rrd"])
     monkeypatch.setattr("slipwise.cli.diagnose._tell", left)

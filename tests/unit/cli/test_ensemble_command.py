@@ -38,7 +38,7 @@ def test_an_ensemble_leaves_members_and_tables(slipwise, tmp_path):
     [
         (("--vary", "rig.mass=9..11"), "no unit"),
         (("--scale", "3:1:1"), "--scale"),
-        (("--sampling", "halton"), "sobol"),
+        (("--sampling", "halton"), "latin"),
         (("--limit", "slip=3t"), "wrong dimension"),
         (("--rig", "bridg1"), "bridge1"),
         (("--workers", "0"), "0 workers"),

@@ -31,7 +31,7 @@ def lab(monkeypatch, tmp_path):
         specimen = quiet.final.campaign.specimen
 
     monkeypatch.setattr("slipwise.campaign.load_campaign", lambda folder: Campaign(load(folder)))
-    monkeypatch.setattr("slipwise.diagnosis.diagnose.diagnose", lambda m, *_, **__: worn if m[0] == "b" else quiet)
+    monkeypatch.setattr("slipwise.discovery.discover.diagnose_with_law", lambda m, *_, **__: worn if m[0] == "b" else quiet)
     monkeypatch.setattr("slipwise.view.diagnosis_page.diagnosis_page", lambda *_: "the page")
     monkeypatch.setattr("slipwise.cli.diagnose._record", lambda *_: [])
     return tmp_path, seen
@@ -69,7 +69,7 @@ def test_a_fault_of_ours_is_told_as_one_and_stops_nobody(lab, slipwise, monkeypa
     def fault(measured, *_, **__):
         raise KeyError("inner")
 
-    monkeypatch.setattr("slipwise.diagnosis.diagnose.diagnose", fault)
+    monkeypatch.setattr("slipwise.discovery.discover.diagnose_with_law", fault)
     code, _, err = slipwise("diagnose", home / "a", home / "b", "--out", home / "o", "--workers", "1")
     assert code == 1
     assert "fault of Slipwise" in err and "KeyError" in err and "2 of 2" in err
