@@ -31,7 +31,9 @@ def lab(monkeypatch, tmp_path):
         specimen = quiet.final.campaign.specimen
 
     monkeypatch.setattr("slipwise.campaign.load_campaign", lambda folder: Campaign(load(folder)))
-    monkeypatch.setattr("slipwise.discovery.discover.diagnose_with_law", lambda m, *_, **__: worn if m[0] == "b" else quiet)
+    monkeypatch.setattr(
+        "slipwise.discovery.discover.diagnose_with_law", lambda m, *_, **__: worn if m[0] == "b" else quiet
+    )
     monkeypatch.setattr("slipwise.view.diagnosis_page.diagnosis_page", lambda *_: "the page")
     monkeypatch.setattr("slipwise.cli.diagnose._record", lambda *_: [])
     return tmp_path, seen
