@@ -20,9 +20,6 @@ import shutil
 import signal
 import sys
 import time
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
-from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import Any
 
@@ -99,26 +96,15 @@ def work(chosen: argparse.Namespace, count: int) -> dict[str, tuple[Any, ...]]:
 
 def run(out: Path, cases: dict[str, tuple[Any, ...]], workers: int) -> list[dict[str, Any]]:
     """Run the campaigns that have no result yet; gives in order all results that there are, fewer if it is stopped."""
+    from bench.resumed import read_results, run_jobs  # pyright: ignore[reportMissingImports]
+
     out.mkdir(parents=True, exist_ok=True)
-    lines = out / "results.jsonl"
-    done = {r["name"]: r for r in map(json.loads, lines.read_text().splitlines())} if lines.exists() else {}
+    done = {r["name"]: r for r in read_results(out / "results.jsonl")}
     left = {name: job for name, job in cases.items() if name not in done}
-    spawned = get_context("spawn")
-    with ProcessPoolExecutor(workers, mp_context=spawned, initializer=_begin) as pool, lines.open("a") as stream:
-        jobs = [pool.submit(*job) for job in left.values()]
-        try:
-            for number, job in enumerate(as_completed(jobs), start=1):
-                result = job.result()
-                done[result["name"]] = result
-                stream.write(json.dumps(result) + "\n")
-                stream.flush()
-                print(_line(result, number, len(left)), flush=True)
-        except (KeyboardInterrupt, BrokenProcessPool):
-            pass  # what is done is shown
-        finally:  # else the campaigns that are left would run on, unseen, for as long as they take
-            for worker in active_children():
-                worker.terminate()
-            shutil.rmtree(out / "campaigns", ignore_errors=True)
+    try:
+        done |= {r["name"]: r for r in run_jobs(out / "results.jsonl", left, workers, _line, _begin)}
+    finally:
+        shutil.rmtree(out / "campaigns", ignore_errors=True)
     return [done[name] for name in cases if name in done]
 
 

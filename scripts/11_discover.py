@@ -14,9 +14,6 @@ import argparse
 import json
 import sys
 import time
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
-from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import Any
 
@@ -73,26 +70,14 @@ def _line(result: dict[str, Any], number: int, total: int) -> str:
 
 def run(out: Path, seeds: range, workers: int) -> list[dict[str, Any]]:
     """Run the campaigns that have no result yet; gives in order all results that there are, fewer if it is stopped."""
+    from bench.resumed import read_results, run_jobs  # pyright: ignore[reportMissingImports]
+
     (out / "campaigns").mkdir(parents=True, exist_ok=True)
-    lines = out / "results.jsonl"
-    kept = [json.loads(line) for line in lines.read_text().splitlines()] if lines.exists() else []
+    kept = read_results(out / "results.jsonl")
     done = {r["name"]: r for r in kept if r["said"] is not None or not can_discover()}
     names = {f"l{seed:05d}": seed for seed in seeds}
-    left = {name: seed for name, seed in names.items() if name not in done}
-    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool, lines.open("a") as stream:
-        jobs = [pool.submit(one, out / "campaigns" / name, seed) for name, seed in left.items()]
-        try:
-            for number, job in enumerate(as_completed(jobs), start=1):
-                result = job.result()
-                done[result["name"]] = result
-                stream.write(json.dumps(result) + "\n")
-                stream.flush()
-                print(_line(result, number, len(left)), flush=True)
-        except (KeyboardInterrupt, BrokenProcessPool):
-            pass  # what is done is shown
-        finally:  # else the campaigns that are left would run on, unseen, for as long as they take
-            for worker in active_children():
-                worker.terminate()
+    left = {name: (one, out / "campaigns" / name, seed) for name, seed in names.items() if name not in done}
+    done |= {r["name"]: r for r in run_jobs(out / "results.jsonl", left, workers, _line)}
     return [done[name] for name in names if name in done]
 
 

@@ -39,7 +39,7 @@ def bench(
     place = out_folder(out)
     outcomes = run_campaigns(campaigns, place, Wanted(system=False, recording=False), workers, cluster)
     scored = sw.campaigns.score_outcomes(outcomes, truths)
-    write_together(outcomes, place)
+    write_together(outcomes, sw.campaigns.compare_outcomes(outcomes), place)
     content = {
         "schema": 1,
         "rates": {what: list(counts) for what, counts in sw.campaigns.rates(scored).items()},

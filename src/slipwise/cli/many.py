@@ -117,7 +117,7 @@ def diagnose_many(
     folder = out_folder(out)
     outcomes = run_campaigns(campaigns, folder, wanted, workers, cluster)
     compared = sw.campaigns.compare_outcomes(outcomes)
-    files = write_together(outcomes, folder)
+    files = write_together(outcomes, compared, folder)
     if json:
         print_json(summary_json(outcomes, compared))
     else:
@@ -133,13 +133,14 @@ def diagnose_many(
     end(outcomes)
 
 
-def write_together(outcomes: "Sequence[sw.campaigns.Outcome]", folder: Path) -> list[Path]:
+def write_together(
+    outcomes: "Sequence[sw.campaigns.Outcome]", compared: "sw.campaigns.Compared", folder: Path
+) -> list[Path]:
     """Write what leads to the results of all campaigns, and their numbers side by side."""
     from slipwise.view.campaign_tables import flat_rows, summary_json
     from slipwise.view.campaigns_page import campaigns_page
     from slipwise.view.files import save_json, save_page, save_rows
 
-    compared = sw.campaigns.compare_outcomes(outcomes)
     return [
         save_page(campaigns_page(outcomes, compared), folder / "index.html"),
         save_json(summary_json(outcomes, compared), folder / "summary.json"),

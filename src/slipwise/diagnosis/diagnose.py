@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +24,7 @@ from slipwise.effects import Effect
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Interval, intervals
-from slipwise.estimation.least_squares import jacobian
+from slipwise.estimation.least_squares import with_slopes as take_slopes
 from slipwise.estimation.prediction_interval import PredictedFriction, predicted_friction
 from slipwise.evidence.residual_summary import ResidualSummary, error_of
 from slipwise.evidence.score import largest_drop, score
@@ -128,10 +127,7 @@ def as_fit(base: BaseFit, found: Hypothesis, *, with_slopes: bool = True) -> Bas
     """
     if found.solution is base.solution:
         return base
-    solution = found.solution
-    if with_slopes:
-        slopes = jacobian(found.problem, solution.values, solution.free, solution.residuals)
-        solution = replace(solution, jacobian=slopes)
+    solution = take_slopes(found.problem, found.solution) if with_slopes else found.solution
     return BaseFit(base.campaign, base.model, found.problem, solution.free, solution)
 
 

@@ -11,7 +11,7 @@ from slipwise.estimation.base_fit import BaseFit, final_refit
 from slipwise.estimation.least_squares import Solution, slopes_of, solve
 from slipwise.estimation.parameters import ZERO, Free, Term, inertia_free, numbers_replaced
 from slipwise.estimation.problem import Problem
-from slipwise.evidence.residual_summary import ResidualSummary, summarised
+from slipwise.evidence.residual_summary import ResidualSummary, mean_square, summarised
 
 Array = NDArray[np.float64]
 #: A fit is over when a step lowers the squared residual by less than this, and by less than this share of what is left
@@ -54,9 +54,7 @@ class Hypothesis:
 
     def level_of(self, relation: str, runs: Sequence[int]) -> float:
         """Give the mean squared residual of a relation over some runs [noise variance]."""
-        parts = self.solution.residuals.parts[relation]
-        samples = sum(int(np.count_nonzero(self.problem.runs[i].judged[relation])) for i in runs)
-        return sum(float(np.sum(parts[i] ** 2)) for i in runs) / max(samples, 1)
+        return mean_square(self.problem, self.solution, relation, runs)
 
 
 def base_hypothesis(base: BaseFit) -> Hypothesis:

@@ -16,14 +16,15 @@ from slipwise.diagnosis.diagnose import as_fit, diagnose
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.law import Discovery, Law
-from slipwise.discovery.law_problem import FittedLaw, LawProblem, with_slopes
+from slipwise.discovery.law_problem import FittedLaw, LawProblem
 from slipwise.discovery.levels import excess, held_out_level, level
 from slipwise.discovery.search import LEVEL, Found, different, find_law
 from slipwise.discovery.states import WORDS, pad_instants, pad_states
 from slipwise.discovery.told_law import told_law
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.least_squares import Solution, jacobian
+from slipwise.estimation.intervals import intervals
+from slipwise.estimation.least_squares import Solution, with_slopes
 from slipwise.estimation.problem import Problem
 from slipwise.model import Model
 from slipwise.parallel import one_thread_algebra
@@ -121,7 +122,7 @@ def _from(name: str, base: BaseFit) -> Discovery:
     """Search from one fit on."""
     problem, solution = base.problem, base.solution
     if len(solution.jacobian) == 0 or solution.jacobian.shape[1] != len(solution.free):
-        solution = replace(solution, jacobian=jacobian(problem, solution.values, solution.free, solution.residuals))
+        solution = with_slopes(problem, solution)
     whole = excess(problem, solution)
     now, here = LawProblem(pad_instants(problem, solution.values), problem, ()), solution
     leaders: list[tuple[FittedLaw, list[FittedLaw], float]] = []
@@ -137,7 +138,7 @@ def _from(name: str, base: BaseFit) -> Discovery:
         leader, tied = _leader(found, problem, whole)
         if leader is None or not _earned(leader, here, whole, first=not leaders):
             break
-        leader = with_slopes(leader)
+        leader = replace(leader, solution=with_slopes(leader.problem, leader.solution))
         leaders.append((leader, tied, (here.cost - leader.solution.cost) / max(whole, 1e-9)))
         acted.add(leader.law.match.candidate.port.relation)
         now, here = leader.problem, leader.solution
@@ -146,7 +147,9 @@ def _from(name: str, base: BaseFit) -> Discovery:
 
     def answer(kept: list[tuple[FittedLaw, list[FittedLaw], float]]) -> Discovery:
         end = kept[-1][0].solution if kept else solution
-        laws = tuple(told_law(replace(f, solution=end), tied, base, share) for f, tied, share in kept)
+        fit = replace(base, free=end.free, solution=end)
+        known = {i.key: i for i in intervals(fit).entries} if kept else {}
+        laws = tuple(told_law(replace(f, solution=end), tied, base, share, known) for f, tied, share in kept)
         share = (solution.cost - end.cost) / max(whole, 1e-9)
         held_out = [{r: held_out_level(problem, x, r) for r in problem.relations} for x in (solution, end)]
         relations = {r: (held_out[0][r], held_out[1][r]) for r in problem.relations}
@@ -188,7 +191,7 @@ def _evidence(
 
 
 def _earned(leader: FittedLaw, before: Solution, whole: float, *, first: bool) -> bool:
-    """Tell whether a law explains enough: half by the first, a further one less, but motions left out confirm it."""
+    """Tell whether a law explains enough, and motions left out confirm it; a further one, a part of its gain."""
     gain = before.cost - leader.solution.cost
     confirmed = leader.law.match.candidate.share
     if first:

@@ -11,9 +11,7 @@ from slipwise.discovery.law import Discovery, Law, LawConstant, with_names
 from slipwise.discovery.law_problem import STRENGTH, TIME_CONSTANT
 from slipwise.discovery.matching import constants_of
 from slipwise.discovery.states import UNITS
-from slipwise.effects import LAGGING
-from slipwise.effects._written import WrittenEffect, write_effect
-from slipwise.effects._written_hook import WrittenHook
+from slipwise.effects import LAGGING, WrittenEffect, WrittenHook, write_effect
 from slipwise.params import Parameter
 
 #: State -> argument of a pad's hook; others are called alike. Of a buffer, rate and deflection stand for both.

@@ -8,7 +8,7 @@ comes out; it may use arithmetic and `FUNCTIONS`. The state is called `s`.
 import importlib.util
 import inspect
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from pathlib import Path
 from types import CodeType
@@ -95,22 +95,11 @@ class Form:
         return {c.name: slope for c, slope in zip(self.constants, found, strict=True)}
 
 
-@dataclass(frozen=True)
-class Forms:
-    """The forms that there are, simplest first."""
-
-    known: tuple[Form, ...] = field(default_factory=tuple[Form, ...])
-
-    def __getitem__(self, name: str) -> Form:
-        """Give a form by its name."""
-        return next(f for f in self.known if f.name == name)
-
-
 @cache
-def forms() -> Forms:
-    """Read the forms of the folder `forms`, fewest constants first."""
+def forms() -> dict[str, Form]:
+    """Give the forms of the folder `forms` by name, fewest constants first."""
     read = [read_form(path) for path in sorted((Path(__file__).parent / "forms").glob("[a-z]*.py"))]
-    return Forms(tuple(sorted(read, key=lambda f: (len(f.constants), f.name))))
+    return {form.name: form for form in sorted(read, key=lambda f: (len(f.constants), f.name))}
 
 
 def read_form(path: Path) -> Form:

@@ -9,12 +9,10 @@ from typing import Any
 from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.form import FUNCTIONS, Form
 from slipwise.discovery.law_problem import FittedLaw
+from slipwise.discovery.matching import name_of
 from slipwise.discovery.states import WORDS
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.shown import Drawn, Tabular
-
-#: What may be said, from most to least.
-EVIDENCE: tuple[str, ...] = ("law", "state", "organised", "unknown", "nothing")
 
 
 @dataclass(frozen=True)
@@ -122,7 +120,7 @@ def with_names(text: str, state: str, place: int) -> str:
         word = found.group(0)
         if word == "s":
             return state
-        return word if word in FUNCTIONS or place == 0 else f"second_{word}"
+        return word if word in FUNCTIONS else name_of(word, place)
 
     return re.sub(r"[A-Za-z_]\w*", name, text)
 
@@ -133,7 +131,7 @@ class Discovery(Drawn, Tabular):
 
     Attributes:
         campaign: its name.
-        evidence: of `EVIDENCE`.
+        evidence: what may be said: "law", "state", "organised", "unknown" or "nothing".
         laws: in the order in which they were found; empty where nothing may be called one.
         organised: what explains most, whether or not it may be called a law; None where nothing does.
         looked_at: what explains most in the first screen, one of each state and port, best first.

@@ -9,9 +9,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.discovery.matching import Match, constants_of, limits, product_at
+from slipwise.discovery.matching import Match, constants_of, limits, place_of, product_at
 from slipwise.discovery.states import PadInstants, State, derived
-from slipwise.estimation.least_squares import Solution, jacobian, slopes_of, solve
+from slipwise.estimation.least_squares import Solution, slopes_of, solve
 from slipwise.estimation.pad_forces import as_logged
 from slipwise.estimation.parameters import Free
 from slipwise.estimation.problem import Problem
@@ -50,12 +50,10 @@ class PlacedLaw:
         port, states = self.match.candidate.port, self.match.candidate.states
         most = _STRONGEST * abs(strength)
         out = [Free(f"{self.label}.{STRENGTH}", strength, -most, most, 0.3 * abs(strength), port.unit)]
-        place_of = {name: i for i, f in enumerate(self.match.forms) for name in constants_of([f] if i == 0 else [])}
         for name, constant in constants_of(self.match.forms).items():
             if constant.kind == "reference":
                 continue
-            state = states[1 if name.startswith("second_") else place_of.get(name, 0)]
-            low, high = limits(constant, state)
+            low, high = limits(constant, states[place_of(name)])
             value = self.match.constants[name]
             size = 0.1 * abs(value) if constant.kind in ("width", "period") else 0.05 * (high - low)
             out.append(Free(f"{self.label}.{name}", value, min(low, value), max(high, value), size, ""))
@@ -121,24 +119,38 @@ class LawProblem:
         return self._kept[key]
 
     def _made(self, law: PlacedLaw, own: Mapping[str, float], values: Mapping[str, float]) -> list[Array]:
-        candidate = law.match.candidate
-        states = self._lagged(candidate.states, own.get(TIME_CONSTANT, law.lag), law.lag)
-        relation, out = candidate.port.relation, []
-        by = LowPass(values["rig.logger"]) if "rig.logger" in values else None
-        averaged, delay = not self.plain.has_stick, values.get("rig.late_force", 0.0)
+        relation, states = law.match.candidate.port.relation, self.driving(law, own)
+        out = []
         for i, run in enumerate(self.plain.runs):
-            form = product_at(law.match.forms, [s.values[i] for s in states], {**law.match.constants, **own})
-            force = own[STRENGTH] * candidate.port.carrier[i] * law.opened[i] * form
-            seen = (
-                as_logged(force, run, by, averaged=averaged, delay=delay)
-                if relation == "pads"
-                else force[:: run.fine, 0]
-            )
-            out.append(np.where(run.judged[relation], seen / self.plain.sigmas[relation][i], 0.0))
+            force = self.force(i, law, states, own, values)
+            out.append(np.where(run.judged[relation], force / self.plain.sigmas[relation][i], 0.0))
         return out
 
-    def _lagged(self, states: Sequence[State], now: float, before: float) -> list[State]:
-        if now == before:
+    def force(
+        self, place: int, law: PlacedLaw, states: Sequence[State], own: Mapping[str, float], values: Mapping[str, float]
+    ) -> Array:
+        """Give what a law adds to the prediction of one run at its samples, in its relation's unit and shape.
+
+        Args:
+            place: of the run.
+            law: any, whether or not it is one of the problem's.
+            states: what `driving` gives.
+            own: the law's numbers by name.
+            values: of the fit.
+        """
+        run, port = self.plain.runs[place], law.match.candidate.port
+        form = product_at(law.match.forms, [s.values[place] for s in states], {**law.match.constants, **own})
+        force = own[STRENGTH] * port.carrier[place] * law.opened[place] * form
+        if port.relation != "pads":
+            return force[:: run.fine, 0]
+        by = LowPass(values["rig.logger"]) if "rig.logger" in values else None
+        delay = values.get("rig.late_force", 0.0)
+        return as_logged(force, run, by, averaged=not self.plain.has_stick, delay=delay)
+
+    def driving(self, law: PlacedLaw, own: Mapping[str, float]) -> list[State]:
+        """Give the states that drive a law, with the lag of its own numbers."""
+        states, now = law.match.candidate.states, own.get(TIME_CONSTANT, law.lag)
+        if now == law.lag:
             return list(states)
         found = derived(self.every, now)
         return [replace(s, time_constant=now, values=tuple(found[s.name])) if s.time_constant else s for s in states]
@@ -199,10 +211,3 @@ def fit_on(found: FittedLaw) -> FittedLaw:
         begin=slopes_of(found.solution),
     )  # fmt: skip
     return replace(found, solution=solution)
-
-
-def with_slopes(found: FittedLaw) -> FittedLaw:
-    """Give a fit with slopes of its own at its numbers."""
-    solution = found.solution
-    slopes = jacobian(found.problem, solution.values, solution.free, solution.residuals)
-    return replace(found, solution=replace(solution, jacobian=slopes))

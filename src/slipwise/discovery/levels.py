@@ -6,6 +6,7 @@ import numpy as np
 
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.problem import Problem
+from slipwise.evidence.residual_summary import mean_square
 
 
 def excess(problem: Problem, solution: Solution) -> float:
@@ -19,8 +20,7 @@ def excess(problem: Problem, solution: Solution) -> float:
 
 def level(problem: Problem, solution: Solution, relation: str, runs: Sequence[int]) -> float:
     """Give the rms of a relation's residual over some runs, in noise floors."""
-    left = sum(float(np.sum(solution.residuals.parts[relation][i] ** 2)) for i in runs)
-    return float(np.sqrt(left / max(sum(int(np.count_nonzero(problem.runs[i].judged[relation])) for i in runs), 1)))
+    return float(np.sqrt(mean_square(problem, solution, relation, runs)))
 
 
 def held_out_level(problem: Problem, solution: Solution, relation: str) -> float:

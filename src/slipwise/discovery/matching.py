@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from slipwise.discovery.candidate import Candidate
-from slipwise.discovery.form import Constant, Form, Forms
+from slipwise.discovery.form import Constant, Form
 from slipwise.discovery.states import State
 
 Array = NDArray[np.float64]
@@ -21,6 +21,8 @@ _PERIODS, _MOST_PERIODS = 40, 40.0
 _WIDTHS = (1e-3, 3.0)
 #: A reference is that quantile of the size of the state, in two digits [1].
 _REFERENCE = 0.9
+#: Begins the names of the constants of a second factor.
+_SECOND = "second_"
 #: Forms of which products are made.
 _FACTORS = ("linear", "saturation", "decay", "square")
 
@@ -61,7 +63,12 @@ def constants_of(forms: Sequence[Form]) -> dict[str, Constant]:
 
 def name_of(constant: str, place: int) -> str:
     """Give the name that a constant of a form has as the factor at a place."""
-    return constant if place == 0 else f"second_{constant}"
+    return constant if place == 0 else f"{_SECOND}{constant}"
+
+
+def place_of(name: str) -> int:
+    """Give the place of the factor, and of its state, to which a name of `name_of` belongs."""
+    return int(name.startswith(_SECOND))
 
 
 def own(constants: Mapping[str, float], place: int, form: Form) -> dict[str, float]:
@@ -77,10 +84,10 @@ def product_at(forms: Sequence[Form], states: Sequence[Array], constants: Mappin
     return out
 
 
-def matched(candidate: Candidate, known: Forms) -> list[Match]:
+def matched(candidate: Candidate, known: Mapping[str, Form]) -> list[Match]:
     """Give every form that makes sense for a candidate, with constants that fit its curve; best first."""
     if len(candidate.states) == 1:
-        choices = [(f,) for f in known.known if _makes_sense(f, candidate.states[0])]
+        choices = [(f,) for f in known.values() if _makes_sense(f, candidate.states[0])]
     else:
         one, other = candidate.states
         factors = [known[name] for name in _FACTORS]

@@ -5,8 +5,9 @@ multiplies mu         F f            F: the base law's force
 adds to friction      N_0 s f        whatever the load, N_0 the mean load
 even force on pads    N f            whichever way the pad slides
 girder                sign(v) f      a force on the girder that no pad carries, against its motion
-buffer                sign(x) f      the same against its displacement
-multiplies buffers    x f            a share of the springs' force
+girder by place       f              the same, whichever way it moves
+multiplies buffers    k x f          a share of the springs' force
+load                  f              an upward force on the girder
 """
 
 from collections.abc import Mapping, Sequence
@@ -16,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.discovery.states import PadInstants, State
+from slipwise.estimation.instants import Instants
 from slipwise.estimation.problem import Problem
 
 Array = NDArray[np.float64]
@@ -88,6 +90,18 @@ def gates(places: Sequence[tuple[float, float]], names: Sequence[str]) -> list[G
     if len(signs) > 1 and len(set(signs)) == len(signs):
         out += [Gate(f"pad {n}", x, y) for n, (x, y) in zip(names, signs, strict=True)]
     return out
+
+
+def places_of(problem: Problem) -> list[tuple[float, float]]:
+    """Give the places of the measured pads, from the middle [m]."""
+    specimen = problem.specimen
+    places = [specimen.pad_places[specimen.pads.index(p)] for p in problem.runs[0].pads]
+    return [(float(place[0]), float(place[1])) for place in places]
+
+
+def opened(gate: Gate, places: Sequence[tuple[float, float]], instants: Sequence[Instants]) -> list[Array]:
+    """Give 1 where a gate is open, per run (f, p), else 0."""
+    return [gate.open(places, s.velocity[:, :, 0]) for s in instants]
 
 
 def pad_ports(here: PadInstants) -> list[Port]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.discovery.candidate import Candidate
-from slipwise.discovery.ports import EVERYWHERE, Gate, Port
+from slipwise.discovery.ports import EVERYWHERE, Gate, Port, opened
 from slipwise.discovery.residual_field import ResidualField
 from slipwise.discovery.splines import spline
 from slipwise.discovery.states import State
@@ -48,10 +48,9 @@ def screen_states(
     found = list(singles)
     best = _different(singles, _GATED)
     if gates:
-        way = [s.velocity[:, :, 0] for s in instants]
-        opened = {g.name: field.at_samples([g.open(places, v) for v in way]) for g in gates}
+        ways = {g.name: field.at_samples(opened(g, places, instants)) for g in gates}
         found += [
-            _candidate(field, c.states, c.port, g, carriers[c.port.name] * opened[g.name], values)
+            _candidate(field, c.states, c.port, g, carriers[c.port.name] * ways[g.name], values)
             for c in best
             for g in gates
         ]

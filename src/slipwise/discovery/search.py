@@ -13,11 +13,11 @@ from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.form import forms
 from slipwise.discovery.law_problem import FittedLaw, LawProblem, PlacedLaw, fit_law, fit_on
 from slipwise.discovery.matching import Match, matched
-from slipwise.discovery.ports import gates, girder_ports, girder_states, load_ports, pad_ports
+from slipwise.discovery.ports import gates, girder_ports, girder_states, load_ports, opened, pad_ports, places_of
 from slipwise.discovery.residual_field import residual_field
 from slipwise.discovery.screening import screen_states
 from slipwise.discovery.states import pad_instants, pad_states
-from slipwise.estimation.least_squares import Solution, jacobian
+from slipwise.estimation.least_squares import Solution, with_slopes
 from slipwise.model import Model
 
 #: A relation is looked at above this level [1].
@@ -90,16 +90,10 @@ def _carried_by_its_fit(found: FittedLaw) -> FittedLaw:
 
 
 def _placed(label: str, match: Match, here: LawProblem) -> PlacedLaw:
-    gate, runs = match.candidate.gate, here.every.states
+    runs = here.every.states
     if match.candidate.port.relation != "pads":
         return PlacedLaw(label, match, tuple(np.ones((len(s.time), 1)) for s in runs))
-    return PlacedLaw(label, match, tuple(gate.open(_places(here), s.velocity[:, :, 0]) for s in runs))
-
-
-def _places(here: LawProblem) -> list[tuple[float, float]]:
-    specimen = here.plain.specimen
-    places = [specimen.pad_places[specimen.pads.index(p)] for p in here.plain.runs[0].pads]
-    return [(float(place[0]), float(place[1])) for place in places]
+    return PlacedLaw(label, match, tuple(opened(match.candidate.gate, places_of(here.plain), runs)))
 
 
 def _screened(here: LawProblem, start: Solution) -> list[Candidate]:
@@ -110,9 +104,9 @@ def _screened(here: LawProblem, start: Solution) -> list[Candidate]:
         if field.residual @ field.residual < LEVEL**2 * len(field.residual):
             continue
         if relation == "pads":
-            places = _places(here)
-            opened = gates(places, here.plain.runs[0].pads) if here.plain.specimen.free else []
-            out += screen_states(field, states, pad_ports(here.every), opened, places, here.every.states)
+            places = places_of(here.plain)
+            tried = gates(places, here.plain.runs[0].pads) if here.plain.specimen.free else []
+            out += screen_states(field, states, pad_ports(here.every), tried, places, here.every.states)
             continue
         on_load = relation == "heave"
         ports = load_ports(here.every) if on_load else girder_ports(here.plain, start.values, here.every)
@@ -130,10 +124,9 @@ def _starts(before: LawProblem, solution: Solution, model: Model) -> list[Soluti
     if values == solution.values:
         return [solution]
     residuals = before.residuals(values)
-    slopes = jacobian(before, values, solution.free, residuals)
     left = residuals.stacked(before.fitted, before.relations)
-    there = replace(solution, values=values, residuals=residuals, jacobian=slopes, cost=float(left @ left))
-    return [solution, there]
+    there = replace(solution, values=values, residuals=residuals, cost=float(left @ left))
+    return [solution, with_slopes(before, there)]
 
 
 def different(fitted: Sequence[FittedLaw]) -> list[FittedLaw]:

@@ -3,6 +3,7 @@
 Everything that a form can do is judged on the spline first: f at its knots gives the column that f would be.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -92,6 +93,14 @@ def hats(values: Array, knots: Array) -> Array:
     return out
 
 
+def columns(states: Sequence[Array], knots: Sequence[Array]) -> Array:
+    """Give the hat functions (m, K) of states (m,) over one state, or over the plane of two."""
+    out = hats(states[0], knots[0])
+    if len(states) == 1:
+        return out
+    return np.einsum("mi,mj->mij", out, hats(states[1], knots[1])).reshape(len(out), -1)
+
+
 def spline(field: ResidualField, carrier: Array, states: tuple[Array, ...], counts: tuple[int, ...]) -> Spline:
     """Make the normal equations of a curve over states.
 
@@ -102,10 +111,7 @@ def spline(field: ResidualField, carrier: Array, states: tuple[Array, ...], coun
         counts: of knots of each.
     """
     knots = tuple(knots_of(s, count) for s, count in zip(states, counts, strict=True))
-    columns = hats(states[0], knots[0])
-    if len(states) > 1:
-        columns = np.einsum("mi,mj->mij", columns, hats(states[1], knots[1])).reshape(len(carrier), -1)
-    clean = field.projected(columns * (carrier / field.sigma)[:, None])
+    clean = field.projected(columns(states, knots) * (carrier / field.sigma)[:, None])
     groups = np.unique(field.group)
     parts = [clean[field.group == g] for g in groups]
     left = [field.residual[field.group == g] for g in groups]

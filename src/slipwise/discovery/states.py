@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.effects import DERIVED, LAGGING
+from slipwise.effects import DERIVED, LAGGING, PAD_INPUTS
 from slipwise.estimation.instants import Instants
 from slipwise.estimation.pad_forces import PadLaw
 from slipwise.estimation.problem import Problem
@@ -20,12 +20,11 @@ from slipwise.simulation.predict import PadForces
 Array = NDArray[np.float64]
 #: Time constants at which lags of the load are looked for, and those of heat [s], on the time scale of a girder.
 _LAGS, _COOLING = (0.001, 0.003, 0.008, 0.02, 0.05, 0.15), (0.3, 1.0, 3.0, 10.0)
-#: Unit, in SI, and the unit in which people read it.
+#: State -> its SI unit, as the contract of the effects has it.
 UNITS: dict[str, str] = {
-    "speed": "m/s", "slip": "m", "load": "N", "time": "s", "speed_rate": "m/s^2", "lagged_load": "N",
-    "load_rate": "N/s", "time_since_reversal": "s", "distance_since_reversal": "m", "last_peak_speed": "m/s",
-    "last_stroke": "m", "slid": "m", "heat": "J/m^2", "outward": "1", "path_curvature": "1/m",
-}  # fmt: skip
+    name: PAD_INPUTS[argument].rpartition("[")[2].removesuffix("]")
+    for name, argument in {"slip": "slip_x", **{n: n for n in ("speed", "load", "time", *DERIVED)}}.items()
+}
 WORDS: dict[str, str] = {
     "speed": "the slip speed", "slip": "the slip", "load": "the normal load", "time": "the time",
     "speed_rate": "the rate of the speed", "lagged_load": "the load behind a lag", "load_rate": "the rate of the load",
@@ -35,8 +34,6 @@ WORDS: dict[str, str] = {
     "slid": "the distance slid", "heat": "the heat", "outward": "motion outward or inward",
     "path_curvature": "the curvature of the path",
 }  # fmt: skip
-#: Of these, the ones that only grow: they tell one run from another whatever the law is.
-GROWING: frozenset[str] = frozenset({"time", "slid"})
 #: A state that varies by less than this share of its size cannot be judged [1].
 _VARIES = 1e-3
 

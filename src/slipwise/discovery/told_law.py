@@ -1,7 +1,6 @@
 """A fitted law in the words of its result: numbers with intervals, the range of the data, what ties with it."""
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -9,16 +8,18 @@ from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.law import Law, LawConstant, TiedForm
 from slipwise.discovery.law_problem import STRENGTH, TIME_CONSTANT, FittedLaw
 from slipwise.discovery.levels import level
-from slipwise.discovery.matching import constants_of
+from slipwise.discovery.matching import constants_of, place_of
 from slipwise.discovery.states import UNITS
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.intervals import Interval, intervals
+from slipwise.estimation.intervals import Interval
 
 #: A force on the girder that leaves more than this in its pitch, in floors, acts below its centre: at the buffers.
 _TIPPED = 1.3
 
 
-def told_law(leader: FittedLaw, tied: Sequence[FittedLaw], base: BaseFit, share: float) -> Law:
+def told_law(
+    leader: FittedLaw, tied: Sequence[FittedLaw], base: BaseFit, share: float, known: Mapping[str, Interval]
+) -> Law:
     """Tell a law that leads, with those that tie with it.
 
     Args:
@@ -26,14 +27,13 @@ def told_law(leader: FittedLaw, tied: Sequence[FittedLaw], base: BaseFit, share:
         tied: what explains as much.
         base: the fit to which it is added.
         share: of the error above noise that it explains [1].
+        known: key -> interval, of all numbers of the solution.
     """
     match = leader.law.match
     candidate = match.candidate
     alike = [f for f in tied if _same_place(f.law.match.candidate, candidate) and not _more_general(f, leader)]
     others = [f for f in tied if not _same_place(f.law.match.candidate, candidate) and not _contains(f, leader)]
     names = tuple(s.name for s in candidate.states)
-    fit = replace(base, free=leader.solution.free, solution=leader.solution)
-    known = {i.key: i for i in intervals(fit).entries}
     return Law(
         name=leader.law.label,
         states=names,
@@ -45,8 +45,7 @@ def told_law(leader: FittedLaw, tied: Sequence[FittedLaw], base: BaseFit, share:
         rivals=tuple(dict.fromkeys(f"{f.law.match.candidate.label}, {f.law.match.name}" for f in others)),
         constants=tuple(_constant(leader, name, known) for name in _ordered(leader)),
         share=share,
-        at_buffers="pitch" in base.problem.relations
-        and level(base.problem, base.solution, "pitch", base.problem.fitted) > _TIPPED,
+        at_buffers=_tips(base),
         valid={s.name: _ends(s.values, base.problem.fitted) for s in candidate.states},
         fitted=leader,
         tied_forms=tuple(TiedForm(f.law.match.forms, f.values) for f in alike),
@@ -65,7 +64,7 @@ def _ordered(leader: FittedLaw) -> list[str]:
     return [*names, TIME_CONSTANT] if leader.law.lag else names
 
 
-def _constant(leader: FittedLaw, name: str, known: dict[str, Interval]) -> LawConstant:
+def _constant(leader: FittedLaw, name: str, known: Mapping[str, Interval]) -> LawConstant:
     match = leader.law.match
     found = known.get(f"{leader.law.label}.{name}")
     low, high = (found.low, found.high) if found else (float("nan"),) * 2
@@ -74,7 +73,7 @@ def _constant(leader: FittedLaw, name: str, known: dict[str, Interval]) -> LawCo
     elif name == TIME_CONSTANT:
         unit = "s"
     else:
-        state = match.candidate.states[1 if name.startswith("second_") else 0].name
+        state = match.candidate.states[place_of(name)].name
         unit = "1" if constants_of(match.forms)[name].kind == "number" else UNITS.get(state, "m")
     return LawConstant(name, leader.values[name], low, high, unit)
 

@@ -1,7 +1,7 @@
 """Bounded least squares on a problem: Levenberg-Marquardt with finite differences into the bounds."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Protocol
 
@@ -94,6 +94,12 @@ class _Point:
     @cached_property
     def cost(self) -> float:
         return float(self.stacked @ self.stacked)
+
+
+def with_slopes(problem: Fittable, solution: Solution) -> Solution:
+    """Give a solution with slopes taken at its own numbers."""
+    slopes = jacobian(problem, solution.values, solution.free, solution.residuals)
+    return replace(solution, jacobian=slopes)
 
 
 def slopes_of(solution: Solution) -> dict[str, Array]:

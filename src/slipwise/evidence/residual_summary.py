@@ -4,6 +4,7 @@ Three kinds: of the runs as they were fitted, of each motion by a fit to the oth
 held-out runs, which are looked at once, at the end, to report.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -49,6 +50,12 @@ class ResidualSummary:
     def held_out_level(self, relation: str) -> float:
         """Give the same on the held-out runs."""
         return self.held_out[relation] / max(self.counts[relation][1], 1)
+
+
+def mean_square(problem: Problem, solution: Solution, relation: str, runs: Sequence[int]) -> float:
+    """Give the mean squared residual of a relation over some runs [noise variance]."""
+    left = sum(float(np.sum(solution.residuals.parts[relation][i] ** 2)) for i in runs)
+    return left / max(sum(int(np.count_nonzero(problem.runs[i].judged[relation])) for i in runs), 1)
 
 
 def summarised(problem: Problem, solution: Solution) -> ResidualSummary:

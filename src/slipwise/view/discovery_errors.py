@@ -7,9 +7,9 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from slipwise.discovery.law import Discovery
+from slipwise.discovery.levels import level
 from slipwise.discovery.splines import knots_of
 from slipwise.discovery.states import State
-from slipwise.estimation.least_squares import Solution
 from slipwise.view.canvas import new_figure
 from slipwise.view.compare_figures import widest_loop
 from slipwise.view.diagnosis_figures import RELATIONS
@@ -29,15 +29,13 @@ _FEWEST = 8
 def errors(found: Discovery) -> dict[str, dict[str, tuple[float, float | None]]]:
     """Give the rms error of every balance [floors]: runs -> balance -> before, and after where there is a law."""
     problem, solution = found.base.problem, after(found)
-
-    def level(of: Solution, relation: str, places: list[int]) -> float:
-        left = sum(float(np.sum(of.residuals.parts[relation][i] ** 2)) for i in places)
-        return float(np.sqrt(left / max(sum(int(np.sum(problem.runs[i].judged[relation])) for i in places), 1)))
-
     groups = {"fitted runs": problem.fitted, "held-out runs": problem.held_out}
     return {
         words: {
-            r: (level(found.base.solution, r, places), level(solution, r, places) if solution else None)
+            r: (
+                level(problem, found.base.solution, r, places),
+                level(problem, solution, r, places) if solution else None,
+            )
             for r in problem.relations
         }
         for words, places in groups.items()

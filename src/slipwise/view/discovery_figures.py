@@ -13,8 +13,9 @@ from slipwise.discovery.form import Form
 from slipwise.discovery.law import Discovery, Law
 from slipwise.discovery.law_problem import STRENGTH
 from slipwise.discovery.matching import product_at
+from slipwise.discovery.splines import columns
 from slipwise.view.canvas import new_figure
-from slipwise.view.discovery_samples import Cloud, candidate_cloud, columns, law_cloud
+from slipwise.view.discovery_samples import Cloud, candidate_cloud, law_cloud
 from slipwise.view.discovery_words import height_axis, state_axis
 from slipwise.view.style import MODEL_COLOURS
 

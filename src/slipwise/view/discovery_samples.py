@@ -8,15 +8,14 @@ from numpy.typing import NDArray
 
 from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.law import Discovery, Law
-from slipwise.discovery.law_problem import STRENGTH, TIME_CONSTANT, FittedLaw
+from slipwise.discovery.law_problem import STRENGTH, FittedLaw
 from slipwise.discovery.matching import product_at
+from slipwise.discovery.ports import opened, places_of
 from slipwise.discovery.residual_field import residual_field
-from slipwise.discovery.splines import Spline, hats, spline
-from slipwise.discovery.states import State, derived
+from slipwise.discovery.splines import Spline, columns, spline
+from slipwise.discovery.states import State
 from slipwise.estimation.least_squares import Solution
-from slipwise.estimation.pad_forces import as_logged
 from slipwise.estimation.problem import Problem
-from slipwise.signals.filters import LowPass
 
 Array = NDArray[np.float64]
 #: Points of a cloud, and parts of the range of its state that share them evenly: what is rare is seen too.
@@ -66,11 +65,7 @@ def after(found: Discovery) -> Solution | None:
 
 def law_states(law: FittedLaw) -> list[State]:
     """Give the states that drive a law with the lag that was fitted."""
-    states, lag = law.law.match.candidate.states, law.values.get(TIME_CONSTANT, 0.0)
-    if lag in (0.0, law.law.lag):
-        return list(states)
-    known = derived(law.problem.every, lag)
-    return [State(s.name, lag, tuple(known[s.name])) if s.time_constant else s for s in states]
+    return law.problem.driving(law.law, law.values)
 
 
 def law_cloud(law: Law) -> Cloud:
@@ -142,19 +137,10 @@ def candidate_cloud(found: Discovery, candidate: Candidate) -> Cloud:
     return Cloud(tuple(s[kept] for s in states), height[kept], curve)
 
 
-def columns(states: Sequence[Array], knots: Sequence[Array]) -> Array:
-    """Give the hat functions (m, K) of states (m,) over one state, or over the plane of two."""
-    out = hats(states[0], knots[0])
-    if len(states) == 1:
-        return out
-    return np.einsum("mi,mj->mij", out, hats(states[1], knots[1])).reshape(len(out), -1)
-
-
 def _opened(found: Discovery, candidate: Candidate) -> list[Array]:
-    specimen, runs = found.base.problem.specimen, found.base.problem.runs
-    places = [specimen.pad_places[specimen.pads.index(p)] for p in runs[0].pads]
-    states = found.base.problem.kinematics.states(found.base.solution.values)
-    return [candidate.gate.open([(p[0], p[1]) for p in places], s.velocity[:, :, 0]) for s in states]
+    problem = found.base.problem
+    states = problem.kinematics.states(found.base.solution.values)
+    return opened(candidate.gate, places_of(problem), states)
 
 
 def left_over(problem: Problem, solution: Solution, relation: str, state: State) -> tuple[Array, Array]:
@@ -176,7 +162,7 @@ def predicted_forces(found: Discovery, place: int, *, with_laws: bool) -> Array:
     force = solution.residuals.pad_forces[place]
     for law in (law.fitted for law in found.laws):
         if law.law.match.candidate.port.relation == "pads":
-            force = force + _logged(law, place)
+            force = force + law.problem.force(place, law.law, law_states(law), law.values, solution.values)
     return force
 
 
@@ -194,16 +180,6 @@ def _left(found: Discovery, place: int, relation: str, with_laws: bool) -> Array
     """Give what a balance leaves of a run (n,), in its own unit."""
     solution = (after(found) if with_laws else None) or found.base.solution
     return solution.residuals.parts[relation][place] * found.base.problem.sigmas[relation][place]
-
-
-def _logged(law: FittedLaw, place: int) -> Array:
-    """Give what a law adds to the friction of the pads of a run, as the logger writes it, (n, p) [N]."""
-    values, plain = law.solution.values, law.problem.plain
-    form = product_at(law.law.match.forms, [s.values[place] for s in law_states(law)], law.values)
-    force = law.values[STRENGTH] * law.law.match.candidate.port.carrier[place] * law.law.opened[place] * form
-    by = LowPass(values["rig.logger"]) if "rig.logger" in values else None
-    late = values.get("rig.late_force", 0.0)
-    return as_logged(force, plain.runs[place], by, averaged=not plain.has_stick, delay=late)
 
 
 def _wide(values: NDArray) -> NDArray:

@@ -44,9 +44,6 @@ _FUNCTIONS: tuple[Callable[..., Any], ...] = (
 )  # fmt: skip
 
 
-_BY_NAME: dict[str, Callable[..., Any]] = {function.__name__: function for function in _FUNCTIONS}
-
-
 @dataclass(frozen=True)
 class Kernel:
     """The law, ready to run.
@@ -171,8 +168,9 @@ def _compile_hooks(law: Kernel) -> None:
             numbers, nothing[:, 0, 0], nothing[..., 0], *(nothing,) * 3, nothing[..., 0], 0, 0
         )
         law.functions["buffers_over_record"](numbers, nothing[:, 0, 0], *(nothing,) * 3)
-        for name in ("girder_drag", "girder_lift"):
-            law.functions[name](numbers, *(0.0,) * (len(inspect.signature(_BY_NAME[name]).parameters) - 2))
+        for function in (girder_drag, girder_lift):
+            given = len(inspect.signature(function).parameters) - 2
+            law.functions[function.__name__](numbers, *(0.0,) * given)
     except Exception as error:
         raise SettingError(
             f"the law cannot be compiled ({type(error).__name__}: {str(error).strip().splitlines()[0]}); "

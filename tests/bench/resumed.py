@@ -1,0 +1,47 @@
+"""Work on many campaigns that goes on where it was stopped: every result is one line of a file."""
+
+import json
+from collections.abc import Callable, Mapping
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from multiprocessing import active_children, get_context
+from pathlib import Path
+from typing import Any
+
+Result = dict[str, Any]
+
+
+def read_results(lines: Path) -> list[Result]:
+    """Give the results that are there."""
+    return [json.loads(line) for line in lines.read_text().splitlines()] if lines.exists() else []
+
+
+def run_jobs(
+    lines: Path, jobs: Mapping[str, tuple[Any, ...]], workers: int, line: Callable[[Result, int, int], str],
+    begin: Callable[[], None] | None = None,
+) -> list[Result]:  # fmt: skip
+    """Run jobs in processes, write each result and print a line of it; fewer results if it is stopped.
+
+    Args:
+        lines: file to which results are added.
+        jobs: name -> a function and its arguments.
+        workers: processes.
+        line: gives the line of a result, its number and how many there will be.
+        begin: called in every process first.
+    """
+    out = []
+    spawned = get_context("spawn")
+    with ProcessPoolExecutor(workers, mp_context=spawned, initializer=begin) as pool, lines.open("a") as stream:
+        futures = [pool.submit(*job) for job in jobs.values()]
+        try:
+            for number, future in enumerate(as_completed(futures), start=1):
+                out.append(future.result())
+                stream.write(json.dumps(out[-1]) + "\n")
+                stream.flush()
+                print(line(out[-1], number, len(jobs)), flush=True)
+        except (KeyboardInterrupt, BrokenProcessPool):
+            pass  # what is done is shown
+        finally:  # else the campaigns that are left would run on, unseen, for as long as they take
+            for worker in active_children():
+                worker.terminate()
+    return out
