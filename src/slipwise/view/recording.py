@@ -11,7 +11,7 @@ import rerun.blueprint as rrb
 
 from slipwise.channels import PADS
 from slipwise.errors import InputError
-from slipwise.record import Record, atomic
+from slipwise.record import Record
 from slipwise.view.arrows import FRICTION_ZOOM
 from slipwise.view.geometry import RigGeometry
 from slipwise.view.loop_board import BOARD_SIZE, RECENT, log_loops, own_colours
@@ -19,6 +19,7 @@ from slipwise.view.scene import Scene, largest_motion, log_rig, nice_zoom
 from slipwise.view.series import STICKING, TABS, log_series, log_states, series_tabs
 from slipwise.view.style import NIGHT, rgb
 from slipwise.view.timeline import TIMELINE
+from slipwise.whole_file import atomic
 
 #: Raise it when a recording shows the same record differently.
 _LAYOUT = 1

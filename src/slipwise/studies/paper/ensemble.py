@@ -1,23 +1,23 @@
 """Many replays at once: on all cores or on somebody else's, resumable, each member run once.
 
 Every finished member is one line of `members.jsonl`, written by one process, flushed to the disk before the next. After
-a kill the lines that are whole count, a torn last line is cut off, and only what is missing is run.
+a kill or on a full disk the lines that are whole count, a torn last line is cut off, and only what is missing is run.
 """
 
 import json
-import multiprocessing
 import os
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
-from contextlib import contextmanager
+from collections.abc import Callable, Generator, Mapping, Sequence
+from concurrent.futures import BrokenExecutor, Executor, Future, as_completed
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
-from slipwise.errors import InputError
-from slipwise.parallel import begin_worker
+from slipwise.errors import InputError, SlipwiseError, cannot_write
 from slipwise.studies.paper.member import Member, run_member
+from slipwise.studies.paper.workers import finished
 
 Numbers = dict[str, Any]
+Answers = Generator[tuple[str, Numbers], None, None]
 
 
 def run_ensemble(
@@ -43,10 +43,15 @@ def run_ensemble(
 
     Raises:
         InputError: `members.jsonl` was not written by an ensemble.
+        OutputError: it cannot be written.
+        SlipwiseError: processes were killed. What is finished is kept.
     """
     keys = [member.key() for member in members]
     path = folder / "members.jsonl"
-    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise cannot_write(folder, error) from error
     done = _kept(path)
     wanted = dict(zip(keys, members, strict=True))
     missing = {key: member for key, member in wanted.items() if key not in done}
@@ -58,20 +63,55 @@ def run_ensemble(
 
     tell()
     if missing:
-        with _pool(executor, min(workers or os.cpu_count() or 1, len(missing))) as pool, path.open("a") as stream:
-            futures: dict[Future[Numbers], str] = {pool.submit(run_member, m): key for key, m in missing.items()}
-            try:
-                for future in as_completed(futures):
-                    key = futures[future]
-                    done[key] = future.result()
-                    stream.write(json.dumps({"key": key, "numbers": done[key]}, allow_nan=False) + "\n")
-                    stream.flush()
-                    os.fsync(stream.fileno())
-                    tell()
-            finally:
-                for future in futures:
-                    future.cancel()
+        cores = min(workers or os.cpu_count() or 1, len(missing))
+        answers = finished(run_member, missing, cores) if executor is None else _lent(executor, missing)
+        with closing(answers):
+            for key, numbers in answers:
+                _keep(path, {"key": key, "numbers": numbers})
+                done[key] = numbers
+                tell()
     return [done[key] for key in keys]
+
+
+def _lent(executor: Executor, members: Mapping[str, Member]) -> Answers:
+    """Let somebody else's executor run the members; it is left running.
+
+    Raises:
+        SlipwiseError: one of its processes was killed.
+    """
+    futures: dict[Future[Numbers], str] = {executor.submit(run_member, m): key for key, m in members.items()}
+    try:
+        for future in as_completed(futures):
+            yield futures[future], future.result()
+    except BrokenExecutor as error:
+        raise SlipwiseError(
+            f"the executor that runs the ensemble has broken ({error}): a process of it may have been out of memory. "
+            "What is finished is kept; give a new executor, and the same call goes on from there"
+        ) from error
+    finally:
+        for future in futures:
+            future.cancel()
+
+
+def _keep(path: Path, entry: dict[str, Any]) -> None:
+    """Write a finished member to the disk, all of its line or nothing.
+
+    Raises:
+        OutputError: it cannot be written.
+    """
+    line = json.dumps(entry, allow_nan=False).encode() + b"\n"
+    try:
+        with path.open("ab", buffering=0) as stream:
+            whole = stream.tell()
+            try:
+                while line:
+                    line = line[stream.write(line) :]
+                os.fsync(stream.fileno())
+            except BaseException:
+                stream.truncate(whole)
+                raise
+    except OSError as error:
+        raise cannot_write(path, error) from error
 
 
 def _kept(path: Path) -> dict[str, Numbers]:
@@ -90,17 +130,3 @@ def _kept(path: Path) -> dict[str, Numbers]:
         except (ValueError, KeyError, TypeError):
             raise InputError(f"{path}: this is no file of an ensemble; remove it or choose another --out") from None
     return done
-
-
-@contextmanager
-def _pool(given: Executor | None, workers: int) -> Iterator[Executor]:
-    """Lend the given executor, or make processes that end with their parent, even if that is killed."""
-    if given is not None:
-        yield given
-        return
-    context = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(workers, mp_context=context, initializer=begin_worker)
-    try:
-        yield pool
-    finally:
-        pool.shutdown(wait=True, cancel_futures=True)
