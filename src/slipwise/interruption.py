@@ -26,7 +26,8 @@ class Stopped(BaseException):
     """
 
     def __init__(self, number: int) -> None:
-        super().__init__(number)
+        name = signal.Signals(number).name
+        super().__init__(f"interrupted ({name}): finished files are kept, and nothing half-written is left")
         self.number = number
 
     @property

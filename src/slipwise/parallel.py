@@ -1,8 +1,8 @@
 """Independent work on every core: children are forked, so they have what is there, and only answers come back.
 
 The slopes of a fit are tens of megabytes. Through a pipe they took as long as a third of a short fit, so answers come
-back through files in memory. Whoever asks works too: its own answers need no way back. What a child has left undone that
-was killed, most often for want of memory, another child does alone.
+back through files in memory. Whoever asks works too: its own answers need no way back. What a child has left undone
+that was killed, most often for want of memory, another one does alone.
 """
 
 import multiprocessing

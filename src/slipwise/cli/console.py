@@ -1,7 +1,6 @@
 """What commands share: printing, progress, and the folder that takes the results."""
 
 import json
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -9,9 +8,10 @@ from pathlib import Path
 from rich.console import Console
 
 from slipwise.errors import InputError, visible
+from slipwise.view.patient_console import PatientConsole, write_out
 
-OUT = Console()
-ERR = Console(stderr=True)
+OUT = PatientConsole()
+ERR = PatientConsole(stderr=True)
 
 
 def say(words: str, console: Console = OUT) -> None:
@@ -21,7 +21,7 @@ def say(words: str, console: Console = OUT) -> None:
 
 def print_json(content: object) -> None:
     """Print JSON for a program to read."""
-    sys.stdout.write(json.dumps(content, indent=1, allow_nan=False) + "\n")
+    write_out(json.dumps(content, indent=1, allow_nan=False) + "\n")
 
 
 def out_folder(path: Path) -> Path:

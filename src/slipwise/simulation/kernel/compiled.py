@@ -1,7 +1,8 @@
 """The module that numba compiles: the effects' hooks, their calls, the law bound to them.
 
-Only the machine code of the functions that stand in it is kept on disk; the law's functions are compiled into them. MuJoCo's callbacks hold all of the law once more and take as long to
-compile as all else: they are compiled where a simulation first asks for them.
+Only the machine code of the functions that stand in it is kept on disk; the law's functions are compiled into them.
+MuJoCo's callbacks hold all of the law once more and take as long to compile as all else: they are compiled where a
+simulation first asks for them.
 """
 
 import inspect

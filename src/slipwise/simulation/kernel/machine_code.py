@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from numba import njit
+from numba.core.caching import NullCache
 from numba.core.ccallback import CFunc
 from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
@@ -36,7 +37,7 @@ def kept(**options: Any) -> Callable[[Callable[..., Any]], Any]:
     """Compile a function with numba's `njit(**options)`, and keep its machine code."""
 
     def decorate(function: Callable[..., Any]) -> Any:
-        law = njit(**options)(function)
+        law: Any = njit(**options)(function)
         law._cache = code = _MachineCode(function)
         law.compile = code.by_one_process(law.compile)
         return law
@@ -48,7 +49,7 @@ def kept_callback(signature: Any) -> Callable[[Callable[..., Any]], Any]:
     """Compile a C callback as numba's `cfunc(signature)`, and keep its machine code."""
 
     def decorate(function: Callable[..., Any]) -> Any:
-        callback = CFunc(function, normalize_signature(signature), locals={}, options={})
+        callback: Any = CFunc(function, normalize_signature(signature), locals={}, options={})
         callback._cache = code = _MachineCode(function)
         code.by_one_process(callback.compile)()
         return callback
@@ -56,8 +57,8 @@ def kept_callback(signature: Any) -> Callable[[Callable[..., Any]], Any]:
     return decorate
 
 
-class _MachineCode:
-    """What numba asks for the machine code of one function; its methods are those of `numba.core.caching._Cache`."""
+class _MachineCode(NullCache):
+    """What numba asks for the machine code of one function."""
 
     def __init__(self, function: Callable[..., Any]) -> None:
         self._name = f"{function.__module__}/{function.__name__}"

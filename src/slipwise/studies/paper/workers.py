@@ -69,8 +69,9 @@ def _alone(work: Callable[[Job], Any], job: Job) -> Any:
             return future.result()
     except BrokenProcessPool:
         raise SlipwiseError(
-            f"the replay of {job} has ended two processes before it was done: it may have been out of memory. What is finished is "
-            "kept; close other programs or take fewer processes (--workers 1), and the same command goes on from there"
+            f"the replay of {job} has ended two processes before it was done: it may have been out of memory. "
+            "What is finished is kept; close other programs or take fewer processes (--workers 1), and the same "
+            "command goes on from there"
         ) from None
 
 
