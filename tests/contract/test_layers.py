@@ -48,7 +48,7 @@ ARROWS: dict[str, str] = {
         "campaign comparison diagnosis effects errors estimation evidence model motion parallel record shown"
         " signals simulation units"
     ),
-    "studies": "channels effects errors model motion parallel record rig signals simulation units",
+    "studies": "channels effects errors interruption model motion parallel record rig signals simulation units",
     "view": (
         "channels comparison diagnosis effects errors estimation evidence experiment instruments parallel params"
         " record rig signals studies units whole_file"

@@ -11,6 +11,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
 from itertools import islice
+from multiprocessing import resource_tracker
 from typing import Any, TypeVar
 
 from slipwise.errors import SlipwiseError
@@ -80,6 +81,7 @@ def _pool(workers: int) -> Iterator[ProcessPoolExecutor]:
     """Make processes that end with this block, at once if it fails, and with their parent, even if that is killed."""
     others = set(multiprocessing.active_children())
     context = multiprocessing.get_context("spawn")
+    resource_tracker.ensure_running()  # the first process would start it, and it lets all signals through again
     pool = ProcessPoolExecutor(workers, mp_context=context, initializer=begin_worker)
     try:
         yield pool
