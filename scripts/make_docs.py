@@ -113,9 +113,33 @@ def command_line_page() -> str:
     """Write the page of all commands with their options, from the commands themselves."""
     parts = [
         f"{_MADE}# Command line",
-        "Every command has `--help`. It exits with 0 when it is done, with 2 and one clear message when something that "
-        "was given cannot be used, and with 130 when it was interrupted. Of several campaigns all are worked at: 2 "
-        "then says that one or more could not be used, 1 that one met a fault of Slipwise itself.",
+        "Every command has `--help`.",
+        "## Exit codes",
+        _table(
+            ["exit code", "meaning"],
+            [
+                [
+                    "0",
+                    "done; also where nobody reads the output any more (`| head`): files are written all the same",
+                ],
+                [
+                    "2",
+                    "something that was given cannot be used, a file cannot be written, memory or disk is full: one "
+                    "line says what and what to do",
+                ],
+                [
+                    "1",
+                    "of several campaigns, one met a fault of Slipwise itself; all others were worked at, as they are "
+                    "where one could not be used (2)",
+                ],
+                ["130", "interrupted by Ctrl-C (SIGINT)"],
+                ["143", "ended by `kill` (SIGTERM)"],
+                ["129", "ended because its terminal was closed (SIGHUP)"],
+            ],
+        ),
+        "However a command ends, files are there whole or not at all, and those that were finished are kept. "
+        "Work on many jobs (`diagnose` of several campaigns, `bench`, `ensemble`, `paper`) goes on from those that are "
+        "finished when it is called again with the same options.",
     ]
     commands: dict[str, Any] = getattr(typer.main.get_command(app), "commands", {})
     for name, command in commands.items():

@@ -3,12 +3,18 @@
 Every message says what was given, what is possible, and what to do. The command line prints it and exits 2.
 """
 
+import errno
+import os
 import re
 from collections.abc import Iterable
 from difflib import get_close_matches
+from pathlib import Path
 
 #: Characters that steer a terminal, or turn the direction of writing, instead of being seen.
 _UNSEEN = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
+
+#: What the system says where there is no room: on the disk, in the user's share of it, in the largest file allowed.
+FULL = frozenset({errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC)})
 
 
 class SlipwiseError(Exception):
@@ -35,8 +41,16 @@ class SimulationError(SlipwiseError):
     """A simulation that left the range in which it means anything."""
 
 
+class OutputError(SlipwiseError):
+    """A file that cannot be written: the disk is full, or is not ours to write to."""
+
+
 class SlipwiseWarning(UserWarning):
     """Something a user should know although work goes on."""
+
+
+class CacheWarning(SlipwiseWarning):
+    """What is kept to save time could not be used, or not be kept."""
 
 
 def unknown_name(kind: str, given: str, known: Iterable[str], where: str = "") -> UnknownNameError:
@@ -55,6 +69,25 @@ def unknown_name(kind: str, given: str, known: Iterable[str], where: str = "") -
     near = get_close_matches(given, names, n=3, cutoff=0.5)
     hint = f"did you mean {' or '.join(near)}?" if near else f"possible: {', '.join(names[:40])}."
     return UnknownNameError(f"no {kind} is called {given!r}: {hint}{' ' + where if where else ''}")
+
+
+def cannot_write(path: Path | str, error: OSError) -> OutputError:
+    """Make the error for a file that cannot be written.
+
+    Args:
+        path: of the file.
+        error: what the system said.
+
+    Returns:
+        The error, to be raised by the caller.
+    """
+    reason = os.strerror(error.errno) if error.errno else str(error)
+    todo = (
+        "free some space there, or write to another disk"
+        if error.errno in FULL
+        else "give a folder that can be written to"
+    )
+    return OutputError(f"cannot write {path}: {reason[:1].lower()}{reason[1:]}; {todo}. What was finished is kept")
 
 
 def visible(text: str) -> str:

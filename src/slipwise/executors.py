@@ -1,65 +1,32 @@
 """Many independent jobs through one interface: here, in processes of this machine, or on somebody else's cluster.
 
 An executor is one of `concurrent.futures`. Every finished job is one line of a file, written by one process, flushed to
-the disk before the next. After a kill the lines that are whole count, a torn last line is cut off, and only what is
-missing is run. Few jobs are handed out ahead and results stay in the file, so that memory does not grow with them.
+the disk before the next, and only what is missing is run. Few jobs are handed out ahead and results stay in the file,
+so that memory does not grow with them.
 """
 
 import hashlib
-import json
-import multiprocessing
 import os
 import threading
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
-from contextlib import contextmanager
-from dataclasses import dataclass
+from collections.abc import Callable, Generator, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from contextlib import closing, contextmanager
 from functools import cache
 from importlib import import_module
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
 import slipwise
-from slipwise.errors import InputError, SettingError
-from slipwise.parallel import begin_worker
+from slipwise.errors import InputError, SettingError, SlipwiseError, cannot_write
+from slipwise.finished_jobs import Finished, Numbers, add_line, read_places
+from slipwise.worker_processes import finished
 
-Numbers = dict[str, Any]
+Answers = Generator[tuple[str, Numbers], None, None]
 #: Jobs that are handed out before the first of them is back: enough for any cluster, few enough to be held.
 _AHEAD = 1000
 #: MuJoCo's callbacks are global to a process: an executor of threads gains nothing, but it works.
 ONE_AT_A_TIME = threading.Lock()
-
-
-@dataclass(frozen=True)
-class Finished:
-    """What is finished.
-
-    Attributes:
-        path: of the file that holds it.
-        places: key of a job -> byte at which its line begins.
-        run: jobs that were run now; the others had been finished before.
-    """
-
-    path: Path
-    places: Mapping[str, int]
-    run: int
-
-    def numbers(self, keys: Iterable[str]) -> Iterator[Numbers]:
-        """Give what became of these jobs, in this order, one after another."""
-        with self.path.open("rb") as stream:
-            for key in keys:
-                stream.seek(self.places[key])
-                yield json.loads(stream.readline())["numbers"]
-
-
-class Here(Executor):
-    """Runs each job at once in this process, which may use every core for it."""
-
-    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Run it; what it raises is raised here."""
-        future: Future[Any] = Future()
-        future.set_result(fn(*args, **kwargs))
-        return future
 
 
 def run_all(
@@ -88,11 +55,16 @@ def run_all(
 
     Raises:
         InputError: the file was not written by such a run.
+        OutputError: it cannot be written.
         SettingError: no worker.
+        SlipwiseError: processes were killed. What is finished is kept.
     """
     workers = checked_workers(workers)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    places = _kept(path, lasting)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise cannot_write(path.parent, error) from error
+    places = read_places(path, lasting)
     missing: dict[str, int] = {}
     for place, key in enumerate(keys):
         if key not in places:
@@ -102,36 +74,47 @@ def run_all(
     tell(total - len(missing), total)
     if not missing:
         return Finished(path, places, 0)
-    running: dict[Future[Numbers], str] = {}
-    with _pool(executor, min(workers, len(missing))) as pool, path.open("ab") as stream:
-        finished = 0
-
-        def write(done: Iterable[Future[Numbers]]) -> None:
-            nonlocal finished
-            for future in done:
-                key = running.pop(future)
-                line = json.dumps({"key": key, "numbers": future.result()}, allow_nan=False)
-                places[key] = stream.tell()
-                stream.write(line.encode() + b"\n")
-                stream.flush()
-                os.fsync(stream.fileno())
-                finished += 1
-                tell(total - len(missing) + finished, total)
-
-        try:
-            for key, place in missing.items():
-                future = pool.submit(work, job(place))
-                running[future] = key
-                if future.done():
-                    write([future])
-                elif len(running) >= _AHEAD:
-                    write(wait(running, return_when=FIRST_COMPLETED).done)
-            while running:
-                write(wait(running, return_when=FIRST_COMPLETED).done)
-        finally:
-            for future in running:
-                future.cancel()
+    jobs = ((key, job(place)) for key, place in missing.items())
+    if executor is not None:
+        answers = _lent(executor, work, jobs)
+    elif (workers := min(workers, len(missing))) == 1:
+        answers = ((key, work(one)) for key, one in jobs)
+    else:
+        answers = finished(work, jobs, workers)
+    with closing(answers), path.open("ab", buffering=0) as stream:
+        for number, (key, numbers) in enumerate(answers, start=1):
+            places[key] = add_line(stream, key, numbers)
+            tell(total - len(missing) + number, total)
     return Finished(path, places, len(missing))
+
+
+def _lent(executor: Executor, work: Callable[[Any], Numbers], jobs: Iterator[tuple[str, Any]]) -> Answers:
+    """Let somebody else's executor do the jobs; it is left running.
+
+    Raises:
+        SlipwiseError: one of its processes was killed.
+    """
+    in_hand: dict[Future[Numbers], str] = {}
+    try:
+        while True:
+            for key, job in islice(jobs, _AHEAD - len(in_hand)):
+                future = executor.submit(work, job)
+                if future.done():
+                    yield key, future.result()
+                else:
+                    in_hand[future] = key
+            if not in_hand:
+                return
+            for future in wait(in_hand, return_when=FIRST_COMPLETED).done:
+                yield in_hand.pop(future), future.result()
+    except BrokenExecutor as error:
+        raise SlipwiseError(
+            f"the executor that runs the jobs has broken ({error}): a process of it may have been out of memory. "
+            "What is finished is kept; give a new executor, and the same call goes on from there"
+        ) from error
+    finally:
+        for future in in_hand:
+            future.cancel()
 
 
 def checked_workers(given: int | None) -> int:
@@ -176,39 +159,3 @@ def hash_of_code(*patterns: str) -> str:
     package = Path(slipwise.__file__).parent
     files = sorted({path for pattern in patterns for path in package.glob(pattern)})
     return hashlib.sha256(b"".join(path.read_bytes() for path in files)).hexdigest()[:16]
-
-
-def _kept(path: Path, lasting: Callable[[Numbers], bool] | None) -> dict[str, int]:
-    """Read where each finished job stands; cut off a last line that a kill has torn."""
-    if not path.exists():
-        return {}
-    places: dict[str, int] = {}
-    begin = 0
-    with path.open("r+b") as stream:
-        for line in stream:
-            if not line.endswith(b"\n"):
-                break
-            try:
-                entry = json.loads(line)
-                key, numbers = entry["key"], entry["numbers"]
-            except (ValueError, KeyError, TypeError):
-                raise InputError(f"{path}: this is no file of an ensemble; remove it or choose another --out") from None
-            if lasting is None or lasting(numbers):
-                places[key] = begin
-            begin += len(line)
-        stream.truncate(begin)
-    return places
-
-
-@contextmanager
-def _pool(given: Executor | None, workers: int) -> Iterator[Executor]:
-    """Lend the given executor, or make processes that end with their parent, even if that is killed."""
-    if given is not None or workers == 1:
-        yield given or Here()
-        return
-    context = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(workers, mp_context=context, initializer=begin_worker)
-    try:
-        yield pool
-    finally:
-        pool.shutdown(wait=True, cancel_futures=True)

@@ -1,7 +1,8 @@
 """Independent work on every core: children are forked, so they have what is there, and only answers come back.
 
 The slopes of a fit are tens of megabytes. Through a pipe they took as long as a third of a short fit, so answers come
-back through files in memory. Whoever asks works too: its own answers need no way back.
+back through files in memory. Whoever asks works too: its own answers need no way back. What a child has left undone
+that was killed, most often for want of memory, another one does alone.
 """
 
 import multiprocessing
@@ -18,6 +19,7 @@ from dataclasses import dataclass
 from io import BufferedRandom
 from mmap import mmap
 from multiprocessing.context import ForkProcess
+from multiprocessing.process import BaseProcess
 from typing import Any, TypeVar, cast
 
 import numpy.linalg  # noqa: F401  of a library that is not loaded yet no threads can be taken away
@@ -25,10 +27,13 @@ import scipy.linalg  # noqa: F401
 from threadpoolctl import ThreadpoolController, threadpool_limits
 
 from slipwise.errors import SlipwiseError
+from slipwise.interruption import let_parent_hear, unheard_by_children
 
 Answer = TypeVar("Answer")
 #: Bytes in which a place is written.
 _PLACE = 4
+#: Time in which a child that is asked to end removes what it has half written, before it is killed [s].
+_GRACE = 2.0
 #: Set while this process does its share: what that asks to be done on every core is done on this one.
 _AT_WORK = threading.Event()
 #: Whose threads are taken away and given back: to look for them takes longer than many a piece of work.
@@ -78,6 +83,8 @@ class _Shared:
         arrays: list[pickle.PickleBuffer] = []
         said = pickle.dumps(outcome, protocol=5, buffer_callback=arrays.append)
         file = self.outcomes[place]
+        file.seek(0)  # a child that was killed may have begun to write here
+        file.truncate()
         raws = [array.raw() for array in arrays]
         pickle.dump((said, [raw.nbytes for raw in raws]), file)
         for raw in raws:
@@ -86,16 +93,7 @@ class _Shared:
         self.done[place] = 1
 
     def read(self, place: int) -> _Outcome:
-        """Read what a child has written; arrays are one's own and may be written to.
-
-        Raises:
-            SlipwiseError: it has not, and has ended.
-        """
-        if not self.done[place]:
-            raise SlipwiseError(
-                "a process of this one was ended before its work was done: it may have been out of memory;"
-                " close other programs, or keep to one core with `taskset -c 0 slipwise ...`"
-            )
+        """Read what a child has written; arrays are one's own and may be written to."""
         file = self.outcomes[place]
         file.seek(0)
         said, sizes = pickle.load(file)
@@ -105,14 +103,19 @@ class _Shared:
         return pickle.loads(said, buffers=arrays)
 
 
-def on_every_core(work: Callable[[int], Answer], count: int) -> Iterator[Answer]:
+def on_every_core(work: Callable[[int], Answer], count: int, what: str = "") -> Iterator[Answer]:
     """Give work(0), work(1), ... in order; each answer must be one that can be pickled.
 
     Work is done here, one after another, where there is one core, where a process cannot be forked safely (Windows,
     macOS), and in a process that another has started: that one keeps its cores busy itself.
 
+    Args:
+        work: what is done at a place.
+        count: of places.
+        what: the name of this work in an error; that of its module if not given.
+
     Raises:
-        SlipwiseError: a child was ended before its work was done.
+        SlipwiseError: a child was killed, and so was the one that tried again.
         Exception: what `work` raises.
     """
     workers = min(_cores(), count)
@@ -124,7 +127,7 @@ def on_every_core(work: Callable[[int], Answer], count: int) -> Iterator[Answer]
         left.write(b"".join(place.to_bytes(_PLACE, "big") for place in range(count)))
         left.seek(0)
         shared = _Shared(left, outcomes, ends.enter_context(mmap(-1, count)))
-        children = [ends.enter_context(_child(work, shared)) for _ in range(workers - 1)]
+        children = [ends.enter_context(_child(work, shared, shared.places())) for _ in range(workers - 1)]
         own: dict[int, _Outcome] = {}
         given = 0
         for place in shared.places():
@@ -136,7 +139,30 @@ def on_every_core(work: Callable[[int], Answer], count: int) -> Iterator[Answer]
             if place not in own and not shared.done[place]:
                 for child in children:
                     child.join()
+            if place not in own and not shared.done[place]:
+                _again(work, shared, place, what or work.__module__.rpartition(".")[2])
             yield _answer(own.pop(place, None) or shared.read(place))
+
+
+def _again(work: Callable[[int], Any], shared: _Shared, place: int, what: str) -> None:
+    """Let a fresh child do what a child that was killed has left undone, when no other one takes memory.
+
+    Raises:
+        SlipwiseError: that child was killed too.
+    """
+    with _child(work, shared, iter([place])) as child:
+        child.join()
+    if not shared.done[place]:
+        raise SlipwiseError(
+            f"part {place + 1} of {len(shared.outcomes)} of the work on {what} was killed twice ({ended(child)}): "
+            "it may have been out of memory; close other programs, or keep to one core with `taskset -c 0 slipwise ...`"
+        )
+
+
+def ended(child: BaseProcess) -> str:
+    """Say how a process has ended, e.g. "by SIGKILL"."""
+    code = child.exitcode or 0
+    return f"by {signal.Signals(-code).name}" if code < 0 else f"with exit code {code}"
 
 
 def _answer(outcome: _Outcome) -> Any:
@@ -158,35 +184,42 @@ def _alone(work: Callable[[int], Any], place: int) -> _Outcome:
 
 
 @contextmanager
-def _child(work: Callable[[int], Any], shared: _Shared) -> Iterator[ForkProcess]:
+def _child(work: Callable[[int], Any], shared: _Shared, places: Iterator[int]) -> Iterator[ForkProcess]:
     """Begin a child that takes its part of the work; end it, however far it has come."""
-    child = multiprocessing.get_context("fork").Process(target=_as_child, args=(work, shared))
-    child.start()
+    child = multiprocessing.get_context("fork").Process(target=_as_child, args=(work, shared, places))
+    with unheard_by_children():
+        child.start()
     try:
         yield child
     finally:
+        child.terminate()
+        child.join(_GRACE)
         child.kill()
         child.join()
 
 
-def _as_child(work: Callable[[int], Any], shared: _Shared) -> None:
-    # At Ctrl-C the parent ends its children, without a traceback of theirs.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+def _as_child(work: Callable[[int], Any], shared: _Shared, places: Iterator[int]) -> None:
+    # A child that its parent ends removes a file that it has half written.
+    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
     begin_worker()
-    for place in shared.places():
+    for place in places:
         try:
             shared.put(place, _Outcome(work(place)))
         except Exception as error:
             error.add_note("".join(traceback.format_exception(error)))
-            shared.put(place, _Outcome(error=error))
+            try:
+                shared.put(place, _Outcome(error=error))
+            except OSError:  # no room even for that: the place stays undone
+                sys.exit(1)
 
 
 def begin_worker() -> None:
-    """Keep to one core, and leave when the parent is gone.
+    """Keep to one core, leave Ctrl-C to the parent, and end when it is gone.
 
     A worker's linear algebra would take a thread for each core too, and wait for the others': a diagnosis took up to
     three times as long. One whose parent was killed would wait for ever.
     """
+    let_parent_hear()
     threadpool_limits(1)
     parent = multiprocessing.parent_process()
     if parent is not None:

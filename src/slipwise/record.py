@@ -6,10 +6,7 @@ units that people read, named in the header as "pad_A_N [kN]".
 
 import io
 import json
-import os
-import tempfile
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
@@ -23,6 +20,7 @@ from slipwise.channels import PADS, channel
 from slipwise.errors import InputError, SettingError
 from slipwise.shown import Drawn, frame
 from slipwise.units import parse_unit
+from slipwise.whole_file import atomic
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -112,25 +110,12 @@ class Record(Drawn):
         ]
 
 
-@contextmanager
-def atomic(path: Path, mode: str = "wb") -> Iterator[IO[Any]]:
-    """Open a file that appears under its name only when everything is written."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, mode, encoding=None if "b" in mode else "utf-8") as stream:
-            yield stream
-        umask = os.umask(0)
-        os.umask(umask)
-        os.chmod(name, 0o666 & ~umask)
-        os.replace(name, path)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
-
-
 def write_text(path: Path, text: str) -> None:
-    """Write a text file so that it is there whole or not at all."""
+    """Write a text file so that it is there whole or not at all.
+
+    Raises:
+        OutputError: it cannot be written.
+    """
     with atomic(path, "w") as stream:
         stream.write(text)
 
@@ -147,6 +132,7 @@ def write_record(record: Record, path: Path) -> None:
 
     Raises:
         SettingError: another suffix.
+        OutputError: it cannot be written.
     """
     if path.suffix == ".parquet":
         with atomic(path) as stream:

@@ -4,6 +4,7 @@ Inside Slipwise everything is SI (m, s, kg, N, Pa, rad, K); this file is the onl
 """
 
 import re
+import shutil
 from functools import cache
 from math import isfinite
 
@@ -16,9 +17,11 @@ from slipwise.errors import UnitError
 @cache
 def _registry() -> pint.UnitRegistry:
     # Reading pint's own list of units takes half a second; kept on disk, a twentieth.
+    kept = cache_folder() / "units"
     try:
-        registry = pint.UnitRegistry(autoconvert_offset_to_baseunit=True, cache_folder=cache_folder() / "units")
-    except OSError:  # a home that cannot be written
+        registry = pint.UnitRegistry(autoconvert_offset_to_baseunit=True, cache_folder=kept)
+    except Exception:  # it cannot be written, or what lies there is cut off: a damaged pickle raises nearly anything
+        shutil.rmtree(kept, ignore_errors=True)
         registry = pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
     registry.define("gal = cm/s^2 = Gal")
     # "g" of an engineer at a shaking table is never a gram.

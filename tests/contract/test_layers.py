@@ -13,21 +13,26 @@ ARROWS: dict[str, str] = {
     "errors": "",
     "text_encoding": "",
     "cache": "",
+    "one_at_a_time": "",
+    "whole_file": "errors",
     "units": "cache errors",
     "params": "errors units",
     "channels": "errors",
-    "parallel": "errors",
-    "executors": "errors parallel",
+    "interruption": "",
+    "parallel": "errors interruption",
+    "worker_processes": "errors interruption parallel",
+    "finished_jobs": "errors",
+    "executors": "errors finished_jobs worker_processes",
     "shown": "errors",
     "signals": "errors",
     "statistics": "",
-    "record": "channels errors shown units",
+    "record": "channels errors shown units whole_file",
     "motion": "channels errors shown signals text_encoding units",
     "rig": "channels errors record units",
     "effects": "channels errors params record rig shown signals",
     "model": "channels effects errors rig shown",
     "model_file": "effects errors model params record rig units",
-    "simulation": "cache channels effects errors model model_file motion record rig shown",
+    "simulation": "cache channels effects errors model model_file motion one_at_a_time record rig shown whole_file",
     "campaign": "channels errors record rig shown signals text_encoding units",
     "instruments": "campaign channels effects errors parallel record rig shown signals statistics",
     "estimation": (
@@ -51,14 +56,15 @@ ARROWS: dict[str, str] = {
         " signals simulation units"
     ),
     "studies": (
-        "campaign channels diagnosis effects errors estimation executors model motion record rig signals"
-        " simulation units"
+        "campaign channels diagnosis effects errors estimation executors finished_jobs model motion record rig"
+        " signals simulation units"
     ),
     "view": (
         "channels comparison diagnosis discovery effects errors estimation evidence experiment instruments parallel"
-        " params record rig signals studies units"
+        " params record rig signals studies units whole_file"
     ),
-    "cli": "errors view",
+    "cli": "errors interruption view",
+    "__main__": "cli interruption",
 }
 #: Results draw themselves when they are asked to: the only way from numbers to pictures, and never at import.
 MAY_DRAW = frozenset({"__init__.py", "shown.py"})

@@ -7,10 +7,10 @@ import pytest
 
 from slipwise import executors
 from slipwise.errors import InputError, SettingError
-from slipwise.executors import Here, run_all
+from slipwise.executors import run_all
 
 
-class Noting(Here):
+class Noting(Executor):
     """Runs at once, and remembers what it ran."""
 
     def __init__(self):
@@ -18,7 +18,9 @@ class Noting(Here):
 
     def submit(self, fn, /, *args, **kwargs):
         self.ran.append(args[0])
-        return super().submit(fn, *args, **kwargs)
+        future: Future = Future()
+        future.set_result(fn(*args, **kwargs))
+        return future
 
 
 class Late(Executor):

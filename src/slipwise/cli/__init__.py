@@ -1,7 +1,6 @@
 """The command line: one short function per command; each command is one verb of the library."""
 
 import sys
-import warnings
 from typing import Annotated
 
 import typer
@@ -22,7 +21,7 @@ from slipwise.cli import (
     replay,
     view,
 )
-from slipwise.errors import SlipwiseError, SlipwiseWarning, visible
+from slipwise.cli.endings import run_to_its_end
 
 app = typer.Typer(
     name="slipwise",
@@ -62,29 +61,6 @@ def _options(
     """Take what stands before the command."""
 
 
-def _show_warning(message: Warning | str, category: type[Warning], *_: object, **__: object) -> None:
-    if issubclass(category, SlipwiseWarning):
-        print(f"warning: {visible(str(message))}", file=sys.stderr)
-
-
 def main() -> None:
-    """Run the command line: 0 done, 2 bad input (one clear message), 130 interrupted."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("always", SlipwiseWarning)
-        warnings.showwarning = _show_warning
-        try:
-            code = app(standalone_mode=False)
-        except typer.TyperException as error:
-            words = getattr(error, "format_message", error.__str__)()
-            print(f"error: {visible(words.rstrip('.'))}; `slipwise --help` shows what is possible", file=sys.stderr)
-            code = 2
-        except SlipwiseError as error:
-            print(f"error: {visible(str(error))}", file=sys.stderr)
-            code = 2
-        except (KeyboardInterrupt, typer.Abort):
-            print("interrupted: nothing half-written was left", file=sys.stderr)
-            code = 130
-        except BrokenPipeError:
-            sys.stderr.close()
-            code = 0
-    sys.exit(code if isinstance(code, int) else 0)
+    """Run the command line, and exit with what `endings.py` makes of its end."""
+    sys.exit(run_to_its_end(lambda: app(standalone_mode=False)))

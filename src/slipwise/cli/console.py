@@ -1,7 +1,6 @@
 """What commands share: printing, progress, and the folder that takes the results."""
 
 import json
-import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -10,9 +9,10 @@ from pathlib import Path
 from rich.console import Console
 
 from slipwise.errors import InputError, visible
+from slipwise.view.patient_console import PatientConsole, write_out
 
-OUT = Console()
-ERR = Console(stderr=True)
+OUT = PatientConsole()
+ERR = PatientConsole(stderr=True)
 #: Without a terminal, progress is a line after at least so long [s].
 _SAID_EVERY = 30.0
 
@@ -24,7 +24,7 @@ def say(words: str, console: Console = OUT) -> None:
 
 def print_json(content: object) -> None:
     """Print JSON for a program to read."""
-    sys.stdout.write(json.dumps(content, indent=1, allow_nan=False) + "\n")
+    write_out(json.dumps(content, indent=1, allow_nan=False) + "\n")
 
 
 def out_folder(path: Path) -> Path:

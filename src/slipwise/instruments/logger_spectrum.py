@@ -66,7 +66,9 @@ def estimate_logger(campaign: Campaign) -> LoggerEstimate:
         return _unknown(f"sampled too slowly: nothing is seen above {frequency[-1] if len(frequency) else 0.0:.0f} Hz")
     # the last one is without a filter at all: a corner far above everything
     asked = [*((order, phase, None) for order, phase in _SHAPES), (1, "causal", 50.0 * frequency[-1])]
-    *shapes, plain = on_every_core(lambda i: _fit(frequency, power, weight, *asked[i]), len(asked))
+    *shapes, plain = on_every_core(
+        lambda i: _fit(frequency, power, weight, *asked[i]), len(asked), "the logger's filter"
+    )
     best = min(shapes, key=lambda shape: shape.cost)
     if plain.cost - best.cost < 10.0 or best.corner > _BELOW * frequency[-1]:
         return _unknown("the spectrum of friction falls evenly into the noise: no filter is seen", Logger(known=True))

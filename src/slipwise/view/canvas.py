@@ -9,8 +9,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-from slipwise.record import atomic
 from slipwise.view.style import styled
+from slipwise.whole_file import atomic
 
 _REFERENCE = re.compile(r'(\bid="|href="#|url\(#)')
 

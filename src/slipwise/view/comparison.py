@@ -15,7 +15,7 @@ from slipwise.view.arrows import FRICTION_ZOOM
 from slipwise.view.boards import Board, log_board
 from slipwise.view.geometry import RigGeometry
 from slipwise.view.loop_board import log_loops, one_colour
-from slipwise.view.recording import check_drawable, loops_view, rig_view, send_layout, start, write_bytes
+from slipwise.view.recording import check_drawable, loops_view, rig_view, send_layout, started, write_bytes
 from slipwise.view.scene import Scene, largest_motion, log_rig, nice_zoom
 from slipwise.view.series import OVERLAID_TABS, Line, log_series, series_tabs
 from slipwise.view.style import MODEL_COLOURS, NIGHT_INK, mixed, packed
@@ -68,37 +68,42 @@ def write_comparison(
     models = [(label, _at(record, measured.time)) for label, record in simulated]
     colours = {label: MODEL_COLOURS[i % len(MODEL_COLOURS)] for i, label in enumerate(labels)}
 
-    stream, memory = start(title, geometry, [measured, *(record for _, record in models)])
-    slip = max(largest_motion(record, ("slip_x", "slip_y")) for record in (measured, *(r for _, r in models)))
-    zoom = nice_zoom(slip, 0.1 * max(geometry.girder_size[:2]))
-    apart = 1.25 * max(geometry.girder_size[0], geometry.table_size[0])
-    rigs = [("measured", measured), *models]
-    coloured = True
-    for i, (label, record) in enumerate(rigs):
-        place = (apart * (i - 0.5 * (len(rigs) - 1)), 0.0, 0.0)
-        pads = None if i == 0 else _residual_colours(measured, record)
-        coloured = coloured and (i == 0 or pads is not None)
-        log_rig(stream, Scene(f"rigs/{i}", zoom, table_moves=False, offset=place, label=label), record, geometry, pads)
-        line = Line(str(i), label, NIGHT_INK if i == 0 else colours[label], 2.5 if i == 0 else 1.3)
-        log_series(stream, "channels", _only(record, _OVERLAID), line)
-        if i > 0:
-            log_series(stream, "residuals", _residual(measured, record), line)
-    traces = [one_colour("measured", measured, NIGHT_INK, 2.5)]
-    traces += [one_colour(label, record, colours[label]) for label, record in models]
-    growing = log_loops(stream, "loops", traces)
-    words = _words(title, labels, zoom, coloured, boards)
-    stream.log("about", TextDocument(words, media_type="text/markdown"), static=True)
+    with started(title, geometry, [measured, *(record for _, record in models)]) as (stream, memory):
+        slip = max(largest_motion(record, ("slip_x", "slip_y")) for record in (measured, *(r for _, r in models)))
+        zoom = nice_zoom(slip, 0.1 * max(geometry.girder_size[:2]))
+        apart = 1.25 * max(geometry.girder_size[0], geometry.table_size[0])
+        rigs = [("measured", measured), *models]
+        coloured = True
+        for i, (label, record) in enumerate(rigs):
+            place = (apart * (i - 0.5 * (len(rigs) - 1)), 0.0, 0.0)
+            pads = None if i == 0 else _residual_colours(measured, record)
+            coloured = coloured and (i == 0 or pads is not None)
+            log_rig(
+                stream, Scene(f"rigs/{i}", zoom, table_moves=False, offset=place, label=label), record, geometry, pads
+            )
+            line = Line(str(i), label, NIGHT_INK if i == 0 else colours[label], 2.5 if i == 0 else 1.3)
+            log_series(stream, "channels", _only(record, _OVERLAID), line)
+            if i > 0:
+                log_series(stream, "residuals", _residual(measured, record), line)
+        traces = [one_colour("measured", measured, NIGHT_INK, 2.5)]
+        traces += [one_colour(label, record, colours[label]) for label, record in models]
+        growing = log_loops(stream, "loops", traces)
+        words = _words(title, labels, zoom, coloured, boards)
+        stream.log("about", TextDocument(words, media_type="text/markdown"), static=True)
 
-    tabs: list[rrb.Container] = [
-        rrb.Vertical(log_board(stream, f"boards/{i}", board, whole), name=board.name) for i, board in enumerate(boards)
-    ]
-    tabs += series_tabs("channels", [measured, *(record for _, record in models)], OVERLAID_TABS)
-    tabs += series_tabs("residuals", [_residual(measured, record) for _, record in models], {"residuals": _RESIDUALS})
-    seen_from = (0.0, -0.6 - 0.58 * len(rigs), 0.3 + 0.3 * len(rigs))
-    view = rig_view("rigs", f"Seen from the table (slip drawn {zoom:g} times)", geometry, seen_from)
-    about = rrb.TextDocumentView(origin="about", name="What you see")
-    send_layout(stream, rrb.Vertical(view, about, row_shares=[3, 1]), loops_view("loops", growing), tabs)
-    return write_bytes(memory, path)
+        tabs: list[rrb.Container] = [
+            rrb.Vertical(log_board(stream, f"boards/{i}", board, whole), name=board.name)
+            for i, board in enumerate(boards)
+        ]
+        tabs += series_tabs("channels", [measured, *(record for _, record in models)], OVERLAID_TABS)
+        tabs += series_tabs(
+            "residuals", [_residual(measured, record) for _, record in models], {"residuals": _RESIDUALS}
+        )
+        seen_from = (0.0, -0.6 - 0.58 * len(rigs), 0.3 + 0.3 * len(rigs))
+        view = rig_view("rigs", f"Seen from the table (slip drawn {zoom:g} times)", geometry, seen_from)
+        about = rrb.TextDocumentView(origin="about", name="What you see")
+        send_layout(stream, rrb.Vertical(view, about, row_shares=[3, 1]), loops_view("loops", growing), tabs)
+        return write_bytes(memory, path)
 
 
 def _at(record: Record, time: Array) -> Record:

@@ -11,6 +11,7 @@ from slipwise.params import Parameter
 from slipwise.studies.demonstration import demonstrate
 from slipwise.units import parse_unit
 from slipwise.view.canvas import new_figure
+from slipwise.view.patient_console import PatientConsole
 from slipwise.view.style import EXPECTED, MODEL_COLOURS
 from slipwise.view.terminal import print_table
 
@@ -86,7 +87,7 @@ def print_effects(effects: Iterable[Effect] | None = None, console: Console | No
 
 def print_effect(effect: Effect, console: Console | None = None) -> None:
     """Print one effect: its docstring, its parameters, what it shows and what it is confused with."""
-    out = console or Console()
+    out = console or PatientConsole()
     (row,) = effect_rows([effect])
     out.print(effect.text, markup=False, highlight=False, soft_wrap=True)
     print_table("\nParameters", row["parameters"], out)

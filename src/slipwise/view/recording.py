@@ -2,7 +2,8 @@
 
 import hashlib
 import uuid
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ import rerun.blueprint as rrb
 
 from slipwise.channels import PADS
 from slipwise.errors import InputError
-from slipwise.record import Record, atomic
+from slipwise.record import Record
 from slipwise.view.arrows import FRICTION_ZOOM
 from slipwise.view.geometry import RigGeometry
 from slipwise.view.loop_board import BOARD_SIZE, RECENT, log_loops, own_colours
@@ -19,6 +20,7 @@ from slipwise.view.scene import Scene, largest_motion, log_rig, nice_zoom
 from slipwise.view.series import STICKING, TABS, log_series, log_states, series_tabs
 from slipwise.view.style import NIGHT, rgb
 from slipwise.view.timeline import TIMELINE
+from slipwise.whole_file import atomic
 
 #: Raise it when a recording shows the same record differently.
 _LAYOUT = 2
@@ -44,27 +46,29 @@ def write_recording(record: Record, geometry: RigGeometry, path: Path, title: st
         InputError: the record has no slip_x or fewer than two samples, so that nothing moves.
     """
     check_drawable(record)
-    stream, memory = start(title, geometry, [record])
-    size = 0.1 * max(geometry.girder_size[:2])
-    slip = largest_motion(record, ("slip_x", "slip_y"))
-    zoom = nice_zoom(max(slip, largest_motion(record, ("table_dx", "table_dy", "table_dz"))), 1.5 * size)
-    close = nice_zoom(slip, size)
-    log_rig(stream, Scene("laboratory", zoom, table_moves=True), record, geometry)
-    log_rig(stream, Scene("on_the_table", close, table_moves=False), record, geometry)
-    growing = log_loops(stream, "loops", [own_colours(record)])
-    log_series(stream, "channels", record)
-    states = "pads" if log_states(stream, "pads", record) else ""
-    stream.log(
-        "about", rr.TextDocument(_words(record, geometry, title, zoom, close), media_type="text/markdown"), static=True
-    )
-    views = [
-        rig_view("laboratory", f"In the laboratory (motion drawn {zoom:g} times)", geometry),
-        rig_view("on_the_table", f"Seen from the table (slip drawn {close:g} times)", geometry),
-    ]
-    about = rrb.TextDocumentView(origin="about", name="What you see")
-    left = rrb.Vertical(views[0], rrb.Horizontal(views[1], about, column_shares=[3, 2]), row_shares=[3, 2])
-    send_layout(stream, left, loops_view("loops", growing), series_tabs("channels", [record], TABS, states))
-    return write_bytes(memory, path)
+    with started(title, geometry, [record]) as (stream, memory):
+        size = 0.1 * max(geometry.girder_size[:2])
+        slip = largest_motion(record, ("slip_x", "slip_y"))
+        zoom = nice_zoom(max(slip, largest_motion(record, ("table_dx", "table_dy", "table_dz"))), 1.5 * size)
+        close = nice_zoom(slip, size)
+        log_rig(stream, Scene("laboratory", zoom, table_moves=True), record, geometry)
+        log_rig(stream, Scene("on_the_table", close, table_moves=False), record, geometry)
+        growing = log_loops(stream, "loops", [own_colours(record)])
+        log_series(stream, "channels", record)
+        states = "pads" if log_states(stream, "pads", record) else ""
+        stream.log(
+            "about",
+            rr.TextDocument(_words(record, geometry, title, zoom, close), media_type="text/markdown"),
+            static=True,
+        )
+        views = [
+            rig_view("laboratory", f"In the laboratory (motion drawn {zoom:g} times)", geometry),
+            rig_view("on_the_table", f"Seen from the table (slip drawn {close:g} times)", geometry),
+        ]
+        about = rrb.TextDocumentView(origin="about", name="What you see")
+        left = rrb.Vertical(views[0], rrb.Horizontal(views[1], about, column_shares=[3, 2]), row_shares=[3, 2])
+        send_layout(stream, left, loops_view("loops", growing), series_tabs("channels", [record], TABS, states))
+        return write_bytes(memory, path)
 
 
 def check_drawable(record: Record) -> None:
@@ -80,9 +84,10 @@ def check_drawable(record: Record) -> None:
         )
 
 
-def start(
+@contextmanager
+def started(
     title: str, geometry: RigGeometry, records: Iterable[Record]
-) -> tuple[rr.RecordingStream, rr.MemoryRecording]:
+) -> Iterator[tuple[rr.RecordingStream, rr.MemoryRecording]]:
     """Begin a recording in memory whose id says what is in it.
 
     A viewer that is already open merges recordings of one id: another content must have another id.
@@ -96,7 +101,11 @@ def start(
     stream = rr.RecordingStream("slipwise", recording_id=digest.hexdigest()[:32], send_properties=False)
     memory = stream.memory_recording()
     stream.send_recording_name(title)
-    return stream, memory
+    try:
+        yield stream, memory
+    except BaseException:
+        memory.drain_as_bytes()  # rerun writes to the terminal that it loses what is still there
+        raise
 
 
 def rig_view(

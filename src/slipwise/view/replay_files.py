@@ -36,4 +36,4 @@ def draw_replay(
         from slipwise.view.pictures import PICTURES, save_picture
 
         jobs += [partial(save_picture, name, record, geometry, folder) for name in PICTURES]
-    return list(on_every_core(lambda place: jobs[place](), len(jobs)))
+    return list(on_every_core(lambda place: jobs[place](), len(jobs), "the pictures"))

@@ -11,6 +11,7 @@ from rich.text import Text
 from slipwise.channels import PADS
 from slipwise.errors import visible
 from slipwise.view.numbers import NOTHING
+from slipwise.view.patient_console import PatientConsole
 
 #: Rows of a replay's summary: key, what it is called, unit.
 _SUMMARY: tuple[tuple[str, str, str], ...] = (
@@ -64,7 +65,7 @@ def print_table(title: str, rows: Sequence[Mapping[str, Any]], console: Console 
     for row in rows:
         # Text, so that brackets in names and units are printed and not taken for markup.
         table.add_row(*(Text(cell(row.get(key))) for key in columns))
-    console = console or Console()
+    console = console or PatientConsole()
     console.print(Text(visible(title), style="bold"))  # a table's own title is broken at the table's width
     console.print(table)
 
@@ -87,7 +88,7 @@ def print_summary(summary: Mapping[str, Any], console: Console | None = None) ->
     if rows:
         print_table("Pads", rows, console)
     if summary.get("uplift_s"):
-        (console or Console()).print(_AFTER_LANDING, highlight=False)
+        (console or PatientConsole()).print(_AFTER_LANDING, highlight=False)
 
 
 def moves_across(summary: Mapping[str, Any]) -> bool:

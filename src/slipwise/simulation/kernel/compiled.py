@@ -1,8 +1,8 @@
-"""The module that numba compiles and keeps on disk: the effects' hooks, their calls, the law bound to them.
+"""The module that numba compiles: the effects' hooks, their calls, the law bound to them.
 
-Machine code is kept by file, so the module is written to a file of its own. Only the functions that stand in it are
-kept; the law's functions are compiled into them. MuJoCo's callbacks hold all of the law once more and take as long to
-compile as all else: they are compiled where a simulation first asks for them.
+Only the machine code of the functions that stand in it is kept on disk; the law's functions are compiled into them.
+MuJoCo's callbacks hold all of the law once more and take as long to compile as all else: they are compiled where a
+simulation first asks for them.
 """
 
 import inspect
@@ -33,16 +33,17 @@ def module_text(layout: Layout, functions: Sequence[Callable[..., Any]]) -> str:
 
 import sys
 
-from numba import cfunc, njit, types
+from numba import njit, types
 
 from slipwise.simulation.kernel import derived_states, girder, loading_train, pads, pointers, records, step
 from slipwise.simulation.kernel.compilable import INNER
+from slipwise.simulation.kernel.machine_code import kept, kept_callback
 from slipwise.simulation.kernel.pointers import Fields
 
 {chr(10).join(hooks)}
 
 
-{dispatch_text(layout, "@njit(cache=True, forceinline=True, **INNER)" + chr(10))}
+{dispatch_text(layout, "@kept(forceinline=True, **INNER)" + chr(10))}
 EFFECTS = sys.modules[__name__]
 FIELDS = {fields(offsets(), layout.size)!r}
 
@@ -50,11 +51,11 @@ FIELDS = {fields(offsets(), layout.size)!r}
 
 
 def callback_addresses():
-    @cfunc(types.void(types.intp, types.intp), cache=True)
+    @kept_callback(types.void(types.intp, types.intp))
     def control_callback(model, data):
         pointers.control_at(EFFECTS, FIELDS, data)
 
-    @cfunc(types.void(types.intp, types.intp, types.intc), cache=True)
+    @kept_callback(types.void(types.intp, types.intp, types.intc))
     def sensor_callback(model, data, stage):
         pointers.sensor_at(EFFECTS, FIELDS, data, stage)
 
@@ -69,7 +70,7 @@ def _bound(function: Callable[..., Any]) -> list[str]:
     return [
         "",
         "",
-        "@njit(cache=True, nogil=True)",
+        "@kept(nogil=True)",
         f"def {function.__name__}({arguments}):",
         f"    return {home}.{function.__name__}(EFFECTS, {arguments})",
     ]

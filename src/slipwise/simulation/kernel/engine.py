@@ -1,16 +1,13 @@
 """The law in its two engines: compiled, and plain Python to step through with a debugger.
 
-All effects live in one kernel that is compiled once and kept on disk: which of them act is data. Its file is named by a
-hash of everything it was made from, so that no stale code is ever run.
+All effects live in one kernel that is compiled once and kept on disk (`machine_code.py`): which of them act is data. It
+is named by a hash of everything it was made from, so that no stale code is ever run.
 """
 
 import hashlib
-import importlib.util
 import inspect
 import linecache
-import os
 import sys
-import tempfile
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -23,7 +20,6 @@ import mujoco
 import numpy as np
 
 from slipwise import effects
-from slipwise.cache import cache_folder
 from slipwise.effects import Effect, catalogue
 from slipwise.errors import SettingError, SlipwiseWarning
 from slipwise.simulation.kernel import derived_states
@@ -151,7 +147,7 @@ def _compiled(layout: Layout) -> Kernel:
     sources = "".join(path.read_text(encoding="utf-8") for path in sorted(set(deciding)))
     about = f"{mujoco.__version__} {sys.version} {_numba_version()}"
     digest = hashlib.sha256((text + sources + about).encode()).hexdigest()[:16]
-    module = _import(f"slipwise_kernel_{digest}", text)
+    module = _module(f"slipwise_kernel_{digest}", text)
     functions = {f.__name__: getattr(module, f.__name__) for f in _FUNCTIONS}
     return Kernel(layout, "compiled", functions, module.callback_addresses)
 
@@ -184,25 +180,11 @@ def _numba_version() -> str:
     return version("numba")
 
 
-def _import(name: str, text: str) -> ModuleType:
-    """Import the kernel's module from the cache, writing it first if it is not there."""
-    folder = cache_folder()
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        path = folder / f"{name}.py"
-        if not path.is_file():
-            handle, temporary = tempfile.mkstemp(dir=folder, suffix=".tmp")
-            with os.fdopen(handle, "w", encoding="utf-8") as stream:
-                stream.write(text)
-            os.replace(temporary, path)
-    except OSError:  # a home that cannot be written: compile for this process only
-        folder = Path(tempfile.mkdtemp(prefix="slipwise-"))
-        path = folder / f"{name}.py"
-        path.write_text(text, encoding="utf-8")
-    spec = importlib.util.spec_from_file_location(name, path)
-    if spec is None or spec.loader is None:
-        raise SettingError(f"the compiled law cannot be read back from {path}")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    spec.loader.exec_module(module)
+def _module(name: str, text: str) -> ModuleType:
+    """Make the kernel's module from its text; a debugger and numba's messages can show its lines."""
+    file = f"<{name}>"
+    module = ModuleType(name)
+    sys.modules[name] = module  # numba looks up there what machine code from the disk belongs to
+    linecache.cache[file] = (len(text), None, text.splitlines(keepends=True), file)
+    exec(compile(text, file, "exec"), vars(module))  # the text is our own: see compiled.py
     return module

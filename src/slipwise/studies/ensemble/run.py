@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from slipwise.errors import SettingError
-from slipwise.executors import Finished, run_all
+from slipwise.executors import run_all
+from slipwise.finished_jobs import Finished
 from slipwise.motion import TableMotion, load_motion
 from slipwise.motion.load import is_description
 from slipwise.studies.ensemble.member import Base, Shaken, member_key, motion_key, run_shaken

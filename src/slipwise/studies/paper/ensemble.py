@@ -4,7 +4,8 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
 
-from slipwise.executors import Numbers, run_all
+from slipwise.executors import run_all
+from slipwise.finished_jobs import Numbers
 from slipwise.studies.paper.member import Member, run_member
 
 
@@ -31,6 +32,8 @@ def run_ensemble(
 
     Raises:
         InputError: `members.jsonl` was not written by an ensemble.
+        OutputError: it cannot be written.
+        SlipwiseError: processes were killed. What is finished is kept.
     """
     keys = [member.key() for member in members]
 

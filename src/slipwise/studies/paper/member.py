@@ -55,6 +55,9 @@ class Member:
     slenderness: float = 0.0
     effects: tuple[str, ...] = ()
 
+    def __str__(self) -> str:
+        return f"{self.bridge}, earthquake {self.seed}, {self.peak:.3g} m/s^2 along and {self.vertical:.3g} upwards"
+
     def motion(self) -> TableMotion:
         """Make the table motion."""
         spec = f"quake:seed={self.seed},peak={self.peak!r}m/s^2,f={self.frequency!r}Hz,strong={self.strong!r}s"

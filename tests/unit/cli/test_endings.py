@@ -1,0 +1,167 @@
+"""A command that cannot go on says so in one line, with the exit code that a shell expects, and leaves no rubbish."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from importlib import resources
+from pathlib import Path
+
+import pytest
+
+from slipwise.record import read_record
+
+#: Nobody waits so long unless something is wrong [s].
+LONG = 240.0
+#: A motion whose replay lasts some seconds, and one that lasts as long as the test likes.
+SHORT, ENDLESS = "sine:2Hz,0.3g,cycles=12", "sine:2Hz,0.2g,cycles=4000"
+
+
+def begin(*words: object, **options: object) -> subprocess.Popen[str]:
+    """Start the command line in a session of its own, as a terminal does."""
+    return subprocess.Popen(
+        [sys.executable, "-m", "slipwise", *map(str, words)],
+        text=True,
+        start_new_session=True,
+        **{"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE, **options},  # type: ignore[arg-type]
+    )
+
+
+def error_of(process: subprocess.Popen[str]) -> list[str]:
+    return process.communicate(timeout=LONG)[1].splitlines()
+
+
+def nobody_is_left(process: subprocess.Popen[str]) -> bool:
+    """Tell whether no child of the command lives; one that has ended may take a moment to be gone."""
+    for _ in range(20):
+        try:
+            os.killpg(process.pid, 0)
+        except ProcessLookupError:
+            return True
+        time.sleep(0.1)
+    return False
+
+
+def rubbish(folder: Path) -> list[Path]:
+    return [path for path in folder.rglob("*") if path.name.startswith(".") or ".tmp" in path.name]
+
+
+@pytest.mark.parametrize("words", ["channels", "channels --json", "--help", "effects", "--version"])
+def test_where_nobody_reads_the_output_a_command_ends_well_and_says_nothing(words: str) -> None:
+    reading, writing = os.pipe()
+    os.close(reading)
+    process = begin(*words.split(), stdout=writing)
+    os.close(writing)
+    assert (error_of(process), process.returncode) == ([], 0)
+
+
+def test_where_nobody_reads_the_output_the_files_are_written_all_the_same(tmp_path: Path) -> None:
+    reading, writing = os.pipe()
+    os.close(reading)
+    process = begin("replay", SHORT, "--out", tmp_path, "--no-pictures", "--no-recording", stdout=writing)
+    os.close(writing)
+    assert (error_of(process), process.returncode) == ([], 0)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["record.parquet", "summary.json"]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+@pytest.mark.parametrize("words", ["channels", "channels --json", "--version"])
+def test_an_output_without_room_is_one_line(words: str) -> None:
+    with open("/dev/full", "w") as full:
+        process = begin(*words.split(), stdout=full)
+        [line] = error_of(process)
+    assert process.returncode == 2
+    assert line.startswith("error: cannot write the output: no space left on device; free some space")
+
+
+@pytest.fixture
+def small_disk(tmp_path: Path) -> Iterator[Path]:
+    """Lend a disk that has room for a record and not for the pictures of it."""
+    size = ["mount", "-t", "tmpfs", "-o", "size=1500k", "tmpfs", str(tmp_path)]
+    mounted = subprocess.run(size, capture_output=True)
+    if mounted.returncode:
+        pytest.skip(f"a small disk needs root: {mounted.stderr.decode().strip()}")
+    yield tmp_path
+    subprocess.run(["umount", str(tmp_path)], check=True)
+
+
+def test_a_disk_that_becomes_full_keeps_what_was_finished(small_disk: Path) -> None:
+    process = begin("replay", SHORT, "--out", small_disk)
+    [line] = error_of(process)
+    assert process.returncode == 2
+    assert line.startswith(f"error: cannot write {small_disk}") and "no space left on device" in line
+    assert len(read_record(small_disk / "record.parquet")) > 1000
+    assert not rubbish(small_disk) and nobody_is_left(process)
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)])
+def test_a_replay_that_is_interrupted_says_so_and_leaves_nothing(number: int, code: int, tmp_path: Path) -> None:
+    process = begin("replay", ENDLESS, "--out", tmp_path / "out")
+    while not (tmp_path / "out").exists() and process.poll() is None:
+        time.sleep(0.05)
+    time.sleep(1.0)
+    os.killpg(process.pid, number)
+    assert error_of(process) == [interrupted(number)]
+    assert process.returncode == code
+    assert list((tmp_path / "out").iterdir()) == [] and nobody_is_left(process)
+
+
+def test_an_interruption_while_pictures_are_drawn_leaves_none_half_drawn(tmp_path: Path) -> None:
+    """Only the command itself hears `kill`: it ends its children, who remove what they have half written."""
+    process = begin("replay", SHORT, "--out", tmp_path)
+    while not (tmp_path / "record.parquet").exists() and process.poll() is None:
+        time.sleep(0.02)
+    while not rubbish(tmp_path) and process.poll() is None:
+        time.sleep(0.001)
+    process.send_signal(signal.SIGTERM)
+    assert error_of(process) == [interrupted(signal.SIGTERM)]
+    assert process.returncode == 143
+    assert not rubbish(tmp_path) and nobody_is_left(process)
+    assert len(read_record(tmp_path / "record.parquet")) > 1000
+
+
+def test_an_interruption_while_the_command_line_is_loaded_is_no_traceback() -> None:
+    for wait in (0.1, 0.2, 0.4, 0.8):
+        process = begin("channels")
+        time.sleep(wait)
+        process.send_signal(signal.SIGTERM)
+        assert error_of(process) in ([], [interrupted(signal.SIGTERM)])
+        assert process.returncode in (0, 143, -signal.SIGTERM)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_the_python_engine_can_be_interrupted_too(number: int, tmp_path: Path) -> None:
+    """Its law runs inside MuJoCo, where an exception of Python is not heard."""
+    process = begin("replay", ENDLESS, "--out", tmp_path / "out", "--engine", "python")
+    while not (tmp_path / "out").exists() and process.poll() is None:
+        time.sleep(0.05)
+    time.sleep(3.0)
+    process.send_signal(number)
+    assert error_of(process) == [interrupted(number)]
+    assert process.returncode == 128 + number
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("words", ["compare", "diagnose", "ladder", "next", "demo", "paper --quick"])
+@pytest.mark.parametrize(("number", "wait"), [(signal.SIGINT, 8.0), (signal.SIGTERM, 20.0), (signal.SIGINT, 35.0)])
+def test_long_work_that_is_interrupted_says_so_and_leaves_nothing(
+    words: str, wait: float, number: int, tmp_path: Path
+) -> None:
+    """`kill` reaches the command itself, Ctrl-C its children too."""
+    verb, *options = words.split()
+    if verb not in ("demo", "paper"):
+        options.append(str(resources.files("slipwise") / "demo_data"))
+    process = begin(verb, *options, "--out", tmp_path)
+    time.sleep(wait)
+    assert process.poll() is None, "it was done before it could be interrupted"
+    (os.killpg if number == signal.SIGINT else os.kill)(process.pid, number)
+    assert error_of(process) == [interrupted(number)]
+    assert process.returncode == 128 + number
+    assert not rubbish(tmp_path) and nobody_is_left(process)
+
+
+def interrupted(number: int) -> str:
+    name = signal.Signals(number).name
+    return f"interrupted ({name}): finished files are kept, and nothing half-written is left"
