@@ -79,7 +79,7 @@ def answers(model: Model, engine: str = "compiled", moving: dict[str, np.ndarray
     laws.rest(600.0)
     again = laws.pads(moving["time"], moving["load"], moving["velocity"], moving["slip"])
     drag, lift = laws.law.functions["girder_drag"], laws.law.functions["girder_lift"]
-    girder = [(0.3, 0.1, 0.004, 0.0, dt), (-0.2, 0.0, -0.001, 1.0, dt)]
+    girder = [(0.3, 0.1, 0.004, 0.01, 0.0, 0.0, dt), (-0.2, 0.0, -0.001, -0.02, 0.001, 1.0, dt)]
     out: dict[str, object] = {
         "pads": np.concatenate([pads.force.ravel(), pads.bound.ravel(), again.force.ravel()]),
         "buffers": first_buffers,

@@ -16,7 +16,8 @@ class Candidate:
         port: how it enters.
         gate: on which pads, and which way.
         spline: over the states.
-        share: of the residual above noise that it explains, each motion by what the others ask for [1].
+        share: of the residual above noise, of all relations that are screened, that it explains, each motion by what
+            the others ask for [1].
     """
 
     states: tuple[State, ...]

@@ -149,7 +149,7 @@ def _from(name: str, base: BaseFit) -> Discovery:
         end = kept[-1][0].solution if kept else solution
         fit = replace(base, free=end.free, solution=end)
         known = {i.key: i for i in intervals(fit).entries} if kept else {}
-        laws = tuple(told_law(replace(f, solution=end), tied, base, share, known) for f, tied, share in kept)
+        laws = tuple(told_law(replace(f, solution=end), tied, problem.fitted, share, known) for f, tied, share in kept)
         share = (solution.cost - end.cost) / max(whole, 1e-9)
         held_out = [{r: held_out_level(problem, x, r) for r in problem.relations} for x in (solution, end)]
         relations = {r: (held_out[0][r], held_out[1][r]) for r in problem.relations}
@@ -185,7 +185,7 @@ def _evidence(
     after = relations[worst][1]
     if share >= LAW and after <= HELD_OUT and single:
         return "law"
-    if share >= STATE and not any(law.rivals for law in laws):
+    if share >= STATE and not any(law.other_states for law in laws):
         return "state"
     return "organised" if share >= ORGANISED else "unknown"
 

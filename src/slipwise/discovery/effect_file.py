@@ -17,6 +17,8 @@ from slipwise.params import Parameter
 #: State -> argument of a pad's hook; others are called alike. Of a buffer, rate and deflection stand for both.
 _OF_PADS = {"slip": "slip_x"}
 _OF_BUFFERS = {"slip": "deflection", "speed": "abs(rate)"}
+#: States that a force at the centre of the girder knows.
+_OF_GIRDER = {"speed", "slip"}
 #: What whole arrays take in the place of what a form may call.
 _OF_ARRAYS = {"abs": "np.abs", "max": "np.maximum", "min": "np.minimum", "pi": "np.pi"}
 #: What a further fit may make of a number: this many times its value [1].
@@ -51,7 +53,7 @@ def write_discovered(found: Discovery, folder: Path, name: str, date: str) -> Di
 
 def can_be_written(law: Law) -> bool:
     """Tell whether an effect can be a law: a force that lifts the girder knows its speed and place only."""
-    return law.port != "load" or set(law.states) <= {"speed", "slip"}
+    return law.port != "load" or set(law.states) <= _OF_GIRDER
 
 
 def write_law(law: Law, found: Discovery, folder: Path, name: str, date: str, *, replace: bool = False) -> Path:
@@ -84,9 +86,15 @@ def written_law(law: Law, found: Discovery, name: str, date: str) -> WrittenEffe
         "It is a law of the data. No mechanism is claimed.",
     )
     port, component, hooks = _hooks(law)
+    if port == "buffer" and not law.at_buffers and law.port != "multiplies buffers":
+        about = (
+            *about,
+            "The data put the force at the girder's centre. Here the buffers carry it: only pitch differs.",
+        )
+    subject = "a force" if port in ("buffer", "girder") else "friction"
     return WrittenEffect(
         name=name,
-        title=f"Law of {found.campaign}: {'friction' if port != 'buffer' else 'a force'} that goes with {law.driver}.",
+        title=f"Law of {found.campaign}: {subject} that goes with {law.driver}.",
         equation=law.equation,
         about=about,
         valid=f"{ranges}: the range of the data.",
@@ -124,10 +132,15 @@ def _rated(law: Law) -> tuple[Parameter, ...]:
     return (Parameter("rated", "N", load, load / _ROOM, load * _ROOM, None, "mean load of the campaign", "N_0", "kN"),)
 
 
+def _at_centre(law: Law) -> bool:
+    """Tell whether a law is a force at the girder's centre that an effect of the girder can be."""
+    return law.port in ("girder", "girder by place") and not law.at_buffers and set(law.states) <= _OF_GIRDER
+
+
 def _hooks(law: Law) -> tuple[str, str, tuple[WrittenHook, ...]]:
     """Give port, component and hooks of a law."""
     own = [c.name for c in law.constants if c.name != TIME_CONSTANT or set(law.states) & LAGGING]
-    if law.port == "load" or (law.port == "girder" and law.states == ("speed",)):
+    if law.port == "load" or _at_centre(law):
         return _on_girder(law, own)
     if law.port in ("girder", "girder by place", "multiplies buffers"):
         return "buffer", "buffer", (_at_buffers(law, own),)
@@ -165,21 +178,30 @@ def _at_buffers(law: Law, own: Sequence[str]) -> WrittenHook:
 
 def _on_girder(law: Law, own: Sequence[str]) -> tuple[str, str, tuple[WrittenHook, ...]]:
     """Give port, component and hooks of a force at the middle of the girder: in a simulation, and in the balances."""
-    scalar, _ = _form_lines(law, {"speed": "sqrt(velocity_x * velocity_x + velocity_y * velocity_y)"})
-    arrays, _ = _form_lines(law, {"speed": "np.hypot(*states.velocity.T)", "slip": "states.slip[:, 0]"}, arrays=True)
+    speed, speeds = "sqrt(velocity_x * velocity_x + velocity_y * velocity_y)", "np.hypot(*states.velocity.T)"
+    scalar, _ = _form_lines(law, {"speed": speed, "slip": "slip_x"})
+    arrays, _ = _form_lines(law, {"speed": speeds, "slip": "states.slip[:, 0]"}, arrays=True)
+    asked = ["velocity_x", "velocity_y"] if law.port == "girder" or "speed" in law.states else []
+    asked += ["slip_x"] if "slip" in law.states else []
+    names, of_runs = _once([*asked, *own]), _once(["states", *own])
+    if law.port == "load":
+        lift = WrittenHook("lift", names, "Lift the girder [N]", (*scalar, "return strength * form"))
+        less = (*arrays, 'return {"heave": -strength * form}')
+        return (
+            "girder",
+            "pad load",
+            (lift, WrittenHook("balance", of_runs, "Give what the pads carry more (n,) [N]", less)),
+        )
+    last, force = "return strength * form, 0.0", 'return {"girder": strength * form}'
     if law.port == "girder":
-        size = "size = strength * form / max(speed, 1e-12)"
-        lines = (*scalar, size, "return size * velocity_x, size * velocity_y")
-        drag = WrittenHook("drag", _once(["velocity_x", "velocity_y", *own]), "Hold the girder back [N]", lines)
+        if "speed" not in law.states:
+            scalar, arrays = [*scalar, f"speed = {speed}"], [*arrays, f"speed = {speeds}"]
+        scalar = [*scalar, "size = strength * form / max(speed, 1e-12)"]
+        last = "return size * velocity_x, size * velocity_y"
         force = 'return {"girder": strength * form * states.velocity[:, 0] / np.maximum(speed, 1e-12)}'
-        balance = WrittenHook("balance", _once(["states", *own]), "Give the force (n,) [N]", (*arrays, force))
-        return "girder", "girder", (drag, balance)
-    hooks = [WrittenHook("balance", _once(["states", *own]), "Give what the pads carry more (n,) [N]",
-                         (*arrays, 'return {"heave": -strength * form}'))]  # fmt: skip
-    if law.states == ("speed",):
-        lines = (*scalar, "return strength * form")
-        hooks.insert(0, WrittenHook("lift", _once(["velocity_x", "velocity_y", *own]), "Lift the girder [N]", lines))
-    return "girder", "pad load", tuple(hooks)
+    drag = WrittenHook("drag", names, "Hold the girder back [N]", (*scalar, last))
+    balance = WrittenHook("balance", of_runs, "Give the force (n,) [N]", (*arrays, force))
+    return "girder", "girder", (drag, balance)
 
 
 def _form_lines(law: Law, names: Mapping[str, str], *, arrays: bool = False) -> tuple[list[str], list[str]]:

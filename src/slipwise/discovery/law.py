@@ -54,6 +54,7 @@ class Law:
         rivals: other states or ports that explain as much, in words.
         constants: strength first.
         share: of the error above noise that it explains, everything else fitted again [1].
+        other_states: whether one of the rivals has another state.
         at_buffers: whether a force on the girder acts at the buffers: it shows in the girder's pitch too.
         valid: state -> range of the data [SI].
         fitted: the fit behind it.
@@ -70,6 +71,7 @@ class Law:
     rivals: tuple[str, ...]
     constants: tuple[LawConstant, ...]
     share: float
+    other_states: bool
     at_buffers: bool
     valid: Mapping[str, tuple[float, float]]
     fitted: FittedLaw

@@ -11,10 +11,13 @@ from numpy.typing import NDArray
 
 from slipwise.discovery.matching import Match, constants_of, limits, place_of, product_at
 from slipwise.discovery.states import PadInstants, State, derived
+from slipwise.estimation.girder_balances import through_pitch
 from slipwise.estimation.least_squares import Solution, slopes_of, solve
+from slipwise.estimation.noise_model import whitened
 from slipwise.estimation.pad_forces import as_logged
 from slipwise.estimation.parameters import Free
 from slipwise.estimation.problem import Problem
+from slipwise.estimation.recent_results import Recent
 from slipwise.estimation.residuals import Residuals
 from slipwise.signals.filters import LowPass
 
@@ -23,7 +26,11 @@ Array = NDArray[np.float64]
 _ENOUGH, _ROUGH = 10.0, 5e-4
 #: Largest strength, as a multiple of the one that was matched [1], and factor by which a time constant may change.
 _STRONGEST, _LAG = 30.0, 8.0
-STRENGTH, TIME_CONSTANT = "strength", "time_constant"
+STRENGTH, TIME_CONSTANT, LEVER = "strength", "time_constant", "lever"
+#: Numbers of the rig that change what is recorded of a law.
+_RECORDING = (
+    "rig.logger", "rig.late_force", "rig.mass", "rig.pitch_frequency", "rig.pitch_damping",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -34,11 +41,15 @@ class PlacedLaw:
         label: begins the keys of its numbers.
         match: the form, its states, port and gate.
         opened: per run (f, p) 1 where the gate is open.
+        lever: how far below the girder's centre a force on it acts [m]: it tips the girder.
+        longest_lever: up to which the lever is free [m]; 0 where it is known, or nothing tells it.
     """
 
     label: str
     match: Match
     opened: tuple[Array, ...]
+    lever: float = 0.0
+    longest_lever: float = 0.0
 
     @property
     def lag(self) -> float:
@@ -61,6 +72,9 @@ class PlacedLaw:
             out.append(
                 Free(f"{self.label}.{TIME_CONSTANT}", self.lag, self.lag / _LAG, self.lag * _LAG, 0.2 * self.lag, "s")
             )
+        if self.longest_lever:
+            most = self.longest_lever
+            out.append(Free(f"{self.label}.{LEVER}", self.lever, -most, most, 0.1 * most, "m"))
         return out
 
 
@@ -77,7 +91,7 @@ class LawProblem:
     every: PadInstants
     plain: Problem
     laws: tuple[PlacedLaw, ...]
-    _kept: dict[tuple[float, ...], list[Array]] = field(default_factory=dict[tuple[float, ...], list[Array]])
+    _recent: Recent = field(default_factory=Recent)
 
     @property
     def fitted(self) -> list[int]:
@@ -103,28 +117,45 @@ class LawProblem:
         found = self.plain.residuals(values, fitted_only=fitted_only)
         parts = {name: list(of) for name, of in found.parts.items()}
         for law in self.laws:
-            relation = law.match.candidate.port.relation
-            for i, column in enumerate(self._columns(law, values)[: len(parts[relation])]):
-                parts[relation][i] = parts[relation][i] - column
+            for relation, columns in self._columns(law, values).items():
+                for i, column in enumerate(columns[: len(parts[relation])]):
+                    parts[relation][i] = parts[relation][i] - column
         return Residuals(parts, found.pad_forces)
 
-    def _columns(self, law: PlacedLaw, values: Mapping[str, float]) -> list[Array]:
-        """Give what a law adds to the prediction of every run, in noise, shaped as its residual."""
-        own = {k.removeprefix(f"{law.label}."): v for k, v in values.items() if k.startswith(f"{law.label}.")}
-        key = (float(self.laws.index(law)), *(own[k] for k in sorted(own)))
-        if key not in self._kept:
-            if len(self._kept) > 8:
-                self._kept.clear()
-            self._kept[key] = self._made(law, own, values)
-        return self._kept[key]
+    def without_results(self) -> "LawProblem":
+        """Give the problem without the results that it keeps at hand: each is as long as all the runs."""
+        return replace(self, _recent=Recent())
 
-    def _made(self, law: PlacedLaw, own: Mapping[str, float], values: Mapping[str, float]) -> list[Array]:
+    def _columns(self, law: PlacedLaw, values: Mapping[str, float]) -> dict[str, list[Array]]:
+        """Give what a law adds to the predictions, relation -> of every run, in noise, shaped as its residual."""
+        own = {k.removeprefix(f"{law.label}."): v for k, v in values.items() if k.startswith(f"{law.label}.")}
+        key = (*(own[k] for k in sorted(own)), *(values.get(k, 0.0) for k in _RECORDING))
+        return self._recent.get(law.label, key, lambda: self._made(law, own, values))
+
+    def _made(
+        self, law: PlacedLaw, own: Mapping[str, float], values: Mapping[str, float]
+    ) -> dict[str, list[Array]]:  # fmt: skip
         relation, states = law.match.candidate.port.relation, self.driving(law, own)
-        out = []
-        for i, run in enumerate(self.plain.runs):
-            force = self.force(i, law, states, own, values)
-            out.append(np.where(run.judged[relation], force / self.plain.sigmas[relation][i], 0.0))
+        forces = [self.force(i, law, states, own, values) for i in range(len(self.plain.runs))]
+        out = {relation: [self._seen(relation, i, force) for i, force in enumerate(forces)]}
+        lever = own.get(LEVER, law.lever)
+        if relation == "girder" and lever and "pitch" in self.relations:
+            out["pitch"] = [self._seen("pitch", i, self._tipping(i, f, lever, values)) for i, f in enumerate(forces)]
         return out
+
+    def _tipping(self, place: int, acceleration: Array, lever: float, values: Mapping[str, float]) -> Array:
+        """Give the pitch load (n,) [N] of a force that accelerates the girder so [m/s^2], as `girder_balances`."""
+        specimen, run = self.plain.specimen, self.plain.runs[place]
+        load = -values.get("rig.mass", specimen.mass) * acceleration * lever / specimen.half_spacing[0]
+        return through_pitch(load, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
+
+    def _seen(self, relation: str, place: int, column: Array) -> Array:
+        """Give what is added to a prediction as its residual shows it: whitened alike, in noise."""
+        problem, run = self.plain, self.plain.runs[place]
+        sigma = problem.sigmas[relation][place]
+        if relation in problem.ringing:
+            column = whitened(column, run, float(np.min(sigma)), problem.ringing[relation][place])
+        return np.where(run.judged[relation], column / sigma, 0.0)
 
     def force(
         self, place: int, law: PlacedLaw, states: Sequence[State], own: Mapping[str, float], values: Mapping[str, float]
@@ -196,12 +227,12 @@ def fit_law(before: LawProblem, solution: Solution, law: PlacedLaw, strength: fl
         law: the form and where it acts.
         strength: to begin with.
     """
-    problem = replace(before, laws=(*before.laws, law), _kept={})
+    problem = replace(before, laws=(*before.laws, law)).without_results()
     own = law.free(strength)
     values = {**solution.values, **{f.key: f.start for f in own}}
     known = slopes_of(solution)
     found = solve(problem, values, [*solution.free, *own], most=6, enough=_ENOUGH, rough=_ROUGH, known=known)
-    return FittedLaw(law, problem, found)
+    return FittedLaw(law, problem.without_results(), found)
 
 
 def fit_on(found: FittedLaw) -> FittedLaw:

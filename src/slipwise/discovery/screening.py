@@ -56,11 +56,11 @@ def screen_states(
         ]
     if max((c.share for c in found), default=0.0) < _ENOUGH:
         found += _pairs(field, singles, carriers, values)
-    return sorted(found, key=lambda c: -_weighed(c))
+    return sorted(found, key=lambda c: -weighed(c))
 
 
-def _weighed(found: Candidate) -> float:
-    """Give the share less what a gate and a second state must earn."""
+def weighed(found: Candidate) -> float:
+    """Give the share less what a gate and a second state must earn [1]."""
     return found.share - _MORE * (len(found.states) - 1) - _MORE * (found.gate is not EVERYWHERE)
 
 

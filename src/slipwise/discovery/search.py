@@ -11,11 +11,11 @@ import numpy as np
 
 from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.form import forms
-from slipwise.discovery.law_problem import FittedLaw, LawProblem, PlacedLaw, fit_law, fit_on
+from slipwise.discovery.law_problem import LEVER, FittedLaw, LawProblem, PlacedLaw, fit_law, fit_on
 from slipwise.discovery.matching import Match, matched
 from slipwise.discovery.ports import gates, girder_ports, girder_states, load_ports, opened, pad_ports, places_of
 from slipwise.discovery.residual_field import residual_field
-from slipwise.discovery.screening import screen_states
+from slipwise.discovery.screening import screen_states, weighed
 from slipwise.discovery.states import pad_instants, pad_states
 from slipwise.estimation.least_squares import Solution, with_slopes
 from slipwise.model import Model
@@ -24,6 +24,8 @@ from slipwise.model import Model
 LEVEL = 1.15
 #: Candidates, forms of each, and matches of each start that are fitted, and of these the ones that are fitted finely.
 _CANDIDATES, _FORMS, _FITTED, _FINELY = 6, 5, 9, 3
+#: How far from the girder's centre a force on it may act, in heights of the centre [1].
+_LEVER = 3.0
 #: A candidate explains at least this much of what its relation leaves above noise [1].
 _LEAST = 0.1
 
@@ -63,7 +65,7 @@ def find_law(before: LawProblem, solution: Solution, model: Model, label: str) -
             tried.append(fit_law(here, start, _placed(label, match, here), match.strength))
             tried.sort(key=lambda f: f.solution.cost)
             tried[_FINELY:] = [_without_slopes(f) for f in tried[_FINELY:]]
-    fine = [fit_on(_carried_by_its_fit(f)) for f in tried[:_FINELY]]
+    fine = [fit_on(_where_it_acts(_carried_by_its_fit(f))) for f in tried[:_FINELY]]
     return Found(
         tuple(sorted(candidates, key=lambda c: -c.share)),
         tuple(sorted([*fine, *tried[_FINELY:]], key=lambda f: f.solution.cost)),
@@ -86,32 +88,64 @@ def _carried_by_its_fit(found: FittedLaw) -> FittedLaw:
     match = found.law.match
     port = next(p for p in ports if p.name == match.candidate.port.name)
     law = replace(found.law, match=replace(match, candidate=replace(match.candidate, port=port)))
-    return replace(found, law=law, problem=replace(problem, every=every, laws=(*problem.laws[:-1], law), _kept={}))
+    return replace(
+        found, law=law, problem=replace(problem, every=every, laws=(*problem.laws[:-1], law)).without_results()
+    )
+
+
+def _height(here: LawProblem) -> float:
+    return here.plain.specimen.centre_height
+
+
+def _where_it_acts(found: FittedLaw) -> FittedLaw:
+    """Give a force on the girder its place: at the centre, or at the buffers if those are nearer to its lever."""
+    key = f"{found.law.label}.{LEVER}"
+    if key not in found.solution.values:
+        return found
+    specimen = found.problem.plain.specimen
+    places = [0.0] + [specimen.centre_height - specimen.buffer_height] * bool(specimen.buffer_stiffness)
+    values = dict(found.solution.values)
+    lever = values.pop(key)
+    law = replace(found.law, lever=min(places, key=lambda p: abs(p - lever)), longest_lever=0.0)
+    kept = [f.key != key for f in found.solution.free]
+    free = tuple(f for f in found.solution.free if f.key != key)
+    problem = replace(found.problem, laws=(*found.problem.laws[:-1], law))
+    residuals = problem.residuals(values)
+    left = residuals.stacked(problem.fitted, problem.relations)
+    there = replace(
+        found.solution, free=free, values=values, residuals=residuals, cost=float(left @ left),
+        jacobian=found.solution.jacobian[:, kept],
+    )  # fmt: skip
+    return replace(found, law=law, problem=problem, solution=there)
 
 
 def _placed(label: str, match: Match, here: LawProblem) -> PlacedLaw:
     runs = here.every.states
     if match.candidate.port.relation != "pads":
-        return PlacedLaw(label, match, tuple(np.ones((len(s.time), 1)) for s in runs))
+        everywhere = tuple(np.ones((len(s.time), 1)) for s in runs)
+        on_girder = match.candidate.port.relation == "girder" and "pitch" in here.relations
+        return PlacedLaw(label, match, everywhere, longest_lever=_LEVER * _height(here) if on_girder else 0.0)
     return PlacedLaw(label, match, tuple(opened(match.candidate.gate, places_of(here.plain), runs)))
 
 
 def _screened(here: LawProblem, start: Solution) -> list[Candidate]:
+    """Screen every relation with more than noise; shares are of what all of them leave."""
     states = pad_states(here.every)
+    fields = [residual_field(here.plain, start, r) for r in ("pads", "girder", "heave") if r in here.relations]
+    fields = [f for f in fields if f.residual @ f.residual >= LEVEL**2 * len(f.residual)]
+    whole = max(sum(f.excess for f in fields), 1e-9)
     out: list[Candidate] = []
-    for relation in (r for r in ("pads", "girder", "heave") if r in here.relations):
-        field = residual_field(here.plain, start, relation)
-        if field.residual @ field.residual < LEVEL**2 * len(field.residual):
-            continue
-        if relation == "pads":
+    for field in fields:
+        if field.relation == "pads":
             places = places_of(here.plain)
             tried = gates(places, here.plain.runs[0].pads) if here.plain.specimen.free else []
-            out += screen_states(field, states, pad_ports(here.every), tried, places, here.every.states)
-            continue
-        on_load = relation == "heave"
-        ports = load_ports(here.every) if on_load else girder_ports(here.plain, start.values, here.every)
-        out += screen_states(field, girder_states(states), ports, [], [], here.every.states)
-    return out
+            found = screen_states(field, states, pad_ports(here.every), tried, places, here.every.states)
+        else:
+            on_load = field.relation == "heave"
+            ports = load_ports(here.every) if on_load else girder_ports(here.plain, start.values, here.every)
+            found = screen_states(field, girder_states(states), ports, [], [], here.every.states)
+        out += [replace(c, share=c.share * field.excess / whole) for c in found]
+    return sorted(out, key=lambda c: -weighed(c))
 
 
 def _starts(before: LawProblem, solution: Solution, model: Model) -> list[Solution]:

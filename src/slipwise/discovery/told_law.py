@@ -7,25 +7,20 @@ import numpy as np
 from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.law import Law, LawConstant, TiedForm
 from slipwise.discovery.law_problem import STRENGTH, TIME_CONSTANT, FittedLaw
-from slipwise.discovery.levels import level
 from slipwise.discovery.matching import constants_of, place_of
 from slipwise.discovery.states import UNITS
-from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Interval
-
-#: A force on the girder that leaves more than this in its pitch, in floors, acts below its centre: at the buffers.
-_TIPPED = 1.3
 
 
 def told_law(
-    leader: FittedLaw, tied: Sequence[FittedLaw], base: BaseFit, share: float, known: Mapping[str, Interval]
+    leader: FittedLaw, tied: Sequence[FittedLaw], fitted: Sequence[int], share: float, known: Mapping[str, Interval]
 ) -> Law:
     """Tell a law that leads, with those that tie with it.
 
     Args:
         leader: its fit, the solution being that of all laws together.
         tied: what explains as much.
-        base: the fit to which it is added.
+        fitted: places of the runs that are fitted.
         share: of the error above noise that it explains [1].
         known: key -> interval, of all numbers of the solution.
     """
@@ -45,17 +40,12 @@ def told_law(
         rivals=tuple(dict.fromkeys(f"{f.law.match.candidate.label}, {f.law.match.name}" for f in others)),
         constants=tuple(_constant(leader, name, known) for name in _ordered(leader)),
         share=share,
-        at_buffers=_tips(base),
-        valid={s.name: _ends(s.values, base.problem.fitted) for s in candidate.states},
+        other_states=any({s.name for s in f.law.match.candidate.states} != set(names) for f in others),
+        at_buffers=leader.law.lever != 0.0,
+        valid={s.name: _ends(s.values, fitted) for s in candidate.states},
         fitted=leader,
         tied_forms=tuple(TiedForm(f.law.match.forms, f.values) for f in alike),
     )
-
-
-def _tips(base: BaseFit) -> bool:
-    """Tell whether the girder's pitch is left with more than its noise too."""
-    problem = base.problem
-    return "pitch" in problem.relations and level(problem, base.solution, "pitch", problem.fitted) > _TIPPED
 
 
 def _ordered(leader: FittedLaw) -> list[str]:

@@ -23,14 +23,24 @@ def sentence(found: Discovery) -> str:
     if found.evidence == "nothing":
         return "Nothing is left that a law could explain: what the model leaves is at its noise."
     if found.evidence == "unknown" or not found.laws:
-        best = f"; most, {100 * found.share:.0f} %, goes with {found.organised.label}" if found.organised else ""
-        return f"Unknown: no state and form explain half of what the model leaves{best}. No law is claimed."
+        return f"Unknown: {_not_confirmed(found)}. No law is claimed."
     told = "; and ".join(_told(law) for law in found.laws)
     if found.evidence == "organised":
         share = f"{100 * found.share:.0f} %"
         return f"Organised by {told}: {share} explained, the driver was not found. No law is claimed; {errors}."
     start = "A law" if found.evidence == "law" else "The state is known, the form open"
     return f"{start}: {told}; {errors}. {_range(found)} No mechanism is claimed."
+
+
+def _not_confirmed(found: Discovery) -> str:
+    best = found.organised
+    if best is None:
+        return "no state and form explain half of what the model leaves"
+    share = f"{100 * found.share:.0f} %"
+    if found.share < 0.5:
+        return f"no state and form explain half of what the model leaves; most, {share}, goes with {best.label}"
+    left = f"what the model leaves in {best.port.relation}"
+    return f"{share} of {left} goes with {best.label}, but no fit of the whole model with such a law confirms it"
 
 
 def _told(law: Law) -> str:

@@ -55,6 +55,8 @@ GIRDER_INPUTS: dict[str, str] = {
     "velocity_x": "girder over table [m/s]",
     "velocity_y": "girder over table [m/s]",
     "velocity_z": "girder over table, up [m/s]",
+    "slip_x": "of the girder, mean of its pads [m]",
+    "slip_y": "of the girder, mean of its pads [m]",
     "time": "since the start of the run [s]",
     "dt": "time since the instant before [s]",
 }

@@ -36,12 +36,14 @@ def test_the_step_says_the_same_as_the_balance(engine: str) -> None:
     law = predictor(model, engine=engine)
     lift = law.law.functions["girder_lift"]
     rate = np.gradient(WAY, DT) / elastic
-    force = np.array([lift(law.numbers, 3e4, 4e4, 0.0, 0.0, w, t, DT) for w, t in zip(rate, TIME, strict=True)])
+    force = np.array(
+        [lift(law.numbers, 3e4, 4e4, 0.0, 0.0, w, 0.0, 0.0, t, DT) for w, t in zip(rate, TIME, strict=True)]
+    )
     np.testing.assert_allclose(force, -0.2 * 5e4 * _share(WAY), atol=0.02 * 1e4)
 
 
 def test_a_rigid_key_keeps_no_memory() -> None:
     law = predictor(base_model("bridge1").adding(use("key_friction", friction=0.2, slow=1e-3)))
     lift = law.law.functions["girder_lift"]
-    assert lift(law.numbers, 1e4, 0.0, 0.0, 0.0, 2e-3, 0.0, DT) == pytest.approx(-2e3 * np.tanh(2.0))
-    assert lift(law.numbers, 1e4, 0.0, 0.0, 0.0, 0.0, DT, DT) == 0.0
+    assert lift(law.numbers, 1e4, 0.0, 0.0, 0.0, 2e-3, 0.0, 0.0, 0.0, DT) == pytest.approx(-2e3 * np.tanh(2.0))
+    assert lift(law.numbers, 1e4, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, DT, DT) == 0.0

@@ -39,7 +39,7 @@ def _law(candidate: Candidate, fitted: FittedLaw) -> Law:
     )
     return Law(
         name="law", states=("speed",), port="adds to mu", where="all", parity="odd", form="square",
-        tied=("power",), rivals=(), constants=constants, share=0.99, at_buffers=False,
+        tied=("power",), rivals=(), constants=constants, share=0.99, other_states=False, at_buffers=False,
         valid={"speed": (0.0, 0.12)}, fitted=fitted,
         tied_forms=(TiedForm((forms()["power"],), {**NUMBERS, "exponent": 1.9}),),
     )  # fmt: skip

@@ -76,7 +76,7 @@ _PAD = (
     "time", "dt",
 )  # fmt: skip
 _BUFFER = ("deflection", "rate", "stiffness", "side", "time", "dt")
-_GIRDER = ("velocity_x", "velocity_y", "velocity_z", "time", "dt")
+_GIRDER = ("velocity_x", "velocity_y", "velocity_z", "slip_x", "slip_y", "time", "dt")
 
 
 class _Hook(NamedTuple):

@@ -48,20 +48,34 @@ def buffer_spring(
 
 @compilable
 def girder_drag(
-    effects: Dispatch, u: Array, velocity_x: float, velocity_y: float, velocity_z: float, time: float, dt: float
-) -> tuple[float, float]:
-    """Give the horizontal force against the girder's motion along x and y [N], at its velocity over the table [m/s]."""
-    return effects.drag(u, velocity_x, velocity_y, velocity_z, time, dt)
+    effects: Dispatch, u: Array, velocity_x: float, velocity_y: float, velocity_z: float, slip_x: float, slip_y: float,
+    time: float, dt: float,
+) -> tuple[float, float]:  # fmt: skip
+    """Give the horizontal force against the girder's motion along x and y [N].
+
+    Args:
+        effects: the chosen effects.
+        u: the law's numbers.
+        velocity_x: girder over table [m/s].
+        velocity_y: the same across.
+        velocity_z: the same upwards.
+        slip_x: of the girder, mean of its pads [m].
+        slip_y: the same across.
+        time: since the start of the run [s].
+        dt: step [s].
+    """
+    return effects.drag(u, velocity_x, velocity_y, velocity_z, slip_x, slip_y, time, dt)
 
 
 @compilable
 def girder_lift(
     effects: Dispatch, u: Array, force_x: float, force_y: float, velocity_x: float, velocity_y: float,
-    velocity_z: float, time: float, dt: float,
+    velocity_z: float, slip_x: float, slip_y: float, time: float, dt: float,
 ) -> float:  # fmt: skip
     """Give the vertical force on the girder at the shear keys, whose horizontal force is given [N].
 
     Their memory goes on by dt. All keys rise together: their memory is that of the first buffer. Each holds by its
     share of the horizontal force.
     """
-    return effects.lift(u, effects.buffer_memory, force_x, force_y, velocity_x, velocity_y, velocity_z, time, dt)
+    z = effects.buffer_memory
+    return effects.lift(u, z, force_x, force_y, velocity_x, velocity_y, velocity_z, slip_x, slip_y, time, dt)

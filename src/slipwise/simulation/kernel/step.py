@@ -72,7 +72,7 @@ def control_step(
         push_pad(effects, u, pad, time, ten_length, ten_velocity, frictionloss, applied)
     sum_x, sum_y = push_buffers(effects, u, time, ten_length, ten_velocity, applied)
     if int(u[GIRDER_DOF]) >= 0:
-        push_girder(effects, u, sum_x, sum_y, time, qvel, applied)
+        push_girder(effects, u, sum_x, sum_y, time, ten_length, qvel, applied)
 
 
 @compilable
@@ -181,7 +181,7 @@ def push_buffers(
 
 @compilable
 def push_girder(
-    effects: Dispatch, u: Array, sum_x: float, sum_y: float, time: float, qvel: Array, applied: Array
+    effects: Dispatch, u: Array, sum_x: float, sum_y: float, time: float, ten_length: Array, qvel: Array, applied: Array
 ) -> None:
     """Add drag and what the shear keys hold.
 
@@ -193,16 +193,23 @@ def push_girder(
         sum_x: sum of the sizes of the buffers' forces along x [N].
         sum_y: the same along y [N].
         time: since the start of the run [s].
+        ten_length: of MuJoCo's tendons: slip and deflection [m].
         qvel: rates of the degrees of freedom [m/s, rad/s].
         applied: generalised forces [N, N m]; added to.
     """
     dof_x = int(u[GIRDER_DOF])
     dof_y = int(u[GIRDER_DOF + 1])
     dof_z = int(u[GIRDER_DOF + 2])
-    force_x, force_y = girder_drag(effects, u, qvel[dof_x], qvel[dof_y], qvel[dof_z], time, u[DT])
+    n_pads = int(u[N_PADS])
+    slip_x = 0.0
+    slip_y = 0.0
+    for pad in range(n_pads):
+        slip_x += ten_length[int(u[TENDON + 2 * pad])] / n_pads
+        slip_y += ten_length[int(u[TENDON + 2 * pad + 1])] / n_pads
+    force_x, force_y = girder_drag(effects, u, qvel[dof_x], qvel[dof_y], qvel[dof_z], slip_x, slip_y, time, u[DT])
     applied[dof_x] -= force_x
     applied[dof_y] -= force_y
-    force_z = girder_lift(effects, u, sum_x, sum_y, qvel[dof_x], qvel[dof_y], qvel[dof_z], time, u[DT])
+    force_z = girder_lift(effects, u, sum_x, sum_y, qvel[dof_x], qvel[dof_y], qvel[dof_z], slip_x, slip_y, time, u[DT])
     applied[dof_z] += force_z
     if force_z != 0.0 and sum_x + sum_y > 0.0:
         # The column of yaw in a tendon's Jacobian is the distance of the key from the middle.
