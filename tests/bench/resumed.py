@@ -8,6 +8,8 @@ from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import Any
 
+from slipwise.parallel import begin_worker
+
 Result = dict[str, Any]
 
 
@@ -18,20 +20,22 @@ def read_results(lines: Path) -> list[Result]:
 
 def run_jobs(
     lines: Path, jobs: Mapping[str, tuple[Any, ...]], workers: int, line: Callable[[Result, int, int], str],
-    begin: Callable[[], None] | None = None,
+    begin: Callable[[], None] = begin_worker,
 ) -> list[Result]:  # fmt: skip
     """Run jobs in processes, write each result and print a line of it; fewer results if it is stopped.
+
+    Each campaign has a process of its own: what one needs of memory is given back before the next.
 
     Args:
         lines: file to which results are added.
         jobs: name -> a function and its arguments.
         workers: processes.
         line: gives the line of a result, its number and how many there will be.
-        begin: called in every process first.
+        begin: called in every process first; as given, it ends when this process is gone.
     """
     out = []
     spawned = get_context("spawn")
-    with ProcessPoolExecutor(workers, mp_context=spawned, initializer=begin) as pool, lines.open("a") as stream:
+    with ProcessPoolExecutor(workers, spawned, begin, max_tasks_per_child=1) as pool, lines.open("a") as stream:
         futures = [pool.submit(*job) for job in jobs.values()]
         try:
             for number, future in enumerate(as_completed(futures), start=1):

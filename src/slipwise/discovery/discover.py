@@ -24,7 +24,7 @@ from slipwise.discovery.told_law import told_law
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import intervals
-from slipwise.estimation.least_squares import Solution, with_slopes
+from slipwise.estimation.least_squares import Solution, slopes_of, solve, with_slopes
 from slipwise.estimation.problem import Problem
 from slipwise.model import Model
 from slipwise.parallel import one_thread_algebra
@@ -40,6 +40,8 @@ _TIE, _TIE_OF_LEFT, _TIE_OF_ALL = 60.0, 0.25, 1e-3
 _FURTHER, _CONFIRMED, _MOST_LAWS = 0.025, 0.4, 3
 #: Candidates of the screen that are kept to be shown.
 _SHOWN = 10
+#: A law that leads, what ties with it, and the share of the error that it explains.
+_Leader = tuple[FittedLaw, list[FittedLaw], float]
 
 
 @one_thread_algebra()
@@ -125,14 +127,14 @@ def _from(name: str, base: BaseFit) -> Discovery:
         solution = with_slopes(problem, solution)
     whole = excess(problem, solution)
     now, here = LawProblem(pad_instants(problem, solution.values), problem, ()), solution
-    leaders: list[tuple[FittedLaw, list[FittedLaw], float]] = []
+    leaders: list[_Leader] = []
     organised: Candidate | None = None
     looked_at: tuple[Candidate, ...] = ()
     acted: set[str] = set()
     for number in range(_MOST_LAWS):
         if not any(level(problem, here, r, problem.fitted) > LEVEL for r in problem.relations):
             break
-        found = find_law(now, here, base.model, _name(number))
+        found = find_law(now, here, base.model, _name(number))  # a label of its own, whatever has been dropped
         organised = organised or (found.candidates[0] if found.candidates else None)
         looked_at = looked_at or _looked_at(found.candidates)
         leader, tied = _leader(found, problem, whole)
@@ -140,16 +142,18 @@ def _from(name: str, base: BaseFit) -> Discovery:
             break
         leader = replace(leader, solution=with_slopes(leader.problem, leader.solution))
         leaders.append((leader, tied, (here.cost - leader.solution.cost) / max(whole, 1e-9)))
-        acted.add(leader.law.match.candidate.port.relation)
-        now, here = leader.problem, leader.solution
+        leaders = _without_needless(leaders, whole)
+        acted = {f.law.match.candidate.port.relation for f, _, _ in leaders}
+        now, here = leaders[-1][0].problem, leaders[-1][0].solution
     cannot, start = tuple(_cannot_judge(now)), replace(base, solution=solution)
-    worst = next(iter(acted), max(problem.relations, key=lambda r: level(problem, solution, r, problem.fitted)))
+    worst = max(sorted(acted) or problem.relations, key=lambda r: level(problem, solution, r, problem.fitted))
 
-    def answer(kept: list[tuple[FittedLaw, list[FittedLaw], float]]) -> Discovery:
+    def answer(kept: list[_Leader]) -> Discovery:
         end = kept[-1][0].solution if kept else solution
         fit = replace(base, free=end.free, solution=end)
         known = {i.key: i for i in intervals(fit).entries} if kept else {}
-        laws = tuple(told_law(replace(f, solution=end), tied, problem.fitted, share, known) for f, tied, share in kept)
+        told = [told_law(replace(f, solution=end), tied, problem.fitted, share, known) for f, tied, share in kept]
+        laws = tuple(replace(law, name=_name(number)) for number, law in enumerate(told))
         share = (solution.cost - end.cost) / max(whole, 1e-9)
         held_out = [{r: held_out_level(problem, x, r) for r in problem.relations} for x in (solution, end)]
         relations = {r: (held_out[0][r], held_out[1][r]) for r in problem.relations}
@@ -197,6 +201,24 @@ def _earned(leader: FittedLaw, before: Solution, whole: float, *, first: bool) -
     if first:
         return gain > _FURTHER * whole and confirmed > 0.0
     return gain > _FURTHER * whole and confirmed > _CONFIRMED * min(gain / max(whole, 1e-9), 1.0)
+
+
+def _without_needless(leaders: list[_Leader], whole: float) -> list[_Leader]:
+    """Leave out laws that the last one has made needless: it may be what the first one only stood for."""
+    for needless in leaders[:-1]:
+        last, tied, share = leaders[-1]
+        label = needless[0].law.label
+        laws = tuple(law for law in last.problem.laws if law.label != label)
+        problem = replace(last.problem, laws=laws).without_results()
+        free = [f for f in last.solution.free if not f.key.startswith(f"{label}.")]
+        values = {k: v for k, v in last.solution.values.items() if not k.startswith(f"{label}.")}
+        known = {f.key: slopes_of(last.solution)[f.key] for f in free}
+        solution = solve(problem, values, free, begin=known)
+        if solution.cost <= last.solution.cost + max(_TIE, _TIE_OF_ALL * whole):
+            solution = with_slopes(problem, solution)
+            kept = [one for one in leaders[:-1] if one is not needless]
+            leaders = [*kept, (replace(last, problem=problem, solution=solution), tied, share + needless[2])]
+    return leaders
 
 
 def _leader(found: Found, problem: Problem, whole: float) -> tuple[FittedLaw | None, list[FittedLaw]]:

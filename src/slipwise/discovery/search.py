@@ -1,7 +1,7 @@
 """The search for one law: screened, matched with forms, fitted with everything else free; best first.
 
-A law that is missing may have dragged the base parameters far away, where curves are bent: the search begins from the
-fit and from the rated numbers of the base law, and what leaves least leads.
+A law that is missing may have dragged the base parameters far away, where curves are bent: the search for the first law
+begins from the fit and from the rated numbers of the base law, and what leaves least leads.
 """
 
 from collections.abc import Sequence
@@ -24,6 +24,9 @@ from slipwise.model import Model
 LEVEL = 1.15
 #: Candidates, forms of each, and matches of each start that are fitted, and of these the ones that are fitted finely.
 _CANDIDATES, _FORMS, _FITTED, _FINELY = 6, 5, 9, 3
+#: Of these candidates and matches, the ones that have a single state: two states bend further than the truth's one
+#: where the base parameters are far away.
+_SINGLE_CANDIDATES, _SINGLE = 3, 4
 #: How far from the girder's centre a force on it may act, in heights of the centre [1].
 _LEVER = 3.0
 #: A candidate explains at least this much of what its relation leaves above noise [1].
@@ -54,14 +57,12 @@ def find_law(before: LawProblem, solution: Solution, model: Model, label: str) -
     """
     candidates: list[Candidate] = []
     tried: list[FittedLaw] = []
-    for start in _starts(before, solution, model):
+    for start in _starts(before, solution, model) if not before.laws else [solution]:
         every = pad_instants(before.plain, start.values)
         here = replace(before, every=every)
         screened = _screened(here, start)
         candidates += screened
-        found = [m for c in screened[:_CANDIDATES] if c.share > _LEAST for m in matched(c, forms())[:_FORMS]]
-        found.sort(key=lambda m: -m.gain)
-        for match in found[:_FITTED]:
+        for match in _matches(screened):
             tried.append(fit_law(here, start, _placed(label, match, here), match.strength))
             tried.sort(key=lambda f: f.solution.cost)
             tried[_FINELY:] = [_without_slopes(f) for f in tried[_FINELY:]]
@@ -70,6 +71,16 @@ def find_law(before: LawProblem, solution: Solution, model: Model, label: str) -
         tuple(sorted(candidates, key=lambda c: -c.share)),
         tuple(sorted([*fine, *tried[_FINELY:]], key=lambda f: f.solution.cost)),
     )
+
+
+def _matches(screened: Sequence[Candidate]) -> list[Match]:
+    """Give the matches to be fitted: the best of the best candidates, and the best of one state each."""
+    chosen = [c for c in screened[:_CANDIDATES] if c.share > _LEAST]
+    single = [c for c in screened if len(c.states) == 1 and c.share > _LEAST][:_SINGLE_CANDIDATES]
+    every = {id(c): matched(c, forms())[:_FORMS] for c in (*chosen, *single)}
+    best = sorted((m for c in chosen for m in every[id(c)]), key=lambda m: -m.gain)[:_FITTED]
+    alone = sorted((m for c in single for m in every[id(c)]), key=lambda m: -m.gain)[:_SINGLE]
+    return [*best, *(m for m in alone if m not in best)]
 
 
 def _without_slopes(found: FittedLaw) -> FittedLaw:
