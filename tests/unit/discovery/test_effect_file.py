@@ -3,6 +3,7 @@
 import dataclasses
 import math
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -39,7 +40,7 @@ def law_of(port: str, states: tuple[str, ...], form_names: tuple[str, ...], gate
     constants += [LawConstant("time_constant", lag, NAN, NAN, "s")] if lag else []
     fitted = Fitted(PlacedLaw("law", match, ()), LawProblem(None, None, ()), None)  # pyright: ignore[reportArgumentType]
     return Law(
-        "law", states, port, gate.name, "odd", " x ".join(form_names), (), (), tuple(constants), 0.97, False,
+        "law", states, port, gate.name, "odd", " x ".join(form_names), (), (), tuple(constants), 0.97, False, False,
         {s: (0.0, 1.0) for s in states}, fitted, (),
     )  # fmt: skip
 
@@ -101,6 +102,27 @@ def test_the_hook_is_the_law(port: str, gate: Gate, tmp_path: Path) -> None:
         "adds to friction": 0.1 + open_here * 0.2 * form * 2e4 / 1.5e4,
     }[port]
     assert got == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize(("port", "sign"), [("girder", -1.0), ("girder by place", 1.0)])
+def test_a_force_at_the_centre_is_the_same_in_a_replay_and_in_the_balances(
+    port: str, sign: float, tmp_path: Path
+) -> None:
+    law = law_of(port, ("slip",), ("sine",))
+    effect = load_effect(write_law(law, discovery(law), tmp_path, "found", "2026-11-27"))
+    match = law.fitted.law.match
+    expected = sign * 0.2 * product_at(match.forms, [np.array([0.004])], match.constants)[0]
+    given = {"velocity_x": -0.3, "velocity_y": 0.0, "slip_x": 0.004, **effect.typical()}
+    drag = effect.hooks["drag"]
+    asked = drag.__code__.co_varnames[: drag.__code__.co_argcount]
+    assert drag(**{name: given[name] for name in asked}) == (pytest.approx(expected, rel=1e-9), 0.0)
+    states = SimpleNamespace(slip=np.array([[0.004, 0.0]]), velocity=np.array([[-0.3, 0.0]]))
+    assert effect.hooks["balance"](states, **effect.typical())["girder"] == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_force_that_tips_the_girder_is_written_at_its_buffers(tmp_path: Path) -> None:
+    law = dataclasses.replace(law_of("girder by place", ("slip",), ("bump",)), at_buffers=True)
+    assert "spring" in load_effect(write_law(law, discovery(law), tmp_path, "found", "2026-11-27")).hooks
 
 
 def test_a_lift_that_no_hook_can_know_is_not_written() -> None:
