@@ -1,14 +1,14 @@
 """Damage files of every format at random: each is read, or refused in words; anything else is printed and counted.
 
-A child process does the reading with bounded memory, so that a file that asks for gigabytes is counted as well, and one
-that brings the process down is written to the folder of the results.
+Motions, data files, campaign.toml, model.toml with an effect file beside it that must not run, and MJCF files of rigs.
+A child process does the reading with bounded memory, so that a file that asks for gigabytes is counted as well. What
+fails is kept as fuzz_N_NAME in the folder from which this is called.
 
 python scripts/fuzz_readers.py --seconds 60 --seed 1
 python scripts/fuzz_readers.py --count 100000
 """
 
 import argparse
-import io
 import logging
 import multiprocessing
 import resource
@@ -18,16 +18,12 @@ import time
 import traceback
 import warnings
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
-from slipwise.campaign.draft import draft_campaign  # noqa: E402
-from slipwise.campaign.table import open_table  # noqa: E402
+from fuzzing import targets  # noqa: E402  # pyright: ignore[reportMissingImports]
 from slipwise.errors import SlipwiseError  # noqa: E402
-from slipwise.motion.load import load_motion  # noqa: E402
-from unit.motion import agency_samples, samples  # noqa: E402  # pyright: ignore[reportMissingImports]
 
 _PIECES = [
     b"", b"-", b".", b"9", b"0", b" ", b"\n", b"\r", b",", b";", b"\t", b"E", b"nan", b"\x00", b"\xff", b"(", b"]",
@@ -56,82 +52,6 @@ def damaged(data: bytes, rng: np.random.Generator) -> bytes:
     return data
 
 
-def read_motion(path: Path, data: bytes) -> None:
-    """Read a motion as `replay` does, with the step and unit that a refusal asks for."""
-    path.write_bytes(data)
-    try:
-        load_motion(path)
-    except SlipwiseError as error:
-        asked: dict[str, Any] = {"--motion-dt": {"dt": 0.01}, "--unit": {"unit": "gal"}}
-        given = {key: value for flag, pair in asked.items() if flag in str(error) for key, value in pair.items()}
-        if not given:
-            raise
-        load_motion(path, **{"dt": 0.01, "unit": "gal"} if len(given) == 1 and "dt" in given else given)
-
-
-def read_table(path: Path, data: bytes) -> None:
-    """Read a data file as a campaign does, and draft a campaign from it."""
-    path.write_bytes(data)
-    table = open_table(path)
-    table.columns(range(min(len(table.headers), 6)))
-    draft_campaign(path.parent)
-
-
-def tables(folder: Path) -> dict[str, bytes]:
-    """One small data file of each kind that the installed extras can write."""
-    from scipy.io import savemat
-
-    from slipwise.record import Record, write_record
-
-    step = np.arange(300, dtype=np.float64) * 0.01
-    rows = "".join(f"{t:.2f}\t{np.sin(t):.4f}\t{np.cos(t):.4f}\n" for t in step)
-    stamps = "".join(f"2031-02-03 10:15:{t:05.2f},{np.sin(t):.4f},{np.cos(t):.4f}\n" for t in step)
-    found = {
-        "a.txt": f"Sample rate\t100 Hz\n\nTime\tSlip\tForce\ns\tmm\tkN\n{rows}".encode(),
-        "b.csv": f'"TOA5","R"\n"TIMESTAMP","Slip","Load"\n"TS","mm","kN"\n{stamps}'.encode(),
-        "c.dat": f"MTS793\n\nTime\tSlip\tForce\n{rows}\nTime\tSlip\tForce\n{rows}".encode(),
-        "d.lvm": f"LabVIEW Measurement\t\nX_Value\tA\tB\tComment\n{rows}".encode(),
-        "e.csv": f"Zeit;Weg;Kraft\n{rows.replace('.', ',').replace(chr(9), ';')}".encode("utf-16"),
-    }
-    savemat(folder / "f.mat", {"t": step, "s": {"x": np.stack([step, step])}}, do_compression=True)
-    write_record(Record(step, {"slip_x": np.sin(step)}), folder / "g.parquet")
-    try:
-        from openpyxl import Workbook
-
-        book = Workbook()
-        for row in [["Time [s]", "Slip [mm]"], *[[float(t), float(np.sin(t))] for t in step]]:
-            book.active.append(row)  # type: ignore[union-attr]
-        book.save(folder / "h.xlsx")
-    except ModuleNotFoundError:
-        print("openpyxl is not installed: no workbook is damaged")
-    try:
-        from nptdms import ChannelObject, TdmsWriter  # type: ignore[import-not-found]
-
-        with TdmsWriter(str(folder / "i.tdms")) as writer:
-            writer.write_segment([ChannelObject("Rig", "Slip", np.sin(step), {"wf_increment": 0.01})])
-    except ModuleNotFoundError:
-        print("npTDMS is not installed: no .tdms file is damaged")
-    written = [p for p in folder.iterdir() if p.suffix in (".mat", ".parquet", ".xlsx", ".tdms")]
-    return found | {path.name: path.read_bytes() for path in written}
-
-
-def seismograms() -> list[bytes]:
-    """SAC and miniSEED, where obspy is installed."""
-    try:
-        import obspy  # type: ignore[import-untyped]
-    except ModuleNotFoundError:
-        print("obspy is not installed: no SAC and no miniSEED file is damaged")
-        return []
-    out = []
-    for kind in ("SAC", "MSEED"):
-        values = np.sin(0.1 * np.arange(300.0)).astype(np.float32)
-        trace = obspy.Trace(values, {"delta": 0.01, "channel": "HNE", "station": "TST"})
-        file = io.BytesIO()
-        trace.write(file, format=kind)
-        out.append(file.getvalue())
-    return out
-
-
 def _peak() -> int:
     """Largest memory of this process so far [bytes]."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
@@ -142,13 +62,12 @@ def fuzz(seed: int, seconds: float, count: int, folder: Path, results: "multipro
     warnings.simplefilter("ignore")
     logging.disable()
     rng = np.random.default_rng(seed)
-    motions = list((samples.every_format() | agency_samples.every_agency()).values()) + seismograms()
-    files = list(tables(folder).items())
-    alone = folder / "alone"
-    alone.mkdir()
-    for data in motions:  # imports and caches are not the files' memory
+    found = targets(folder)
+    kinds = sorted({t.path.name.partition("_")[0] for t in found})
+    by_kind = {k: [t for t in found if t.path.name.partition("_")[0] == k] for k in kinds}
+    for target in found:  # imports and caches are not the files' memory
         try:
-            read_motion(folder / "motion.txt", data)
+            target.try_with(target.data)
         except SlipwiseError:
             pass
     resource.setrlimit(resource.RLIMIT_AS, (_ADDRESSES, _ADDRESSES))
@@ -156,30 +75,26 @@ def fuzz(seed: int, seconds: float, count: int, folder: Path, results: "multipro
     failures: dict[str, str] = {}
     end = time.perf_counter() + seconds
     while done < count and time.perf_counter() < end:
+        # half of the files are motions, of which there are most formats
+        kind = "motion" if done % 2 else kinds[int(rng.integers(len(kinds)))]
+        target = by_kind[kind][int(rng.integers(len(by_kind[kind])))]
+        data = damaged(target.data, rng)
+        (folder / "last").write_bytes(data)
         began, before = time.perf_counter(), _peak()
-        if done % 4:
-            number = int(rng.integers(len(motions)))
-            kind, data = f"motion {number}", damaged(motions[number], rng)
-        else:
-            kind, data = files[int(rng.integers(len(files)))]
-            data = damaged(data, rng)
-        last = folder / "motion.txt" if done % 4 else alone / kind
-        (folder / "last").write_text(str(last))
         try:
-            read_motion(last, data) if done % 4 else read_table(last, data)
+            target.try_with(data)
         except SlipwiseError:
             refused += 1
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             place = traceback.extract_tb(error.__traceback__)[-1]
             failures.setdefault(f"{kind}: {type(error).__name__} at {place.filename}:{place.lineno}", str(error))
+            (Path(f"fuzz_{len(failures)}_{target.path.name}")).write_bytes(data)
         spent = time.perf_counter() - began
         slow = max(slow, spent)
         if spent > _SLOW:
             failures.setdefault(f"{kind}: slow", f"{spent:.1f} s")
         if _peak() - before > _MEMORY:
             failures.setdefault(f"{kind}: memory", f"{(_peak() - before) / 2**30:.2f} GB")
-        if not done % 4:
-            last.unlink()
         done += 1
     results.put((done, refused, slow, _peak() - began_with, failures))
 
@@ -199,7 +114,7 @@ def main() -> int:
         child.join()
         if results.empty():
             kept = Path("fuzz_input")
-            kept.write_bytes(Path((Path(name) / "last").read_text()).read_bytes())
+            kept.write_bytes((Path(name) / "last").read_bytes())
             print(f"FAILED: the reading process died with {child.exitcode}; what it read last is in {kept}")
             return 1
     done, refused, slow, memory, failures = results.get()
