@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from slipwise.motion import TableMotion, load_motion
     from slipwise.params import Parameter
     from slipwise.record import Record, read_record, write_record
+    from slipwise.session.session import Session
     from slipwise.simulation.pier import pier_top
     from slipwise.simulation.replay import replay
     from slipwise.simulation.simulator import Replay, SimulationDiverged
@@ -87,6 +88,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "Parameter": ("params", "Parameter"),
     "Record": ("record", "Record"),
     "Replay": ("simulation.simulator", "Replay"),
+    "Session": ("session.session", "Session"),
     "SimulationDiverged": ("simulation.simulator", "SimulationDiverged"),
     "SlipwiseError": ("errors", "SlipwiseError"),
     "TableMotion": ("motion", "TableMotion"),
@@ -116,6 +118,7 @@ __all__ = [
     "Parameter",
     "Record",
     "Replay",
+    "Session",
     "SimulationDiverged",
     "SlipwiseError",
     "TableMotion",

@@ -59,6 +59,10 @@ ARROWS: dict[str, str] = {
         "campaign channels diagnosis effects errors estimation executors finished_jobs model motion record rig"
         " signals simulation units"
     ),
+    "session": (
+        "cache campaign channels comparison diagnosis discovery effects errors estimation instruments model model_file"
+        " parallel record shown simulation units"
+    ),
     "view": (
         "channels comparison diagnosis discovery effects errors estimation evidence experiment instruments parallel"
         " params record rig signals studies units whole_file"

@@ -140,7 +140,7 @@ def _replayed(model: Model, final: BaseFit, place: int) -> _Answer:
         measured_motion(run.states),
         dt=dt,
         output_dt=run.dt,
-        start=_memory_before(model, final.problem.runs[:place]),
+        start=memory_before(model, final.problem.runs[:place]),
         rest=run.rest_before,
     )
     responses = {
@@ -151,8 +151,8 @@ def _replayed(model: Model, final: BaseFit, place: int) -> _Answer:
     return _Answer(responses, answer.record.channels)
 
 
-def _memory_before(model: Model, runs: Sequence[FitRun]) -> Memory:
-    """Drive the laws with what was measured in the runs before."""
+def memory_before(model: Model, runs: Sequence[FitRun]) -> Memory:
+    """Give what pads and buffers remember after the runs before, their laws driven with what was measured."""
     law = predictor(model)
     layout = law.law.layout
     for before in runs:

@@ -1,6 +1,6 @@
 """The base fit: the user's model with its own parameters and the rig's numbers, nothing missing added."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -66,28 +66,49 @@ class BaseFit:
     solution: Solution
 
 
-def fit_base(campaign: Campaign, model: Model | None = None, invalid: InvalidSamples | None = None) -> BaseFit:
+def fit_base(
+    campaign: Campaign,
+    model: Model | None = None,
+    invalid: InvalidSamples | None = None,
+    watch: Callable[[], None] | None = None,
+) -> BaseFit:
     """Fit a campaign's base parameters on its runs of role fit and repeat.
 
     Args:
         campaign: with at least one run that is not held out.
         model: the user's current model; the paper's law on the campaign's rig when not given.
         invalid: run -> channel -> samples (n,) at which it is no measurement.
+        watch: called before every evaluation; what it raises ends the fit.
 
     Raises:
         InputError: a run lacks what every fit needs.
     """
     model = scaled_model(model or base_model(campaign.specimen), scales_of(campaign), typical=model is None)
+    campaign, start = with_logger(campaign, model, invalid)
+    problem = Problem(fit_runs(campaign, invalid), model.specimen, terms_of(model), watch=watch)
+    return _fitted(campaign, model, problem, start)
+
+
+def with_logger(
+    campaign: Campaign, model: Model, invalid: InvalidSamples | None = None
+) -> tuple[Campaign, Mapping[str, float]]:
+    """Give a campaign with the logger's filter as the fitted runs show it, and where a fit that found it ended.
+
+    Args:
+        campaign: itself where its logger is known, or its rig prescribes the slip.
+        model: whose law a fit of the filter's frequency stands beside.
+        invalid: as for `fit_base`.
+    """
+    if campaign.logger.known or not model.specimen.free:  # of one slider no filter is told from a law
+        return campaign, {}
     start: Mapping[str, float] = {}
-    if not campaign.logger.known and model.specimen.free:  # of one slider no filter is told from a law
-        fitted = tuple(run for run in campaign.runs if run.role != "holdout")
-        estimated = estimate_logger(replace(campaign, runs=fitted)).likeliest
-        if estimated is None:  # the usual kind, at the frequency that a fit finds beside the law
-            problem = Problem(fit_runs(campaign, invalid), model.specimen, terms_of(model))
-            start = _roughly(problem, _free(campaign, model, problem), {}).values
-            estimated = Logger(LowPass(start["rig.logger"]), known=True)
-        campaign = replace(campaign, logger=estimated)
-    return _fitted(campaign, model, Problem(fit_runs(campaign, invalid), model.specimen, terms_of(model)), start)
+    fitted = tuple(run for run in campaign.runs if run.role != "holdout")
+    estimated = estimate_logger(replace(campaign, runs=fitted)).likeliest
+    if estimated is None:  # the usual kind, at the frequency that a fit finds beside the law
+        problem = Problem(fit_runs(campaign, invalid), model.specimen, terms_of(model))
+        start = _roughly(problem, free_numbers(campaign, model, problem), {}).values
+        estimated = Logger(LowPass(start["rig.logger"]), known=True)
+    return replace(campaign, logger=estimated), start
 
 
 def scaled_model(model: Model, scales: Scales, *, typical: bool) -> Model:
@@ -118,7 +139,8 @@ def scaled_model(model: Model, scales: Scales, *, typical: bool) -> Model:
     return Model(specimen, tuple(uses))
 
 
-def _free(campaign: Campaign, model: Model, problem: Problem) -> list[Free]:
+def free_numbers(campaign: Campaign, model: Model, problem: Problem) -> list[Free]:
+    """Give what a fit of a model may change, with bounds that this campaign's strokes and gauges set."""
     free = base_free(
         model, balances=problem.balanced, logger_known=campaign.logger.known, length=problem.runs[0].scales.length
     )
@@ -140,7 +162,7 @@ def _roughly(problem: Problem, free: list[Free], start: Mapping[str, float]) -> 
 
 
 def _fitted(campaign: Campaign, model: Model, problem: Problem, start: Mapping[str, float]) -> BaseFit:
-    free = _free(campaign, model, problem)
+    free = free_numbers(campaign, model, problem)
     solution = _roughly(problem, free, start)
     weighed = solution.values
     for enough in _ENOUGH:

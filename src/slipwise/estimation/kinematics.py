@@ -39,6 +39,7 @@ class Kinematics:
         lost: per run (f, p) velocity that the logger's filter took at reversals [m/s].
         bounds: per run (n, p) friction of the pads whichever way they slide [N]; what was measured until it is known.
         slip_delay: by which the slip gauge lags behind the accelerometers, as the fit was weighed [s].
+        weighed_by: numbers with which the noise was weighed last.
         around: values from which slopes are taken, where faults move noise in time; see `measurement_model.without`.
     """
 
@@ -51,6 +52,7 @@ class Kinematics:
     lost: list[Array] = field(default_factory=list[Array])
     bounds: list[Array] = field(default_factory=list[Array])
     slip_delay: float = 0.0
+    weighed_by: Mapping[str, float] = field(default_factory=dict[str, float])
     around: Mapping[str, float] | None = None
 
     def __post_init__(self) -> None:

@@ -4,7 +4,7 @@ Residuals are (measured - predicted) / noise in measured units: a fault of a gau
 inverse on the measurement with the noise scaled alike. Else a gain below one would shrink the noise and look good.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from copy import copy
 from dataclasses import dataclass, field
 
@@ -55,6 +55,7 @@ class Problem:
         terms: effects of the base model, then those of the hypothesis.
         sigmas: relation -> per run noise, broadcastable to the residual; made by `weigh`.
         ringing: relation -> per run spectrum (m,) of gauges' noise that rings in it [N^2]; made by `weigh`.
+        watch: called before every evaluation, if given; what it raises ends a fit.
         kinematics: what moved, as the terms understand it.
     """
 
@@ -63,6 +64,7 @@ class Problem:
     terms: tuple[Term, ...]
     sigmas: dict[str, list[Array]] = field(default_factory=dict[str, list[Array]])
     ringing: dict[str, list[Array]] = field(default_factory=dict[str, list[Array]])
+    watch: Callable[[], None] | None = None
 
     def __post_init__(self) -> None:
         """Make ready what never changes."""
@@ -150,8 +152,9 @@ class Problem:
             values: key -> value, of every term's parameters and the rig's numbers.
             fitted_only: leave out the runs after the last one that may be fitted; their parts are missing then.
         """
-        model = self.model(values)
-        count = max(self.fitted) + 1 if fitted_only else len(self.runs)
+        if self.watch is not None:
+            self.watch()
+        model, count = self.model(values), max(self.fitted) + 1 if fitted_only else len(self.runs)
         pad_key = (count, *self._pad_key(values))
         pads = self.kinematics.recent.get("pad parts", pad_key, lambda: self._pad_parts(model, values, count))
         if not self.balanced:
@@ -218,7 +221,7 @@ class Problem:
     def weigh(self, values: Mapping[str, float]) -> None:
         """Set the noise of every relation, error of the velocity near reversals included, and what filters took."""
         self.kinematics.recent.forget()
-        self.kinematics.slip_delay = values.get("rig.late_slip", 0.0)
+        self.kinematics.slip_delay, self.kinematics.weighed_by = values.get("rig.late_slip", 0.0), values
         model = self.model(values)
         law = PadLaw(model)
         runs, _ = self.kinematics.corrected(values)
@@ -241,21 +244,18 @@ class Problem:
             for i, run in enumerate(runs):
                 forces[i] = forces[i] + on_force(self._on_force, values, run, forces[i])[1]
         reversal = [reversal_noise(*each) for each in zip(runs, plain, shifted, strict=True)]
-        self.sigmas = {"pads": [pad_noise(*each) for each in zip(runs, plain, reversal, strict=True)]}
-        self.ringing = {}
+        self.sigmas, self.ringing = {"pads": [pad_noise(*e) for e in zip(runs, plain, reversal, strict=True)]}, {}
         if self.balanced:
             changed = [changed_by(self._on_force, values, r) for r in runs] if self._on_force else []
             levels = weighed_balances(model, runs, values, reversal, changed)
-            ringing = ringing_noise(model, runs, values)
             self.sigmas |= {name: levels[name] for name in self.relations if name in levels}
-            self.ringing = {name: ringing[name] for name in self.relations if name in ringing}
+            ringing = ringing_noise(model, runs, values).items()
+            self.ringing = {name: of for name, of in ringing if name in self.relations}
         if "across" in self.relations:
             self.sigmas["across"] = [noise_across(*each) for each in zip(runs, states, law_forces, strict=True)]
 
     def _over(self, name: str, run: int, left: Array, kept: NDArray[np.bool_]) -> Array:
-        if not self.sigmas:
-            return np.where(kept, left, 0.0)
-        return np.where(kept, left / self.sigmas[name][run], 0.0)
+        return np.where(kept, left / self.sigmas[name][run] if self.sigmas else left, 0.0)
 
     def _pad_key(self, values: Mapping[str, float], *, faults: bool = True) -> Key:
         """Give what the pads' residuals depend on; without the faults of friction gauges, what the law's forces do."""

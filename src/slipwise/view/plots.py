@@ -108,6 +108,12 @@ def _floors(title: str, errors: Mapping[str, tuple[float, float]], labels: Seque
     return figure
 
 
+def _session(session: Any) -> Figure:
+    before = {e.relation: e.error for e in session.errors(session.reference)}
+    held = {e.name: (before.get(e.relation, e.error), e.error) for e in session.errors()}
+    return _floors(f"{session.campaign.name}: {session.state.words}", held, ("before", "now"))
+
+
 def _next_test(found: Any) -> Figure:
     shown = [p for p in found.proposals if not p.refused and not p.failed]
     figure = new_figure(9.0, 1.2 + 0.4 * max(len(shown), 1), "How well each motion would tell the rivals apart")
@@ -131,5 +137,6 @@ _PICTURES: dict[str, Callable[[Any], Figure]] = {
     "NextTest": _next_test,
     "Record": _record,
     "Replay": lambda replay: _record(replay.record),
+    "Session": _session,
     "TableMotion": _motion,
 }

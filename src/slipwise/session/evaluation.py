@@ -1,0 +1,149 @@
+"""A campaign made ready once, so that any state of a session is held against it in milliseconds."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from slipwise.campaign import Campaign
+from slipwise.campaign.scales import scales_of
+from slipwise.comparison.component_level import NAMES
+from slipwise.diagnosis.selection import prepared
+from slipwise.estimation.base_fit import BaseFit, free_numbers, scaled_model, with_logger
+from slipwise.estimation.least_squares import Solution
+from slipwise.estimation.parameters import Free, inertia_free, stick_damping_free, terms_of
+from slipwise.estimation.problem import Problem
+from slipwise.estimation.residuals import Residuals
+from slipwise.estimation.run_data import FINER, FitRun, fit_runs
+from slipwise.instruments.repairs import InvalidSamples
+from slipwise.model import Model, base_model
+from slipwise.session.state import State, Weights
+
+#: Problems that stay ready: this state's, that before it, the one it is compared with, and another model's.
+_READY = 4
+
+
+@dataclass(frozen=True)
+class BalanceError:
+    """Error of one relation.
+
+    Attributes:
+        relation: "pads", "girder" ...
+        name: as people call it.
+        fitted: rms of the residual over its floor, of all runs that may be fitted [1].
+        held_out: the same of the held-out runs; None where none is held out.
+        runs: run -> the same of this run.
+    """
+
+    relation: str
+    name: str
+    fitted: float
+    held_out: float | None
+    runs: Mapping[str, float]
+
+    @property
+    def error(self) -> float:
+        """The held-out error; that of the fitted runs where none is held out."""
+        return self.fitted if self.held_out is None else self.held_out
+
+
+@dataclass
+class Evaluator:
+    """The runs of a campaign, ready for the relations of a fit.
+
+    Attributes:
+        campaign: samples corrected, with the logger's filter as it was found where nobody knew it.
+        invalid: run -> channel -> samples at which it is no measurement.
+        model: where the session began, its effects with the bounds that they have in this campaign.
+        runs: as a fit needs them.
+    """
+
+    campaign: Campaign
+    invalid: InvalidSamples
+    model: Model
+    runs: list[FitRun]
+    _ready: list[tuple[Weights, Problem]] = field(default_factory=list[tuple[Weights, Problem]])
+
+    def problem(self, state: State, watch: Callable[[], None] | None = None) -> Problem:
+        """Give the relations of a state, weighed as it says."""
+        found = next((ready for ready in self._ready if ready[0] == state.weights), None)
+        if found is None:
+            found = (state.weights, self._weighed(state.weights))
+            self._ready = [*self._ready, found][-_READY:]
+        problem = found[1].having(state.terms)
+        problem.watch = watch
+        return problem
+
+    def _weighed(self, weights: Weights) -> Problem:
+        problem = Problem(self.runs, self.model.specimen, weights.terms)
+        problem = problem.with_yaw() if weights.yaw else problem
+        if weights.finer:
+            problem.kinematics.refine(FINER)
+            problem.runs = problem.kinematics.runs
+        problem.weigh(weights.values)
+        return problem
+
+    def residuals(self, state: State) -> Residuals:
+        """Evaluate every relation in all runs."""
+        return self.problem(state).residuals(state.values)
+
+    def model_of(self, state: State) -> Model:
+        """Give the model that a state describes."""
+        return self.problem(state).model(state.values)
+
+    def free(self, state: State) -> list[Free]:
+        """Give every number of a state that may be changed, with its bounds; an effect on a card has one set."""
+        problem = self.problem(state)
+        model = Model(self.model.specimen, tuple(u for t in state.terms for u in t.uses(state.values)))
+        cards = [t for t in state.terms if len(t.targets) > 1]
+        single = {f"{u.label}.{n}" for t in cards for u in t.uses(state.values) for n in t.effect.parameter_names}
+        free = [f for f in free_numbers(self.campaign, model, problem) if f.key not in single]
+        for term in cards:
+            free += term.free({n: state.values[f"{term.label}.{n}"] for n in term.effect.parameter_names})
+        free += [inertia_free(problem.specimen, key) for key in problem.kinematics.inertias]
+        if "rig.stick_damping" in state.values and any(f.key == "rig.stick_length" for f in free):
+            free.append(stick_damping_free(self.runs[0].scales.time))
+        return free
+
+    def as_fit(self, state: State) -> BaseFit:
+        """Give a state as a fit without slopes, for replays."""
+        problem, free, residuals = self.problem(state), tuple(self.free(state)), self.residuals(state)
+        left = residuals.stacked(problem.fitted, problem.relations)
+        solution = Solution(dict(state.values), free, residuals, np.empty((0, 0)), float(left @ left), 0)
+        return BaseFit(self.campaign, self.model_of(state), problem, free, solution)
+
+
+def evaluator(campaign: Campaign, model: Model | None) -> tuple[Evaluator, State]:
+    """Make a campaign ready, and give the state in which a session begins: the model as stated, nothing fitted.
+
+    Args:
+        campaign: as it was recorded.
+        model: the user's; the paper's law on the campaign's rig when not given.
+
+    Raises:
+        InputError: a run lacks what every fit needs.
+    """
+    whole, invalid, _ = prepared(campaign)
+    begun = scaled_model(model or base_model(whole.specimen), scales_of(whole), typical=model is None)
+    whole, found = with_logger(whole, begun, invalid)
+    ready = Evaluator(whole, invalid, begun, fit_runs(whole, invalid))
+    terms = terms_of(begun)
+    problem = Problem(ready.runs, begun.specimen, terms)
+    values = {f.key: found.get(f.key, f.start) for f in free_numbers(whole, begun, problem)}
+    return ready, State(terms, values, Weights(terms, values, finer=False))
+
+
+def errors_of(problem: Problem, residuals: Residuals) -> tuple[BalanceError, ...]:
+    """Give the error of every relation in floors."""
+    out = []
+    for relation in problem.relations:
+        squares = [float(np.sum(part**2)) for part in residuals.parts[relation]]
+        counts = [int(np.count_nonzero(run.judged[relation])) for run in problem.runs]
+
+        def rms(places: list[int], squares: list[float] = squares, counts: list[int] = counts) -> float:
+            return float(np.sqrt(sum(squares[i] for i in places) / max(sum(counts[i] for i in places), 1)))
+
+        held = rms(problem.held_out) if any(counts[i] for i in problem.held_out) else None
+        runs = {run.name: rms([i]) for i, run in enumerate(problem.runs) if counts[i]}
+        out.append(BalanceError(relation, NAMES[relation][0], rms(problem.fitted), held, runs))
+    return tuple(out)

@@ -1,0 +1,45 @@
+"""What a diagnosis and a search for a law leave in a session: plain data that lasts, and effects to be taken over."""
+
+from collections.abc import Mapping
+from datetime import date
+from pathlib import Path
+from typing import Any
+
+from slipwise.diagnosis.result import Diagnosis
+from slipwise.discovery.law import Discovery
+from slipwise.estimation.parameters import Term
+from slipwise.session.state import EffectOf, terms_from_json, terms_json
+
+
+def explained(found: Diagnosis, of: tuple[str, ...]) -> dict[str, Any]:
+    """Give what a session keeps of a diagnosis.
+
+    Args:
+        found: the diagnosis.
+        of: labels of the effects of the model that was diagnosed.
+    """
+    best = found.search.best
+    terms = best.terms if found.verdict.effects else ()
+    values = found.final.solution.values
+    suggestion = [
+        {**said, "values": {n: values[f"{t.label}.{n}"] for n in t.effect.parameter_names}}
+        for t, said in zip(terms, terms_json(terms), strict=True)
+    ]
+    return {**found.as_json(), "of": list(of), "suggestion": suggestion}
+
+
+def suggested(content: Mapping[str, Any], effect_of: EffectOf) -> list[tuple[Term, Mapping[str, float]]]:
+    """Give the effects that a diagnosis suggests, with their fitted parameters; none where it names none."""
+    parts = content["suggestion"]
+    return list(zip(terms_from_json(parts, effect_of), (part["values"] for part in parts), strict=True))
+
+
+def discovered(found: Discovery, folder: Path, of: tuple[str, ...]) -> dict[str, Any]:
+    """Write the laws that were found as effect files, and give what a session keeps of them.
+
+    Args:
+        found: the search.
+        folder: that takes the files.
+        of: labels of the effects of the model that was searched from.
+    """
+    return {**found.written(folder, "law", date.today().isoformat()).as_json(), "of": list(of)}

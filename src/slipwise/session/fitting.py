@@ -1,0 +1,111 @@
+"""Fits of a session: from where its numbers stand, told of as they go on, and stopped by whoever listens."""
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from math import isfinite
+
+from slipwise.estimation.base_fit import BaseFit, final_refit, fit_base
+from slipwise.estimation.intervals import Interval, intervals
+from slipwise.estimation.least_squares import Solution, solve
+from slipwise.estimation.problem import Problem
+from slipwise.session.evaluation import Evaluator
+from slipwise.session.state import Known, State, Weights
+
+#: Called with what is being done and the share done; what it raises ends the fit.
+Progress = Callable[[str, float], None]
+#: Somebody who waits is told at least so often [s].
+_TOLD_EVERY = 0.2
+#: A fit is over when a step lowers the squared residual by less than this, and by less than this share of what is left
+#: above the noise; one that falls by more than this share is followed by another, so often at most [1].
+_ENOUGH, _ROUGH, _FALLS, _AGAIN = 10.0, 5e-4, 0.05, 3
+
+
+@dataclass
+class Watch:
+    """Counts the evaluations of a fit and tells of them.
+
+    How many a fit needs is not known before: within its stage the share done comes ever nearer to the whole.
+
+    Attributes:
+        progress: whom to tell.
+        stage: what is being done.
+        begin: share done when this stage began [1].
+        end: share done when it is over [1].
+        usual: evaluations that this stage usually takes.
+    """
+
+    progress: Progress
+    stage: str = "fitting"
+    begin: float = 0.0
+    end: float = 1.0
+    usual: int = 50
+    _count: int = 0
+    _told: float = field(default=-1.0)
+
+    def next(self, stage: str, end: float, usual: int) -> None:
+        """Go on to the next stage."""
+        self.begin, self.end, self.stage, self.usual, self._count = self.end, end, stage, usual, 0
+        self.progress(stage, self.begin)
+
+    def __call__(self) -> None:
+        """Count one evaluation."""
+        self._count += 1
+        now = time.monotonic()
+        if now - self._told > _TOLD_EVERY:
+            self._told = now
+            share = self._count / (self._count + self.usual)
+            self.progress(self.stage, self.begin + (self.end - self.begin) * share)
+
+
+def fit_state(ready: Evaluator, state: State, progress: Progress) -> State:
+    """Fit all numbers of a state to the runs that may be fitted, and say how sure each is.
+
+    A state that no fit has been near to begins from rated numbers, as every command does; any other from where it
+    stands, with the noise weighed by the law that is fitted, in the end twice.
+
+    Args:
+        ready: the campaign.
+        state: where to begin.
+        progress: told of the fit; what it raises ends it.
+    """
+    watch = Watch(progress, end=0.0)
+    if state.weights.finer:
+        watch.next("fitting from here", 0.45, 40)
+        coarse = replace(state, weights=replace(state.weights, finer=False))  # in half the time, as near
+        problem, solution = _from_here(ready, ready.problem(coarse, watch), state, state.values)
+    else:
+        watch.next("fitting from rated numbers", 0.45, 60)
+        base = fit_base(ready.campaign, ready.model, ready.invalid, watch)
+        problem, solution = base.problem, base.solution
+        if state.terms != problem.terms:
+            values = {**state.values, **{k: v for k, v in solution.values.items() if k.startswith("rig.")}}
+            problem, solution = _from_here(ready, problem.having(state.terms), state, values)
+    watch.next("fitting on, with the noise that this law leaves", 0.85, 80)
+    problem, solution = final_refit(problem, solution)
+    watch.next("how sure the numbers are", 1.0, 30)
+    fit = BaseFit(ready.campaign, ready.model, problem, solution.free, solution)
+    known = {e.key: _known(e) for e in intervals(fit).entries}
+    weights = Weights(state.terms, problem.kinematics.weighed_by, finer=True, yaw=problem.kinematics.yaw)
+    values = {**state.values, **solution.values}
+    progress("done", 1.0)
+    return replace(state, values=values, weights=weights, fitted=True, known=known, words="fitted", edit="")
+
+
+def _from_here(
+    ready: Evaluator, problem: Problem, state: State, values: Mapping[str, float]
+) -> tuple[Problem, Solution]:
+    free = ready.free(state)
+    start = {**values, **{f.key: min(max(values.get(f.key, f.start), f.low), f.high) for f in free}}
+    solution = solve(problem, start, free, most=8, enough=_ENOUGH, rough=_ROUGH)
+    for _ in range(_AGAIN):
+        before = solution.cost
+        solution = solve(problem, solution.values, free, most=6, enough=_ENOUGH, rough=_ROUGH)
+        if before - solution.cost < _FALLS * solution.cost:
+            break
+    return problem, solution
+
+
+def _known(entry: Interval) -> Known:
+    ends = (e if isfinite(e) else None for e in (entry.low, entry.high))
+    return Known(*ends, entry.bound, entry.limit)

@@ -1,0 +1,299 @@
+"""The session: compare, see where it fails, learn what is missing, add it, watch the error fall, go back."""
+
+import io
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from slipwise.campaign import Campaign, as_campaign
+from slipwise.diagnosis.result import Diagnosis
+from slipwise.discovery.discover import diagnose_with_law, discover
+from slipwise.discovery.law import Discovery
+from slipwise.effects import Effect, Trust, catalogue
+from slipwise.errors import SettingError
+from slipwise.model import Model
+from slipwise.model_file import save_model
+from slipwise.parallel import one_thread_algebra
+from slipwise.session import changes
+from slipwise.session.evaluation import BalanceError, errors_of, evaluator
+from slipwise.session.findings import discovered, explained, suggested
+from slipwise.session.fitting import Progress, fit_state
+from slipwise.session.kept import Kept, resumed
+from slipwise.session.responses import HeldOutReplay, replay_held_out
+from slipwise.session.series import Series, series_of
+from slipwise.session.snapshot import Store, session_folder
+from slipwise.session.sources import Sources
+from slipwise.session.state import State
+from slipwise.shown import Drawn, Tabular
+
+
+class Session(Drawn, Tabular):
+    """A campaign and a model that is worked at; every step is on disk, and can be undone.
+
+    Attributes:
+        campaign: as it was recorded.
+        ready: the campaign as fits see it.
+        history: every step.
+        reference: the state with which errors are compared: the last that was fitted at the beginning, or accepted.
+        findings: "explain", "discover": what was found last, as plain data.
+        notes: what a user should know of how the session was opened.
+        store: its folder on disk; None for a session that leaves nothing there.
+    """
+
+    def __init__(
+        self,
+        campaign: Campaign | Path | str,
+        model: Model | Path | str | None = None,
+        *,
+        trust: Trust = False,
+        resume: bool = True,
+        keep: bool = True,
+    ) -> None:
+        """Open a campaign, where the last session of it ended.
+
+        Args:
+            campaign: or its folder.
+            model: or its model.toml; the model.toml beside the campaign, or the paper's law on its rig, if not given.
+            trust: effect files that a model or the last session names and that may be run.
+            resume: go on where the last session ended.
+            keep: keep every step on disk; another program cannot open the campaign meanwhile.
+
+        Raises:
+            InputError: the campaign lacks what every fit needs, an effect file is not trusted, or another program has
+                this session open.
+        """
+        self.campaign = as_campaign(campaign)
+        self._sources = Sources(self.campaign, trust)
+        self._file = self.campaign.folder / "model.toml"
+        self.store = Store(session_folder(self.campaign)) if keep else None
+        try:
+            stated = model if model is not None else self._file if self._file.is_file() else None
+            self.ready, start = evaluator(self.campaign, None if stated is None else self._sources.model(stated))
+            before = self.store.read() if resume and self.store is not None else None
+            kept = resumed(before, self.campaign, self._file, self._kept_effect, start, given=model is not None)
+        except BaseException:
+            self.close()
+            raise
+        self.history, self.reference, self.notes = kept.history, kept.reference, kept.notes
+        self.findings = dict(kept.findings)
+        self._keep()
+
+    @property
+    def state(self) -> State:
+        """The step that is looked at."""
+        return self.history.state
+
+    @property
+    def model(self) -> Model:
+        """The model as it is now; `save_model` writes it, and `accept` does so beside the campaign."""
+        return self.ready.model_of(self.state)
+
+    def toggle(self, effect: str, target: str = "") -> State:
+        """Put an effect into the model with the size it had last, or a typical one; or take it out.
+
+        Args:
+            effect: its name, or the path of a user's file ("./mine.py").
+            target: the channel or card ("pad_*_N"), for effects that need one.
+
+        Raises:
+            UnknownNameError: no such effect.
+            SettingError: effects that cannot act together, or a target that is missing or is none.
+        """
+        return self._push(changes.toggled(self.ready, self.state, self._effect(effect), target))
+
+    def set(self, key: str, value: float | str) -> State:
+        """Change one number of the model.
+
+        Args:
+            key: "rig.mass", "heating.share" ...
+            value: SI, or a text with its unit ("10.1 t").
+
+        Raises:
+            UnknownNameError: the model has no such number.
+            SettingError: a value out of bounds.
+            UnitError: a unit of the wrong dimension, or none.
+        """
+        return self._push(changes.with_number(self.ready, self.state, key, value))
+
+    def errors(self, state: State | None = None) -> tuple[BalanceError, ...]:
+        """Give the error of every balance, component level, in floors: of the model as it is now, or of a state."""
+        state = state or self.state
+        return errors_of(self.ready.problem(state), self.ready.residuals(state))
+
+    def series(self, run: str, relation: str = "pads", state: State | None = None) -> Series:
+        """Give one balance of one run, measured and predicted: of the model as it is now, or of a state.
+
+        Raises:
+            SettingError: no such run or balance.
+        """
+        state = state or self.state
+        problem = self.ready.problem(state)
+        names = [r.name for r in problem.runs]
+        if run not in names or relation not in problem.relations:
+            raise SettingError(
+                f"no balance {relation!r} of run {run!r}; runs: {', '.join(names)}; "
+                f"balances: {', '.join(problem.relations)}"
+            )
+        return series_of(problem, state, self.ready.residuals(state), names.index(run), relation)
+
+    @one_thread_algebra()
+    def fit(self, progress: Progress | None = None) -> State:
+        """Fit all numbers of the model to the runs that may be fitted.
+
+        Args:
+            progress: called with what is being done and the share done; what it raises ends the fit, and the session
+                is as before.
+        """
+        return self.fitted(fit_state(self.ready, self.state, progress or _silent))
+
+    def fitted(self, state: State) -> State:
+        """Take over a state that a fit has found, here or in another process.
+
+        The first fit of the model as it was opened is what others are held against.
+        """
+        if not self.reference.fitted and state.terms == self.reference.terms:
+            self.reference = state
+        return self._push(state)
+
+    def replay(self, state: State | None = None) -> HeldOutReplay:
+        """Replay the held-out run from the table's motion, and read off what an engineer asks for.
+
+        Raises:
+            InputError: the slip is prescribed, or the table's motion was not recorded.
+        """
+        return replay_held_out(self.ready, state or self.state)
+
+    def explain(self, progress: Progress | None = None) -> Diagnosis:
+        """Say which effect the model lacks, as it is now; `take_suggestion` puts it in."""
+        found = diagnose_with_law(self.campaign, self.model, progress=progress)
+        self.remember("explain", explained(found, self.state.labels))
+        return found
+
+    def discover(self, folder: Path | str | None = None, progress: Progress | None = None) -> Discovery:
+        """Find the law of what the model lacks where the catalogue ends, and write it as an effect.
+
+        Args:
+            folder: that takes the effect file; the campaign's session folder if not given.
+            progress: called with what is being done and the share done.
+        """
+        found = discover(self.campaign, self.model, progress=progress)
+        self.remember("discover", discovered(found, self.law_folder(folder), self.state.labels))
+        return found
+
+    def law_folder(self, folder: Path | str | None = None) -> Path:
+        """Give the folder that takes effect files of laws that were found."""
+        if folder is not None:
+            return Path(folder)
+        return self.store.folder if self.store is not None else session_folder(self.campaign)
+
+    def remember(self, kind: str, content: Mapping[str, Any]) -> None:
+        """Keep a finding, made here or in another process."""
+        self.findings[kind] = dict(content)
+        self._keep()
+
+    def take_suggestion(self) -> State:
+        """Put in what the last `explain` named, with the size that it found.
+
+        Raises:
+            SettingError: it named nothing that could be put in.
+        """
+        found = self.findings.get("explain", {})
+        parts = suggested(found, self._kept_effect) if found else []
+        if not parts:
+            raise SettingError("no diagnosis has named an effect yet; `explain` looks for one")
+        names = ", ".join(term.label for term, _ in parts)
+        return self._push(changes.with_terms(self.ready, self.state, parts, f"{names} added, as suggested"))
+
+    def accept(self, path: Path | str | None = None) -> Path:
+        """Write the model as it is now; from here on errors are compared with it.
+
+        Args:
+            path: of the model.toml; the one beside the campaign if not given.
+        """
+        path = self._file if path is None else Path(path)
+        save_model(self.model, path)
+        self.reference = self.state
+        self._keep()
+        return path
+
+    def undo(self) -> State:
+        """Go one step back.
+
+        Raises:
+            SettingError: there is none.
+        """
+        self.history = self.history.undone()
+        self._keep()
+        return self.state
+
+    def redo(self) -> State:
+        """Go one step forward again.
+
+        Raises:
+            SettingError: there is none.
+        """
+        self.history = self.history.redone()
+        self._keep()
+        return self.state
+
+    def beside(self, other: "Session | Model | Path | str") -> State:
+        """Give another model as a state of this session, judged by the same noise.
+
+        Raises:
+            SlipwiseError: a file that cannot be read, or effects that cannot act together.
+        """
+        model = other.model if isinstance(other, Session) else self._sources.model(other)
+        return changes.as_stated(self.ready, self.state, self._sources.bounded(model))
+
+    def compare_with(self, other: "Session | Model | Path | str") -> list[dict[str, Any]]:
+        """Hold another model, as it was stated, against the same runs: a row for every balance, in floors."""
+        there = {e.relation: e for e in self.errors(self.beside(other))}
+        return [
+            {"balance": e.name, "this model": e.error, "the other": there[e.relation].error}
+            for e in self.errors()
+            if e.relation in there
+        ]
+
+    def close(self) -> None:
+        """Let another program open the campaign; what was done stays on disk."""
+        if self.store is not None:
+            self.store.close()
+
+    def _effect(self, name: str) -> Effect:
+        """Give an effect of the model with its bounds there, which hold what was stated; or another."""
+        held = next((u.effect for u in self.ready.model.uses if u.effect.name == name), None)
+        return held or self._sources.effect(name)
+
+    def _kept_effect(self, name: str) -> Effect:
+        return self._effect(name) if name in catalogue() else self._sources.kept_effect(name)
+
+    def _push(self, state: State) -> State:
+        self.history = self.history.pushed(state)
+        self._keep()
+        return state
+
+    def _keep(self) -> None:
+        if self.store is not None:
+            kept = Kept(self.history, self.reference, self.findings)
+            self.store.write(kept.as_json(self.campaign, self._file))
+
+    def _headline(self) -> str:
+        fitted = "fitted" if self.state.fitted else "not fitted"
+        worst = max(self.errors(), key=lambda e: e.error)
+        effects = ", ".join(self.state.labels)
+        return f"{self.campaign.name}: {effects} ({fitted}); worst in {worst.name}, {worst.error:.3g} floors"
+
+    def _rows(self) -> list[dict[str, Any]]:
+        before = {e.relation: e.error for e in self.errors(self.reference)}
+        return [{"balance": e.name, "before": before.get(e.relation), "now": e.error, **e.runs} for e in self.errors()]
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+        """Give a notebook the table and the picture."""
+        drawn = io.StringIO()
+        self.plot().savefig(drawn, format="svg")
+        svg = drawn.getvalue()
+        return {"text/plain": repr(self), "text/html": self._repr_html_() + svg[svg.index("<svg") :]}
+
+
+def _silent(words: str, share: float) -> None:
+    pass

@@ -1,0 +1,57 @@
+"""Where a session takes models and effects from: names, files that may be run, and with which bounds."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from slipwise.campaign import Campaign
+from slipwise.campaign.scales import scales_of
+from slipwise.effects import Effect, Trust, catalogue, check_trusted, find_effect, scaled
+from slipwise.estimation.base_fit import scaled_model
+from slipwise.model import Model
+from slipwise.model_file import as_model, load_model
+
+
+@dataclass(frozen=True)
+class Sources:
+    """What a session may read and run.
+
+    Attributes:
+        campaign: whose scales bounds have.
+        trust: effect files that a model or the last session names and that may be run.
+    """
+
+    campaign: Campaign
+    trust: Trust
+
+    def model(self, given: Model | Path | str) -> Model:
+        """Give a model, or that of a file.
+
+        Raises:
+            SlipwiseError: a file that cannot be read, or names an effect file that is not trusted.
+        """
+        if isinstance(given, Path | str) and Path(given).suffix == ".toml":
+            return load_model(given, trust=self.trust)
+        return as_model(given)
+
+    def bounded(self, model: Model) -> Model:
+        """Give a model as it was stated, its effects with the bounds that they have in this campaign."""
+        return scaled_model(model, scales_of(self.campaign), typical=False)
+
+    def effect(self, name: str) -> Effect:
+        """Give an effect that a user names, with the bounds that it has in this campaign.
+
+        Raises:
+            UnknownNameError: no such effect.
+            InputError: no such file, or Python cannot import it.
+        """
+        return scaled(find_effect(name), scales_of(self.campaign).of)
+
+    def kept_effect(self, name: str) -> Effect:
+        """Give an effect that the last session names.
+
+        Raises:
+            InputError: a file that is not trusted.
+        """
+        if name not in catalogue():
+            check_trusted(Path(name), self.campaign.folder / "session.json", self.trust)
+        return self.effect(name)
