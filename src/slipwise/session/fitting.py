@@ -1,5 +1,6 @@
 """Fits of a session: from where its numbers stand, told of as they go on, and stopped by whoever listens."""
 
+import os
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -41,7 +42,8 @@ class Watch:
     end: float = 1.0
     usual: int = 50
     _count: int = 0
-    _told: float = field(default=-1.0)
+    _told: float = -1.0
+    _here: int = field(default_factory=os.getpid)
 
     def next(self, stage: str, end: float, usual: int) -> None:
         """Go on to the next stage."""
@@ -49,7 +51,9 @@ class Watch:
         self.progress(stage, self.begin)
 
     def __call__(self) -> None:
-        """Count one evaluation."""
+        """Count one evaluation; processes that take their part of the slopes tell nobody."""
+        if os.getpid() != self._here:
+            return
         self._count += 1
         now = time.monotonic()
         if now - self._told > _TOLD_EVERY:
@@ -107,5 +111,5 @@ def _from_here(
 
 
 def _known(entry: Interval) -> Known:
-    ends = (e if isfinite(e) else None for e in (entry.low, entry.high))
-    return Known(*ends, entry.bound, entry.limit)
+    low, high = (e if isfinite(e) else None for e in (entry.low, entry.high))
+    return Known(low, high, entry.bound, entry.limit)
