@@ -18,7 +18,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from slipwise import channels, effects, executors, motion, rig
+    from slipwise import channels, effects, executors, motion, rig, workbench
     from slipwise.campaign import Campaign, load_campaign
     from slipwise.campaign.draft import init_campaign
     from slipwise.comparison.compare import compare
@@ -100,6 +100,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "motion": ("motion", ""),
     "paper": ("studies.paper", ""),
     "rig": ("rig", ""),
+    "workbench": ("workbench", ""),
 }
 
 __all__ = [
@@ -151,6 +152,7 @@ __all__ = [
     "rig",
     "save_model",
     "use",
+    "workbench",
     "write_record",
 ]
 

@@ -36,6 +36,8 @@ _PLACE = 4
 _GRACE = 2.0
 #: Set while this process does its share: what that asks to be done on every core is done on this one.
 _AT_WORK = threading.Event()
+#: Set in a process that was started to do heavy work for one that only waits: the cores are its own.
+_OWN_CORES = threading.Event()
 #: Whose threads are taken away and given back: to look for them takes longer than many a piece of work.
 _LIBRARIES = ThreadpoolController()
 
@@ -213,14 +215,18 @@ def _as_child(work: Callable[[int], Any], shared: _Shared, places: Iterator[int]
                 sys.exit(1)
 
 
-def begin_worker() -> None:
+def begin_worker(*, own_cores: bool = False) -> None:
     """Keep to one core, leave Ctrl-C to the parent, and end when it is gone.
 
     A worker's linear algebra would take a thread for each core too, and wait for the others': a diagnosis took up to
     three times as long. One whose parent was killed would wait for ever.
+
+    Args:
+        own_cores: share work out on every core after all, for the parent does none.
     """
     let_parent_hear()
     threadpool_limits(1)
+    (_OWN_CORES.set if own_cores else _OWN_CORES.clear)()
     parent = multiprocessing.parent_process()
     if parent is not None:
         threading.Thread(target=lambda: (parent.join(), os._exit(1)), daemon=True).start()
@@ -235,6 +241,7 @@ def _file() -> BufferedRandom:
 
 
 def _cores() -> int:
-    if _AT_WORK.is_set() or multiprocessing.parent_process() is not None or not sys.platform.startswith("linux"):
+    started = multiprocessing.parent_process() is not None and not _OWN_CORES.is_set()
+    if _AT_WORK.is_set() or started or not sys.platform.startswith("linux"):
         return 1
     return len(os.sched_getaffinity(0))

@@ -20,6 +20,7 @@ from slipwise.cli import (
     paper,
     replay,
     view,
+    workbench,
 )
 from slipwise.cli.endings import run_to_its_end
 
@@ -36,6 +37,7 @@ replay.register(app)
 campaign.register(app)
 diagnose.register(app)
 discover.register(app)
+workbench.register(app)
 edit.register(app)
 next_test.register(app)
 ensemble.register(app)

@@ -73,6 +73,12 @@ def with_number(ready: Evaluator, state: State, key: str, value: float | str) ->
     return replace(state, values={**state.values, key: found}, fitted=False, words=edited, edit=key)
 
 
+def without_additions(ready: Evaluator, state: State) -> State:
+    """Give a state without the effects that have no role in the base model, all other numbers as they are."""
+    terms = tuple(t for t in state.terms if t.effect.base)
+    return state if terms == state.terms else _having(ready, state, terms, {}, "without what was added")
+
+
 def as_stated(ready: Evaluator, state: State, model: Model) -> State:
     """Give the state of another model, as it was stated: its effects and rated values, all else as it is.
 

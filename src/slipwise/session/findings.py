@@ -7,6 +7,7 @@ from typing import Any
 
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.discovery.law import Discovery
+from slipwise.errors import SettingError
 from slipwise.estimation.parameters import Term
 from slipwise.session.state import EffectOf, terms_from_json, terms_json
 
@@ -28,9 +29,15 @@ def explained(found: Diagnosis, of: tuple[str, ...]) -> dict[str, Any]:
     return {**found.as_json(), "of": list(of), "suggestion": suggestion}
 
 
-def suggested(content: Mapping[str, Any], effect_of: EffectOf) -> list[tuple[Term, Mapping[str, float]]]:
-    """Give the effects that a diagnosis suggests, with their fitted parameters; none where it names none."""
-    parts = content["suggestion"]
+def suggested(content: Mapping[str, Any] | None, effect_of: EffectOf) -> list[tuple[Term, Mapping[str, float]]]:
+    """Give the effects that a diagnosis suggests, with their fitted parameters.
+
+    Raises:
+        SettingError: there was no diagnosis, or it names none.
+    """
+    parts = content["suggestion"] if content else ()
+    if not parts:
+        raise SettingError("no diagnosis has named an effect yet; `explain` looks for one")
     return list(zip(terms_from_json(parts, effect_of), (part["values"] for part in parts), strict=True))
 
 

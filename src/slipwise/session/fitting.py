@@ -76,8 +76,7 @@ def fit_state(ready: Evaluator, state: State, progress: Progress) -> State:
     watch = Watch(progress, end=0.0)
     if state.weights.finer:
         watch.next("fitting from here", 0.45, 40)
-        coarse = replace(state, weights=replace(state.weights, finer=False))  # in half the time, as near
-        problem, solution = _from_here(ready, ready.problem(coarse, watch), state, state.values)
+        problem, solution = _from_here(ready, ready.problem(ready.coarse(state), watch), state, state.values)
     else:
         watch.next("fitting from rated numbers", 0.45, 60)
         base = fit_base(ready.campaign, ready.model, ready.invalid, watch)

@@ -29,7 +29,7 @@ class Series:
         unit: SI unit, or "1" for a residual in floors.
         time: (n,) [s].
         measured: (n, c).
-        predicted: (n, c).
+        predicted: (n, c); NaN where nothing is predicted: of friction, where a pad sticks.
         floor: standard deviation of the noise of one sample, of each column, in the unit.
     """
 
@@ -64,13 +64,22 @@ def series_of(problem: Problem, state: State, residuals: Residuals, place: int, 
     floor = tuple(float(np.sqrt(np.mean(column**2))) for column in noise.T)
     labels = run.pads if part.shape[1] == len(run.pads) and part.shape[1] > 1 else (NAMES[relation][0],)
     if relation == "pads":
-        return Series(relation, run.name, run.pads, "N", run.time, run.force, residuals.pad_forces[place], floor)
+        # a pad that sticks carries what is asked of it: of the law only its bound is known there
+        predicted = np.where(
+            np.broadcast_to(_columns(run.judged["pads"]), part.shape), residuals.pad_forces[place], np.nan
+        )
+        return Series(relation, run.name, run.pads, "N", run.time, run.force, predicted, floor)
     if relation not in _TWO_SIDED:
         whole = tuple(1.0 for _ in floor)
         return Series(relation, run.name, labels, "1", run.time, part, np.zeros_like(part), whole)
     predicted, measured = _both_sides(problem, state, residuals, place)
     sides = (measured[relation][:, None], predicted[relation][:, None])
     return Series(relation, run.name, labels, NAMES[relation][1], run.time, *sides, floor)
+
+
+def _columns(judged: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Give flags (n,) or (n, c) as columns."""
+    return judged.reshape(len(judged), -1)
 
 
 def _both_sides(

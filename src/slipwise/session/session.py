@@ -2,6 +2,7 @@
 
 import io
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +24,7 @@ from slipwise.session.responses import HeldOutReplay, replay_held_out
 from slipwise.session.series import Series, series_of
 from slipwise.session.snapshot import Store, session_folder
 from slipwise.session.sources import Sources
-from slipwise.session.state import State
+from slipwise.session.state import State, from_json
 from slipwise.shown import Drawn, Tabular
 
 
@@ -76,7 +77,7 @@ class Session(Drawn, Tabular):
             raise
         self.history, self.reference, self.notes = kept.history, kept.reference, kept.notes
         self.findings = dict(kept.findings)
-        self._keep()
+        self.keep()
 
     @property
     def state(self) -> State:
@@ -101,19 +102,20 @@ class Session(Drawn, Tabular):
         """
         return self._push(changes.toggled(self.ready, self.state, self._effect(effect), target))
 
-    def set(self, key: str, value: float | str) -> State:
+    def set(self, key: str, value: float | str, *, keep: bool = True) -> State:
         """Change one number of the model.
 
         Args:
             key: "rig.mass", "heating.share" ...
             value: SI, or a text with its unit ("10.1 t").
+            keep: on disk too; not while a number is dragged, the next step does it.
 
         Raises:
             UnknownNameError: the model has no such number.
             SettingError: a value out of bounds.
             UnitError: a unit of the wrong dimension, or none.
         """
-        return self._push(changes.with_number(self.ready, self.state, key, value))
+        return self._push(changes.with_number(self.ready, self.state, key, value), keep=keep)
 
     def errors(self, state: State | None = None) -> tuple[BalanceError, ...]:
         """Give the error of every balance, component level, in floors: of the model as it is now, or of a state."""
@@ -177,19 +179,18 @@ class Session(Drawn, Tabular):
             progress: called with what is being done and the share done.
         """
         found = discover(self.campaign, self.model, progress=progress)
-        self.remember("discover", discovered(found, self.law_folder(folder), self.state.labels))
+        self.remember("discover", discovered(found, Path(folder or self.folder), self.state.labels))
         return found
 
-    def law_folder(self, folder: Path | str | None = None) -> Path:
-        """Give the folder that takes effect files of laws that were found."""
-        if folder is not None:
-            return Path(folder)
-        return self.store.folder if self.store is not None else session_folder(self.campaign)
+    @property
+    def folder(self) -> Path:
+        """Where a session of this campaign lies, with the effect files of laws that were found."""
+        return session_folder(self.campaign)
 
     def remember(self, kind: str, content: Mapping[str, Any]) -> None:
         """Keep a finding, made here or in another process."""
         self.findings[kind] = dict(content)
-        self._keep()
+        self.keep()
 
     def take_suggestion(self) -> State:
         """Put in what the last `explain` named, with the size that it found.
@@ -197,10 +198,7 @@ class Session(Drawn, Tabular):
         Raises:
             SettingError: it named nothing that could be put in.
         """
-        found = self.findings.get("explain", {})
-        parts = suggested(found, self._kept_effect) if found else []
-        if not parts:
-            raise SettingError("no diagnosis has named an effect yet; `explain` looks for one")
+        parts = suggested(self.findings.get("explain"), self._kept_effect)
         names = ", ".join(term.label for term, _ in parts)
         return self._push(changes.with_terms(self.ready, self.state, parts, f"{names} added, as suggested"))
 
@@ -213,27 +211,19 @@ class Session(Drawn, Tabular):
         path = self._file if path is None else Path(path)
         save_model(self.model, path)
         self.reference = self.state
-        self._keep()
+        self.keep()
         return path
 
     def undo(self) -> State:
-        """Go one step back.
-
-        Raises:
-            SettingError: there is none.
-        """
+        """Go one step back; a SettingError says that there is none."""
         self.history = self.history.undone()
-        self._keep()
+        self.keep()
         return self.state
 
     def redo(self) -> State:
-        """Go one step forward again.
-
-        Raises:
-            SettingError: there is none.
-        """
+        """Go one step forward again; a SettingError says that there is none."""
         self.history = self.history.redone()
-        self._keep()
+        self.keep()
         return self.state
 
     def beside(self, other: "Session | Model | Path | str") -> State:
@@ -264,15 +254,22 @@ class Session(Drawn, Tabular):
         held = next((u.effect for u in self.ready.model.uses if u.effect.name == name), None)
         return held or self._sources.effect(name)
 
-    def _kept_effect(self, name: str) -> Effect:
-        return self._effect(name) if name in catalogue() else self._sources.kept_effect(name)
+    def read_state(self, content: Mapping[str, Any], trust: Trust) -> State:
+        """Give a state that another process of the same user has written, and whose effect files it runs already."""
+        sources = replace(self._sources, trust=trust)
+        return from_json(content, lambda name: self._kept_effect(name, sources))
 
-    def _push(self, state: State) -> State:
+    def _kept_effect(self, name: str, sources: Sources | None = None) -> Effect:
+        return self._effect(name) if name in catalogue() else (sources or self._sources).kept_effect(name)
+
+    def _push(self, state: State, *, keep: bool = True) -> State:
         self.history = self.history.pushed(state)
-        self._keep()
+        if keep:
+            self.keep()
         return state
 
-    def _keep(self) -> None:
+    def keep(self) -> None:
+        """Write every step to disk, as each does by itself."""
         if self.store is not None:
             kept = Kept(self.history, self.reference, self.findings)
             self.store.write(kept.as_json(self.campaign, self._file))

@@ -1,30 +1,12 @@
 """What the fit found, for the report: its numbers, the surface they mean, and whether unseen runs are predicted."""
 
-from collections.abc import Mapping
 from typing import Any
 
 from slipwise.comparison.result import Comparison
 from slipwise.units import parse_unit
 from slipwise.view.error_maps import surface_figure
 from slipwise.view.html import figure, paragraph, table
-
-#: Fitted numbers of the rig -> what they are called, unit in which they are shown.
-CALLED: dict[str, tuple[str, str]] = {
-    "rig.mass": ("mass of the girder", "t"),
-    "rig.centre_height": ("height of the centre of gravity", "m"),
-    "rig.buffer_stiffness": ("buffer stiffness, together", "kN/mm"),
-    "rig.pitch_frequency": ("pitch of the girder on its pads", "Hz"),
-    "rig.pitch_damping": ("its damping", "1"),
-    "rig.yaw_inertia": ("inertia of the girder about the vertical", "t*m^2"),
-    "rig.pitch_inertia": ("inertia of the girder in pitch", "t*m^2"),
-    "rig.pitch_slip": ("slip at the gauge for pitch load", "mm/kN"),
-    "rig.stick_length": ("slip over which stick turns round", "um"),
-    "rig.stick_damping": ("time by which its damper leads", "ms"),
-    "rig.shear_strength": ("shear strength s", "MPa"),
-    "rig.zero_force": ("zero of the friction gauge", "N"),
-    "rig.logger": ("logger's filter of the friction channels", "Hz"),
-}
-_LATE = "rig.late_"
+from slipwise.view.number_names import CALLED, called
 
 
 def fitted_numbers(found: Comparison) -> list[Any]:
@@ -32,9 +14,9 @@ def fitted_numbers(found: Comparison) -> list[Any]:
     names = {**CALLED, **_of_effects(found)}
     rows, marked = [], []
     for entry in found.intervals.entries:
-        called, unit = _called(names, entry.key, entry.unit)
+        words, unit = called(entry.key, entry.unit, names)
         factor = parse_unit(unit, entry.unit, entry.key)
-        row = {"number": called, "unit": unit, "value": f"{entry.value / factor:.5g}"}
+        row = {"number": words, "unit": unit, "value": f"{entry.value / factor:.5g}"}
         if entry.limit:
             row["95 % interval"] = f"at most {entry.high / factor:.5g}"
         elif entry.bound:
@@ -51,7 +33,7 @@ def fitted_numbers(found: Comparison) -> list[Any]:
     pieces: list[Any] = [paragraph(words), table(rows, marked=marked)]
     strong = [(a, b, c) for a, b, c in found.intervals.strongest(8) if abs(c) > 0.7]
     if strong:
-        pairs = [f"{_called(names, a, '')[0]} and {_called(names, b, '')[0]} ({c:+.2f})" for a, b, c in strong]
+        pairs = [f"{called(a, '', names)[0]} and {called(b, '', names)[0]} ({c:+.2f})" for a, b, c in strong]
         pieces.append(paragraph("Numbers that these runs hardly tell apart (correlation): " + "; ".join(pairs) + "."))
     if found.surface:
         pieces.append(
@@ -72,12 +54,6 @@ def _of_effects(found: Comparison) -> dict[str, tuple[str, str]]:
         for term in found.base.problem.terms
         for p in term.effect.parameters
     }
-
-
-def _called(names: Mapping[str, tuple[str, str]], key: str, unit: str) -> tuple[str, str]:
-    if key.startswith(_LATE):
-        return f"lag of the {key.removeprefix(_LATE)} channels", "us"
-    return names.get(key, (key, unit))
 
 
 def predicted_runs(found: Comparison) -> list[Any]:

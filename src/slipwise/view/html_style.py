@@ -1,6 +1,6 @@
 """The style sheet of every report: the colours of the pictures, one column, wide enough for figures."""
 
-from slipwise.view.style import (
+from slipwise.view.colours import (
     GRID,
     INK,
     MUTED,
@@ -17,9 +17,18 @@ _GOOD, _WARN, _BAD = "#00795c", "#b26a00", UPLIFT
 #: The same on a dark ground; figures stay on paper there.
 _NIGHT_BLUE, _NIGHT_GOOD, _NIGHT_WARN, _NIGHT_BAD = PAD_COLOURS["C"], "#3fc79f", PAD_COLOURS["D"], "#ff6fa5"
 
+#: Custom properties by which every page has its colours, on paper and on a dark ground.
+LIGHT = (
+    f"--ink: {INK}; --muted: {MUTED}; --line: {GRID}; --paper: {PAPER}; --blue: {PAD_COLOURS['A']}; "
+    f"--good: {_GOOD}; --warn: {_WARN}; --bad: {_BAD}; --soft: #f5f7f9;"
+)
+DARK = (
+    f"--ink: {NIGHT_INK}; --muted: {NIGHT_MUTED}; --line: {NIGHT_GRID}; --paper: {NIGHT}; --blue: {_NIGHT_BLUE}; "
+    f"--good: {_NIGHT_GOOD}; --warn: {_NIGHT_WARN}; --bad: {_NIGHT_BAD}; --soft: #1a2027; color-scheme: dark;"
+)
+
 STYLE = f"""
-:root {{ --ink: {INK}; --muted: {MUTED}; --line: {GRID}; --paper: {PAPER}; --blue: {PAD_COLOURS["A"]};
-  --good: {_GOOD}; --warn: {_WARN}; --bad: {_BAD}; --soft: #f5f7f9; }}
+:root {{ {LIGHT} }}
 * {{ box-sizing: border-box; }}
 html {{ -webkit-text-size-adjust: 100%; scroll-behavior: smooth; }}
 body {{ margin: 0; background: var(--paper); color: var(--ink);
@@ -65,8 +74,7 @@ aside strong {{ color: var(--tone); }}
 details {{ border: 1px solid var(--line); border-radius: 8px; padding: .6rem 1rem; margin: 1rem 0; }}
 summary {{ cursor: pointer; font-weight: 600; }}
 @media screen and (prefers-color-scheme: dark) {{
-  :root {{ --ink: {NIGHT_INK}; --muted: {NIGHT_MUTED}; --line: {NIGHT_GRID}; --paper: {NIGHT}; --blue: {_NIGHT_BLUE};
-    --good: {_NIGHT_GOOD}; --warn: {_NIGHT_WARN}; --bad: {_NIGHT_BAD}; --soft: #1a2027; color-scheme: dark; }}
+  :root {{ {DARK} }}
   tr.marked td {{ background: #3a3015; }}
   figure svg, figure img {{ border-radius: 8px; background: {PAPER}; }} }}
 @media (max-width: 40rem) {{

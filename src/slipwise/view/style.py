@@ -1,8 +1,4 @@
-"""One visual identity for pictures, recordings, reports and tables.
-
-Colours are those of Okabe and Ito, told apart in every common form of colour blindness. Pads at +x are blue, pads at
--x are orange, so that rocking shows as blue against orange.
-"""
+"""One visual identity for pictures, recordings, reports and tables; its colours are in `colours`."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -15,19 +11,28 @@ from numpy.typing import NDArray
 from slipwise.channels import channel
 from slipwise.record import Record
 from slipwise.units import affine
+from slipwise.view.colours import (  # noqa: F401  whoever draws takes all from here
+    AXIS_COLOURS,
+    BUFFER_COLOURS,
+    EXPECTED,
+    GIRDER,
+    GRID,
+    INK,
+    MODEL_COLOURS,
+    MUTED,
+    NIGHT,
+    NIGHT_GRID,
+    NIGHT_INK,
+    NIGHT_MUTED,
+    PAD_COLOURS,
+    PAPER,
+    SUM,
+    TABLE,
+    UPLIFT,
+)
 
 Array = NDArray[np.float64]
 
-INK, MUTED, GRID, PAPER = "#1b2733", "#5f6b7a", "#e4e8ed", "#ffffff"
-PAD_COLOURS: dict[str, str] = {"A": "#0072b2", "B": "#d55e00", "C": "#56b4e9", "D": "#e69f00"}
-#: Of quantities along x, y, z where no pad owns them.
-AXIS_COLOURS: dict[str, str] = {"x": "#1b2733", "y": "#cc79a7", "z": "#009e73"}
-BUFFER_COLOURS: dict[str, str] = {"1": "#009e73", "2": "#6fcfb3"}
-TABLE, GIRDER, SUM, UPLIFT, EXPECTED = "#aab3bf", "#1b2733", "#1b2733", "#c2185b", "#b9c1cb"
-#: The same roles on the dark ground of the 3-D viewer.
-NIGHT, NIGHT_INK, NIGHT_MUTED, NIGHT_GRID = "#11151a", "#edf1f6", "#97a3b3", "#262e38"
-#: For models held against a measurement, in this order.
-MODEL_COLOURS: tuple[str, ...] = ("#e69f00", "#56b4e9", "#009e73", "#cc79a7", "#d55e00", "#0072b2")
 #: Where each pad's panel stands in a 2 x 2 grid seen from above, x to the right and y up: (row, column).
 PAD_PANELS: dict[str, tuple[int, int]] = {"B": (0, 0), "A": (0, 1), "D": (1, 0), "C": (1, 1)}
 PAD_PLACES: dict[str, str] = {"A": "+x +y", "B": "−x +y", "C": "+x −y", "D": "−x −y"}

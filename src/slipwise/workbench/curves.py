@@ -1,0 +1,108 @@
+"""Curves for the page: what was measured in a run, once; what the model says of it, after every change."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from slipwise.model import base_model
+from slipwise.session.responses import RESPONSES, HeldOutReplay
+from slipwise.session.session import Session
+from slipwise.session.state import State
+from slipwise.workbench.frames import frame
+from slipwise.workbench.told import errors_told, other_models
+
+#: What may stand beside without a file: the reference, and the paper's law as stated.
+BEFORE, PAPER = "before", "paper"
+
+
+@dataclass(frozen=True)
+class View:
+    """What one page looks at.
+
+    Attributes:
+        run: name.
+        relation: balance whose history is shown.
+        beside: "", `BEFORE`, `PAPER`, or the name of a model file of the campaign's folder.
+    """
+
+    run: str
+    relation: str = "pads"
+    beside: str = ""
+
+
+def beside_of(session: Session, view: View) -> State | None:
+    """Give the model that stands beside; None where there is none, or no such file in the campaign's folder."""
+    if view.beside == BEFORE:
+        return session.reference
+    if view.beside == PAPER:
+        return session.beside(base_model(session.campaign.specimen))
+    files = {path.name: path for path in other_models(session)}
+    return session.beside(files[view.beside]) if view.beside in files else None
+
+
+def measured_frame(session: Session, run: str) -> bytes:
+    """Pack what was measured in a run."""
+    own = next(r for r in session.ready.runs if r.name == run)
+    arrays = {
+        "time": own.time,
+        "slip": own.slip,
+        "velocity": own.velocity,
+        "load": np.nan_to_num(own.load),
+        "force": own.force,
+        **{f"channel:{name}": values for name, values in own.record.channels.items()},
+    }
+    head = {"kind": "measured", "run": run, "role": own.role, "pads": list(own.pads)}
+    return frame(head, arrays)
+
+
+def curves_frame(session: Session, view: View, answers: int = 0, *, dragged: bool = False) -> bytes:
+    """Pack what the model says of a run, with the errors.
+
+    Args:
+        session: its state.
+        view: what the page looks at.
+        answers: number of the question that this answers.
+        dragged: in half the time, and without the model that stands beside, which does not change meanwhile.
+    """
+    other = beside_of(session, view) if view.beside and not dragged else None
+    relation, state = view.relation, session.ready.coarse(session.state) if dragged else session.state
+    shown = session.series(view.run, relation, state)
+    arrays = {"pads": session.series(view.run, "pads", state).predicted}
+    if relation != "pads":
+        arrays |= {"measured": shown.measured, "predicted": shown.predicted}
+    if other is not None:
+        arrays["beside_pads"] = session.series(view.run, "pads", other).predicted
+        if relation != "pads":
+            arrays["beside_predicted"] = session.series(view.run, relation, other).predicted
+    head: dict[str, Any] = {
+        "kind": "curves",
+        "answers": answers,
+        "run": view.run,
+        "relation": relation,
+        "labels": list(shown.labels),
+        "unit": shown.unit,
+        "floor": list(shown.floor),
+        "errors": errors_told(session, state, other),
+    }
+    return frame(head, arrays)
+
+
+def replay_frame(now: HeldOutReplay, without: HeldOutReplay | None, left_out: list[str]) -> bytes:
+    """Pack the replay of the held-out run, with what an engineer reads off, with and without what was added.
+
+    Args:
+        now: of the model as it is.
+        without: without the effects that were added to the base model; None where there are none.
+        left_out: their labels.
+    """
+    head = {
+        "kind": "replay",
+        "run": now.run,
+        "units": RESPONSES,
+        "measured": now.measured,
+        "now": now.responses,
+        "without": None if without is None else without.responses,
+        "left_out": left_out,
+    }
+    return frame(head, {"time": now.record.time, **{f"channel:{n}": v for n, v in now.record.channels.items()}})

@@ -1,0 +1,153 @@
+"""The local page: listens on this machine alone, answers nobody without the token, and reads no file but its own."""
+
+import asyncio
+import contextlib
+import json
+import secrets
+import socket
+import webbrowser
+from collections.abc import AsyncIterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from slipwise.campaign import load_campaign
+from slipwise.effects import Trust
+from slipwise.errors import InputError
+from slipwise.view.html_style import DARK, LIGHT
+from slipwise.workbench.actions import act
+from slipwise.workbench.room import Room
+
+try:
+    import uvicorn
+    from starlette.applications import Starlette
+    from starlette.requests import Request
+    from starlette.responses import FileResponse, PlainTextResponse, Response
+    from starlette.routing import Route, WebSocketRoute
+    from starlette.websockets import WebSocket, WebSocketDisconnect
+except ModuleNotFoundError as missing:
+    raise InputError(f'{missing.name} is not installed; it comes with `pip install "slipwise[workbench]"`') from None
+
+#: Colours of the project's pages; what is measured and what is modelled, and what stands on the blue of a button.
+_THEME = f""":root {{ {LIGHT} --measured: #8a96a3; --model: var(--blue); --on-blue: #ffffff; color-scheme: light; }}
+:root[data-theme=dark] {{ {DARK} --on-blue: #11151a; }}
+@media (prefers-color-scheme: dark) {{ :root:not([data-theme=light]) {{ {DARK} --on-blue: #11151a; }} }}
+"""
+_STATIC = Path(__file__).parent / "static"
+_LOOPBACK = "127.0.0.1"
+_HOSTS = (_LOOPBACK, "localhost")
+#: A page that takes nothing for so long is not waited for [s].
+_PATIENCE = 5.0
+#: Nothing but what the page brings along; no other page may frame it, or learn its address.
+_HEADERS = {
+    "Content-Security-Policy": (
+        "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; "
+        "connect-src 'self' ws://127.0.0.1:* ws://localhost:*; frame-ancestors 'none'; base-uri 'none'"
+    ),
+    "Referrer-Policy": "no-referrer",
+    "X-Content-Type-Options": "nosniff",
+    "Cache-Control": "no-cache",
+}
+#: Reports bring their own style and pictures, and no script.
+_REPORT_HEADERS = _HEADERS | {
+    "Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'none'"
+}
+_REPORTS = ("report.html", "diagnosis.html")
+
+
+def application(room: Room, token: str) -> Starlette:
+    """Make the application.
+
+    Args:
+        room: the session and its pages.
+        token: first part of every address.
+    """
+
+    def allowed(part: str, host: str | None, origin: str | None) -> bool:
+        """Tell whether a request comes from the page: by its token, on this machine, and from no other site."""
+        names = [host] if origin is None else [host, origin.partition("://")[2]]
+        local = all((name or "").rpartition(":")[0] in _HOSTS for name in names)
+        return local and secrets.compare_digest(part.encode(), token.encode())
+
+    async def get(request: Request) -> Response:
+        part, name = request.path_params["token"], request.path_params.get("name", "index.html")
+        if not allowed(part, request.headers.get("host"), request.headers.get("origin")):
+            return PlainTextResponse("This address has no page; take the one that `slipwise workbench` prints.\n", 404)
+        if name in _REPORTS and (room.session.folder / name).is_file():
+            return FileResponse(room.session.folder / name, headers=_REPORT_HEADERS)
+        if name == "theme.css":
+            return Response(_THEME, media_type="text/css", headers=_HEADERS)
+        known = {path.name: path for path in _STATIC.iterdir() if path.is_file()}
+        if name not in known:
+            return PlainTextResponse(f"no {name} here\n", 404)
+        return FileResponse(known[name], headers=_HEADERS)
+
+    async def talk(channel: WebSocket) -> None:
+        headers = channel.headers
+        if not allowed(channel.path_params["token"], headers.get("host"), headers.get("origin")):
+            await channel.close(4403)
+            return
+        await channel.accept()
+
+        async def send(message: Mapping[str, Any] | bytes) -> None:
+            packed = isinstance(message, bytes)
+            sent = channel.send_bytes(message) if packed else channel.send_text(json.dumps(message, allow_nan=False))
+            # a page that has gone comes back by itself, and is told everything; one that sleeps keeps nobody waiting
+            with contextlib.suppress(RuntimeError, WebSocketDisconnect, TimeoutError):
+                await asyncio.wait_for(sent, _PATIENCE)
+
+        page = await room.enter(send)
+        try:
+            while True:
+                await act(room, page, json.loads(await channel.receive_text()))
+        except (WebSocketDisconnect, ValueError):
+            pass
+        finally:
+            room.leave(page)
+
+    @contextlib.asynccontextmanager
+    async def life(app: Starlette) -> AsyncIterator[None]:
+        room.begin()
+        yield
+        room.close()
+
+    routes = [WebSocketRoute("/{token}/socket", talk), Route("/{token}/", get), Route("/{token}/{name}", get)]
+    return Starlette(routes=routes, lifespan=life)
+
+
+def run(campaign: Path | str, *, trust: Trust, port: int, show: bool) -> None:
+    """Serve one campaign until Ctrl-C; see `slipwise.workbench.serve`."""
+    measured = load_campaign(campaign)
+    listening = _listen(port)
+    token = secrets.token_urlsafe(16)
+    address = f"http://{_LOOPBACK}:{listening.getsockname()[1]}/{token}/"
+    if show:  # a browser takes as long to come as the session to open
+        listening.listen()
+        webbrowser.open(address)
+    room = Room(measured, trust)
+    try:
+        if room.session.store is not None:
+            room.session.store.tell(address)
+        print(f"{measured.name} is open at {address}\nCtrl-C ends it; nothing is lost.", flush=True)
+        config = uvicorn.Config(
+            application(room, token), log_level="warning", access_log=False, ws_max_size=2**16, server_header=False
+        )
+        server = uvicorn.Server(config)
+        with contextlib.suppress(KeyboardInterrupt):
+            asyncio.run(server.serve(sockets=[listening]))
+    finally:
+        room.close()
+
+
+def _listen(port: int) -> socket.socket:
+    """Take a port of the loopback address.
+
+    Raises:
+        InputError: another program has it.
+    """
+    listening = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    try:
+        listening.bind((_LOOPBACK, port))
+    except OSError:
+        listening.close()
+        raise InputError(f"port {port} is taken by another program; without --port, a free one is found") from None
+    return listening

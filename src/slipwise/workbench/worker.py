@@ -1,0 +1,145 @@
+"""The process that does heavy work: MuJoCo's callbacks belong to a process, and a fit must not make the page wait."""
+
+import multiprocessing
+import threading
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
+from pathlib import Path
+from typing import Any
+
+from slipwise.effects import Trust
+from slipwise.errors import SlipwiseError
+from slipwise.parallel import begin_worker
+
+#: A piece of work that goes on so long after it was called off is ended with its process [s].
+_PATIENCE = 0.6
+
+
+class _CalledOff(Exception):
+    """Raised inside a piece of work that nobody wants any more."""
+
+
+@dataclass(frozen=True)
+class Report:
+    """What the worker says of a piece of work.
+
+    Attributes:
+        number: of the work.
+        kind: "progress", "done", "failed" or "called off".
+        content: (words, share), the answer, or why it failed.
+    """
+
+    number: int
+    kind: str
+    content: Any
+
+
+class Worker:
+    """A process for heavy work; it is started with the first piece, and anew when it had to be ended."""
+
+    def __init__(self, campaign: Path, trust: Trust, listen: Callable[[Report], None]) -> None:
+        """Make ready.
+
+        Args:
+            campaign: folder of the campaign.
+            trust: as for `Session`.
+            listen: called with every report, from a thread of the worker's own.
+        """
+        self._campaign, self._trust, self._listen = campaign, trust, listen
+        self._process: BaseProcess | None = None
+        self._pipe: Connection | None = None
+        self._context = multiprocessing.get_context("spawn")
+        self._called_off = self._context.RawValue("q", 0)  # one writer: no lock
+        self._number = 0
+        self._busy = threading.Event()
+
+    @property
+    def busy(self) -> bool:
+        """Whether a piece of work is being done."""
+        return self._busy.is_set()
+
+    def start(self, job: str, state: Mapping[str, Any]) -> int:
+        """Begin a piece of work; gives its number.
+
+        Args:
+            job: of `JOBS`.
+            state: as `state.as_json` gives it.
+        """
+        if self._process is None or not self._process.is_alive():
+            self._begin()
+        assert self._pipe is not None
+        self._number += 1
+        self._busy.set()
+        self._pipe.send((self._number, job, dict(state)))
+        return self._number
+
+    def call_off(self) -> None:
+        """Call the work that is being done off: it stops at its next step, or with its process."""
+        if self.busy:
+            number = self._called_off.value = self._number
+            threading.Timer(_PATIENCE, self._end_if_still_at, (number,)).start()
+
+    def close(self) -> None:
+        """End the process."""
+        if self._process is not None:
+            self._process.kill()
+            self._process.join()
+            self._process = None
+
+    def _begin(self) -> None:
+        self._pipe, far = self._context.Pipe()
+        arguments = (far, self._called_off, str(self._campaign), self._trust)
+        self._process = self._context.Process(target=_work, args=arguments, name="slipwise worker")
+        self._process.start()
+        far.close()
+        threading.Thread(target=self._hear, args=(self._pipe, self._process), daemon=True).start()
+
+    def _hear(self, pipe: Connection, process: BaseProcess) -> None:
+        try:
+            while True:
+                self._report(pipe.recv())
+        except (EOFError, OSError):
+            if self.busy and process is self._process:
+                called_off = self._called_off.value >= self._number
+                words = "the process that did this work has ended; the session is as before"
+                self._process = None
+                self._report(Report(self._number, "called off" if called_off else "failed", words))
+
+    def _report(self, report: Report) -> None:
+        if report.kind != "progress":
+            self._busy.clear()
+        self._listen(report)
+
+    def _end_if_still_at(self, number: int) -> None:
+        if self.busy and self._number == number and self._process is not None:
+            self._process.kill()
+
+
+def _work(pipe: Connection, called_off: Any, campaign: str, trust: Trust) -> None:
+    """Do one piece of work after another, in a process of its own that has the cores for itself."""
+    begin_worker(own_cores=True)
+    from slipwise.session.session import Session
+    from slipwise.workbench.jobs import JOBS
+
+    session: Session | None = None
+    while True:
+        number, job, content = pipe.recv()
+
+        def tell(words: str, share: float, number: int = number) -> None:
+            if called_off.value >= number:
+                raise _CalledOff
+            pipe.send(Report(number, "progress", (words, share)))
+
+        try:
+            tell("beginning", 0.0)
+            session = session or Session(campaign, trust=trust, resume=False, keep=False)
+            state = session.read_state(content, trust=[one["effect"] for one in content["terms"]])
+            pipe.send(Report(number, "done", JOBS[job](session, state, tell)))
+        except _CalledOff:
+            pipe.send(Report(number, "called off", ""))
+        except SlipwiseError as error:
+            pipe.send(Report(number, "failed", str(error)))
+        except Exception as error:
+            pipe.send(Report(number, "failed", f"{type(error).__name__}: {error}"))
