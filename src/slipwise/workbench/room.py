@@ -83,9 +83,9 @@ class Room:
         self.session.close()
 
     async def enter(self, send: Send) -> Page:
-        """Let a page in: it is told everything."""
-        held = [r.name for r in self.session.ready.runs if r.role == "holdout"]
-        page = Page(send, View((held or [self.session.ready.runs[0].name])[0]), set())
+        """Let a page in: it is told everything, and shown the run that fails worst."""
+        worst = max(await self._do(self.session.errors), key=lambda e: max(e.runs.values()))
+        page = Page(send, View(max(worst.runs, key=lambda run: worst.runs[run])), set())
         self.pages.append(page)
         await send(await self._do(lambda: campaign_told(self.session)))
         await send(await self._do(lambda: state_told(self.session)))

@@ -120,8 +120,7 @@ def run(campaign: Path | str, *, trust: Trust, port: int, show: bool) -> None:
     listening = _listen(port)
     token = secrets.token_urlsafe(16)
     address = f"http://{_LOOPBACK}:{listening.getsockname()[1]}/{token}/"
-    if show:  # a browser takes as long to come as the session to open
-        listening.listen()
+    if show:  # a browser takes as long to come as the session to open, and waits
         webbrowser.open(address)
     room = Room(measured, trust)
     try:
@@ -147,6 +146,7 @@ def _listen(port: int) -> socket.socket:
     listening = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
     try:
         listening.bind((_LOOPBACK, port))
+        listening.listen()
     except OSError:
         listening.close()
         raise InputError(f"port {port} is taken by another program; without --port, a free one is found") from None
