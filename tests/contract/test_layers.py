@@ -68,8 +68,8 @@ ARROWS: dict[str, str] = {
         " params record rig signals studies units whole_file"
     ),
     "workbench": (
-        "campaign channels comparison diagnosis discovery effects errors estimation experiment instruments model"
-        " parallel session units view"
+        "campaign channels comparison diagnosis discovery effects errors estimation experiment instruments"
+        " interruption model parallel session units view"
     ),
     "cli": "errors interruption view",
     "__main__": "cli interruption",

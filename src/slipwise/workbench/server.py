@@ -130,9 +130,7 @@ def run(campaign: Path | str, *, trust: Trust, port: int, show: bool) -> None:
         config = uvicorn.Config(
             application(room, token), log_level="warning", access_log=False, ws_max_size=2**16, server_header=False
         )
-        server = uvicorn.Server(config)
-        with contextlib.suppress(KeyboardInterrupt):
-            asyncio.run(server.serve(sockets=[listening]))
+        asyncio.run(uvicorn.Server(config).serve(sockets=[listening]))
     finally:
         room.close()
 

@@ -11,6 +11,7 @@ from typing import Any
 
 from slipwise.effects import Trust
 from slipwise.errors import SlipwiseError
+from slipwise.interruption import unheard_by_children
 from slipwise.parallel import begin_worker
 
 #: A piece of work that goes on so long after it was called off is ended with its process [s].
@@ -92,7 +93,8 @@ class Worker:
         self._pipe, far = self._context.Pipe()
         arguments = (far, self._called_off, str(self._campaign), self._trust)
         self._process = self._context.Process(target=_work, args=arguments, name="slipwise worker")
-        self._process.start()
+        with unheard_by_children():
+            self._process.start()
         far.close()
         threading.Thread(target=self._hear, args=(self._pipe, self._process), daemon=True).start()
 
