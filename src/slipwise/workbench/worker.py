@@ -135,7 +135,7 @@ def _work(pipe: Connection, called_off: Any, campaign: str, trust: Trust) -> Non
             pipe.send(Report(number, "progress", (words, share)))
 
         try:
-            tell("beginning", 0.0)
+            tell("getting ready", 0.0)
             session = session or Session(campaign, trust=trust, resume=False, keep=False)
             state = session.read_state(content, trust=[one["effect"] for one in content["terms"]])
             pipe.send(Report(number, "done", JOBS[job](session, state, tell)))

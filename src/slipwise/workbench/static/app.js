@@ -50,7 +50,13 @@ function tellProblem(words) {
   find("problem").hidden = !words;
 }
 
+// Work that is silent for a while is seen to go on.
+setInterval(() => {
+  if (page.working) find("work-seconds").textContent = `${(page.working.seconds + (performance.now() - page.heard) / 1000).toFixed(0)} s`;
+}, 500);
+
 function working(message) {
+  if (message !== page.working) page.heard = performance.now();
   page.working = message;
   find("work").hidden = !message;
   if (message) {

@@ -33,7 +33,7 @@ export function drawErrors(errors) {
       make("tr", {}, make("td", { class: "bars", colspan: 5 }, bar)),
     ];
   });
-  const heads = ["balance", "before", "now", "fitted runs", ...(errors.some((e) => e.beside) ? ["beside"] : [])];
+  const heads = ["balance", "before", "now", "fitted", ...(errors.some((e) => e.beside) ? ["beside"] : [])];
   const table = make("table", {}, make("caption", { class: "visually-hidden" }, "Error in multiples of the noise floor"),
     make("thead", {}, make("tr", {}, ...heads.map((h, i) => make(i ? "td" : "th", { scope: i ? null : "col" }, h)))),
     make("tbody", {}, ...rows));

@@ -73,7 +73,7 @@ export class Histories {
     }, data, host.children[place]);
     const top = beside ? series : series.slice(0, above.length - 1);
     this.charts = [chart(above, top, quantity, 0, !below)];
-    if (below) this.charts.push(chart(below, [line("residual", colour("model"), 1), ...(below.length > 2 ? [floor, { ...floor, label: "" }] : [])],
+    if (below) this.charts.push(chart(below, [line("residual", colour("model"), 1), ...(below.length > 2 ? [floor, { ...floor, label: "−2 floors" }] : [])],
       unit ? `residual [${unit}]` : "residual", 1, true));
     if (this.ends) this.zoom(...this.ends);
   }
