@@ -6,7 +6,6 @@ import sys
 
 import pytest
 
-
 COMMAND = "import sys; from slipwise.cli import main; sys.argv = ['slipwise', 'workbench', '{}']; main()"
 
 
