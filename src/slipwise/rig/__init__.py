@@ -1,10 +1,11 @@
 """The specimen on the shaking table: rated values, similarity, and the compiled model."""
 
 from slipwise.rig.build import Rig, build, check_step, largest_step, pad_frequencies
+from slipwise.rig.files import RIGS
 from slipwise.rig.load import load_specimen
 from slipwise.rig.readings import Readings, read_paper
 from slipwise.rig.similarity import LENGTH_SCALE, Similarity, similarity
-from slipwise.rig.specimen import RIGS, Specimen
+from slipwise.rig.specimen import Specimen
 
 __all__ = [
     "LENGTH_SCALE",
