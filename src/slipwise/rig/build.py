@@ -221,20 +221,27 @@ def _pad_contact(spec: mujoco.MjSpec, specimen: Specimen) -> None:
     R = A (1-d)/d, where A is the row's inverse mass. So solref = -(1-d) A (stiffness, damping) gives both exactly.
     """
     d = _IMPEDANCE
-    for pad in specimen.pads:
-        for geom in (spec.geom(f"pad_{pad}"), spec.geom(f"plate_{pad}")):
-            geom.solimp = [d, d, d, 0.5, 2.0]
-            geom.solref = [-1.0, -1.0]
+    pairs = {pad: _only_pair(spec, pad) for pad in specimen.pads}
+    for pair in pairs.values():
+        pair.solimp = [d, d, d, 0.5, 2.0]
+        pair.solref = [-1.0, -1.0]
     model = spec.compile()
     data = mujoco.MjData(model)
     data.joint("girder_z").qpos[0] = -2e-3 - 2.0 * max(abs(s) for s in specimen.seating)
     mujoco.mj_forward(model, data)
     for contact in data.contact:
-        pair = sorted((model.geom(contact.geom1).name, model.geom(contact.geom2).name))
         inverse_mass = float(data.efc_R[contact.efc_address]) * d / (1.0 - d)
-        pad = next(place for place in specimen.places if f"pad_{place.name}" in pair)
-        for name in pair:
-            spec.geom(name).solref = [-(1 - d) * inverse_mass * pad.stiffness, -(1 - d) * inverse_mass * pad.damping]
+        touching = {model.geom(contact.geom1).name, model.geom(contact.geom2).name}
+        pad = next(place for place in specimen.places if f"pad_{place.name}" in touching)
+        pairs[pad.name].solref = [-(1 - d) * inverse_mass * pad.stiffness, -(1 - d) * inverse_mass * pad.damping]
+
+
+def _only_pair(spec: mujoco.MjSpec, pad: str) -> mujoco.MjsPair:
+    """Let a pad and its plate meet as a named pair: MuJoCo then looks at no other, however many pads there are."""
+    geoms = [spec.geom(f"pad_{pad}"), spec.geom(f"plate_{pad}")]
+    for geom in geoms:
+        geom.contype = geom.conaffinity = 0
+    return spec.add_pair(name=f"pad_{pad}", geomname1=geoms[0].name, geomname2=geoms[1].name, condim=1)
 
 
 def _jacobian(model: mujoco.MjModel, tendons: tuple[int, ...]) -> NDArray[np.float64]:

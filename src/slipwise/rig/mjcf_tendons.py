@@ -56,7 +56,7 @@ def _height(file: Mjcf, buffer: str) -> float:
     """Give the height of a buffer's force above the sliding plane [m], from the arm about the girder's pitch axis."""
     arm = _coefficients(file.model, f"buffer_{buffer}_x").get("girder_pitch", 0.0)
     height = float(file.model.body("girder").pos[2]) + arm
-    return 0.0 if abs(height) <= _SAME else height
+    return 0.0 if abs(height) <= _SAME else round(height, 12)  # the arm is written from the centre of gravity
 
 
 def check_arms(file: Mjcf) -> None:

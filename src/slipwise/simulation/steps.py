@@ -81,6 +81,5 @@ def model_for_kernel(rig: Rig, dt: float) -> mujoco.MjModel:
     tendons = list(rig.tendons)
     model.tendon_stiffness[tendons] = 0.0
     model.tendon_solref_fri[tendons, 0] *= dt / rig.model.opt.timestep
-    pads = list(rig.pad_geoms)
-    model.geom_margin[pads] = model.body_margin[model.geom_bodyid[pads]] = _REACH
+    model.pair_margin[:] = _REACH
     return model

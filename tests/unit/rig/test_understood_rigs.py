@@ -231,3 +231,45 @@ def test_a_prescribed_rig_takes_another_mass_and_refuses_another_pad(tmp_path):
     second = '<geom name="pad_B" class="pad" contype="2" pos="1 0 -0.0215"/><geom name="disc_A"'
     with pytest.raises(InputError, match="pads A, B; a girder whose slip is prescribed has one pad"):
         load_specimen(changed(tmp_path, ('<geom name="disc_A"', second), rig="pad"))
+
+
+def test_a_body_that_is_fixed_to_the_girder_is_weighed_with_it(tmp_path):
+    """Steiner: 5 t at 1 m above the centre of 10 t move the centre by 1/3 m and add 5 (2/3)^2 + 10 (1/3)^2 t m^2."""
+    ballast = BALLAST.replace('<body name="ballast">', '<body name="ballast" pos="0 0 1">')
+    sites = tuple((f'name="{n}" pos="{x} 0 0"', f'name="{n}" pos="{x} 0 {1 / 3!r}"') for n, x in
+                  (("girder_centre", "0"), ("girder_edge_1", "1.5"), ("girder_edge_2", "-1.5")))  # fmt: skip
+    specimen = load_specimen(changed(tmp_path, ("girder", ballast), *sites))
+    assert specimen.mass == 15000.0 and specimen.centre_height == pytest.approx(0.366 + 1.0 / 3.0)
+    more = 5e3 * (2.0 / 3.0) ** 2 + 10e3 / 9.0 + 9.0
+    assert specimen.inertia == pytest.approx((21041.6667 + more, 7708.3333 + more, 28342.3333), rel=1e-6)
+    loads = loads_at_rest(build(specimen, 2e-4, 0))
+    assert loads.sum() == pytest.approx(15000.0 * specimen.gravity, rel=1e-6)
+
+
+def test_each_pad_and_each_direction_of_a_buffer_has_its_own_values(tmp_path):
+    changes = (
+        ('<geom name="pad_B" class="pad" contype="2" pos="-1.5 2.5 -0.0215"',
+         '<geom name="pad_B" class="pad" size="0.03" contype="2" pos="-1.5 2.5 -0.03"'),
+        ('name="pad_stiffness" data="200e6"', 'name="pad_stiffness" data="200e6 150e6 200e6 250e6"'),
+        ('name="buffer_1_y" stiffness="1730589.336"', 'name="buffer_1_y" springlength="-0.002 0.002" stiffness="9e5"'),
+        ('name="buffer_1_x"', 'name="buffer_1_x" springlength="-0.002 0.002"'),
+    )  # fmt: skip
+    specimen = load_specimen(changed(tmp_path, *changes))
+    assert [p.radius for p in specimen.places] == [0.0215, 0.03, 0.0215, 0.0215]
+    assert specimen.springs == (200e6, 150e6, 200e6, 250e6)
+    one = specimen.buffers[0]
+    assert (one.stiffness_x, one.stiffness_y, one.gap) == (1730589.336, 9e5, 0.002)
+    record = replay(base_model(specimen), load_motion(["sine:2Hz,0.2g,cycles=9"])).record
+    np.testing.assert_allclose(record["pad_B_P"], record["pad_B_N"] / (np.pi * 0.03**2))
+
+
+def test_pads_may_have_each_others_names(tmp_path):
+    """Names are names: places are told by the geoms alone."""
+    swapped = (
+        ('"pad_A" class', '"pad_X" class'),
+        ('"pad_B" class', '"pad_A" class'),
+        ('"pad_X" class', '"pad_B" class'),
+    )
+    with pytest.raises(InputError, match="coefficient .* of the joint girder_yaw"):
+        load_specimen(changed(tmp_path, *swapped, ('contype="1"', 'contype="16"'), ('contype="2"', 'contype="1"'),
+                              ('contype="16"', 'contype="2"')))  # fmt: skip
