@@ -216,8 +216,9 @@ def push_girder(
     slip_x = 0.0
     slip_y = 0.0
     for pad in range(n_pads):
-        slip_x += ten_length[int(u[TENDON + 2 * pad])] / n_pads
-        slip_y += ten_length[int(u[TENDON + 2 * pad + 1])] / n_pads
+        z = effects.first_pad + pad * effects.pad_block
+        slip_x += ten_length[int(u[z + PAD_TENDON])] / n_pads
+        slip_y += ten_length[int(u[z + PAD_TENDON + 1])] / n_pads
     force_x, force_y = girder_drag(effects, u, qvel[dof_x], qvel[dof_y], qvel[dof_z], slip_x, slip_y, time, u[DT])
     applied[dof_x] -= force_x
     applied[dof_y] -= force_y
