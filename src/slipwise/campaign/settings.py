@@ -10,7 +10,6 @@ from slipwise.campaign.campaign import ROLES, Logger
 from slipwise.campaign.materiality import Materiality
 from slipwise.channels import CHANNELS, channel, is_channel
 from slipwise.errors import InputError, SettingError, unknown_name
-from slipwise.rig import Specimen
 from slipwise.rig.known import SPECIMEN_UNITS, SPECIMEN_WORDS
 from slipwise.signals.filters import LowPass
 from slipwise.units import quantity
@@ -126,8 +125,7 @@ def _text(value: Any, key: str, where: str) -> str:
 
 
 def _specimen(part: Mapping[str, Any], where: str) -> dict[str, float | str]:
-    names = {f.name for f in fields(Specimen)}
-    _keys(part, [n for n in (*SPECIMEN_UNITS, *SPECIMEN_WORDS) if n in names], where)
+    _keys(part, (*SPECIMEN_UNITS, *SPECIMEN_WORDS), where)
     return {
         key: _text(value, key, where)
         if key in SPECIMEN_WORDS
