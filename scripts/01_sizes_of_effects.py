@@ -89,7 +89,7 @@ def changed(base: Model, row: Row) -> Model:
         law = model["shear_rate"].values
         model = model.setting("shear_rate", strength=row.scaled * law["strength"], slow=row.scaled * law["slow"])
     stiffness = tuple(row.stiffer * k for k in model.specimen.buffer_stiffness)
-    return replace(model, specimen=replace(model.specimen, buffer_stiffness=stiffness))
+    return replace(model, specimen=model.specimen.changed(buffer_stiffness=stiffness))
 
 
 def energy(answer: Replay) -> float:

@@ -45,7 +45,7 @@ class Rigged:
 
     def __init__(self, model: Model, engine: str) -> None:
         self.law = kernel(engine)
-        self.rig = build(model.built_specimen(), DT, self.law.layout.size)
+        self.rig = build(model.built_specimen(), DT, self.law.layout.size(model.built_specimen()))
         self.numbers = numbers_for(self.law, self.rig, model, DT)
 
     def batch(self, count: int, threads: int, control: np.ndarray, *, law: bool = True) -> float:

@@ -4,7 +4,7 @@ import shutil
 from pathlib import Path
 
 from slipwise.rig import RIGS
-from slipwise.rig.specimen import find_rig
+from slipwise.rig.files import find_rig
 
 #: Stands for the end of a part of the file: what is added goes before it.
 END = {

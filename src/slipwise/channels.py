@@ -1,18 +1,19 @@
-"""The table of channels: name, unit, sign and place of everything that is measured or simulated.
+"""The grammar of channels: name, unit, sign and place of everything that is measured or simulated.
 
-File name of a column = channel name. Pads: A (+x,+y), B (-x,+y), C (+x,-y), D (-x,-y).
+File name of a column = channel name. What a pad or a buffer measures is named after it: `pad_<name>_N`,
+`buffer_<name>_Fx`, where the name is a word of letters and digits that the rig gives it.
 """
 
 import fnmatch
 import re
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from functools import cache
 
 from slipwise.errors import UnknownNameError, unknown_name
 
+#: Pads and buffers of the reference rig, after which the channels that are listed are named.
 PADS: tuple[str, ...] = ("A", "B", "C", "D")
-#: Signs of the pads' places, in units of half the pad spacing: (x, y).
-PAD_SIGNS: tuple[tuple[int, int], ...] = ((1, 1), (-1, 1), (1, -1), (-1, -1))
 BUFFERS: tuple[str, ...] = ("1", "2")
 #: Gauges that the slip velocity is made of.
 VELOCITY_CHANNELS: tuple[str, ...] = ("slip_x", "girder_ax", "table_ax")
@@ -54,37 +55,58 @@ def _table() -> dict[str, Channel]:
     rows.append(("roll", "rad", "mrad", "girder minus table", "about +x"))
     rows.append(("heave", "m", "mm", "girder minus table at the centre of gravity", "up from the unloaded pads"))
     rows.append(("table_pitch", "rad", "mrad", "table top", "about +y: nose down at +x"))
-    for pad in PADS:
-        rows.append((f"pad_{pad}_N", "N", "kN", f"load cell of pad {pad}", "compression"))
-        for axis in ("x", "y"):
-            rows.append(
-                (
-                    f"pad_{pad}_F{axis}",
-                    "N",
-                    "kN",
-                    f"load cell of pad {pad}",
-                    f"force of the girder on the pad: positive when sliding to +{axis}",
-                )
-            )
-        rows.append((f"pad_{pad}_P", "Pa", "MPa", f"pad {pad}", "compression"))
-        rows.append((f"pad_{pad}_T", "K", "degC", f"sliding face of pad {pad}", "temperature"))
-    for buffer in BUFFERS:
-        for axis in ("x", "y"):
-            rows.append(
-                (
-                    f"buffer_{buffer}_F{axis}",
-                    "N",
-                    "kN",
-                    f"shear key of buffer {buffer}",
-                    f"force of the girder on the buffer: positive when the girder is at +{axis}",
-                )
-            )
     return {row[0]: Channel(*row) for row in rows}
 
 
-CHANNELS: dict[str, Channel] = _table()
+def _of_pad(pad: str) -> tuple[Channel, ...]:
+    cell = f"load cell of pad {pad}"
+    forces = [
+        Channel(f"pad_{pad}_F{a}", "N", "kN", cell, f"force of the girder on the pad: positive when sliding to +{a}")
+        for a in ("x", "y")
+    ]
+    return (
+        Channel(f"pad_{pad}_N", "N", "kN", cell, "compression"),
+        *forces,
+        Channel(f"pad_{pad}_P", "Pa", "MPa", f"pad {pad}", "compression"),
+        Channel(f"pad_{pad}_T", "K", "degC", f"sliding face of pad {pad}", "temperature"),
+    )
+
+
+def _of_buffer(buffer: str) -> tuple[Channel, ...]:
+    sign = "force of the girder on the buffer: positive when the girder is at +{}"
+    return tuple(
+        Channel(f"buffer_{buffer}_F{a}", "N", "kN", f"shear key of buffer {buffer}", sign.format(a)) for a in ("x", "y")
+    )
+
+
+def channels_of(pads: Iterable[str], buffers: Iterable[str]) -> dict[str, Channel]:
+    """Give every channel that a rig with these pads and buffers can have, by name."""
+    named = [*(c for pad in pads for c in _of_pad(pad)), *(c for buffer in buffers for c in _of_buffer(buffer))]
+    return _table() | {c.name: c for c in named}
+
+
+#: The channels of the reference rig: those that are listed and offered; the grammar knows more.
+CHANNELS: dict[str, Channel] = channels_of(PADS, BUFFERS)
 #: A channel that only serves to compute others in a campaign: "<channel>_raw".
 _RAW = re.compile(r"^(?P<name>.+)_raw$")
+_PART = re.compile(r"^(?P<part>pad|buffer)_(?P<name>[A-Za-z0-9]+)_(?P<kind>[A-Za-z]+)$")
+
+
+def _known(name: str) -> Channel | None:
+    """Look a channel up in the list, then in the grammar."""
+    if name in CHANNELS:
+        return CHANNELS[name]
+    match = _PART.match(name)
+    if not match:
+        return None
+    possible = _of_pad(match["name"]) if match["part"] == "pad" else _of_buffer(match["name"])
+    return next((c for c in possible if c.name == name), None)
+
+
+def is_channel(name: str) -> bool:
+    """Tell whether the grammar knows a name; "pad_A_Fx_raw" too."""
+    match = _RAW.match(name)
+    return _known(match["name"] if match else name) is not None
 
 
 def channel(name: str) -> Channel:
@@ -94,23 +116,38 @@ def channel(name: str) -> Channel:
         UnknownNameError: no such channel; the message offers the nearest ones.
     """
     match = _RAW.match(name)
-    known = CHANNELS.get(match["name"] if match else name)
+    known = _known(match["name"] if match else name)
     if known is None:
         raise unknown_channel(name)
-    return Channel(name, known.unit, known.shown_in, known.place, known.sign) if match else known
+    return replace(known, name=name) if match else known
+
+
+def part_of(name: str) -> tuple[str, str]:
+    """Give what a channel belongs to: ("pad", "A") of "pad_A_N", ("buffer", "1") of "buffer_1_Fx", else ("", "")."""
+    match = _PART.match(name)
+    return (match["part"], match["name"]) if match else ("", "")
+
+
+def pads_in(names: Iterable[str]) -> tuple[str, ...]:
+    """Give the pads that channels with these names belong to: shorter names first, then by the alphabet."""
+    found = {part_of(name)[1] for name in names if part_of(name)[0] == "pad"}
+    return tuple(sorted(found, key=lambda pad: (len(pad), pad)))
+
+
+def channels_like(pattern: str, among: Iterable[str]) -> tuple[str, ...]:
+    """Give those of the channels that a pattern such as "pad_*_N" means, in their order; "all" means every channel."""
+    return tuple(n for n in among if pattern == "all" or fnmatch.fnmatchcase(n, pattern))
 
 
 @cache
-def channels_like(pattern: str) -> tuple[str, ...]:
-    """Give the names that a pattern such as "pad_*_N" means; "all" means every channel.
+def check_pattern(pattern: str) -> None:
+    """Refuse a pattern that no channel of any rig has.
 
     Raises:
         UnknownNameError: none; the message offers the nearest ones.
     """
-    found = tuple(n for n in CHANNELS if pattern == "all" or fnmatch.fnmatchcase(n, pattern))
-    if not found:
+    if not channels_like(pattern, CHANNELS) and not is_channel(pattern.replace("*", "1").replace("?", "1")):
         raise unknown_channel(pattern)
-    return found
 
 
 def unknown_channel(name: str) -> UnknownNameError:

@@ -1,13 +1,13 @@
 """A model: a specimen, the effects that act on it in order, and the values of their parameters."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from slipwise.channels import channels_like
-from slipwise.effects import PORTS, Effect, base_effects, find_effect
-from slipwise.errors import SettingError
+from slipwise.channels import check_pattern, part_of
+from slipwise.effects import PAD_HOOKS, PORTS, Effect, base_effects, find_effect
+from slipwise.errors import SettingError, unknown_name
 from slipwise.rig import Specimen, load_specimen
 from slipwise.shown import Tabular
 
@@ -20,11 +20,13 @@ class EffectUse(Tabular):
         effect: which.
         values: parameter -> value [SI].
         target: the channel it acts on, or channels ("pad_*_N", "all"), for effects that need one.
+        own: pad -> parameter -> value [SI], where a pad has another than all pads.
     """
 
     effect: Effect
     values: Mapping[str, float]
     target: str = ""
+    own: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Refuse unknown parameters, values out of bounds, and a target where none belongs."""
@@ -41,13 +43,21 @@ class EffectUse(Tabular):
         if self.target and not self.effect.target:
             raise SettingError(f"{self.effect.name} acts everywhere; it takes no target ({self.target!r} was given)")
         if self.target:
-            channels_like(self.target)
+            check_pattern(self.target)
+        for pad, own in self.own.items():
+            if not (hooks := self.effect.instant_hooks.keys()) or not hooks <= PAD_HOOKS:
+                raise SettingError(
+                    f"{self.effect.name} acts on more than single pads; pad {pad} has no value of its own"
+                )
+            for name, value in own.items():
+                self.effect.parameter(name).check(value, f"{self.effect.name} of pad {pad}")
 
     @property
     def is_neutral(self) -> bool:
         """Whether every parameter that could switch it on has its neutral value."""
         switches = [p for p in self.effect.parameters if p.neutral is not None]
-        return bool(switches) and all(self.values[p.name] == p.neutral for p in switches)
+        given = [self.values, *(dict(self.values) | dict(own) for own in self.own.values())]
+        return bool(switches) and all(values[p.name] == p.neutral for p in switches for values in given)
 
     @property
     def label(self) -> str:
@@ -103,6 +113,8 @@ class Model(Tabular):
         for label in labels:
             if labels.count(label) > 1:
                 raise SettingError(f"the model lists {label} twice")
+        for use in self.uses:
+            _check_parts(self.specimen, use)
         sticking = [u.label for u in self.uses if "stick" in u.effect.hooks]
         train = [u.label for u in self.uses if "stretch" in u.effect.hooks]
         if len(sticking) > 1 or (sticking and train):
@@ -181,11 +193,22 @@ class Model(Tabular):
         return [row for entry in self.uses for row in entry._rows()]
 
 
+def _check_parts(specimen: Specimen, use: EffectUse) -> None:
+    """Refuse an effect that names a pad or a buffer which the specimen has not."""
+    part, name = part_of(use.target)
+    names = {"pad": specimen.pads, "buffer": tuple(buffer.name for buffer in specimen.buffers)}
+    if part and name not in names[part]:
+        raise unknown_name(f"{part} of {specimen.name}", name, names[part], f"{use.label} names it.")
+    for pad in use.own:
+        if pad not in specimen.pads:
+            raise unknown_name(f"pad of {specimen.name}", pad, specimen.pads, f"{use.label} names it.")
+
+
 def base_model(rig: str | Path | Specimen, effects: Sequence[str | Effect | EffectUse] | None = None) -> Model:
     """Make a model of a rig with the paper's law.
 
     Args:
-        rig: a name, the path of an MJCF file, or a specimen.
+        rig: a name, the path of an MJCF file or of a specimen.toml, or a specimen.
         effects: names or effects (typical values) or uses; the paper's law, eqs. (7) and (8), when not given.
     """
     chosen = base_effects("law") if effects is None else effects

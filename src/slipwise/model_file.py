@@ -34,9 +34,8 @@ from slipwise.errors import InputError, SettingError, unknown_name
 from slipwise.model import EffectUse, Model, base_model, use
 from slipwise.params import same_number
 from slipwise.record import write_text
-from slipwise.rig import load_specimen
+from slipwise.rig import RIGS, Specimen, load_specimen
 from slipwise.rig.known import SPECIMEN_UNITS, better_known, known_better, read_known
-from slipwise.rig.specimen import RIGS, Specimen
 from slipwise.units import quantity
 
 _TOP = ("rig", "specimen", "effect")

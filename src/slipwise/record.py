@@ -6,7 +6,7 @@ units that people read, named in the header as "pad_A_N [kN]".
 
 import io
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
@@ -16,7 +16,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from slipwise.channels import PADS, channel
+from slipwise.channels import PADS, channel, pads_in, part_of
 from slipwise.errors import InputError, SettingError
 from slipwise.shown import Drawn, frame
 from slipwise.units import parse_unit
@@ -72,9 +72,18 @@ class Record(Drawn):
         """Sampling step [s]: the median, so that single dropped samples do not move it."""
         return float(np.median(np.diff(self.time)))
 
-    def stacked(self, pattern: str) -> Array:
-        """Give the four pads' channels as (n, 4), e.g. `stacked("pad_{}_N")`."""
-        return np.stack([self[pattern.format(pad)] for pad in PADS], axis=1)
+    def stacked(self, pattern: str, pads: Sequence[str] | None = None) -> Array:
+        """Give the pads' channels as (n, n_pads), e.g. `stacked("pad_{}_N")`.
+
+        Args:
+            pattern: of their names.
+            pads: which; all of which the record has this channel when not given, in the order of their names.
+
+        Raises:
+            InputError: the record lacks one of them, or has none.
+        """
+        named = pads_in(n for n in self.channels if n == pattern.format(part_of(n)[1])) if pads is None else pads
+        return np.stack([self[pattern.format(pad)] for pad in named or PADS], axis=1)
 
     def has_all(self, *names: str) -> bool:
         """Tell whether every one of these channels is there."""

@@ -150,7 +150,7 @@ def test_one_instant_after_another_answers_as_the_whole_record(effect: Effect, e
     step = {n: single.law.functions[f"pad_{n}"] for n in ("bound", "explicit", "further", "advance")}
     train = single.law.functions["follow_train"]
     layout, u = single.law.layout, single.numbers
-    z, dt, place = layout.at["pad_memory"] + 2 * layout.pad_block, 0.002, (1.0, -1.0)  # pad C
+    z, dt, place = layout.first_pad + 2 * layout.pad_block, 0.002, (1.0, -1.0)  # pad C
     for i in range(0, 200):
         state = (*moving["velocity"][i, 2], *moving["slip"][i, 2], *place, moving["time"][i], dt)
         load = moving["load"][i, 2]
@@ -161,8 +161,8 @@ def test_one_instant_after_another_answers_as_the_whole_record(effect: Effect, e
             force = np.array(step["explicit"](u, z, bound, load, *state))
         velocity, mean = state[:2], 0.5 * (moving["velocity"][i, 2] + moving["velocity"][i + 1, 2])
         if u[places.N_TRAIN] > 0.0:
-            *force, bound = train(u, z, 2, load, *state)
-            velocity = mean = u[places.TRAIN_VELOCITY + 4 : places.TRAIN_VELOCITY + 6].copy()
+            *force, bound = train(u, z, load, *state)
+            velocity = mean = u[z + places.TRAIN_VELOCITY : z + places.TRAIN_VELOCITY + 2].copy()
         friction = float(np.hypot(*force))
         state = (*velocity, *state[2:])
         more = step["further"](u, z, bound, friction, load, *state)

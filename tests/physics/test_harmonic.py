@@ -111,7 +111,7 @@ def test_halving_the_step_changes_the_slip_by_less_than_half_a_percent(rig):
 
 def test_stiffer_pads_do_not_change_the_slip():
     model = base_model("bridge1")
-    stiff = replace(model, specimen=replace(model.specimen, pad_stiffness=330e6))
+    stiff = replace(model, specimen=model.specimen.changed(pad_stiffness=330e6))
     motion = sine(2.0, 0.3 * G, 8.0)
     assert half_range(shaken(stiff, motion).record["slip_x"]) == pytest.approx(
         half_range(shaken(model, motion).record["slip_x"]), rel=0.002

@@ -84,7 +84,7 @@ def test_while_it_slides_the_leading_pads_carry_more(rig, deceleration, leading,
     # Without buffers and without P-delta (pads travel with the girder). The kick makes the girder nod on its
     # pads at first: the mean over the slide counts.
     model = base_model(rig)
-    specimen = replace(model.specimen, buffer_stiffness=(1e-3, 1e-3), pads_on="girder", pad_damping=3e5)
+    specimen = model.specimen.changed(buffer_stiffness=(1e-3, 1e-3), pads_on="girder", pad_damping=3e5)
     record = pushed(replace(model, specimen=specimen), 1.5, 0.9).record
     fast = (record.time > 0.45) & (record.time < 0.8)
     assert -record["girder_ax"][fast].mean() / G == pytest.approx(deceleration, rel=5e-4)
@@ -145,7 +145,7 @@ def test_warp_changes_no_motion_with_coulomb_friction_and_little_with_eq7():
     warped = (2e-5, -2e-5, -2e-5, 2e-5)
     for model, allowed in ((coulomb("bridge1"), 2e-5), (base_model("bridge1"), 0.02)):
         flat = shaken(model, motion).record["slip_x"]
-        uneven = shaken(replace(model, specimen=replace(model.specimen, seating=warped)), motion).record
+        uneven = shaken(replace(model, specimen=model.specimen.changed(seating=warped)), motion).record
         assert uneven.stacked("pad_{}_N")[0] == pytest.approx(24516.625 + 200e6 * np.array(warped), rel=1e-9)
         assert half_range(uneven["slip_x"]) == pytest.approx(half_range(flat), rel=allowed)
 

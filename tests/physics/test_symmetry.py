@@ -30,7 +30,7 @@ def test_friction_is_a_circle(degrees):
     model = base_model("block")
     square = ((2.0, 2.0), (-2.0, 2.0), (2.0, -2.0), (-2.0, -2.0))
     inertia = (20000.0, 20000.0, 30000.0)
-    specimen = replace(model.specimen, pad_places=square, inertia=inertia, centre_height=1e-3)
+    specimen = model.specimen.changed(pad_places=square, inertia=inertia, centre_height=1e-3)
     model = replace(model, specimen=specimen)
     along = sine(2.0, 0.3 * G, 5.0)
     c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))

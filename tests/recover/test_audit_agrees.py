@@ -8,7 +8,7 @@ from slipwise.diagnosis.diagnose import diagnose
 from slipwise.instruments.audit import audit
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_delay_of_all_load_cells_is_a_delay_of_one_size_to_both():
     fault = Fault("channel_delay", GROUPS["loads"], 2.19e-3)
     campaign = as_campaign(with_faults(build_campaign(951, effects=()), [fault], 7))

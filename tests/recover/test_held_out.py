@@ -27,7 +27,7 @@ def with_noise_held_out(campaign: Campaign) -> Campaign:
     return replace(campaign, runs=tuple(runs))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_names_order_and_numbers_do_not_change_where_the_held_out_run_is_noise() -> None:
     campaign = as_campaign(build_campaign(41077, effects=("run_in", "uneven_seating"), size="medium", rig="bridge1"))
     seen, unseen = (diagnose(c) for c in (campaign, with_noise_held_out(campaign)))

@@ -33,6 +33,7 @@ def test_a_hidden_effect_is_named(tmp_path: Path, effect: str, seed: int, kind: 
     assert written["candidates"][0]["effect"].startswith(effect)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("effect", "seed"),
     [

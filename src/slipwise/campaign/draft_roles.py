@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.same_specimen import lever_of
+from slipwise.channels import PADS
 from slipwise.record import Record
 from slipwise.rig import RIGS, load_specimen
 
@@ -56,8 +57,8 @@ def rig_of(records: Sequence[Record]) -> tuple[str, str]:
     four = [record for record in records if record.has_all(*(f"pad_{pad}_N" for pad in "ABCD"))]
     if not four:
         return "pad", "not four pads"
-    levers = [lever for record in four if (lever := lever_of(record)) is not None]
-    free = [name for name in RIGS if load_specimen(name).free]
+    levers = [lever for record in four if (lever := lever_of(record, load_specimen("bridge1"))) is not None]
+    free = [name for name in RIGS if load_specimen(name).free and len(load_specimen(name).pads) == len(PADS)]
     if not levers:
         return "bridge1", "four pads; nothing tells which rig"
     height = float(np.median(levers))

@@ -5,17 +5,16 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.channels import PADS
+from slipwise.channels import part_of
 from slipwise.errors import InputError, UnitError
 from slipwise.units import parse_unit
 
 Array = NDArray[np.float64]
-FORCES: tuple[str, ...] = tuple(f"pad_{pad}_F{axis}" for pad in PADS for axis in "xy")
 
 
 def is_coefficient(channel: str, unit: str) -> bool:
     """Tell whether a column is a coefficient of friction: a pad's friction whose unit is a plain number."""
-    if channel not in FORCES:
+    if part_of(channel)[0] != "pad" or not channel.endswith(("_Fx", "_Fy")):
         return False
     try:
         parse_unit(unit, "1", channel)
@@ -25,14 +24,14 @@ def is_coefficient(channel: str, unit: str) -> bool:
 
 
 def forces_of(
-    coefficients: Mapping[str, Array], channels: Mapping[str, Array], area: float, file: str
+    coefficients: Mapping[str, Array], channels: Mapping[str, Array], areas: Mapping[str, float], file: str
 ) -> dict[str, Array]:
     """Turn coefficients of friction into forces.
 
     Args:
         coefficients: channel of friction -> coefficient (n,) [1].
         channels: all others, each (n,): of each pad its load, or its pressure.
-        area: of a pad [m^2], for those of which only the pressure is known.
+        areas: pad -> its area [m^2], for those of which only the pressure is known.
         file: for messages.
 
     Returns:
@@ -47,7 +46,7 @@ def forces_of(
         if f"{pad}_N" in channels:
             load = channels[f"{pad}_N"]
         elif f"{pad}_P" in channels:
-            load = channels[f"{pad}_P"] * area
+            load = channels[f"{pad}_P"] * areas[part_of(name)[1]]
         else:
             raise InputError(
                 f"{file}: {name} is given as a coefficient of friction (unit 1), so its load must be known: give "

@@ -4,7 +4,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.aligned import long_enough, spread
-from slipwise.channels import PAD_SIGNS
 from slipwise.signals.filters import LowPass
 
 Array = NDArray[np.float64]
@@ -53,9 +52,9 @@ def is_slow(speed: Array, velocity: Array, dt: float, lowpass: LowPass | None, s
     return slow | spread(turns, reach, reach)
 
 
-def is_lifted(load: Array, dt: float, pads: list[str]) -> Mask:
-    """Tell where a pad is lifting or still rings from it (naming: pitch is then 700 times its floor)."""
-    if len(pads) < len(PAD_SIGNS) or not np.isfinite(load).all():
+def is_lifted(load: Array, dt: float, pads: int) -> Mask:
+    """Tell where a pad of so many is lifting or still rings from it (naming: pitch is then 700 times its floor)."""
+    if pads < 3 or load.shape[1] < pads or not np.isfinite(load).all():
         return np.zeros(len(load), dtype=bool)
     lifted = np.any(load < _LIFTED * np.median(load, axis=0), axis=1)
     return spread(np.asarray(lifted), 1, int(np.ceil(_RINGING / dt)))

@@ -19,10 +19,11 @@ from slipwise.campaign.same_specimen import check_same_specimen
 from slipwise.campaign.settings import ColumnMap, RunSettings, Settings, read_settings
 from slipwise.campaign.table import Table, open_table
 from slipwise.campaign.time_axis import check_time, time_of_file
-from slipwise.channels import CHANNELS, channel
-from slipwise.errors import InputError, UnitError
+from slipwise.channels import CHANNELS, channel, is_channel, part_of
+from slipwise.errors import InputError, UnitError, unknown_name
 from slipwise.record import Record
 from slipwise.rig import Specimen, load_specimen
+from slipwise.rig.known import better_known
 from slipwise.units import affine, parse_unit
 
 Array = NDArray[np.float64]
@@ -58,12 +59,12 @@ def load_campaign(folder: Path | str) -> Campaign:
     if not folder.is_dir():
         raise InputError(f"{folder}: no such folder; a campaign is a folder with campaign.toml and data files")
     settings = read_settings(folder / "campaign.toml")
-    specimen = _better_known(load_specimen(settings.rig, folder), settings.specimen)
+    specimen = better_known(load_specimen(settings.rig, folder), settings.specimen, "campaign.toml")
     files: dict[str, _File] = {}
     runs: list[Run] = []
     for run in settings.runs:
         if run.file not in files:
-            files[run.file] = _read_file(folder / run.file, settings, specimen.pad_area)
+            files[run.file] = _read_file(folder / run.file, settings, specimen)
         runs.append(_run(run, files[run.file], settings))
     _check_names(runs)
     check_untouched(runs)
@@ -106,17 +107,9 @@ def as_campaign(given: Campaign | Path | str) -> Campaign:
     return load_campaign(given)
 
 
-def _better_known(specimen: Specimen, known: Mapping[str, float | str]) -> Specimen:
-    values: dict[str, object] = dict(known)
-    if "buffer_stiffness" in values:
-        values["buffer_stiffness"] = (values["buffer_stiffness"],) * len(specimen.buffer_stiffness)
-    sources = {**specimen.sources, **dict.fromkeys(known, "campaign.toml")}
-    return replace(specimen, **values, sources=sources)  # type: ignore[arg-type]
-
-
-def _read_file(path: Path, settings: Settings, pad_area: float) -> _File:
+def _read_file(path: Path, settings: Settings, specimen: Specimen) -> _File:
     table = open_table(path)
-    chosen, notes = _choose(table, settings.columns)
+    chosen, notes = _choose(table, settings.columns, specimen)
     read = table.columns([i for i, _ in chosen])
     time: Array | None = None
     channels: dict[str, Array] = {}
@@ -143,7 +136,8 @@ def _read_file(path: Path, settings: Settings, pad_area: float) -> _File:
         if name in channels:
             raise InputError(f"{path.name}: {name} is both recorded and one of [derived]; remove one of them")
         channels[name] = evaluate(expression, {"time": time, **channels}, name, f"[derived] {name} ({path.name})")
-    channels |= forces_of(coefficients, channels, pad_area, path.name)
+    areas = dict(zip(specimen.pads, specimen.pad_areas, strict=True))
+    channels |= forces_of(coefficients, channels, areas, path.name)
     _check_temperatures(path.name, channels)
     channels, added = completed(time, channels)
     made = tuple(f"{path.name}: {word}" for word in added)
@@ -164,7 +158,9 @@ def _check_temperatures(name: str, channels: Mapping[str, Array]) -> None:
             )
 
 
-def _choose(table: Table, mapped: Sequence[ColumnMap]) -> tuple[list[tuple[int, ColumnMap]], list[str]]:
+def _choose(
+    table: Table, mapped: Sequence[ColumnMap], specimen: Specimen
+) -> tuple[list[tuple[int, ColumnMap]], list[str]]:
     """Decide which column is which channel, and say which ones are not used."""
     name = table.path.name
     chosen: list[tuple[int, ColumnMap]] = []
@@ -177,6 +173,12 @@ def _choose(table: Table, mapped: Sequence[ColumnMap]) -> tuple[list[tuple[int, 
             if match is None or not _is_channel(match["name"]):
                 notes.append(_not_used(header, match["name"] if match else header))
                 continue
+            if part_of(match["name"])[0] == "pad" and part_of(match["name"])[1] not in specimen.pads:
+                notes.append(
+                    f"column {header!r} is of no pad of {specimen.name}, which has {', '.join(specimen.pads)}, and is "
+                    "not used"
+                )
+                continue
             unit = match["unit"]
             if unit is None:
                 raise UnitError(
@@ -184,6 +186,10 @@ def _choose(table: Table, mapped: Sequence[ColumnMap]) -> tuple[list[tuple[int, 
                     f"'{match['name']} [{channel(match['name']).shown_in}]'"
                 )
             entry = ColumnMap(header, match["name"], unit, 1)
+        elif part_of(entry.channel)[0] == "pad" and part_of(entry.channel)[1] not in specimen.pads:
+            raise unknown_name(
+                f"pad of {specimen.name}", part_of(entry.channel)[1], specimen.pads, f"[columns] {header!r} names it."
+            )
         for k, other in chosen:
             if other.channel == entry.channel:
                 raise InputError(
@@ -207,7 +213,7 @@ def _plain(header: str) -> str:
 
 
 def _is_channel(name: str) -> bool:
-    return name in CHANNELS or (name.endswith("_raw") and name.removesuffix("_raw") in CHANNELS)
+    return is_channel(name)
 
 
 def _not_used(header: str, name: str) -> str:

@@ -9,6 +9,8 @@ from slipwise.campaign.campaign import Campaign, Run
 from slipwise.campaign.zero_state import shifted_zeros
 from slipwise.errors import InputError
 from slipwise.record import Record
+from slipwise.rig import Specimen
+from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import load_modes
 from slipwise.signals.filters import LowPass, lowpass
 
@@ -43,20 +45,22 @@ def check_same_specimen(campaign: Campaign) -> tuple[str, ...]:
         InputError: weight or lever of the weight differ between runs by more than one specimen can.
     """
     notes = _different_channels(campaign.runs)
-    weighing = [run for run in campaign.runs if _weighs(run.record)]
-    if not weighing or not campaign.specimen.free:
+    rig = campaign.specimen
+    loads = tuple(f"pad_{pad}_N" for pad in rig.pads)
+    weighing = [run for run in campaign.runs if _weighs(run.record, loads)]
+    if not weighing or not rig.free:
         return tuple(notes)
-    zeros = shifted_zeros([run.record for run in campaign.runs], campaign.specimen.weight)
+    zeros = shifted_zeros([run.record for run in campaign.runs], loads, rig.weight)
     notes += [f"{zero.words}; `slipwise audit` says how to put it right" for zero in zeros]
     if any(zero.tared for zero in zeros):
         return tuple(notes)
-    _refuse_some_tared(weighing, campaign.specimen.weight)
-    weights = [(run, float(np.median(load_modes(_pressing(run.record)).heave))) for run in weighing]
-    _compare(weights, _WEIGHT, "the four load cells carry", "kN", 1e3)
-    levers = [(run, lever) for run in weighing if (lever := lever_of(run.record)) is not None]
+    _refuse_some_tared(weighing, loads, rig.weight)
+    weights = [(run, float(np.median(_pressing(run.record, rig.pads).sum(axis=1)))) for run in weighing]
+    _compare(weights, _WEIGHT, "the load cells carry", "kN", 1e3)
+    levers = [(run, lever) for run in weighing if (lever := lever_of(run.record, rig)) is not None]
     _compare(levers, _LEVER, "inertia of the girder acts at a lever of", "of the pad spacing", 1.0)
     typical = float(np.median([weight for _, weight in weights]))
-    rated = campaign.specimen.weight
+    rated = rig.weight
     if abs(typical / rated - 1.0) > _RATED:
         notes.append(
             f"the load cells carry {typical / 1e3:.3g} kN together, but the girder of {campaign.rig} weighs "
@@ -65,21 +69,21 @@ def check_same_specimen(campaign: Campaign) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def _weighs(record: Record) -> bool:
-    """Tell whether four load cells are there and none is dead beside the others: a dead one is no other rig."""
-    if not record.has_all(*(f"pad_{p}_N" for p in "ABCD")):
+def _weighs(record: Record, loads: Sequence[str]) -> bool:
+    """Tell whether all load cells are there and none is dead beside the others: a dead one is no other rig."""
+    if not record.has_all(*loads):
         return False
-    scatter = record.stacked("pad_{}_N").std(axis=0)
+    scatter = np.stack([record[name] for name in loads], axis=1).std(axis=0)
     return bool(scatter.min() >= _ALIVE * np.median(scatter))
 
 
-def _refuse_some_tared(runs: Sequence[Run], weight: float) -> None:
+def _refuse_some_tared(runs: Sequence[Run], loads: Sequence[str], weight: float) -> None:
     """Refuse load cells that were set to zero under the girder before some of the runs only.
 
     Raises:
         InputError: some were; no single correction suits all runs.
     """
-    tared = {run.name: [z for z in shifted_zeros([run.record], weight) if z.tared] for run in runs}
+    tared = {run.name: [z for z in shifted_zeros([run.record], loads, weight) if z.tared] for run in runs}
     found = {name: zeros for name, zeros in tared.items() if zeros}
     if found:
         words = "; ".join(zero.words for zero in next(iter(found.values())))
@@ -102,20 +106,20 @@ def _different_channels(runs: Sequence[Run]) -> list[str]:
     return notes
 
 
-def _pressing(record: Record) -> NDArray[np.float64]:
-    """Give the loads (n, 4), those of cells that count compression negative turned round: a sign is no other rig."""
-    loads = record.stacked("pad_{}_N")
+def _pressing(record: Record, pads: Sequence[str]) -> NDArray[np.float64]:
+    """Give the loads (n, n_pads), those of cells that count compression negative turned round."""
+    loads = record.stacked("pad_{}_N", pads)
     return loads * np.where(np.median(loads, axis=0) < 0.0, -1.0, 1.0)
 
 
-def lever_of(record: Record) -> float | None:
+def lever_of(record: Record, specimen: Specimen) -> float | None:
     """Height of the centre of gravity over pad spacing, from the pitch of the loads; None where it cannot be seen."""
     if not record.has_all("girder_ax", "slip_x") or record["girder_ax"].std() < _MOVING:
         return None
-    told = ("girder_ax", *(f"pad_{p}_N" for p in "ABCD"))
+    told = ("girder_ax", *(f"pad_{p}_N" for p in specimen.pads))
     if any(_clipped(record[name]) for name in told):
         return None  # the filter would carry what is cut off into the samples beside it
-    modes = load_modes(_pressing(record))
+    modes = load_modes(_pressing(record, specimen.pads), basis_of(specimen))
     weight = float(np.median(modes.heave))
     signals = (record["girder_ax"] * weight / 9.80665, record["slip_x"] * weight, modes.pitch)
     pushed, slid, pitch = (lowpass(values, record.dt, _SLOW) for values in signals)

@@ -8,9 +8,8 @@ from typing import Any
 
 from slipwise.campaign.campaign import ROLES, Logger
 from slipwise.campaign.materiality import Materiality
-from slipwise.channels import CHANNELS, channel
+from slipwise.channels import CHANNELS, channel, is_channel
 from slipwise.errors import InputError, SettingError, unknown_name
-from slipwise.rig import Specimen
 from slipwise.rig.known import SPECIMEN_UNITS, SPECIMEN_WORDS
 from slipwise.signals.filters import LowPass
 from slipwise.units import quantity
@@ -126,8 +125,7 @@ def _text(value: Any, key: str, where: str) -> str:
 
 
 def _specimen(part: Mapping[str, Any], where: str) -> dict[str, float | str]:
-    names = {f.name for f in fields(Specimen)}
-    _keys(part, [n for n in (*SPECIMEN_UNITS, *SPECIMEN_WORDS) if n in names], where)
+    _keys(part, (*SPECIMEN_UNITS, *SPECIMEN_WORDS), where)
     return {
         key: _text(value, key, where)
         if key in SPECIMEN_WORDS
@@ -167,10 +165,9 @@ def _sample_rate(value: Any, where: str) -> float:
 def _logger(part: Mapping[str, Any], where: str) -> Logger:
     own = {key: value for key, value in part.items() if isinstance(value, dict)}
     for pattern in own:
-        plain = pattern.replace("*", "A")
-        if "*" not in pattern and pattern not in CHANNELS:
+        if "*" not in pattern and not is_channel(pattern):
             raise unknown_name(f"channel in {where}", pattern, (*CHANNELS, *_LOWPASS))
-        if "*" in pattern and plain not in CHANNELS and pattern.replace("*", "1") not in CHANNELS:
+        if "*" in pattern and not is_channel(pattern.replace("*", "1")):
             raise unknown_name(f"pattern of channels in {where}", pattern, ("pad_*_N", "pad_*_Fx", "buffer_*_Fx"))
     _keys([key for key in part if key not in own], _LOWPASS, where)
     every = _lowpass({key: value for key, value in part.items() if key not in own}, where)

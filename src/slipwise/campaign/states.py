@@ -1,7 +1,7 @@
 """Measured states: what laws are fed with. Slip, its velocity at the sliding plane, loads, forces, accelerations.
 
 Velocity is fused from slip gauge and accelerometers. The accelerometer sits at the centre of gravity, h above the
-sliding plane, and the girder pitches on its pads by t = (N_A + N_C - N_B - N_D) / (2 k b), so the motion that is fused
+sliding plane, and the girder pitches on its pads by t = sum x_i N_i / sum k x_i^2, so the motion that is fused
 is slip + h t, and h dt/dt is taken off the velocity again. Without it the pads' pitch mode stays in the velocity: some
 mm/s after each reversal.
 """
@@ -18,10 +18,10 @@ from slipwise.campaign.campaign import Campaign, Run
 from slipwise.campaign.phases import is_at_rest, is_inside, is_lifted, is_slow, is_stuck
 from slipwise.campaign.rest_noise import Gauge, noise_of_slip
 from slipwise.campaign.scales import Scales, scales_of
-from slipwise.channels import PADS
 from slipwise.errors import InputError
 from slipwise.record import Record
 from slipwise.rig import Specimen
+from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import load_modes, vertical_acceleration
 from slipwise.signals.derivative import derivative
 from slipwise.signals.filters import LowPass
@@ -35,7 +35,7 @@ Mask = NDArray[np.bool_]
 class States:
     """Measured states of one run on a uniform time axis, lag of a causal logger taken out.
 
-    p is the number of pads with a force or a load, in the order A to D.
+    p is the number of pads with a force or a load, in the order of the rig.
 
     Attributes:
         specimen: of the campaign.
@@ -149,7 +149,7 @@ def measured_states(run: Run, campaign: Campaign) -> States:
     record, lowpass = aligned.record, aligned.lowpass
     specimen = campaign.specimen
     missing: list[str] = []
-    pads = [pad for pad in PADS if any(f"pad_{pad}_{kind}" in record for kind in ("N", "P", "Fx"))]
+    pads = [pad for pad in specimen.pads if any(f"pad_{pad}_{kind}" in record for kind in ("N", "P", "Fx"))]
     load = _loads(record, specimen, pads, run, missing)
     scales = scales_of(campaign)
     along = _along(record, specimen, campaign.gauges, missing, scales, aligned.measured)
@@ -178,7 +178,7 @@ def measured_states(run: Run, campaign: Campaign) -> States:
         table_acceleration=_accelerations(record, "table"),
         stuck=stuck,
         near_reversal=~stuck & is_slow(speed, velocity[:, 0], record.dt, slowest, scales.speed),
-        uplift=is_lifted(load, record.dt, pads),
+        uplift=is_lifted(load, record.dt, len(specimen.pads)),
         valid=aligned.measured & is_inside(len(record)),
         has_y=across is not None,
         has_yaw=yaw is not None,
@@ -197,7 +197,7 @@ def _loads(record: Record, specimen: Specimen, pads: list[str], run: Run, missin
         if f"pad_{pad}_N" in record:
             columns.append(record[f"pad_{pad}_N"])
         elif f"pad_{pad}_P" in record:
-            columns.append(record[f"pad_{pad}_P"] * specimen.pad_area)
+            columns.append(record[f"pad_{pad}_P"] * specimen.pad_areas[specimen.pads.index(pad)])
             missing.append(f"pad_{pad}_N: taken as pressure times the rig's pad area")
         else:
             missing.append(f"pad_{pad}_N: its load is not known")
@@ -234,10 +234,12 @@ def girder_pitch(record: Record, specimen: Specimen) -> Array | None:
 
     Positive with the +x pads shortened: then the centre of gravity stands h t further to +x than the sliding plane.
     """
-    if not record.has_all(*(f"pad_{pad}_N" for pad in PADS)) or len(specimen.pads) != len(PADS):
+    if not specimen.free or not record.has_all(*(f"pad_{pad}_N" for pad in specimen.pads)):
         return None
-    pitch = load_modes(record.stacked("pad_{}_N")).pitch
-    return (pitch - np.median(pitch)) / (len(PADS) * specimen.pad_stiffness * specimen.half_spacing[0])
+    basis = basis_of(specimen)
+    pitch = load_modes(record.stacked("pad_{}_N", specimen.pads), basis).pitch
+    stiffness = basis.half[0] * float(np.array(specimen.springs) @ basis.sides[:, 0] ** 2)
+    return (pitch - np.median(pitch)) / stiffness
 
 
 def _along(

@@ -1,5 +1,6 @@
 """`slipwise rigs`, `channels`, `motions`: what there is, from the code itself."""
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -10,17 +11,39 @@ from slipwise.cli.console import print_json
 Json = Annotated[bool, typer.Option("--json", help="Print JSON for a program to read.")]
 
 
-def rigs(json: Json = False) -> None:
-    """List the rigs with their rated values.
+def rigs(
+    rig: Annotated[
+        str | None, typer.Argument(help="One rig: a name, a folder, a specimen.toml or an MJCF file.")
+    ] = None,
+    new: Annotated[
+        str | None, typer.Option("--new", help="Begin a rig of this name: a folder with specimen.toml and its MJCF.")
+    ] = None,
+    mjcf: Annotated[bool, typer.Option("--mjcf", help="Write the MJCF of a specimen.toml beside it.")] = False,
+    json: Json = False,
+) -> None:
+    """List the rigs with their rated values, begin one, or write its MJCF.
 
-    Example: `slipwise rigs`
+    Example: `slipwise rigs --new my_rig`, then edit my_rig/specimen.toml and
+    `slipwise replay sine:2Hz,0.3g --rig my_rig --out out/mine`
     """
+    if new is not None:
+        path, written = sw.rig.new_rig(new, Path.cwd())
+        typer.echo(
+            f"wrote {path.relative_to(Path.cwd())}: edit it; `slipwise replay sine:2Hz,0.3g --rig {new} --out DIR`"
+        )
+        typer.echo(f"wrote {written.relative_to(Path.cwd())}: its MJCF; after edits `slipwise rigs {new} --mjcf` again")
+        return
+    if mjcf:
+        if rig is None:
+            raise sw.errors.SettingError("--mjcf needs the rig: `slipwise rigs my_rig --mjcf`")
+        typer.echo(f"wrote {sw.rig.write_mjcf(sw.rig.load_specimen(rig))}")
+        return
     rows = []
-    for name in sw.rig.RIGS:
+    for name in sw.rig.RIGS if rig is None else (rig,):
         specimen = sw.rig.load_specimen(name)
         rows.append(
             {
-                "rig": name,
+                "rig": specimen.name,
                 "mass [t]": specimen.mass / 1e3,
                 "pads": len(specimen.pads),
                 "pressure [MPa]": round(specimen.rated_pressure / 1e6, 2),

@@ -15,7 +15,9 @@ def replay(
     motion: Annotated[
         list[str], typer.Argument(help="Files of a recorded motion, or one synthetic: see `slipwise motions`.")
     ],
-    rig: Annotated[str, typer.Option(help="bridge1, bridge2, block, pad, or the path of an MJCF file.")] = "bridge1",
+    rig: Annotated[
+        str, typer.Option(help="A name of `slipwise rigs`, or the path of a specimen.toml or an MJCF file.")
+    ] = "bridge1",
     out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("out/replay"),
     x: Annotated[
         str | None, typer.Option(help="What shakes along x: a component, a file, or none; - reverses it.")

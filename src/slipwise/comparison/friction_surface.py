@@ -73,7 +73,7 @@ def _friction(base: BaseFit, values: Mapping[str, float], pressure: Array, speed
     for i, p in enumerate(pressure):
         for j, v in enumerate(speed):
             law.reset()
-            load = np.full((1, pads), p * model.specimen.pad_area)
+            load = p * np.array([model.specimen.pad_areas])
             velocity = np.zeros((1, pads, 2))
             velocity[:, :, 0] = v
             # what the pad could carry: a law with a memory of slip has not built up its force yet

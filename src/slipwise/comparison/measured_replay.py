@@ -172,7 +172,7 @@ def _as_logged(model: Model, answer: dict[str, Array], states: States, time: Arr
 def _memories(laws: Predictor, states: States, starts: Sequence[int]) -> tuple[Memory, ...]:
     """Drive the laws with the measured states and keep what they remember at the start of every window."""
     layout = laws.law.layout
-    buffers = np.stack([states.slip] * max(1, len(laws.model.specimen.buffer_stiffness)), axis=1)
+    buffers = np.stack([states.slip] * max(1, len(laws.model.specimen.buffers)), axis=1)
     rates = np.stack([states.velocity] * buffers.shape[1], axis=1)
     bounds = [*starts, len(states.time)]
     kept = []
@@ -180,7 +180,8 @@ def _memories(laws: Predictor, states: States, starts: Sequence[int]) -> tuple[M
         kept.append(Memory(pad_memories(layout, laws.numbers).copy(), buffer_memories(layout, laws.numbers).copy()))
         if end - start > 1:
             till = slice(start, end + 1)  # pads' memory goes on between samples, that of buffers at each
-            laws.pads(states.time[till], states.load[till], states.pad_velocity[till], states.pad_slip[till])
+            states_here = (states.load[till], states.pad_velocity[till], states.pad_slip[till])
+            laws.pads(states.time[till], *states_here, states.pads)
             if laws.model.specimen.buffer_stiffness:
                 here = slice(start, end)
                 laws.buffers(states.time[here], buffers[here], rates[here])

@@ -154,8 +154,8 @@ def _model(base: BaseFit, replayed: Model, free: Sequence[Free], numbers: Array)
     values = {f.key: float(v) for f, v in zip(free, numbers, strict=True)}
     model = fitted_model(base.problem.specimen, base.problem.terms, {**base.solution.values, **values})
     kept = replayed.specimen
-    specimen = replace(
-        model.specimen, pad_stiffness=kept.pad_stiffness, pad_damping=kept.pad_damping, inertia=kept.inertia
+    specimen = model.specimen.changed(
+        pad_stiffness=kept.pad_stiffness, pad_damping=kept.pad_damping, inertia=kept.inertia
     )
     return Model(specimen, (*model.uses, *replayed.uses[len(model.uses) :]))
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from slipwise.campaign import States
-from slipwise.channels import PADS
+from slipwise.channels import channels_like
 from slipwise.comparison.measured_replay import SystemRun, replay_runs
 from slipwise.effects import base_effects
 from slipwise.estimation.base_fit import BaseFit
@@ -90,7 +90,7 @@ def replayed_model(base: BaseFit) -> tuple[Model, tuple[str, ...]]:
     notes = []
     springs = pad_springs(base, model)
     if springs is not None:
-        model = replace(model, specimen=replace(model.specimen, pad_stiffness=springs[0], pad_damping=springs[1]))
+        model = replace(model, specimen=model.specimen.changed(pad_stiffness=springs[0], pad_damping=springs[1]))
         notes.append(
             f"pads' stiffness {springs[0] / 1e6:.0f} kN/mm and damping {springs[1] / 1e3:.0f} kN s/m each, "
             "from the girder's answer to vertical motion in the fitted runs"
@@ -120,7 +120,7 @@ def _of_a_body(rated: tuple[float, float, float], pitch: float) -> tuple[float, 
 def _pitch_inertia(model: Model, frequency: float) -> float:
     """Give the inertia [kg m^2] of a girder that pitches on its pads at a frequency: (2 pi f)^2 J = p k b^2."""
     specimen = model.built_specimen()
-    spring = len(specimen.pads) * specimen.pad_stiffness * specimen.half_spacing[0] ** 2
+    spring = specimen.pitch_stiffness
     return spring / (2.0 * np.pi * frequency) ** 2
 
 
@@ -219,7 +219,7 @@ def pooled_system(errors: tuple[SystemError, ...], channel: str, *, held_out: bo
         channel: a name, or "pad_*_Fx" for all pads.
         held_out: which runs.
     """
-    names = [channel.replace("*", p) for p in PADS] if "*" in channel else [channel]
+    names = channels_like(channel, dict.fromkeys(e.channel for e in errors))
     chosen = [e.error**2 for e in errors if e.channel in names and (e.role == "holdout") == held_out]
     return float(np.sqrt(np.mean(chosen))) if chosen else None
 

@@ -7,7 +7,8 @@ import numpy as np
 
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.rig import load_specimen
-from slipwise.rig.specimen import RIGS, Specimen
+from slipwise.rig.files import RIGS
+from slipwise.rig.specimen import Specimen
 
 #: What is held against every rig: only balances tell it, and rigs differ by it.
 HELD_AGAINST: tuple[str, ...] = ("centre_height", "buffer_stiffness")

@@ -10,15 +10,15 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.channels import PADS
+from slipwise.channels import pads_in
 from slipwise.record import Record
+from slipwise.rig import Specimen
+from slipwise.rig.load_basis import end_pairs
 from slipwise.signals.derivative import derivative
 
 Array = NDArray[np.float64]
 #: What one free number adds: relation -> a signal for each record.
 Number = Mapping[str, Sequence[Array]]
-#: Pads at one end of the girder: A and C at +x, B and D at -x; the first of each at +y, the other at -y.
-_PAIRS = (("A", "C"), ("B", "D"))
 
 
 def axes(records: Sequence[Record]) -> tuple[str, ...]:
@@ -38,19 +38,20 @@ def channel(records: Sequence[Record], name: str) -> list[Array]:
 
 def total_loads(records: Sequence[Record]) -> list[Array]:
     """Give the sum of the pads' loads of every record; nothing where one of them was not recorded."""
-    names = [f"pad_{pad}_N" for pad in PADS]
-    return [np.sum([r[n] for n in names], axis=0) for r in records] if recorded(records, *names) else []
+    names = [f"pad_{pad}_N" for pad in pads_in(name for record in records for name in record.channels)]
+    return [np.sum([r[n] for n in names], axis=0) for r in records] if names and recorded(records, *names) else []
 
 
-def paired(records: Sequence[Record], axis: str) -> dict[str, tuple[list[Array], list[Array]]]:
+def paired(records: Sequence[Record], specimen: Specimen, axis: str) -> dict[str, tuple[list[Array], list[Array]]]:
     """Give mean friction and mean load of the pads at each end, relation -> one of each for every record.
 
     Args:
         records: of all runs.
+        specimen: that tells which pads stand at one end.
         axis: of the friction, "x" or "y".
     """
     found: dict[str, tuple[list[Array], list[Array]]] = {}
-    for one, other in _PAIRS:
+    for one, other in end_pairs(specimen):
         if recorded(records, *(f"pad_{pad}_{kind}" for pad in (one, other) for kind in (f"F{axis}", "N"))):
             forces, loads = (
                 [0.5 * (r[f"pad_{one}_{kind}"] + r[f"pad_{other}_{kind}"]) for r in records]

@@ -21,8 +21,8 @@ Hooks of whole arrays (numpy):
     rig(specimen, ...) -> Specimen             table(acceleration (n, 4), dt, ...) -> acceleration
     gauge(record, target, ...) -> Record       undo(record, target, ...) -> Record (its inverse, where `gauge` has one)
     sharpen(record, target, ...) -> Record (its inverse as far as noise bears it, where there is no exact one)
-    disturb(records) -> forms, each a list of free numbers: what each adds to the balances by which an audit compares
-                        gauges, in every record; see `_disturbances`
+    disturb(records, specimen) -> forms, each a list of free numbers: what each adds to the balances by which an audit
+                        compares gauges, in every record; see `_disturbances`
     balance(states, ...) -> {"heave" | "pitch" | "roll" | "warp": (n,), "girder": (n,)} added to what is predicted
     rest(memory, seconds, ...) -> None         what a pause between runs leaves of the memory
     begin(memory, share_x, share_y, bound, ...) -> None    what is remembered where a slider's record begins, by the
@@ -40,7 +40,7 @@ every right that a file of the catalogue has, but for a role in the base model a
 
 import fnmatch
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -187,6 +187,6 @@ class Effect(Drawn, Tabular):
         return [p.row() for p in self.parameters]
 
 
-def moved_channels(effect: Effect) -> frozenset[str]:
-    """Give the names of the channels that an effect may change."""
-    return frozenset(c for c in CHANNELS if any(fnmatch.fnmatchcase(c, pattern) for pattern in effect.moves))
+def moved_channels(effect: Effect, among: Iterable[str] = CHANNELS) -> frozenset[str]:
+    """Give the names of the channels that an effect may change, of those that a record has, or that are listed."""
+    return frozenset(c for c in among if any(fnmatch.fnmatchcase(c, pattern) for pattern in effect.moves))

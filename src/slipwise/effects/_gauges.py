@@ -20,7 +20,7 @@ FRICTION_SPAN = 10e3
 
 def span(name: str) -> float:
     """Give what a usual gauge of a channel reads at most [SI unit of the channel]: 100 mm, 2 g, 10 kN across a pad."""
-    return FRICTION_SPAN if channels_like("pad_*_F?").count(name) else SPANS[channel(name).unit]
+    return FRICTION_SPAN if channels_like("pad_*_F?", [name]) else SPANS[channel(name).unit]
 
 
 def aimed(record: Record, target: str) -> tuple[str, ...]:
@@ -29,7 +29,7 @@ def aimed(record: Record, target: str) -> tuple[str, ...]:
     Raises:
         InputError: the record has none of them.
     """
-    found = tuple(name for name in channels_like(target) if name in record)
+    found = channels_like(target, record.channels)
     if not found:
         raise InputError(f"this record has no channel {target!r}; it has: {', '.join(sorted(record.channels))}")
     return found

@@ -32,8 +32,8 @@ PAD_INPUTS: dict[str, str] = {
     "velocity_y": "slip rate [m/s]",
     "slip_x": "slip of the girder over the pad [m]",
     "slip_y": "slip of the girder over the pad [m]",
-    "side_x": "+1 for pads A and C, -1 for B and D [1]",
-    "side_y": "+1 for pads A and B, -1 for C and D [1]",
+    "side_x": "where the pad stands along x: 1 at the farthest pad from the middle at +x, -1 at -x [1]",
+    "side_y": "where the pad stands along y: 1 at the farthest pad from the middle at +y, -1 at -y [1]",
     "time": "since the start of the run [s]",
     "dt": "time since the instant before [s]",
     **DERIVED,
@@ -46,7 +46,7 @@ BUFFER_INPUTS: dict[str, str] = {
     "deflection": "of the buffer in the direction at hand [m]",
     "rate": "of the deflection [m/s]",
     "stiffness": "of the buffer [N/m]",
-    "side": "+1 for buffer 1, -1 for buffer 2 [1]",
+    "side": "where the buffer stands across: 1 at the farthest from the middle at +y, -1 at -y [1]",
     "time": "since the start of the run [s]",
     "dt": "time since the instant before [s]",
     **{name: DERIVED[name] for name in DERIVED if name in _OF_BUFFERS},
@@ -124,7 +124,7 @@ HOOKS: dict[str, Hook] = {
     "undo": _arrays(_RECORD),
     "sharpen": _arrays(_RECORD),
     "corner": _arrays({}),
-    "disturb": _arrays({"records": "of all runs, each a Record"}),
+    "disturb": _arrays({"records": "of all runs, each a Record", "specimen": "the rated rig, a Specimen"}),
     "flat": _arrays({"coefficient": "coefficient of friction at any speed [1]"}),
     "balance": _arrays({"states": "measured states of one run, BalanceStates"}),
     "rest": _arrays({**_MEMORY, "seconds": "length of the pause [s]"}, "pad"),
@@ -138,6 +138,8 @@ HOOKS: dict[str, Hook] = {
         "pad",
     ),
 }
+#: Hooks of one pad at one instant: each pad may have parameters of its own there.
+PAD_HOOKS: frozenset[str] = frozenset(name for name, hook in HOOKS.items() if hook.instant and hook.memory == "pad")
 #: Ports in the order in which they act, with the hooks that an effect on them may have.
 PORTS: dict[str, tuple[str, ...]] = {
     "rig": ("rig", "balance", "disturb"),

@@ -11,8 +11,6 @@ Valid: from below the soffit to the centre of gravity.
 Source: equilibrium of moments; 0.1 m assumed.
 """
 
-from dataclasses import replace
-
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
 from slipwise.rig import Specimen
@@ -20,7 +18,7 @@ from slipwise.rig import Specimen
 
 def rig(specimen: Specimen, height: float) -> Specimen:
     """Give the specimen with its keys higher."""
-    return replace(specimen, buffer_height=specimen.buffer_height + height)
+    return specimen.changed(buffer_height=[z + height for z in specimen.buffer_heights])
 
 
 EFFECT = Effect(

@@ -45,7 +45,8 @@ def balance(states: BalanceStates, friction: float, slow: float, elastic: float)
     if elastic > 0.0:
         share = np.clip(share + prandtl(elastic * states.heave_rate, float(states.time[1] - states.time[0])), -1.0, 1.0)
     held = friction * states.buffer_size * share[:, None]
-    levers = np.reshape(states.specimen.buffer_places, (-1, 2)) / states.specimen.half_spacing
+    rig = states.specimen
+    levers = (np.reshape(rig.buffer_places, (-1, 2)) - rig.middle) / rig.half_spacing
     return {"heave": held.sum(axis=1), "pitch": held @ levers[:, 0], "roll": held @ levers[:, 1]}
 
 

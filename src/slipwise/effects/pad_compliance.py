@@ -10,8 +10,6 @@ Valid: heave 15 to 57 Hz, damping 2 to 10 % of critical. Stiffer pads need a sma
 Source: PTFE of 4 to 5 mm and 0.5 to 0.9 GPa gives 145 to 330 kN/mm; 5 % of critical in heave assumed.
 """
 
-from dataclasses import replace
-
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
 from slipwise.rig import Specimen
@@ -19,7 +17,7 @@ from slipwise.rig import Specimen
 
 def rig(specimen: Specimen, stiffness: float, damping: float) -> Specimen:
     """Give the specimen with other springs."""
-    return replace(specimen, pad_stiffness=stiffness, pad_damping=damping)
+    return specimen.changed(pad_stiffness=stiffness, pad_damping=damping)
 
 
 EFFECT = Effect(

@@ -2,9 +2,9 @@
 
     mu_i *= 1 + p side_x + r side_y + w side_x side_y
 
-Four pads cut from one sheet differ by a few per cent, and so do their plates. The mean of the four belongs to the law;
-what is left are three contrasts: front against back, one side against the other, one diagonal against the other. An
-unlike pair at +-y turns the girder.
+Pads cut from one sheet differ by a few per cent, and so do their plates. Their mean belongs to the law; what is left of
+four are three contrasts: front against back, one side against the other, one diagonal against the other. side is the
+place, from -1 to 1 along each side of the girder. An unlike pair at +-y turns the girder.
 
 Valid: a few per cent each; the sum of the three below 100 %.
 Source: 3 % of spread between pads of one batch, assumed.
@@ -16,6 +16,7 @@ from slipwise.effects._disturbances import Number, paired
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
 from slipwise.record import Record
+from slipwise.rig import Specimen
 
 
 def shear(shear: float, side_x: float, side_y: float, along: float, across: float, diagonal: float) -> float:
@@ -23,10 +24,10 @@ def shear(shear: float, side_x: float, side_y: float, along: float, across: floa
     return shear * (1.0 + along * side_x + across * side_y + diagonal * side_x * side_y)
 
 
-def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
+def disturb(records: Sequence[Record], specimen: Specimen) -> Iterator[list[Number]]:
     """Give the mean friction of the two pads at each end, of which one has more than the other."""
     for axis in "xy":
-        if pairs := paired(records, axis):
+        if pairs := paired(records, specimen, axis):
             yield [{name: forces} for name, (forces, _) in pairs.items()]
 
 

@@ -1,6 +1,6 @@
 """A patch on the plate: friction differs at one place.
 
-    mu *= 1 + c exp(-|(x - x_p) / l|^q),        c of each pad
+    mu *= 1 + c exp(-|(x - x_p) / l|^q),        c of the pads at each corner
 
 A scratch, a spot of grease, a stain of glue: the residual locks to the slip x at which the pad meets it, whichever way
 and however fast the pad comes. Mostly one pad has it. q is the patch's edge: 2 a stain that fades, 8 a plate let in.

@@ -17,6 +17,7 @@ from slipwise.effects._disturbances import Number, paired
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
 from slipwise.record import Record
+from slipwise.rig import Specimen
 
 
 def pad(load: float, tilt: float) -> tuple[float, float]:
@@ -24,10 +25,10 @@ def pad(load: float, tilt: float) -> tuple[float, float]:
     return load * tilt, 0.0
 
 
-def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
+def disturb(records: Sequence[Record], specimen: Specimen) -> Iterator[list[Number]]:
     """Give the load and the size of friction at each end, of which unlike tilts make a difference of the pads."""
     for axis in "xy":
-        if pairs := paired(records, axis):
+        if pairs := paired(records, specimen, axis):
             yield [
                 number
                 for name, (forces, loads) in pairs.items()

@@ -1,9 +1,10 @@
-"""Four supports that do not lie in one plane.
+"""Supports that do not lie in one plane.
 
     N_i += k_v e side_x side_y
 
 A rigid girder on four pads is one time statically indeterminate: if pads A and D stand higher by e than B and C, they
-carry more, and no equilibrium tells. Only this warp matters; a girder can follow any plane. With stiff pads a tenth of
+carry more, and no equilibrium tells; on three pads it never is. side is the place, from -1 to 1 along each side of the
+girder. Only this warp matters; a girder can follow any plane. With stiff pads a tenth of
 a millimetre moves most of the weight to one diagonal. Unequal shares break the cancellation between pads whose load
 rises and falls.
 
@@ -12,7 +13,6 @@ Source: stiffness times height; sizes assumed.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,17 +23,26 @@ from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
 from slipwise.record import Record
 from slipwise.rig import Specimen
+from slipwise.rig.load_basis import basis_of
 
 
 def rig(specimen: Specimen, warp: float) -> Specimen:
-    """Give the specimen with pads A and D higher, B and C lower."""
-    sides = np.sign(np.array(specimen.pad_places)).prod(axis=1)
-    return replace(specimen, seating=tuple(float(s + warp * d) for s, d in zip(specimen.seating, sides, strict=True)))
+    """Give the specimen with the pads on one diagonal higher, on the other lower."""
+    return specimen.changed(seating=np.array(specimen.seating) + warp * _diagonal(specimen))
+
+
+def _diagonal(specimen: Specimen) -> NDArray[np.float64]:
+    """Give side_x side_y of each pad; three pads stand in one plane, whatever their heights."""
+    return basis_of(specimen).sides.prod(axis=1) * (len(specimen.pads) > 3)
 
 
 def balance(states: BalanceStates, warp: float) -> dict[str, NDArray[np.float64]]:
-    """Give what the diagonal A, D carries more (n,) [N]."""
-    return {"warp": np.full(len(states.time), 4.0 * states.specimen.pad_stiffness * warp)}
+    """Give what one diagonal carries more (n,) [N]; nothing on three pads."""
+    rig = states.specimen
+    if len(rig.pads) < 4:
+        return {}
+    share = float(basis_of(rig).warp[0] @ (np.array(rig.springs) * _diagonal(rig)))
+    return {"warp": np.full(len(states.time), share * warp)}
 
 
 def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:

@@ -1,9 +1,9 @@
-"""What a rigid girder on four springs asks of the measured channels, without any law of friction.
+"""What a rigid girder on its pads' springs asks of the measured channels, without any law of friction.
 
     girder  m a_x = -(sum F + F_buffers + drag)
     heave   sum N = m (g + a_z) - lift
-    pitch   Q_pitch = P(s) [h sum F + (h - z_b) F_buffers] / half_x + x sum N / half_x + ...
-    roll    Q_roll = 0,    warp = 0
+    pitch   Q_pitch = P(s) [h sum F + (h - z_b) F_buffers] / half_x + (x + x_c) sum N / half_x + ...
+    roll    Q_roll = y_c sum N / half_y,    warp = what the rated seating makes of it
     motion  a_x - a_x,table = d2(slip)/dt2
 
 P(s) = (2 z w s + w^2) / (s^2 + 2 z w s + w^2) is the girder's pitch on its pads: taken as quasi-static, the balance
@@ -23,6 +23,7 @@ from slipwise.estimation.pad_forces import as_logged
 from slipwise.estimation.run_data import FitRun, refined
 from slipwise.model import Model
 from slipwise.rig import Specimen
+from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import load_modes
 from slipwise.signals.ends import in_frequency
 from slipwise.signals.shift import shift
@@ -38,13 +39,14 @@ _SIGNIFICANT = 4.0
 def available(run: FitRun, specimen: Specimen) -> tuple[str, ...]:
     """Tell which balances a run's channels allow."""
     out = []
-    if not specimen.free or len(specimen.pads) != 4 or len(run.pads) != 4 or not np.isfinite(run.load).all():
+    if not specimen.free or run.pads != specimen.pads or not np.isfinite(run.load).all():
         return ()
     if "girder_ax" in run.record:
         out.append("girder")
     if np.isfinite(run.states.girder_acceleration[:, 2]).all():
         out.append("heave")
-    out += ["pitch", "warp"] if run.states.has_y else ["pitch", "roll", "warp"]
+    out += ["pitch"] if run.states.has_y else ["pitch", "roll"]
+    out += ["warp"] if len(specimen.pads) > 3 else []
     if run.record.has_all("girder_ax", "table_ax"):
         out.append("motion")
     return tuple(out)
@@ -79,7 +81,7 @@ def buffers_along(law: Predictor, run: FitRun, yaw: Array, yaw_rate: Array) -> A
         return np.zeros((len(run.time), 0))
     sides = np.array(specimen.buffer_places)[:, 1]
     slip = run.slip[:, None] - sides * yaw[:, None]
-    if not any(u.effect.port == "buffer" for u in law.model.uses):
+    if not any(u.effect.port == "buffer" for u in law.model.uses) and not any(b.gap for b in specimen.buffers):
         return slip * np.array(specimen.buffer_stiffness)
     slip = refined(slip, run.fine)
     velocity = refined(run.velocity[:, None] - sides * yaw_rate[:, None], run.fine)
@@ -91,7 +93,7 @@ def buffers_along(law: Predictor, run: FitRun, yaw: Array, yaw_rate: Array) -> A
 
 def heave_rate(total: Array, dt: float, specimen: Specimen) -> Array:
     """Give the girder's vertical rate over the table (n,) [m/s]: the pads' shortening under their measured load [N]."""
-    stiffness = len(specimen.pads) * specimen.pad_stiffness
+    stiffness = sum(specimen.springs)
     lag = specimen.pad_damping / specimen.pad_stiffness  # a pad's damper carries load before its spring has given way
     smooth = in_frequency(total, dt, lambda f: 1.0 / (1.0 + (f / 100.0) ** 8) / (1.0 + 2j * np.pi * f * lag), 64)
     return -np.gradient(smooth, dt) / stiffness
@@ -109,30 +111,34 @@ def predicted_balances(
     Args:
         model: with the numbers of the fit.
         run: its channels, instrument faults of the hypothesis taken out.
-        force: (n, 4) measured pad forces, faults taken out [N].
+        force: (n, n_pads) measured pad forces, faults taken out [N].
         buffers: (n, n_buffers) [N].
         values: of the fit, for the pitch of the girder on its pads.
     """
-    specimen = model.built_specimen()
-    half = specimen.half_spacing[0]
+    specimen, rated = model.built_specimen(), model.specimen
+    half, half_y = specimen.half_spacing
     fb = buffers.sum(axis=1)
     total = _total(run, force, specimen.mass, fb)
     height = specimen.centre_height
-    moment = height * total + (height - specimen.buffer_height) * fb
+    moment = height * total + buffers @ (height - np.array(specimen.buffer_heights))
     heave = run.load.sum(axis=1)
-    swing = run.slip * heave if specimen.pads_on == "table" else 0.0
+    # what effects add to the rated place of the centre of gravity and to the seating is theirs to say
+    off_x, off_y = (c - m for c, m in zip((rated.centre_x, rated.centre_y), specimen.middle, strict=True))
+    swing = (off_x + (run.slip if specimen.pads_on == "table" else 0.0)) * heave
     pitch = _pitched((moment + swing) / half, run, values)
-    modes = load_modes(run.load)
+    basis = basis_of(specimen)
+    modes = load_modes(run.load, basis)
+    seated = float((basis.warp @ (np.array(specimen.springs) * rated.seating))[:1].sum())
     mass, gravity = specimen.mass, specimen.gravity
     predicted = {
         "girder": _delayed(-(total + fb) / mass, run.dt, values["rig.late_girder"]),
         "heave": _delayed(mass * (gravity + run.states.girder_acceleration[:, 2]), run.dt, values["rig.late_load"]),
         "pitch": _delayed(pitch, run.dt, values["rig.late_pitch"]),
-        "roll": np.zeros(len(heave)),
-        "warp": np.zeros(len(heave)),
+        "roll": off_y / half_y * heave,
+        "warp": np.full(len(heave), seated),
     }
     measured = {"girder": run.channel("girder_ax"), "heave": heave, "pitch": modes.pitch, "roll": modes.roll}
-    measured["warp"] = modes.warp
+    measured["warp"] = modes.twist
     for name, more in effects_in(model, run, specimen, force, buffers).items():
         if name == "motion":
             continue  # taken out of the states already

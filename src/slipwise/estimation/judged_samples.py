@@ -12,11 +12,11 @@ Mask = NDArray[np.bool_]
 #: Channels that the balances are made of, slip by all that it is fused from; pads and friction across take their own
 #: pad's besides the velocity's.
 _USES: dict[str, tuple[str, ...]] = {
-    "girder": ("pad_?_Fx", *VELOCITY_CHANNELS),
-    "heave": ("pad_?_N", "girder_az"),
-    "pitch": ("pad_?_N", "pad_?_Fx", *VELOCITY_CHANNELS),
-    "roll": ("pad_?_N",),
-    "warp": ("pad_?_N",),
+    "girder": ("pad_*_Fx", *VELOCITY_CHANNELS),
+    "heave": ("pad_*_N", "girder_az"),
+    "pitch": ("pad_*_N", "pad_*_Fx", *VELOCITY_CHANNELS),
+    "roll": ("pad_*_N",),
+    "warp": ("pad_*_N",),
     "motion": VELOCITY_CHANNELS,
 }
 #: Relations that ring on with what was before.

@@ -16,6 +16,7 @@ from slipwise.estimation.recent_results import Key, Recent
 from slipwise.estimation.run_data import FitRun
 from slipwise.estimation.yaw import yaw_of
 from slipwise.rig import Specimen
+from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import load_modes
 from slipwise.signals.ends import in_frequency
 from slipwise.simulation.predict import predictor
@@ -233,8 +234,10 @@ def _whole(run: FitRun, mass: float, buffers: Array) -> Array:
 
 def _pitch_rate(run: FitRun) -> Array:
     """Give the rate of the pitch load (n,) [N/s], by which the sliding plane moves against the gauge; 0 if unknown."""
-    loads = run.all_loads
-    if loads is None:
+    loads, specimen = run.all_loads, run.states.specimen
+    if loads is None or not specimen.free:
         return np.zeros(len(run.time))
-    smooth = in_frequency(load_modes(loads).pitch, run.dt, lambda f: 1.0 / (1.0 + (f / 120.0) ** 8), 64)
+    smooth = in_frequency(
+        load_modes(loads, basis_of(specimen)).pitch, run.dt, lambda f: 1.0 / (1.0 + (f / 120.0) ** 8), 64
+    )
     return np.gradient(smooth, run.dt)

@@ -98,7 +98,7 @@ def without(term: Term, values: Mapping[str, float], run: FitRun, around: Mappin
     record = run.record
     begin = around if around is not None and shifts([term]) else values
     for entry, start in zip(term.uses(values), term.uses(begin), strict=True):
-        names = [n for n in channels_like(entry.target) if n in record]
+        names = channels_like(entry.target, record.channels)
         if "undo" in term.effect.hooks:
             shown = record
             record = _call(entry.effect, "undo", shown, entry.target, start.values)
@@ -130,7 +130,7 @@ def raised_noise(terms: Sequence[Term], values: Mapping[str, float], run: FitRun
     out: dict[str, Spectrum] = {}
     for term in (t for t in terms if "undo" not in t.effect.hooks):
         for entry in term.uses(values):
-            names = [n for n in channels_like(entry.target) if n in run.record]
+            names = channels_like(entry.target, run.record.channels)
             shown = _fault_impulse_response(term, entry, run.record, names)
             for n in names:
                 at, factor = spectrum_without_filter(shown[n], run)

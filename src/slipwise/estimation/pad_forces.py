@@ -103,7 +103,7 @@ class PadLaw:
             if not self.model.specimen.free:  # a slider's actuator may have left it bent either way
                 force = np.stack([run.force[0], np.zeros(len(run.pads))], axis=1)
                 law.begin(state.load[0], state.velocity[0], state.slip[0], force)
-            out.append(law.pads(state.time, state.load, state.velocity, state.slip))
+            out.append(law.pads(state.time, state.load, state.velocity, state.slip, run.pads))
         return out
 
 

@@ -1,7 +1,7 @@
 """What a fit may change: numbers of the rig, and parameters of effects, each with a key, a start and bounds."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from slipwise.effects import Effect
 from slipwise.model import EffectUse, Model
@@ -198,7 +198,7 @@ def fitted_specimen(specimen: Specimen, values: Mapping[str, float]) -> Specimen
     for key, (axis, _) in _INERTIAS.items():
         inertia[axis] = values.get(key, inertia[axis])
     changes["inertia"] = tuple(inertia)
-    return replace(specimen, **changes)  # type: ignore[arg-type]
+    return specimen.changed(**changes)
 
 
 def fitted_model(specimen: Specimen, terms: Iterable[Term], values: Mapping[str, float]) -> Model:

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from slipwise.campaign import Campaign, Run
 from slipwise.campaign.scales import Scales
 from slipwise.campaign.states import States, measured_states
-from slipwise.channels import PADS
 from slipwise.errors import InputError
 from slipwise.estimation.judged_samples import away_from_cuts, sample_masks
 from slipwise.instruments.repairs import InvalidSamples
@@ -113,10 +112,11 @@ class FitRun:
 
     @property
     def all_loads(self) -> Array | None:
-        """Load of the rig's four pads (n, 4) [N], whether or not their friction was measured; None without them."""
-        if len(self.pads) == len(PADS):
+        """Load of all pads of the rig (n, n_pads) [N], whether or not their friction was measured; None without."""
+        pads = self.states.specimen.pads
+        if self.pads == pads:
             return self.load
-        names = [f"pad_{p}_N" for p in PADS]
+        names = [f"pad_{p}_N" for p in pads]
         return np.stack([self.record[n] for n in names], axis=1) if self.record.has_all(*names) else None
 
     def channel(self, name: str) -> Array:
@@ -214,7 +214,7 @@ def _fit_run(run: Run, campaign: Campaign, invalid: Mapping[str, Mask]) -> FitRu
     loaded = [p for p, load in zip(states.pads, states.load.T, strict=True) if np.isfinite(load).any()]
     pads = tuple(p for p in loaded if f"pad_{p}_Fx" in states.record)
     if not pads:
-        forces = [name for p in PADS if (name := f"pad_{p}_Fx") in states.record]
+        forces = [name for p in campaign.specimen.pads if (name := f"pad_{p}_Fx") in states.record]
         reason = f"{', '.join(forces)} without pad_*_N (or pad_*_P) of the same pad" if forces else "no pad_*_Fx"
         raise InputError(
             f"{run.file}: {reason} was measured; a law of friction is fitted where a pad has both its friction and its "

@@ -56,8 +56,8 @@ def yaw_of(run: FitRun, specimen: Specimen, force: Array, bound: Array, buffers:
     Args:
         run: its times and velocities.
         specimen: places of pads and buffers, centre of gravity, inertia.
-        force: (n, 4) measured friction along x [N].
-        bound: (n, 4) friction of the pads whichever way they slide [N].
+        force: (n, n_pads) measured friction along x [N].
+        bound: (n, n_pads) friction of the pads whichever way they slide [N].
         buffers: (n, n_buffers) force of the girder on each buffer if it did not turn [N].
     """
     pads = np.array(specimen.pad_places)

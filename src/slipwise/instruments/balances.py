@@ -4,13 +4,13 @@ Every relation is a residual that is zero for true channels, linear in a few con
 
     heave      sum N - m (g + a_z)
     girder     sum F + m a_x + K x                     (y alike)
-    pitch      half_x Q1 - x sum N + (m h) a_x + (K z_b) x + J Q1'',    Q1 = N_A + N_C - N_B - N_D
-    roll       half_y Q2 - y sum N + (m h) a_y + (K z_b) y + J Q2'',    Q2 = N_A + N_B - N_C - N_D
-    warp       N_A - N_B - N_C + N_D
+    pitch      half_x Q1 - x sum N + (m h) a_x + (K z_b) x + J Q1'',    Q1 = sum N_i x_i / half_x
+    roll       half_y Q2 - y sum N + (m h) a_y + (K z_b) y + J Q2'',    Q2 = sum N_i y_i / half_y
+    warp       what is left of the loads: nothing of three pads, N_A - N_B - N_C + N_D of four
     along      x - double integral of (a_x - table a_x), both without what is slower than 0.8 Hz      (across alike)
     upright    a_z - table a_z + c1 (sum N)'' + c2 (sum N)'
     rest_*     an acceleration, or the slip's wandering, while nothing moves
-    pair_*     F_A - F_C, F_B - F_D: pads that carry like loads at like speed
+    pair_*     F_A - F_C ..., pads that stand beside each other and carry like loads at like speed
 
 Pairs only tell which of two cells; they accuse nobody, for pads differ. Warp does not accuse either: equilibrium does
 not determine it.
@@ -25,10 +25,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.channels import PADS
 from slipwise.record import Record
 from slipwise.rig import Specimen
-from slipwise.rig.load_modes import load_modes, vertical_acceleration
+from slipwise.rig.load_basis import basis_of, end_pairs
+from slipwise.rig.load_modes import LoadModes, load_modes, vertical_acceleration
 from slipwise.signals.ends import in_frequency
 
 Array = NDArray[np.float64]
@@ -72,10 +72,12 @@ def relations(record: Record, specimen: Specimen) -> tuple[list[Relation], list[
         specimen: with its pads; a rig whose slip is prescribed has no balances.
     """
     possible = [*_rest(record)]
-    if specimen.free and len(specimen.pads) == len(PADS):
-        possible += [_heave(record), _warp(), _upright(record)]
+    if specimen.free:
+        loads = loads_of(specimen)
+        possible += [_heave(record, loads), *([_warp(loads)] if len(loads) > 3 else []), _upright(record, loads)]
         for axis in ("x", "y"):
-            possible += [_girder(axis), _tilting(axis, record), _kinematic(axis), *_pairs(axis)]
+            possible += [_girder(axis, specimen), _tilting(axis, record, loads), _kinematic(axis, loads)]
+            possible += _pairs(axis, specimen)
     kept = [relation for relation in possible if record.has_all(*relation.needs)]
     cannot = [
         f"{relation.name}: channel missing, cannot test ({', '.join(n for n in relation.needs if n not in record)})"
@@ -87,11 +89,17 @@ def relations(record: Record, specimen: Specimen) -> tuple[list[Relation], list[
     return kept, cannot
 
 
-_LOADS = tuple(f"pad_{pad}_N" for pad in PADS)
+def loads_of(specimen: Specimen) -> tuple[str, ...]:
+    """Give the channels of the loads of all pads."""
+    return tuple(f"pad_{pad}_N" for pad in specimen.pads)
 
 
-def _sum(record: Record, kind: str) -> Array:
-    return np.sum([record[f"pad_{pad}_{kind}"] for pad in PADS], axis=0)
+def _sum(record: Record, specimen: Specimen, kind: str) -> Array:
+    return np.sum([record[f"pad_{pad}_{kind}"] for pad in specimen.pads], axis=0)
+
+
+def _modes(record: Record, specimen: Specimen) -> LoadModes:
+    return load_modes(record.stacked("pad_{}_N", specimen.pads), basis_of(specimen))
 
 
 def _twice(values: Array, dt: float) -> Array:
@@ -99,55 +107,58 @@ def _twice(values: Array, dt: float) -> Array:
     return np.convolve(values, np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / (12.0 * dt * dt), mode="same")
 
 
-def _heave(record: Record) -> Relation:
+def _heave(record: Record, loads: tuple[str, ...]) -> Relation:
     needs = ("girder_az",) if "girder_az" in record else ("girder_az_1", "girder_az_2")
     return Relation(
         "heave",
-        (*_LOADS, *needs),
-        lambda r, s: _sum(r, "N"),
+        (*loads, *needs),
+        lambda r, s: _sum(r, s, "N"),
         {"mass": lambda r, s: -(s.gravity + vertical_acceleration(r))},
     )
 
 
-def _girder(axis: str) -> Relation:
+def _girder(axis: str, specimen: Specimen) -> Relation:
     return Relation(
         f"girder_{axis}",
-        (*(f"pad_{pad}_F{axis}" for pad in PADS), f"girder_a{axis}", f"slip_{axis}"),
-        lambda r, s: _sum(r, f"F{axis}"),
+        (*(f"pad_{pad}_F{axis}" for pad in specimen.pads), f"girder_a{axis}", f"slip_{axis}"),
+        lambda r, s: _sum(r, s, f"F{axis}"),
         {"mass": lambda r, s: r[f"girder_a{axis}"], f"stiffness_{axis}": lambda r, s: r[f"slip_{axis}"]},
     )
 
 
-def _tilting(axis: str, record: Record) -> Relation:
+def _tilting(axis: str, record: Record, loads: tuple[str, ...]) -> Relation:
     """Pitch (about y, from motion along x) or roll."""
     name, place = ("pitch", 0) if axis == "x" else ("roll", 1)
 
-    def mode(r: Record) -> Array:
-        modes = load_modes(r.stacked("pad_{}_N"))
+    def mode(r: Record, s: Specimen) -> Array:
+        modes = _modes(r, s)
         return modes.pitch if axis == "x" else modes.roll
 
     def known(r: Record, s: Specimen) -> Array:
-        moment = s.half_spacing[place] * mode(r)
+        moment = s.half_spacing[place] * mode(r, s)
+        off = (s.centre_x, s.centre_y)[place] - s.middle[place]
+        if off:
+            moment = moment - off * _sum(r, s, "N")
         if s.pads_on == "table" and f"slip_{axis}" in r:
-            moment = moment - r[f"slip_{axis}"] * _sum(r, "N")
+            moment = moment - r[f"slip_{axis}"] * _sum(r, s, "N")
         return moment
 
     terms: dict[str, Term] = {
-        f"{name}_inertia": lambda r, s: _twice(mode(r), r.dt),
+        f"{name}_inertia": lambda r, s: _twice(mode(r, s), r.dt),
     }
     if f"girder_a{axis}" in record:
         terms["lever"] = lambda r, s: r[f"girder_a{axis}"]
     if f"slip_{axis}" in record:
         terms[f"buffer_lever_{axis}"] = lambda r, s: r[f"slip_{axis}"]
-    needs = (*_LOADS, "girder_ax", "slip_x") if axis == "x" else _LOADS
+    needs = (*loads, "girder_ax", "slip_x") if axis == "x" else loads
     return Relation(name, needs, known, terms)
 
 
-def _warp() -> Relation:
+def _warp(loads: tuple[str, ...]) -> Relation:
     return Relation(
         "warp",
-        _LOADS,
-        lambda r, s: load_modes(r.stacked("pad_{}_N")).warp,
+        loads,
+        lambda r, s: _modes(r, s).twist,
         {},
         accuses=False,
     )
@@ -164,27 +175,27 @@ def without_slow(values: Array, dt: float, integrations: int) -> Array:
     return in_frequency(values, dt, gain, int(2.0 / (SLOWEST * dt)))
 
 
-def _kinematic(axis: str) -> Relation:
+def _kinematic(axis: str, loads: tuple[str, ...]) -> Relation:
     def known(r: Record, s: Specimen) -> Array:
         relative = r[f"girder_a{axis}"] - r[f"table_a{axis}"]
         return without_slow(r[f"slip_{axis}"], r.dt, 0) - without_slow(relative, r.dt, 2)
 
     terms: dict[str, Term] = {}
     if axis == "x":
-        terms["lean"] = lambda r, s: without_slow(load_modes(r.stacked("pad_{}_N")).pitch, r.dt, 0)
-    needs = (f"girder_a{axis}", f"table_a{axis}", f"slip_{axis}", *(_LOADS if axis == "x" else ()))
+        terms["lean"] = lambda r, s: without_slow(_modes(r, s).pitch, r.dt, 0)
+    needs = (f"girder_a{axis}", f"table_a{axis}", f"slip_{axis}", *(loads if axis == "x" else ()))
     return Relation("along" if axis == "x" else "across", needs, known, terms, rows="inner")
 
 
-def _upright(record: Record) -> Relation:
+def _upright(record: Record, loads: tuple[str, ...]) -> Relation:
     needs = ("girder_az",) if "girder_az" in record else ("girder_az_1", "girder_az_2")
     return Relation(
         "upright",
-        (*_LOADS, "table_az", *needs),
+        (*loads, "table_az", *needs),
         lambda r, s: vertical_acceleration(r) - r["table_az"],
         {
-            "sag": lambda r, s: _twice(_sum(r, "N"), r.dt),
-            "sag_rate": lambda r, s: np.gradient(_sum(r, "N"), r.dt),
+            "sag": lambda r, s: _twice(_sum(r, s, "N"), r.dt),
+            "sag_rate": lambda r, s: np.gradient(_sum(r, s, "N"), r.dt),
         },
     )
 
@@ -201,9 +212,9 @@ def _rest(record: Record) -> list[Relation]:
     return found
 
 
-def _pairs(axis: str) -> list[Relation]:
+def _pairs(axis: str, specimen: Specimen) -> list[Relation]:
     found = []
-    for one, other in (("A", "C"), ("B", "D")):
+    for one, other in end_pairs(specimen):
         forces = (f"pad_{one}_F{axis}", f"pad_{other}_F{axis}")
         loads = (f"pad_{one}_N", f"pad_{other}_N")
 

@@ -64,7 +64,7 @@ def select_faults(case: Case, begun: Fit | None = None) -> FaultSelection:
         blocks.append(signature(case, who, first.corrected, first.stack, first.constants))
         itself.append(noise_with_itself(case, who, first.corrected, first.stack, first.constants))
         one_sided.append(who.one_sided)
-    for alternative in alternatives(case.runs, case.relations, case.effects):
+    for alternative in alternatives(case.runs, case.relations, case.effects, case.specimen):
         candidates.append(alternative)
         blocks.append(alternative.columns)
         itself.append({})

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from slipwise.channels import PADS
+from slipwise.channels import pads_in, part_of
 from slipwise.effects import Effect, moved_channels
 from slipwise.record import Record
 
@@ -15,10 +15,10 @@ _CELLS = ("N", "Fx", "Fy")
 def gauge_groups(record: Record) -> dict[str, tuple[str, ...]]:
     """Give the channels, and the cards as patterns, "pad_*_Fx", that a fault may touch together."""
     single = [n for n in record.channels if n.startswith(_SINGLE)]
-    single += [n for n in record.channels if n.startswith("pad_") and n[6:] in _CELLS]
+    single += [n for n in record.channels if part_of(n)[0] == "pad" and n.rpartition("_")[2] in _CELLS]
     groups: dict[str, tuple[str, ...]] = {name: (name,) for name in single}
     for kind in _CELLS:
-        names = tuple(name for pad in PADS if (name := f"pad_{pad}_{kind}") in record)
+        names = tuple(name for pad in pads_in(record.channels) if (name := f"pad_{pad}_{kind}") in record)
         if len(names) > 1:
             groups[f"pad_*_{kind}"] = names
     return groups
@@ -35,9 +35,9 @@ def places_of(effect: Effect, record: Record) -> dict[str, tuple[str, ...]]:
         record: whose channels count.
     """
     if effect.gauges.sits == "pads":
-        loads = tuple(name for pad in PADS if (name := f"pad_{pad}_N") in record)
+        loads = tuple(name for pad in pads_in(record.channels) if (name := f"pad_{pad}_N") in record)
         return {"pad_*_N": loads} if loads else {}
-    moved = moved_channels(effect)
+    moved = moved_channels(effect, record.channels)
     return {
         place: channels
         for place, channels in gauge_groups(record).items()

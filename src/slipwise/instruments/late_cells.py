@@ -6,10 +6,11 @@ is fitted at every lag at which one of the three resembles the sum of the pads' 
 where all runs agree on it and without it much less is explained. Shorter delays are the fits' own business.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from slipwise.campaign import Campaign, Run
-from slipwise.channels import PADS
 from slipwise.instruments.lags import EXPLAINED, MORE, MOST, LateChannels, agreed, explained, strongest, vertex
 
 #: Slip rate at which friction has turned [m/s].
@@ -22,7 +23,7 @@ def late_cells(campaign: Campaign) -> LateChannels | None:
     """Tell whether the pads' cells are late as one, of a girder that slides by itself; None where they are not."""
     if not campaign.specimen.free:
         return None
-    lags = [lag for run in campaign.runs if (lag := _lag(run)) is not None]
+    lags = [lag for run in campaign.runs if (lag := _lag(run, campaign.specimen.pads)) is not None]
     delay = agreed(lags, campaign.runs[0].record.dt)
     if delay is None:
         return None
@@ -30,10 +31,10 @@ def late_cells(campaign: Campaign) -> LateChannels | None:
     return LateChannels(tuple(names), delay)
 
 
-def _lag(run: Run) -> float | None:
+def _lag(run: Run, pads: Sequence[str]) -> float | None:
     """Give by how much the friction of a run comes late [s]; None where it says nothing."""
     record, dt = run.record, run.record.dt
-    names = [f"pad_{p}_Fx" for p in PADS]
+    names = [f"pad_{p}_Fx" for p in pads]
     if not record.has_all(*names, "slip_x", "girder_ax"):
         return None
     slip = record["slip_x"]

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign import Campaign, Run
-from slipwise.channels import PADS
 from slipwise.instruments.lags import (
     EXPLAINED,
     MORE,
@@ -72,7 +71,7 @@ def late_motion(campaign: Campaign) -> LateChannels | None:
     delay = agreed([dt * lag for _, lag in found], dt)
     if delay is None or any(_contradicts(asked[logger], round(delay / dt)) for asked in runs):
         return None
-    if logger == "accelerometers" and _slip_is_out_of_step(campaign.runs, delay):
+    if logger == "accelerometers" and _slip_is_out_of_step(campaign.runs, campaign.specimen.pads, delay):
         logger, delay = "slip", -delay
     names = dict.fromkeys(n for run in campaign.runs for n in run.record.channels if n.startswith(_LOGGERS[logger]))
     return LateChannels(tuple(names), delay)
@@ -114,18 +113,18 @@ def _contradicts(one: _Asked, lag: int) -> bool:
     return one.explained(lag) < one.explained(0) - _WORSE
 
 
-def _slip_is_out_of_step(runs: Sequence[Run], delay: float) -> bool:
+def _slip_is_out_of_step(runs: Sequence[Run], pads: Sequence[str], delay: float) -> bool:
     """Tell whether friction fits the slip better where that is brought into step with the accelerometers [s]."""
-    with_cells = [r.record for r in runs if r.record.has_all("slip_x", *(f"pad_{p}_Fx" for p in PADS))]
+    with_cells = [r.record for r in runs if r.record.has_all("slip_x", *(f"pad_{p}_Fx" for p in pads))]
     if not with_cells:
         return False
-    as_recorded = sum(_follows(record, record["slip_x"]) for record in with_cells)
-    moved = sum(_follows(record, in_step(record, ["slip_x"], -delay)["slip_x"]) for record in with_cells)
+    as_recorded = sum(_follows(record, pads, record["slip_x"]) for record in with_cells)
+    moved = sum(_follows(record, pads, in_step(record, ["slip_x"], -delay)["slip_x"]) for record in with_cells)
     return moved > as_recorded
 
 
-def _follows(record: Record, slip: Array) -> float:
+def _follows(record: Record, pads: Sequence[str], slip: Array) -> float:
     """Give the share of the pads' friction that a slip explains."""
-    force = np.sum([record[f"pad_{p}_Fx"] for p in PADS], axis=0)
+    force = np.sum([record[f"pad_{p}_Fx"] for p in pads], axis=0)
     rate = np.gradient(slip, record.dt)
     return explained(force, [np.tanh(rate / max(float(np.std(rate)), 1e-12)), slip], 0)

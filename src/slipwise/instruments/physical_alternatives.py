@@ -15,6 +15,7 @@ from slipwise.effects._disturbances import Number, channel, paired, recorded
 from slipwise.instruments.balances import Relation
 from slipwise.instruments.rows import Block, PreparedRun
 from slipwise.record import Record
+from slipwise.rig import Specimen
 from slipwise.signals.derivative import derivative
 
 Array = NDArray[np.float64]
@@ -36,7 +37,7 @@ class Alternative:
 
 
 def alternatives(
-    runs: Sequence[PreparedRun], relations: Sequence[Relation], effects: Iterable[Effect]
+    runs: Sequence[PreparedRun], relations: Sequence[Relation], effects: Iterable[Effect], specimen: Specimen
 ) -> list[Alternative]:
     """Give the physical explanations that these relations allow.
 
@@ -44,10 +45,11 @@ def alternatives(
         runs: as recorded, smoothed.
         relations: that the channels allow.
         effects: those with a hook `disturb` are explanations.
+        specimen: the rated rig.
     """
     known = {relation.name: relation for relation in relations}
     found = []
-    for name, numbers in _all([run.record for run in runs], effects):
+    for name, numbers in _all([run.record for run in runs], effects, specimen):
         columns: dict[str, Array] = {}
         for k, number in enumerate(numbers):
             for place, signals in number.items():
@@ -60,11 +62,13 @@ def alternatives(
     return found
 
 
-def _all(records: Sequence[Record], effects: Iterable[Effect]) -> Iterator[tuple[str, list[Number]]]:
+def _all(
+    records: Sequence[Record], effects: Iterable[Effect], specimen: Specimen
+) -> Iterator[tuple[str, list[Number]]]:
     """Give what effects say of themselves, and what no effect is."""
     for effect in effects:
         if "disturb" in effect.hooks:
-            for numbers in effect.hooks["disturb"](records):
+            for numbers in effect.hooks["disturb"](records, specimen):
                 yield effect.name, numbers
     if recorded(records, "slip_x"):
         slips = [np.abs(x) for x in channel(records, "slip_x")]
@@ -73,8 +77,8 @@ def _all(records: Sequence[Record], effects: Iterable[Effect]) -> Iterator[tuple
         if recorded(records, name):
             yield "pads of unequal stiffness", [{"warp": channel(records, name)}]
     for axis in "xy":
-        if pairs := paired(records, axis):
-            # A, B lie at +y and C, D at -y: yaw makes both pairs differ by the same share of their rate
+        if pairs := paired(records, specimen, axis):
+            # one of each pair lies at +y of the other: yaw makes all pairs differ by the same share of their rate
             rates = {
                 name: [derivative(f, r.dt) for f, r in zip(forces, records, strict=True)]
                 for name, (forces, _) in pairs.items()

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from slipwise.campaign import Campaign
 from slipwise.campaign.aligned import AlignedRun, aligned_run, spread
-from slipwise.channels import PADS
+from slipwise.channels import pads_in
 from slipwise.instruments.balances import Relation
 from slipwise.record import Record
 from slipwise.rig import Specimen
@@ -26,6 +26,8 @@ _OF_FILTER, _OF_RATE = 0.6, 0.16
 _END, _INNER_END = 0.12, 0.7
 #: A pad below this part of its median load lifts; the rows around that are left out for this long [1, s].
 _LIFTED, _RINGING = 0.05, 0.2
+#: Fewer pads carry no girder that could lift.
+_FEWEST = 3
 #: Samples and rows that are kept, per period of the band's edge: derivatives need more than evidence.
 _KEPT, _ROWS = 6.0, 3.0
 #: Fewer rows at rest than this tell no noise level.
@@ -86,8 +88,9 @@ def _prepared(name: str, run: AlignedRun, band: float, left_out: Mask | None) ->
     good, quiet = run.measured[every].copy(), run.quiet[every]
     if left_out is not None and len(left_out) == len(full):
         good &= ~left_out[every]
-    loads = [n for n in (f"pad_{pad}_N" for pad in PADS) if n in record]
-    if len(loads) == len(PADS):
+    pads = pads_in(record.channels)
+    loads = [n for n in (f"pad_{pad}_N" for pad in pads) if n in record]
+    if len(loads) == len(pads) >= _FEWEST:
         lifted = np.any([record[n] < _LIFTED * np.median(record[n]) for n in loads], axis=0)
         good &= ~spread(lifted, int(0.02 / record.dt), int(_RINGING / record.dt))
     thin = np.zeros(len(record), dtype=bool)

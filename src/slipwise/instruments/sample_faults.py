@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import uniform_filter1d
 
 from slipwise.campaign import Campaign, Run
-from slipwise.channels import PADS
+from slipwise.channels import pads_in
 from slipwise.instruments.lags import in_step_campaign
 from slipwise.instruments.late_cells import late_cells
 from slipwise.instruments.late_motion import late_motion
@@ -20,7 +20,9 @@ from slipwise.signals.resample import slower_rate
 
 Array = NDArray[np.float64]
 #: A pad's cell, and the share of what its like scatter below which it shows nothing but noise [1].
-_CELL, _IDLE = re.compile(r"pad_[A-D]_(?P<kind>N|Fx|Fy)$"), 0.08
+_CELL, _IDLE = re.compile(r"pad_[A-Za-z0-9]+_(?P<kind>N|Fx|Fy)$"), 0.08
+#: Other cells of its kind that must be there to tell whether a cell is idle.
+_LIKE_IT = 2
 Mask = NDArray[np.bool_]
 #: A rail holds at least this many samples of a campaign, in one place at least that many, this part side by side [1].
 _RAIL, _LONG_RAIL, _BESIDE = 6, 15, 0.5
@@ -89,9 +91,9 @@ def sample_faults(campaign: Campaign) -> list[SampleFault]:
 
 
 def _turned(campaign: Campaign) -> list[SampleFault]:
-    """Wrong signs; four cells of a kind are one card."""
+    """Wrong signs; the pads' cells of a kind are one card."""
     every, wrong = tuple(run.name for run in campaign.runs), wrong_signs(campaign, tared_cells(campaign))
-    cards = [tuple(f"pad_{pad}_{kind}" for pad in PADS) for kind in ("N", "Fx", "Fy")]
+    cards = [tuple(f"pad_{pad}_{kind}" for pad in campaign.specimen.pads) for kind in ("N", "Fx", "Fy")]
     whole = [card for card in cards if set(card) <= set(wrong)]
     alone = [(name,) for name in wrong if not any(name in card for card in whole)]
     return [SampleFault("turned", channels, -1.0, {}, every) for channels in (*whole, *alone)]
@@ -118,8 +120,9 @@ def _dead(name: str, runs: Sequence[Run]) -> SampleFault | None:
 
 def _idle_beside_its_like(name: str, run: Run) -> bool:
     match = _CELL.match(name)
-    others = [f"pad_{p}_{match['kind']}" for p in PADS if f"pad_{p}_{match['kind']}" != name] if match else []
-    if len(others) != len(PADS) - 1 or not run.record.has_all(*others):
+    pads = pads_in(run.record.channels)
+    others = [f"pad_{p}_{match['kind']}" for p in pads if f"pad_{p}_{match['kind']}" != name] if match else []
+    if len(others) < _LIKE_IT or not run.record.has_all(*others):
         return False
     moved = float(np.median([np.std(run.record[n]) for n in others]))
     return float(np.std(run.record[name])) < _IDLE * moved

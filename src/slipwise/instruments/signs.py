@@ -11,13 +11,13 @@ On 32 planted signs this and a search through the balances of forces and moments
 0.08 s, the balances 3.3 s.
 """
 
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign import Campaign
-from slipwise.channels import PADS
+from slipwise.channels import pads_in
 from slipwise.record import Record
 from slipwise.signals.ends import in_frequency
 from slipwise.signals.filters import LowPass, lowpass
@@ -52,14 +52,14 @@ def wrong_signs(campaign: Campaign, tared: Collection[str] = ()) -> list[str]:
     found = _against(along)
     rest: dict[str, list[float]] = {}
     for run in campaign.runs:
-        for name, value in _forces(run.record, found):
+        for name, value in _forces(run.record, found, campaign.specimen.pads):
             rest.setdefault(name, []).append(value)
     return [*found, *(name for name in _against(rest) if name not in tared)]
 
 
 def _loads(campaign: Campaign) -> list[str]:
     every = set.intersection(*(set(run.record.channels) for run in campaign.runs))
-    return [name for name in (f"pad_{pad}_N" for pad in PADS) if name in every]
+    return [name for name in (f"pad_{pad}_N" for pad in campaign.specimen.pads) if name in every]
 
 
 def _presses(record: Record, name: str) -> float:
@@ -94,7 +94,7 @@ def _accelerations(record: Record) -> Iterable[tuple[str, float]]:
         yield from ((name, -1.0 if name == wrong else 1.0) for name in names)
 
 
-def _forces(record: Record, turned: Iterable[str]) -> Iterable[tuple[str, float]]:
+def _forces(record: Record, turned: Iterable[str], pads: Sequence[str]) -> Iterable[tuple[str, float]]:
     """Give pads' forces, loads and vertical accelerations with their agreement, from -1 to 1."""
     smooth = _smooth(record)
     for axis in "xy":
@@ -103,10 +103,10 @@ def _forces(record: Record, turned: Iterable[str]) -> Iterable[tuple[str, float]
             continue
         rate = np.gradient(smooth(record[slip] - record[slip][0]), record.dt) * (-1.0 if slip in turned else 1.0)
         moving = np.abs(rate) > _FAST * float(np.max(np.abs(rate)))
-        for name in (f"pad_{pad}_F{axis}" for pad in PADS):
+        for name in (f"pad_{pad}_F{axis}" for pad in pads_in(record.channels)):
             if name in record and moving.any():
                 yield name, float(np.mean(np.sign(record[name][moving]) * np.sign(rate[moving])))
-    loads = [f"pad_{pad}_N" for pad in PADS]
+    loads = [f"pad_{pad}_N" for pad in pads]
     if not record.has_all(*loads):
         return
     presses = {name: _presses(record, name) for name in loads}

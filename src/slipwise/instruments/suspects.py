@@ -7,7 +7,7 @@ the `gauge` of the effect that the fault is.
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from slipwise.channels import PADS, channel
+from slipwise.channels import channel, pads_in, part_of
 from slipwise.effects import Effect, catalogue
 from slipwise.effects._fault import GaugeFault
 from slipwise.effects._gauges import span
@@ -16,6 +16,8 @@ from slipwise.record import Record
 
 #: The table's vertical motion is tied to the girder only through the pads' springs: its faults must be larger [1].
 _LOOSE = 3.0
+#: Fewer pads carry no girder: their cells stand in no balance.
+_FEWEST = 3
 
 
 @dataclass(frozen=True)
@@ -90,19 +92,23 @@ def suspects(record: Record, effects: Iterable[Effect]) -> list[Suspect]:
 
 
 def _of_effect(effect: Effect, record: Record) -> Iterator[Suspect]:
+    pads = pads_in(record.channels)
     for place, channels in places_of(effect, record).items():
-        if "*" in place and len(channels) < len(PADS):
+        if "*" in place and len(channels) < max(len(pads), _FEWEST):
             continue  # no balance holds part of a card
         if effect.gauges.sits == "pads":
-            cells = [f"pad_{pad}_{kind}" for pad in PADS for kind in ("N", "Fx")]
+            cells = [f"pad_{pad}_{kind}" for pad in pads for kind in ("N", "Fx")]
             if record.has_all(*cells, "table_ax", "table_az"):
-                every = tuple(n for n in record.channels if n.startswith("pad_") and n[6:] in ("N", "Fx", "Fy"))
+                every = tuple(
+                    n for n in record.channels if part_of(n)[0] == "pad" and n.rpartition("_")[2] in ("N", "Fx", "Fy")
+                )
                 yield from _forms(effect, "all", "", every)
         elif not effect.gauges.reads:
             yield from _forms(effect, place, place, channels)
         for ending, other in effect.gauges.reads.items():
-            # with fewer than four cells no balance says whose reading it is
-            if place.endswith(ending) and record.has_all(*(f"pad_{p}{kind}" for p in PADS for kind in (ending, other))):
+            # with a cell less no balance says whose reading it is
+            cells = [f"pad_{pad}{kind}" for pad in pads for kind in (ending, other)]
+            if place.endswith(ending) and len(pads) >= _FEWEST and record.has_all(*cells):
                 yield from _forms(effect, place, f"{place} from {other[1:]}", channels)
 
 

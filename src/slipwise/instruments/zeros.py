@@ -12,8 +12,9 @@ from slipwise.instruments.suspects import effect_of
 
 def zeros_of(campaign: Campaign) -> tuple[ShiftedZero, ...]:
     """Give the channels of a campaign whose zero is far off."""
-    weight = campaign.specimen.weight if campaign.specimen.free else None
-    return shifted_zeros([run.record for run in campaign.runs], weight)
+    rig = campaign.specimen
+    loads = tuple(f"pad_{pad}_N" for pad in rig.pads) if rig.free else ()
+    return shifted_zeros([run.record for run in campaign.runs], loads, rig.weight)
 
 
 def tared_cells(campaign: Campaign) -> tuple[str, ...]:

@@ -1,6 +1,6 @@
 """From a specimen to a MuJoCo model that is ready to be shaken.
 
-The model is always the shipped one with the specimen's values in it, whatever file they were read from: so what a file
+The model is always the one that `mjcf_writer.py` writes of the specimen, whatever file it was read from: so what a file
 holds and a specimen does not cannot act without a record. `mjcf_attributes.py` refuses files that hold such things.
 """
 
@@ -10,9 +10,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.channels import BUFFERS
 from slipwise.errors import SettingError
-from slipwise.rig.specimen import Specimen, models_folder, shipped_file
+from slipwise.rig.mjcf_writer import mjcf_text
+from slipwise.rig.specimen import Specimen
 
 #: Impedance of the pads' contacts: constant and low, so that a contact is a spring (see `_pad_contact`).
 _IMPEDANCE = 0.001
@@ -34,7 +34,7 @@ class Rig:
         model: MuJoCo's model; `model.nuserdata` and the user sensor hold what the callbacks need.
         tendons: ids of the tendons, pads (x, y) in order, then buffers (x, y).
         jacobian: (n_tendons, nv) slip rate of each tendon per generalised velocity.
-        first_pad_geom: id of pad A's geom; the others follow.
+        pad_geoms: ids of the pads' geoms.
         user_sensor: address of the user sensor in sensordata.
         sag: how far the girder sinks into its pads under its weight [m].
     """
@@ -49,19 +49,27 @@ class Rig:
 
 
 def pad_frequencies(specimen: Specimen) -> dict[str, float]:
-    """Give the frequencies of heave, pitch and roll on the pads [Hz], the girder taken as rigid."""
-    half_x, half_y = specimen.half_spacing
-    n, k = len(specimen.pads), specimen.pad_stiffness
-    out = {"heave": np.sqrt(n * k / specimen.mass)}
-    if specimen.free:
-        out["pitch"] = np.sqrt(n * k * half_x**2 / specimen.inertia[1])
-        out["roll"] = np.sqrt(n * k * half_y**2 / specimen.inertia[0])
-    return {name: float(value / (2.0 * np.pi)) for name, value in out.items()}
+    """Give the frequencies of heave, pitch and roll on the pads [Hz], each by itself, the girder taken as rigid."""
+    stiffness, mass = stiffness_at_rest(specimen), np.array([specimen.mass, *specimen.inertia[:2]])
+    values = np.sqrt(np.diag(stiffness) / mass) / (2.0 * np.pi)
+    heave, roll, pitch = (float(value) for value in values)
+    return {"heave": heave, "pitch": pitch, "roll": roll} if specimen.free else {"heave": heave}
+
+
+def stiffness_at_rest(specimen: Specimen) -> NDArray[np.float64]:
+    """Give the stiffness of all pads against heave, roll and pitch of the girder (3, 3) [N/m, N, N m]."""
+    arms = np.array(specimen.pad_places) - [specimen.centre_x, specimen.centre_y]
+    shape = np.stack([-np.ones(len(arms)), -arms[:, 1], arms[:, 0]], axis=1)
+    return shape.T @ (np.array(specimen.springs)[:, None] * shape)
 
 
 def largest_step(specimen: Specimen) -> float:
-    """Give the largest time step [s] that the pads' stiffness allows."""
-    return _STABLE / (2.0 * np.pi * max(pad_frequencies(specimen).values()))
+    """Give the largest time step [s] that the pads' stiffness allows: that of the stiffest mode, coupled as it is."""
+    if not specimen.free:
+        return _STABLE / (2.0 * np.pi * pad_frequencies(specimen)["heave"])
+    scale = 1.0 / np.sqrt([specimen.mass, *specimen.inertia[:2]])
+    stiffest = np.linalg.eigvalsh(stiffness_at_rest(specimen) * scale[:, None] * scale).max()
+    return float(_STABLE / np.sqrt(stiffest))
 
 
 def check_step(specimen: Specimen, dt: float) -> None:
@@ -91,19 +99,22 @@ def build(specimen: Specimen, dt: float, nuserdata: int) -> Rig:
             values are not those of a body.
     """
     check_step(specimen, dt)
-    sag = specimen.weight / len(specimen.pads) / specimen.pad_stiffness
-    if sag > specimen.pad_radius:
+    sag = specimen.weight / sum(specimen.springs)
+    thinnest = min(place.radius for place in specimen.places)
+    if sag > thinnest:
         raise SettingError(
             f"{specimen.name}: the girder would sink {sag * 1e3:g} mm into its pads, whose radius is "
-            f"{specimen.pad_radius * 1e3:g} mm; give a larger pad_stiffness or a smaller mass"
+            f"{thinnest * 1e3:g} mm; give a larger pad_stiffness or a smaller mass"
         )
-    spec = mujoco.MjSpec.from_file(str(models_folder() / shipped_file(specimen.free)))
+    spec = mujoco.MjSpec.from_string(mjcf_text(specimen))
     spec.option.timestep = dt
-    spec.option.gravity = [0.0, 0.0, -specimen.gravity]
     spec.nuserdata = nuserdata
-    _place_girder(spec, specimen)
+    # The first vertical mode is even about the middle: it takes mass from heave, nothing from pitch and roll.
+    spec.body("girder").mass = specimen.mass - specimen.bending_mass
+    if specimen.pads_on == "girder":
+        _swap_pads(spec, specimen)
     if specimen.free:
-        _place_tendons(spec, specimen, dt)
+        _shorten_stops(spec, dt)
     _drive_table(spec, specimen)
     if specimen.bending_mass > 0.0:
         _add_bending(spec, specimen)
@@ -114,7 +125,7 @@ def build(specimen: Specimen, dt: float, nuserdata: int) -> Rig:
     except ValueError as error:
         raise SettingError(f"{specimen.name}: MuJoCo cannot build a rig with these values: {error}") from None
     names = [f"pad_{pad}_{axis}" for pad in specimen.pads for axis in "xy"]
-    names += [f"buffer_{BUFFERS[i]}_{axis}" for i in range(len(specimen.buffer_stiffness)) for axis in "xy"]
+    names += [f"buffer_{buffer.name}_{axis}" for buffer in specimen.buffers for axis in "xy"]
     tendons = tuple(int(model.tendon(name).id) for name in names)
     return Rig(
         specimen=specimen,
@@ -127,84 +138,29 @@ def build(specimen: Specimen, dt: float, nuserdata: int) -> Rig:
     )
 
 
-def _place_girder(spec: mujoco.MjSpec, specimen: Specimen) -> None:
-    """Put mass, centre of gravity and pads where the specimen has them."""
-    girder = spec.body("girder")
-    shift = np.array([specimen.centre_x, specimen.centre_y, specimen.centre_height]) - np.array(girder.pos)
-    if np.any(shift):
-        girder.pos = np.array(girder.pos) + shift
-        for geom in girder.geoms:
-            geom.pos = np.array(geom.pos) - shift
-    girder.mass = specimen.mass - specimen.bending_mass
-    # The first vertical mode is even about the middle: it takes mass from heave, nothing from pitch and roll.
-    girder.inertia = list(specimen.inertia)
-    for pad, place, height in zip(specimen.pads, specimen.pad_places, specimen.seating, strict=True):
-        for geom in (f"pad_{pad}", f"disc_{pad}", f"cell_{pad}"):
-            spec.geom(geom).pos = [*place, spec.geom(geom).pos[2]]
-        spec.geom(f"pad_{pad}").size = [specimen.pad_radius, 0.0, 0.0]
-        spec.geom(f"disc_{pad}").size = [specimen.pad_radius, spec.geom(f"disc_{pad}").size[1], 0.0]
-        spec.geom(f"pad_{pad}").pos = [*place, height - specimen.pad_radius]
-        if specimen.free:
-            for name in (f"plate_{pad}", f"sole_{pad}"):
-                geom = spec.geom(name)
-                geom.pos = [place[0] - specimen.centre_x, place[1] - specimen.centre_y, geom.pos[2]]
-    if specimen.free:
-        spec.site("girder_edge_1").pos = [specimen.edge_distance, 0.0, 0.0]
-        spec.site("girder_edge_2").pos = [-specimen.edge_distance, 0.0, 0.0]
-    if specimen.pads_on == "girder":
-        _swap_pads(spec, specimen)
-
-
 def _swap_pads(spec: mujoco.MjSpec, specimen: Specimen) -> None:
     """Let the pads travel with the girder and slide on plates of the table."""
     table, girder = spec.body("table"), spec.body("girder")
     centre = np.array(girder.pos)
-    for bit, pad in enumerate(specimen.pads):
+    for bit, (pad, radius) in enumerate((place.name, place.radius) for place in specimen.places):
         face, plate = spec.geom(f"pad_{pad}"), spec.geom(f"plate_{pad}")
-        low = np.array(face.pos) + [0.0, 0.0, specimen.pad_radius]
+        low = np.array(face.pos) + [0.0, 0.0, radius]
         shared = {"condim": 1, "group": 3, "mass": 0.0, "contype": 0, "conaffinity": 0}
         ball = {**shared, "contype": 1 << bit, "type": mujoco.mjtGeom.mjGEOM_SPHERE, "size": np.array(face.size)}
         floor = {**shared, "conaffinity": 1 << bit, "type": mujoco.mjtGeom.mjGEOM_BOX, "size": np.array(plate.size)}
         spec.delete(face)
         spec.delete(plate)
-        girder.add_geom(name=f"pad_{pad}", pos=low - centre + [0.0, 0.0, specimen.pad_radius], **ball)
+        girder.add_geom(name=f"pad_{pad}", pos=low - centre + [0.0, 0.0, radius], **ball)
         table.add_geom(name=f"plate_{pad}", pos=[low[0], low[1], low[2] - floor["size"][2]], **floor)
 
 
-def _place_tendons(spec: mujoco.MjSpec, specimen: Specimen, dt: float) -> None:
-    """Write the slip rate of the soffit over each pad and of each key, v = v_centre + turning x arm.
+def _shorten_stops(spec: mujoco.MjSpec, dt: float) -> None:
+    """Make the time constant of dry friction as short as the step allows, so that a finer step is a better answer.
 
-    Dry friction brings a slider to rest within a time constant, and turns round that much before the slip does: it is
-    made as short as the step allows, so that a finer step is a better answer.
+    It brings a slider to rest within that time, and turns round that much before the slip does.
     """
-    arms: dict[str, tuple[float, float, float]] = {}
-    for pad, (x, y) in zip(specimen.pads, specimen.pad_places, strict=True):
-        arms[f"pad_{pad}"] = (x - specimen.centre_x, y - specimen.centre_y, -specimen.centre_height)
-    for i, (x, y) in enumerate(specimen.buffer_places):
-        arms[f"buffer_{BUFFERS[i]}"] = (
-            x - specimen.centre_x,
-            y - specimen.centre_y,
-            specimen.buffer_height - specimen.centre_height,
-        )
-    for buffer in BUFFERS[len(specimen.buffer_places) :]:
-        for axis in "xy":
-            spec.delete(spec.tendon(f"buffer_{buffer}_{axis}"))
-    for name, (x, y, z) in arms.items():
-        turning = {
-            "x": {"girder_x": 1.0, "girder_pitch": z, "girder_yaw": -y},
-            "y": {"girder_y": 1.0, "girder_roll": -z, "girder_yaw": x},
-        }
-        for axis, coefficients in turning.items():
-            old = spec.tendon(f"{name}_{axis}")
-            kept = {
-                field: getattr(old, field) for field in ("frictionloss", "solref_friction", "solimp_friction", "rgba")
-            }
-            kept = {field: (np.array(value) if np.ndim(value) else value) for field, value in kept.items()}
-            kept["solref_friction"][0] = _SHORTEST_STOP * dt
-            spec.delete(old)
-            new = spec.add_tendon(name=f"{name}_{axis}", **kept)
-            for joint, coefficient in coefficients.items():
-                new.wrap_joint(joint, coefficient)
+    for tendon in spec.tendons:
+        tendon.solref_friction[0] = _SHORTEST_STOP * dt
 
 
 def _drive_table(spec: mujoco.MjSpec, specimen: Specimen) -> None:
@@ -245,7 +201,7 @@ def _add_sensors(spec: mujoco.MjSpec, specimen: Specimen) -> None:
     The integrator moves positions after the sensors are read: states taken from the data would be one step late.
     """
     kinds, body = mujoco.mjtSensor, mujoco.mjtObj
-    size = 4 * len(specimen.pads) + 2 * len(specimen.buffer_stiffness) + 3
+    size = 4 * len(specimen.pads) + 2 * len(specimen.buffers) + 3
     spec.add_sensor(name="pads", type=kinds.mjSENS_USER, dim=size, needstage=mujoco.mjtStage.mjSTAGE_ACC,
                     datatype=mujoco.mjtDataType.mjDATATYPE_REAL)  # fmt: skip
     sites = ["girder_centre"] + (["girder_edge_1", "girder_edge_2"] if specimen.free else [])
@@ -265,22 +221,27 @@ def _pad_contact(spec: mujoco.MjSpec, specimen: Specimen) -> None:
     R = A (1-d)/d, where A is the row's inverse mass. So solref = -(1-d) A (stiffness, damping) gives both exactly.
     """
     d = _IMPEDANCE
-    for pad in specimen.pads:
-        for geom in (spec.geom(f"pad_{pad}"), spec.geom(f"plate_{pad}")):
-            geom.solimp = [d, d, d, 0.5, 2.0]
-            geom.solref = [-1.0, -1.0]
+    pairs = {pad: _only_pair(spec, pad) for pad in specimen.pads}
+    for pair in pairs.values():
+        pair.solimp = [d, d, d, 0.5, 2.0]
+        pair.solref = [-1.0, -1.0]
     model = spec.compile()
     data = mujoco.MjData(model)
     data.joint("girder_z").qpos[0] = -2e-3 - 2.0 * max(abs(s) for s in specimen.seating)
     mujoco.mj_forward(model, data)
     for contact in data.contact:
-        pair = sorted((model.geom(contact.geom1).name, model.geom(contact.geom2).name))
         inverse_mass = float(data.efc_R[contact.efc_address]) * d / (1.0 - d)
-        for name in pair:
-            spec.geom(name).solref = [
-                -(1 - d) * inverse_mass * specimen.pad_stiffness,
-                -(1 - d) * inverse_mass * specimen.pad_damping,
-            ]
+        touching = {model.geom(contact.geom1).name, model.geom(contact.geom2).name}
+        pad = next(place for place in specimen.places if f"pad_{place.name}" in touching)
+        pairs[pad.name].solref = [-(1 - d) * inverse_mass * pad.stiffness, -(1 - d) * inverse_mass * pad.damping]
+
+
+def _only_pair(spec: mujoco.MjSpec, pad: str) -> mujoco.MjsPair:
+    """Let a pad and its plate meet as a named pair: MuJoCo then looks at no other, however many pads there are."""
+    geoms = [spec.geom(f"pad_{pad}"), spec.geom(f"plate_{pad}")]
+    for geom in geoms:
+        geom.contype = geom.conaffinity = 0
+    return spec.add_pair(name=f"pad_{pad}", geomname1=geoms[0].name, geomname2=geoms[1].name, condim=1)
 
 
 def _jacobian(model: mujoco.MjModel, tendons: tuple[int, ...]) -> NDArray[np.float64]:

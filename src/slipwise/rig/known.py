@@ -1,10 +1,10 @@
 """What is known of a specimen better than its rated values, as people write it: names and quantities with units."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
 from slipwise.errors import InputError, unknown_name
+from slipwise.rig.places import mean
 from slipwise.rig.specimen import Specimen
 from slipwise.units import quantity
 
@@ -66,10 +66,7 @@ def better_known(specimen: Specimen, known: Mapping[str, float | str], source: s
     Raises:
         SettingError: a value that no rig can have.
     """
-    values: dict[str, Any] = dict(known)
-    if "buffer_stiffness" in values:
-        values["buffer_stiffness"] = (values["buffer_stiffness"],) * len(specimen.buffer_stiffness)
-    return replace(specimen, **values, sources={**specimen.sources, **dict.fromkeys(known, source)})
+    return specimen.changed(**known, sources={**specimen.sources, **dict.fromkeys(known, source)})
 
 
 def known_better(specimen: Specimen, rated: Specimen) -> dict[str, float | str]:
@@ -77,5 +74,5 @@ def known_better(specimen: Specimen, rated: Specimen) -> dict[str, float | str]:
     names = [n for n in (*SPECIMEN_UNITS, *SPECIMEN_WORDS) if getattr(specimen, n) != getattr(rated, n)]
     found: dict[str, float | str] = {n: getattr(specimen, n) for n in names if n != "buffer_stiffness"}
     if "buffer_stiffness" in names:
-        found["buffer_stiffness"] = sum(specimen.buffer_stiffness) / len(specimen.buffer_stiffness)
+        found["buffer_stiffness"] = mean(specimen.buffer_stiffness)
     return found

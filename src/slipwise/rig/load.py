@@ -1,30 +1,28 @@
-"""From the MJCF file of a rig to a specimen: every value that a replay uses, and a check that nothing else counts."""
+"""From the file of a rig to a specimen: every value that a replay uses, and a check that nothing else counts."""
 
 from pathlib import Path
 from typing import Any
 
-import mujoco
-import numpy as np
-from numpy.typing import NDArray
-
 from slipwise.errors import SettingError, UnknownNameError
+from slipwise.rig.bounds import out_of_bounds
+from slipwise.rig.files import find_rig
 from slipwise.rig.mjcf import Mjcf, read_mjcf
 from slipwise.rig.mjcf_attributes import check_attributes
-from slipwise.rig.mjcf_parts import WORDS, buffers_of, check_parts, is_free, names_of, pads_of
-from slipwise.rig.mjcf_places import buffer_places, centre_of_gravity, edge_distance, pad_places, pad_radius, seating
-from slipwise.rig.mjcf_tendons import buffer_height, buffer_stiffness, check_arms
+from slipwise.rig.mjcf_inertia import girder_body, principal_inertia
+from slipwise.rig.mjcf_parts import OF_EACH_PAD, WORDS, check_parts, is_free, names_of, pads_of
+from slipwise.rig.mjcf_places import edge_distance, pad_places, pad_radii, seating
+from slipwise.rig.mjcf_tendons import buffers, check_arms
+from slipwise.rig.places import Place, values_of
 from slipwise.rig.rest_check import check_rest
-from slipwise.rig.specimen import Specimen, find_rig, out_of_bounds
-
-#: Products of inertia below this share of the largest moment are rounding [1].
-_SAME = 1e-6
+from slipwise.rig.specimen import Specimen
+from slipwise.rig.specimen_file import read_specimen
 
 
 def load_specimen(rig: str | Path, beside: Path | None = None) -> Specimen:
-    """Read a specimen's rated values from its MJCF file.
+    """Read a specimen's rated values from its file.
 
     Args:
-        rig: a name of `RIGS` or the path of an MJCF file that names its parts as they do.
+        rig: a name of `RIGS`, the path of a specimen.toml, or of an MJCF file that names its parts as they do.
         beside: folder from which a relative path is meant.
 
     Raises:
@@ -32,7 +30,10 @@ def load_specimen(rig: str | Path, beside: Path | None = None) -> Specimen:
         InputError: the file is no MJCF, a part is missing in it, it holds what would not be simulated, or its pads do
             not carry its weight at rest. The message names the element.
     """
-    file = read_mjcf(find_rig(rig, beside))
+    path = find_rig(rig, beside)
+    if path.suffix == ".toml":
+        return read_specimen(path)
+    file = read_mjcf(path)
     check_parts(file)
     check_attributes(file)
     specimen = _specimen(file)
@@ -42,72 +43,61 @@ def load_specimen(rig: str | Path, beside: Path | None = None) -> Specimen:
 
 def _specimen(file: Mjcf) -> Specimen:
     """Collect a specimen's values, each held to what a rig can have where its element can still be named."""
-    model = file.model
-    centre = centre_of_gravity(file)
-    pads = pads_of(file)
-    heights = seating(file)
+    model, girder = file.model, girder_body(file)
+    pads, places = pads_of(file), _places(file)
     check_arms(file)
-    numbers = {name: float(model.numeric(name).data[0]) for name in names_of(model, "numeric")}
+    numbers = {n: float(model.numeric(n).data[0]) for n in names_of(model, "numeric") if n not in OF_EACH_PAD}
     texts = {text.name: text.data for text in file.spec.texts}
     body = ("inertial", "", "girder") if file.spec.body("girder").explicitinertial else ("body", "girder", "")
     place = ("body", "girder", "")
     values: dict[str, tuple[Any, tuple[str, str, str]]] = {
-        "mass": (float(model.body("girder").mass[0]), body),
-        "inertia": (_inertia(file), body),
-        "centre_height": (float(centre[2]), place),
-        "centre_x": (float(centre[0]), place),
-        "centre_y": (float(centre[1]), place),
-        "pad_places": (pad_places(file), ("geom", f"pad_{pads[0]}", "")),
-        "pad_radius": (pad_radius(file), ("geom", f"pad_{pads[0]}", "")),
-        "seating": (heights, ("geom", f"pad_{pads[0]}", "")),
+        "mass": (girder.mass, body),
+        "inertia": (principal_inertia(file, girder), body),
+        "centre_height": (float(girder.centre[2]), place),
+        "centre_x": (float(girder.centre[0]), place),
+        "centre_y": (float(girder.centre[1]), place),
         "edge_distance": (edge_distance(file), ("site", "girder_edge_1", "")),
         "gravity": (-float(model.opt.gravity[2]), ("option", "", "")),
-        "buffer_height": (buffer_height(file), ("tendon", "buffer_1_x", "")),
-        "buffer_places": (buffer_places(file), ("geom", "buffer_1", "")),
         **{name: (number, ("numeric", name, "")) for name, number in numbers.items()},
         **{name: (texts[name], ("text", name, "")) for name in WORDS if name in texts},
     }
-    for i, (buffer, stiffness) in enumerate(zip(buffers_of(file), buffer_stiffness(file), strict=True)):
-        values[f"buffer_stiffness {i}"] = (stiffness, ("tendon", f"buffer_{buffer}_x", ""))
     for name, (value, element) in values.items():
-        if wrong := out_of_bounds(name.split()[0], value):
+        if wrong := out_of_bounds(name, value):
             raise file.refused(wrong, *element)
+    held = buffers(file)
+    for part in (*places, *held):
+        for name, value in values_of(part).items():
+            if wrong := out_of_bounds(name, value):
+                raise file.refused(wrong, *_element(name, part.name))
     try:
         return Specimen(
             name=file.path.stem,
             path=file.path,
-            pads=pads,
+            places=places,
             free=is_free(model),
-            buffer_stiffness=buffer_stiffness(file),
+            buffers=held,
             sources={n.removeprefix("source "): data for n, data in texts.items() if n.startswith("source ")},
-            **{name: value for name, (value, _) in values.items() if " " not in name},
+            **{name: value for name, (value, _) in values.items()},
         )
     except (SettingError, UnknownNameError) as error:
         heavy = "bending_mass" in numbers and numbers["bending_mass"] >= values["mass"][0]
-        word = next((name for name in WORDS if name in texts), "")
+        word = next((name for name in WORDS if name in texts), f"pad_{pads[0]}")
         raise file.refused(str(error), *(("numeric", "bending_mass") if heavy else ("text", word))) from None
 
 
-def _inertia(file: Mjcf) -> tuple[float, float, float]:
-    """Give the girder's moments of inertia about the axes x, y, z through its centre of gravity [kg m^2].
+def _places(file: Mjcf) -> tuple[Place, ...]:
+    """Collect what each pad is."""
+    pads = pads_of(file)
+    of_each = [[float(v) for v in file.model.numeric(name).data] for name in OF_EACH_PAD]
+    stiffness, damping = (given * (len(pads) if len(given) == 1 else 1) for given in of_each)
+    rows = zip(pads, pad_places(file), seating(file), pad_radii(file), stiffness, damping, strict=True)
+    return tuple(Place(name, x, y, z, *rest) for name, (x, y), z, *rest in rows)
 
-    Raises:
-        InputError: its principal axes are others.
-    """
-    girder = file.model.body("girder")
-    turned = np.zeros(9)
-    mujoco.mju_quat2Mat(turned, girder.iquat)
-    axes: NDArray[np.float64] = turned.reshape(3, 3)
-    whole = axes @ np.diag(girder.inertia) @ axes.T
-    if np.abs(whole - np.diag(np.diag(whole))).max() > _SAME * np.diag(whole).max():
-        xy, xz, yz = whole[0, 1], whole[0, 2], whole[1, 2]
-        raise file.refused(
-            f"the girder has products of inertia {xy:g}, {xz:g}, {yz:g} kg m^2 (xy, xz, yz), which would not be "
-            "simulated; its principal axes are those of the table: give diaginertia",
-            "inertial",
-            "",
-            "girder",
-        )
-    upright = np.array_equal(girder.iquat, [1.0, 0.0, 0.0, 0.0])
-    moments = girder.inertia if upright else np.diag(whole)
-    return float(moments[0]), float(moments[1]), float(moments[2])
+
+def _element(value: str, part: str) -> tuple[str, str]:
+    """Give the kind and the name of the element that a value of a pad or a buffer stands in."""
+    if value in OF_EACH_PAD:
+        return "numeric", value
+    if value.startswith("buffer"):
+        return ("geom", f"buffer_{part}") if value == "buffer_places" else ("tendon", f"buffer_{part}_x")
+    return "geom", f"pad_{part}"

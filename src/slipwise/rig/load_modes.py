@@ -1,18 +1,16 @@
 """What moves the load on a pad: inertia (Factor A), rocking (Factor B), and the rest."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.channels import PAD_SIGNS
 from slipwise.errors import InputError
 from slipwise.record import Record
+from slipwise.rig.load_basis import LoadBasis
 
 Array = NDArray[np.float64]
-_SIGNS = np.array(PAD_SIGNS, dtype=float)
-#: Rows: heave, pitch, roll, warp; columns: pads A to D. Its inverse is a quarter of its transpose.
-_MODES = np.stack([np.ones(4), _SIGNS[:, 0], _SIGNS[:, 1], _SIGNS[:, 0] * _SIGNS[:, 1]])
 #: The table is taken to rest while it accelerates less than this [m/s^2].
 _QUIET = 0.05
 #: Fewer samples at rest than this say nothing about the shares.
@@ -21,13 +19,15 @@ _ENOUGH = 10
 
 @dataclass(frozen=True)
 class LoadModes:
-    """The four pads' loads as four orthogonal modes, each (n,) [N].
+    """The loads of n pads as n modes, each [N].
 
     Attributes:
-        heave: sum of all pads.
-        pitch: pads at +x (A, C) minus pads at -x (B, D).
-        roll: pads at +y (A, B) minus pads at -y (C, D).
-        warp: one diagonal (A, D) minus the other (B, C); equilibrium does not determine it.
+        heave: sum of all pads (n_times,).
+        pitch: sum of the loads times their places along x, 1 at the farthest pad: of a rectangle's pads those at +x
+            minus those at -x (n_times,).
+        roll: the same along y (n_times,).
+        warp: what is left, which equilibrium does not determine: nothing of three pads, of four one diagonal minus the
+            other, (n_times, n - 3).
     """
 
     heave: Array
@@ -35,16 +35,21 @@ class LoadModes:
     roll: Array
     warp: Array
 
+    @property
+    def twist(self) -> Array:
+        """The first warp, that of the diagonals; zero of three pads, (n_times,) [N]."""
+        return self.warp[:, 0] if self.warp.shape[1] else np.zeros(len(self.warp))
+
 
 @dataclass(frozen=True)
 class LoadFactors:
     """The load of every pad split by its cause: inertia + rocking + rest = N.
 
     Attributes:
-        shares: (4,) of the weight that each pad carries at rest [1].
-        inertia: (n, 4) Factor A, share m (g + a_z) [N].
-        rocking: (n, 4) Factor B, the pitch and roll modes of what inertia leaves [N].
-        rest: (n, 4) heave and warp modes of what inertia leaves: another path of the load, bending, seating [N].
+        shares: (p,) of the weight that each pad carries at rest [1].
+        inertia: (n, p) Factor A, share m (g + a_z) [N].
+        rocking: (n, p) Factor B, the pitch and roll modes of what inertia leaves [N].
+        rest: (n, p) heave and warp modes of what inertia leaves: another path of the load, bending, seating [N].
         weight: m g [N].
     """
 
@@ -56,31 +61,32 @@ class LoadFactors:
 
     @property
     def inertia_swing(self) -> Array:
-        """Half of largest minus smallest Factor A over the pad's load at rest, (4,) [1]."""
+        """Half of largest minus smallest Factor A over the pad's load at rest, (p,) [1]."""
         return np.ptp(self.inertia, axis=0) / (2.0 * self.shares * self.weight)
 
     @property
     def rocking_swing(self) -> Array:
-        """Half of largest minus smallest Factor B over the pad's load at rest, (4,) [1]."""
+        """Half of largest minus smallest Factor B over the pad's load at rest, (p,) [1]."""
         return np.ptp(self.rocking, axis=0) / (2.0 * self.shares * self.weight)
 
 
-def load_modes(loads: Array) -> LoadModes:
-    """Turn the loads of pads A to D into heave, pitch, roll and warp.
+def load_modes(loads: Array, basis: LoadBasis) -> LoadModes:
+    """Turn the loads of the pads into heave, pitch, roll and warp: their projections on 1, x and y, and what is left.
 
     Args:
-        loads: (n, 4) compression [N].
+        loads: (n_times, n_pads) compression [N].
+        basis: of the pads, in the same order.
 
     Source: docs/theory.md, section 1.4; signs here are those of the pads' places, so pitch is positive with the +x
     side loaded.
     """
-    heave, pitch, roll, warp = _MODES @ loads.T
-    return LoadModes(heave, pitch, roll, warp)
+    heave, pitch, roll = basis.rigid @ loads.T
+    return LoadModes(heave, pitch, roll, (basis.warp @ loads.T).T)
 
 
-def pad_loads(modes: LoadModes) -> Array:
-    """Turn heave, pitch, roll and warp back into the loads of pads A to D, (n, 4) [N]."""
-    return np.stack([modes.heave, modes.pitch, modes.roll, modes.warp], axis=1) @ _MODES / 4.0
+def pad_loads(modes: LoadModes, basis: LoadBasis) -> Array:
+    """Turn heave, pitch, roll and warp back into the loads of the pads, (n_times, n_pads) [N]."""
+    return np.column_stack([modes.heave, modes.pitch, modes.roll, modes.warp]) @ basis.inverse
 
 
 def vertical_acceleration(record: Record) -> Array:
@@ -96,12 +102,12 @@ def vertical_acceleration(record: Record) -> Array:
     raise InputError("inertia needs girder_az, or girder_az_1 and girder_az_2; this record has neither")
 
 
-def rest_shares(record: Record) -> Array:
-    """Give the share of the weight on each pad (4,), summing to 1.
+def rest_shares(record: Record, pads: Sequence[str] | None = None) -> Array:
+    """Give the share of the weight on each pad (p,), summing to 1; of the record's pads when none are named.
 
     Taken while the table rests at the start; from the whole record's mean where it begins in motion.
     """
-    loads = record.stacked("pad_{}_N")
+    loads = record.stacked("pad_{}_N", pads)
     moving = np.zeros(len(record), dtype=bool)
     for name in ("table_ax", "table_ay", "table_az"):
         if name in record:
@@ -111,26 +117,30 @@ def rest_shares(record: Record) -> Array:
     return mean / mean.sum()
 
 
-def load_factors(record: Record, mass: float, gravity: float, shares: Array | None = None) -> LoadFactors:
+def load_factors(
+    record: Record, mass: float, gravity: float, basis: LoadBasis, shares: Array | None = None,
+    pads: Sequence[str] | None = None,
+) -> LoadFactors:  # fmt: skip
     """Split every pad's load into inertia, rocking and the rest.
 
     Args:
-        record: with pad_A_N ... pad_D_N and the girder's vertical acceleration.
+        record: with the load of every pad and the girder's vertical acceleration.
         mass: of the girder [kg].
         gravity: [m/s^2].
-        shares: (4,) of the weight on each pad; as the record shows at rest when not given.
+        basis: of the pads.
+        shares: (p,) of the weight on each pad; as the record shows at rest when not given.
+        pads: their names in the order of the basis; those of the record when not given.
 
     Raises:
         InputError: the record lacks a channel.
 
     Source: paper, "Factor A" and "Factor B"; docs/theory.md, section 1.4.
     """
-    loads = record.stacked("pad_{}_N")
-    shares = rest_shares(record) if shares is None else np.asarray(shares, dtype=float)
+    loads = record.stacked("pad_{}_N", pads)
+    shares = rest_shares(record, pads) if shares is None else np.asarray(shares, dtype=float)
     inertia = mass * (gravity + vertical_acceleration(record))[:, None] * shares
-    left = load_modes(loads - inertia)
-    nothing = np.zeros(len(record))
-    rocking = pad_loads(LoadModes(nothing, left.pitch, left.roll, nothing))
+    left = load_modes(loads - inertia, basis)
+    rocking = pad_loads(LoadModes(np.zeros(len(record)), left.pitch, left.roll, np.zeros_like(left.warp)), basis)
     return LoadFactors(shares, inertia, rocking, loads - inertia - rocking, mass * gravity)
 
 
@@ -169,4 +179,4 @@ def rigid_modes(
     ):
         slip = record[f"slip_{axis}"] if f"slip_{axis}" in record and pads_on == "table" else nothing
         sides.append((slip * heave - mass * acceleration * centre_height) / half)
-    return LoadModes(heave, sides[0], sides[1], nothing)
+    return LoadModes(heave, sides[0], sides[1], np.zeros((len(record), 0)))

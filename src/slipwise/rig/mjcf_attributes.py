@@ -11,9 +11,10 @@ from functools import cache
 import mujoco
 import numpy as np
 
+from slipwise.errors import InputError
+from slipwise.rig.files import models_folder, shipped_file
 from slipwise.rig.mjcf import Mjcf
 from slipwise.rig.mjcf_parts import ACTUATORS, buffers_of, is_free, names_of, pads_of
-from slipwise.rig.specimen import models_folder, shipped_file
 
 #: Fields of each kind of part that follow from others, or only show.
 NOT_FELT: Mapping[str, frozenset[str]] = {
@@ -33,9 +34,9 @@ NOT_FELT: Mapping[str, frozenset[str]] = {
 READ: Mapping[str, frozenset[str]] = {
     "table": frozenset("mass inertia ipos iquat".split()),
     "girder": frozenset("mass inertia ipos iquat pos".split()),
-    "pad": frozenset("pos quat size".split()),
-    "plate": frozenset(["pos"]),
-    "buffer": frozenset(["stiffness"]),
+    "pad": frozenset("conaffinity contype pos quat size".split()),
+    "plate": frozenset("conaffinity contype pos".split()),
+    "buffer": frozenset("lengthspring stiffness".split()),
     "table_az": frozenset(["biasprm"]),
 }
 #: How MJCF writes a field that has another name in the compiled model.
@@ -91,16 +92,43 @@ def check_attributes(file: Mjcf) -> None:
         for key, words in (("qpos0", "ref"), ("qpos_spring", "springref")):
             if given := float(getattr(model, key)[theirs.qposadr[0]]):
                 raise file.refused(f"the joint {name!r} has {words} = {given:g}; possible is 0", "joint", name)
+    _check_bits(file)
     for pad in pads_of(file):
         for part in ("pad", "plate"):
             name = f"{part}_{pad}"
-            _compare(file, "geom", name, part, [("geom", model.geom(name).id, shipped.geom(name).id)])
-    for part in (*(f"pad_{pad}" for pad in pads_of(file)), *(f"buffer_{buffer}" for buffer in buffers_of(file))):
-        for name in (f"{part}_x", f"{part}_y"):
-            ids = ("tendon", model.tendon(name).id, shipped.tendon(name).id)
+            _compare(file, "geom", name, part, [("geom", model.geom(name).id, shipped.geom(f"{part}_A").id)])
+    like = {f"pad_{pad}": "pad_A" for pad in pads_of(file)} | {f"buffer_{b}": "buffer_1" for b in buffers_of(file)}
+    for part, known in like.items():
+        for axis in "xy":
+            name = f"{part}_{axis}"
+            ids = ("tendon", model.tendon(name).id, shipped.tendon(f"{known}_{axis}").id)
             _compare(file, "tendon", name, part.split("_")[0], [ids])
     for name in ACTUATORS:
         _check_actuator(file, shipped, name)
+
+
+def _check_bits(file: Mjcf) -> None:
+    """Hold pads and plates to a bit of their own, by which each pad meets its plate and nothing else."""
+    taken: dict[int, str] = {}
+    for pad in pads_of(file):
+        for name, key, other in ((f"pad_{pad}", "contype", "conaffinity"), (f"plate_{pad}", "conaffinity", "contype")):
+            geom = file.model.geom(name)
+            given, nothing = int(getattr(geom, key)[0]), int(getattr(geom, other)[0])
+            single = given > 0 and given & (given - 1) == 0
+            if not single or nothing or taken.setdefault(given, pad) != pad or taken[given] != pad:
+                raise _wrong_bit(file, name, key, given)
+        if file.model.geom(f"pad_{pad}").contype[0] != file.model.geom(f"plate_{pad}").conaffinity[0]:
+            given = int(file.model.geom(f"plate_{pad}").conaffinity[0])
+            raise _wrong_bit(file, f"plate_{pad}", "conaffinity", given)
+
+
+def _wrong_bit(file: Mjcf, name: str, key: str, given: int) -> InputError:
+    return file.refused(
+        f"the geom {name!r} has {key} = {given}; possible is 1, 2, 4, 8 ..., another for every pad, as contype of "
+        "the pad and as conaffinity of its plate alone, so that each meets its own",
+        "geom",
+        name,
+    )
 
 
 def _check_options(file: Mjcf) -> None:

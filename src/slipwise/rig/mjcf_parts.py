@@ -4,8 +4,9 @@ import re
 
 import mujoco
 
-from slipwise.channels import BUFFERS, PADS
 from slipwise.rig.mjcf import Mjcf
+from slipwise.rig.mjcf_inertia import bodies_of_girder
+from slipwise.rig.places import MOST_PADS
 
 #: The joints of the two bodies, in order; a girder whose slip is prescribed has the second kind only.
 TABLE_JOINTS = ("table_x", "table_y", "table_z", "table_pitch")
@@ -14,9 +15,11 @@ GUIDED_JOINTS = ("girder_z",)
 ACTUATORS = ("table_ax", "table_ay", "table_az", "table_apitch")
 #: Numbers and words that a file may give: `<numeric>`, the first four needed, and `<text>`.
 NUMBERS = ("pad_stiffness", "pad_damping", "plastic_pressure", "shear_strength")
+OF_EACH_PAD = ("pad_stiffness", "pad_damping")
 MORE_NUMBERS = ("bending_mass", "bending_frequency", "bending_damping")
 WORDS = ("pads_on", "stick_capacity")
-_SIMULATED = {"pad": PADS, "buffer": BUFFERS}
+#: What pads and buffers are called, by the convention of names.
+_PAD, _BUFFER = re.compile(r"pad_([A-Za-z0-9]+)"), re.compile(r"buffer_([A-Za-z0-9]+)_[xy]")
 #: What acts on a body and has no place in a rig: list in the compiled spec -> what it is called.
 _FORBIDDEN = {
     "equalities": "equality constraint",
@@ -52,7 +55,7 @@ def check_parts(file: Mjcf) -> None:
     for name in ("table", "girder"):
         if name not in names_of(file.model, "body"):
             raise file.refused(f"it lacks the body {name}; a rig has the bodies table and girder, as in bridge1.xml")
-    _check_numbered(file)
+    _check_number_of_pads(file)
     _check_bodies(file)
     _check_joints(file)
     _check_geoms(file)
@@ -68,39 +71,32 @@ def check_parts(file: Mjcf) -> None:
 
 
 def pads_of(file: Mjcf) -> tuple[str, ...]:
-    """Give the names of the pads that the file has."""
-    return tuple(pad for pad in PADS if f"pad_{pad}" in names_of(file.model, "geom"))
+    """Give the names of the pads that the file has, in its order."""
+    return tuple(match[1] for name in names_of(file.model, "geom") if (match := _PAD.fullmatch(name)))
 
 
 def buffers_of(file: Mjcf) -> tuple[str, ...]:
-    """Give the names of the buffers that the file has."""
-    tendons = names_of(file.model, "tendon")
-    return tuple(b for b in BUFFERS if {f"buffer_{b}_x", f"buffer_{b}_y"} & set(tendons))
+    """Give the names of the buffers that the file has, in its order."""
+    found = (_BUFFER.fullmatch(name) for name in names_of(file.model, "tendon"))
+    return tuple(dict.fromkeys(match[1] for match in found if match))
 
 
-def _check_numbered(file: Mjcf) -> None:
-    both = [(kind, name) for kind in ("tendon", "geom") for name in names_of(file.model, kind)]
-    for part, known in _SIMULATED.items():
-        found = {m[1]: at for at in both if (m := re.fullmatch(rf"{part}_([A-Za-z0-9]+?)(?:_[xy])?", at[1]))}
-        if more := sorted(set(found) - set(known)):
-            raise file.refused(
-                f"it has {part}s {', '.join(more)}, which would not be simulated; a rig has the {part}s "
-                f"{', '.join(known)} at most: join them to as many",
-                *found[more[0]],
-            )
-    pads, buffers = pads_of(file), buffers_of(file)
-    needed, what = (PADS, "that is free") if is_free(file.model) else (PADS[:1], "whose slip is prescribed")
-    if pads != needed:
+def _check_number_of_pads(file: Mjcf) -> None:
+    pads, free = pads_of(file), is_free(file.model)
+    fewest, most = (3, MOST_PADS) if free else (1, 1)
+    if not fewest <= len(pads) <= most:
+        what = f"that is free has 3 to {MOST_PADS} pads" if free else "whose slip is prescribed has one pad"
         raise file.refused(
-            f"it has the pads {', '.join(pads) or '(none)'}; a girder {what} has the pads {', '.join(needed)}, geoms "
-            f"pad_{needed[0]} ... with tendons pad_{needed[0]}_x, pad_{needed[0]}_y"
+            f"it has the pads {', '.join(pads) or '(none)'}; a girder {what}: geoms pad_A ... with tendons pad_A_x, "
+            "pad_A_y",
+            "geom",
+            f"pad_{pads[-1]}" if pads else "",
         )
-    if buffers != BUFFERS[: len(buffers)]:
-        raise file.refused(f"it has the buffer {buffers[0]} alone; call it buffer_{BUFFERS[0]}")
 
 
 def _check_bodies(file: Mjcf) -> None:
     model, free = file.model, is_free(file.model)
+    fixed = bodies_of_girder(model)
     for i in range(1, model.nbody):
         body = model.body(i)
         mass = float(body.mass[0])
@@ -113,11 +109,11 @@ def _check_bodies(file: Mjcf) -> None:
                 raise file.refused(
                     f"the body {body.name} lies in {parent!r}; move it into {wanted!r}", "body", body.name
                 )
-        elif mass > _NOTHING or body.jntnum[0]:
+        elif body.jntnum[0] or (mass > _NOTHING and i not in fixed):
             what = f"has a mass of {mass:g} kg, which would not be counted" if mass > _NOTHING else "has joints"
             raise file.refused(
-                f"the body {body.name or i!r} {what}; give its mass and inertia to the girder, the only body that is "
-                "weighed",
+                f"the body {body.name or i!r} {what}; give its mass and inertia to the girder, or fix it to the "
+                "girder, the only body that moves",
                 "body",
                 body.name,
             )
@@ -204,10 +200,11 @@ def _check_custom(file: Mjcf) -> None:
     if absent := [name for name in NUMBERS if name not in numbers]:
         raise file.refused(f"it lacks the numbers {', '.join(absent)}; give each as <numeric name=... data=...>")
     for name in numbers:
-        if name not in (*NUMBERS, *MORE_NUMBERS) or len(model.numeric(name).data) != 1:
+        possible = (1, len(pads_of(file))) if name in OF_EACH_PAD else (1,)
+        if name not in (*NUMBERS, *MORE_NUMBERS) or len(model.numeric(name).data) not in possible:
             raise file.refused(
                 f"the numeric {name!r} is not understood; possible, with one number each: "
-                f"{', '.join((*NUMBERS, *MORE_NUMBERS))}",
+                f"{', '.join((*NUMBERS, *MORE_NUMBERS))}; {' and '.join(OF_EACH_PAD)} may give one for every pad",
                 "numeric",
                 name,
             )

@@ -3,44 +3,60 @@
 from collections.abc import Mapping
 
 import mujoco
+import numpy as np
+from numpy.typing import NDArray
 
 from slipwise.rig.mjcf import Mjcf
 from slipwise.rig.mjcf_parts import buffers_of, is_free, pads_of
 from slipwise.rig.mjcf_places import buffer_places, pad_places
+from slipwise.rig.places import Buffer
 
 #: Arms and coefficients that differ by less are the same [m or 1].
 _SAME = 1e-6
 
 
-def buffer_stiffness(file: Mjcf) -> tuple[float, ...]:
-    """Give the horizontal stiffness of each buffer [N/m].
+def buffers(file: Mjcf) -> tuple[Buffer, ...]:
+    """Give the buffers: places, stiffness along x and y, height of their force, and the gap before they are touched.
 
     Raises:
-        InputError: a buffer is not as stiff along y as along x.
+        InputError: the gap of a buffer is not the same to both sides, or along x another than along y.
     """
-    model = file.model
     out = []
-    for buffer in buffers_of(file):
-        x, y = (float(model.tendon_stiffness[model.tendon(f"buffer_{buffer}_{axis}").id]) for axis in "xy")
-        if x != y:
+    for name, (x, y) in zip(buffers_of(file), buffer_places(file), strict=True):
+        stiffness_x, stiffness_y = (_of_tendon(file, "stiffness", f"buffer_{name}_{axis}") for axis in "xy")
+        gaps = [_gap(file, f"buffer_{name}_{axis}") for axis in "xy"]
+        if gaps[0] != gaps[1]:
             raise file.refused(
-                f"buffer {buffer} has a stiffness of {y:g} N/m along y, {x:g} N/m along x; a buffer is round, give "
-                "both tendons the same",
+                f"buffer {name} has a play of {gaps[1]:g} m along y, {gaps[0]:g} m along x; a buffer has one gap: give "
+                "both tendons the same springlength",
                 "tendon",
-                f"buffer_{buffer}_y",
+                f"buffer_{name}_y",
             )
-        out.append(x)
+        out.append(Buffer(name, x, y, _height(file, name), float(stiffness_x), float(stiffness_y), gaps[0]))
     return tuple(out)
 
 
-def buffer_height(file: Mjcf) -> float:
-    """Give the height of the buffers' force above the sliding plane [m], from the arm about the girder's pitch axis."""
-    buffers = buffers_of(file)
-    if not buffers:
-        return 0.0
-    arm = _coefficients(file.model, f"buffer_{buffers[0]}_x").get("girder_pitch", 0.0)
+def _of_tendon(file: Mjcf, field: str, tendon: str) -> NDArray[np.float64]:
+    return getattr(file.model, f"tendon_{field}")[file.model.tendon(tendon).id]
+
+
+def _gap(file: Mjcf, tendon: str) -> float:
+    low, high = (float(length) for length in _of_tendon(file, "lengthspring", tendon))
+    if low != -high or high < 0.0:
+        raise file.refused(
+            f"the tendon {tendon!r} has springlength = {low:g} {high:g}; a buffer stands at rest in the middle of its "
+            "gap: give -gap and gap [m]",
+            "tendon",
+            tendon,
+        )
+    return high
+
+
+def _height(file: Mjcf, buffer: str) -> float:
+    """Give the height of a buffer's force above the sliding plane [m], from the arm about the girder's pitch axis."""
+    arm = _coefficients(file.model, f"buffer_{buffer}_x").get("girder_pitch", 0.0)
     height = float(file.model.body("girder").pos[2]) + arm
-    return 0.0 if abs(height) <= _SAME else height
+    return 0.0 if abs(height) <= _SAME else round(height, 12)  # the arm is written from the centre of gravity
 
 
 def check_arms(file: Mjcf) -> None:
@@ -58,8 +74,7 @@ def check_arms(file: Mjcf) -> None:
         return
     girder_x, girder_y, height = (float(v) for v in file.model.body("girder").pos)
     arms = {f"pad_{pad}": (*place, 0.0) for pad, place in zip(pads_of(file), pad_places(file), strict=True)}
-    lift = buffer_height(file)
-    arms |= {f"buffer_{b}": (*place, lift) for b, place in zip(buffers_of(file), buffer_places(file), strict=True)}
+    arms |= {f"buffer_{b.name}": (b.x, b.y, b.z) for b in buffers(file)}
     for part, (x, y, z) in arms.items():
         _hold(
             file,

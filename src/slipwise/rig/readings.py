@@ -3,7 +3,7 @@
 Source: the paper's text; its figures and Table 1 give nothing more here. Each field names the alternatives.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from slipwise.errors import SettingError, unknown_name
 from slipwise.rig.load import load_specimen
@@ -80,8 +80,7 @@ def read_paper(rig: str, readings: Readings | None = None) -> Specimen:
     stiffness = PROTOTYPE_STIFFNESS[rig] / (LENGTH_SCALE[rig] if chosen.stiffness_of == "prototype" else 1.0)
     each = stiffness if chosen.stiffness_means == "each" else stiffness / len(specimen.buffer_stiffness)
     signs = [(1.0 if x > 0 else -1.0, 1.0 if y > 0 else -1.0) for x, y in specimen.pad_places]
-    return replace(
-        specimen,
+    return specimen.changed(
         centre_height=height + chosen.centre_offset,
         pad_places=tuple((sx * spacing_x / 2, sy * spacing_y / 2) for sx, sy in signs),
         buffer_stiffness=(each,) * len(specimen.buffer_stiffness),

@@ -57,15 +57,16 @@ def loads_at_rest(rig: Rig) -> NDArray[np.float64]:
     data.qpos[places] = list(start.values())
     arms = np.array(specimen.pad_places) - [specimen.centre_x, specimen.centre_y]
     shape = np.stack([-np.ones(len(arms)), -arms[:, 1], arms[:, 0]], axis=1)[:, : len(start)]
-    loads = np.zeros(len(arms))
+    loads, springs = np.zeros(len(arms)), np.array(specimen.springs)
     for _ in range(_ROUNDS):
         mujoco.mj_forward(rig.model, data)
         loads = _contact_loads(rig, data)
         left = data.qfrc_smooth[rates] + data.qfrc_constraint[rates]
-        touching = shape[loads > 0.0]
+        bears = loads > 0.0
+        touching = shape[bears]
         if len(touching) < len(start) or abs(left[0]) < _BALANCED * specimen.weight:
             break
-        data.qpos[places] += np.linalg.solve(specimen.pad_stiffness * touching.T @ touching, left)
+        data.qpos[places] += np.linalg.solve((touching.T * springs[bears]) @ touching, left)
     return loads
 
 

@@ -1,53 +1,16 @@
 """A specimen: the rated values of a rig, and where its MJCF file lies."""
 
-from dataclasses import dataclass, field
-from importlib.resources import files
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from slipwise.channels import BUFFERS
 from slipwise.errors import SettingError, unknown_name
+from slipwise.rig.bounds import BOUNDS, out_of_bounds
+from slipwise.rig.changed_parts import PART_VALUES, changed_parts
+from slipwise.rig.places import MOST_PADS, Buffer, Place, check_parts, mean
 from slipwise.rig.similarity import LENGTH_SCALE
-
-#: Specimens that ship with the package.
-RIGS: tuple[str, ...] = ("bridge1", "bridge2", "block", "pad")
-
-
-#: What any rig can have, from a tribometer to a bridge at full size: low, high, unit. Assumed.
-_BOUNDS: dict[str, tuple[float, float, str]] = {
-    "mass": (1e-3, 1e8, "kg"),
-    "inertia": (1e-12, 1e14, "kg m^2"),
-    "centre_height": (1e-4, 100.0, "m"),
-    "centre_x": (-100.0, 100.0, "m"),
-    "centre_y": (-100.0, 100.0, "m"),
-    "pad_places": (-100.0, 100.0, "m"),
-    "pad_radius": (1e-5, 10.0, "m"),
-    "pad_stiffness": (1.0, 1e15, "N/m"),
-    "pad_damping": (0.0, 1e15, "N s/m"),
-    "plastic_pressure": (1.0, 1e14, "Pa"),
-    "shear_strength": (1e-3, 1e14, "Pa"),
-    "buffer_stiffness": (0.0, 1e15, "N/m"),
-    "buffer_places": (-100.0, 100.0, "m"),
-    "buffer_height": (-100.0, 100.0, "m"),
-    "seating": (-1.0, 1.0, "m"),
-    "edge_distance": (1e-4, 100.0, "m"),
-    "bending_frequency": (1e-2, 1e5, "Hz"),
-    "bending_damping": (0.0, 1.0, "of critical"),
-    "gravity": (1e-2, 1e3, "m/s^2"),
-}
-
-
-def out_of_bounds(name: str, given: Any) -> str:
-    """Say what is wrong with a value of a specimen, or nothing: a number or a tuple of them [SI]."""
-    if name not in _BOUNDS:
-        return ""
-    low, high, unit = _BOUNDS[name]
-    for value in np.ravel(given):
-        if not low <= value <= high:
-            return f"{name} = {value:g} {unit} cannot be; possible are {low:g} to {high:g} {unit}: look at its unit"
-    return ""
 
 
 @dataclass(frozen=True)
@@ -55,26 +18,19 @@ class Specimen:
     """What is known of a rig before it is shaken. All SI; x is the shaking direction, z is up.
 
     Attributes:
-        name: as in the MJCF file.
-        path: the MJCF file.
+        name: as in its file.
+        path: the file: MJCF or specimen.toml.
         mass: of girder and everything above the pads [kg].
         inertia: about the centre of gravity, roll, pitch, yaw [kg m^2].
         centre_height: centre of gravity above the sliding plane [m].
-        centre_x: centre of gravity off the middle of the pads [m].
+        centre_x: centre of gravity off the middle of the table [m].
         centre_y: the same across [m].
-        pads: names of the pads that the rig has.
-        pad_places: (n_pads, 2) of the pads from their middle [m].
-        pad_radius: of the sliding disc [m].
-        pad_stiffness: vertical, of each pad with its cell [N/m].
-        pad_damping: vertical, of each pad [N s/m].
+        places: of the pads, with what each is.
         pads_on: the side that carries the pads: "table" (weight moves over them, P-delta) or "girder".
-        seating: (n_pads,) height of each pad above the mean plane [m].
         plastic_pressure: p_m of eq. (2), the real pressure of contact without `contact_area` [Pa].
         shear_strength: s of eq. (1) without `shear_rate` [Pa].
         stick_capacity: "slow" sticks up to friction at zero speed, "full" up to friction at high speed.
-        buffer_stiffness: (2,) horizontal, of each buffer [N/m]; empty without buffers.
-        buffer_places: (n_buffers, 2) of the buffers from the middle of the pads [m].
-        buffer_height: of the buffers' force above the sliding plane [m].
+        buffers: none or more.
         bending_mass: modal mass of the girder's first vertical mode; 0 for a rigid girder [kg].
         bending_frequency: its frequency on a fixed base [Hz].
         bending_damping: its fraction of critical damping [1].
@@ -89,23 +45,16 @@ class Specimen:
     mass: float
     inertia: tuple[float, float, float]
     centre_height: float
-    pads: tuple[str, ...]
-    pad_places: tuple[tuple[float, float], ...]
-    pad_radius: float
-    pad_stiffness: float
-    pad_damping: float
+    places: tuple[Place, ...]
     plastic_pressure: float
     shear_strength: float
-    buffer_stiffness: tuple[float, ...]
-    buffer_places: tuple[tuple[float, float], ...]
+    buffers: tuple[Buffer, ...]
     gravity: float
     free: bool = True
     centre_x: float = 0.0
     centre_y: float = 0.0
     pads_on: str = "table"
-    seating: tuple[float, ...] = (0.0, 0.0, 0.0, 0.0)
     stick_capacity: str = "slow"
-    buffer_height: float = 0.0
     edge_distance: float = 1.5
     bending_mass: float = 0.0
     bending_frequency: float = 15.0
@@ -114,19 +63,16 @@ class Specimen:
 
     def __post_init__(self) -> None:
         """Refuse values that no rig can have, and values that do not belong together."""
-        for name in _BOUNDS:
-            if wrong := out_of_bounds(name, getattr(self, name)):
+        for name in BOUNDS:
+            if name in self.__dataclass_fields__ and (wrong := out_of_bounds(name, getattr(self, name))):
                 raise SettingError(f"{self.name}: {wrong}")
-        if not len(self.pads) == len(self.pad_places) == len(self.seating):
-            raise SettingError(
-                f"{self.name}: {len(self.pads)} pads, {len(self.pad_places)} pad_places and {len(self.seating)} values "
-                "of seating; give one of each for every pad"
-            )
-        if not len(self.buffer_stiffness) == len(self.buffer_places) <= len(BUFFERS):
-            raise SettingError(
-                f"{self.name}: {len(self.buffer_stiffness)} values of buffer_stiffness and {len(self.buffer_places)} "
-                f"buffer_places; give one of each for every buffer, at most {len(BUFFERS)}"
-            )
+        check_parts(self.name, "pad", self.places)
+        check_parts(self.name, "buffer", self.buffers)
+        fewest = 3 if self.free else 1
+        if not fewest <= len(self.places) <= (MOST_PADS if self.free else 1):
+            possible = f"3 to {MOST_PADS} pads" if self.free else "one pad"
+            kind = "a girder that is free stands on" if self.free else "a girder whose slip is prescribed stands on"
+            raise SettingError(f"{self.name}: it has {len(self.places)} pads; {kind} {possible}")
         if not 0.0 <= self.bending_mass < self.mass:
             raise SettingError(
                 f"{self.name}: bending_mass = {self.bending_mass:g} kg must be below the mass {self.mass:g} kg"
@@ -137,9 +83,87 @@ class Specimen:
             raise unknown_name("stick capacity", self.stick_capacity, ("slow", "full"))
 
     @property
+    def pads(self) -> tuple[str, ...]:
+        """Names of the pads."""
+        return tuple(place.name for place in self.places)
+
+    @property
+    def pad_places(self) -> tuple[tuple[float, float], ...]:
+        """Places of the pads from the middle of the table, (n_pads, 2) [m]."""
+        return tuple((place.x, place.y) for place in self.places)
+
+    @property
+    def seating(self) -> tuple[float, ...]:
+        """Height of each pad above the sliding plane, (n_pads,) [m]."""
+        return tuple(place.z for place in self.places)
+
+    @property
+    def pad_radius(self) -> float:
+        """Radius of the pads, their mean where they differ [m]."""
+        return mean(place.radius for place in self.places)
+
+    @property
+    def pad_stiffness(self) -> float:
+        """Vertical stiffness of a pad, their mean where they differ [N/m]."""
+        return mean(place.stiffness for place in self.places)
+
+    @property
+    def pad_damping(self) -> float:
+        """Vertical damping of a pad, their mean where they differ [N s/m]."""
+        return mean(place.damping for place in self.places)
+
+    @property
+    def pad_areas(self) -> tuple[float, ...]:
+        """Apparent area of each pad, (n_pads,) [m^2]."""
+        return tuple(float(np.pi * place.radius**2) for place in self.places)
+
+    @property
     def pad_area(self) -> float:
-        """Apparent area of one pad [m^2]."""
-        return float(np.pi * self.pad_radius**2)
+        """Apparent area of a pad, their mean where they differ [m^2]."""
+        return mean(self.pad_areas)
+
+    @property
+    def springs(self) -> tuple[float, ...]:
+        """Vertical stiffness of each pad, (n_pads,) [N/m]."""
+        return tuple(place.stiffness for place in self.places)
+
+    @property
+    def buffer_stiffness(self) -> tuple[float, ...]:
+        """Stiffness of each buffer along x, (n_buffers,) [N/m]."""
+        return tuple(buffer.stiffness_x for buffer in self.buffers)
+
+    @property
+    def buffer_places(self) -> tuple[tuple[float, float], ...]:
+        """Places of the buffers from the middle of the table, (n_buffers, 2) [m]."""
+        return tuple((buffer.x, buffer.y) for buffer in self.buffers)
+
+    @property
+    def buffer_heights(self) -> tuple[float, ...]:
+        """Height of each buffer's force above the sliding plane, (n_buffers,) [m]."""
+        return tuple(buffer.z for buffer in self.buffers)
+
+    @property
+    def buffer_height(self) -> float:
+        """The same, its mean where buffers differ; 0 without buffers [m]."""
+        return mean(self.buffer_heights) if self.buffers else 0.0
+
+    def changed(self, **values: Any) -> "Specimen":
+        """Give the specimen with other values, by the names of its attributes and of what it tells of its pads.
+
+        One number for all pads or buffers keeps the ratios in which they differ; `buffer_stiffness` scales both
+        directions, `buffer_height` and `seating` are what they say, one number or one for each.
+
+        Raises:
+            SettingError: values that no rig can have, or not one for each.
+        """
+        of_parts = {name: values.pop(name) for name in PART_VALUES if name in values}
+        places, buffers = values.pop("places", self.places), values.pop("buffers", self.buffers)
+        for name, given in of_parts.items():
+            if name.startswith("buffer"):
+                buffers = changed_parts(self.name, name, buffers, given)
+            else:
+                places = changed_parts(self.name, name, places, given)
+        return replace(self, places=places, buffers=buffers, **values)
 
     @property
     def weight(self) -> float:
@@ -148,14 +172,27 @@ class Specimen:
 
     @property
     def rated_pressure(self) -> float:
-        """Pressure on a pad at rest [Pa]."""
+        """Mean pressure on the pads at rest [Pa]."""
         return self.weight / len(self.pads) / self.pad_area
 
     @property
+    def middle(self) -> tuple[float, float]:
+        """Middle of the pads, weighed by their stiffness, from the middle of the table [m]."""
+        weights = np.array(self.springs) / sum(self.springs)
+        x, y = weights @ np.array(self.pad_places)
+        return float(x), float(y)
+
+    @property
     def half_spacing(self) -> tuple[float, float]:
-        """Half the distance of the pads along x and y [m]."""
-        places = np.abs(np.array(self.pad_places))
-        return float(places[:, 0].max()), float(places[:, 1].max())
+        """Largest distance of a pad from their middle along x and y [m]: half their spacing."""
+        off = np.abs(np.array(self.pad_places) - self.middle)
+        return float(off[:, 0].max()), float(off[:, 1].max())
+
+    @property
+    def pitch_stiffness(self) -> float:
+        """Stiffness of the pads against pitch about the centre of gravity [N m]."""
+        arms = np.array(self.pad_places)[:, 0] - self.centre_x
+        return float(np.array(self.springs) @ arms**2)
 
     @property
     def slenderness(self) -> float:
@@ -177,32 +214,3 @@ class Specimen:
         if self.name not in LENGTH_SCALE:
             raise SettingError(f"{self.name} has no prototype in the paper; possible: {', '.join(LENGTH_SCALE)}")
         return LENGTH_SCALE[self.name]
-
-
-def models_folder() -> Path:
-    """Give the folder of the MJCF files: inside the installed package, or beside `src` in a checkout."""
-    packed = Path(str(files("slipwise"))) / "models"
-    return packed if packed.is_dir() else Path(__file__).parents[3] / "models"
-
-
-def shipped_file(free: bool) -> str:
-    """Give the name of the shipped file in which a rig is replayed: of a girder that is free, or of prescribed slip."""
-    return "bridge1.xml" if free else "pad.xml"
-
-
-def find_rig(rig: str | Path, beside: Path | None = None) -> Path:
-    """Find the MJCF file of a rig given by name or by path.
-
-    Args:
-        rig: one of `RIGS` or the path of an MJCF file.
-        beside: folder from which a relative path is meant.
-
-    Raises:
-        UnknownNameError: neither a name nor a file.
-    """
-    if str(rig) in RIGS:
-        return models_folder() / f"{rig}.xml"
-    path = (beside / str(rig)) if beside is not None else Path(rig)
-    if path.suffix == ".xml" and path.is_file():
-        return path
-    raise unknown_name("rig", str(rig), RIGS, "`slipwise rigs` lists them; the path of an MJCF file works too.")

@@ -215,7 +215,7 @@ def _march(
     specimen, count = model.built_specimen(), len(chosen.piers)
     law = kernel()
     numbers = fill(law.layout, model, dt)
-    bound_of, memory = law.functions["pad_bound"], law.layout.at["pad_memory"]
+    bound_of, memory = law.functions["pad_bound"], law.layout.first_pad
     pads, mass = len(specimen.pads), specimen.mass * scale**2
     buffer = sum(specimen.buffer_stiffness) * scale
     shorter = 1.0 / scale**0.5 if chosen.similar_law else 1.0

@@ -1,6 +1,7 @@
 """Component level: the laws driven by measured load, slip and speed, without a simulation."""
 
 import os
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from slipwise.effects import Effect, catalogue
 from slipwise.model import Model
 from slipwise.simulation.kernel import Kernel, apply_rest, begin_memory, engine_for, fill, kernel, places
+from slipwise.simulation.kernel.layout import pad_blocks
 
 Array = NDArray[np.float64]
 
@@ -40,7 +42,9 @@ class Predictor:
     law: Kernel
     numbers: Array
 
-    def pads(self, time: Array, load: Array, velocity: Array, slip: Array) -> PadForces:
+    def pads(
+        self, time: Array, load: Array, velocity: Array, slip: Array, pads: Sequence[str] | None = None
+    ) -> PadForces:
         """Drive the pads' laws.
 
         Args:
@@ -48,9 +52,13 @@ class Predictor:
             load: (n, n_pads) [N].
             velocity: (n, n_pads, 2) slip rate at each pad [m/s].
             slip: (n, n_pads, 2) slip at each pad [m].
+            pads: names of the pads in these columns; the first of the rig's when not given.
         """
         force, bound = np.zeros(velocity.shape), np.zeros(load.shape)
         arrays = [np.ascontiguousarray(a, dtype=float) for a in (time, load, velocity, slip)]
+        own = self.model.specimen.pads
+        columns = range(load.shape[1]) if pads is None else [own.index(pad) for pad in pads]
+        arrays.append(np.array(columns, dtype=np.int64))
         drive, count = self.law.functions["pads_over_record"], load.shape[1]
         if self.law.engine == "compiled" and count > 1:
             half = count // 2
@@ -81,13 +89,13 @@ class Predictor:
             slip: (n_pads, 2) [m].
             force: (n_pads, 2) [N].
         """
-        self.numbers[places.TRAIN_FORCE : places.TRAIN_FORCE + force.size] = force.ravel()
+        pad_blocks(self.law.layout, self.numbers)[: len(force), places.TRAIN_FORCE : places.TRAIN_FORCE + 2] = force
         entries = self.model.with_hook("begin")
         if not entries:
             return
         kept = self.numbers.copy()
-        twice = (np.stack([each, each]) for each in (load, velocity, slip))
-        bound = self.pads(np.array([0.0, 1e-6]), *twice).bound[0]
+        twice = [np.stack([each, each]) for each in (load, velocity, slip)]
+        bound = self.pads(np.array([0.0, 1e-6]), twice[0], twice[1], twice[2]).bound[0]
         self.numbers[:] = kept
         begin_memory(self.law.layout, self.numbers, entries, force, bound)
 

@@ -30,8 +30,8 @@ class Memory:
     """What pads and buffers remember at the end of a run, for the run that follows.
 
     Attributes:
-        pads: (4, m) as the kernel lays it out.
-        buffers: (2, 2, k) as the kernel lays it out.
+        pads: (n_pads, m) as the kernel lays it out.
+        buffers: (n_buffers, 2, k) as the kernel lays it out.
     """
 
     pads: Array

@@ -6,7 +6,6 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.channels import BUFFERS
 from slipwise.rig import Rig
 
 Array = NDArray[np.float64]
@@ -59,14 +58,14 @@ def to_channels(rig: Rig, sensordata: Array, control: Array, dt: float, pitching
     else:
         out.update(_prescribed(one, half_step, control))
     user = sensor(rig, "pads", sensordata)
-    for i, pad in enumerate(specimen.pads):
+    for i, (pad, area) in enumerate(zip(specimen.pads, specimen.pad_areas, strict=True)):
         out[f"pad_{pad}_N"] = user[:, 3 * i]
         out[f"pad_{pad}_Fx"] = user[:, 3 * i + 1]
         out[f"pad_{pad}_Fy"] = user[:, 3 * i + 2]
-        out[f"pad_{pad}_P"] = user[:, 3 * i] / specimen.pad_area
-    for i in range(len(specimen.buffer_stiffness)):
+        out[f"pad_{pad}_P"] = user[:, 3 * i] / area
+    for i, buffer in enumerate(specimen.buffers):
         for j, axis in enumerate("xy"):
-            out[f"buffer_{BUFFERS[i]}_F{axis}"] = user[:, 3 * len(specimen.pads) + 2 * i + j]
+            out[f"buffer_{buffer.name}_F{axis}"] = user[:, 3 * len(specimen.pads) + 2 * i + j]
     return {name: np.ascontiguousarray(values) for name, values in out.items()}
 
 

@@ -126,7 +126,8 @@ def simulate(
     own = user_effects(model)
     engine = engine_for(own) if engine == ENGINES[0] else engine
     law = kernel(engine, own)
-    rig = build(model.built_specimen(), dt, law.layout.size)
+    specimen = model.built_specimen()
+    rig = build(specimen, dt, law.layout.size(specimen))
     report = progress or (lambda share: None)
     ready = time.perf_counter()
 

@@ -10,6 +10,7 @@ from slipwise.model import Model
 from slipwise.rig import Rig
 from slipwise.rig.statics import at_rest
 from slipwise.simulation.kernel import Kernel, fill, places
+from slipwise.simulation.kernel.layout import buffer_blocks, pad_blocks
 from slipwise.simulation.kernel.places import MAX_DOFS
 
 Array = NDArray[np.float64]
@@ -22,22 +23,25 @@ _REACH = 0.5
 def numbers_for(law: Kernel, rig: Rig, model: Model, dt: float) -> Array:
     """Fill the law's array with everything that a simulation needs, at rest."""
     numbers = fill(law.layout, model, dt)
-    n_pads, n_tendons = len(rig.specimen.pads), len(rig.tendons)
-    numbers[places.N_DOFS] = rig.model.nv
+    count, dofs = len(rig.specimen.pads), rig.model.nv
+    numbers[places.N_DOFS] = dofs
     numbers[places.USER_SENSOR] = rig.user_sensor
     axes = ("x", "y", "z", "roll", "pitch", "yaw")
     numbers[places.GIRDER_DOF : places.GIRDER_DOF + 6] = [_dof(rig.model, f"girder_{axis}") for axis in axes]
     if not rig.specimen.free:
         numbers[places.GIRDER_DOF] = -1.0
-    numbers[places.PAD_GEOM : places.PAD_GEOM + n_pads] = rig.pad_geoms
-    numbers[places.TENDON : places.TENDON + n_tendons] = rig.tendons
-    numbers[places.FRICTION_ROW : places.FRICTION_ROW + 2 * n_pads] = _friction_rows(rig, 2 * n_pads)
-    jacobian = np.zeros((n_tendons, MAX_DOFS))
-    jacobian[:, : rig.model.nv] = rig.jacobian
-    numbers[places.JACOBIAN : places.JACOBIAN + jacobian.size] = jacobian.ravel()
-    numbers[places.PAD_STIFFNESS] = rig.specimen.pad_stiffness
     numbers[places.RATE_AGE] = dt
-    numbers[places.PAD_DAMPING] = rig.specimen.pad_damping
+    tendons = np.array(rig.tendons).reshape(-1, 2)
+    jacobian = np.zeros((len(tendons), 2, MAX_DOFS))
+    jacobian[:, :, :dofs] = rig.jacobian.reshape(-1, 2, dofs)
+    jacobian = jacobian.reshape(len(tendons), 2 * MAX_DOFS)
+    pads, buffers = pad_blocks(law.layout, numbers), buffer_blocks(law.layout, numbers)[: len(tendons) - count]
+    pads[:, places.PAD_GEOM] = rig.pad_geoms
+    pads[:, places.PAD_TENDON : places.PAD_TENDON + 2] = tendons[:count]
+    pads[:, places.FRICTION_ROW : places.FRICTION_ROW + 2] = _friction_rows(rig, 2 * count).reshape(-1, 2)
+    pads[:, places.PAD_JACOBIAN : places.PAD_JACOBIAN + 2 * MAX_DOFS] = jacobian[:count]
+    buffers[:, places.BUFFER_TENDON : places.BUFFER_TENDON + 2] = tendons[count:]
+    buffers[:, places.BUFFER_JACOBIAN : places.BUFFER_JACOBIAN + 2 * MAX_DOFS] = jacobian[count:]
     return numbers
 
 
@@ -46,11 +50,11 @@ def _dof(model: mujoco.MjModel, joint: str) -> int:
     return int(model.jnt_dofadr[names.index(joint)]) if joint in names else -1
 
 
-def _friction_rows(rig: Rig, count: int) -> list[int]:
+def _friction_rows(rig: Rig, count: int) -> NDArray[np.int64]:
     """Find the constraint rows of the pads' tendons: dry friction stands first, in the order of ids."""
     loaded = [i for i in range(rig.model.ntendon) if rig.model.tendon_frictionloss[i] > 0.0]
     joints = int(np.count_nonzero(np.asarray(rig.model.dof_frictionloss) > 0.0))
-    return [joints + loaded.index(tendon) for tendon in rig.tendons[:count]]
+    return np.array([joints + loaded.index(tendon) for tendon in rig.tendons[:count]])
 
 
 def start_state(rig: Rig) -> Array:
@@ -77,6 +81,5 @@ def model_for_kernel(rig: Rig, dt: float) -> mujoco.MjModel:
     tendons = list(rig.tendons)
     model.tendon_stiffness[tendons] = 0.0
     model.tendon_solref_fri[tendons, 0] *= dt / rig.model.opt.timestep
-    pads = list(rig.pad_geoms)
-    model.geom_margin[pads] = model.body_margin[model.geom_bodyid[pads]] = _REACH
+    model.pair_margin[:] = _REACH
     return model

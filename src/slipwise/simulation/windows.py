@@ -71,7 +71,7 @@ def simulate_models(
     """
     own = user_effects(models[0])
     law = kernel(engine_for(own), own)
-    rigs = _rigs(models, dt, law.layout.size)
+    rigs = _rigs(models, dt, law)
     numbers = [_numbers(law, r, m, w, dt) for m, r, w in zip(models, rigs, windows, strict=True)]
     controls = [_control(m, w, dt) for m, w in zip(models, windows, strict=True)]
     run = _in_batch if law.callbacks else _one_by_one
@@ -86,7 +86,7 @@ def simulate_models(
     return out
 
 
-def _rigs(models: Sequence[Model], dt: float, size: int) -> list[Rig]:
+def _rigs(models: Sequence[Model], dt: float, law: Kernel) -> list[Rig]:
     """Compile every specimen once; most models differ in numbers of the law only, which are no part of it."""
     made: list[Rig] = []
     out = []
@@ -94,7 +94,7 @@ def _rigs(models: Sequence[Model], dt: float, size: int) -> list[Rig]:
         specimen = model.built_specimen()
         rig = next((r for r in made if r.specimen == specimen), None)
         if rig is None:
-            rig = build(specimen, dt, size)
+            rig = build(specimen, dt, law.layout.size(specimen))
             made.append(rig)
         out.append(rig)
     return out

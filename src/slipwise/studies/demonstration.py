@@ -11,6 +11,7 @@ from slipwise.effects import BalanceStates, Effect
 from slipwise.model import Model, base_model, use
 from slipwise.record import Record
 from slipwise.rig import Specimen
+from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import LoadModes, pad_loads
 from slipwise.simulation.predict import Predictor, predictor, shaking
 
@@ -91,8 +92,9 @@ def _loads(specimen: Specimen, pads: Array, buffers: Array) -> Array:
         friction, key = pads[:, :, axis].sum(axis=1), buffers[:, :, axis].sum(axis=1)
         moment = friction * specimen.centre_height + key * (specimen.centre_height - specimen.buffer_height)
         sides.append((moment + (m.slip[:, axis] + centre) * heave) / half)
-    warp = specimen.pad_stiffness * (np.array(specimen.seating) @ [1.0, -1.0, -1.0, 1.0])
-    return pad_loads(LoadModes(heave, sides[0], sides[1], np.full(len(heave), warp)))
+    basis = basis_of(specimen)
+    warp = np.tile(basis.warp @ (np.array(specimen.springs) * specimen.seating), (len(heave), 1))
+    return pad_loads(LoadModes(heave, sides[0], sides[1], warp), basis)
 
 
 @cache

@@ -4,10 +4,9 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from slipwise.channels import BUFFERS
 from slipwise.record import Record
 from slipwise.view.geometry import RigGeometry
-from slipwise.view.style import BUFFER_COLOURS, NIGHT_INK, PAD_COLOURS, rgb
+from slipwise.view.style import NIGHT_INK, buffer_colour, pad_colour, rgb
 from slipwise.view.timeline import frames, time_column
 
 Array = NDArray[np.float64]
@@ -27,11 +26,11 @@ def log_forces(stream: rr.RecordingStream, table: str, carrier: str, record: Rec
     """
     shown, pads = frames(record), geometry.pads
     scale = 0.18 * max(geometry.girder_size[:2]) / geometry.pad_load
-    own = [PAD_COLOURS[pad] for pad in pads]
+    own = [pad_colour(pad) for pad in pads]
     loads = [("", "", f"pad_{pad}_N") for pad in pads]
     frictions = [(f"pad_{pad}_Fx", f"pad_{pad}_Fy", "") for pad in pads]
-    buffers = [(f"buffer_{b}_Fx", f"buffer_{b}_Fy", "") for b in BUFFERS][: len(geometry.buffer_places)]
-    green = [BUFFER_COLOURS[b] for b in BUFFERS]
+    buffers = [(f"buffer_{b}_Fx", f"buffer_{b}_Fy", "") for b in geometry.buffers]
+    green = [buffer_colour(b) for b in geometry.buffers]
     for path, names, places, factor, colours in (
         (f"{carrier}/load", loads, geometry.pad_places, scale, own),
         (f"{carrier}/friction", frictions, geometry.pad_places, FRICTION_ZOOM * scale, [NIGHT_INK] * len(pads)),

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from slipwise.record import Record
-from slipwise.view.style import NIGHT, PAD_COLOURS, rgb, styled
+from slipwise.view.style import NIGHT, pad_colour, rgb, styled
 from slipwise.view.timeline import frames, time_column
 
 Array = NDArray[np.float64]
@@ -72,9 +72,7 @@ def log_board(stream: rr.RecordingStream, root: str, board: Board, record: Recor
             path = f"{root}/{number}/{pad}"
             stream.log(
                 path,
-                rr.Points2D.from_fields(
-                    colors=[rgb(PAD_COLOURS[pad])], radii=rr.Radius.ui_points(5.0), draw_order=30.0
-                ),
+                rr.Points2D.from_fields(colors=[rgb(pad_colour(pad))], radii=rr.Radius.ui_points(5.0), draw_order=30.0),
                 static=True,
             )
             stream.send_columns(

@@ -13,7 +13,8 @@ from slipwise.comparison.result import Comparison
 from slipwise.estimation.run_data import FitRun
 from slipwise.units import parse_unit
 from slipwise.view.canvas import new_figure
-from slipwise.view.style import INK, MUTED, PAD_COLOURS, PAD_PANELS, PAD_PLACES, UPLIFT, envelope, shown_unit, styled
+from slipwise.view.pad_layout import layout_from_places
+from slipwise.view.style import INK, MUTED, UPLIFT, envelope, pad_colour, shown_unit, styled
 
 Array = NDArray[np.float64]
 _MEASURED, _MODEL, _HELD = INK, "#e69f00", "#0072b2"
@@ -147,19 +148,21 @@ def loops_figure(found: Comparison) -> Figure:
             axes.legend(loc="lower right")
             return figure
         figure = new_figure(11.0, 5.8)
-        grid = figure.add_gridspec(2, 4)
+        rig = run.states.specimen
+        layout = layout_from_places(rig.pads, rig.pad_places)
+        grid = figure.add_gridspec(layout.rows, 2 * layout.columns)
         first: Axes | None = None
         for i, pad in enumerate(run.pads):
-            row, column = PAD_PANELS[pad]
+            row, column = layout.panels[pad]
             axes = figure.add_subplot(grid[row, column], sharex=first, sharey=first)
             first = first or axes
-            axes.set_title(f"Pad {pad} ({PAD_PLACES[pad]})", color=PAD_COLOURS[pad])
+            axes.set_title(layout.titles[pad], color=pad_colour(pad))
             _loop(axes, run, run.force[:, i], said[:, i], part)
-            if row == 1:
+            if row == layout.rows - 1:
                 axes.set_xlabel("slip x [mm]")
             if column == 0:
                 axes.set_ylabel("friction [kN]")
-        axes = figure.add_subplot(grid[:, 2:])
+        axes = figure.add_subplot(grid[:, layout.columns :])
         _loop(axes, run, run.force.sum(axis=1), said.sum(axis=1), part)
         axes.set(title="Sum of the pads", xlabel="slip x [mm]", ylabel="friction [kN]")
         axes.legend(loc="lower right")

@@ -8,23 +8,21 @@ import rerun.blueprint as rrb
 from numpy.typing import NDArray
 from rerun import TextDocument
 
-from slipwise.channels import PADS
 from slipwise.errors import InputError
 from slipwise.record import Record
 from slipwise.view.arrows import FRICTION_ZOOM
 from slipwise.view.boards import Board, log_board
 from slipwise.view.geometry import RigGeometry
 from slipwise.view.loop_board import log_loops, one_colour
+from slipwise.view.pad_layout import layout_of
 from slipwise.view.recording import check_drawable, loops_view, rig_view, send_layout, started, write_bytes
 from slipwise.view.scene import Scene, largest_motion, log_rig, nice_zoom
-from slipwise.view.series import OVERLAID_TABS, Line, log_series, series_tabs
+from slipwise.view.series import Line, Plot, log_series, overlaid_tabs_of, series_tabs
 from slipwise.view.style import MODEL_COLOURS, NIGHT_INK, mixed, packed
 from slipwise.view.timeline import frames
 
 Array = NDArray[np.float64]
 _AGREES, _DIFFERS = "#5f6b7a", "#ff3d8b"
-_OVERLAID = tuple(name for plots in OVERLAID_TABS.values() for plot in plots for name in plot.names)
-_RESIDUALS = (*OVERLAID_TABS["motion"], *OVERLAID_TABS["friction"])
 #: A pad has the full colour when its residual reaches this fraction of the measured rms force.
 _FULL = 0.5
 #: Residuals are averaged over this time so that the eye can follow [s].
@@ -73,21 +71,24 @@ def write_comparison(
         zoom = nice_zoom(slip, 0.1 * max(geometry.girder_size[:2]))
         apart = 1.25 * max(geometry.girder_size[0], geometry.table_size[0])
         rigs = [("measured", measured), *models]
+        layout = overlaid_tabs_of(geometry.pads, geometry.buffers)
+        overlaid = [name for plots in layout.values() for plot in plots for name in plot.names]
+        compared = (*layout["motion"], *layout["friction"])
         coloured = True
         for i, (label, record) in enumerate(rigs):
             place = (apart * (i - 0.5 * (len(rigs) - 1)), 0.0, 0.0)
-            pads = None if i == 0 else _residual_colours(measured, record)
+            pads = None if i == 0 else _residual_colours(measured, record, geometry.pads)
             coloured = coloured and (i == 0 or pads is not None)
             log_rig(
                 stream, Scene(f"rigs/{i}", zoom, table_moves=False, offset=place, label=label), record, geometry, pads
             )
             line = Line(str(i), label, NIGHT_INK if i == 0 else colours[label], 2.5 if i == 0 else 1.3)
-            log_series(stream, "channels", _only(record, _OVERLAID), line)
+            log_series(stream, "channels", _only(record, overlaid), line)
             if i > 0:
-                log_series(stream, "residuals", _residual(measured, record), line)
+                log_series(stream, "residuals", _residual(measured, record, compared), line)
         traces = [one_colour("measured", measured, NIGHT_INK, 2.5)]
         traces += [one_colour(label, record, colours[label]) for label, record in models]
-        growing = log_loops(stream, "loops", traces)
+        growing = log_loops(stream, "loops", traces, layout_of(measured, geometry))
         words = _words(title, labels, zoom, coloured, boards)
         stream.log("about", TextDocument(words, media_type="text/markdown"), static=True)
 
@@ -95,10 +96,9 @@ def write_comparison(
             rrb.Vertical(log_board(stream, f"boards/{i}", board, whole), name=board.name)
             for i, board in enumerate(boards)
         ]
-        tabs += series_tabs("channels", [measured, *(record for _, record in models)], OVERLAID_TABS)
-        tabs += series_tabs(
-            "residuals", [_residual(measured, record) for _, record in models], {"residuals": _RESIDUALS}
-        )
+        tabs += series_tabs("channels", [measured, *(record for _, record in models)], layout)
+        left = [_residual(measured, record, compared) for _, record in models]
+        tabs += series_tabs("residuals", left, {"residuals": compared})
         seen_from = (0.0, -0.6 - 0.58 * len(rigs), 0.3 + 0.3 * len(rigs))
         view = rig_view("rigs", f"Seen from the table (slip drawn {zoom:g} times)", geometry, seen_from)
         about = rrb.TextDocumentView(origin="about", name="What you see")
@@ -115,15 +115,15 @@ def _only(record: Record, names: Sequence[str]) -> Record:
     return Record(record.time, {name: record[name] for name in names if name in record})
 
 
-def _residual(measured: Record, simulated: Record) -> Record:
+def _residual(measured: Record, simulated: Record, plots: Sequence[Plot]) -> Record:
     """Give simulated minus measured for the channels whose residuals are shown, if both have them."""
-    both = [plot.names[0] for plot in _RESIDUALS if plot.names[0] in measured and plot.names[0] in simulated]
+    both = [plot.names[0] for plot in plots if plot.names[0] in measured and plot.names[0] in simulated]
     return Record(measured.time, {name: simulated[name] - measured[name] for name in both})
 
 
-def _residual_colours(measured: Record, simulated: Record) -> NDArray[np.uint32] | None:
-    """Colour every pad by how far its friction is off, (n_frames, 4); None where friction was not recorded."""
-    names = [f"pad_{pad}_Fx" for pad in PADS]
+def _residual_colours(measured: Record, simulated: Record, pads: Sequence[str]) -> NDArray[np.uint32] | None:
+    """Colour every pad by how far its friction is off, (n_frames, n_pads); None where friction was not recorded."""
+    names = [f"pad_{pad}_Fx" for pad in pads]
     if not (measured.has_all(*names) and simulated.has_all(*names)):
         return None
     force = np.stack([measured[name] for name in names], axis=1)

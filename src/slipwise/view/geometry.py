@@ -1,12 +1,13 @@
 """What a picture has to know of a rig's shape."""
 
 from dataclasses import dataclass
+from string import ascii_uppercase
 
 import numpy as np
 
-from slipwise.channels import PADS
 from slipwise.errors import SettingError
 from slipwise.rig import Specimen
+from slipwise.rig.load_basis import LoadBasis, load_basis
 
 Place = tuple[float, float]
 
@@ -25,6 +26,9 @@ class RigGeometry:
         mass: of the girder [kg].
         gravity: [m/s^2].
         pads_on: the side that carries the pads, "table" or "girder".
+        pad_names: of the pads; A, B ... when not given.
+        buffer_names: of the buffers; 1, 2 ... when not given.
+        pad_springs: vertical stiffness of each pad; the same when not given [N/m].
     """
 
     girder_size: tuple[float, float, float]
@@ -36,14 +40,17 @@ class RigGeometry:
     mass: float
     gravity: float
     pads_on: str = "table"
+    pad_names: tuple[str, ...] = ()
+    buffer_names: tuple[str, ...] = ()
+    pad_springs: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse shapes that cannot be drawn."""
         lengths = (*self.girder_size, *self.table_size, self.girder_centre_height, self.pad_radius)
         if min(lengths) <= 0.0 or self.mass <= 0.0 or self.gravity <= 0.0:
             raise SettingError("sizes, centre height, pad radius, mass and gravity of a rig must be above zero")
-        if not 1 <= len(self.pad_places) <= len(PADS):
-            raise SettingError(f"a rig is drawn with one to four pads, A to D, not with {len(self.pad_places)}")
+        if not self.pad_places:
+            raise SettingError("a rig is drawn with one pad or more; it has none")
 
     @property
     def pad_load(self) -> float:
@@ -53,19 +60,28 @@ class RigGeometry:
     @property
     def pads(self) -> tuple[str, ...]:
         """Names of the pads that the rig has."""
-        return PADS[: len(self.pad_places)]
+        return self.pad_names or tuple(ascii_uppercase[: len(self.pad_places)])
+
+    @property
+    def buffers(self) -> tuple[str, ...]:
+        """Names of the buffers that the rig has."""
+        return self.buffer_names or tuple(str(i + 1) for i in range(len(self.buffer_places)))
+
+    @property
+    def basis(self) -> LoadBasis:
+        """Heave, pitch, roll and warp of the loads on the pads."""
+        return load_basis(self.pad_places, self.pad_springs or None)
 
     @property
     def half_spacing(self) -> tuple[float, float]:
-        """Half the distance of the pads along x and y [m]."""
-        places = np.abs(np.array(self.pad_places))
-        return float(places[:, 0].max()), float(places[:, 1].max())
+        """Largest distance of a pad from their middle along x and y [m]."""
+        return self.basis.half
 
 
 def geometry_of(specimen: Specimen) -> RigGeometry:
     """Give the shape of a specimen; what its rated values do not say is drawn to fit its pads."""
-    half_x, half_y = specimen.half_spacing
-    reach_x, reach_y = max(2.0 * half_x, 0.8), max(2.0 * half_y, 0.8)
+    reach = 2.0 * np.abs(np.array(specimen.pad_places)).max(axis=0)
+    reach_x, reach_y = (max(float(length), 0.8) for length in reach)
     return RigGeometry(
         girder_size=(reach_x, reach_y, 0.5),
         girder_centre_height=specimen.centre_height,
@@ -76,4 +92,7 @@ def geometry_of(specimen: Specimen) -> RigGeometry:
         mass=specimen.mass,
         gravity=specimen.gravity,
         pads_on=specimen.pads_on,
+        pad_names=specimen.pads,
+        buffer_names=tuple(buffer.name for buffer in specimen.buffers),
+        pad_springs=specimen.springs,
     )

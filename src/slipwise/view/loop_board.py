@@ -10,10 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from slipwise.channels import PADS
+from slipwise.channels import pads_in
 from slipwise.record import Record
 from slipwise.view.canvas import new_figure
-from slipwise.view.style import NIGHT, NIGHT_INK, NIGHT_MUTED, PAD_COLOURS, PAD_PANELS, PAD_PLACES, mixed, rgb, styled
+from slipwise.view.pad_layout import PadLayout
+from slipwise.view.style import NIGHT, NIGHT_INK, NIGHT_MUTED, mixed, pad_colour, rgb, styled
 from slipwise.view.timeline import frames, time_column
 
 Array = NDArray[np.float64]
@@ -35,7 +36,7 @@ class Trace:
     Attributes:
         label: shown in the legend; nothing for a single record.
         record: with slip_x and pads' friction.
-        colours: of each pad's panel and of the sum's.
+        colours: of each pad's panel and of the sum's; what is not named has its own.
         width: of its lines [points].
     """
 
@@ -44,48 +45,53 @@ class Trace:
     colours: dict[str, str]
     width: float = 2.0
 
+    def colour(self, panel: str) -> str:
+        """Give the colour of a panel's line."""
+        return self.colours.get(panel) or pad_colour(panel)
+
 
 def own_colours(record: Record) -> Trace:
     """Give a record in the pads' own colours."""
-    return Trace("", record, {**PAD_COLOURS, SUM: NIGHT_INK})
+    return Trace("", record, {SUM: NIGHT_INK})
 
 
 def one_colour(label: str, record: Record, colour: str, width: float = 2.0) -> Trace:
     """Give a record in one colour on every panel."""
-    return Trace(label, record, dict.fromkeys((*PADS, SUM), colour), width)
+    return Trace(label, record, dict.fromkeys((*pads_in(record.channels), SUM), colour), width)
 
 
-def panels_of(record: Record) -> dict[str, Array]:
-    """Give the friction [N] of every panel that the record can fill: pads, and the sum if all four are there."""
-    there = {pad: record[f"pad_{pad}_Fx"] for pad in PADS if f"pad_{pad}_Fx" in record}
+def panels_of(record: Record, pads: Sequence[str]) -> dict[str, Array]:
+    """Give the friction [N] of every panel that the record can fill: pads, and the sum if all of them are there."""
+    there = {pad: record[f"pad_{pad}_Fx"] for pad in pads if f"pad_{pad}_Fx" in record}
     if "slip_x" not in record:
         return {}
-    if len(there) == len(PADS):
+    if len(there) == len(pads) > 1:
         there[SUM] = np.sum(list(there.values()), axis=0)
     return there
 
 
-def log_loops(stream: rr.RecordingStream, root: str, traces: Sequence[Trace]) -> list[str]:
+def log_loops(stream: rr.RecordingStream, root: str, traces: Sequence[Trace], layout: PadLayout) -> list[str]:
     """Put the board into the recording.
 
     Args:
         stream: what is being recorded.
         root: entity path of the board.
         traces: one for a replay; the measurement first for a comparison.
+        layout: where each pad's panel stands.
 
     Returns:
         Entity paths of the growing lines, each to be shown with all its past ("/past") or its last 1.5 s ("/recent").
     """
     with styled(night=True):
         figure = new_figure(BOARD_SIZE[0] / 100, BOARD_SIZE[1] / 100)
-        axes = _axes(figure)
+        axes = _axes(figure, layout)
         for trace in traces:
-            for panel, force in panels_of(trace.record).items():
+            for panel, force in panels_of(trace.record, layout.pads).items():
                 slip = trace.record["slip_x"]
-                axes[panel].plot(slip * 1e3, force / 1e3, color=trace.colours[panel], alpha=0.28, linewidth=0.8)
+                axes[panel].plot(slip * 1e3, force / 1e3, color=trace.colour(panel), alpha=0.28, linewidth=0.8)
         for trace in traces:
             if trace.label:
-                axes[SUM].plot([], [], color=trace.colours[SUM], linewidth=3.0, label=trace.label)
+                axes[SUM].plot([], [], color=trace.colour(SUM), linewidth=3.0, label=trace.label)
         if any(trace.label for trace in traces):
             axes[SUM].legend(loc="lower right", fontsize=13.0)
         picture = io.BytesIO()
@@ -93,7 +99,7 @@ def log_loops(stream: rr.RecordingStream, root: str, traces: Sequence[Trace]) ->
     stream.log(f"{root}/board", rr.EncodedImage(contents=picture.getvalue(), media_type="image/png"), static=True)
     growing = []
     for number, trace in enumerate(traces):
-        for panel, force in panels_of(trace.record).items():
+        for panel, force in panels_of(trace.record, layout.pads).items():
             path = f"{root}/{number}/{panel}"
             places = axes[panel].transData.transform(np.column_stack([trace.record["slip_x"] * 1e3, force / 1e3]))
             places[:, 1] = BOARD_SIZE[1] - places[:, 1]
@@ -102,37 +108,40 @@ def log_loops(stream: rr.RecordingStream, root: str, traces: Sequence[Trace]) ->
     return growing
 
 
-def _axes(figure: Figure) -> dict[str, Axes]:
-    grid = figure.add_gridspec(2, 4)
+def _axes(figure: Figure, layout: PadLayout) -> dict[str, Axes]:
+    grid = figure.add_gridspec(layout.rows, 2 * layout.columns)
     axes: dict[str, Axes] = {}
     first: Axes | None = None
-    for pad, (row, column) in PAD_PANELS.items():
+    small = 17.0 if len(layout.pads) <= 4 else 12.0
+    for pad, (row, column) in layout.panels.items():
         axes[pad] = figure.add_subplot(grid[row, column], sharex=first, sharey=first)
         first = first or axes[pad]
-        axes[pad].set_title(f"Pad {pad}  ({PAD_PLACES[pad]})", color=PAD_COLOURS[pad], fontsize=17.0)
-    axes[SUM] = figure.add_subplot(grid[:, 2:])
+        axes[pad].set_title(layout.titles[pad], color=pad_colour(pad), fontsize=small)
+    axes[SUM] = figure.add_subplot(grid[:, layout.columns :])
     axes[SUM].set_title("Sum of the pads", fontsize=17.0)
     for panel in axes.values():
-        panel.tick_params(labelsize=15.0)
+        panel.tick_params(labelsize=15.0 if len(layout.pads) <= 4 else 11.0)
         panel.margins(0.08)
         panel.axhline(0.0, color="#3a4552", linewidth=1.0)
         panel.axvline(0.0, color="#3a4552", linewidth=1.0)
-    for panel in (axes["B"], axes["D"], axes[SUM]):
-        panel.set_ylabel("friction [kN]", fontsize=15.0, color=NIGHT_MUTED)
-    for panel in (axes["D"], axes["C"], axes[SUM]):
-        panel.set_xlabel("slip x [mm]", fontsize=15.0, color=NIGHT_MUTED)
+    left = [pad for pad, (_, column) in layout.panels.items() if column == 0]
+    lowest = [pad for pad, (row, _) in layout.panels.items() if row == layout.rows - 1]
+    for panel in (*left, SUM):
+        axes[panel].set_ylabel("friction [kN]", fontsize=small - 2.0, color=NIGHT_MUTED)
+    for panel in (*lowest, SUM):
+        axes[panel].set_xlabel("slip x [mm]", fontsize=small - 2.0, color=NIGHT_MUTED)
     return axes
 
 
 def _log_line(stream: rr.RecordingStream, path: str, trace: Trace, panel: str, places: Array, above: float) -> None:
     """Send the past as pieces that add up, once dim and once bright, and the present as a dot."""
-    record, colour = trace.record, rgb(trace.colours[panel])
+    record, colour = trace.record, rgb(trace.colour(panel))
     thin = frames(record, _POINTS)
     per_piece = max(1, round(1.0 / (_PIECES * record.dt * (thin[1] if len(thin) > 1 else 1))))
     starts = range(0, max(len(thin) - 1, 1), per_piece)
     pieces = [places[thin[start : start + per_piece + 1]] for start in starts]
     ends = thin[[min(start + per_piece, len(thin) - 1) for start in starts]]
-    dim = rgb(mixed(trace.colours[panel], NIGHT, 0.5))
+    dim = rgb(mixed(trace.colour(panel), NIGHT, 0.5))
     for part, shade, width, order in (("past", dim, 0.3, 20.0), ("recent", colour, 0.55, 25.0)):
         stream.log(
             f"{path}/{part}",

@@ -7,14 +7,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from slipwise.channels import PADS
 from slipwise.errors import InputError
 from slipwise.record import Record
 from slipwise.signals.hysteresis_loop import branches, loop_shape
 from slipwise.view.canvas import new_figure
+from slipwise.view.geometry import RigGeometry
 from slipwise.view.numbers import NOTHING
+from slipwise.view.pad_layout import PadLayout, layout_of
 from slipwise.view.panels import missing
-from slipwise.view.style import MUTED, PAD_COLOURS, PAD_PANELS, PAD_PLACES, SUM, styled
+from slipwise.view.style import MUTED, SUM, pad_colour, styled
 
 Array = NDArray[np.float64]
 #: Longer lines become an image inside an SVG: megabytes of vectors help nobody.
@@ -27,16 +28,16 @@ _LOOP_WORDS = (
 )
 
 
-def loops_figure(record: Record) -> Figure:
+def loops_figure(record: Record, geometry: RigGeometry | None = None) -> Figure:
     """Draw every pad's loop, arranged as seen from above, and their sum; along y too where the girder slid that way."""
-    along = "xy" if _slid(record, "y") else "x"
+    along, layout = "xy" if _slid(record, "y") else "x", layout_of(record, geometry)
     height = 0.6 + 6.2 * len(along) + 0.5
     with styled():
         figure = new_figure(12.0, height, "Friction against slip")
         figure.set_layout_engine("none")
         for i, axis in enumerate(along):
             top = height - 0.8 - 6.2 * i
-            _loops_along(figure, record, axis, top / height, (top - 5.3) / height)
+            _loops_along(figure, record, layout, axis, top / height, (top - 5.3) / height)
         figure.text(0.01, 0.08 / height, _LOOP_WORDS, fontsize=8.0, color=MUTED, va="bottom")
     return figure
 
@@ -47,24 +48,26 @@ def _slid(record: Record, axis: str) -> bool:
     return f"slip_{axis}" in slips and slips[f"slip_{axis}"] > NOTHING * max(slips.values())
 
 
-def _loops_along(figure: Figure, record: Record, axis: str, top: float, bottom: float) -> None:
+def _loops_along(figure: Figure, record: Record, layout: PadLayout, axis: str, top: float, bottom: float) -> None:
     """Draw the loops along one axis between two heights of the figure [1]."""
+    wide = layout.columns
     grid = figure.add_gridspec(
-        2, 4, left=0.06, right=0.985, top=top, bottom=bottom, wspace=0.24, hspace=0.24, width_ratios=(1, 1, 0.05, 1.95)
-    )
+        layout.rows, wide + 2, left=0.06, right=0.985, top=top, bottom=bottom, wspace=0.24, hspace=0.24,
+        width_ratios=(*(1.0,) * wide, 0.05, 1.95 if wide == 2 else 0.8 * wide),
+    )  # fmt: skip
     first: Axes | None = None
-    for pad, (row, column) in PAD_PANELS.items():
+    for pad, (row, column) in layout.panels.items():
         axes = figure.add_subplot(grid[row, column], sharex=first, sharey=first)
         first = first or axes
-        axes.set_title(f"Pad {pad}  ({PAD_PLACES[pad]})", color=PAD_COLOURS[pad])
+        axes.set_title(layout.titles[pad], color=pad_colour(pad), fontsize=None if wide == 2 else 9.0)
         if column == 0:
             axes.set_ylabel(f"friction F along {axis} [kN]")
-        if row == 1:
+        if row == layout.rows - 1:
             axes.set_xlabel(f"slip {axis} [mm]")
-        _loop(axes, record, axis, [pad], PAD_COLOURS[pad])
-    axes = figure.add_subplot(grid[:, 3])
+        _loop(axes, record, axis, [pad], pad_colour(pad))
+    axes = figure.add_subplot(grid[:, wide + 1])
     axes.set(title=f"Sum of the pads, along {axis}", xlabel=f"slip {axis} [mm]", ylabel=f"ΣF along {axis} [kN]")
-    _loop(axes, record, axis, PADS, SUM)
+    _loop(axes, record, axis, layout.pads, SUM)
 
 
 def _loop(axes: Axes, record: Record, axis: str, pads: Sequence[str], colour: str) -> None:

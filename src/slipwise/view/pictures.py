@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from slipwise.channels import BUFFERS, PADS
+from slipwise.channels import BUFFERS, PADS, pads_in
 from slipwise.errors import InputError
 from slipwise.record import Record
 from slipwise.rig.load_modes import LoadModes, load_factors, load_modes, rest_shares, rigid_modes
@@ -16,6 +16,7 @@ from slipwise.view.canvas import new_figure, save_figure
 from slipwise.view.geometry import RigGeometry
 from slipwise.view.loop_pictures import loops_figure
 from slipwise.view.numbers import NOTHING
+from slipwise.view.pad_layout import layout_from_places
 from slipwise.view.panels import missing, note, stacked_panels
 from slipwise.view.style import (
     AXIS_COLOURS,
@@ -24,11 +25,13 @@ from slipwise.view.style import (
     GIRDER,
     MUTED,
     PAD_COLOURS,
-    PAD_PLACES,
     SUM,
     TABLE,
     UPLIFT,
+    buffer_colour,
     envelope,
+    mixed,
+    pad_colour,
     shown,
     shown_unit,
     styled,
@@ -37,6 +40,7 @@ from slipwise.view.style import (
 Array = NDArray[np.float64]
 #: The pictures of a record, by the names of their files.
 PICTURES: tuple[str, ...] = ("loops", "loads", "modes", "histories")
+_SWINGING = ("pitch", "roll", "warp")
 #: Time before and after this fraction of the squared accelerations' integral counts as quiet.
 _QUIET = 0.01
 
@@ -54,45 +58,48 @@ def save_picture(name: str, record: Record, geometry: RigGeometry, folder: Path)
         The file, there whole or not at all.
     """
     figures = {
-        "loops": lambda: loops_figure(record),
+        "loops": lambda: loops_figure(record, geometry),
         "loads": lambda: loads_figure(record, geometry),
         "modes": lambda: modes_figure(record, geometry),
-        "histories": lambda: histories_figure(record),
+        "histories": lambda: histories_figure(record, geometry),
     }
     return save_figure(figures[name](), folder / f"{name}.png")
 
 
 def loads_figure(record: Record, geometry: RigGeometry) -> Figure:
     """Draw every pad's load beside what inertia (Factor A) and rocking (Factor B) make of it."""
-    names = [f"pad_{pad}_N" for pad in PADS]
+    layout = layout_from_places(geometry.pads, geometry.pad_places)
+    names = [f"pad_{pad}_N" for pad in layout.pads]
     with styled():
         whole = record
         record, part = _shaken(whole)
-        figure = new_figure(12.0, 8.4, f"Load on the pads and its causes{part}")
+        count = len(names)
+        figure = new_figure(12.0, 1.2 + 1.8 * count, f"Load on the pads and its causes{part}")
         if not record.has_all(*names):
             missing(figure.subplots(), record, names)
             return figure
-        panels = stacked_panels(figure, 4, 2, sharex=True, sharey="col")
+        panels = stacked_panels(figure, count, 2, sharex=True, sharey="col")
         try:
-            factors = load_factors(record, geometry.mass, geometry.gravity, rest_shares(whole))
+            shares = rest_shares(whole, layout.pads)
+            factors = load_factors(record, geometry.mass, geometry.gravity, geometry.basis, shares, layout.pads)
         except InputError as error:
             factors = None
             note(panels[0][1], str(error))
-        for i, pad in enumerate(PADS):
+        for i, pad in enumerate(layout.pads):
             left, right = panels[i]
-            left.set_title(f"Pad {pad}  ({PAD_PLACES[pad]})", color=PAD_COLOURS[pad])
+            left.set_title(layout.titles[pad], color=pad_colour(pad))
             left.set_ylabel("N [kN]")
             right.set_ylabel("part of N [kN]")
             left.axhline(0.0, color="#b8c0cb", linewidth=0.8, zorder=1)
             _shade_uplift(left, record, [pad])
             if factors is not None:
                 _history(left, record.time, factors.inertia[:, i] / 1e3, EXPECTED, "Factor A: inertia", 2.2)
-                _history(right, record.time, factors.rocking[:, i] / 1e3, PAD_COLOURS[pad], "Factor B: rocking", 1.2)
+                _history(right, record.time, factors.rocking[:, i] / 1e3, pad_colour(pad), "Factor B: rocking", 1.2)
                 _history(right, record.time, factors.rest[:, i] / 1e3, UPLIFT, "the rest", 0.9)
                 swing = f"A ±{factors.inertia_swing[i]:.0%}, B ±{factors.rocking_swing[i]:.0%} of the load at rest"
                 right.set_title(swing, fontweight="normal", fontsize=9.0, color=MUTED)
                 _legend(right)
-            _history(left, record.time, record[names[i]] / 1e3, PAD_COLOURS[pad], "N", 1.0)
+            _history(left, record.time, record[names[i]] / 1e3, pad_colour(pad), "N", 1.0)
             _legend(left)
         _label_time(figure, panels[-1])
     return figure
@@ -102,13 +109,16 @@ def modes_figure(record: Record, geometry: RigGeometry) -> Figure:
     """Draw heave, pitch, roll and warp of the pad loads over what a rigid girder's equilibrium asks for."""
     with styled():
         record, part = _shaken(record)
-        names = [f"pad_{pad}_N" for pad in PADS]
-        if not record.has_all(*names):
+        names = [f"pad_{pad}_N" for pad in geometry.pads]
+        if not record.has_all(*names) or len(names) < 3:
             figure = new_figure(12.0, 2.0, f"Pad loads as heave, pitch, roll and warp{part}")
-            missing(figure.subplots(), record, names)
+            axes = figure.subplots()
+            if not missing(axes, record, names):
+                note(axes, "a girder that cannot turn has no pitch, roll or warp: its one pad carries what it carries")
             return figure
-        modes = load_modes(record.stacked("pad_{}_N"))
-        swings = {name: float(np.ptp(getattr(modes, name))) for name in ("pitch", "roll", "warp")}
+        modes = load_modes(record.stacked("pad_{}_N", geometry.pads), geometry.basis)
+        corners = geometry.pads == PADS and np.array_equal(abs(geometry.basis.sides), np.ones((4, 2)))
+        swings = {name: float(np.ptp(getattr(modes, name), axis=0).max(initial=0.0)) for name in _SWINGING}
         zero = [name for name, swing in swings.items() if swing < NOTHING * geometry.pad_load]
         left_out = f"; {' and '.join(zero)}: zero, not drawn" if zero else ""
         figure = new_figure(
@@ -124,24 +134,36 @@ def modes_figure(record: Record, geometry: RigGeometry) -> Figure:
             rigid = None
             note(panels[0], str(error))
         rows = (
-            ("heave", "Heave  A + B + C + D", "rigid: $m(g + a_z)$", SUM),
+            ("heave", "Heave  " + ("A + B + C + D" if corners else "the sum of the loads"), "rigid: $m(g + a_z)$", SUM),
             (
                 "pitch",
-                "Pitch  (A + C) − (B + D)",
+                "Pitch  " + ("(A + C) − (B + D)" if corners else "the loads times their places along x"),
                 "rigid: $(x\\,\\Sigma N - m a_x h)$ / half spacing",
                 PAD_COLOURS["A"],
             ),
-            ("roll", "Roll  (A + B) − (C + D)", "rigid: likewise across", BUFFER_COLOURS["1"]),
-            ("warp", "Warp  (A + D) − (B + C)", "", PAD_COLOURS["B"]),
+            (
+                "roll",
+                "Roll  " + ("(A + B) − (C + D)" if corners else "the loads times their places along y"),
+                "rigid: likewise across",
+                BUFFER_COLOURS["1"],
+            ),
+            (
+                "warp",
+                "Warp  " + ("(A + D) − (B + C)" if corners else "what is left of the loads"),
+                "",
+                PAD_COLOURS["B"],
+            ),
         )
         drawn = [row for row in rows if row[0] not in zero]
         for axes, (name, title, expected, colour) in zip(panels, drawn, strict=True):
             axes.set_title(title)
             axes.set_ylabel(f"{name} [kN]")
-            _shade_uplift(axes, record, PADS)
+            _shade_uplift(axes, record, pads_in(record.channels))
             if rigid is not None and expected:
                 _history(axes, record.time, getattr(rigid, name) / 1e3, EXPECTED, expected, 2.4)
-            _history(axes, record.time, getattr(modes, name) / 1e3, colour, "pads", 1.0)
+            for i, line in enumerate(np.atleast_2d(getattr(modes, name).T)):
+                shade = colour if i == 0 else mixed(colour, "#ffffff", 0.3 * i)
+                _history(axes, record.time, line / 1e3, shade, "pads" if i == 0 else "_", 1.0)
             _legend(axes)
             if name in ("roll", "warp"):
                 _at_least(axes, 0.02 * geometry.pad_load / 1e3)
@@ -154,20 +176,27 @@ def modes_figure(record: Record, geometry: RigGeometry) -> Figure:
     return figure
 
 
-def histories_figure(record: Record) -> Figure:
-    """Draw accelerations, slip and forces over time."""
-    pad_loads = [(f"pad_{pad}_N", f"pad {pad}", PAD_COLOURS[pad]) for pad in PADS]
-    pad_forces = [(f"pad_{pad}_Fx", f"pad {pad}", PAD_COLOURS[pad]) for pad in PADS]
+def histories_figure(record: Record, geometry: RigGeometry | None = None) -> Figure:
+    """Draw accelerations, slip and forces over time; of the rig's pads, or those of the record where none is given."""
+    pads = geometry.pads if geometry else pads_in(record.channels) or PADS
+    buffers = geometry.buffers if geometry and geometry.buffers else BUFFERS
+
+    def per_pad(kind: str) -> list[tuple[str, str, str]]:
+        return [(f"pad_{pad}_{kind}", f"pad {pad}", pad_colour(pad)) for pad in pads]
+
+    def per_buffer(axis: str) -> list[tuple[str, str, str]]:
+        return [(f"buffer_{b}_F{axis}", f"buffer {b}", buffer_colour(b)) for b in buffers]
+
     rows: list[tuple[str, list[tuple[str, str, str]]]] = [
         ("Acceleration along x", [("table_ax", "table", TABLE), ("girder_ax", "girder", GIRDER)]),
         ("Acceleration along y", [("table_ay", "table", TABLE), ("girder_ay", "girder", GIRDER)]),
         ("Acceleration, vertical", [("table_az", "table", TABLE), ("girder_az", "girder", GIRDER)]),
         ("Slip", [(f"slip_{axis}", axis, AXIS_COLOURS[axis]) for axis in "xy"]),
-        ("Load on the pads", pad_loads),
-        ("Friction of the pads along x", pad_forces),
-        ("Friction of the pads along y", [(f"pad_{pad}_Fy", f"pad {pad}", PAD_COLOURS[pad]) for pad in PADS]),
-        ("Buffers along x", [(f"buffer_{b}_Fx", f"buffer {b}", BUFFER_COLOURS[b]) for b in BUFFERS]),
-        ("Buffers along y", [(f"buffer_{b}_Fy", f"buffer {b}", BUFFER_COLOURS[b]) for b in BUFFERS]),
+        ("Load on the pads", per_pad("N")),
+        ("Friction of the pads along x", per_pad("Fx")),
+        ("Friction of the pads along y", per_pad("Fy")),
+        ("Buffers along x", per_buffer("x")),
+        ("Buffers along y", per_buffer("y")),
     ]
     with styled():
         record, part = _shaken(record)
@@ -182,7 +211,7 @@ def histories_figure(record: Record) -> Figure:
             if not there:
                 missing(axes, record, [name for name, _, _ in lines])
                 continue
-            _shade_uplift(axes, record, PADS)
+            _shade_uplift(axes, record, pads_in(record.channels))
             for i, (name, label, colour) in enumerate(there):
                 # Lines that lie on one another stay visible: the first ones are drawn wide, the others thin on top.
                 _history(axes, record.time, shown(record, name), colour, label, 2.2 if 2 * i < len(there) else 0.9)

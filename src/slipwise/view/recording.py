@@ -10,14 +10,14 @@ from typing import Any
 import rerun as rr
 import rerun.blueprint as rrb
 
-from slipwise.channels import PADS
 from slipwise.errors import InputError
 from slipwise.record import Record
 from slipwise.view.arrows import FRICTION_ZOOM
 from slipwise.view.geometry import RigGeometry
 from slipwise.view.loop_board import BOARD_SIZE, RECENT, log_loops, own_colours
+from slipwise.view.pad_layout import layout_of
 from slipwise.view.scene import Scene, largest_motion, log_rig, nice_zoom
-from slipwise.view.series import STICKING, TABS, log_series, log_states, series_tabs
+from slipwise.view.series import STICKING, log_series, log_states, series_tabs, tabs_of
 from slipwise.view.style import NIGHT, rgb
 from slipwise.view.timeline import TIMELINE
 from slipwise.whole_file import atomic
@@ -53,7 +53,7 @@ def write_recording(record: Record, geometry: RigGeometry, path: Path, title: st
         close = nice_zoom(slip, size)
         log_rig(stream, Scene("laboratory", zoom, table_moves=True), record, geometry)
         log_rig(stream, Scene("on_the_table", close, table_moves=False), record, geometry)
-        growing = log_loops(stream, "loops", [own_colours(record)])
+        growing = log_loops(stream, "loops", [own_colours(record)], layout_of(record, geometry))
         log_series(stream, "channels", record)
         states = "pads" if log_states(stream, "pads", record) else ""
         stream.log(
@@ -67,7 +67,12 @@ def write_recording(record: Record, geometry: RigGeometry, path: Path, title: st
         ]
         about = rrb.TextDocumentView(origin="about", name="What you see")
         left = rrb.Vertical(views[0], rrb.Horizontal(views[1], about, column_shares=[3, 2]), row_shares=[3, 2])
-        send_layout(stream, left, loops_view("loops", growing), series_tabs("channels", [record], TABS, states))
+        send_layout(
+            stream,
+            left,
+            loops_view("loops", growing),
+            series_tabs("channels", [record], tabs_of(geometry.pads, geometry.buffers), states),
+        )
         return write_bytes(memory, path)
 
 
@@ -177,17 +182,26 @@ def write_bytes(memory: rr.MemoryRecording, path: Path) -> Path:
     return path
 
 
+def _where(geometry: RigGeometry) -> str:
+    """Say which pads stand where along x."""
+    middle = geometry.basis.middle[0]
+    ahead, behind = (
+        ", ".join(p for p, (x, _) in zip(geometry.pads, geometry.pad_places, strict=True) if side * (x - middle) > 1e-6)
+        for side in (1.0, -1.0)
+    )
+    return f"Pads at +x: {ahead}; at −x: {behind}." if ahead and behind else f"Pads: {', '.join(geometry.pads)}."
+
+
 def _words(record: Record, geometry: RigGeometry, title: str, zoom: float, close: float) -> str:
     """Explain the recording in markdown."""
-    wanted = ["table_dx", "slip_y", "yaw", *(f"pad_{p}_N" for p in PADS), *(f"pad_{p}_Fx" for p in PADS)]
+    wanted = ["table_dx", "slip_y", "yaw", *(f"pad_{p}_{kind}" for kind in ("N", "Fx") for p in geometry.pads)]
     missing = [name for name in wanted if name not in record]
     lines = [
         f"# {title}",
         "",
         "Press **space** to play or stop. Drag to turn the rig, scroll to come closer.",
         "",
-        f"- **Coloured upright arrows**: load N on a pad, {geometry.pad_load / 1e3:.1f} kN at rest. "
-        "Blue pads (A, C) stand at +x, orange ones (B, D) at −x.",
+        f"- **Coloured upright arrows**: load N on a pad, {geometry.pad_load / 1e3:.1f} kN at rest. {_where(geometry)}",
         "- **White arrows**: friction, the force of the girder on the pad, "
         f"{FRICTION_ZOOM:g} times longer than N for the same force.",
         "- **Green arrows**: buffer forces, on the scale of N.",

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from slipwise.record import Record
 from slipwise.view.arrows import log_forces
 from slipwise.view.geometry import RigGeometry
-from slipwise.view.style import NIGHT_INK, PAD_COLOURS, UPLIFT, packed, rgb
+from slipwise.view.style import NIGHT_INK, UPLIFT, packed, pad_colour, rgb
 from slipwise.view.timeline import frames, time_column
 
 Array = NDArray[np.float64]
@@ -218,7 +218,7 @@ def _log_pads(
     stream.log(
         f"{carrier}/pad_names",
         rr.Points3D(
-            centres + outward, radii=0.001, colors=[rgb(PAD_COLOURS[pad]) for pad in pads], labels=list(pads),
+            centres + outward, radii=0.001, colors=[rgb(pad_colour(pad)) for pad in pads], labels=list(pads),
             show_labels=True,
         ),
         static=True,
@@ -226,7 +226,7 @@ def _log_pads(
 
 
 def _uplift_colours(record: Record, shown: NDArray[np.intp], pads: tuple[str, ...]) -> NDArray[np.uint32]:
-    colours = np.tile(np.array([packed(PAD_COLOURS[pad]) for pad in pads], dtype=np.uint32), (len(shown), 1))
+    colours = np.tile(np.array([packed(pad_colour(pad)) for pad in pads], dtype=np.uint32), (len(shown), 1))
     for column, pad in enumerate(pads):
         if f"pad_{pad}_N" in record:
             colours[record[f"pad_{pad}_N"][shown] <= 0.0, column] = packed(UPLIFT)

@@ -8,17 +8,18 @@ import rerun as rr
 import rerun.blueprint as rrb
 from numpy.typing import NDArray
 
-from slipwise.channels import BUFFERS, PADS, channel
+from slipwise.channels import channel, pads_in
 from slipwise.record import Record
 from slipwise.view.style import (
     AXIS_COLOURS,
-    BUFFER_COLOURS,
     NIGHT_INK,
     PAD_COLOURS,
     TABLE,
     UPLIFT,
+    buffer_colour,
     envelope,
     packed,
+    pad_colour,
     rgb,
     shown,
 )
@@ -39,51 +40,55 @@ class Plot:
     names: tuple[str, ...]
 
 
-def _per_pad(pattern: str) -> tuple[str, ...]:
-    return tuple(pattern.format(pad) for pad in PADS)
-
-
 Tabs = dict[str, tuple[Plot, ...]]
-#: Tabs of plots, in the order in which they are read.
-TABS: Tabs = {
-    "overview": (
-        Plot("Slip", ("slip_x", "slip_y")),
-        Plot("Load on the pads", _per_pad("pad_{}_N")),
-        Plot("Friction of the pads along x", _per_pad("pad_{}_Fx")),
-    ),
-    "acceleration": tuple(Plot(f"Acceleration {axis}", (f"table_a{axis}", f"girder_a{axis}")) for axis in "xyz")
-    + (Plot("Vertical acceleration of the edges", ("girder_az_1", "girder_az_2")),),
-    "motion": (
-        Plot("Table", ("table_dx", "table_dy", "table_dz")),
-        Plot("Slip speed", ("slip_vx", "slip_vy")),
-        Plot("Turning of the girder", ("yaw", "pitch", "roll", "table_pitch")),
-        Plot("Heave", ("heave",)),
-    ),
-    "across": (
-        Plot("Friction of the pads along y", _per_pad("pad_{}_Fy")),
-        Plot("Buffers along y", tuple(f"buffer_{b}_Fy" for b in BUFFERS)),
-        Plot("Buffers along x", tuple(f"buffer_{b}_Fx" for b in BUFFERS)),
-    ),
-    "pads": (Plot("Pressure", _per_pad("pad_{}_P")), Plot("Temperature", _per_pad("pad_{}_T"))),
-}
 
 
-#: The same for records held against each other: one channel a plot.
-OVERLAID_TABS: Tabs = {
-    "motion": tuple(Plot(name, (name,)) for name in ("slip_x", "girder_ax", "girder_az", "yaw")),
-    "friction": tuple(Plot(f"Friction of pad {pad}", (f"pad_{pad}_Fx",)) for pad in PADS),
-    "load": tuple(Plot(f"Load on pad {pad}", (f"pad_{pad}_N",)) for pad in PADS),
-    "buffers": tuple(Plot(f"Buffer {b}", (f"buffer_{b}_Fx",)) for b in BUFFERS),
-}
+def tabs_of(pads: Sequence[str], buffers: Sequence[str]) -> Tabs:
+    """Give the tabs of plots of a rig, in the order in which they are read."""
+
+    def per_pad(pattern: str) -> tuple[str, ...]:
+        return tuple(pattern.format(pad) for pad in pads)
+
+    return {
+        "overview": (
+            Plot("Slip", ("slip_x", "slip_y")),
+            Plot("Load on the pads", per_pad("pad_{}_N")),
+            Plot("Friction of the pads along x", per_pad("pad_{}_Fx")),
+        ),
+        "acceleration": tuple(Plot(f"Acceleration {axis}", (f"table_a{axis}", f"girder_a{axis}")) for axis in "xyz")
+        + (Plot("Vertical acceleration of the edges", ("girder_az_1", "girder_az_2")),),
+        "motion": (
+            Plot("Table", ("table_dx", "table_dy", "table_dz")),
+            Plot("Slip speed", ("slip_vx", "slip_vy")),
+            Plot("Turning of the girder", ("yaw", "pitch", "roll", "table_pitch")),
+            Plot("Heave", ("heave",)),
+        ),
+        "across": (
+            Plot("Friction of the pads along y", per_pad("pad_{}_Fy")),
+            Plot("Buffers along y", tuple(f"buffer_{b}_Fy" for b in buffers)),
+            Plot("Buffers along x", tuple(f"buffer_{b}_Fx" for b in buffers)),
+        ),
+        "pads": (Plot("Pressure", per_pad("pad_{}_P")), Plot("Temperature", per_pad("pad_{}_T"))),
+    }
+
+
+def overlaid_tabs_of(pads: Sequence[str], buffers: Sequence[str]) -> Tabs:
+    """Give the same for records held against each other: one channel a plot."""
+    return {
+        "motion": tuple(Plot(name, (name,)) for name in ("slip_x", "girder_ax", "girder_az", "yaw")),
+        "friction": tuple(Plot(f"Friction of pad {pad}", (f"pad_{pad}_Fx",)) for pad in pads),
+        "load": tuple(Plot(f"Load on pad {pad}", (f"pad_{pad}_N",)) for pad in pads),
+        "buffers": tuple(Plot(f"Buffer {b}", (f"buffer_{b}_Fx",)) for b in buffers),
+    }
 
 
 def colour_of(name: str) -> str:
     """Give the colour of a channel: that of its pad or buffer, of the table, or by its axis."""
     owner = name.split("_")
     if owner[0] == "pad":
-        return PAD_COLOURS[owner[1]]
+        return pad_colour(owner[1])
     if owner[0] == "buffer":
-        return BUFFER_COLOURS[owner[1]]
+        return buffer_colour(owner[1])
     if owner[0] in ("table", "girder") and owner[1][0] == "a":
         return TABLE if owner[0] == "table" else PAD_COLOURS["B"] if owner[-1] == "2" else NIGHT_INK
     turning = {"roll": "x", "pitch": "y", "yaw": "z", "heave": "z"}
@@ -140,12 +145,13 @@ def log_series(stream: rr.RecordingStream, root: str, record: Record, line: Line
 
 def log_states(stream: rr.RecordingStream, root: str, record: Record) -> bool:
     """Put into the recording when each pad slides, sticks, or is lifted off; tell whether the record shows it."""
-    loads = [f"pad_{pad}_N" for pad in PADS]
-    if not record.has_all("slip_x", *loads):
+    pads = pads_in(record.channels)
+    loads = [f"pad_{pad}_N" for pad in pads]
+    if not pads or not record.has_all("slip_x", *loads):
         return False
     speed = np.hypot(*(_speed(record, axis) for axis in "xy"))
     words = list(_STATES)
-    for pad, name in zip(PADS, loads, strict=True):
+    for pad, name in zip(pads, loads, strict=True):
         state = np.where(record[name] <= 0.0, 2, np.where(speed < STICKING, 1, 0))
         kept = np.concatenate([[0], np.flatnonzero(np.diff(state)) + 1])
         stream.log(

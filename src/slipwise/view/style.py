@@ -29,11 +29,13 @@ from slipwise.view.colours import (  # noqa: F401  whoever draws takes all from 
     SUM,
     TABLE,
     UPLIFT,
+    buffer_colour,
+    pad_colour,
 )
 
 Array = NDArray[np.float64]
 
-#: Where each pad's panel stands in a 2 x 2 grid seen from above, x to the right and y up: (row, column).
+#: Panels of the reference rig's pads in a 2 x 2 grid seen from above, x to the right and y up: (row, column).
 PAD_PANELS: dict[str, tuple[int, int]] = {"B": (0, 0), "A": (0, 1), "D": (1, 0), "C": (1, 1)}
 PAD_PLACES: dict[str, str] = {"A": "+x +y", "B": "−x +y", "C": "+x −y", "D": "−x −y"}
 

@@ -8,7 +8,6 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from slipwise.channels import PADS
 from slipwise.errors import visible
 from slipwise.view.numbers import NOTHING
 from slipwise.view.patient_console import PatientConsole
@@ -80,11 +79,7 @@ def print_summary(summary: Mapping[str, Any], console: Console | None = None) ->
     ]
     print_table("Replay", rows, console)
     pads = summary.get("pads", {})
-    rows = [
-        {"pad": pad, **{words: pads[pad][key] for key, words in _PAD if key in pads[pad]}}
-        for pad in PADS
-        if pad in pads
-    ]
+    rows = [{"pad": pad, **{words: pads[pad][key] for key, words in _PAD if key in pads[pad]}} for pad in pads]
     if rows:
         print_table("Pads", rows, console)
     if summary.get("uplift_s"):

@@ -11,7 +11,7 @@ from slipwise.diagnosis.search_state import Search, try_all
 from slipwise.estimation.base_fit import fit_base
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_only_the_promising_are_fitted_to_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("slipwise.parallel._cores", lambda: 1)  # or children would count their own
     ended: list[tuple[str, ...]] = []

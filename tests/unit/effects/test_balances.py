@@ -11,6 +11,7 @@ from slipwise.effects import BalanceStates
 from slipwise.effects._oscillator import oscillator
 from slipwise.model import Model, base_model, use
 from slipwise.record import Record
+from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import load_modes
 from slipwise.signals.ends import in_frequency
 
@@ -61,7 +62,7 @@ def open_balances(model: Model) -> tuple[dict[str, np.ndarray], dict[str, np.nda
     """What a rigid girder's balances leave open without hooks, and what the hooks say of it."""
     record = shaken(model, shaking(), dt=DT).record
     seen = states(model, record)
-    specimen, modes = seen.specimen, load_modes(seen.load)
+    specimen, modes = seen.specimen, load_modes(seen.load, basis_of(seen.specimen))
     (half_x, half_y), height = specimen.half_spacing, specimen.centre_height
     acceleration, total = seen.girder_acceleration, seen.load.sum(axis=1)
     friction, key = seen.pad_force[:, :, 0].sum(axis=1), seen.buffer_force
@@ -71,7 +72,7 @@ def open_balances(model: Model) -> tuple[dict[str, np.ndarray], dict[str, np.nda
         "heave": modes.heave - specimen.mass * (G + acceleration[:, 2]),
         "pitch": modes.pitch - _through_pitch(turning, model) / half_x,
         "roll": modes.roll - (seen.slip[:, 1] * total - across) / half_y,
-        "warp": modes.warp,
+        "warp": modes.twist,
         "girder": -(specimen.mass * acceleration[:, 0] + friction + key[:, 0]),
     }
     lean = height * np.gradient(np.gradient(record["pitch"], DT), DT)
@@ -135,7 +136,10 @@ def test_keys_above_the_sliding_plane_turn_the_girder_by_their_force() -> None:
     assert rms(left["pitch"]) < 1.1 * rms(base()["pitch"])
     record = shaken(base_model("bridge1").adding(use("buffer_height", height=0.366)), shaking(), dt=DT).record
     plain = shaken(base_model("bridge1"), shaking(), dt=DT).record
-    swing = [np.std(load_modes(r.stacked("pad_{}_N")).pitch) for r in (record, plain)]
+    swing = [
+        np.std(load_modes(r.stacked("pad_{}_N"), basis_of(base_model("bridge1").specimen)).pitch)
+        for r in (record, plain)
+    ]
     assert swing[0] < 0.7 * swing[1], "at the height of the centre of gravity only friction loads the pads"
 
 

@@ -19,8 +19,8 @@ PRESSURE = 16.882e6
 def _flux(law: Predictor, flux: float, seconds: float, dt: float, slip: float = 0.0) -> np.ndarray:
     """Drive the four pads with a constant heat flux [W/m^2] and give pad A's temperature rise over time."""
     advance, layout, u = law.law.functions["pad_advance"], law.law.layout, law.numbers
-    z, area, speed = layout.at["pad_memory"], u[places.APPARENT_AREA], 0.1
-    place = z + layout.pad_memory["heating"] + 9
+    z, area, speed = layout.first_pad, u[layout.first_pad + places.APPARENT_AREA], 0.1
+    place = z + places.PAD_MEMORY + layout.pad_memory["heating"] + 9
     out = []
     for i in range(round(seconds / dt)):
         advance(u, z, 0.0, flux * area / speed, 24.5e3, speed, 0.0, slip, 0.0, 1.0, 1.0, i * dt, dt)
@@ -101,13 +101,13 @@ def test_friction_falls_by_the_published_factor() -> None:
     """Kumar et al. (2015): k_T = 0.789 (0.7^(T/50) + 0.4), which is 0.9997 at 20 degC; ours is 1 there."""
     law = predictor(base_model("bridge1").adding(use("heating")))
     bound, layout = law.law.functions["pad_bound"], law.law.layout
-    place = layout.at["pad_memory"] + layout.pad_memory["heating"] + 9
+    place = layout.first_pad + places.PAD_MEMORY + layout.pad_memory["heating"] + 9
     state = (24.5e3, 0.2, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.002)
-    cold = bound(law.numbers, layout.at["pad_memory"], *state)
+    cold = bound(law.numbers, layout.first_pad, *state)
     for celsius in (45.0, 69.0, 100.0, 150.0):
         law.numbers[place] = celsius - 20.0
         factor = 0.789 * (0.7 ** (celsius / 50.0) + 0.4)
-        assert bound(law.numbers, layout.at["pad_memory"], *state) / cold == pytest.approx(factor, rel=5e-4)
+        assert bound(law.numbers, layout.first_pad, *state) / cold == pytest.approx(factor, rel=5e-4)
 
 
 def test_ten_cycles_lose_what_another_program_loses() -> None:

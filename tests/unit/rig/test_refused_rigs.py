@@ -10,8 +10,8 @@ from impossible_rigs import IMPOSSIBLE
 from refused_rigs import LEFT_OUT
 from slipwise.errors import InputError
 from slipwise.rig import load_specimen
+from slipwise.rig.files import find_rig
 from slipwise.rig.mjcf_attributes import NOT_FELT, fields_of
-from slipwise.rig.specimen import find_rig
 
 CASES = LEFT_OUT | IMPOSSIBLE
 

@@ -8,7 +8,7 @@ import pytest
 
 from slipwise.errors import SettingError, UnknownNameError
 from slipwise.rig import RIGS, Readings, build, largest_step, load_specimen, pad_frequencies, read_paper, similarity
-from slipwise.rig.specimen import find_rig
+from slipwise.rig.files import find_rig
 
 
 @pytest.mark.parametrize("rig", ["bridge1", "bridge2"])
@@ -61,7 +61,7 @@ def test_the_file_runs_in_a_plain_viewer_without_slipwise(rig):
 
 @pytest.mark.parametrize("rig", ["bridge1", "bridge2", "block"])
 def test_pads_are_springs_of_the_stated_stiffness_and_damping(rig):
-    specimen = replace(load_specimen(rig), pad_stiffness=150e6, pad_damping=2 * 0.03 * np.sqrt(150e6 * 2500.0))
+    specimen = load_specimen(rig).changed(pad_stiffness=150e6, pad_damping=2 * 0.03 * np.sqrt(150e6 * 2500.0))
     rig_model = build(specimen, 1e-4, 1)
     assert rig_model.sag == pytest.approx(1e4 * 9.80665 / 4 / 150e6, rel=1e-12)
     data = mujoco.MjData(rig_model.model)
@@ -90,7 +90,7 @@ def test_a_step_too_large_for_the_pads_is_refused_with_the_largest_allowed():
 @pytest.mark.parametrize(
     ("values", "words"),
     [
-        ({"buffer_stiffness": (1e6,) * 4}, "4 values of buffer_stiffness and 2 buffer_places"),
+        ({"buffer_stiffness": (1e6,) * 4}, "4 values of buffer_stiffness and 2 buffers"),
         ({"seating": (0.0,)}, "1 values of seating"),
         ({"pad_places": ((np.nan, 0.0),) * 4}, "pad_places = nan m cannot be"),
         ({"inertia": (1.0, -1.0, 1.0)}, "inertia = -1 kg m\\^2 cannot be"),
@@ -98,12 +98,12 @@ def test_a_step_too_large_for_the_pads_is_refused_with_the_largest_allowed():
 )
 def test_values_that_do_not_belong_together_are_refused(values, words):
     with pytest.raises(SettingError, match=words):
-        replace(load_specimen("bridge1"), **values)
+        load_specimen("bridge1").changed(**values)
 
 
 def test_pads_too_soft_to_carry_the_girder_are_refused():
     with pytest.raises(SettingError, match="would sink 24.5166 mm into its pads"):
-        build(replace(load_specimen("bridge1"), pad_stiffness=1e6), 5e-4, 0)
+        build(load_specimen("bridge1").changed(pad_stiffness=1e6), 5e-4, 0)
 
 
 def test_an_unknown_rig_is_answered_with_the_nearest():
@@ -115,7 +115,7 @@ def test_the_default_reading_of_the_paper_is_what_the_files_hold():
     for rig in ("bridge1", "bridge2"):
         read, file = read_paper(rig), load_specimen(rig)
         assert read.buffer_stiffness == pytest.approx(file.buffer_stiffness, rel=1e-9)
-        assert replace(read, buffer_stiffness=file.buffer_stiffness) == file
+        assert read.changed(buffer_stiffness=file.buffer_stiffness) == file
 
 
 def test_other_readings_change_what_they_say():

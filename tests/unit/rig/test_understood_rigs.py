@@ -1,7 +1,5 @@
 """What a rig's file may hold is read rightly: the rig that is replayed is the body that MuJoCo sees in the file."""
 
-from dataclasses import replace
-
 import mujoco
 import numpy as np
 import pytest
@@ -10,7 +8,7 @@ from changed_rigs import INERTIA, changed
 from slipwise.errors import InputError
 from slipwise.model import base_model
 from slipwise.motion import load_motion
-from slipwise.rig import Specimen, build, load_specimen
+from slipwise.rig import RIGS, Specimen, build, load_specimen
 from slipwise.rig.mjcf import read_mjcf
 from slipwise.rig.rest_check import check_rest, loads_at_rest
 from slipwise.simulation.replay import replay
@@ -115,7 +113,19 @@ def read(tmp_path, case) -> tuple[Specimen, mujoco.MjModel, dict]:
 def test_the_specimen_is_the_shipped_one_with_what_was_changed(case, tmp_path):
     specimen, _, values = read(tmp_path, case)
     shipped = load_specimen("bridge1")
-    for name in (n for n in Specimen.__dataclass_fields__ if n not in ("name", "path", "sources")):
+    told = (
+        "pads",
+        "pad_places",
+        "pad_radius",
+        "seating",
+        "springs",
+        "pad_damping",
+        "buffer_stiffness",
+        "buffer_places",
+    )
+    parts = ("places", "buffers")
+    own = [n for n in Specimen.__dataclass_fields__ if n not in ("name", "path", "sources", *parts)]
+    for name in (*own, *told, "buffer_places", "buffer_height"):
         expected, given = values.get(name, getattr(shipped, name)), getattr(specimen, name)
         if isinstance(expected, str | bool) or name == "pads":
             assert given == expected, name
@@ -153,8 +163,7 @@ def mechanics(model: mujoco.MjModel) -> dict:
 def test_the_rig_that_is_replayed_is_the_one_that_mujoco_sees_in_the_file(case, tmp_path):
     specimen, file, _ = read(tmp_path, case)
     expected = mechanics(file)
-    replayed = mechanics(build(replace(specimen, pads_on="table", bending_mass=0.0), 2e-4, 0).model)
-    replayed["stiffness"] = np.repeat(specimen.buffer_stiffness, 2)  # buffers are springs of the law, not of the model
+    replayed = mechanics(build(specimen.changed(pads_on="table", bending_mass=0.0), 2e-4, 0).model)
     for key, value in expected.items():
         assert np.ravel(replayed[key]) == pytest.approx(np.ravel(value), rel=1e-6, abs=1e-9), key
 
@@ -194,7 +203,7 @@ def test_one_buffer_is_enough(tmp_path):
     assert np.abs(record["yaw"]).max() > 1e-5  # one buffer off the middle turns the girder
 
 
-@pytest.mark.parametrize("rig", ["bridge1", "bridge2", "block", "pad"])
+@pytest.mark.parametrize("rig", RIGS)
 def test_the_pads_of_a_shipped_rig_carry_its_weight(rig):
     specimen = load_specimen(rig)
     loads = loads_at_rest(build(specimen, 5e-4, 0))
@@ -203,7 +212,7 @@ def test_the_pads_of_a_shipped_rig_carry_its_weight(rig):
 
 @pytest.mark.parametrize("values", [{"centre_x": 1.0, "centre_y": -1.0}, {"pads_on": "girder", "centre_x": 0.4}])
 def test_the_pads_carry_the_weight_of_a_girder_that_leans(values):
-    specimen = replace(load_specimen("bridge1"), **values)
+    specimen = load_specimen("bridge1").changed(**values)
     loads = loads_at_rest(build(specimen, 5e-4, 0))
     assert loads.sum() == pytest.approx(specimen.weight, rel=1e-7)
     centre = loads @ np.array(specimen.pad_places) / specimen.weight
@@ -220,5 +229,47 @@ def test_a_rig_whose_pads_do_not_carry_what_the_file_weighs_is_refused(tmp_path)
 def test_a_prescribed_rig_takes_another_mass_and_refuses_another_pad(tmp_path):
     assert load_specimen(changed(tmp_path, ('mass="2500"', 'mass="2000"'), rig="pad")).mass == 2000.0
     second = '<geom name="pad_B" class="pad" contype="2" pos="1 0 -0.0215"/><geom name="disc_A"'
-    with pytest.raises(InputError, match="pads A, B; a girder whose slip is prescribed has the pads A"):
+    with pytest.raises(InputError, match="pads A, B; a girder whose slip is prescribed has one pad"):
         load_specimen(changed(tmp_path, ('<geom name="disc_A"', second), rig="pad"))
+
+
+def test_a_body_that_is_fixed_to_the_girder_is_weighed_with_it(tmp_path):
+    """Steiner: 5 t at 1 m above the centre of 10 t move the centre by 1/3 m and add 5 (2/3)^2 + 10 (1/3)^2 t m^2."""
+    ballast = BALLAST.replace('<body name="ballast">', '<body name="ballast" pos="0 0 1">')
+    sites = tuple((f'name="{n}" pos="{x} 0 0"', f'name="{n}" pos="{x} 0 {1 / 3!r}"') for n, x in
+                  (("girder_centre", "0"), ("girder_edge_1", "1.5"), ("girder_edge_2", "-1.5")))  # fmt: skip
+    specimen = load_specimen(changed(tmp_path, ("girder", ballast), *sites))
+    assert specimen.mass == 15000.0 and specimen.centre_height == pytest.approx(0.366 + 1.0 / 3.0)
+    more = 5e3 * (2.0 / 3.0) ** 2 + 10e3 / 9.0 + 9.0
+    assert specimen.inertia == pytest.approx((21041.6667 + more, 7708.3333 + more, 28342.3333), rel=1e-6)
+    loads = loads_at_rest(build(specimen, 2e-4, 0))
+    assert loads.sum() == pytest.approx(15000.0 * specimen.gravity, rel=1e-6)
+
+
+def test_each_pad_and_each_direction_of_a_buffer_has_its_own_values(tmp_path):
+    changes = (
+        ('<geom name="pad_B" class="pad" contype="2" pos="-1.5 2.5 -0.0215"',
+         '<geom name="pad_B" class="pad" size="0.03" contype="2" pos="-1.5 2.5 -0.03"'),
+        ('name="pad_stiffness" data="200e6"', 'name="pad_stiffness" data="200e6 150e6 200e6 250e6"'),
+        ('name="buffer_1_y" stiffness="1730589.336"', 'name="buffer_1_y" springlength="-0.002 0.002" stiffness="9e5"'),
+        ('name="buffer_1_x"', 'name="buffer_1_x" springlength="-0.002 0.002"'),
+    )  # fmt: skip
+    specimen = load_specimen(changed(tmp_path, *changes))
+    assert [p.radius for p in specimen.places] == [0.0215, 0.03, 0.0215, 0.0215]
+    assert specimen.springs == (200e6, 150e6, 200e6, 250e6)
+    one = specimen.buffers[0]
+    assert (one.stiffness_x, one.stiffness_y, one.gap) == (1730589.336, 9e5, 0.002)
+    record = replay(base_model(specimen), load_motion(["sine:2Hz,0.2g,cycles=9"])).record
+    np.testing.assert_allclose(record["pad_B_P"], record["pad_B_N"] / (np.pi * 0.03**2))
+
+
+def test_pads_may_have_each_others_names(tmp_path):
+    """Names are names: places are told by the geoms alone."""
+    swapped = (
+        ('"pad_A" class', '"pad_X" class'),
+        ('"pad_B" class', '"pad_A" class'),
+        ('"pad_X" class', '"pad_B" class'),
+    )
+    with pytest.raises(InputError, match="coefficient .* of the joint girder_yaw"):
+        load_specimen(changed(tmp_path, *swapped, ('contype="1"', 'contype="16"'), ('contype="2"', 'contype="1"'),
+                              ('contype="16"', 'contype="2"')))  # fmt: skip

@@ -46,18 +46,19 @@ def _python_callbacks(law: Kernel) -> tuple[Any, Any]:
     """Make the callbacks of the Python engine: the same law on numpy views."""
     control_step, sensor_step = law.functions["control_step"], law.functions["sensor_step"]
     acceleration = int(mujoco.mjtStage.mjSTAGE_ACC)
+    first_pad, size = law.layout.first_pad, law.layout.pad_block
 
     def control(model: Any, data: Any) -> None:
         u, contact = data.userdata, data.contact
-        begin_step(u, data.qfrc_applied)
-        geoms = [int(g) for g in u[places.PAD_GEOM : places.PAD_GEOM + int(u[places.N_PADS])]]
+        blocks = range(first_pad, first_pad + int(u[places.N_PADS]) * size, size)
+        begin_step(u, first_pad, size, data.qfrc_applied)
         push = data.efc_J.reshape(data.nefc, model.nv)
         for first, second, row in zip(contact.geom1, contact.geom2, contact.efc_address, strict=True):
             if row >= 0:
                 data.efc_aref[row] = INACTIVE
-                for pad, geom in enumerate(geoms):
-                    if geom in (first, second):
-                        apply_pad_load(u, pad, -data.efc_pos[row], -data.efc_vel[row], push[row], data.qfrc_applied)
+                for z in blocks:
+                    if int(u[z + places.PAD_GEOM]) in (first, second):
+                        apply_pad_load(u, z, -data.efc_pos[row], -data.efc_vel[row], push[row], data.qfrc_applied)
         control_step(
             u, data.time, data.ten_length, data.ten_velocity, data.qvel, data.efc_frictionloss, data.qfrc_applied
         )

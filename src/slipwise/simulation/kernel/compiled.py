@@ -45,7 +45,7 @@ from slipwise.simulation.kernel.pointers import Fields
 
 {dispatch_text(layout, "@kept(forceinline=True, **INNER)" + chr(10))}
 EFFECTS = sys.modules[__name__]
-FIELDS = {fields(offsets(), layout.size)!r}
+FIELDS = {fields(offsets())!r}
 
 {chr(10).join(bound)}
 

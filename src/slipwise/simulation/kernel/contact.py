@@ -18,8 +18,8 @@ from slipwise.simulation.kernel.places import (
     COMPRESSION_RATE,
     DT,
     LOAD,
-    MAX_PADS,
     N_DOFS,
+    N_PADS,
     PAD_DAMPING,
     PAD_STIFFNESS,
     RATE_AGE,
@@ -31,31 +31,41 @@ INACTIVE = -1e9
 
 
 @compilable
-def begin_step(u: Array, applied: Array) -> None:
-    """Start a step without loads and without generalised forces, `applied` [N, N m]."""
-    u[LOAD : LOAD + MAX_PADS] = 0.0
+def begin_step(u: Array, pads: int, size: int, applied: Array) -> None:
+    """Start a step without loads and without generalised forces.
+
+    Args:
+        u: the law's numbers.
+        pads: place in it of the first pad's block.
+        size: of a pad's block.
+        applied: generalised forces [N, N m].
+    """
+    for pad in range(int(u[N_PADS])):
+        u[pads + pad * size + LOAD] = 0.0
     for dof in range(int(u[N_DOFS])):
         applied[dof] = 0.0
 
 
 @compilable
-def apply_pad_load(u: Array, pad: int, compression: float, rate: float, push: Array, applied: Array) -> None:
+def apply_pad_load(u: Array, z: int, compression: float, rate: float, push: Array, applied: Array) -> None:
     """Find the load of a pad in this step and let it press on the girder.
 
     Args:
         u: the law's numbers; load, compression and its rate in them are set.
-        pad: which.
+        z: place in it of the pad's block.
         compression: of the pad's spring, negative where it does not touch [m].
         rate: of it, half a step ago [m/s].
         push: (n_dofs,) rate of the gap over the rate of each degree of freedom.
         applied: generalised forces [N, N m]; added to.
     """
     dt = u[DT]
-    acceleration = (rate - u[COMPRESSION_RATE + pad]) / u[RATE_AGE]
-    u[COMPRESSION + pad] = compression
-    u[COMPRESSION_RATE + pad] = rate
-    load = mean_load(u[PAD_STIFFNESS], u[PAD_DAMPING], compression, rate + 0.5 * dt * acceleration, acceleration, dt)
-    u[LOAD + pad] = load
+    acceleration = (rate - u[z + COMPRESSION_RATE]) / u[RATE_AGE]
+    u[z + COMPRESSION] = compression
+    u[z + COMPRESSION_RATE] = rate
+    load = mean_load(
+        u[z + PAD_STIFFNESS], u[z + PAD_DAMPING], compression, rate + 0.5 * dt * acceleration, acceleration, dt
+    )
+    u[z + LOAD] = load
     if load > 0.0:
         for dof in range(int(u[N_DOFS])):
             applied[dof] += push[dof] * load

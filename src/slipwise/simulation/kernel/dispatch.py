@@ -19,16 +19,16 @@ from typing import NamedTuple, Protocol
 
 from slipwise.effects import DERIVED, Effect
 from slipwise.simulation.kernel import derived_states
-from slipwise.simulation.kernel.layout import OBSERVED, Layout, observes
-from slipwise.simulation.kernel.places import CHAINS, EFFECT_COUNT, N_OBSERVE, N_OBSERVE_BUFFER
+from slipwise.simulation.kernel.layout import OBSERVED, Layout, observes, of_each_pad
+from slipwise.simulation.kernel.places import CHAINS, EFFECT_COUNT, N_OBSERVE, N_OBSERVE_BUFFER, PAD_MEMORY
 
 
 class Dispatch(Protocol):
     """The module of that text: what the effects do, hook by hook, and where their memory stands.
 
-    Every function takes the array `u`, then the place `z` of the memory of the pad or buffer at hand (not `drag` and
-    `stretch`), then what `_HOOKS` lists. It is a module, because numba resolves a module's functions and numbers while
-    it compiles.
+    Every function takes the array `u`, then the place `z` of the block of the pad, or of the memory of the buffer, at
+    hand (not `drag` and `stretch`), then what `_HOOKS` lists. It is a module, because numba resolves a module's
+    functions and numbers while it compiles.
 
     Attributes:
         area: gives the real area of contact [m^2].
@@ -45,10 +45,10 @@ class Dispatch(Protocol):
         drag: gives the force against the girder's motion, along x and y [N].
         observe: brings the derived states of a pad up to date.
         observe_buffer: the same of a buffer's direction.
-        pad_memory: place in `u` of the first pad's memory.
-        pad_block: size of one pad's memory.
-        buffer_memory: place in `u` of the memory of the first buffer along x.
-        buffer_block: size of the memory of one buffer and direction.
+        first_pad: place in `u` of the first pad's block.
+        pad_block: size of one pad's block.
+        buffer_block: size of one buffer's block; where the first begins stands in `u`.
+        buffer_memory: size of the memory of one buffer and direction.
     """
 
     area: Callable[..., float]
@@ -65,10 +65,10 @@ class Dispatch(Protocol):
     drag: Callable[..., tuple[float, float]]
     observe: Callable[..., None]
     observe_buffer: Callable[..., None]
-    pad_memory: int
+    first_pad: int
     pad_block: int
-    buffer_memory: int
     buffer_block: int
+    buffer_memory: int
 
 
 _PAD = (
@@ -128,8 +128,8 @@ def dispatch_text(layout: Layout, decorator: str = "") -> str:
     """Write the module that is a `Dispatch`; the effects' hooks stand in it under `function_name`."""
     written = [*(_function(layout, hook) for hook in CHAINS), *(_observing(layout, name) for name in OBSERVED)]
     functions = "\n\n\n".join(decorator + text for text in written)
-    return f"""pad_memory, pad_block = {layout.at["pad_memory"]}, {layout.pad_block}
-buffer_memory, buffer_block = {layout.at["buffer_memory"]}, {layout.buffer_block}
+    return f"""first_pad, pad_block = {layout.first_pad}, {layout.pad_block}
+buffer_block, buffer_memory = {layout.buffer_block}, {layout.buffer_memory_size}
 
 
 {functions}
@@ -154,10 +154,10 @@ def _observing(layout: Layout, name: str) -> str:
     calls = {}
     for i, effect in enumerate(layout.effects):
         if observes(effect) == name:
-            start, own = layout.derived[effect.name], effect.parameter_names
-            place = layout.parameters[effect.name] + (own.index("time_constant") if "time_constant" in own else 0)
-            lag = f"u[{place}]" if "time_constant" in own else "1.0"
-            memory = f"u[z + {start} : z + {start + derived_states.SIZE}]"
+            start = _memory_place(layout, effect, layout.derived[effect.name])
+            lagging = "time_constant" in effect.parameter_names
+            lag = _parameter(layout, effect, "time_constant") if lagging else "1.0"
+            memory = f"u[{start} : {start} + {derived_states.SIZE}]"
             calls[i] = [f"derived_states.observe({memory}, {', '.join(_OBSERVED_BY[name])}, {lag})"]
     lines = [f"def {name}({', '.join(_OBSERVE[name])}):"]
     count = N_OBSERVE if name == "observe" else N_OBSERVE_BUFFER
@@ -178,16 +178,27 @@ def _one_by_one(first: int, count: int, calls: Mapping[int, Sequence[str]]) -> l
 def _call(layout: Layout, effect: Effect, hook: str) -> str:
     """Write the call of an effect's hook: its parameters and its memory stand in `u`."""
     arguments = []
-    start = layout.parameters[effect.name]
     for name in inspect.signature(effect.hooks[hook]).parameters:
         if name in effect.parameter_names:
-            arguments.append(f"u[{start + effect.parameter_names.index(name)}]")
+            arguments.append(_parameter(layout, effect, name))
         elif name == "memory":
-            place = layout.pad_memory if effect.name in layout.pad_memory else layout.buffer_memory
-            first = place[effect.name]
-            arguments.append(f"u[z + {first} : z + {first + len(effect.memory)}]")
+            first = (layout.pad_memory | layout.buffer_memory)[effect.name]
+            place = _memory_place(layout, effect, first)
+            arguments.append(f"u[{place} : {place} + {len(effect.memory)}]")
         elif name in DERIVED:
-            arguments.append(f"u[z + {layout.derived[effect.name] + tuple(DERIVED).index(name)}]")
+            place = _memory_place(layout, effect, layout.derived[effect.name] + tuple(DERIVED).index(name))
+            arguments.append(f"u[{place}]")
         else:
             arguments.append(name)
     return f"{function_name(effect, hook)}({', '.join(arguments)})"
+
+
+def _memory_place(layout: Layout, effect: Effect, offset: int) -> str:
+    """Write where something of an effect's memory stands: `z` is a pad's block, of a buffer the memory itself."""
+    return f"z + {offset + (PAD_MEMORY if effect.name in layout.pad_memory else 0)}"
+
+
+def _parameter(layout: Layout, effect: Effect, name: str) -> str:
+    """Write a parameter: each pad has its own of the effects on pads."""
+    place = layout.parameters[effect.name] + effect.parameter_names.index(name)
+    return f"u[z + {place}]" if of_each_pad(effect) else f"u[{place}]"

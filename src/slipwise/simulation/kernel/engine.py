@@ -158,10 +158,12 @@ def _compile_hooks(law: Kernel) -> None:
     Raises:
         SettingError: it cannot be compiled.
     """
-    numbers, nothing = np.zeros(law.layout.size), np.zeros((0, 1, 2))
+    layout, nothing = law.layout, np.zeros((0, 1, 2))
+    numbers = np.zeros(layout.buffers(1) + layout.buffer_block)
+    which = np.zeros(1, dtype=np.int64)
     try:
         law.functions["pads_over_record"](
-            numbers, nothing[:, 0, 0], nothing[..., 0], *(nothing,) * 3, nothing[..., 0], 0, 0
+            numbers, nothing[:, 0, 0], nothing[..., 0], nothing, nothing, which, nothing, nothing[..., 0], 0, 0
         )
         law.functions["buffers_over_record"](numbers, nothing[:, 0, 0], *(nothing,) * 3)
         for function in (girder_drag, girder_lift):

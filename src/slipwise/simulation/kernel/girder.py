@@ -1,6 +1,6 @@
 """What acts on the girder besides its pads: buffers, drag, and what the shear keys hold.
 
-    F_b = k d                    per buffer and direction; d and then F_b changed by the effects on them, in turn
+    F_b = k d                    per buffer and direction; d less the gap; d and then F_b changed by effects, in turn
     F_drag = sum of drag(v)      V = sum of lift(sum |F_bx|, sum |F_by|, v)
 
 All functions take the chosen effects and the array `u` (see `places`); `z` is the place in it of the memory of a
@@ -12,14 +12,15 @@ from numpy.typing import NDArray
 
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.dispatch import Dispatch
+from slipwise.simulation.kernel.places import BUFFER_MEMORY, BUFFERS
 
 Array = NDArray[np.float64]
 
 
 @compilable
 def buffer_spring(
-    effects: Dispatch, u: Array, z: int, deflection: float, rate: float, stiffness: float, side: float, time: float,
-    dt: float,
+    effects: Dispatch, u: Array, z: int, deflection: float, rate: float, stiffness: float, gap: float, side: float,
+    time: float, dt: float,
 ) -> float:  # fmt: skip
     """Give the force of the girder on a buffer in one direction [N]; its memory goes on by dt.
 
@@ -33,12 +34,16 @@ def buffer_spring(
         deflection: [m].
         rate: of the deflection [m/s].
         stiffness: [N/m].
-        side: +1 for buffer 1, -1 for buffer 2.
+        gap: way to either side before it is touched [m].
+        side: where the buffer stands, -1 to 1 from one side to the other.
         time: since the start of the run [s].
         dt: step [s].
     """
     effects.observe_buffer(u, z, deflection, rate, time, dt)
-    left = effects.deflection(u, z, deflection, rate, stiffness, side, time, dt)
+    left = deflection
+    if gap > 0.0:
+        left = max(deflection - gap, 0.0) + min(deflection + gap, 0.0)
+    left = effects.deflection(u, z, left, rate, stiffness, side, time, dt)
     if left == 0.0 and deflection != 0.0:
         rate = 0.0
     force = effects.spring(u, z, stiffness * left, left, rate, stiffness, side, time, dt)
@@ -77,5 +82,5 @@ def girder_lift(
     Their memory goes on by dt. All keys rise together: their memory is that of the first buffer. Each holds by its
     share of the horizontal force.
     """
-    z = effects.buffer_memory
+    z = int(u[BUFFERS]) + BUFFER_MEMORY
     return effects.lift(u, z, force_x, force_y, velocity_x, velocity_y, velocity_z, slip_x, slip_y, time, dt)

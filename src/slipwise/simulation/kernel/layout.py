@@ -11,11 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.effects import Effect
+from slipwise.effects import PAD_HOOKS, Effect
 from slipwise.errors import SettingError
 from slipwise.model import EffectUse, Model
+from slipwise.rig import Specimen
+from slipwise.rig.load_basis import basis_of, buffer_sides
 from slipwise.simulation.kernel import derived_states, places
-from slipwise.simulation.kernel.places import CHAINS, MAX_BUFFERS, MAX_PADS
+from slipwise.simulation.kernel.places import CHAINS
 
 #: Lists of the effects that ask for derived states of pads, and of buffers.
 OBSERVED: tuple[str, ...] = ("observe", "observe_buffer")
@@ -27,15 +29,17 @@ class Layout:
 
     Attributes:
         effects: the effects that the kernel knows, whether a model uses them or not.
-        at: offset of the list of effects of each hook of `CHAINS`, of those that ask for derived states ("observe",
-            "observe_buffer"), of "pad_memory" and of "buffer_memory".
-        parameters: effect name -> offset of its first parameter.
-        pad_memory: effect name -> offset of its memory within one pad's block.
+        at: offset of the list of effects of each hook of `CHAINS`, and of those that ask for derived states ("observe",
+            "observe_buffer").
+        parameters: effect name -> offset of its first parameter; of an effect `of_each_pad`, within a pad's block.
+        pad_memory: effect name -> offset of its memory within one pad's memory.
         buffer_memory: the same within one buffer's direction.
-        derived: effect name -> offset of its derived states within that block.
-        pad_block: size of one pad's memory.
-        buffer_block: size of one buffer direction's memory.
-        size: of the whole array.
+        derived: effect name -> offset of its derived states within that memory.
+        first_pad: where the first pad's block begins.
+        pad_block: size of one pad's block: its numbers, its memory, its parameters.
+        pad_memory_size: of one pad's memory.
+        buffer_block: size of one buffer's block: its numbers, its memory along x and along y.
+        buffer_memory_size: of the memory of one buffer and direction.
     """
 
     effects: tuple[Effect, ...]
@@ -44,9 +48,24 @@ class Layout:
     pad_memory: dict[str, int]
     buffer_memory: dict[str, int]
     derived: dict[str, int]
+    first_pad: int
     pad_block: int
+    pad_memory_size: int
     buffer_block: int
-    size: int
+    buffer_memory_size: int
+
+    def size(self, specimen: Specimen) -> int:
+        """Give how many numbers the array of a specimen has."""
+        return self.buffers(len(specimen.pads)) + max(len(specimen.buffers), 1) * self.buffer_block
+
+    def buffers(self, n_pads: int) -> int:
+        """Give where the first buffer's block begins; there is always one, what the shear keys remember is in it."""
+        return self.first_pad + n_pads * self.pad_block
+
+
+def of_each_pad(effect: Effect) -> bool:
+    """Tell whether each pad has its own parameters of an effect."""
+    return effect.instant_hooks.keys() <= PAD_HOOKS
 
 
 def make_layout(effects: Sequence[Effect]) -> Layout:
@@ -60,18 +79,30 @@ def make_layout(effects: Sequence[Effect]) -> Layout:
     for observed in OBSERVED:
         at[observed] = offset
         offset += sum(observes(e) == observed for e in instant)
-    parameters: dict[str, int] = {}
-    for effect in instant:
-        parameters[effect.name] = offset
-        offset += len(effect.parameters)
     derived: dict[str, int] = {}
-    pad_memory, pad_block = _memory([e for e in instant if e.port != "buffer"], derived)
-    buffer_memory, buffer_block = _memory([e for e in instant if e.port == "buffer"], derived)
-    at["pad_memory"] = offset
-    offset += MAX_PADS * pad_block
-    at["buffer_memory"] = offset
-    offset += 2 * MAX_BUFFERS * buffer_block
-    return Layout(instant, at, parameters, pad_memory, buffer_memory, derived, pad_block, buffer_block, offset)
+    pad_memory, pad_size = _memory([e for e in instant if e.port != "buffer"], derived)
+    buffer_memory, buffer_size = _memory([e for e in instant if e.port == "buffer"], derived)
+    parameters: dict[str, int] = {}
+    pad_block = places.PAD_MEMORY + pad_size
+    for effect in instant:
+        count = len(effect.parameters)
+        if of_each_pad(effect):
+            parameters[effect.name], pad_block = pad_block, pad_block + count
+        else:
+            parameters[effect.name], offset = offset, offset + count
+    return Layout(
+        instant,
+        at,
+        parameters,
+        pad_memory,
+        buffer_memory,
+        derived,
+        first_pad=offset,
+        pad_block=pad_block,
+        pad_memory_size=pad_size,
+        buffer_block=places.BUFFER_MEMORY + 2 * buffer_size,
+        buffer_memory_size=buffer_size,
+    )
 
 
 def observes(effect: Effect) -> str:
@@ -103,26 +134,28 @@ def fill(layout: Layout, model: Model, dt: float) -> NDArray[np.float64]:
         dt: step [s].
 
     Returns:
-        (layout.size,) array.
+        (layout.size(specimen),) array.
 
     Raises:
         SettingError: the kernel does not know one of the model's effects.
     """
-    array = np.zeros(layout.size)
     specimen = model.built_specimen()
-    n_pads, n_buffers = len(specimen.pads), len(specimen.buffer_stiffness)
+    array = np.zeros(layout.size(specimen))
     array[places.DT] = dt
-    array[places.N_PADS] = n_pads
-    array[places.N_BUFFERS] = n_buffers
-    array[places.APPARENT_AREA] = specimen.pad_area
+    array[places.N_PADS] = len(specimen.pads)
+    array[places.N_BUFFERS] = len(specimen.buffers)
+    array[places.BUFFERS] = layout.buffers(len(specimen.pads))
     array[places.PLASTIC_PRESSURE] = specimen.plastic_pressure
     array[places.SHEAR_STRENGTH] = specimen.shear_strength
     array[places.FULL_STICK] = specimen.stick_capacity == "full"
-    array[places.BUFFER_STIFFNESS : places.BUFFER_STIFFNESS + n_buffers] = specimen.buffer_stiffness
-    sides = [
-        s for place in specimen.pad_places for s in (1.0 if place[0] >= 0 else -1.0, 1.0 if place[1] >= 0 else -1.0)
-    ]
-    array[places.SIDE : places.SIDE + 2 * n_pads] = sides
+    pads, buffers = pad_blocks(layout, array), buffer_blocks(layout, array)
+    pads[:, places.APPARENT_AREA] = specimen.pad_areas
+    pads[:, places.PAD_STIFFNESS] = specimen.springs
+    pads[:, places.PAD_DAMPING] = [place.damping for place in specimen.places]
+    pads[:, places.SIDE : places.SIDE + 2] = basis_of(specimen).sides
+    for block, buffer, side in zip(buffers, specimen.buffers, buffer_sides(specimen), strict=False):
+        block[places.BUFFER_STIFFNESS : places.BUFFER_STIFFNESS + 2] = buffer.stiffness_x, buffer.stiffness_y
+        block[places.BUFFER_GAP], block[places.BUFFER_SIDE] = buffer.gap, side
     index = {effect.name: i for i, effect in enumerate(layout.effects)}
     for chain in CHAINS:
         uses = model.with_hook(chain)
@@ -147,24 +180,45 @@ def set_values(layout: Layout, array: NDArray[np.float64], model: Model) -> None
     """
     for place, hook in ((places.N_STICK, "stick"), (places.N_TRAIN, "stretch")):
         array[place] = sum(hook in u.effect.hooks and not u.is_neutral for u in model.uses)
+    blocks, pads = pad_blocks(layout, array), model.specimen.pads
     for entry in model.uses:
         start = layout.parameters.get(entry.effect.name)
-        if start is not None:
-            names = entry.effect.parameter_names
+        if start is None:
+            continue
+        names = entry.effect.parameter_names
+        if of_each_pad(entry.effect):
+            blocks[:, start : start + len(names)] = [entry.values[n] for n in names]
+            for pad, own in entry.own.items():
+                for name, value in own.items():
+                    blocks[pads.index(pad), start + names.index(name)] = value
+        else:
             array[start : start + len(names)] = [entry.values[n] for n in names]
 
 
+def pad_blocks(layout: Layout, array: NDArray[np.float64]) -> NDArray[np.float64]:
+    """View the pads' blocks as (n_pads, pad_block)."""
+    count = int(array[places.N_PADS])
+    return array[layout.first_pad : layout.buffers(count)].reshape(count, layout.pad_block)
+
+
+def buffer_blocks(layout: Layout, array: NDArray[np.float64]) -> NDArray[np.float64]:
+    """View the buffers' blocks as (n_buffers or 1, buffer_block)."""
+    return array[layout.buffers(int(array[places.N_PADS])) :].reshape(-1, layout.buffer_block)
+
+
 def pad_memories(layout: Layout, array: NDArray[np.float64]) -> NDArray[np.float64]:
-    """View the pads' memory as (MAX_PADS, pad_block)."""
-    start = layout.at["pad_memory"]
-    return array[start : start + MAX_PADS * layout.pad_block].reshape(MAX_PADS, layout.pad_block)
+    """View the pads' memory as (n_pads, pad_memory_size)."""
+    return pad_blocks(layout, array)[:, places.PAD_MEMORY : places.PAD_MEMORY + layout.pad_memory_size]
 
 
 def buffer_memories(layout: Layout, array: NDArray[np.float64]) -> NDArray[np.float64]:
-    """View the buffers' memory as (MAX_BUFFERS, 2 directions, buffer_block)."""
-    start = layout.at["buffer_memory"]
-    block = array[start : start + 2 * MAX_BUFFERS * layout.buffer_block]
-    return block.reshape(MAX_BUFFERS, 2, layout.buffer_block)
+    """View the buffers' memory as (n_buffers or 1, 2 directions, buffer_memory_size)."""
+    memory = buffer_blocks(layout, array)[:, places.BUFFER_MEMORY :]
+    return np.lib.stride_tricks.as_strided(
+        memory,
+        (len(memory), 2, layout.buffer_memory_size),
+        (memory.strides[0], layout.buffer_memory_size * memory.strides[1], memory.strides[1]),
+    )
 
 
 def apply_rest(layout: Layout, array: NDArray[np.float64], model: Model, seconds: float) -> None:
@@ -177,7 +231,8 @@ def apply_rest(layout: Layout, array: NDArray[np.float64], model: Model, seconds
         if name in layout.pad_memory:
             blocks, start = pad_memories(layout, array), layout.pad_memory[name]
         else:
-            blocks, start = buffer_memories(layout, array).reshape(-1, layout.buffer_block), layout.buffer_memory[name]
+            memories, start = buffer_memories(layout, array), layout.buffer_memory[name]
+            blocks = [direction for buffer in memories for direction in buffer]
         for block in blocks:
             entry.effect.hooks["rest"](block[start : start + size], seconds, **entry.values)
     for entry in (u for u in model.uses if observes(u.effect) == "observe" and "time_constant" in u.values):

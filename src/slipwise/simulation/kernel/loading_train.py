@@ -28,7 +28,7 @@ _DOUBLINGS = 8
 
 @compilable
 def follow_train(
-    effects: Dispatch, u: Array, z: int, pad: int, load: float, velocity_x: float, velocity_y: float, slip_x: float,
+    effects: Dispatch, u: Array, z: int, load: float, velocity_x: float, velocity_y: float, slip_x: float,
     slip_y: float, side_x: float, side_y: float, time: float, dt: float,
 ) -> tuple[float, float, float]:  # fmt: skip
     """Let the train and its contact follow the gauge by one step; what the train remembers goes on.
@@ -37,13 +37,13 @@ def follow_train(
         Force along x and y, and the friction that the contact could carry [N]; the contact's rate stands at
         `TRAIN_VELOCITY`.
     """
-    at = TRAIN_FORCE + 2 * pad
+    at = z + TRAIN_FORCE
     before = sqrt(u[at] * u[at] + u[at + 1] * u[at + 1])
     stretched = effects.stretch(u, before, load) / before if before > 0.0 else 0.0
     asked_x, asked_y = stretched * u[at], stretched * u[at + 1]
     slip_x -= asked_x
     slip_y -= asked_y
-    if abs(time - u[TRAIN_TIME + pad] - dt) <= 0.5 * dt:  # else a new run: its gauge may stand anywhere
+    if abs(time - u[z + TRAIN_TIME] - dt) <= 0.5 * dt:  # else a new run: its gauge may stand anywhere
         asked_x += velocity_x * dt
         asked_y += velocity_y * dt
     asked = sqrt(asked_x * asked_x + asked_y * asked_y)
@@ -56,8 +56,8 @@ def follow_train(
     else:
         force, rate, bound = _sliding(effects, u, z, asked, bound, load, toward_x, toward_y, state)
     u[at], u[at + 1] = force * toward_x, force * toward_y
-    u[TRAIN_TIME + pad] = time
-    u[TRAIN_VELOCITY + 2 * pad], u[TRAIN_VELOCITY + 2 * pad + 1] = rate * toward_x, rate * toward_y
+    u[z + TRAIN_TIME] = time
+    u[z + TRAIN_VELOCITY], u[z + TRAIN_VELOCITY + 1] = rate * toward_x, rate * toward_y
     return force * toward_x, force * toward_y, bound
 
 

@@ -3,8 +3,8 @@
     bound = mu N,  mu = s A_r / N,  A_r = N / H,    each of A_r, s, mu changed by the effects on it, one after another
     F = stick(bound) + sum of pad(bound, |F|);     dry friction up to the bound where no effect says how a pad sticks
 
-All functions take the chosen effects, the array `u` (see `places`) and the place `z` in it of the pad's memory, then
-load N [N], slip rate [m/s] and slip [m] along x and y, the side on which the pad stands (+1 or -1 along x and y), time
+All functions take the chosen effects, the array `u` (see `places`) and the place `z` in it of the pad's block, then
+load N [N], slip rate [m/s] and slip [m] along x and y, where the pad stands (-1 to 1 along x and y), time
 and dt [s]. Forces are those of the girder on the pad [N].
 
 Source: paper, eqs. (1) to (5).
@@ -34,7 +34,7 @@ def pad_bound(
     """Give the friction force that a pad can carry, s A_r [N]; nothing where it does not touch."""
     if load <= 0.0:
         return 0.0
-    apparent_area = u[APPARENT_AREA]
+    apparent_area = u[z + APPARENT_AREA]
     pressure = load / apparent_area
     speed = sqrt(velocity_x * velocity_x + velocity_y * velocity_y)
     if u[FULL_STICK] > 0.0 and speed < STICK_SPEED:
@@ -63,7 +63,7 @@ def pad_explicit(
     slip_y: float, side_x: float, side_y: float, time: float, dt: float,
 ) -> tuple[float, float]:  # fmt: skip
     """Give the force of the effect that says how a pad sticks [N]; only called if there is one."""
-    apparent_area = u[APPARENT_AREA]
+    apparent_area = u[z + APPARENT_AREA]
     pressure = load / apparent_area
     speed = sqrt(velocity_x * velocity_x + velocity_y * velocity_y)
     return effects.stick(
@@ -78,7 +78,7 @@ def pad_further(
     velocity_y: float, slip_x: float, slip_y: float, side_x: float, side_y: float, time: float, dt: float,
 ) -> tuple[float, float]:  # fmt: skip
     """Give the sum of the further forces at a pad [N], which carries `friction` of the `bound` [N]."""
-    apparent_area = u[APPARENT_AREA]
+    apparent_area = u[z + APPARENT_AREA]
     pressure = load / apparent_area
     speed = sqrt(velocity_x * velocity_x + velocity_y * velocity_y)
     return effects.pad(
@@ -93,7 +93,7 @@ def pad_advance(
     velocity_y: float, slip_x: float, slip_y: float, side_x: float, side_y: float, time: float, dt: float,
 ) -> None:  # fmt: skip
     """Let a pad's memory go on by dt, now that the friction which it carried is known [N]."""
-    apparent_area = u[APPARENT_AREA]
+    apparent_area = u[z + APPARENT_AREA]
     pressure = load / apparent_area
     speed = sqrt(velocity_x * velocity_x + velocity_y * velocity_y)
     effects.advance(

@@ -22,8 +22,8 @@ from slipwise.simulation.kernel.places import N_DOFS, N_PADS, PAD_GEOM
 from slipwise.simulation.kernel.step import control_step, sensor_step
 
 Array = NDArray[np.float64]
-#: Lengths given to arrays whose length MuJoCo knows: along tendons and degrees of freedom, along rows and readings.
-_SHORT, _LONG = 64, 4096
+#: A length given to arrays whose length MuJoCo knows: no rig has as many numbers.
+_LONG = 1 << 24
 _ACCELERATION = int(mujoco.mjtStage.mjSTAGE_ACC)
 
 
@@ -31,7 +31,6 @@ class Fields(NamedTuple):
     """Where the fields stand: those of `mjData` in words of 8 bytes (`ncon` of 4), those of `mjContact` in 4 bytes."""
 
     size: int
-    userdata_size: int
     time: int
     ncon: int
     contact: int
@@ -53,13 +52,12 @@ class Fields(NamedTuple):
     efc_address: int
 
 
-def fields(found: Offsets, userdata_size: int) -> Fields:
-    """Count the offsets of MuJoCo's structs in words; `userdata_size` is the length of the law's array."""
+def fields(found: Offsets) -> Fields:
+    """Count the offsets of MuJoCo's structs in words."""
     data = {name: offset // (4 if name == "ncon" else 8) for name, offset in found.data.items()}
     contact = {name: offset // 4 for name, offset in found.contact.items()}
     return Fields(
         size=max(found.data.values()) // 8 + 1,
-        userdata_size=userdata_size,
         contact_size=found.contact_size // 4,
         **data,
         **contact,
@@ -79,9 +77,9 @@ _as_pointer: Any = intrinsic(_pointer)
 
 
 @compilable
-def _numbers(address: Any, size: int) -> Array:
-    """Give the (size,) floating-point numbers that stand at an address."""
-    return carray(_as_pointer(address), (size,), np.float64)
+def _numbers(address: Any) -> Array:
+    """Give the floating-point numbers that stand at an address."""
+    return carray(_as_pointer(address), (_LONG,), np.float64)
 
 
 @compilable
@@ -91,13 +89,13 @@ def control_at(effects: Dispatch, at: Fields, data: int) -> None:
     Only a contact that has a row of constraints is near enough to bear anything. The row itself is kept from acting.
     """
     words = carray(_as_pointer(data), (at.size,), np.int64)
-    u = _numbers(words[at.userdata], at.userdata_size)
-    applied = _numbers(words[at.qfrc_applied], _SHORT)
-    position = _numbers(words[at.efc_pos], _LONG)
-    velocity = _numbers(words[at.efc_vel], _LONG)
-    jacobian = _numbers(words[at.efc_J], _LONG)
-    reference = _numbers(words[at.efc_aref], _LONG)
-    begin_step(u, applied)
+    u = _numbers(words[at.userdata])
+    applied = _numbers(words[at.qfrc_applied])
+    position = _numbers(words[at.efc_pos])
+    velocity = _numbers(words[at.efc_vel])
+    jacobian = _numbers(words[at.efc_J])
+    reference = _numbers(words[at.efc_aref])
+    begin_step(u, effects.first_pad, effects.pad_block, applied)
     dofs = int(u[N_DOFS])
     for i in range(carray(_as_pointer(data), (2 * at.size,), np.int32)[at.ncon]):
         contact = carray(_as_pointer(words[at.contact] + 4 * i * at.contact_size), (at.contact_size,), np.int32)
@@ -105,18 +103,19 @@ def control_at(effects: Dispatch, at: Fields, data: int) -> None:
         if row >= 0:
             reference[row] = INACTIVE
             for pad in range(int(u[N_PADS])):
-                geom = int(u[PAD_GEOM + pad])
+                z = effects.first_pad + pad * effects.pad_block
+                geom = int(u[z + PAD_GEOM])
                 if contact[at.geom1] == geom or contact[at.geom2] == geom:
                     push = jacobian[row * dofs : (row + 1) * dofs]
-                    apply_pad_load(u, pad, -float(position[row]), -float(velocity[row]), push, applied)
+                    apply_pad_load(u, z, -float(position[row]), -float(velocity[row]), push, applied)
     control_step(
         effects,
         u,
-        _numbers(data, at.size)[at.time],
-        _numbers(words[at.ten_length], _SHORT),
-        _numbers(words[at.ten_velocity], _SHORT),
-        _numbers(words[at.qvel], _SHORT),
-        _numbers(words[at.efc_frictionloss], _SHORT),
+        _numbers(data)[at.time],
+        _numbers(words[at.ten_length]),
+        _numbers(words[at.ten_velocity]),
+        _numbers(words[at.qvel]),
+        _numbers(words[at.efc_frictionloss]),
         applied,
     )
 
@@ -129,10 +128,10 @@ def sensor_at(effects: Dispatch, at: Fields, data: int, stage: int) -> None:
     words = carray(_as_pointer(data), (at.size,), np.int64)
     sensor_step(
         effects,
-        _numbers(words[at.userdata], at.userdata_size),
-        _numbers(data, at.size)[at.time],
-        _numbers(words[at.ten_length], _SHORT),
-        _numbers(words[at.ten_velocity], _SHORT),
-        _numbers(words[at.efc_force], _LONG),
-        _numbers(words[at.sensordata], _LONG),
+        _numbers(words[at.userdata]),
+        _numbers(data)[at.time],
+        _numbers(words[at.ten_length]),
+        _numbers(words[at.ten_velocity]),
+        _numbers(words[at.efc_force]),
+        _numbers(words[at.sensordata]),
     )

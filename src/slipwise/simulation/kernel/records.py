@@ -12,7 +12,11 @@ from slipwise.simulation.kernel.loading_train import follow_train
 from slipwise.simulation.kernel.pads import pad_advance, pad_bound, pad_explicit, pad_further
 from slipwise.simulation.kernel.places import (
     APPARENT_AREA,
+    BUFFER_GAP,
+    BUFFER_MEMORY,
+    BUFFER_SIDE,
     BUFFER_STIFFNESS,
+    BUFFERS,
     DT,
     N_ADVANCE,
     N_OBSERVE,
@@ -28,10 +32,10 @@ Array = NDArray[np.float64]
 
 @compilable
 def pads_over_record(
-    effects: Dispatch, u: Array, time: Array, load: Array, velocity: Array, slip: Array, force: Array, bounds: Array,
-    first: int, last: int,
+    effects: Dispatch, u: Array, time: Array, load: Array, velocity: Array, slip: Array,
+    which: NDArray[np.int64], force: Array, bounds: Array, first: int, last: int,
 ) -> None:  # fmt: skip
-    """Drive the law of pads first..last-1 with what was measured.
+    """Drive the laws of the pads in columns first..last-1 with what was measured.
 
     Pads share nothing, so that several threads may each drive some. Where a pad sticks and no effect says how, the law
     gives only the bound: force is then the bound along the motion, F = s A_r v/|v|.
@@ -43,18 +47,19 @@ def pads_over_record(
         load: (n, p) [N].
         velocity: (n, p, 2) slip rate [m/s].
         slip: (n, p, 2) [m].
+        which: (p,) the rig's pad that each column is.
         force: (n, p, 2) of the girder on the pads [N]; filled.
         bounds: (n, p) friction force that each can carry [N]; filled.
-        first: of the pads to drive.
+        first: of the columns to drive.
         last: the one behind the last of them.
     """
     bristle, further, remembers = u[N_STICK] > 0.0, u[N_PAD] > 0.0, u[N_ADVANCE] > 0.0
     train, observed = u[N_TRAIN] > 0.0, u[N_OBSERVE] > 0.0
     first_dt = time[1] - time[0] if len(time) > 1 else u[DT]
     for pad in range(first, last):
-        z = effects.pad_memory + pad * effects.pad_block
-        side_x = u[SIDE + 2 * pad]
-        side_y = u[SIDE + 2 * pad + 1]
+        z = effects.first_pad + int(which[pad]) * effects.pad_block
+        side_x = u[z + SIDE]
+        side_y = u[z + SIDE + 1]
         friction = 0.0
         for i in range(len(time)):
             dt = time[i] - time[i - 1] if i > 0 else first_dt
@@ -64,14 +69,24 @@ def pads_over_record(
             slip_y = slip[i, pad, 1]
             if observed:
                 effects.observe(
-                    u, z, friction, load[i, pad], u[APPARENT_AREA], velocity_x, velocity_y, slip_x, slip_y, time[i], dt
+                    u,
+                    z,
+                    friction,
+                    load[i, pad],
+                    u[z + APPARENT_AREA],
+                    velocity_x,
+                    velocity_y,
+                    slip_x,
+                    slip_y,
+                    time[i],
+                    dt,
                 )
             if train:
                 force_x, force_y, bound = follow_train(
-                    effects, u, z, pad, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time[i],
+                    effects, u, z, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time[i],
                     dt,
                 )  # fmt: skip
-                velocity_x, velocity_y = u[TRAIN_VELOCITY + 2 * pad], u[TRAIN_VELOCITY + 2 * pad + 1]  # of the contact
+                velocity_x, velocity_y = u[z + TRAIN_VELOCITY], u[z + TRAIN_VELOCITY + 1]  # of the contact
             else:
                 bound = pad_bound(
                     effects, u, z, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time[i], dt
@@ -121,12 +136,22 @@ def buffers_over_record(effects: Dispatch, u: Array, time: Array, deflection: Ar
     """
     first_dt = time[1] - time[0] if len(time) > 1 else u[DT]
     for buffer in range(deflection.shape[1]):
-        stiffness = u[BUFFER_STIFFNESS + buffer]
-        side = 1.0 - 2.0 * buffer
+        b = int(u[BUFFERS]) + buffer * effects.buffer_block
+        gap, side = u[b + BUFFER_GAP], u[b + BUFFER_SIDE]
         for axis in range(2):
-            z = effects.buffer_memory + (2 * buffer + axis) * effects.buffer_block
+            stiffness = u[b + BUFFER_STIFFNESS + axis]
+            z = b + BUFFER_MEMORY + axis * effects.buffer_memory
             for i in range(len(time)):
                 dt = time[i] - time[i - 1] if i > 0 else first_dt
                 force[i, buffer, axis] = buffer_spring(
-                    effects, u, z, deflection[i, buffer, axis], rate[i, buffer, axis], stiffness, side, time[i], dt
+                    effects,
+                    u,
+                    z,
+                    deflection[i, buffer, axis],
+                    rate[i, buffer, axis],
+                    stiffness,
+                    gap,
+                    side,
+                    time[i],
+                    dt,
                 )

@@ -19,7 +19,13 @@ from slipwise.simulation.kernel.places import (
     APPARENT_AREA,
     BOUND,
     BUFFER_FORCE,
+    BUFFER_GAP,
+    BUFFER_JACOBIAN,
+    BUFFER_MEMORY,
+    BUFFER_SIDE,
     BUFFER_STIFFNESS,
+    BUFFER_TENDON,
+    BUFFERS,
     COMPRESSION,
     DT,
     EXPLICIT,
@@ -27,7 +33,6 @@ from slipwise.simulation.kernel.places import (
     FRICTION_ROW,
     GIRDER_DOF,
     GIRDER_FORCE,
-    JACOBIAN,
     LOAD,
     MAX_DOFS,
     N_BUFFERS,
@@ -36,9 +41,10 @@ from slipwise.simulation.kernel.places import (
     N_PADS,
     N_STICK,
     N_TRAIN,
+    PAD_JACOBIAN,
+    PAD_TENDON,
     RATE_AGE,
     SIDE,
-    TENDON,
     TRAIN_VELOCITY,
     USER_SENSOR,
 )
@@ -69,7 +75,16 @@ def control_step(
     """
     u[RATE_AGE] = u[DT]
     for pad in range(int(u[N_PADS])):
-        push_pad(effects, u, pad, time, ten_length, ten_velocity, frictionloss, applied)
+        push_pad(
+            effects,
+            u,
+            effects.first_pad + pad * effects.pad_block,
+            time,
+            ten_length,
+            ten_velocity,
+            frictionloss,
+            applied,
+        )
     sum_x, sum_y = push_buffers(effects, u, time, ten_length, ten_velocity, applied)
     if int(u[GIRDER_DOF]) >= 0:
         push_girder(effects, u, sum_x, sum_y, time, ten_length, qvel, applied)
@@ -77,73 +92,69 @@ def control_step(
 
 @compilable
 def push_pad(
-    effects: Dispatch, u: Array, pad: int, time: float, ten_length: Array, ten_velocity: Array, frictionloss: Array,
+    effects: Dispatch, u: Array, z: int, time: float, ten_length: Array, ten_velocity: Array, frictionloss: Array,
     applied: Array,
 ) -> None:  # fmt: skip
-    """Set what one pad's friction may carry and add its explicit forces; arguments as `control_step`."""
+    """Set what friction of the pad at `z` may carry and add its explicit forces; arguments as `control_step`."""
     dt = u[DT]
-    z = effects.pad_memory + pad * effects.pad_block
-    tendon_x = int(u[TENDON + 2 * pad])
-    tendon_y = int(u[TENDON + 2 * pad + 1])
-    load = u[LOAD + pad]
+    tendon_x = int(u[z + PAD_TENDON])
+    tendon_y = int(u[z + PAD_TENDON + 1])
+    load = u[z + LOAD]
     velocity_x = ten_velocity[tendon_x]
     velocity_y = ten_velocity[tendon_y]
     slip_x = ten_length[tendon_x]
     slip_y = ten_length[tendon_y]
-    side_x = u[SIDE + 2 * pad]
-    side_y = u[SIDE + 2 * pad + 1]
+    side_x = u[z + SIDE]
+    side_y = u[z + SIDE + 1]
     force_x = 0.0
     force_y = 0.0
     if u[N_OBSERVE] > 0.0:
-        before = sqrt(
-            (u[FORCE + 2 * pad] + u[EXPLICIT + 2 * pad]) ** 2
-            + (u[FORCE + 2 * pad + 1] + u[EXPLICIT + 2 * pad + 1]) ** 2
-        )
-        effects.observe(u, z, before, load, u[APPARENT_AREA], velocity_x, velocity_y, slip_x, slip_y, time, dt)
+        before = sqrt((u[z + FORCE] + u[z + EXPLICIT]) ** 2 + (u[z + FORCE + 1] + u[z + EXPLICIT + 1]) ** 2)
+        effects.observe(u, z, before, load, u[z + APPARENT_AREA], velocity_x, velocity_y, slip_x, slip_y, time, dt)
     if u[N_TRAIN] > 0.0:
         force_x, force_y, bound = follow_train(
-            effects, u, z, pad, load, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt
+            effects, u, z, load, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt
         )
-        velocity_x, velocity_y = u[TRAIN_VELOCITY + 2 * pad], u[TRAIN_VELOCITY + 2 * pad + 1]
+        velocity_x, velocity_y = u[z + TRAIN_VELOCITY], u[z + TRAIN_VELOCITY + 1]
     else:
         bound = pad_bound(effects, u, z, load, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt)
-    u[BOUND + pad] = bound
+    u[z + BOUND] = bound
     if u[N_STICK] > 0.0:
         force_x, force_y = pad_explicit(
             effects, u, z, bound, load, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt
         )
     if u[N_STICK] + u[N_TRAIN] > 0.0:
-        frictionloss[int(u[FRICTION_ROW + 2 * pad])] = TINY
-        frictionloss[int(u[FRICTION_ROW + 2 * pad + 1])] = TINY
+        frictionloss[int(u[z + FRICTION_ROW])] = TINY
+        frictionloss[int(u[z + FRICTION_ROW + 1])] = TINY
     else:
-        split_bound(u, pad, bound, velocity_x, velocity_y, frictionloss)
-    friction = sqrt(u[FORCE + 2 * pad] ** 2 + u[FORCE + 2 * pad + 1] ** 2)
+        split_bound(u, z, bound, velocity_x, velocity_y, frictionloss)
+    friction = sqrt(u[z + FORCE] ** 2 + u[z + FORCE + 1] ** 2)
     more_x, more_y = pad_further(
         effects, u, z, bound, friction, load, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt
     )
     force_x += more_x
     force_y += more_y
-    u[EXPLICIT + 2 * pad] = force_x
-    u[EXPLICIT + 2 * pad + 1] = force_y
+    u[z + EXPLICIT] = force_x
+    u[z + EXPLICIT + 1] = force_y
     if force_x != 0.0 or force_y != 0.0:
-        j = JACOBIAN + 2 * pad * MAX_DOFS
+        j = z + PAD_JACOBIAN
         for dof in range(int(u[N_DOFS])):
             applied[dof] -= u[j + dof] * force_x + u[j + MAX_DOFS + dof] * force_y
 
 
 @compilable
-def split_bound(u: Array, pad: int, bound: float, velocity_x: float, velocity_y: float, frictionloss: Array) -> None:
+def split_bound(u: Array, z: int, bound: float, velocity_x: float, velocity_y: float, frictionloss: Array) -> None:
     """Split a pad's bound [N] over the rows along x and y, so that what it may carry is a circle.
 
     bound_i = bound |e_i|,    e along v / (1 mm/s) + F / bound
 
     Along the velocity where it slides, along the last friction F where it sticks: a circle in both.
     """
-    row_x = int(u[FRICTION_ROW + 2 * pad])
-    row_y = int(u[FRICTION_ROW + 2 * pad + 1])
+    row_x = int(u[z + FRICTION_ROW])
+    row_y = int(u[z + FRICTION_ROW + 1])
     last = max(bound, 1.0)
-    toward_x = velocity_x / DIRECTION_SPEED + u[FORCE + 2 * pad] / last
-    toward_y = velocity_y / DIRECTION_SPEED + u[FORCE + 2 * pad + 1] / last
+    toward_x = velocity_x / DIRECTION_SPEED + u[z + FORCE] / last
+    toward_y = velocity_y / DIRECTION_SPEED + u[z + FORCE + 1] / last
     length = sqrt(toward_x * toward_x + toward_y * toward_y)
     if length > 1e-9:
         frictionloss[row_x] = max(bound * abs(toward_x) / length, TINY)
@@ -158,18 +169,19 @@ def push_buffers(
     effects: Dispatch, u: Array, time: float, ten_length: Array, ten_velocity: Array, applied: Array
 ) -> tuple[float, float]:
     """Add the buffers' forces; gives the sums of their sizes along x and y [N]. Arguments as `control_step`."""
-    n_pads = int(u[N_PADS])
     sum_x = 0.0
     sum_y = 0.0
     for buffer in range(int(u[N_BUFFERS])):
-        stiffness = u[BUFFER_STIFFNESS + buffer]
-        side = 1.0 - 2.0 * buffer
+        b = int(u[BUFFERS]) + buffer * effects.buffer_block
         for axis in range(2):
-            tendon = int(u[TENDON + 2 * (n_pads + buffer) + axis])
-            z = effects.buffer_memory + (2 * buffer + axis) * effects.buffer_block
-            force = buffer_spring(effects, u, z, ten_length[tendon], ten_velocity[tendon], stiffness, side, time, u[DT])
-            u[BUFFER_FORCE + 2 * buffer + axis] = force
-            j = JACOBIAN + (2 * (n_pads + buffer) + axis) * MAX_DOFS
+            tendon = int(u[b + BUFFER_TENDON + axis])
+            z = b + BUFFER_MEMORY + axis * effects.buffer_memory
+            force = buffer_spring(
+                effects, u, z, ten_length[tendon], ten_velocity[tendon], u[b + BUFFER_STIFFNESS + axis],
+                u[b + BUFFER_GAP], u[b + BUFFER_SIDE], time, u[DT],
+            )  # fmt: skip
+            u[b + BUFFER_FORCE + axis] = force
+            j = b + BUFFER_JACOBIAN + axis * MAX_DOFS
             for dof in range(int(u[N_DOFS])):
                 applied[dof] -= u[j + dof] * force
             if axis == 0:
@@ -204,8 +216,9 @@ def push_girder(
     slip_x = 0.0
     slip_y = 0.0
     for pad in range(n_pads):
-        slip_x += ten_length[int(u[TENDON + 2 * pad])] / n_pads
-        slip_y += ten_length[int(u[TENDON + 2 * pad + 1])] / n_pads
+        z = effects.first_pad + pad * effects.pad_block
+        slip_x += ten_length[int(u[z + PAD_TENDON])] / n_pads
+        slip_y += ten_length[int(u[z + PAD_TENDON + 1])] / n_pads
     force_x, force_y = girder_drag(effects, u, qvel[dof_x], qvel[dof_y], qvel[dof_z], slip_x, slip_y, time, u[DT])
     applied[dof_x] -= force_x
     applied[dof_y] -= force_y
@@ -215,10 +228,11 @@ def push_girder(
         # The column of yaw in a tendon's Jacobian is the distance of the key from the middle.
         dof_yaw = int(u[GIRDER_DOF + 5])
         for buffer in range(int(u[N_BUFFERS])):
-            own_x = u[BUFFER_FORCE + 2 * buffer]
-            own_y = u[BUFFER_FORCE + 2 * buffer + 1]
+            b = int(u[BUFFERS]) + buffer * effects.buffer_block
+            own_x = u[b + BUFFER_FORCE]
+            own_y = u[b + BUFFER_FORCE + 1]
             held = force_z * (abs(own_x) + abs(own_y)) / (sum_x + sum_y)
-            j = JACOBIAN + 2 * (int(u[N_PADS]) + buffer) * MAX_DOFS + dof_yaw
+            j = b + BUFFER_JACOBIAN + dof_yaw
             applied[int(u[GIRDER_DOF + 3])] -= u[j] * held
             applied[int(u[GIRDER_DOF + 4])] -= u[j + MAX_DOFS] * held
     u[GIRDER_FORCE] = -force_x
@@ -247,30 +261,32 @@ def sensor_step(
     n_pads = int(u[N_PADS])
     first = int(u[USER_SENSOR])
     for pad in range(n_pads):
-        tendon_x = int(u[TENDON + 2 * pad])
-        tendon_y = int(u[TENDON + 2 * pad + 1])
-        friction_x = -friction_force[int(u[FRICTION_ROW + 2 * pad])]
-        friction_y = -friction_force[int(u[FRICTION_ROW + 2 * pad + 1])]
-        force_x = friction_x + u[EXPLICIT + 2 * pad]
-        force_y = friction_y + u[EXPLICIT + 2 * pad + 1]
+        z = effects.first_pad + pad * effects.pad_block
+        tendon_x = int(u[z + PAD_TENDON])
+        tendon_y = int(u[z + PAD_TENDON + 1])
+        friction_x = -friction_force[int(u[z + FRICTION_ROW])]
+        friction_y = -friction_force[int(u[z + FRICTION_ROW + 1])]
+        force_x = friction_x + u[z + EXPLICIT]
+        force_y = friction_y + u[z + EXPLICIT + 1]
         friction = sqrt(force_x * force_x + force_y * force_y)
-        z = effects.pad_memory + pad * effects.pad_block
         velocity_x, velocity_y = ten_velocity[tendon_x], ten_velocity[tendon_y]
         if u[N_TRAIN] > 0.0:
-            velocity_x, velocity_y = u[TRAIN_VELOCITY + 2 * pad], u[TRAIN_VELOCITY + 2 * pad + 1]
+            velocity_x, velocity_y = u[z + TRAIN_VELOCITY], u[z + TRAIN_VELOCITY + 1]
         pad_advance(
-            effects, u, z, u[BOUND + pad], friction, u[LOAD + pad], velocity_x, velocity_y, ten_length[tendon_x],
-            ten_length[tendon_y], u[SIDE + 2 * pad], u[SIDE + 2 * pad + 1], time, u[DT],
+            effects, u, z, u[z + BOUND], friction, u[z + LOAD], velocity_x, velocity_y, ten_length[tendon_x],
+            ten_length[tendon_y], u[z + SIDE], u[z + SIDE + 1], time, u[DT],
         )  # fmt: skip
-        u[FORCE + 2 * pad] = friction_x
-        u[FORCE + 2 * pad + 1] = friction_y
-        sensordata[first + 3 * pad] = u[LOAD + pad]
+        u[z + FORCE] = friction_x
+        u[z + FORCE + 1] = friction_y
+        sensordata[first + 3 * pad] = u[z + LOAD]
         sensordata[first + 3 * pad + 1] = force_x
         sensordata[first + 3 * pad + 2] = force_y
     n_forces = 2 * int(u[N_BUFFERS])
     for i in range(n_forces):
-        sensordata[first + 3 * n_pads + i] = u[BUFFER_FORCE + i]
+        b = int(u[BUFFERS]) + i // 2 * effects.buffer_block
+        sensordata[first + 3 * n_pads + i] = u[b + BUFFER_FORCE + i % 2]
     for axis in range(3):
         sensordata[first + 3 * n_pads + n_forces + axis] = u[GIRDER_FORCE + axis]
     for pad in range(n_pads):
-        sensordata[first + 3 * n_pads + n_forces + 3 + pad] = u[COMPRESSION + pad]
+        z = effects.first_pad + pad * effects.pad_block
+        sensordata[first + 3 * n_pads + n_forces + 3 + pad] = u[z + COMPRESSION]

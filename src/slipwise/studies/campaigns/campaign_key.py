@@ -9,7 +9,7 @@ from pathlib import Path
 from slipwise.campaign.settings import read_settings
 from slipwise.errors import SlipwiseError
 from slipwise.executors import hash_of_code
-from slipwise.rig.specimen import find_rig
+from slipwise.rig.files import find_rig
 
 #: The page is made by the code too, and probabilities come from a table.
 _DECIDING = ("**/*.py", "**/*.json")

@@ -15,7 +15,7 @@ from slipwise.errors import SettingError, SimulationError
 from slipwise.executors import ONE_AT_A_TIME, hash_of_code
 from slipwise.model import Model, base_model, use
 from slipwise.motion import TableMotion, load_motion, scale
-from slipwise.rig.specimen import find_rig
+from slipwise.rig.files import find_rig
 from slipwise.simulation.replay import replay
 from slipwise.simulation.simulator import Replay
 from slipwise.studies.ensemble.varied import with_values

@@ -90,7 +90,7 @@ def study(settings: PaperSettings, numbers: dict[str, list[dict[str, Any]]]) -> 
     models = {bridge: paper_model(bridge, settings) for bridge in SINES}
     swings = {bridge: swing_per_g(model, SINES[bridge]) for bridge, model in models.items()}
     high = {
-        b: replace(m, specimen=replace(m.specimen, buffer_height=m.specimen.centre_height)) for b, m in models.items()
+        b: replace(m, specimen=m.specimen.changed(buffer_height=m.specimen.centre_height)) for b, m in models.items()
     }
     swings_high = {bridge: swing_per_g(model, SINES[bridge]) for bridge, model in high.items()}
     alone = [n for n in numbers["without"] if "failed" not in n]

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from slipwise.channels import PADS
 from slipwise.model import Model
 from slipwise.record import Record
+from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import LoadFactors, load_factors
 from slipwise.studies.paper.finding import FAILS, HOLDS, Finding, Study
 from slipwise.studies.paper.settings import PaperSettings, paper_model
@@ -23,7 +24,7 @@ def rocking_per_g(record: Record, model: Model) -> tuple[float, float]:
         per slip [N/m], for which P-delta says m g/(2 b) with pads on the table.
     """
     specimen = model.built_specimen()
-    rocking = _without_inertia(load_factors(record, specimen.mass, specimen.gravity))[:, 0]
+    rocking = _without_inertia(load_factors(record, specimen.mass, specimen.gravity, basis_of(specimen)))[:, 0]
     columns = np.stack([-record["girder_ax"] / specimen.gravity, record["slip_x"]], axis=1)
     slopes, *_ = np.linalg.lstsq(columns, rocking - rocking.mean(), rcond=None)
     return float(slopes[0]) / (specimen.weight / len(specimen.pads)), float(slopes[1])
@@ -46,7 +47,7 @@ def study(settings: PaperSettings, records: dict[str, Record]) -> Study:
     for bridge, record in records.items():
         model = paper_model(bridge, settings)
         specimen = model.built_specimen()
-        split = load_factors(record, specimen.mass, specimen.gravity)
+        split = load_factors(record, specimen.mass, specimen.gravity, basis_of(specimen))
         slope, by_slip = rocking_per_g(record, model)
         rocking = _without_inertia(split)
         rows.append(

@@ -1,0 +1,181 @@
+"""Writes the MJCF of a specimen: the file that any MuJoCo viewer opens, and the text from which a replay is built.
+
+Everything stands in one file, what all rigs share (`models/common.xml`) included, so that it can be passed on.
+"""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from slipwise.rig.files import models_folder
+from slipwise.rig.places import Buffer, Place
+from slipwise.rig.specimen import Specimen
+
+#: What the table reaches beyond the pads, and the girder's deck above the sliding plane [m]: for the eye alone.
+_MARGIN, _DECK = 0.25, 0.08
+#: Thickness of plates and soles, half of it [m].
+_PLATE = 0.01
+_DRIVEN = ("table_x slide 1 0 0", "table_y slide 0 1 0", "table_z slide 0 0 1", "table_pitch hinge 0 1 0")
+_FREE = (
+    "girder_x slide 1 0 0", "girder_y slide 0 1 0", "girder_z slide 0 0 1", "girder_roll hinge 1 0 0",
+    "girder_pitch hinge 0 1 0", "girder_yaw hinge 0 0 1",
+)  # fmt: skip
+
+
+def mjcf_text(specimen: Specimen) -> str:
+    """Write a specimen's MJCF; `load_specimen` reads the same specimen from it."""
+    common = (models_folder() / "common.xml").read_text(encoding="utf-8")
+    shared = common.partition("<mujoco>")[2].rpartition("</mujoco>")[0].rstrip()
+    girder, inside = _girder(specimen), "      " if specimen.free else "    "
+    free_girder = [f"{inside}{line}" for line in girder] if specimen.free else []
+    guided_girder = [] if specimen.free else [f"{inside}{line}" for line in girder]
+    lines = [
+        f'<mujoco model="{specimen.name}">{shared}',
+        *(["", f'  <option gravity="0 0 {-specimen.gravity!r}"/>']),
+        "",
+        "  <custom>",
+        *(f"    {line}" for line in _custom(specimen)),
+        "  </custom>",
+        "",
+        "  <worldbody>",
+        '    <body name="table">',
+        *(f"      {line}" for line in _table(specimen)),
+        *free_girder,
+        "    </body>",
+        *guided_girder,
+        "  </worldbody>",
+        "",
+        "  <tendon>",
+        *(f"    {line}" for line in _tendons(specimen)),
+        "  </tendon>",
+        "",
+        "  <actuator>",
+        *(f"    {line}" for line in _actuators(specimen)),
+        "  </actuator>",
+        "</mujoco>",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _numbers(values: Iterable[float]) -> str:
+    return " ".join(repr(float(value)) for value in values)
+
+
+def _joints(joints: Iterable[str], more: str = "") -> list[str]:
+    parts = [joint.split(maxsplit=2) for joint in joints]
+    return [f'<joint name="{name}" type="{kind}" axis="{axis}"{more}/>' for name, kind, axis in parts]
+
+
+def _custom(specimen: Specimen) -> list[str]:
+    out = [f'<text name="source {what}" data="{_escaped(words)}"/>' for what, words in specimen.sources.items()]
+    out += [f'<text name="{word}" data="{getattr(specimen, word)}"/>' for word in ("pads_on", "stick_capacity")]
+    values: dict[str, tuple[float, ...]] = {
+        "pad_stiffness": tuple(p.stiffness for p in specimen.places),
+        "pad_damping": tuple(p.damping for p in specimen.places),
+        "plastic_pressure": (specimen.plastic_pressure,),
+        "shear_strength": (specimen.shear_strength,),
+    }
+    if specimen.bending_mass:
+        values |= {
+            name: (getattr(specimen, name),) for name in ("bending_mass", "bending_frequency", "bending_damping")
+        }
+    for name, given in values.items():
+        out.append(f'<numeric name="{name}" data="{_numbers(given[:1] if len(set(given)) == 1 else given)}"/>')
+    return out
+
+
+def _escaped(words: str) -> str:
+    return words.replace("&", "&amp;").replace('"', "&quot;").replace("<", "&lt;")
+
+
+def _table(specimen: Specimen) -> list[str]:
+    half = np.abs(np.array([*specimen.pad_places, *specimen.buffer_places])).max(axis=0) + _MARGIN
+    out = _joints(_DRIVEN, ' class="driven"')
+    size = f'size="{_numbers([*half, 0.1])}"'
+    out.append(f'<geom name="table" type="box" {size} pos="0 0 -0.255" material="table" class="visual" mass="1"/>')
+    for bit, pad in enumerate(specimen.places):
+        at = f"{_numbers([pad.x, pad.y])}"
+        out += [
+            f'<geom name="pad_{pad.name}" class="pad" contype="{1 << bit}" size="{pad.radius!r}" '
+            f'pos="{at} {pad.z - pad.radius!r}"/>',
+            f'<geom name="disc_{pad.name}" class="disc" size="{pad.radius!r} 0.004" pos="{at} -0.004"/>',
+            f'<geom name="cell_{pad.name}" class="cell" pos="{at} -0.105"/>',
+        ]
+    for buffer in specimen.buffers:
+        at = _numbers([buffer.x, buffer.y])
+        out.append(
+            f'<geom name="buffer_{buffer.name}" type="cylinder" size="0.12 0.06" pos="{at} -0.095" material="rubber" '
+            'class="visual"/>'
+        )
+    return out
+
+
+def _girder(specimen: Specimen) -> list[str]:
+    """Write the girder's body, whose frame stands at its centre of gravity."""
+    centre = np.array([specimen.centre_x, specimen.centre_y, specimen.centre_height])
+    places = np.array(specimen.pad_places)
+    low, high = places.min(axis=0), places.max(axis=0)
+    middle, half = 0.5 * (low + high) - centre[:2], np.maximum(0.5 * (high - low), 0.3)
+    inside = _joints(_FREE if specimen.free else _FREE[2:3])
+    inside.append(f'<inertial pos="0 0 0" mass="{specimen.mass!r}" diaginertia="{_numbers(specimen.inertia)}"/>')
+    look = 'material="girder" class="visual"'
+    deck = _numbers([*middle, _DECK - centre[2]])
+    inside.append(f'<geom name="deck" type="box" size="{_numbers([*half, 0.06])}" pos="{deck}" {look}/>')
+    size = _numbers([*0.5 * half, min(0.12, 0.5 * centre[2])])
+    inside.append(f'<geom name="weight" type="box" size="{size}" pos="0 0 0" material="steel" class="visual"/>')
+    for bit, pad in enumerate(specimen.places):
+        at = _numbers([pad.x - centre[0], pad.y - centre[1], _PLATE - centre[2]])
+        inside.append(f'<geom name="plate_{pad.name}" class="plate" conaffinity="{1 << bit}" pos="{at}"/>')
+        inside.append(f'<geom name="sole_{pad.name}" class="sole" pos="{at}"/>')
+    for buffer in specimen.buffers:
+        at = _numbers([buffer.x - centre[0], buffer.y - centre[1], -centre[2]])
+        name = f'name="key_{buffer.name}"'
+        inside.append(f'<geom {name} type="cylinder" size="0.025 0.05" pos="{at}" material="steel" class="visual"/>')
+    inside.append('<site name="girder_centre" pos="0 0 0" size="0.03" rgba="0.8 0.1 0.1 1"/>')
+    if specimen.free:
+        for edge, x in ((1, specimen.edge_distance), (2, -specimen.edge_distance)):
+            inside.append(f'<site name="girder_edge_{edge}" pos="{x!r} 0 0" size="0.02" rgba="0.1 0.1 0.8 1"/>')
+    return [f'<body name="girder" pos="{_numbers(centre)}">', *(f"  {line}" for line in inside), "</body>"]
+
+
+def _tendons(specimen: Specimen) -> list[str]:
+    """Write the slip of the soffit over each pad and of each key: rate v = v_centre + turning x arm."""
+    out: list[str] = []
+    if not specimen.free:
+        joints = {axis: {f"table_{axis}": -1.0} for axis in "xy"}
+        return [_fixed(f"pad_{p.name}_{a}", 'class="friction"', joints[a]) for p in specimen.places for a in "xy"]
+    for pad in specimen.places:
+        for axis, joints in arms(specimen, pad, 0.0).items():
+            out.append(_fixed(f"pad_{pad.name}_{axis}", 'class="friction"', joints))
+    for buffer in specimen.buffers:
+        play = f' springlength="{-buffer.gap!r} {buffer.gap!r}"' if buffer.gap else ""
+        for axis, joints in arms(specimen, buffer, buffer.z).items():
+            stiffness = buffer.stiffness_x if axis == "x" else buffer.stiffness_y
+            out.append(_fixed(f"buffer_{buffer.name}_{axis}", f'stiffness="{stiffness!r}"{play}', joints))
+    return out
+
+
+def arms(specimen: Specimen, part: Place | Buffer, height: float) -> dict[str, dict[str, float]]:
+    """Give the girder's joints that move a part along x and y, each with what its rate is multiplied by [1 or m].
+
+    Args:
+        specimen: with the centre of gravity, about which the girder turns.
+        part: a pad or a buffer.
+        height: of its force above the sliding plane [m].
+    """
+    x, y, z = part.x - specimen.centre_x, part.y - specimen.centre_y, height - specimen.centre_height
+    return {
+        "x": {"girder_x": 1.0, "girder_pitch": z, "girder_yaw": -y},
+        "y": {"girder_y": 1.0, "girder_roll": -z, "girder_yaw": x},
+    }
+
+
+def _fixed(name: str, attributes: str, joints: dict[str, float]) -> str:
+    inside = "".join(f'<joint joint="{joint}" coef="{value!r}"/>' for joint, value in joints.items())
+    return f'<fixed name="{name}" {attributes}>{inside}</fixed>'
+
+
+def _actuators(specimen: Specimen) -> list[str]:
+    bias = f' biastype="affine" biasprm="{specimen.weight!r} 0 0"'
+    drives = (("ax", "x", ""), ("ay", "y", ""), ("az", "z", bias), ("apitch", "pitch", ""))
+    return [f'<general name="table_{a}" joint="table_{joint}" gainprm="1e10"{more}/>' for a, joint, more in drives]
