@@ -11,8 +11,9 @@ import slipwise as sw
 
 COMMANDS = sorted((Path(__file__).parents[2] / "src" / "slipwise" / "cli").glob("*.py"))
 HEAVY = ("mujoco", "numba", "matplotlib", "scipy", "numpy", "pint", "pyarrow", "rerun")
-#: What a command may use: the door, pictures and pages of finished results, errors, and other files of the package.
-OPEN = ("slipwise.view", "slipwise.errors", "slipwise.cli")
+#: What a command may use: the door, pictures and pages of finished results, errors, how a signal ends it, and other files
+#: of the package.
+OPEN = ("slipwise.view", "slipwise.errors", "slipwise.interruption", "slipwise.cli")
 
 
 def loaded_by(code: str) -> list[str]:

@@ -7,6 +7,7 @@ import typer
 
 import slipwise as sw
 from slipwise.cli.console import print_json
+from slipwise.errors import SettingError
 
 Json = Annotated[bool, typer.Option("--json", help="Print JSON for a program to read.")]
 
@@ -35,7 +36,7 @@ def rigs(
         return
     if mjcf:
         if rig is None:
-            raise sw.errors.SettingError("--mjcf needs the rig: `slipwise rigs my_rig --mjcf`")
+            raise SettingError("--mjcf needs the rig: `slipwise rigs my_rig --mjcf`")
         typer.echo(f"wrote {sw.rig.write_mjcf(sw.rig.load_specimen(rig))}")
         return
     rows = []
