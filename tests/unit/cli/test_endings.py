@@ -19,12 +19,19 @@ LONG = 240.0
 SHORT, ENDLESS = "sine:2Hz,0.3g,cycles=12", "sine:2Hz,0.2g,cycles=4000"
 
 
+def hears() -> None:
+    """Hear signals, also where the tests run in the background of a shell: there Ctrl-C is ignored."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
 def begin(*words: object, **options: object) -> subprocess.Popen[str]:
     """Start the command line in a session of its own, as a terminal does."""
     return subprocess.Popen(
         [sys.executable, "-m", "slipwise", *map(str, words)],
         text=True,
         start_new_session=True,
+        preexec_fn=hears,
         **{"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE, **options},  # type: ignore[arg-type]
     )
 
