@@ -19,8 +19,7 @@ def test_slip_and_loads_follow_a_second_simulator_through_an_earthquake(rig):
     settings = rated(rig)
     motion = draw_quake(np.random.default_rng(5))
     other = second(settings, motion)
-    specimen = replace(
-        base_model(rig).specimen,
+    specimen = base_model(rig).specimen.changed(
         pad_stiffness=settings.pad_stiffness,
         pad_damping=settings.pad_damping,
         buffer_stiffness=(settings.buffer_stiffness / 2,) * 2,

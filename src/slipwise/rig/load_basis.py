@@ -34,8 +34,10 @@ class LoadBasis:
 
     @property
     def inverse(self) -> Array:
-        """Loads over modes: loads = modes (n_times, n) @ inverse (n, n)."""
-        return np.asarray(np.linalg.inv(np.concatenate([self.rigid, self.warp])).T, dtype=np.float64)
+        """Loads over modes: loads = modes (n_times, n) @ inverse (n, n); of a lone pad (3, 1), its modes being one."""
+        modes = np.concatenate([self.rigid, self.warp])
+        turned = np.linalg.inv(modes) if len(modes) == modes.shape[1] else np.linalg.pinv(modes)
+        return np.asarray(turned.T, dtype=np.float64)
 
     @property
     def sides(self) -> Array:

@@ -18,6 +18,8 @@ from slipwise.view.panels import missing
 from slipwise.view.style import MUTED, SUM, pad_colour, styled
 
 Array = NDArray[np.float64]
+#: Panels that are less of the picture's width have shorter lines of numbers [1].
+_NARROW = 0.17
 #: Longer lines become an image inside an SVG: megabytes of vectors help nobody.
 _VECTOR_POINTS = 4000
 _LOOP_WORDS = (
@@ -88,8 +90,9 @@ def _loop(axes: Axes, record: Record, axis: str, pads: Sequence[str], colour: st
     except InputError:
         text = "no loop: it did not slide both ways"
     else:
+        between = "\n" if axes.get_position().width < _NARROW else ",  "
         text = (
-            f"{shape.energy / 10:.1f} kN cm,  edge {shape.edge_slope / 1e6:+.4f} kN/mm\n"
+            f"{shape.energy / 10:.1f} kN cm{between}edge {shape.edge_slope / 1e6:+.4f} kN/mm\n"
             f"flatness {shape.flatness:.3f},  corners {shape.corner_sharpness:.3f}"
         )
     axes.text(0.03, 0.985, text, transform=axes.transAxes, va="top", fontsize=8.0, color=MUTED, linespacing=1.4)

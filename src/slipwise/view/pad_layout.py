@@ -89,4 +89,6 @@ def _corner(x: float, y: float) -> str:
 
 
 def _metres(x: float, y: float) -> str:
-    return f"x {x:+.3g} m, y {y:+.3g} m".replace("-", "−")
+    return ", ".join(
+        f"{axis} {value:+.3g} m" if value else f"{axis} 0 m" for axis, value in (("x", x), ("y", y))
+    ).replace("-", "−")

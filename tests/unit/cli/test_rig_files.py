@@ -10,13 +10,19 @@ MOTION = "sine:2Hz,0.2g,cycles=9"
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (("girder", '<body name="ballast"><inertial pos="0 0 0" mass="5" diaginertia="1 1 1"/></body>'), "line 66"),
+        (
+            (
+                "girder",
+                '<body name="ballast"><joint name="swing"/><inertial pos="0 0 0" mass="5" diaginertia="1 1 1"/></body>',
+            ),
+            "line 66",
+        ),
         (('mass="10000"', 'mass="0"'), "mass = 0 kg cannot be"),
         (('mass="10000"', 'mass="1e400"'), "line 53: mass='1e400' of the inertial must be finite"),
         (("</worldbody>", "</world>"), "mine.xml is no XML"),
         (('data="200e6"', 'data="200e9"'), "a step of 0.5 ms does not suit pads of 200000 kN/mm"),
     ],
-    ids=["a child body", "no mass", "a number too large", "malformed", "pads too stiff for the step"],
+    ids=["a body that swings", "no mass", "a number too large", "malformed", "pads too stiff for the step"],
 )
 def test_replay_refuses_a_rig_in_a_sentence_and_leaves_nothing(slipwise, tmp_path, change, words):
     (tmp_path / "rigs").mkdir()

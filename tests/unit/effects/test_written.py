@@ -29,7 +29,7 @@ from slipwise.effects import (
     skeleton,
     write_effect,
 )
-from slipwise.errors import SettingError, UnknownNameError
+from slipwise.errors import OutputError, SettingError, UnknownNameError
 from slipwise.params import Parameter
 from slipwise.simulation.kernel import engine_for
 from slipwise.view.effects import effect_rows
@@ -216,7 +216,7 @@ def test_neither_the_catalogue_nor_a_file_is_written_over(tmp_path: Path) -> Non
 
 def test_a_folder_that_cannot_be_made_is_said(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
-    with pytest.raises(SettingError, match=r"cannot be written"):
+    with pytest.raises(OutputError, match=r"cannot write .*file exists; give a folder"):
         write_effect(found(), tmp_path / "file")
 
 

@@ -74,7 +74,7 @@ def test_loads_that_count_compression_negative_are_named_as_such(demo, turned, n
 
 
 def test_a_sliders_load_that_counts_compression_negative_has_the_wrong_sign(demo):
-    slider = replace(demo, specimen=replace(demo.specimen, free=False))
+    slider = replace(demo, specimen=replace(demo.specimen, free=False, places=demo.specimen.places[:1]))
     assert wrong_signs(slider) == []
     assert wrong_signs(altered(slider, pad_A_N=np.negative)) == ["pad_A_N"]
 
