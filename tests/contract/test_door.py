@@ -11,8 +11,8 @@ import slipwise as sw
 
 COMMANDS = sorted((Path(__file__).parents[2] / "src" / "slipwise" / "cli").glob("*.py"))
 HEAVY = ("mujoco", "numba", "matplotlib", "scipy", "numpy", "pint", "pyarrow", "rerun")
-#: What a command may use: the door, pictures and pages of finished results, errors, what a signal does, and other files of
-#: the package.
+#: What a command may use: the door, pictures and pages of finished results, errors, what a signal does, and other files
+#: of the package.
 OPEN = ("slipwise.view", "slipwise.errors", "slipwise.interruption", "slipwise.cli")
 
 

@@ -111,7 +111,7 @@ REFUSED = {
     "no unit": ('"1379 kPa"', "1.379", UnitError, r"effect shear_rate, strength.*no unit.*1.379 Pa"),
     "wrong unit": ('"0.197 s/cm"', '"0.197 cm/s"', UnitError, "wrong dimension"),
     "out of bounds": ('"1379 kPa"', '"1379 MPa"', SettingError, r"strength = 1.379e\+09 Pa is out.*100000 to 1e\+07"),
-    "unknown channel": ('"pad_B_N"', '"pad_E_N"', UnknownNameError, "no pad of bridge1 is called 'E': possible: A, B, C"),
+    "unknown channel": ('"pad_B_N"', '"pad_E_N"', UnknownNameError, "no pad of bridge1 is called 'E': possible: A"),
     "no target": ('target = "pad_B_N"', "", SettingError, "must be told which channel"),
     "no name": ('name = "contact_area"', "", InputError, 'either name = "heating" or file'),
     "unknown specimen key": ("mass =", "masss =", UnknownNameError, "did you mean mass"),
