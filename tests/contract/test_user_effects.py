@@ -116,7 +116,7 @@ def test_model_toml_takes_a_file_of_ones_own(tmp_path: Path) -> None:
 NOT_COMPILABLE = MINE.replace("return shear *", "return shear * {'one': 1.0, 2: 'two'}['one'] *")
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_an_effect_that_cannot_be_compiled_runs_on_the_python_engine_and_says_so(tmp_path: Path) -> None:
     effect = load_effect(written(tmp_path, NOT_COMPILABLE, "dictionary.py"))
     same = load_effect(written(tmp_path, MINE, "compilable.py"))

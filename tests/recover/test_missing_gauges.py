@@ -12,7 +12,7 @@ from slipwise.errors import InputError
 from slipwise.estimation.base_fit import fit_base
 from slipwise.record import Record
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.long
 
 
 def _without(campaign: Campaign, *gauges: str) -> Campaign:

@@ -20,6 +20,7 @@ def test_a_complete_model_is_not_accused(tmp_path: Path) -> None:
     assert found.final_error < 1.15
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("effect", "seed", "kind"),
     [("heating", 7002, "named"), ("buffer_hysteresis", 7003, "named"), ("load_crosstalk", 7004, "instrument")],

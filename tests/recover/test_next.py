@@ -16,7 +16,7 @@ from slipwise.experiment.next_test import next_test, rivals
 from slipwise.simulation.simulator import SimulationDiverged
 from slipwise.view.diagnosis_page import diagnosis_page
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.long
 
 
 @pytest.fixture(scope="module")

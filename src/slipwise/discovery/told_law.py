@@ -28,6 +28,7 @@ def told_law(
     candidate = match.candidate
     alike = [f for f in tied if _same_place(f.law.match.candidate, candidate) and not _more_general(f, leader)]
     others = [f for f in tied if not _same_place(f.law.match.candidate, candidate) and not _contains(f, leader)]
+    others = [f for f in others if not _lags_by_nothing(f, leader)]
     names = tuple(s.name for s in candidate.states)
     return Law(
         name=leader.law.label,
@@ -86,6 +87,15 @@ def _contains(other: FittedLaw, leader: FittedLaw) -> bool:
     """Tell whether a rival is the leader with something more: a second state, or no gate."""
     mine, theirs = leader.law.match.candidate, other.law.match.candidate
     return mine.port.name == theirs.port.name and {s.name for s in mine.states} < {s.name for s in theirs.states}
+
+
+def _lags_by_nothing(other: FittedLaw, leader: FittedLaw) -> bool:
+    """Tell whether a rival has the leader's state behind a lag shorter than a sample: it is the same state."""
+    mine, theirs = ([s.name for s in f.law.match.candidate.states] for f in (other, leader))
+    if mine == theirs or [n.removeprefix("lagged_") for n in mine] != theirs:
+        return False
+    runs = other.problem.plain.runs
+    return other.values.get(TIME_CONSTANT, other.law.lag) < min(runs[i].dt for i in other.problem.fitted)
 
 
 def _ends(values: Sequence[np.ndarray], fitted: Sequence[int]) -> tuple[float, float]:

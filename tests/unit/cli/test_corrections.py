@@ -29,7 +29,7 @@ def test_the_audit_names_the_fault_with_interval_rivals_and_what_would_settle_it
     assert "hammer" in finding["settle_by"] and finding["mistaken_for"]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_compare_with_the_named_correction_is_held_against_mended_records_and_says_so(slipwise, late, tmp_path):
     options = ("--no-system", "--no-recording", "--json", "--out", tmp_path / "out")
     errors = {}

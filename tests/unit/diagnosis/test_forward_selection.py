@@ -66,7 +66,7 @@ def test_a_patch_is_found_at_its_place_where_the_small_grid_takes_another() -> N
     assert abs(whole.values["place"] - place) < 4e-3 and whole.gain > small.gain
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_table_that_rocks_is_found_from_rated_numbers_where_the_base_is_bent_by_it() -> None:
     """Fitted with another pitch and late gauges the base was 90 floors off, and every fit from there ended at 14."""
     base = fit_base(as_campaign(build_campaign(61043, effects=("table_pitch",), size="large", rich=True)))
