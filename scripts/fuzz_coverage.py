@@ -14,15 +14,16 @@ import subprocess
 import sys
 import tempfile
 import warnings
+from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 
 
 def fuzz(name: str, kept: Path, seconds: int) -> None:
     """Damage one kind of file in this process, which ends with it."""
-    import atheris  # pyright: ignore[reportMissingImports]
-
+    atheris: Any = import_module("atheris")
     with atheris.instrument_imports(include=["slipwise"]):
         from fuzzing import targets  # pyright: ignore[reportMissingImports]
     from slipwise.errors import SlipwiseError
