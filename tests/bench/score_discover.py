@@ -17,6 +17,8 @@ Result = dict[str, Any]
 EXPLAINED, DOWN = 0.95, 1.25
 #: Most forms that may be listed, the first one included.
 MOST_FORMS = 3
+#: Forms that the library calls by other names than the bench.
+FORMS: dict[str, str] = {"saturation": "tanh", "decay": "exp", "logarithm": "log", "linear x linear": "product"}
 #: Forms that read alike over a part of their range: a mistake among them is a small one, and a mistake all the same.
 NEAR: tuple[frozenset[str], ...] = (
     frozenset({"bump", "lorentz"}),
@@ -59,9 +61,10 @@ def where_right(truth: Truth, said: Said) -> bool:
 
 
 def forms(said: Said) -> list[str]:
-    """Give the forms of the first law in the order in which they are listed."""
+    """Give the forms of the first law in the order in which they are listed, by the names of the bench."""
     law = first_law(said)
-    return [law["form"], *(form for form in law.get("tied") or [] if form != law["form"])] if law else []
+    given = [law["form"], *(form for form in law.get("tied") or [] if form != law["form"])] if law else []
+    return [FORMS.get(form, form) for form in given]
 
 
 def form_first(truth: Truth, said: Said) -> bool:

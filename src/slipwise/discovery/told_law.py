@@ -35,7 +35,7 @@ def told_law(
         states=names,
         port=candidate.port.name,
         where=candidate.gate.name,
-        parity=candidate.port.parity,
+        parity=parity_of(candidate),
         form=match.name,
         tied=tuple(dict.fromkeys(f.law.match.name for f in alike)),
         rivals=tuple(dict.fromkeys(f"{f.law.match.candidate.label}, {f.law.match.name}" for f in others)),
@@ -47,6 +47,12 @@ def told_law(
         fitted=leader,
         tied_forms=tuple(TiedForm(f.law.match.forms, f.values) for f in alike),
     )
+
+
+def parity_of(candidate: Candidate) -> str:
+    """Tell whether a force turns with the velocity: "outward" turns with it, and so turns what it multiplies."""
+    turned = sum(s.name == "outward" for s in candidate.states) % 2 == 1
+    return {"odd": "even", "even": "odd"}[candidate.port.parity] if turned else candidate.port.parity
 
 
 def _ordered(leader: FittedLaw) -> list[str]:

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from slipwise.discovery.told_law import _lags_by_nothing
+from slipwise.discovery.told_law import _lags_by_nothing, parity_of
 
 
 def fitted(state: str, lag: float = 0.0) -> Any:
@@ -24,3 +24,19 @@ def fitted(state: str, lag: float = 0.0) -> Any:
 )
 def test_a_lag_below_a_sample_makes_no_other_state(state: str, lag: float, same: bool) -> None:
     assert _lags_by_nothing(fitted(state, lag), fitted("load")) is same
+
+
+@pytest.mark.parametrize(
+    ("port", "states", "parity"),
+    [
+        ("odd", ["speed"], "odd"),
+        ("odd", ["outward"], "even"),
+        ("odd", ["speed", "outward"], "even"),
+        ("even", ["slip"], "even"),
+    ],
+)
+def test_what_goes_with_outward_turns_the_parity(port: str, states: list[str], parity: str) -> None:
+    candidate: Any = SimpleNamespace(
+        port=SimpleNamespace(parity=port), states=[SimpleNamespace(name=s) for s in states]
+    )
+    assert parity_of(candidate) == parity
