@@ -212,7 +212,8 @@ def _without_needless(leaders: list[_Leader], whole: float) -> list[_Leader]:
         problem = replace(last.problem, laws=laws).without_results()
         free = [f for f in last.solution.free if not f.key.startswith(f"{label}.")]
         values = {k: v for k, v in last.solution.values.items() if not k.startswith(f"{label}.")}
-        known = {f.key: slopes_of(last.solution)[f.key] for f in free}
+        slopes = slopes_of(last.solution)
+        known = {f.key: slopes[f.key] for f in free}
         solution = solve(problem, values, free, begin=known)
         if solution.cost <= last.solution.cost + max(_TIE, _TIE_OF_ALL * whole):
             solution = with_slopes(problem, solution)

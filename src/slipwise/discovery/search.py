@@ -104,10 +104,6 @@ def _carried_by_its_fit(found: FittedLaw) -> FittedLaw:
     )
 
 
-def _height(here: LawProblem) -> float:
-    return here.plain.specimen.centre_height
-
-
 def _where_it_acts(found: FittedLaw) -> FittedLaw:
     """Give a force on the girder its place: at the centre, or at the buffers if those are nearer to its lever."""
     key = f"{found.law.label}.{LEVER}"
@@ -134,8 +130,9 @@ def _placed(label: str, match: Match, here: LawProblem) -> PlacedLaw:
     runs = here.every.states
     if match.candidate.port.relation != "pads":
         everywhere = tuple(np.ones((len(s.time), 1)) for s in runs)
+        height = here.plain.specimen.centre_height
         on_girder = match.candidate.port.relation == "girder" and "pitch" in here.relations
-        return PlacedLaw(label, match, everywhere, longest_lever=_LEVER * _height(here) if on_girder else 0.0)
+        return PlacedLaw(label, match, everywhere, longest_lever=_LEVER * height if on_girder else 0.0)
     return PlacedLaw(label, match, tuple(opened(match.candidate.gate, places_of(here.plain), runs)))
 
 
