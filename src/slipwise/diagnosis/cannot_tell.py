@@ -11,6 +11,7 @@ from slipwise.campaign import Run
 from slipwise.diagnosis.held_out_regime import not_testable
 from slipwise.diagnosis.identifiability import unidentified
 from slipwise.diagnosis.indistinguishable import known_effects
+from slipwise.diagnosis.screened_rows import on_screen
 from slipwise.diagnosis.screening import projector
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.sensitivities import column_of, residual_with, small
@@ -40,7 +41,7 @@ def cannot_tell(state: Search, final: BaseFit) -> list[tuple[str, str]]:
         state: of the search.
         final: its best hypothesis as a fit.
     """
-    project = projector(state.base.solution.jacobian)
+    project = projector(on_screen(state.base.problem, state.base.solution.jacobian))
     return [
         *unidentified(final, state.base),
         *_alike(state, project),

@@ -11,6 +11,7 @@ from slipwise.diagnosis.bound_check import with_bounds_checked
 from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.choice import best_of, kept_alone, limit_per_effect
 from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, strength_at_bound
+from slipwise.diagnosis.kept_slopes import whole
 from slipwise.diagnosis.pairs import leading_pair
 from slipwise.diagnosis.rescreening import rescreen, worth_refitting
 from slipwise.diagnosis.screening import screen, screen_shapes
@@ -166,7 +167,7 @@ def _reshaped(state: Search) -> Search:
         if not grid:
             continue
         rest = best.without(term)
-        before = left_with(state, rest, best) if rest else origin
+        before = whole(left_with(state, rest, best)) if rest else origin
         found = screen_shapes(as_base(state, before), term, grid)[:_RESHAPED]
         again = try_all(state, [([*rest, term], {term.label: s.values}) for s in found], before if rest else None)
         better = [h for h in again if score(origin.summary, h.summary) > score(origin.summary, state.best.summary)]

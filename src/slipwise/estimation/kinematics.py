@@ -72,14 +72,15 @@ class Kinematics:
     def near(self, values: Mapping[str, float]) -> "Kinematics":
         """Give the same motion for slopes at these values."""
         other = copy(self)
-        other.around, other.recent = values, Recent()
+        other.around, other.recent = values, self.recent.another()
         return other
 
-    def refine(self, fine: int) -> None:
-        """Let the laws be evaluated at so many instants per sample, if they are not yet."""
+    def refine(self, fine: int) -> list[FitRun]:
+        """Let the laws be evaluated at so many instants per sample, if they are not yet; gives the runs then."""
         if self.runs[0].fine < fine:
             self.runs = [replace(r, fine=fine) for r in self.runs]
             self.lost = []
+        return self.runs
 
     def _sort(self) -> None:
         self._faults = [t for t in self.terms if t.effect.port == "gauge" and not acts_on_force(t)]
