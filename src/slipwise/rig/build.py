@@ -4,7 +4,9 @@ The model is always the one that `mjcf_writer.py` writes of the specimen, whatev
 holds and a specimen does not cannot act without a record. `mjcf_attributes.py` refuses files that hold such things.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import mujoco
 import numpy as np
@@ -46,6 +48,12 @@ class Rig:
     pad_geoms: tuple[int, ...]
     user_sensor: int
     sag: float
+
+    @cached_property
+    def sensors(self) -> Mapping[str, slice]:
+        """Where each sensor stands in sensordata, by name: to ask MuJoCo takes as long as a step, for each chunk."""
+        found = (self.model.sensor(i) for i in range(self.model.nsensor))
+        return {s.name: slice(int(s.adr[0]), int(s.adr[0]) + int(s.dim[0])) for s in found}
 
 
 def pad_frequencies(specimen: Specimen) -> dict[str, float]:

@@ -53,7 +53,7 @@ class EnergyBook:
         specimen, rig = self.rig.specimen, self.rig
         names = ("x", "y", "z", "roll", "pitch", "yaw")
         at = np.concatenate([sensor(rig, f"at_girder_{n}", sensordata) for n in names], axis=1)
-        rate = np.concatenate([sensor(rig, f"rate_girder_{n}", sensordata) for n in names], axis=1)
+        ends = np.concatenate([sensor(rig, f"rate_girder_{n}", sensordata[[0, -1]]) for n in names], axis=1)
         # The bending mode's mass moves with the girder horizontally and on its own spring vertically.
         rigid = specimen.mass - specimen.bending_mass
         mass = np.array([specimen.mass, specimen.mass, rigid])
@@ -77,7 +77,7 @@ class EnergyBook:
         self.others += _work(user[:, -3 - n_pads : -n_pads], steps[:, :3])
         if has_sensor(rig, "at_bending"):
             self._add_bending(sensordata, at)
-        kinetic = 0.5 * np.sum(inertia * rate[[0, -1]] ** 2, axis=1)
+        kinetic = 0.5 * np.sum(inertia * ends**2, axis=1)
         if self.kinetic_start is None:
             self.kinetic_start = float(kinetic[0])
         self.kinetic_end = float(kinetic[1])

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,14 +13,12 @@ Reader = Callable[[str], Array]
 
 def sensor(rig: Rig, name: str, sensordata: Array) -> Array:
     """Give the columns of one sensor, (..., dim)."""
-    found = rig.model.sensor(name)
-    start = int(found.adr[0])
-    return sensordata[..., start : start + int(found.dim[0])]
+    return sensordata[..., rig.sensors[name]]
 
 
 def has_sensor(rig: Rig, name: str) -> bool:
     """Tell whether the model has a sensor of this name."""
-    return mujoco.mj_name2id(rig.model, mujoco.mjtObj.mjOBJ_SENSOR, name) >= 0
+    return name in rig.sensors
 
 
 def to_channels(rig: Rig, sensordata: Array, control: Array, dt: float, pitching: bool) -> dict[str, Array]:
