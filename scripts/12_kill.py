@@ -116,6 +116,10 @@ def whole(path: Path) -> None:
     data = path.read_bytes()
     if path.suffix == ".json":
         json.loads(data)
+    elif path.suffix == ".jsonl":  # one line for each finished job; the last may be torn, and is cut off
+        for line in data.splitlines(keepends=True):
+            if line.endswith(b"\n"):
+                json.loads(line)
     elif path.suffix == ".parquet":
         parquet.read_table(path)
     elif path.name == "model.toml":
