@@ -59,6 +59,7 @@ class Law:
         valid: state -> range of the data [SI].
         fitted: the fit behind it.
         tied_forms: those of `tied`, to be drawn.
+        alternatives: every law that explains as much, of its form or of another state or port, best first.
     """
 
     name: str
@@ -76,6 +77,7 @@ class Law:
     valid: Mapping[str, tuple[float, float]]
     fitted: FittedLaw
     tied_forms: tuple[TiedForm, ...]
+    alternatives: tuple["Law", ...] = ()
 
     @property
     def driver(self) -> str:
