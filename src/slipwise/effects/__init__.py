@@ -4,7 +4,7 @@ from slipwise.effects._catalogue import base_effects, catalogue, find_effect, lo
 from slipwise.effects._declared import NEEDS, Gauges
 from slipwise.effects._effect import RESPONSE, Effect, moved_channels
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._hooks import COMPONENTS, DERIVED, HOOKS, LAGGING, PAD_HOOKS, PAD_INPUTS, PORTS
+from slipwise.effects._hooks import COMPONENTS, DERIVED, HOOKS, LAGGING, PAD_HOOKS, PAD_INPUTS, PORTS, RIG_MOTION
 from slipwise.effects._read import read_effect
 from slipwise.effects._scaled import holding, scaled
 from slipwise.effects._skeleton import skeleton
@@ -23,6 +23,7 @@ __all__ = [
     "PAD_INPUTS",
     "NEEDS",
     "PORTS",
+    "RIG_MOTION",
     "RESPONSE",
     "Effect",
     "GaugeFault",
