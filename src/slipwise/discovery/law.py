@@ -146,6 +146,7 @@ class Discovery(Drawn, Tabular):
         base: the fit from which the search began, with its slopes.
         files: of the effects that were written.
         seconds: it took.
+        beside: effects that the diagnosis had added to the user's model before the search for a law began.
     """
 
     campaign: str
@@ -160,6 +161,7 @@ class Discovery(Drawn, Tabular):
     base: BaseFit
     files: tuple[Path, ...]
     seconds: float
+    beside: tuple[str, ...] = ()
 
     @property
     def sentence(self) -> str:
@@ -216,6 +218,7 @@ class Discovery(Drawn, Tabular):
                 }
                 for law in self.laws
             ],
+            "beside": list(self.beside),
             "organised": None if self.organised is None else self.organised.label,
             "share": self.share,
             "held_out": {"before": before, "after": after},

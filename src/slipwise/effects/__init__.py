@@ -10,7 +10,7 @@ from slipwise.effects._scaled import holding, scaled
 from slipwise.effects._skeleton import skeleton
 from slipwise.effects._states import BalanceStates
 from slipwise.effects._trust import Trust, check_trusted
-from slipwise.effects._written import WrittenEffect, effect_text, write_effect
+from slipwise.effects._written import WrittenEffect, check_name, effect_text, write_effect
 from slipwise.effects._written_hook import WrittenHook
 
 __all__ = [
@@ -33,6 +33,7 @@ __all__ = [
     "WrittenHook",
     "base_effects",
     "catalogue",
+    "check_name",
     "check_trusted",
     "effect_text",
     "find_effect",
