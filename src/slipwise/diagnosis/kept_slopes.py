@@ -37,18 +37,19 @@ def whole(found: Hypothesis) -> Hypothesis:
     return replace(found, solution=with_slopes(found.problem, solution))
 
 
-def lighten(tried: list[Hypothesis], worth: Callable[[Hypothesis], float]) -> None:
+def lighten(tried: list[Hypothesis], worth: Callable[[Hypothesis], float], room: int | None = None) -> None:
     """Keep slopes and residuals of the best as far as there is room, in place.
 
     Args:
         tried: hypotheses.
         worth: by which the best are kept.
+        room: bytes that they may take together; `ROOM` if not given.
     """
-    sizes = {id(h): size_of(h.solution) for h in tried}
-    if sum(sizes.values()) <= ROOM:
+    left = ROOM if room is None else room
+    sizes = [size_of(h.solution) for h in tried]
+    if sum(sizes) <= left:
         return
-    left = ROOM
     for place in sorted(range(len(tried)), key=lambda i: -worth(tried[i])):
-        left -= sizes[id(tried[place])]
+        left -= sizes[place]
         if left < 0:
             tried[place] = replace(tried[place], solution=light(tried[place].solution))
