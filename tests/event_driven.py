@@ -15,8 +15,8 @@ from scipy.integrate import solve_ivp
 from slipwise.rig import Specimen
 
 G = 9.80665
-#: Way from an event on before another is looked for [s]: at the event itself its sign is that of a rounding error, and a
-#: pad that lifts and lands again within one step of the integration would be missed.
+#: How long after an event the next one is looked for [s]: at the event itself its sign is that of a rounding error, and
+#: a pad that lifts and lands again within one step of the integration would be missed.
 _PAST = 1e-7
 
 
