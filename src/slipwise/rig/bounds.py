@@ -15,6 +15,7 @@ BOUNDS: dict[str, tuple[float, float, str]] = {
     "pad_radius": (1e-5, 10.0, "m"),
     "pad_stiffness": (1.0, 1e15, "N/m"),
     "pad_damping": (0.0, 1e15, "N s/m"),
+    "pad_curvature": (-100.0, 100.0, "1/m"),
     "plastic_pressure": (1.0, 1e14, "Pa"),
     "shear_strength": (1e-3, 1e14, "Pa"),
     "buffer_stiffness": (0.0, 1e15, "N/m"),

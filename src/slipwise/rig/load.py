@@ -88,9 +88,10 @@ def _specimen(file: Mjcf) -> Specimen:
 def _places(file: Mjcf) -> tuple[Place, ...]:
     """Collect what each pad is."""
     pads = pads_of(file)
-    of_each = [[float(v) for v in file.model.numeric(name).data] for name in OF_EACH_PAD]
-    stiffness, damping = (given * (len(pads) if len(given) == 1 else 1) for given in of_each)
-    rows = zip(pads, pad_places(file), seating(file), pad_radii(file), stiffness, damping, strict=True)
+    there = names_of(file.model, "numeric")
+    of_each = [[float(v) for v in file.model.numeric(n).data] if n in there else [0.0] for n in OF_EACH_PAD]
+    each = (given * (len(pads) if len(given) == 1 else 1) for given in of_each)
+    rows = zip(pads, pad_places(file), seating(file), pad_radii(file), *each, strict=True)
     return tuple(Place(name, x, y, z, *rest) for name, (x, y), z, *rest in rows)
 
 

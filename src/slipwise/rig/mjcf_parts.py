@@ -15,8 +15,8 @@ GUIDED_JOINTS = ("girder_z",)
 ACTUATORS = ("table_ax", "table_ay", "table_az", "table_apitch")
 #: Numbers and words that a file may give: `<numeric>`, the first four needed, and `<text>`.
 NUMBERS = ("pad_stiffness", "pad_damping", "plastic_pressure", "shear_strength")
-OF_EACH_PAD = ("pad_stiffness", "pad_damping")
-MORE_NUMBERS = ("bending_mass", "bending_frequency", "bending_damping")
+OF_EACH_PAD = ("pad_stiffness", "pad_damping", "pad_curvature")
+MORE_NUMBERS = ("pad_curvature", "bending_mass", "bending_frequency", "bending_damping")
 WORDS = ("pads_on", "stick_capacity")
 #: What pads and buffers are called, by the convention of names.
 _PAD, _BUFFER = re.compile(r"pad_([A-Za-z0-9]+)"), re.compile(r"buffer_([A-Za-z0-9]+)_[xy]")

@@ -79,6 +79,8 @@ def _custom(specimen: Specimen) -> list[str]:
         values |= {
             name: (getattr(specimen, name),) for name in ("bending_mass", "bending_frequency", "bending_damping")
         }
+    if any(p.curvature for p in specimen.places):
+        values["pad_curvature"] = tuple(p.curvature for p in specimen.places)
     for name, given in values.items():
         out.append(f'<numeric name="{name}" data="{_numbers(given[:1] if len(set(given)) == 1 else given)}"/>')
     return out

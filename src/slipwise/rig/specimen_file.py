@@ -13,6 +13,7 @@ A = { x = "1.8 m", y = "1.3 m" }
 
 import tomllib
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +26,9 @@ from slipwise.rig.specimen import Specimen
 from slipwise.rig.statics import at_rest
 from slipwise.units import quantity
 
-_PAD = {"x": "m", "y": "m", "z": "m", "radius": "m", "stiffness": "N/m", "damping": "N*s/m"}
+_PAD = {
+    "x": "m", "y": "m", "z": "m", "radius": "m", "stiffness": "N/m", "damping": "N*s/m", "radius_of_curvature": "m",
+}  # fmt: skip
 _BUFFER = {
     "x": "m", "y": "m", "z": "m", "stiffness": "N/m", "stiffness_x": "N/m", "stiffness_y": "N/m", "gap": "m",
 }  # fmt: skip
@@ -81,6 +84,8 @@ def _specimen(path: Path, content: Mapping[str, Any]) -> Specimen:
     if not isinstance(free, bool):
         raise InputError(f"{where}: free = {free!r}; write true, or false where the slip of one pad is prescribed")
     places = _places(content, where)
+    if any(place.curvature for place in places):
+        sources["pad_curvature"] = where
     if any(np.isnan(place.damping) for place in places):
         places, sources["pad_damping"] = _damped(places, given), f"assumed: {_CRITICAL:.0%} of critical in heave"
     given.setdefault("edge_distance", max((abs(place.x) for place in places), default=0.0) or 1.5)
@@ -155,6 +160,9 @@ def _places(content: Mapping[str, Any], where: str) -> tuple[Place, ...]:
         for needed in ("x", "y", "radius", "stiffness"):
             if needed not in values:
                 raise InputError(f"{here} lacks {needed}; give it there, or for every pad in pad = {{ ... }}")
+        if not (bend := values.pop("radius_of_curvature", float("inf"))):
+            raise InputError(f"{here}: radius_of_curvature = 0 m cannot be; leave it out where the plate is flat")
+        values["curvature"] = 1.0 / bend
         out.append(Place(name, **values))
     return tuple(out)
 
@@ -163,10 +171,7 @@ def _damped(places: tuple[Place, ...], given: Mapping[str, float]) -> tuple[Plac
     """Give pads the damping that is assumed where none is given: each in proportion to its stiffness."""
     total = sum(place.stiffness for place in places)
     share = 2.0 * _CRITICAL * (given["mass"] / total) ** 0.5 if total > 0.0 and given["mass"] > 0.0 else 0.0
-    return tuple(
-        Place(p.name, p.x, p.y, p.z, p.radius, p.stiffness, share * p.stiffness if np.isnan(p.damping) else p.damping)
-        for p in places
-    )
+    return tuple(replace(p, damping=share * p.stiffness) if np.isnan(p.damping) else p for p in places)
 
 
 def _buffers(content: Mapping[str, Any], where: str) -> tuple[Buffer, ...]:
