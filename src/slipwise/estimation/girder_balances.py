@@ -120,7 +120,7 @@ def predicted_balances(
     fb = buffers.sum(axis=1)
     total = _total(run, force, specimen.mass, fb)
     height = specimen.centre_height
-    moment = height * total + buffers @ (height - np.array(specimen.buffer_heights))
+    moment = (height + _risen(run.slip, specimen)) * total + buffers @ (height - np.array(specimen.buffer_heights))
     heave = run.load.sum(axis=1)
     # what effects add to the rated place of the centre of gravity and to the seating is theirs to say
     off_x, off_y = (c - m for c, m in zip((rated.centre_x, rated.centre_y), specimen.middle, strict=True))
@@ -160,6 +160,15 @@ def _total(run: FitRun, force: Array, mass: float, buffers: Array) -> Array:
     from_motion = -mass * run.record["girder_ax"] - buffers
     off = np.abs(total - from_motion) > _SIGNIFICANT * mass * run.noise["girder_ax"]
     return np.where(np.any(invalid, axis=0) & off, from_motion, total)
+
+
+def _risen(slip: Array, specimen: Specimen) -> Array:
+    """Give how far the girder stands higher over its pads at a slip (n,) [m], because their faces are curved."""
+    curvature = specimen.pad_curvature
+    if not curvature or specimen.pads_on == "girder":
+        return np.zeros_like(slip)
+    away = np.minimum(np.abs(curvature * slip), 1.0)
+    return (1.0 - np.sqrt(1.0 - away**2)) / curvature
 
 
 def _delayed(values: Array, dt: float, lag: float) -> Array:

@@ -123,6 +123,11 @@ class Specimen:
         return mean(self.pad_areas)
 
     @property
+    def pad_curvature(self) -> float:
+        """Curvature of a pad's sliding face, their mean where they differ [1/m]; 0 for flat plates."""
+        return mean(place.curvature for place in self.places)
+
+    @property
     def springs(self) -> tuple[float, ...]:
         """Vertical stiffness of each pad, (n_pads,) [N/m]."""
         return tuple(place.stiffness for place in self.places)
