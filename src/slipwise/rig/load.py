@@ -11,6 +11,7 @@ from slipwise.rig.mjcf_attributes import check_attributes
 from slipwise.rig.mjcf_inertia import girder_body, principal_inertia
 from slipwise.rig.mjcf_parts import OF_EACH_PAD, WORDS, check_parts, is_free, names_of, pads_of
 from slipwise.rig.mjcf_places import edge_distance, pad_places, pad_radii, seating
+from slipwise.rig.mjcf_storeys import read_storeys
 from slipwise.rig.mjcf_tendons import buffers, check_arms
 from slipwise.rig.places import Place, values_of
 from slipwise.rig.rest_check import check_rest
@@ -76,6 +77,7 @@ def _specimen(file: Mjcf) -> Specimen:
             places=places,
             free=is_free(model),
             buffers=held,
+            storeys=read_storeys(file),
             sources={n.removeprefix("source "): data for n, data in texts.items() if n.startswith("source ")},
             **{name: value for name, (value, _) in values.items()},
         )

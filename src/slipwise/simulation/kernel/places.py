@@ -6,6 +6,7 @@ one compiled law serves any number of them. Places in a block count from its beg
 buffer.
 """
 
+#: Degrees of freedom that may move a pad: of the table and the girder, which come first, and its bending mode.
 MAX_DOFS = 11
 #: Hooks whose effects act one after another in the order of the model.
 CHAINS: tuple[str, ...] = (
@@ -18,8 +19,10 @@ DT = 0
 N_PADS = DT + 1
 N_BUFFERS = N_PADS + 1
 N_DOFS = N_BUFFERS + 1
+#: Of these, the ones that move a pad or a buffer: at most MAX_DOFS.
+N_ARMS = N_DOFS + 1
 #: Where the first buffer's block begins.
-BUFFERS = N_DOFS + 1
+BUFFERS = N_ARMS + 1
 #: First place in `sensordata` of what the law writes there.
 USER_SENSOR = BUFFERS + 1
 #: Degrees of freedom of the girder: x, y, z, roll, pitch, yaw; the first is -1 where the girder is prescribed.

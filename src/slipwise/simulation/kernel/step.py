@@ -38,8 +38,8 @@ from slipwise.simulation.kernel.places import (
     GIRDER_FORCE,
     LOAD,
     MAX_DOFS,
+    N_ARMS,
     N_BUFFERS,
-    N_DOFS,
     N_OBSERVE,
     N_PADS,
     N_STICK,
@@ -167,7 +167,7 @@ def push_pad(
         lift_arms(u, z, force_x + u[z + FORCE], force_y + u[z + FORCE + 1], applied)
     if force_x != 0.0 or force_y != 0.0:
         j = z + PAD_JACOBIAN
-        for dof in range(int(u[N_DOFS])):
+        for dof in range(int(u[N_ARMS])):
             applied[dof] -= u[j + dof] * force_x + u[j + MAX_DOFS + dof] * force_y
 
 
@@ -219,7 +219,7 @@ def push_buffers(
             )  # fmt: skip
             u[b + BUFFER_FORCE + axis] = force
             j = b + BUFFER_JACOBIAN + axis * MAX_DOFS
-            for dof in range(int(u[N_DOFS])):
+            for dof in range(int(u[N_ARMS])):
                 applied[dof] -= u[j + dof] * force
             if axis == 0:
                 sum_x += abs(force)
