@@ -20,8 +20,9 @@ every_effect = pytest.mark.parametrize("effect", EFFECTS, ids=lambda e: e.name)
 every_optional_effect = pytest.mark.parametrize("effect", OPTIONAL, ids=lambda e: e.name)
 #: What an effect may change at component level, by the hooks it has.
 REACH = {
-    "area": {"pads"}, "shear": {"pads"}, "stick": {"pads"}, "pad": {"pads"}, "face": {"pads"}, "stretch": {"pads"}, "advance": set(),
-    "rest": set(), "begin": set(), "flat": set(), "corner": set(), "deflection": {"buffers", "balance heave"},
+    "area": {"pads"}, "shear": {"pads"}, "stick": {"pads"}, "pad": {"pads"}, "face": {"pads"}, "stretch": {"pads"},
+    "advance": set(), "rest": set(), "begin": set(), "flat": set(), "corner": set(),
+    "deflection": {"buffers", "balance heave"},
     "spring": {"buffers", "balance heave"},
     "settle": {"buffers"}, "lift": {"lift"}, "drag": {"drag"}, "rig": {"specimen"}, "table": {"table"},
     "balance": {"balance *"}, "gauge": {"channels *"}, "undo": set(), "sharpen": set(), "disturb": set(),

@@ -10,6 +10,7 @@ from slipwise.estimation.girder_balances import buffers_along, effects_in, heave
 from slipwise.estimation.run_data import FitRun
 from slipwise.model import Model
 from slipwise.rig import Specimen
+from slipwise.rig.frame import frame_noise
 from slipwise.simulation.predict import predictor
 
 Array = NDArray[np.float64]
@@ -21,10 +22,13 @@ def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
     total, force = float(np.sqrt(np.sum(loads**2))), float(np.sqrt(np.sum(gauge**2)))
     stiffness = sum(specimen.buffer_stiffness)
     beside = np.hypot(force, stiffness * 0.1 * run.noise["slip_x"]) / specimen.mass
+    pushed, turned = frame_noise(specimen, run.noise)
     levels = {
-        "girder": np.hypot(run.noise.get("girder_ax", 0.0), beside),
-        "heave": np.hypot(total, specimen.mass * run.noise.get("girder_az", 0.0)),
-        "pitch": total,  # and what the friction gauges make of it, see `whitened`
+        "girder": np.hypot(run.noise.get("girder_ax", 0.0), np.hypot(beside, pushed / specimen.mass)),
+        "heave": np.hypot(total, specimen.carried_mass * run.noise.get("girder_az", 0.0)),
+        "pitch": np.hypot(total, turned / specimen.half_spacing[0])
+        if specimen.storeys
+        else total,  # and what the friction gauges make of it, see `whitened`
         "roll": total,
         "warp": total,
         "motion": 1.0,
@@ -35,7 +39,7 @@ def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
 def shares_of_noise(specimen: Specimen, run: FitRun) -> dict[str, dict[str, float]]:
     """Give the share of single channels in the variance of the balances of loads: relation -> channel -> share [1]."""
     loads = {f"pad_{p}_N": float(level**2) for p, level in zip(run.pads, run.gauge_noise[1], strict=True)}
-    heave = {**loads, "girder_az": (specimen.mass * run.noise.get("girder_az", 0.0)) ** 2}
+    heave = {**loads, "girder_az": (specimen.carried_mass * run.noise.get("girder_az", 0.0)) ** 2}
     powers = {"heave": heave, "pitch": loads, "roll": loads, "warp": loads}
     return {
         name: {channel: power / max(sum(of.values()), 1e-24) for channel, power in of.items()}
@@ -85,7 +89,7 @@ def heave_level(model: Model, run: FitRun, scale: Mapping[str, float]) -> float:
         scale: of `measurement_model.noise_scale`, by which the balance is divided.
     """
     loads = float(np.linalg.norm(run.gauge_noise[1])) * scale.get("loads", 1.0)
-    vertical = model.specimen.mass * run.noise.get("girder_az", 0.0) * scale.get("girder_az", 1.0)
+    vertical = model.specimen.carried_mass * run.noise.get("girder_az", 0.0) * scale.get("girder_az", 1.0)
     return float(np.hypot(loads, min(1.0, heave_noise(model, run)) * vertical)) / scale.get("heave", 1.0)
 
 
@@ -100,7 +104,7 @@ def heave_noise(model: Model, run: FitRun) -> float:
         return 1.0
     shaken = np.random.default_rng(0).normal(size=len(run.time))
     more = _more_heave(model, run, shaken)
-    return 1.0 if more is None else float(np.std(shaken + more / model.specimen.mass) / np.std(shaken))
+    return 1.0 if more is None else float(np.std(shaken + more / model.specimen.carried_mass) / np.std(shaken))
 
 
 def bent_noise_in_heave(model: Model, run: FitRun) -> Array:
@@ -116,7 +120,7 @@ def bent_noise_in_heave(model: Model, run: FitRun) -> Array:
     more = _more_heave(model, run, impulse)
     if more is None:
         return np.zeros(len(impulse) // 2 + 1)
-    mass = model.specimen.mass
+    mass = model.specimen.carried_mass
     passed = np.abs(np.fft.rfft(mass * impulse + more)) ** 2
     return run.noise.get("girder_az", 0.0) ** 2 * np.maximum(passed - mass**2, 0.0)
 

@@ -16,6 +16,7 @@ from slipwise.estimation.recent_results import Key, Recent
 from slipwise.estimation.run_data import FitRun
 from slipwise.estimation.yaw import yaw_of
 from slipwise.rig import Specimen
+from slipwise.rig.frame import frame_push
 from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import load_modes
 from slipwise.signals.ends import in_frequency
@@ -162,7 +163,7 @@ class Kinematics:
                 law.rest(run.rest_before)
                 still = np.zeros(len(run.time))
                 buffers = buffers_along(law, run, still, still)
-                force = _whole(run, specimen.mass, buffers)
+                force = _whole(run, specimen, buffers)
                 bound = self.bounds[i] if self.bounds else np.abs(force)
                 found.append(yaw_of(run, specimen, force, bound, buffers))
             return found
@@ -220,7 +221,7 @@ def values_of(terms: Sequence[Term], values: Mapping[str, float]) -> Key:
     return tuple(x for t in terms for n in t.effect.parameter_names for x in (t.label, values[f"{t.label}.{n}"]))
 
 
-def _whole(run: FitRun, mass: float, buffers: Array) -> Array:
+def _whole(run: FitRun, specimen: Specimen, buffers: Array) -> Array:
     """Give the pads' forces (n, p) [N]; where one gauge is invalid, what the girder's balance leaves it."""
     force = run.force
     bad = np.stack([run.invalid.get(f"pad_{p}_Fx", np.zeros(len(force), dtype=bool)) for p in run.pads], axis=1)
@@ -228,7 +229,8 @@ def _whole(run: FitRun, mass: float, buffers: Array) -> Array:
     if not alone.any():
         return force
     others = np.where(bad, 0.0, force).sum(axis=1)
-    rest = -mass * run.channel("girder_ax") - buffers.sum(axis=1) - others
+    push = frame_push(run.record, specimen) - buffers.sum(axis=1)
+    rest = push - specimen.mass * run.channel("girder_ax") - others
     return np.where(alone, rest[:, None], force)
 
 

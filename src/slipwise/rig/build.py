@@ -70,7 +70,9 @@ def largest_step(specimen: Specimen) -> float:
         return _STABLE / (2.0 * np.pi * pad_frequencies(specimen)["heave"])
     scale = 1.0 / np.sqrt([specimen.mass, *specimen.inertia[:2]])
     stiffest = np.linalg.eigvalsh(stiffness_at_rest(specimen) * scale[:, None] * scale).max()
-    fastest = max((fixed_base_frequencies(specimen.storeys, axis)[-1] for axis in "xy" if specimen.storeys), default=0.0)
+    fastest = max(
+        (fixed_base_frequencies(specimen.storeys, axis)[-1] for axis in "xy" if specimen.storeys), default=0.0
+    )
     return float(_STABLE / max(np.sqrt(stiffest), 2.0 * np.pi * fastest))
 
 

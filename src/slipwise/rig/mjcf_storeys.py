@@ -62,8 +62,8 @@ def _check_place(file: Mjcf, name: str, number: int) -> None:
     turned = not np.array_equal(body.quat, [1.0, 0.0, 0.0, 0.0])
     if turned or np.abs(body.pos[:2]).max() > _SAME or np.abs(body.ipos).max() > _SAME:
         raise file.refused(
-            f"the body {name} stands beside the girder's centre of gravity, or turned; a storey is lumped above it: give "
-            'pos="0 0 height" and an inertial at pos="0 0 0"',
+            f"the body {name} stands beside the girder's centre of gravity, or turned; a storey is lumped above it: "
+            'give pos="0 0 height" and an inertial at pos="0 0 0"',
             "body",
             name,
         )
@@ -85,10 +85,12 @@ def _column(file: Mjcf, name: str, axis: str) -> float:
         for field in fields_of(shipped, prefix):
             if field in NOT_FELT[prefix] or field in _READ:
                 continue
-            if not np.array_equal(getattr(file.model, f"{prefix}_{field}")[at], getattr(shipped, f"{prefix}_{field}")[known]):
+            if not np.array_equal(
+                getattr(file.model, f"{prefix}_{field}")[at], getattr(shipped, f"{prefix}_{field}")[known]
+            ):
                 raise file.refused(
-                    f"the joint {name!r} has a {field} that would not be simulated; a storey's joint slides along {axis} "
-                    "and has stiffness and damping: leave the rest out",
+                    f"the joint {name!r} has a {field} that would not be simulated; a storey's joint slides along "
+                    f"{axis} and has stiffness and damping: leave the rest out",
                     "joint",
                     name,
                 )

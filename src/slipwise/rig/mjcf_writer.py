@@ -157,14 +157,18 @@ def _frame(specimen: Specimen, storeys: Sequence[Storey], number: int, below: fl
     if not storeys:
         return []
     storey, name = storeys[0], f"storey_{number}"
-    joints = (("x", "1 0 0", storey.stiffness_x, storey.damping_x), ("y", "0 1 0", storey.stiffness_y, storey.damping_y))
+    joints = (
+        ("x", "1 0 0", storey.stiffness_x, storey.damping_x),
+        ("y", "0 1 0", storey.stiffness_y, storey.damping_y),
+    )
     inside = [
         f'<joint name="{name}_{axis}" type="slide" axis="{along}" stiffness="{stiffness!r}" damping="{damping!r}"/>'
         for axis, along, stiffness, damping in joints
     ]
+    inertia = _numbers([_SMALL * max(specimen.inertia)] * 3)
     size = _numbers([*np.maximum(0.8 * np.array(specimen.half_spacing), 0.2), 0.03])
     inside += [
-        f'<inertial pos="0 0 0" mass="{storey.mass!r}" diaginertia="{_numbers([_SMALL * max(specimen.inertia)] * 3)}"/>',
+        f'<inertial pos="0 0 0" mass="{storey.mass!r}" diaginertia="{inertia}"/>',
         f'<geom name="{name}" type="box" size="{size}" material="girder" class="visual"/>',
         f'<site name="{name}" pos="0 0 0" size="0.03" rgba="0.8 0.1 0.1 1"/>',
         *_frame(specimen, storeys[1:], number + 1, storey.z),

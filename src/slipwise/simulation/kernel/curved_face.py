@@ -121,7 +121,7 @@ def onto_table(u: Array, z: int, along_x: float, along_y: float) -> tuple[float,
 
 @compilable
 def along_face(u: Array, z: int, force_x: float, force_y: float) -> float:
-    """Give the friction along the face [N] that pushes so along the table [N]: the inverse of `onto_table`, its size."""
+    """Give the size of the friction along the face [N] that pushes so along the table [N]: `onto_table` undone."""
     force = sqrt(force_x * force_x + force_y * force_y)
     if force == 0.0:
         return 0.0
