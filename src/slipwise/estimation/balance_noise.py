@@ -22,13 +22,11 @@ def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
     total, force = float(np.sqrt(np.sum(loads**2))), float(np.sqrt(np.sum(gauge**2)))
     stiffness = sum(specimen.buffer_stiffness)
     beside = np.hypot(force, stiffness * 0.1 * run.noise["slip_x"]) / specimen.mass
-    pushed, turned = frame_noise(specimen, run.noise)
+    pushed, _ = frame_noise(specimen, run.noise)
     levels = {
         "girder": np.hypot(run.noise.get("girder_ax", 0.0), np.hypot(beside, pushed / specimen.mass)),
         "heave": np.hypot(total, specimen.carried_mass * run.noise.get("girder_az", 0.0)),
-        "pitch": np.hypot(total, turned / specimen.half_spacing[0])
-        if specimen.storeys
-        else total,  # and what the friction gauges make of it, see `whitened`
+        "pitch": total,  # and what the friction gauges make of it, see `whitened`
         "roll": total,
         "warp": total,
         "motion": 1.0,
@@ -156,13 +154,15 @@ def vertical_friction_noise(model: Model, run: FitRun, buffers: Array) -> dict[s
 
 
 def force_noise_in_pitch(run: FitRun, specimen: Specimen, values: Mapping[str, float]) -> Array:
-    """Give what the friction gauges' noise adds to the predicted pitch load: the girder's pitch rings with it.
+    """Give what noise of friction gauges and storeys adds to the predicted pitch load: the girder's pitch rings with it.
 
     Returns:
         spectrum (m,) at the frequencies of a real transform, as the variance of white noise of that height [N^2].
     """
-    ringing = specimen.centre_height / specimen.half_spacing[0] * pitch_impulse_response(run, values)
-    return float(np.sum(run.gauge_noise[0] ** 2)) * np.abs(np.fft.rfft(ringing)) ** 2
+    levers = specimen.centre_height * run.gauge_noise[0]
+    squared = float(np.sum(levers**2)) + frame_noise(specimen, run.noise)[1] ** 2
+    ringing = pitch_impulse_response(run, values) / specimen.half_spacing[0]
+    return squared * np.abs(np.fft.rfft(ringing)) ** 2
 
 
 def driven_noise_in_pitch(model: Model, runs: Sequence[FitRun], values: Mapping[str, float]) -> list[Array]:
