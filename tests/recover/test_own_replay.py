@@ -45,7 +45,7 @@ def campaign_of(folder: Path, rig: str) -> Path:
     return folder
 
 
-@pytest.mark.parametrize("rig", ["three_pads", "six_pads", "pendulum"])
+@pytest.mark.parametrize("rig", ["three_pads", "six_pads", "pendulum", "building"])
 def test_a_rigs_own_replay_lacks_nothing(tmp_path: Path, rig: str) -> None:
     found = sw.diagnose(campaign_of(tmp_path / "own", rig))
     assert found.verdict.kind == "complete", found.sentence

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import fftconvolve
 
+from slipwise.estimation.between_samples import jump_noise_in_pitch
 from slipwise.estimation.girder_balances import buffers_along, effects_in, heave_rate, through_pitch
 from slipwise.estimation.run_data import FitRun
 from slipwise.model import Model
@@ -69,6 +70,9 @@ def weighed_balances(
             )
         if springs is not None:
             more |= vertical_friction_noise(model, run, buffers_along(springs, run, *np.zeros((2, len(run.time)))))
+        if run.filtered is None and "rig.logger" not in values:
+            pitch = (values["rig.pitch_frequency"], values["rig.pitch_damping"])
+            more["pitch"] = np.hypot(more.get("pitch", 0.0), jump_noise_in_pitch(model.specimen, run, *pitch))
         for name, level in levels.items():
             out.setdefault(name, []).append(np.hypot(level, more[name]) if name in more else level)
     return out
@@ -154,7 +158,7 @@ def vertical_friction_noise(model: Model, run: FitRun, buffers: Array) -> dict[s
 
 
 def force_noise_in_pitch(run: FitRun, specimen: Specimen, values: Mapping[str, float]) -> Array:
-    """Give what noise of friction gauges and storeys adds to the predicted pitch load: the girder's pitch rings with it.
+    """Give what noise of friction and storeys adds to the predicted pitch load: the girder's pitch rings with it.
 
     Returns:
         spectrum (m,) at the frequencies of a real transform, as the variance of white noise of that height [N^2].

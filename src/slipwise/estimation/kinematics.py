@@ -205,7 +205,7 @@ class Kinematics:
         for place, run in enumerate(runs):
             velocity = run.states.pad_velocity[:, here].copy()
             velocity[:, :, 0] += values.get("rig.pitch_slip", 0.0) * self._pitching[place][:, None]
-            velocity[:, :, 0] += by * run.states.pad_velocity_error[here, 0]
+            velocity[:, :, 0] += by * run.states.pad_velocity_errors[:, here]
             slip = run.states.pad_slip[:, here]
             if self.makes_yaw:
                 angle, rate = self.yaw_of_runs(values, count)[place]

@@ -116,7 +116,7 @@ def _check_bodies(file: Mjcf) -> None:
             what = f"has a mass of {mass:g} kg, which would not be counted" if mass > _NOTHING else "has joints"
             raise file.refused(
                 f"the body {body.name or i!r} {what}; give its mass and inertia to the girder, or fix it to the "
-                "girder, the only body that moves",
+                "girder; besides it only storeys move: storey_1, storey_2 ... as in building.xml",
                 "body",
                 body.name,
             )
