@@ -176,7 +176,7 @@ def _drive_table(spec: mujoco.MjSpec, specimen: Specimen) -> None:
         moved = 0.0 if turning else table_mass + (specimen.carried_mass if specimen.free or axis == "az" else 0.0)
         actuator.gainprm[0] = _ARMATURE + moved
         if axis == "az":
-            actuator.biasprm[0] = specimen.weight + table_mass * specimen.gravity
+            actuator.biasprm[0] = (specimen.carried_mass + table_mass) * specimen.gravity
     for joint in ("table_x", "table_y", "table_z", "table_pitch"):
         spec.joint(joint).armature = _ARMATURE
 

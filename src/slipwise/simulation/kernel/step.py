@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.curved_face import along_face, keep_along, normal_force, onto_table, sliding_bound
 from slipwise.simulation.kernel.dispatch import Dispatch
+from slipwise.simulation.kernel.friction_rows import direction, lift_arms, split
 from slipwise.simulation.kernel.girder import buffer_spring, girder_drag, girder_lift
 from slipwise.simulation.kernel.loading_train import follow_train
 from slipwise.simulation.kernel.pads import pad_advance, pad_bound, pad_explicit, pad_further
@@ -49,19 +50,16 @@ from slipwise.simulation.kernel.places import (
     PAD_TENDON,
     RATE_AGE,
     RESTORING,
+    RIG_MOTION,
     RISE,
-    RISES_OVER_PADS,
     SIDE,
     SLOPE,
     TRAIN_VELOCITY,
     USER_SENSOR,
 )
+from slipwise.simulation.kernel.rig_motion import rig_motion
 
 Array = NDArray[np.float64]
-#: A bound that MuJoCo accepts and nobody feels [N].
-TINY = 1e-9
-#: Speed [m/s] from which on friction points along the velocity rather than along the friction of the step before.
-DIRECTION_SPEED = 1e-3
 
 
 @compilable
@@ -81,18 +79,14 @@ def control_step(
         frictionloss: what each constraint row of dry friction may carry [N]; set.
         applied: generalised forces [N, N m], of the pads' loads so far; added to.
     """
+    rocking_rate, table_velocity, table_acceleration = rig_motion(u, qvel)
     u[RATE_AGE] = u[DT]
     for pad in range(int(u[N_PADS])):
-        push_pad(
-            effects,
-            u,
-            effects.first_pad + pad * effects.pad_block,
-            time,
-            ten_length,
-            ten_velocity,
-            frictionloss,
-            applied,
-        )
+        z = effects.first_pad + pad * effects.pad_block
+        u[z + RIG_MOTION] = rocking_rate
+        u[z + RIG_MOTION + 1] = table_velocity
+        u[z + RIG_MOTION + 2] = table_acceleration
+        push_pad(effects, u, z, time, ten_length, ten_velocity, frictionloss, applied)
     sum_x, sum_y = push_buffers(effects, u, time, ten_length, ten_velocity, applied)
     if int(u[GIRDER_DOF]) >= 0:
         push_girder(effects, u, sum_x, sum_y, time, ten_length, qvel, applied)
@@ -169,36 +163,6 @@ def push_pad(
         j = z + PAD_JACOBIAN
         for dof in range(int(u[N_ARMS])):
             applied[dof] -= u[j + dof] * force_x + u[j + MAX_DOFS + dof] * force_y
-
-
-@compilable
-def direction(u: Array, z: int, bound: float, velocity_x: float, velocity_y: float) -> tuple[float, float, float]:
-    """Give a vector along which a pad's friction acts, and its length, so that what it may carry [N] is a circle.
-
-    e along v / (1 mm/s) + F / bound: along the velocity where it slides, along the last friction F where it sticks.
-    """
-    last = max(bound, 1.0)
-    toward_x = velocity_x / DIRECTION_SPEED + u[z + FORCE] / last
-    toward_y = velocity_y / DIRECTION_SPEED + u[z + FORCE + 1] / last
-    length = sqrt(toward_x * toward_x + toward_y * toward_y)
-    if length > 1e-9:
-        return toward_x, toward_y, length
-    return 1.0, 0.0, 1.0
-
-
-@compilable
-def split(u: Array, z: int, bound_x: float, bound_y: float, frictionloss: Array) -> None:
-    """Set what the rows of a pad's friction along x and y may carry: the size of each [N]."""
-    frictionloss[int(u[z + FRICTION_ROW])] = max(abs(bound_x), TINY)
-    frictionloss[int(u[z + FRICTION_ROW + 1])] = max(abs(bound_y), TINY)
-
-
-@compilable
-def lift_arms(u: Array, z: int, force_x: float, force_y: float, applied: Array) -> None:
-    """Add the moments [N m] of a pad's force [N], which acts lower under a girder that has risen over its pads."""
-    if u[RISES_OVER_PADS] > 0.0 and int(u[GIRDER_DOF]) >= 0:
-        applied[int(u[GIRDER_DOF + 4])] += u[z + RISE] * force_x
-        applied[int(u[GIRDER_DOF + 3])] -= u[z + RISE] * force_y
 
 
 @compilable
