@@ -15,7 +15,7 @@ from slipwise.estimation.parameters import PITCH_INERTIA, YAW_INERTIA, Term, fit
 from slipwise.estimation.recent_results import Key, Recent
 from slipwise.estimation.run_data import FitRun
 from slipwise.estimation.yaw import yaw_of
-from slipwise.rig import Specimen
+from slipwise.rig import Specimen, pad_frequencies
 from slipwise.rig.frame import frame_push
 from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import load_modes
@@ -25,6 +25,8 @@ from slipwise.simulation.predict import predictor
 Array = NDArray[np.float64]
 #: Numbers of the rig on which yaw depends.
 _YAW_KEYS = ("rig.mass", "rig.buffer_stiffness", YAW_INERTIA)
+#: Above this frequency, over that at which the girder pitches on its pads, what is left of the pitch load is noise [1].
+_PITCHING = 1.56
 
 
 @dataclass
@@ -239,7 +241,8 @@ def _pitch_rate(run: FitRun) -> Array:
     loads, specimen = run.all_loads, run.states.specimen
     if loads is None or not specimen.free:
         return np.zeros(len(run.time))
+    highest = _PITCHING * pad_frequencies(specimen)["pitch"]
     smooth = in_frequency(
-        load_modes(loads, basis_of(specimen)).pitch, run.dt, lambda f: 1.0 / (1.0 + (f / 120.0) ** 8), 64
+        load_modes(loads, basis_of(specimen)).pitch, run.dt, lambda f: 1.0 / (1.0 + (f / highest) ** 8), 64
     )
     return np.gradient(smooth, run.dt)
