@@ -20,9 +20,10 @@ from slipwise.session.evaluation import BalanceError, errors_of, evaluator
 from slipwise.session.findings import discovered, explained, suggested
 from slipwise.session.fitting import Progress, fit_state
 from slipwise.session.kept import Kept, resumed
+from slipwise.session.place import session_folder
 from slipwise.session.responses import HeldOutReplay, replay_held_out
 from slipwise.session.series import Series, series_of
-from slipwise.session.snapshot import Store, session_folder
+from slipwise.session.snapshot import Store
 from slipwise.session.sources import Sources
 from slipwise.session.state import State, from_json
 from slipwise.shown import Drawn, Tabular
@@ -66,7 +67,7 @@ class Session(Drawn, Tabular):
         self.campaign = as_campaign(campaign)
         self._sources = Sources(self.campaign, trust)
         self._file = self.campaign.folder / "model.toml"
-        self.store = Store(session_folder(self.campaign)) if keep else None
+        self.store = Store(self.campaign.folder) if keep else None
         try:
             stated = model if model is not None else self._file if self._file.is_file() else None
             self.ready, start = evaluator(self.campaign, None if stated is None else self._sources.model(stated))
@@ -185,7 +186,7 @@ class Session(Drawn, Tabular):
     @property
     def folder(self) -> Path:
         """Where a session of this campaign lies, with the effect files of laws that were found."""
-        return session_folder(self.campaign)
+        return session_folder(self.campaign.folder)
 
     def remember(self, kind: str, content: Mapping[str, Any]) -> None:
         """Keep a finding, made here or in another process."""

@@ -15,6 +15,7 @@ from slipwise.parallel import one_thread_algebra
 from slipwise.session.session import Session
 from slipwise.session.state import as_json, from_json, named
 from slipwise.workbench.curves import View, curves_frame, measured_frame, replay_frame
+from slipwise.workbench.kept_page import keep_page
 from slipwise.workbench.told import campaign_told, progress_told, state_told
 from slipwise.workbench.worker import Report, Worker
 
@@ -80,12 +81,12 @@ class Room:
         if self._worker is not None:
             self._worker.close()
         self._thread.shutdown(cancel_futures=True)
+        self._keep_page()
         self.session.close()
 
     async def enter(self, send: Send) -> Page:
         """Let a page in: it is told everything, and shown the run that fails worst."""
-        worst = max(await self._do(self.session.errors), key=lambda e: max(e.runs.values()))
-        page = Page(send, View(max(worst.runs, key=lambda run: worst.runs[run])), set())
+        page = Page(send, await self._do(self._first_view), set())
         self.pages.append(page)
         await send(await self._do(lambda: campaign_told(self.session)))
         await send(await self._do(lambda: state_told(self.session)))
@@ -94,6 +95,18 @@ class Room:
             await send(self._replay)
         self._ask_for_what_is_missing()
         return page
+
+    def _first_view(self) -> View:
+        """Give what a new page looks at: the run in which a balance fails worst."""
+        worst = max(self.session.errors(), key=lambda e: max(e.runs.values()))
+        return View(max(worst.runs, key=lambda run: worst.runs[run]))
+
+    def _keep_page(self) -> None:
+        """Keep what a new page is told, for the next time that the campaign is opened."""
+        view = self._first_view()
+        told = [campaign_told(self.session), state_told(self.session)]
+        curves = [measured_frame(self.session, view.run), curves_frame(self.session, view)]
+        keep_page(self.session.campaign.folder, [*told, *curves, *([self._replay] if self._replay else [])])
 
     def leave(self, page: Page) -> None:
         """Let a page go; nothing else changes."""
@@ -214,6 +227,8 @@ class Room:
         ended = {"kind": "ended", "job": piece.job, "how": report.kind, "seconds": seconds}
         await self._send_all(ended)
         self._next()
+        if self._now is None:
+            await self._do(self._keep_page)
 
     async def _take(self, job: str, answer: Any) -> None:
         """Take an answer of the worker into the session, and show it."""

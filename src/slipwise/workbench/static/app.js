@@ -37,8 +37,9 @@ function hear(message) {
     replay: () => { page.replay = message; drawReadings(message); drawHistory(); },
     "no replay": () => { page.replay = null; page.noReplay = message.words; drawReadings(null, message.words); },
     progress: () => working(message),
-    ended: () => { working(null); if (message.job !== "replay") say(message.how === "done" ? `${message.job} is done` : `${message.job}: ${message.how}`); },
+    ended: () => { working(null); if (!["replay", "open"].includes(message.job)) say(message.how === "done" ? `${message.job} is done` : `${message.job}: ${message.how}`); },
     problem: () => tellProblem(message.words),
+    over: () => { link.stop(); tellProblem(message.words); },
   }[message.kind];
   act?.();
 }
@@ -59,6 +60,7 @@ function working(message) {
   if (message !== page.working) page.heard = performance.now();
   page.working = message;
   find("work").hidden = !message;
+  find("cancel").hidden = message?.job === "open";
   if (message) {
     find("work-words").textContent = `${message.job}: ${message.words}`;
     find("work-share").value = message.share;
