@@ -37,6 +37,7 @@ class Session(Drawn, Tabular):
         ready: the campaign as fits see it.
         history: every step.
         reference: the state with which errors are compared: the last that was fitted at the beginning, or accepted.
+        accepted: whether the model.toml beside the campaign holds that one.
         findings: "explain", "discover": what was found last, as plain data.
         notes: what a user should know of how the session was opened.
         store: its folder on disk; None for a session that leaves nothing there.
@@ -77,7 +78,7 @@ class Session(Drawn, Tabular):
             self.close()
             raise
         self.history, self.reference, self.notes = kept.history, kept.reference, kept.notes
-        self.findings = dict(kept.findings)
+        self.accepted, self.findings = kept.accepted, dict(kept.findings)
         self.keep()
 
     @property
@@ -155,7 +156,7 @@ class Session(Drawn, Tabular):
         The first fit of the model as it was opened is what others are held against.
         """
         if not self.reference.fitted and state.terms == self.reference.terms:
-            self.reference = state
+            self.reference, self.accepted = state, False
         return self._push(state)
 
     def replay(self, state: State | None = None) -> HeldOutReplay:
@@ -209,11 +210,11 @@ class Session(Drawn, Tabular):
         Args:
             path: of the model.toml; the one beside the campaign if not given.
         """
-        path = self._file if path is None else Path(path)
-        save_model(self.model, path)
-        self.reference = self.state
+        target = self._file if path is None else Path(path)
+        save_model(self.model, target)
+        self.reference, self.accepted = self.state, target.resolve() == self._file.resolve()
         self.keep()
-        return path
+        return target
 
     def undo(self) -> State:
         """Go one step back; a SettingError says that there is none."""
@@ -272,7 +273,7 @@ class Session(Drawn, Tabular):
     def keep(self) -> None:
         """Write every step to disk, as each does by itself."""
         if self.store is not None:
-            kept = Kept(self.history, self.reference, self.findings)
+            kept = Kept(self.history, self.reference, self.accepted, self.findings)
             self.store.write(kept.as_json(self.campaign, self._file))
 
     def _headline(self) -> str:

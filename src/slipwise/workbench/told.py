@@ -57,7 +57,7 @@ def state_told(session: Session) -> dict[str, Any]:
         "kind": "state",
         "words": state.words,
         "fitted": state.fitted,
-        "accepted": state == session.reference,
+        "accepted": session.accepted and state == session.reference,
         "effects": [{"name": t.effect.name, "label": t.label, "group": t.group} for t in state.terms],
         "own": [
             {"name": t.effect.name, "summary": t.effect.summary, "equation": t.effect.equation}
