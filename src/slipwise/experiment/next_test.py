@@ -43,7 +43,7 @@ from slipwise.record import Record
 from slipwise.signals.filters import lowpass
 from slipwise.simulation.replay import replay
 
-#: No motion makes anybody surer than this.
+#: No motion makes anybody surer than this: who is, needs none.
 _SUREST = 0.99
 #: Rivals that are held against each other: three cost nine fits a motion.
 _MOST = 3
@@ -85,6 +85,9 @@ def next_test(
     tell("rivals", 0.0)
     every = rivals(found)
     contest, chances = every[:_MOST], _chances(found, every)[:_MOST]
+    if chances[0] >= _SUREST:
+        words = "Nothing is in doubt: no motion could make anybody surer of this than the campaign does."
+        return NextTest(tuple(h.names for h in contest), chances, (), words, found.sentence)
     models = [_as_shaken(found, h) for h in contest]
     out = []
     for i, (text, refused) in enumerate(asked.items()):

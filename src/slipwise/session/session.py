@@ -21,7 +21,7 @@ from slipwise.session.findings import discovered, explained, suggested
 from slipwise.session.fitting import Progress, fit_state
 from slipwise.session.kept import Kept, resumed
 from slipwise.session.place import session_folder
-from slipwise.session.responses import HeldOutReplay, replay_held_out
+from slipwise.session.responses import RunReplay, replay_errors, replay_run
 from slipwise.session.series import Series, series_of
 from slipwise.session.snapshot import Store
 from slipwise.session.sources import Sources
@@ -58,7 +58,7 @@ class Session(Drawn, Tabular):
             campaign: or its folder.
             model: or its model.toml; the model.toml beside the campaign, or the paper's law on its rig, if not given.
             trust: effect files that a model or the last session names and that may be run.
-            resume: go on where the last session ended.
+            resume: go on where the last session ended; else from the model as it is stated, and undo leads back.
             keep: keep every step on disk; another program cannot open the campaign meanwhile.
 
         Raises:
@@ -72,8 +72,9 @@ class Session(Drawn, Tabular):
         try:
             stated = model if model is not None else self._file if self._file.is_file() else None
             self.ready, start = evaluator(self.campaign, None if stated is None else self._sources.model(stated))
-            before = self.store.read() if resume and self.store is not None else None
-            kept = resumed(before, self.campaign, self._file, self._kept_effect, start, given=model is not None)
+            before = self.store.read() if self.store is not None else None
+            given = model is not None or not resume
+            kept = resumed(before, self.campaign, self._file, self._kept_effect, start, given=given)
         except BaseException:
             self.close()
             raise
@@ -102,7 +103,7 @@ class Session(Drawn, Tabular):
             UnknownNameError: no such effect.
             SettingError: effects that cannot act together, or a target that is missing or is none.
         """
-        return self._push(changes.toggled(self.ready, self.state, self._effect(effect), target))
+        return self.push(changes.toggled(self.ready, self.state, self.effect(effect), target))
 
     def set(self, key: str, value: float | str, *, keep: bool = True) -> State:
         """Change one number of the model.
@@ -117,7 +118,7 @@ class Session(Drawn, Tabular):
             SettingError: a value out of bounds.
             UnitError: a unit of the wrong dimension, or none.
         """
-        return self._push(changes.with_number(self.ready, self.state, key, value), keep=keep)
+        return self.push(changes.with_number(self.ready, self.state, key, value), keep=keep)
 
     def errors(self, state: State | None = None) -> tuple[BalanceError, ...]:
         """Give the error of every balance, component level, in floors: of the model as it is now, or of a state."""
@@ -157,15 +158,15 @@ class Session(Drawn, Tabular):
         """
         if not self.reference.fitted and state.terms == self.reference.terms:
             self.reference, self.accepted = state, False
-        return self._push(state)
+        return self.push(state)
 
-    def replay(self, state: State | None = None) -> HeldOutReplay:
-        """Replay the held-out run from the table's motion, and read off what an engineer asks for.
+    def replay(self, state: State | None = None, run: str = "") -> RunReplay:
+        """Replay a run, the held-out one if none is named, from the table's motion; see `replay_run`."""
+        return replay_run(self.ready, state or self.state, run)
 
-        Raises:
-            InputError: the slip is prescribed, or the table's motion was not recorded.
-        """
-        return replay_held_out(self.ready, state or self.state)
+    def replay_errors(self, state: State | None = None) -> dict[str, float]:
+        """Give the held-out errors at system level in floors; see `responses.replay_errors`."""
+        return replay_errors(self.ready, state or self.state)
 
     def explain(self, progress: Progress | None = None) -> Diagnosis:
         """Say which effect the model lacks, as it is now; `take_suggestion` puts it in."""
@@ -202,7 +203,7 @@ class Session(Drawn, Tabular):
         """
         parts = suggested(self.findings.get("explain"), self._kept_effect)
         names = ", ".join(term.label for term, _ in parts)
-        return self._push(changes.with_terms(self.ready, self.state, parts, f"{names} added, as suggested"))
+        return self.push(changes.with_terms(self.ready, self.state, parts, f"{names} added, as suggested"))
 
     def accept(self, path: Path | str | None = None) -> Path:
         """Write the model as it is now; from here on errors are compared with it.
@@ -251,7 +252,7 @@ class Session(Drawn, Tabular):
         if self.store is not None:
             self.store.close()
 
-    def _effect(self, name: str) -> Effect:
+    def effect(self, name: str) -> Effect:
         """Give an effect of the model with its bounds there, which hold what was stated; or another."""
         held = next((u.effect for u in self.ready.model.uses if u.effect.name == name), None)
         return held or self._sources.effect(name)
@@ -262,9 +263,10 @@ class Session(Drawn, Tabular):
         return from_json(content, lambda name: self._kept_effect(name, sources))
 
     def _kept_effect(self, name: str, sources: Sources | None = None) -> Effect:
-        return self._effect(name) if name in catalogue() else (sources or self._sources).kept_effect(name)
+        return self.effect(name) if name in catalogue() else (sources or self._sources).kept_effect(name)
 
-    def _push(self, state: State, *, keep: bool = True) -> State:
+    def push(self, state: State, *, keep: bool = True) -> State:
+        """Take a state as the next step."""
         self.history = self.history.pushed(state)
         if keep:
             self.keep()

@@ -27,7 +27,7 @@ def shown_run(found: Comparison) -> int:
 
 
 def errors_figure(found: Comparison) -> Figure:
-    """Draw every component's and channel's error in multiples of its floor, fitted and held-out runs apart."""
+    """Draw every balance's and channel's error in multiples of its floor, fitted and held-out runs apart."""
     rows: list[tuple[str, float | None, float | None]] = [
         (NAMES[r][0], found.error(r, held_out=False), found.error(r, held_out=True)) for r in found.relations
     ]

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from slipwise.errors import visible
 from slipwise.view.canvas import figure_svg
+from slipwise.view.figure_files import export
 from slipwise.view.html_style import STYLE
 from slipwise.view.terminal import cell
 
@@ -113,7 +114,9 @@ def figure(picture: Figure | bytes, caption: str, alternative: str = "") -> Html
     """
     words = escape(alternative or caption, quote=True)
     if isinstance(picture, Figure):
-        drawn = f'<div class="picture" role="img" aria-label="{words}">{figure_svg(picture)}</div>'
+        svg = figure_svg(picture)
+        export(picture, svg, alternative or caption)
+        drawn = f'<div class="picture" role="img" aria-label="{words}">{svg}</div>'
     else:
         drawn = f'<img alt="{words}" src="data:image/png;base64,{base64.b64encode(picture).decode()}">'
     return Html(f"<figure>{drawn}<figcaption>{_inline(caption)}</figcaption></figure>")

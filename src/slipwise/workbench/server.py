@@ -54,7 +54,8 @@ _REPORT_HEADERS = _HEADERS | {
     "Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'none'"
 }
 #: Told until the session stands; what the page shows meanwhile is what it showed last.
-_OPENING = {"kind": "progress", "job": "open", "words": "getting the session ready", "share": 0.0, "seconds": 0.0}
+_OPENING = {"kind": "progress", "job": "open", "words": "getting the session ready", "share": 0.0, "seconds": 0.0,
+            "aside": False}  # fmt: skip
 _REPORTS = ("report.html", "diagnosis.html")
 
 
@@ -109,7 +110,7 @@ def application(opening: Opening, token: str) -> Starlette:
             return
         from slipwise.workbench.actions import act  # loaded with the room by now
 
-        await send({"kind": "ended", "job": "open", "how": "done"})
+        await send({"kind": "ended", "job": "open", "how": "done", "aside": False})
         page = await room.enter(send)
         try:
             while channel.application_state is WebSocketState.CONNECTED:  # a page that has gone hears no more
