@@ -59,6 +59,7 @@ def _errors(found: Comparison) -> list[Any]:
             "Error of every balance and channel in multiples of its noise floor. Left of the green line a model "
             "cannot get; blue bars are runs that the fit has not seen.",
             "Bars of error over floor for every balance and channel",
+            narrow=figures.errors_figure(found, narrow=True),
         )
     ]
     rows = []
@@ -119,7 +120,7 @@ def _places(found: Comparison) -> list[Any]:
                     error_maps.patterns_figure(found, relation),
                     f"{capital(called)}: mean residual (measured less predicted) over every state, both directions "
                     "of sliding apart, with two standard errors. Mirrored curves are friction, equal curves a constant "
-                    "pull.",
+                    "pull. Hollow: too few independent samples to say how sure the mean is.",
                     f"Mean residual of {called} over states of motion",
                 )
             )

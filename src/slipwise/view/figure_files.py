@@ -101,7 +101,8 @@ def _of_panel(axes: Axes, panel: str) -> Iterator[dict[str, Any]]:
     for line in axes.get_lines():
         if line.get_transform().contains_branch(axes.transData):  # not a level across the whole panel
             for x, y in zip(*(np.ravel(np.asarray(v, dtype=float)) for v in line.get_data()), strict=True):
-                yield row(line.get_label(), x, y)
+                if np.isfinite(x) and np.isfinite(y):
+                    yield row(line.get_label(), x, y)
     ticks = {axis: _labels(axis) for axis in (axes.xaxis, axes.yaxis)}
     for bars in (c for c in axes.containers if isinstance(c, BarContainer)):
         for bar in (p for p in bars.patches if isinstance(p, Rectangle)):
@@ -124,7 +125,8 @@ def _of_panel(axes: Axes, panel: str) -> Iterator[dict[str, Any]]:
             if np.isfinite(value):
                 yield row(mesh.get_label(), x, y, value)
     for image in (i for i in axes.get_images() if isinstance(i, AxesImage)):
-        yield from (row(image.get_label(), x, y, value) for x, y, value in _pixels(image))
+        for x, y, value in _pixels(image):
+            yield row(image.get_label(), _at(ticks[axes.xaxis], x), _at(ticks[axes.yaxis], y), value)
 
 
 def _pixels(image: AxesImage) -> Iterator[tuple[float, float, float]]:
