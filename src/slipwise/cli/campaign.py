@@ -119,17 +119,13 @@ def compare(
     if json:
         print_json(content)
         return
-    from slipwise.comparison.component_level import NAMES
-    from slipwise.view.compare_answers import one_minute
+    from slipwise.view.compare_answers import error_rows, one_minute
     from slipwise.view.floor_rows import floor_rows
     from slipwise.view.terminal import print_table
 
     for question, answer in one_minute(found):
         say(f"{question} {answer}")
-    rows = [{"balance": NAMES[r][0], "fitted": found.error(r, held_out=False),
-             "held out": found.error(r, held_out=True)}
-            for r in found.relations]  # fmt: skip
-    print_table("Error in multiples of the noise floor", rows)
+    print_table("Error in multiples of the noise floor", error_rows(found))
     print_table("Noise floor of one sample", floor_rows(found.floor))
     for path in files:
         say(f"wrote {path}")

@@ -134,13 +134,12 @@ def _diagnose_one(
 def _accept(found: "sw.Diagnosis", session: "sw.Session", console: Console) -> None:
     """Put what a diagnosis names into model.toml, fitted, as the workbench does."""
     from slipwise.cli.edit import tell_change
-    from slipwise.session.model_change import take_from
 
     if not found.verdict.effects:
         say("nothing is named that could be put into the model; model.toml is as it was", console)
         return
     with steps() as tell:
-        changed = take_from(session, found, tell)
+        changed = sw.add(found, session, progress=tell)
     tell_change(changed, held_out=bool(session.campaign.with_role("holdout")), console=console)
     say(f"wrote {session.accept()}", console)
 

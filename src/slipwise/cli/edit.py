@@ -1,8 +1,8 @@
 """`slipwise add` and `slipwise remove`: edit model.toml, refit, and print the error before and after."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 from rich.console import Console
@@ -10,9 +10,6 @@ from rich.console import Console
 import slipwise as sw
 from slipwise.cli.console import OUT, say, steps
 from slipwise.cli.diagnose import Allowed, Trusted
-
-if TYPE_CHECKING:
-    from slipwise.effects import Trust
 
 Folder = Annotated[Path, typer.Option("--campaign", help="Folder with campaign.toml; model.toml is kept there too.")]
 
@@ -29,9 +26,7 @@ def add(
 
     Example: `slipwise add run_in --campaign campaigns/march`
     """
-    from slipwise.session.model_change import add_to
-
-    _change(add_to, name, campaign, trust or effect or ())
+    _change(sw.add, name, campaign, trust or effect or ())
 
 
 def remove(
@@ -46,21 +41,14 @@ def remove(
 
     Example: `slipwise remove run_in --campaign campaigns/march`
     """
-    from slipwise.session.model_change import remove_from
-
-    _change(remove_from, name, campaign, trust or effect or ())
+    _change(sw.remove, name, campaign, trust or effect or ())
 
 
-def _change(
-    change: "Callable[[sw.Session, str, Callable[[str, float], None]], sw.ModelChange]",
-    name: str,
-    campaign: Path,
-    trust: "Trust",
-) -> None:
+def _change(change: "Callable[..., sw.ModelChange]", name: str, campaign: Path, trust: bool | Sequence[str]) -> None:
     session = sw.Session(campaign, trust=trust, resume=False)
     try:
         with steps() as tell:
-            changed = change(session, name, tell)
+            changed = change(name, session, progress=tell)
         tell_change(changed, held_out=bool(session.campaign.with_role("holdout")))
         say(f"wrote {session.accept()}")
     finally:

@@ -47,8 +47,8 @@ class ModelChange(Drawn, Tabular):
 
 
 def add(
-    effect: str,
-    campaign: Campaign | Path | str,
+    effect: str | Diagnosis,
+    campaign: Campaign | Path | str | Session,
     model: Model | Path | str | None = None,
     *,
     progress: Progress | None = None,
@@ -56,21 +56,22 @@ def add(
     """Add an effect to a model and refit everything; a gauge's fault goes to the channel where it explains most.
 
     Args:
-        effect: its name, or the path of a user's file ("./mine.py").
-        campaign: or its folder.
-        model: or its model.toml; the paper's law on the campaign's rig when not given.
+        effect: its name, or the path of a user's file ("./mine.py"); or a diagnosis, for all that it names.
+        campaign: or its folder; or a session, of which each fit becomes a step.
+        model: or its model.toml; the paper's law on the campaign's rig, or the session's model, when not given.
         progress: called with what is being done and the share done.
 
     Raises:
         UnknownNameError: no such effect.
-        SettingError: the campaign cannot test it, or the model holds it already.
+        SettingError: the campaign cannot test it, or the model holds it already; or the diagnosis names nothing.
     """
-    return add_to(_session(campaign, model), effect, progress)
+    session = _session(campaign, model)
+    return _added(session, effect, progress) if isinstance(effect, str) else _taken(session, effect, progress)
 
 
 def remove(
     effect: str,
-    campaign: Campaign | Path | str,
+    campaign: Campaign | Path | str | Session,
     model: Model | Path | str | None = None,
     *,
     progress: Progress | None = None,
@@ -79,18 +80,24 @@ def remove(
 
     Args:
         effect: its name, or its label ("channel_gain[pad_A_N]").
-        campaign: or its folder.
-        model: or its model.toml; the paper's law on the campaign's rig when not given.
+        campaign: or its folder; or a session, of which each fit becomes a step.
+        model: or its model.toml; the paper's law on the campaign's rig, or the session's model, when not given.
         progress: called with what is being done and the share done.
 
     Raises:
         SettingError: the model does not hold it.
     """
-    return remove_from(_session(campaign, model), effect, progress)
+    session = _session(campaign, model)
+    changes.removed(session.ready, session.state, effect)  # refuses what is not there before anything is fitted
+    tell = progress or _silent
+    _fit(session, tell, "fitting with it", 0.0)
+    before = _errors(session)
+    session.push(changes.removed(session.ready, session.state, effect), keep=False)
+    _fit(session, tell, "fitting without it", 0.5)
+    return ModelChange(f"{effect} removed", session.model, before, _errors(session))
 
 
-def add_to(session: Session, effect: str, progress: Progress | None = None) -> ModelChange:
-    """Do `add` in a session: each fit is a step of its history."""
+def _added(session: Session, effect: str, progress: Progress | None) -> ModelChange:
     wanted = session.effect(effect)
     tell = progress or _silent
     _fit(session, tell, "fitting without it", 0.0)
@@ -103,23 +110,7 @@ def add_to(session: Session, effect: str, progress: Progress | None = None) -> M
     return ModelChange(words, session.model, before, _errors(session))
 
 
-def remove_from(session: Session, effect: str, progress: Progress | None = None) -> ModelChange:
-    """Do `remove` in a session: each fit is a step of its history."""
-    changes.removed(session.ready, session.state, effect)  # refuses what is not there before anything is fitted
-    tell = progress or _silent
-    _fit(session, tell, "fitting with it", 0.0)
-    before = _errors(session)
-    session.push(changes.removed(session.ready, session.state, effect), keep=False)
-    _fit(session, tell, "fitting without it", 0.5)
-    return ModelChange(f"{effect} removed", session.model, before, _errors(session))
-
-
-def take_from(session: Session, found: Diagnosis, progress: Progress | None = None) -> ModelChange:
-    """Put what a diagnosis of this session's model names into it, and refit everything.
-
-    Raises:
-        SettingError: it names nothing that could be put in.
-    """
+def _taken(session: Session, found: Diagnosis, progress: Progress | None) -> ModelChange:
     tell = progress or _silent
     session.remember("explain", explained(found, session.state.labels))
     _fit(session, tell, "fitting without it", 0.0)
@@ -129,8 +120,10 @@ def take_from(session: Session, found: Diagnosis, progress: Progress | None = No
     return ModelChange(words, session.model, before, _errors(session))
 
 
-def _session(campaign: Campaign | Path | str, model: Model | Path | str | None) -> Session:
-    """Open a session of a model alone, which leaves nothing on disk."""
+def _session(campaign: Campaign | Path | str | Session, model: Model | Path | str | None) -> Session:
+    """Give the session, or open one of a model alone, which leaves nothing on disk."""
+    if isinstance(campaign, Session):
+        return campaign
     measured = as_campaign(campaign)
     return Session(measured, base_model(measured.specimen) if model is None else model, resume=False, keep=False)
 

@@ -1,5 +1,7 @@
 """A comparison in words: what everybody asks first, and the answers in a sentence each."""
 
+from typing import Any
+
 from slipwise.comparison.cells import ALLOWANCE
 from slipwise.comparison.component_level import NAMES
 from slipwise.comparison.result import Comparison
@@ -27,6 +29,14 @@ def one_minute(found: Comparison) -> list[tuple[str, str]]:
         ("What is the noise floor?", _floor_words(found)),
         ("How well does the model do?", _error_words(found)),
         ("Exactly where does it fail?", place_words(found)),
+    ]
+
+
+def error_rows(found: Comparison) -> list[dict[str, Any]]:
+    """Give the error of every balance in floors as rows of a table."""
+    return [
+        {"balance": NAMES[r][0], "fitted": found.error(r, held_out=False), "held out": found.error(r, held_out=True)}
+        for r in found.relations
     ]
 
 
