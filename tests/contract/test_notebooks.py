@@ -1,4 +1,4 @@
-"""The notebooks of the documentation still run, and what is shipped of them is executed, small, and of these sources."""
+"""The notebooks of the documentation still run; what is shipped is executed, small, and made from these sources."""
 
 import importlib.util
 from pathlib import Path
