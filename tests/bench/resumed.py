@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Callable, Mapping
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import active_children, get_context
 from pathlib import Path
@@ -34,9 +34,8 @@ def run_jobs(
         begin: called in every process first; as given, it ends when this process is gone.
     """
     out = []
-    spawned = get_context("spawn")
-    with ProcessPoolExecutor(workers, spawned, begin, max_tasks_per_child=1) as pool, lines.open("a") as stream:
-        futures = [pool.submit(*job) for job in jobs.values()]
+    with ThreadPoolExecutor(workers) as pool, lines.open("a") as stream:
+        futures = [pool.submit(_alone, begin, *job) for job in jobs.values()]
         try:
             for number, future in enumerate(as_completed(futures), start=1):
                 out.append(future.result())
@@ -46,6 +45,13 @@ def run_jobs(
         except (KeyboardInterrupt, BrokenProcessPool):
             pass  # what is done is shown
         finally:  # else the campaigns that are left would run on, unseen, for as long as they take
+            pool.shutdown(wait=False, cancel_futures=True)
             for worker in active_children():
                 worker.terminate()
     return out
+
+
+def _alone(begin: Callable[[], None], work: Callable[..., Result], *arguments: Any) -> Result:
+    """Do one job in a process of its own; `max_tasks_per_child` of one pool for all can wait for ever at its end."""
+    with ProcessPoolExecutor(1, get_context("spawn"), begin) as process:
+        return process.submit(work, *arguments).result()

@@ -16,7 +16,7 @@ from slipwise.campaign.materiality import Materiality
 from slipwise.campaign.settings import read_settings
 from slipwise.cli import app
 from slipwise.diagnosis.importance import RESPONSES
-from slipwise.effects import DERIVED, HOOKS, LAGGING, PORTS, load_effect
+from slipwise.effects import DERIVED, HOOKS, LAGGING, PORTS, RIG_MOTION, load_effect
 from slipwise.model_file import load_model
 from slipwise.rig.known import SPECIMEN_UNITS, SPECIMEN_WORDS
 
@@ -199,6 +199,12 @@ def test_every_derived_state_is_explained_with_its_unit():
     assert {name: f"{words} [{unit}]".replace("\\|", "|") for name, words, unit, _ in rows} == DERIVED
     assert {name for name, *_, buffers in rows if buffers} == DERIVED.keys() & HOOKS["spring"].inputs.keys()
     assert all(f"`{name}`" in CONTRIBUTING.partition("What lags")[2].partition(" does so")[0] for name in LAGGING)
+
+
+def test_every_motion_of_the_rig_is_explained_with_its_unit():
+    assert all(f"`{name}`" in CONTRIBUTING for name in RIG_MOTION)
+    for name, words in RIG_MOTION.items():
+        assert f"[{words.rpartition('[')[2]}" in CONTRIBUTING.partition(f"`{name}`")[2].partition(".")[0]
 
 
 def test_the_drawing_shows_every_package_after_those_that_it_may_import():

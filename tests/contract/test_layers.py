@@ -52,7 +52,7 @@ ARROWS: dict[str, str] = {
         " simulation"
     ),
     "experiment": (
-        "campaign comparison diagnosis effects errors estimation evidence model motion parallel record shown"
+        "campaign comparison diagnosis discovery effects errors estimation evidence model motion parallel record shown"
         " signals simulation units"
     ),
     "studies": (

@@ -1,5 +1,6 @@
 """`slipwise discover`: from an unknown effect to a law that can be added."""
 
+from collections.abc import Sequence
 from datetime import date
 from pathlib import Path
 from typing import Annotated
@@ -34,6 +35,7 @@ def discover(
     from slipwise.view.discovery_recording import write_discovery_recording
     from slipwise.view.files import save_json, save_page
 
+    sw.effects.check_name(name)  # not after minutes of search
     measured = sw.load_campaign(campaign)
     folder = out_folder(out)
     with steps() as tell:
@@ -53,12 +55,25 @@ def discover(
             say(f"{law.name}.{c.name} = {c.value:.4g} {c.unit}" + _interval(c.low, c.high))
         for words in law.rivals:
             say(f"explains as much: {words}")
+    if any(law.alternatives for law in found.laws):
+        say(f"slipwise next {campaign} ranks table motions that would tell them apart")
     for words in found.cannot_judge:
         say(f"cannot judge {words}")
-    for path in found.files:
-        say(f"Effect: {path}; add it with: slipwise add {path} --campaign {campaign}")
+    if found.files:
+        say("add with:")
+        for command in _added(campaign, found.beside, found.files):
+            say(f"  {command}")
     for path in files:
         say(f"wrote {path}")
+
+
+def _added(campaign: Path, beside: Sequence[str], files: Sequence[Path]) -> list[str]:
+    """Give the commands that add effects, one after another: a file that is in the model by then is trusted anew."""
+    out = [f"slipwise add {effect} --campaign {campaign}" for effect in beside]
+    for number, file in enumerate(files):
+        trusted = "".join(f" --effect {earlier}" for earlier in files[:number])
+        out.append(f"slipwise add {file} --campaign {campaign}{trusted}")
+    return out
 
 
 def _interval(low: float, high: float) -> str:

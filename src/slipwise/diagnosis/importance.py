@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.materiality import Materiality
+from slipwise.campaign.rig_motion import rig_motion
 from slipwise.comparison.measured_replay import measured_motion, simulation_step
 from slipwise.comparison.system_level import replayed_model
 from slipwise.errors import SlipwiseError
@@ -158,7 +159,8 @@ def memory_before(model: Model, runs: Sequence[FitRun]) -> Memory:
     for before in runs:
         law.rest(before.rest_before)
         states = before.states
-        law.pads(states.time, states.load, states.pad_velocity, states.pad_slip, states.pads)
+        motion = rig_motion(states)
+        law.pads(states.time, states.load, states.pad_velocity, states.pad_slip, states.pads, motion)
         if model.specimen.buffer_stiffness:
             count = len(model.specimen.buffer_stiffness)
             law.buffers(states.time, *(np.stack([s] * count, axis=1) for s in (states.slip, states.velocity)))
@@ -171,7 +173,8 @@ def _driven(model: Model, final: BaseFit, place: int) -> _Answer:
     force = run.states.pad_velocity  # of the run's own shape, where there is nothing before it
     for each in final.problem.runs[: place + 1]:
         law.rest(each.rest_before)
-        force = law.pads(each.time, each.load, each.states.pad_velocity, each.states.pad_slip, each.pads).force
+        states, motion = each.states, rig_motion(each.states)
+        force = law.pads(each.time, each.load, states.pad_velocity, states.pad_slip, each.pads, motion).force
     record = run.record.replaced(**{f"pad_{p}_Fx": force[:, i, 0] for i, p in enumerate(run.pads)})
     for entry in model.with_hook("gauge"):
         record = entry.effect.hooks["gauge"](record, entry.target, **entry.values)

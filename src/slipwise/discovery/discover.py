@@ -19,9 +19,9 @@ from slipwise.discovery.law import Discovery, Law
 from slipwise.discovery.law_problem import FittedLaw, LawProblem
 from slipwise.discovery.levels import excess, held_out_level, level
 from slipwise.discovery.search import LEVEL, Found, different, find_law
-from slipwise.discovery.states import WORDS, pad_instants, pad_states
+from slipwise.discovery.states import WORDS, pad_instants, pad_states, rig_states
 from slipwise.discovery.told_law import told_law
-from slipwise.effects import Effect
+from slipwise.effects import RIG_MOTION, Effect
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import intervals
 from slipwise.estimation.least_squares import Solution, slopes_of, solve, with_slopes
@@ -145,6 +145,8 @@ def _from(name: str, base: BaseFit) -> Discovery:
         leaders = _without_needless(leaders, whole)
         acted = {f.law.match.candidate.port.relation for f, _, _ in leaders}
         now, here = leaders[-1][0].problem, leaders[-1][0].solution
+    added = dict.fromkeys(t.effect.name for t in problem.terms)
+    beside = tuple(effect for effect in added if effect not in base.model)
     cannot, start = tuple(_cannot_judge(now)), replace(base, solution=solution)
     worst = max(sorted(acted) or problem.relations, key=lambda r: level(problem, solution, r, problem.fitted))
 
@@ -152,15 +154,16 @@ def _from(name: str, base: BaseFit) -> Discovery:
         end = kept[-1][0].solution if kept else solution
         fit = replace(base, free=end.free, solution=end)
         known = {i.key: i for i in intervals(fit).entries} if kept else {}
-        told = [told_law(replace(f, solution=end), tied, problem.fitted, share, known) for f, tied, share in kept]
-        laws = tuple(replace(law, name=_name(number)) for number, law in enumerate(told))
+        every = [told_law(replace(f, solution=end), tied, problem.fitted, share, known) for f, tied, share in kept]
+        laws = tuple(replace(law, name=_name(number)) for number, law in enumerate(every))
         share = (solution.cost - end.cost) / max(whole, 1e-9)
         held_out = [{r: held_out_level(problem, x, r) for r in problem.relations} for x in (solution, end)]
         relations = {r: (held_out[0][r], held_out[1][r]) for r in problem.relations}
         evidence = _evidence(laws, share, relations, worst, whole)
         nearest = None if evidence == "nothing" else organised
         seen = share if laws else (nearest.share if nearest else 0.0)
-        return Discovery(name, evidence, laws, nearest, looked_at, seen, relations, worst, cannot, start, (), 0.0)
+        told = (name, evidence, laws, nearest, looked_at, seen, relations, worst, cannot, start, (), 0.0)
+        return Discovery(*told, beside=beside)
 
     found = answer(leaders)
     if found.evidence in ("law", "state") or len(leaders) < 2:
@@ -243,8 +246,10 @@ def _constants(f: FittedLaw) -> int:
 
 def _cannot_judge(here: LawProblem) -> list[str]:
     """Say which states hardly vary, and where there is one motion only."""
-    there = {s.name for s in pad_states(here.every)}
-    out = [f"{WORDS[name]}: it does not vary in this campaign" for name in WORDS if name not in there]
+    free = here.plain.specimen.free
+    there = {s.name for s in (*pad_states(here.every), *rig_states(here.every))}
+    missing = [name for name in WORDS if name not in there and (free or name not in RIG_MOTION)]
+    out = [f"{WORDS[name]}: it does not vary in this campaign" for name in missing]
     if len(here.fitted) < 2:
         out.append("whether a law carries over to another motion: there is one fitted run only")
     return out

@@ -81,8 +81,9 @@ def written_law(law: Law, found: Discovery, name: str, date: str) -> WrittenEffe
     tied = f" Cannot be told apart from it: {'; '.join(rivals)}." if rivals else ""
     explained = f"explains {100.0 * law.share:.1f} % of what the model left above noise"
     fell = f"the error of {found.worst} fell from {before:.2f} to {after:.2f} floors on what no fit has seen"
+    beside = f" beside {', '.join(found.beside)}" if found.beside else ""
     about = (
-        f"Found in the data of {found.campaign}: it {explained}; {fell}.{tied}",
+        f"Found in the data of {found.campaign}{beside}: it {explained}; {fell}.{tied}",
         "It is a law of the data. No mechanism is claimed.",
     )
     port, component, hooks = _hooks(law)

@@ -59,6 +59,7 @@ class Law:
         valid: state -> range of the data [SI].
         fitted: the fit behind it.
         tied_forms: those of `tied`, to be drawn.
+        alternatives: every law that explains as much, of its form or of another state or port, best first.
     """
 
     name: str
@@ -76,6 +77,7 @@ class Law:
     valid: Mapping[str, tuple[float, float]]
     fitted: FittedLaw
     tied_forms: tuple[TiedForm, ...]
+    alternatives: tuple["Law", ...] = ()
 
     @property
     def driver(self) -> str:
@@ -144,6 +146,7 @@ class Discovery(Drawn, Tabular):
         base: the fit from which the search began, with its slopes.
         files: of the effects that were written.
         seconds: it took.
+        beside: effects that the diagnosis had added to the user's model before the search for a law began.
     """
 
     campaign: str
@@ -158,6 +161,7 @@ class Discovery(Drawn, Tabular):
     base: BaseFit
     files: tuple[Path, ...]
     seconds: float
+    beside: tuple[str, ...] = ()
 
     @property
     def sentence(self) -> str:
@@ -214,6 +218,7 @@ class Discovery(Drawn, Tabular):
                 }
                 for law in self.laws
             ],
+            "beside": list(self.beside),
             "organised": None if self.organised is None else self.organised.label,
             "share": self.share,
             "held_out": {"before": before, "after": after},

@@ -16,7 +16,7 @@ from slipwise.discovery.matching import Match, matched
 from slipwise.discovery.ports import gates, girder_ports, girder_states, load_ports, opened, pad_ports, places_of
 from slipwise.discovery.residual_field import residual_field
 from slipwise.discovery.screening import screen_states, weighed
-from slipwise.discovery.states import pad_instants, pad_states
+from slipwise.discovery.states import pad_instants, pad_states, rig_states
 from slipwise.estimation.least_squares import Solution, with_slopes
 from slipwise.model import Model
 
@@ -29,6 +29,8 @@ _CANDIDATES, _FORMS, _FITTED, _FINELY = 6, 5, 9, 3
 _SINGLE_CANDIDATES, _SINGLE = 3, 4
 #: How far from the girder's centre a force on it may act, in heights of the centre [1].
 _LEVER = 3.0
+#: The motion of the rig is looked at where no state of the pads explains this much: on one motion many go with it [1].
+_OF_THE_RIG = 0.9
 #: A candidate explains at least this much of what its relation leaves above noise [1].
 _LEAST = 0.1
 
@@ -147,7 +149,10 @@ def _screened(here: LawProblem, start: Solution) -> list[Candidate]:
         if field.relation == "pads":
             places = places_of(here.plain)
             tried = gates(places, here.plain.runs[0].pads) if here.plain.specimen.free else []
-            found = screen_states(field, states, pad_ports(here.every), tried, places, here.every.states)
+            ports = pad_ports(here.every)
+            found = screen_states(field, states, ports, tried, places, here.every.states)
+            if max((c.share for c in found), default=0.0) < _OF_THE_RIG:
+                found += screen_states(field, rig_states(here.every), ports, [], places, here.every.states)
         else:
             on_load = field.relation == "heave"
             ports = load_ports(here.every) if on_load else girder_ports(here.plain, start.values, here.every)

@@ -9,11 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.effects import DERIVED, LAGGING, PAD_INPUTS
+from slipwise.campaign.rig_motion import rig_motion
+from slipwise.effects import DERIVED, LAGGING, PAD_INPUTS, RIG_MOTION
 from slipwise.estimation.instants import Instants
 from slipwise.estimation.pad_forces import PadLaw
 from slipwise.estimation.problem import Problem
-from slipwise.estimation.run_data import FitRun
+from slipwise.estimation.run_data import FitRun, refined
 from slipwise.simulation.kernel import derived_states
 from slipwise.simulation.predict import PadForces
 
@@ -23,7 +24,7 @@ _LAGS, _COOLING = (0.001, 0.003, 0.008, 0.02, 0.05, 0.15), (0.3, 1.0, 3.0, 10.0)
 #: State -> its SI unit, as the contract of the effects has it.
 UNITS: dict[str, str] = {
     name: PAD_INPUTS[argument].rpartition("[")[2].removesuffix("]")
-    for name, argument in {"slip": "slip_x", **{n: n for n in ("speed", "load", "time", *DERIVED)}}.items()
+    for name, argument in {"slip": "slip_x", **{n: n for n in ("speed", "load", "time", *DERIVED, *RIG_MOTION)}}.items()
 }
 WORDS: dict[str, str] = {
     "speed": "the slip speed", "slip": "the slip", "load": "the normal load", "time": "the time",
@@ -32,7 +33,8 @@ WORDS: dict[str, str] = {
     "distance_since_reversal": "the distance since the last reversal",
     "last_peak_speed": "the peak speed of the last stroke", "last_stroke": "the length of the last stroke",
     "slid": "the distance slid", "heat": "the heat", "outward": "motion outward or inward",
-    "path_curvature": "the curvature of the path",
+    "path_curvature": "the curvature of the path", "rocking_rate": "the rocking rate of the girder",
+    "table_velocity": "the velocity of the table", "table_acceleration": "the acceleration of the table",
 }  # fmt: skip
 #: A state that varies by less than this share of its size cannot be judged [1].
 _VARIES = 1e-3
@@ -55,7 +57,7 @@ class State:
     @property
     def signed(self) -> bool:
         """Whether it takes both signs."""
-        return self.name in ("slip", "speed_rate", "load_rate", "outward")
+        return self.name in ("slip", "speed_rate", "load_rate", "outward", *RIG_MOTION)
 
     @property
     def label(self) -> str:
@@ -109,6 +111,16 @@ def pad_states(every: PadInstants) -> list[State]:
             found = derived(every, lag)
             out += [State(name, lag, tuple(found[name])) for name in wanted]
     out += [State(name, 0.0, tuple(found[name])) for name in DERIVED if name not in LAGGING]
+    return [s for s in out if _varies(s)]
+
+
+def rig_states(every: PadInstants) -> list[State]:
+    """Give the states of the rig over all runs, alike for every pad; those that hardly vary are left out."""
+    out = []
+    for place, name in enumerate(RIG_MOTION):
+        of_runs = (refined(rig_motion(run.states)[:, place : place + 1], run.fine) for run in every.runs)
+        values = (np.broadcast_to(v, s.load.shape) for v, s in zip(of_runs, every.states, strict=True))
+        out.append(State(name, 0.0, tuple(values)))
     return [s for s in out if _varies(s)]
 
 

@@ -29,7 +29,8 @@ def sentence(found: Discovery) -> str:
         share = f"{100 * found.share:.0f} %"
         return f"Organised by {told}: {share} explained, the driver was not found. No law is claimed; {errors}."
     start = "A law" if found.evidence == "law" else "The state is known, the form open"
-    return f"{start}: {told}; {errors}. {_range(found)} No mechanism is claimed."
+    beside = f" Found beside {', '.join(found.beside)}." if found.beside else ""
+    return f"{start}: {told}; {errors}. {_range(found)}{beside} No mechanism is claimed."
 
 
 def _not_confirmed(found: Discovery) -> str:

@@ -4,13 +4,13 @@ from slipwise.effects._catalogue import base_effects, catalogue, find_effect, lo
 from slipwise.effects._declared import NEEDS, Gauges
 from slipwise.effects._effect import RESPONSE, Effect, moved_channels
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._hooks import COMPONENTS, DERIVED, HOOKS, LAGGING, PAD_HOOKS, PAD_INPUTS, PORTS
+from slipwise.effects._hooks import COMPONENTS, DERIVED, HOOKS, LAGGING, PAD_HOOKS, PAD_INPUTS, PORTS, RIG_MOTION
 from slipwise.effects._read import read_effect
 from slipwise.effects._scaled import holding, scaled
 from slipwise.effects._skeleton import skeleton
 from slipwise.effects._states import BalanceStates
 from slipwise.effects._trust import Trust, check_trusted
-from slipwise.effects._written import WrittenEffect, effect_text, write_effect
+from slipwise.effects._written import WrittenEffect, check_name, effect_text, write_effect
 from slipwise.effects._written_hook import WrittenHook
 
 __all__ = [
@@ -23,6 +23,7 @@ __all__ = [
     "PAD_INPUTS",
     "NEEDS",
     "PORTS",
+    "RIG_MOTION",
     "RESPONSE",
     "Effect",
     "GaugeFault",
@@ -32,6 +33,7 @@ __all__ = [
     "WrittenHook",
     "base_effects",
     "catalogue",
+    "check_name",
     "check_trusted",
     "effect_text",
     "find_effect",

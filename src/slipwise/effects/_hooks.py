@@ -18,7 +18,13 @@ DERIVED: dict[str, str] = {
     "outward": "+1 away from the middle, -1 towards it [1]",
     "path_curvature": "of the path of slip in the plane [1/m]",
 }
-#: Of these, the ones that need a time constant, and those that a buffer has, of its deflection.
+#: Motion of the girder and of the table that a hook of the pads may ask for, in the order of `campaign.rig_motion`.
+RIG_MOTION: dict[str, str] = {
+    "rocking_rate": "of the girder over the table, its pitch about y [rad/s]",
+    "table_velocity": "of the table along x [m/s]",
+    "table_acceleration": "of the table along x, of the step before [m/s^2]",
+}
+#: Of the derived states, the ones that need a time constant, and those that a buffer has, of its deflection.
 LAGGING: frozenset[str] = frozenset({"lagged_load", "load_rate", "heat"})
 _OF_BUFFERS = DERIVED.keys() - LAGGING - {"path_curvature"}
 PAD_INPUTS: dict[str, str] = {
@@ -37,6 +43,7 @@ PAD_INPUTS: dict[str, str] = {
     "time": "since the start of the run [s]",
     "dt": "time since the instant before [s]",
     **DERIVED,
+    **RIG_MOTION,
 }
 _FORCE_INPUTS: dict[str, str] = {
     "bound": "friction force that the pad can carry, s A_r [N]",

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
+from slipwise.effects._catalogue import catalogue
 from slipwise.effects._effect import Effect
 from slipwise.params import Parameter
 
@@ -13,11 +14,13 @@ _ROOM = 10.0
 def scaled(effect: Effect, scale: Callable[[str], float]) -> Effect:
     """Give an effect whose typical values and bounds are scaled by their units; itself where nothing is.
 
+    One that is not of the catalogue stays as it is: its user has given it the numbers of his own rig.
+
     Args:
-        effect: with the numbers of the reference rig.
+        effect: of the catalogue with the numbers of the reference rig, or a user's own.
         scale: SI unit -> how many times larger such quantities are [1].
     """
-    if all(scale(p.unit) == 1.0 for p in effect.parameters):
+    if effect.name not in catalogue() or all(scale(p.unit) == 1.0 for p in effect.parameters):
         return effect
     return replace(effect, parameters=tuple(_scaled(p, scale(p.unit)) for p in effect.parameters))
 

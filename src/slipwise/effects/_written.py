@@ -114,15 +114,8 @@ def write_effect(written: WrittenEffect, folder: Path, *, replace: bool = False)
         UnknownNameError: no such port, or it has no such hook.
         SettingError: the name cannot be that of an effect's file, there is such a file, or as `effect_text`.
     """
-    name = written.name
-    if not _is_name(name) or not name.isascii() or name.startswith("_"):
-        raise SettingError(
-            f"{name!r} cannot be the name of an effect, which is one in Python too: use letters a to z, digits and _, "
-            "and begin with a letter, for example my_effect"
-        )
-    if name in catalogue():
-        raise SettingError(f"an effect called {name!r} exists already; give yours another name, for example my_{name}")
-    path = folder / f"{name}.py"
+    check_name(written.name)
+    path = folder / f"{written.name}.py"
     if path.exists() and not replace:
         raise SettingError(f"{path} exists already and is left as it is; give another name or another folder")
     text = effect_text(written)
@@ -148,6 +141,21 @@ def _check(written: WrittenEffect) -> None:
         for value in (p.typical, p.low, p.high, p.neutral):
             if value is not None and not isfinite(value):
                 raise SettingError(f"parameter {p.name!r} of effect {written.name!r} is {value}: give a finite number")
+
+
+def check_name(name: str) -> None:
+    """Refuse what cannot be the name of a user's effect.
+
+    Raises:
+        SettingError: it is no name in Python, or one of the catalogue.
+    """
+    if not _is_name(name) or not name.isascii() or name.startswith("_"):
+        raise SettingError(
+            f"{name!r} cannot be the name of an effect, which is one in Python too: use letters a to z, digits and _, "
+            "and begin with a letter, for example my_effect"
+        )
+    if name in catalogue():
+        raise SettingError(f"an effect called {name!r} exists already; give yours another name, for example my_{name}")
 
 
 def _is_name(text: str) -> bool:

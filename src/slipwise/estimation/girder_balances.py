@@ -17,6 +17,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.campaign.rig_motion import shortening_rate
 from slipwise.effects import BalanceStates
 from slipwise.estimation.inverse_filter import Spectrum
 from slipwise.estimation.pad_forces import as_logged
@@ -93,10 +94,7 @@ def buffers_along(law: Predictor, run: FitRun, yaw: Array, yaw_rate: Array) -> A
 
 def heave_rate(total: Array, dt: float, specimen: Specimen) -> Array:
     """Give the girder's vertical rate over the table (n,) [m/s]: the pads' shortening under their measured load [N]."""
-    stiffness = sum(specimen.springs)
-    lag = specimen.pad_damping / specimen.pad_stiffness  # a pad's damper carries load before its spring has given way
-    smooth = in_frequency(total, dt, lambda f: 1.0 / (1.0 + (f / 100.0) ** 8) / (1.0 + 2j * np.pi * f * lag), 64)
-    return -np.gradient(smooth, dt) / stiffness
+    return -shortening_rate(total, dt, sum(specimen.springs), specimen.pad_damping / specimen.pad_stiffness)
 
 
 def predicted_balances(

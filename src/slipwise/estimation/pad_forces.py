@@ -8,8 +8,9 @@ from numba import njit
 from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 
+from slipwise.campaign.rig_motion import rig_motion
 from slipwise.estimation.instants import Instants
-from slipwise.estimation.run_data import FitRun
+from slipwise.estimation.run_data import FitRun, refined
 from slipwise.model import Model
 from slipwise.signals.filters import LowPass, folded, response
 from slipwise.simulation.predict import PadForces, predictor
@@ -87,6 +88,7 @@ class PadLaw:
     def __post_init__(self) -> None:
         """Make the law ready."""
         self._predictor = predictor(self.model)
+        self._motions: dict[int, Array] = {}
 
     def set(self, model: Model) -> None:
         """Take other parameter values of the same effects."""
@@ -103,8 +105,15 @@ class PadLaw:
             if not self.model.specimen.free:  # a slider's actuator may have left it bent either way
                 force = np.stack([run.force[0], np.zeros(len(run.pads))], axis=1)
                 law.begin(state.load[0], state.velocity[0], state.slip[0], force)
-            out.append(law.pads(state.time, state.load, state.velocity, state.slip, run.pads))
+            motion = self._motion(run) if law.asks_for_motion else None
+            out.append(law.pads(state.time, state.load, state.velocity, state.slip, run.pads, motion))
         return out
+
+    def _motion(self, run: FitRun) -> Array:
+        """Give the motion of the rig at the instants, (f, 3): no number of a fit changes it."""
+        if id(run.states) not in self._motions:
+            self._motions[id(run.states)] = refined(rig_motion(run.states), run.fine)
+        return self._motions[id(run.states)]
 
 
 def force_along(found: PadForces, state: Instants, share: Array | None) -> Array:

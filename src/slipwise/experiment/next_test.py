@@ -12,10 +12,11 @@ the effect explains at no size. Of three rivals the two that are hardest to tell
 The specimen is taken as new: what pads and buffers remember of the campaign's runs is not carried on.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import combinations, product
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
@@ -34,6 +35,7 @@ from slipwise.estimation.parameters import Term
 from slipwise.evidence.acceptance import LEAST
 from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.evidence.score import largest_drop, score
+from slipwise.experiment.law_contest import Contest, law_contest
 from slipwise.experiment.motions import LIBRARY, Limits, motions_for
 from slipwise.experiment.result import NextTest, Proposal
 from slipwise.model import Model
@@ -83,8 +85,17 @@ def next_test(
     _refuse_prescribed(found.final.campaign)
     asked = motions_for(library, limits or Limits())
     tell("rivals", 0.0)
-    every = rivals(found)
-    contest, chances = every[:_MOST], _chances(found, every)[:_MOST]
+    with TemporaryDirectory() as folder:  # the effects of laws are compiled from their files
+        every = law_contest(found, Path(folder), _MOST) if found.verdict.kind == "unknown" else None
+        if every is None:
+            effects = rivals(found)
+            every = Contest(effects, _chances(found, effects))
+        return _ranked(found, every, asked, tell)
+
+
+def _ranked(found: Diagnosis, every: Contest, asked: Mapping[str, str], tell: Callable[[str, float], None]) -> NextTest:
+    """Rank motions, each with why the table cannot make it, by how well they tell a contest's hypotheses apart."""
+    contest, chances = every.hypotheses[:_MOST], every.chances[:_MOST]
     if chances[0] >= _SUREST:
         words = "Nothing is in doubt: no motion could make anybody surer of this than the campaign does."
         return NextTest(tuple(h.names for h in contest), chances, (), words, found.sentence)
@@ -101,7 +112,8 @@ def next_test(
             "with the values that were fitted: `slipwise diagnose` shows them, [specimen] of campaign.toml sets others"
         )
     ranked = sorted(out, key=lambda p: (bool(p.refused), bool(p.failed), -p.separation))
-    words = _words(found, contest, max((p.separation for p in judged), default=np.inf))
+    most = max((p.separation for p in judged), default=np.inf)
+    words = " ".join(filter(None, (every.words, _words(found, contest, most))))
     return NextTest(tuple(h.names for h in contest), chances, tuple(ranked), words, found.sentence)
 
 

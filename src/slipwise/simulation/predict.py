@@ -1,5 +1,6 @@
 """Component level: the laws driven by measured load, slip and speed, without a simulation."""
 
+import inspect
 import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -9,7 +10,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.effects import Effect, catalogue
+from slipwise.effects import RIG_MOTION, Effect, catalogue
 from slipwise.model import Model
 from slipwise.simulation.kernel import Kernel, apply_rest, begin_memory, engine_for, fill, kernel, places
 from slipwise.simulation.kernel.layout import pad_blocks
@@ -43,8 +44,9 @@ class Predictor:
     numbers: Array
 
     def pads(
-        self, time: Array, load: Array, velocity: Array, slip: Array, pads: Sequence[str] | None = None
-    ) -> PadForces:
+        self, time: Array, load: Array, velocity: Array, slip: Array, pads: Sequence[str] | None = None,
+        motion: Array | None = None,
+    ) -> PadForces:  # fmt: skip
         """Drive the pads' laws.
 
         Args:
@@ -53,9 +55,11 @@ class Predictor:
             velocity: (n, n_pads, 2) slip rate at each pad [m/s].
             slip: (n, n_pads, 2) slip at each pad [m].
             pads: names of the pads in these columns; the first of the rig's when not given.
+            motion: (n, 3) of the rig, see `campaign.rig_motion`; needed where `asks_for_motion`.
         """
         force, bound = np.zeros(velocity.shape), np.zeros(load.shape)
-        arrays = [np.ascontiguousarray(a, dtype=float) for a in (time, load, velocity, slip)]
+        motion = np.zeros((0, 3)) if motion is None else motion
+        arrays = [np.ascontiguousarray(a, dtype=float) for a in (time, load, velocity, slip, motion)]
         own = self.model.specimen.pads
         columns = range(load.shape[1]) if pads is None else [own.index(pad) for pad in pads]
         arrays.append(np.array(columns, dtype=np.int64))
@@ -68,6 +72,12 @@ class Predictor:
         else:
             drive(self.numbers, *arrays, force, bound, 0, count)
         return PadForces(force, bound)
+
+    @property
+    def asks_for_motion(self) -> bool:
+        """Whether one of the laws depends on the motion of the rig."""
+        hooks = [hook for use in self.model.uses for hook in use.effect.instant_hooks.values()]
+        return any(RIG_MOTION.keys() & inspect.signature(hook).parameters.keys() for hook in hooks)
 
     def buffers(self, time: Array, deflection: Array, rate: Array) -> Array:
         """Drive the buffers' laws with (n, n_buffers, 2) deflection [m] and rate [m/s]; gives their force [N]."""

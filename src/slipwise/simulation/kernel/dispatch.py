@@ -17,8 +17,8 @@ import inspect
 from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple, Protocol
 
-from slipwise.effects import DERIVED, Effect
-from slipwise.simulation.kernel import derived_states
+from slipwise.effects import DERIVED, RIG_MOTION, Effect
+from slipwise.simulation.kernel import derived_states, places
 from slipwise.simulation.kernel.layout import OBSERVED, Layout, observes, of_each_pad
 from slipwise.simulation.kernel.places import CHAINS, EFFECT_COUNT, N_OBSERVE, N_OBSERVE_BUFFER, PAD_MEMORY
 
@@ -188,6 +188,8 @@ def _call(layout: Layout, effect: Effect, hook: str) -> str:
         elif name in DERIVED:
             place = _memory_place(layout, effect, layout.derived[effect.name] + tuple(DERIVED).index(name))
             arguments.append(f"u[{place}]")
+        elif name in RIG_MOTION:
+            arguments.append(f"u[z + {places.RIG_MOTION + tuple(RIG_MOTION).index(name)}]")
         else:
             arguments.append(name)
     return f"{function_name(effect, hook)}({', '.join(arguments)})"

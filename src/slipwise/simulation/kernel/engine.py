@@ -163,7 +163,17 @@ def _compile_hooks(law: Kernel) -> None:
     which = np.zeros(1, dtype=np.int64)
     try:
         law.functions["pads_over_record"](
-            numbers, nothing[:, 0, 0], nothing[..., 0], nothing, nothing, which, nothing, nothing[..., 0], 0, 0
+            numbers,
+            nothing[:, 0, 0],
+            nothing[..., 0],
+            nothing,
+            nothing,
+            nothing[:, 0],
+            which,
+            nothing,
+            nothing[..., 0],
+            0,
+            0,
         )
         law.functions["buffers_over_record"](numbers, nothing[:, 0, 0], *(nothing,) * 3)
         for function in (girder_drag, girder_lift):

@@ -32,8 +32,11 @@ SHEAR_STRENGTH = PLASTIC_PRESSURE + 1
 FULL_STICK = SHEAR_STRENGTH + 1
 #: Time between the pads' rates of the step before and those of the step [s].
 RATE_AGE = FULL_STICK + 1
+#: The table's degree of freedom along x, -1 where it does not move, and its velocity in the step before [m/s].
+TABLE_DOF = RATE_AGE + 1
+TABLE_VELOCITY = TABLE_DOF + 1
 #: Further force on the girder along x, y, z [N].
-GIRDER_FORCE = RATE_AGE + 1
+GIRDER_FORCE = TABLE_VELOCITY + 1
 #: Per hook in the order of `CHAINS`: how many of the model's effects have it.
 EFFECT_COUNT = GIRDER_FORCE + 3
 N_STICK = EFFECT_COUNT + CHAINS.index("stick")
@@ -76,8 +79,11 @@ FORCE = EXPLICIT + 2
 TRAIN_FORCE = FORCE + 2
 TRAIN_TIME = TRAIN_FORCE + 2
 TRAIN_VELOCITY = TRAIN_TIME + 1
+#: What the effects on pads may know of the rig: rocking rate [rad/s], velocity [m/s] and acceleration [m/s^2] of the
+#: table.
+RIG_MOTION = TRAIN_VELOCITY + 2
 #: Where the memory of the effects on pads begins; their parameters follow.
-PAD_MEMORY = TRAIN_VELOCITY + 2
+PAD_MEMORY = RIG_MOTION + 3
 
 #: In a buffer's block. Stiffness along x and y [N/m].
 BUFFER_STIFFNESS = 0

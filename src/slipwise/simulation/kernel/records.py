@@ -23,6 +23,7 @@ from slipwise.simulation.kernel.places import (
     N_PAD,
     N_STICK,
     N_TRAIN,
+    RIG_MOTION,
     SIDE,
     TRAIN_VELOCITY,
 )
@@ -33,7 +34,7 @@ Array = NDArray[np.float64]
 @compilable
 def pads_over_record(
     effects: Dispatch, u: Array, time: Array, load: Array, velocity: Array, slip: Array,
-    which: NDArray[np.int64], force: Array, bounds: Array, first: int, last: int,
+    motion: Array, which: NDArray[np.int64], force: Array, bounds: Array, first: int, last: int,
 ) -> None:  # fmt: skip
     """Drive the laws of the pads in columns first..last-1 with what was measured.
 
@@ -47,6 +48,7 @@ def pads_over_record(
         load: (n, p) [N].
         velocity: (n, p, 2) slip rate [m/s].
         slip: (n, p, 2) [m].
+        motion: (n, 3) of the rig, see `campaign.rig_motion`; (0, 3) where no effect asks for it.
         which: (p,) the rig's pad that each column is.
         force: (n, p, 2) of the girder on the pads [N]; filled.
         bounds: (n, p) friction force that each can carry [N]; filled.
@@ -67,6 +69,9 @@ def pads_over_record(
             velocity_y = velocity[i, pad, 1]
             slip_x = slip[i, pad, 0]
             slip_y = slip[i, pad, 1]
+            if i < len(motion):
+                for k in range(3):
+                    u[z + RIG_MOTION + k] = motion[i, k]
             if observed:
                 effects.observe(
                     u,

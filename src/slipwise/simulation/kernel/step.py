@@ -44,10 +44,12 @@ from slipwise.simulation.kernel.places import (
     PAD_JACOBIAN,
     PAD_TENDON,
     RATE_AGE,
+    RIG_MOTION,
     SIDE,
     TRAIN_VELOCITY,
     USER_SENSOR,
 )
+from slipwise.simulation.kernel.rig_motion import rig_motion
 
 Array = NDArray[np.float64]
 #: A bound that MuJoCo accepts and nobody feels [N].
@@ -73,18 +75,14 @@ def control_step(
         frictionloss: what each constraint row of dry friction may carry [N]; set.
         applied: generalised forces [N, N m], of the pads' loads so far; added to.
     """
+    rocking_rate, table_velocity, table_acceleration = rig_motion(u, qvel)
     u[RATE_AGE] = u[DT]
     for pad in range(int(u[N_PADS])):
-        push_pad(
-            effects,
-            u,
-            effects.first_pad + pad * effects.pad_block,
-            time,
-            ten_length,
-            ten_velocity,
-            frictionloss,
-            applied,
-        )
+        z = effects.first_pad + pad * effects.pad_block
+        u[z + RIG_MOTION] = rocking_rate
+        u[z + RIG_MOTION + 1] = table_velocity
+        u[z + RIG_MOTION + 2] = table_acceleration
+        push_pad(effects, u, z, time, ten_length, ten_velocity, frictionloss, applied)
     sum_x, sum_y = push_buffers(effects, u, time, ten_length, ten_velocity, applied)
     if int(u[GIRDER_DOF]) >= 0:
         push_girder(effects, u, sum_x, sum_y, time, ten_length, qvel, applied)
