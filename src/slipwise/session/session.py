@@ -1,6 +1,7 @@
 """The session: compare, see where it fails, learn what is missing, add it, watch the error fall, go back."""
 
 import io
+from base64 import b64encode
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -290,10 +291,10 @@ class Session(Drawn, Tabular):
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         """Give a notebook the table and the picture."""
-        drawn = io.StringIO()
-        self.plot().savefig(drawn, format="svg")
-        svg = drawn.getvalue()
-        return {"text/plain": repr(self), "text/html": self._repr_html_() + svg[svg.index("<svg") :]}
+        drawn = io.BytesIO()
+        self.plot().savefig(drawn, format="png", dpi=90)
+        picture = f'<img alt="error before and now" src="data:image/png;base64,{b64encode(drawn.getvalue()).decode()}">'
+        return {"text/plain": repr(self), "text/html": self._repr_html_() + picture}
 
 
 def _silent(words: str, share: float) -> None:
