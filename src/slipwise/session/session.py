@@ -150,7 +150,7 @@ class Session(Drawn, Tabular):
             progress: called with what is being done and the share done; what it raises ends the fit, and the session
                 is as before.
         """
-        return self.fitted(fit_state(self.ready, self.state, progress or _silent))
+        return self.fitted(fit_state(self.ready, self.state, progress or (lambda words, share: None)))
 
     def fitted(self, state: State) -> State:
         """Take over a state that a fit has found, here or in another process.
@@ -295,7 +295,3 @@ class Session(Drawn, Tabular):
         self.plot().savefig(drawn, format="png", dpi=90)
         picture = f'<img alt="error before and now" src="data:image/png;base64,{b64encode(drawn.getvalue()).decode()}">'
         return {"text/plain": repr(self), "text/html": self._repr_html_() + picture}
-
-
-def _silent(words: str, share: float) -> None:
-    pass
