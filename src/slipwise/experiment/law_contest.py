@@ -64,6 +64,7 @@ def _names(laws: Sequence[Law]) -> list[str]:
 def _fitted(found: Diagnosis, told: Discovery, law: Law, name: str, folder: Path) -> Hypothesis:
     """Fit a law as an effect beside those that the search for it began with."""
     term = Term(find_effect(str(write_law(law, told, folder, name, ""))))
-    beside, known = told.base.problem.terms, told.base.solution.values
+    base, known = found.search.base, told.base.solution.values
+    beside = [t for t in told.base.problem.terms if t not in base.problem.terms]
     starts = {t.label: {n: known[f"{t.label}.{n}"] for n in t.effect.parameter_names} for t in beside}
-    return polished(refit(found.search.base, [*beside, term], {**starts, term.label: term.effect.typical()}))
+    return polished(refit(base, [*beside, term], {**starts, term.label: term.effect.typical()}))
