@@ -73,6 +73,7 @@ def fuzz(seed: int, seconds: float, count: int, folder: Path, results: "multipro
     resource.setrlimit(resource.RLIMIT_AS, (_ADDRESSES, _ADDRESSES))
     began_with, done, refused, slow = _peak(), 0, 0, 0.0
     failures: dict[str, str] = {}
+    kept = 0
     end = time.perf_counter() + seconds
     while done < count and time.perf_counter() < end:
         # half of the files are motions, of which there are most formats
@@ -80,7 +81,7 @@ def fuzz(seed: int, seconds: float, count: int, folder: Path, results: "multipro
         target = by_kind[kind][int(rng.integers(len(by_kind[kind])))]
         data = damaged(target.data, rng)
         (folder / "last").write_bytes(data)
-        began, before = time.perf_counter(), _peak()
+        began, before = time.process_time(), _peak()  # another program's time is not the reader's
         try:
             target.try_with(data)
         except SlipwiseError:
@@ -88,13 +89,15 @@ def fuzz(seed: int, seconds: float, count: int, folder: Path, results: "multipro
         except (Exception, SystemExit) as error:
             place = traceback.extract_tb(error.__traceback__)[-1]
             failures.setdefault(f"{kind}: {type(error).__name__} at {place.filename}:{place.lineno}", str(error))
-            (Path(f"fuzz_{len(failures)}_{target.path.name}")).write_bytes(data)
-        spent = time.perf_counter() - began
+        spent, more = time.process_time() - began, _peak() - before
         slow = max(slow, spent)
         if spent > _SLOW:
             failures.setdefault(f"{kind}: slow", f"{spent:.1f} s")
-        if _peak() - before > _MEMORY:
-            failures.setdefault(f"{kind}: memory", f"{(_peak() - before) / 2**30:.2f} GB")
+        if more > _MEMORY:
+            failures.setdefault(f"{kind}: memory", f"{more / 2**30:.2f} GB")
+        if len(failures) > kept:
+            kept = len(failures)
+            Path(f"fuzz_{kept}_{target.path.name}").write_bytes(data)
         done += 1
     results.put((done, refused, slow, _peak() - began_with, failures))
 

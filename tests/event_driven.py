@@ -15,6 +15,9 @@ from scipy.integrate import solve_ivp
 from slipwise.rig import Specimen
 
 G = 9.80665
+#: How long after an event the next one is looked for [s]: at the event itself its sign is that of a rounding error, and
+#: a pad that lifts and lands again within one step of the integration would be missed.
+_PAST = 1e-7
 
 
 @dataclass(frozen=True)
@@ -137,6 +140,8 @@ def integrate(
             sliding = int(np.sign(needed))
         elif sliding == 0 or ("stop", -1) in happened:
             sliding = 0 if abs(needed) < plane.mu * total else int(np.sign(needed))
+        state = state + _PAST * plane.rate(now, state, bearing, sliding)
+        now += _PAST
     slip = np.concatenate(samples)
     return Answer(at[: len(slip)], slip, float(state[6]), lifts, landings)
 

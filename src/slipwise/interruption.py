@@ -1,10 +1,12 @@
 """Ctrl-C and the signals that ask a program to end, as an exception: what is half-done is tidied up on its way."""
 
+import _thread
 import multiprocessing
 import signal
+import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 from typing import Any
@@ -13,6 +15,8 @@ from typing import Any
 _ASKING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 #: A signal that follows another one so soon [s] is the same: it must not disturb the tidying up.
 _SAME = 1.0
+#: Time after which a signal that came while a finaliser was at work comes again [s].
+_AGAIN = 0.02
 #: Time in which a child that was asked to end has to [s].
 _GRACE = 2.0
 
@@ -37,7 +41,10 @@ class Stopped(BaseException):
 
 @contextmanager
 def stoppable() -> Iterator[None]:
-    """Let signals raise `Stopped` in the main thread; what somebody told this program to ignore stays ignored."""
+    """Let signals raise `Stopped` in the main thread; what somebody told this program to ignore stays ignored.
+
+    Python ignores what is raised while a finaliser is at work, and tells a hook of it: the signal is then sent again.
+    """
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -49,15 +56,36 @@ def stoppable() -> Iterator[None]:
         if last - before >= _SAME:
             raise Stopped(number)
 
+    def ignored(what: "sys.UnraisableHookArgs") -> None:
+        nonlocal last
+        if isinstance(what.exc_value, Stopped):
+            last = -_SAME
+            _thread.start_new_thread(_send_again, (signal.Signals(what.exc_value.number), stop))
+        else:
+            told(what)
+
     ordinary = (signal.SIG_DFL, signal.default_int_handler)
     before: dict[int, Any] = {n: signal.getsignal(n) for n in _ASKING if signal.getsignal(n) in ordinary}
+    told, sys.unraisablehook = sys.unraisablehook, ignored
     try:
         for number in before:
             signal.signal(number, stop)
         yield
     finally:
+        sys.unraisablehook = told
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+def _send_again(number: signal.Signals, handler: Callable[[int, FrameType | None], None]) -> None:
+    """Send the main thread a signal when a finaliser will be over; if it is not, the hook asks for this once more."""
+    time.sleep(_AGAIN)
+    if signal.getsignal(number) is not handler:  # the program is ending already
+        return
+    if hasattr(signal, "pthread_kill"):
+        signal.pthread_kill(threading.main_thread().ident or 0, number)
+    else:
+        _thread.interrupt_main(number)
 
 
 @contextmanager

@@ -2,6 +2,7 @@
 
 import resource
 import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -63,3 +64,20 @@ def test_an_interruption_in_the_middle_leaves_nothing(tmp_path: Path) -> None:
         stream.write("half")
         raise KeyboardInterrupt
     assert list(tmp_path.iterdir()) == []
+
+
+def test_what_a_killed_writer_left_is_taken_away_and_what_is_being_written_is_not(tmp_path: Path) -> None:
+    words = (
+        "import os, sys, pathlib; from slipwise.whole_file import atomic\nwith atomic(pathlib.Path(sys.argv[1])) as s:"
+    )
+    writer = [sys.executable, "-c", f"{words}\n s.write(b'half'); s.flush(); os.kill(os.getpid(), 9)"]
+    subprocess.run([*writer, str(tmp_path / "a.json")])
+    (tmp_path / ".a.json.lock").touch()
+    (left,) = tmp_path.glob(".a.json.????????")
+    with atomic(tmp_path / "a.json") as first:
+        assert not left.exists()
+        with atomic(tmp_path / "a.json") as second:
+            second.write(b"second")
+        first.write(b"first")
+    assert sorted(path.name for path in tmp_path.iterdir()) == [".a.json.lock", "a.json"]
+    assert (tmp_path / "a.json").read_bytes() == b"first"

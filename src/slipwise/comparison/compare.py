@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from slipwise.campaign import Campaign, as_campaign
+from slipwise.campaign.stretches import stretched
 from slipwise.comparison.cells import cells_of, corrected, gather
 from slipwise.comparison.component_level import component_errors, repeat_errors
 from slipwise.comparison.friction_surface import surface
@@ -59,7 +60,7 @@ def compare(
     began = time.perf_counter()
     tell = progress or (lambda words, done: None)
     tell("reading", 0.0)
-    campaign = as_campaign(campaign)
+    campaign = stretched(as_campaign(campaign), {})[0]
     start = None if model is None else as_model(model)
     tell("auditing the instruments", 0.05)
     checks = checks or check_instruments(campaign)

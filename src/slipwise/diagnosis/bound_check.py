@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from slipwise.diagnosis.screened_rows import on_screen
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.sensitivities import residual_with
 from slipwise.diagnosis.starting_grid import strengths
@@ -30,12 +31,13 @@ def keeps_its_gain(base: BaseFit, found: Screened) -> bool:
     """
     if found.term.effect.port not in _PORTS:
         return True
-    solution = base.solution
-    left = solution.residuals.stacked(base.problem.fitted, base.problem.relations)
+    solution, problem = base.solution, base.problem
+    left = on_screen(problem, solution.residuals.stacked(problem.fitted, problem.relations))
+    cost = float(left @ left)
     there = residual_with(base, found.term, found.values)
-    if there is None or solution.cost - float(there @ there) > _ENOUGH * found.gain:
+    if there is None or cost - float(there @ there) > _ENOUGH * found.gain:
         return True
-    step = -np.linalg.lstsq(solution.normal, solution.jacobian.T @ (there - left), rcond=1e-12)[0]
+    step = -np.linalg.lstsq(solution.normal, on_screen(problem, solution.jacobian).T @ (there - left), rcond=1e-12)[0]
     off = {p.name: float(p.neutral or 0.0) for p in strengths(found.term.effect)}
     for part in _PARTS:
         moved = {
@@ -47,7 +49,7 @@ def keeps_its_gain(base: BaseFit, found: Screened) -> bool:
         if ended is None:
             return True
         promised = found.gain * part * (2.0 - part)
-        if solution.cost - float(ended @ ended) > _ENOUGH * promised:
+        if cost - float(ended @ ended) > _ENOUGH * promised:
             return True
     return False
 

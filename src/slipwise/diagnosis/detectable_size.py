@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.diagnosis.screened_rows import rows_of
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.starting_grid import strengths
 from slipwise.evidence.acceptance import least_drop
@@ -37,8 +38,7 @@ def _least(found: Screened, base: Hypothesis) -> tuple[float, str] | None:
         return None
     size = abs(found.values[leading.name] - float(leading.neutral or 0.0))
     step = (found.length * found.column.astype(np.float64)) ** 2
-    parts, problem = base.solution.residuals.parts, base.problem
-    rows = [sum(parts[r][i].size for i in problem.fitted) for r in problem.relations]
-    drops = np.add.reduceat(step, np.concatenate([[0], np.cumsum(rows)[:-1]]))
-    counts = np.array([base.summary.counts[r][0] for r in problem.relations])
+    rows = rows_of(base.problem)
+    drops = np.add.reduceat(step, np.concatenate([[0], np.cumsum([*rows.values()])[:-1]]))
+    counts = np.array([base.summary.counts[r][0] for r in rows])
     return float(size * np.sqrt(least_drop([found.term]) / np.max(drops / np.maximum(counts, 1)))), leading.unit

@@ -14,6 +14,7 @@ from slipwise.diagnosis.first_things import first_things
 from slipwise.diagnosis.hypothesis import Hypothesis, final_refit_of
 from slipwise.diagnosis.importance import importance_of_effects
 from slipwise.diagnosis.indistinguishable import alike_pairs
+from slipwise.diagnosis.kept_slopes import whole
 from slipwise.diagnosis.replays import replayed_errors
 from slipwise.diagnosis.reported_sizes import named_sizes
 from slipwise.diagnosis.result import Candidate, Diagnosis
@@ -127,6 +128,7 @@ def as_fit(base: BaseFit, found: Hypothesis, *, with_slopes: bool = True) -> Bas
     """
     if found.solution is base.solution:
         return base
+    found = whole(found)
     solution = take_slopes(found.problem, found.solution) if with_slopes else found.solution
     return BaseFit(base.campaign, base.model, found.problem, solution.free, solution)
 

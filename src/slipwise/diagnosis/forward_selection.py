@@ -11,8 +11,10 @@ from slipwise.diagnosis.bound_check import with_bounds_checked
 from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.choice import best_of, kept_alone, limit_per_effect
 from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, strength_at_bound
+from slipwise.diagnosis.kept_slopes import lighten, whole
 from slipwise.diagnosis.pairs import leading_pair
 from slipwise.diagnosis.rescreening import rescreen, worth_refitting
+from slipwise.diagnosis.screened_rows import thinning
 from slipwise.diagnosis.screening import screen, screen_shapes
 from slipwise.diagnosis.search_state import Search, as_base, left_with, tried_before, try_all, try_one
 from slipwise.diagnosis.starting_grid import places
@@ -79,6 +81,8 @@ def search(
     if state.best.terms:
         tell("weighing", 0.95)
         state = with_final_refit(state)
+    if thinning(base.problem) > 1:  # what was tried is listed from now on, and hardly ever fitted on
+        lighten(state.tried, lambda h: score(state.path[0].summary, h.summary), room=0)
     tell("done", 1.0)
     return state
 
@@ -166,7 +170,7 @@ def _reshaped(state: Search) -> Search:
         if not grid:
             continue
         rest = best.without(term)
-        before = left_with(state, rest, best) if rest else origin
+        before = whole(left_with(state, rest, best)) if rest else origin
         found = screen_shapes(as_base(state, before), term, grid)[:_RESHAPED]
         again = try_all(state, [([*rest, term], {term.label: s.values}) for s in found], before if rest else None)
         better = [h for h in again if score(origin.summary, h.summary) > score(origin.summary, state.best.summary)]

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
+from slipwise.diagnosis.screened_rows import thinning
 from slipwise.diagnosis.sensitivities import residual_with, typical
 from slipwise.diagnosis.starting_grid import strengths
 from slipwise.effects import Effect
@@ -45,7 +46,8 @@ def at_full_size(
         parameters and the residual (m,) with them, base not projected out; None where nothing helps.
     """
     sizes, whole = _nonlinear_strengths(term.effect, shape, adds_yaw), float(residual @ residual)
-    if not sizes or whole < (_MODERATE_RESIDUAL if promising else _LARGE_RESIDUAL) * len(residual):
+    samples = thinning(base.problem) * len(residual)
+    if not sizes or whole < (_MODERATE_RESIDUAL if promising else _LARGE_RESIDUAL) * samples:
         return None
     best: tuple[float, dict[str, float], Array] | None = None
 

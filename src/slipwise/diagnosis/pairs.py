@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.diagnosis.screened_rows import on_screen
 from slipwise.diagnosis.screening import Screened, projector
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.parameters import Term
@@ -28,9 +29,9 @@ def leading_pair(
     pool = screened[:_PAIR_POOL]
     if len(pool) < 2:
         return None
-    project = projector(base.solution.inside)
     problem = base.problem
-    residual = project(base.solution.residuals.stacked(problem.fitted, problem.relations))
+    project = projector(on_screen(problem, base.solution.inside))
+    residual = project(on_screen(problem, base.solution.residuals.stacked(problem.fitted, problem.relations)))
     columns = np.stack([s.column for s in pool], axis=1)
     gram, right = columns.T @ columns, -(columns.T @ residual)
     gains: dict[tuple[int, int], float] = {}

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.pairs import at_odds
+from slipwise.diagnosis.screened_rows import on_screen, rows_of
 from slipwise.diagnosis.screening import Screened, away_from, basis_of
 from slipwise.diagnosis.starting_grid import strengths, two_sided
 from slipwise.evidence.acceptance import least_drop
@@ -22,15 +23,9 @@ _PROMISED = 0.5
 
 
 def row_weights(found: Hypothesis) -> Array:
-    """Give the weight of every row of the stacked residuals: one over the level that is left in its relation."""
-    problem = found.problem
-    return np.concatenate(
-        [
-            np.full(found.solution.residuals.parts[r][i].size, max(found.summary.fitted_level(r), FLOOR) ** -0.5)
-            for r in problem.relations
-            for i in problem.fitted
-        ]
-    )
+    """Give the weight (q,) of every screened row: one over the level that is left in its relation."""
+    levels = {r: max(found.summary.fitted_level(r), FLOOR) for r in found.problem.relations}
+    return np.concatenate([np.full(rows, levels[r] ** -0.5) for r, rows in rows_of(found.problem).items()])
 
 
 def rescreen(screened: Sequence[Screened], before: Hypothesis) -> list[Screened]:
@@ -92,19 +87,17 @@ def worth_refitting(found: Sequence[Screened], before: Hypothesis, most: int, *,
 
 def _beside(before: Hypothesis, weights: Array) -> tuple[Array, Array]:
     """Give a basis of what a hypothesis' numbers can do, and what is left beside it, both weighed."""
-    solution = before.solution
-    basis = basis_of(solution.inside * weights[:, None])
-    left = solution.residuals.stacked(before.problem.fitted, before.problem.relations)
+    solution, problem = before.solution, before.problem
+    basis = basis_of(on_screen(problem, solution.inside) * weights[:, None])
+    left = on_screen(problem, solution.residuals.stacked(problem.fitted, problem.relations))
     return basis, away_from(basis, weights * left)
 
 
 def _relations(before: Hypothesis) -> tuple[NDArray[np.int64], Array]:
-    """Give where each relation begins among the stacked rows, and how many of them are judged."""
-    problem, parts = before.problem, before.solution.residuals.parts
-    rows = [sum(parts[r][i].size for i in problem.fitted) for r in problem.relations]
-    return np.concatenate([[0], np.cumsum(rows)[:-1]]), np.array(
-        [before.summary.counts[r][0] for r in problem.relations]
-    )
+    """Give where each relation begins among the screened rows, and how many samples of it are judged."""
+    rows = rows_of(before.problem)
+    begins = np.concatenate([[0], np.cumsum([*rows.values()])[:-1]])
+    return begins, np.array([before.summary.counts[r][0] for r in rows])
 
 
 def _scaled(found: Screened, amount: float, gain: float) -> Screened:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.diagnosis.nonlinear_screening import MIN_GAIN, at_full_size
+from slipwise.diagnosis.screened_rows import on_screen
 from slipwise.diagnosis.sensitivities import column_of, residual_with, small
 from slipwise.diagnosis.starting_grid import shapes, strengths, two_sided
 from slipwise.estimation.base_fit import BaseFit
@@ -37,7 +38,7 @@ class Screened:
         values: of its parameters where the score is best.
         gain: drop of the squared residual of the fitted runs; 0 where the strength has the wrong sign.
         absorbed: part of the candidate's own effect that base parameters could mimic [1].
-        column: (m,) of unit length, base projected out, pointing the way that helps.
+        column: (q,) of unit length on the screened rows, base projected out, pointing the way that helps.
         length: of the step that the score asks for, before it was brought to unit length.
     """
 
@@ -57,8 +58,7 @@ def screen(base: BaseFit, terms: Sequence[Term], progress: Callable[[float], Non
         terms: candidates.
         progress: called with the share done.
     """
-    project = projector(base.solution.inside)
-    left = base.solution.residuals.stacked(base.problem.fitted, base.problem.relations)
+    left, project = _screened_base(base)
     residual = project(left)
     out: list[Screened] = []
     terms = sorted(terms, key=lambda t: -len(shapes(t.effect)))  # what takes longest first, or one core waits for it
@@ -69,6 +69,13 @@ def screen(base: BaseFit, terms: Sequence[Term], progress: Callable[[float], Non
         if progress:
             progress((i + 1) / len(terms))
     return sorted(out, key=lambda s: -s.gain)
+
+
+def _screened_base(base: BaseFit) -> tuple[Array, Callable[[Array], Array]]:
+    """Give the screened residual (q,) of a base fit, and the projection away from what its numbers can do."""
+    problem, solution = base.problem, base.solution
+    left = on_screen(problem, solution.residuals.stacked(problem.fitted, problem.relations))
+    return left, projector(on_screen(problem, solution.inside))
 
 
 def _numbers(found: Screened | None) -> dict[str, Any] | None:
@@ -103,8 +110,7 @@ def screen_shapes(base: BaseFit, term: Term, grid: list[dict[str, float]]) -> li
         term: the candidate.
         grid: values of its shape constants.
     """
-    project = projector(base.solution.inside)
-    left = base.solution.residuals.stacked(base.problem.fitted, base.problem.relations)
+    left, project = _screened_base(base)
     residual = project(left)
     found = on_every_core(
         lambda i: [_numbers(s) for s in _at_shapes(base, term, grid[i : i + 1], left, residual, project)], len(grid)

@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from slipwise.diagnosis.hypothesis import Hypothesis, polished, refit
+from slipwise.diagnosis.kept_slopes import ROOM, light, lighten, size_of, whole
 from slipwise.diagnosis.screening import Screened
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import Solution
@@ -57,8 +58,14 @@ class Search:
         return self.path[-1]
 
     def stepped_to(self, found: Hypothesis) -> "Search":
-        """Give the state after a step to another hypothesis."""
-        return replace(self, path=(*self.path, found))
+        """Give the state after a step to another hypothesis, which has its slopes then."""
+        return replace(self, path=(*_as_tried(self), whole(found)))
+
+
+def _as_tried(state: Search) -> list[Hypothesis]:
+    """Give a search's path, all but its beginning with what is still kept of them."""
+    kept = {id(h.summary): h for h in state.tried}
+    return [state.path[0], *(kept.get(id(h.summary), h) for h in state.path[1:])]
 
 
 def try_one(state: Search, terms: Sequence[Term], starts: dict, before: Hypothesis | None = None) -> Hypothesis:
@@ -81,9 +88,12 @@ def try_all(
         promising: tells which of the best are; all, if not given.
     """
     origin, problem = state.path[0].summary, state.base.problem
+    before = before and whole(before)
     # what takes longest first, or one core waits for it
     asked = sorted(asked, key=lambda a: -sum(len(t.effect.parameters) for t in a[0]))
-    fits = on_every_core(lambda i: _fit(refit(state.base, *asked[i], before)), len(asked))
+    # of a long campaign only what is fitted to the end has slopes: many at once would fill the memory
+    keep = len(asked) * size_of(state.base.solution) <= ROOM
+    fits = on_every_core(lambda i: _fit(refit(state.base, *asked[i], before), keep=keep), len(asked))
     found = [Hypothesis(tuple(a[0]), problem.adding(*a[0]), *fit) for a, fit in zip(asked, fits, strict=True)]
     found.sort(key=lambda h: -score(origin, h.summary))
     best: dict[tuple[str, ...], int] = {}
@@ -94,12 +104,13 @@ def try_all(
     for place, fit in zip(ended, fits, strict=True):
         found[place] = Hypothesis(found[place].terms, found[place].problem, *fit)
     state.tried.extend(found)
+    lighten(state.tried, lambda h: score(origin, h.summary))
     return found
 
 
-def _fit(found: Hypothesis) -> tuple[Solution, ResidualSummary]:
+def _fit(found: Hypothesis, *, keep: bool = True) -> tuple[Solution, ResidualSummary]:
     """Give a hypothesis without its terms, whose functions cannot be sent from one process to another."""
-    return found.solution, found.summary
+    return found.solution if keep else light(found.solution), found.summary
 
 
 def left_with(state: Search, rest: Sequence[Term], whole: Hypothesis) -> Hypothesis:
@@ -115,4 +126,5 @@ def tried_before(state: Search, terms: Sequence[Term]) -> list[Hypothesis]:
 
 def as_base(state: Search, found: Hypothesis) -> BaseFit:
     """Give a hypothesis as the base of what is to be added to it."""
+    found = whole(found)
     return replace(state.base, problem=found.problem, free=found.solution.free, solution=found.solution)

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 from slipwise.campaign import Campaign
 from slipwise.campaign.decimation import decimated
+from slipwise.campaign.stretches import stretched
 from slipwise.diagnosis.declared_rig import HELD_AGAINST, WrongRig, wrong_rig
 from slipwise.diagnosis.forward_selection import search
 from slipwise.diagnosis.hypothesis import base_hypothesis, final_refit_of
@@ -44,7 +45,7 @@ def prepared(campaign: Campaign) -> tuple[Campaign, InvalidSamples, tuple[Sample
     """Give a campaign with wrong signs reversed, the samples that must not be judged, and the faults found."""
     faults = tuple(fault for fault in sample_faults(campaign) if fault.kind in _OF_GAUGES)
     whole, invalid = for_fits(campaign, faults) if faults else (campaign, {})
-    return (*decimated(whole, invalid), faults)
+    return (*stretched(*decimated(whole, invalid)), faults)
 
 
 def select_effects(
@@ -80,7 +81,8 @@ def select_effects(
     if better is not None:
         base = better
         state = search(base, own, progress, state)
-    uncorrected = (
-        final_refit_of(base_hypothesis(fit_base(decimated(campaign, {})[0], model))).summary if faults else None
-    )
+    uncorrected = None
+    if faults:
+        recorded, _ = stretched(*decimated(campaign, {}))
+        uncorrected = final_refit_of(base_hypothesis(fit_base(recorded, model))).summary
     return SelectionResult(base, state, faults, uncorrected, other)

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.diagnosis.screened_rows import on_screen
 from slipwise.diagnosis.starting_grid import strengths
 from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
@@ -57,7 +58,7 @@ def column_of(base: BaseFit, term: Term, moved: Parameter, values: dict[str, flo
 def residual_with(
     base: BaseFit, term: Term, values: Mapping[str, float], moved: Mapping[str, float] | None = None
 ) -> Array | None:
-    """Give the residual of the fitted runs with a candidate; None where it cannot be evaluated.
+    """Give the screened residual of the fitted runs with a candidate; None where it cannot be evaluated.
 
     Args:
         base: the base fit.
@@ -71,5 +72,5 @@ def residual_with(
         found = problem.residuals({**base.solution.values, **(moved or {}), **keyed}, fitted_only=True)
     except SlipwiseError:
         return None
-    stacked = found.stacked(problem.fitted, problem.relations)
+    stacked = on_screen(problem, found.stacked(problem.fitted, problem.relations))
     return stacked if np.isfinite(stacked).all() else None

@@ -20,6 +20,7 @@ from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.importance import share_of_channel
 from slipwise.diagnosis.pairs import at_odds
 from slipwise.diagnosis.rescreening import row_weights
+from slipwise.diagnosis.screened_rows import on_screen
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.starting_grid import strengths
 from slipwise.errors import SlipwiseError
@@ -60,10 +61,11 @@ def shares_that_stay(
         width = max(_USUAL, importances[name])  # what was found may well be as large as it was found
         precision[own] = (max(importances[name], 1e-6) / (width * max(size, 1e-12))) ** 2
     small = _small_columns(found, screened, limits)
-    slopes = np.column_stack([solution.jacobian[:, kept], *small]) * weights[:, None]
+    problem = found.problem
+    slopes = np.column_stack([on_screen(problem, solution.jacobian[:, kept]), *small]) * weights[:, None]
     precision = np.concatenate([precision, np.full(len(small), _USUAL**-2)])
     places = np.concatenate([places, np.zeros(len(small))])
-    left = weights * solution.residuals.stacked(found.problem.fitted, found.problem.relations)
+    left = weights * on_screen(problem, solution.residuals.stacked(problem.fitted, problem.relations))
     normal = slopes.T @ slopes
     held = np.diag(precision + 1e-12 * float(np.diag(normal).max()))
     ended = places + np.linalg.solve(normal + held, -(slopes.T @ left) - precision * places)

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.rescreening import row_weights
+from slipwise.diagnosis.screened_rows import on_screen
 from slipwise.diagnosis.screening import Screened, away_from, basis_of
 from slipwise.diagnosis.starting_grid import strengths
 
@@ -30,12 +31,13 @@ def substitutes(whole: Hypothesis, name: str, screened: Sequence[Screened]) -> l
     if stays.all():
         return []
     weights = row_weights(whole)
-    basis = basis_of(solution.jacobian[:, stays] * weights[:, None])
+    slopes = on_screen(whole.problem, solution.jacobian)
+    basis = basis_of(slopes[:, stays] * weights[:, None])
     absent = {f"{t.label}.{p.name}": float(p.neutral or 0.0) for t in terms for p in strengths(t.effect)}
     own = [f for f, kept in zip(solution.free, stays, strict=True) if not kept]
     amounts = np.array([(solution.values[f.key] - absent.get(f.key, solution.values[f.key])) / f.scale for f in own])
     # what the effect does, the others making up for what they can
-    step = away_from(basis, weights * (solution.jacobian[:, ~stays] @ amounts))
+    step = away_from(basis, weights * (slopes[:, ~stays] @ amounts))
     total = float(step @ step)
     out: list[tuple[float, Screened]] = []
     for s in (s for s in screened if s.term.effect.name not in whole.names):

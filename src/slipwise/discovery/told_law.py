@@ -46,7 +46,7 @@ def told_law(
         valid={s.name: _ends(s.values, fitted) for s in candidate.states},
         fitted=leader,
         tied_forms=tuple(TiedForm(f.law.match.forms, f.values) for f in alike),
-        alternatives=tuple(told_law(f, (), fitted, share, {}) for f in tied if f in alike or f in others),
+        alternatives=tuple(told_law(f, (), fitted, share, {}) for f in (*alike, *others)),
     )
 
 

@@ -206,9 +206,10 @@ def final_refit(problem: Problem, solution: Solution) -> tuple[Problem, Solution
         starts = ({**start, "rig.stick_damping": 0.0}, {**start, **damped})
         start = min(starts, key=lambda values: _cost(problem, values))
     begin = slopes_of(solution)
-    solution = solve(problem, start, free, most=4, enough=_TO_WEIGH, rough=_MUCH_LEFT, begin=begin)
-    problem = problem.weighed_anew(solution.values)
-    return problem, solve(problem, solution.values, free, most=3, enough=_FINAL_REFIT, rough=_MUCH_LEFT)
+    # of the first fit only the numbers are kept: slopes are what takes most memory
+    values = solve(problem, start, free, most=4, enough=_TO_WEIGH, rough=_MUCH_LEFT, begin=begin).values
+    problem = problem.weighed_anew(values)
+    return problem, solve(problem, values, free, most=3, enough=_FINAL_REFIT, rough=_MUCH_LEFT)
 
 
 def fit_finely(campaign: Campaign, model: Model | None = None) -> BaseFit:

@@ -42,6 +42,6 @@ def instants(run: FitRun, velocity: Array, slip: Array, lost: Array | None = Non
         fine[:, :, 0] += lost
     still = np.repeat(run.states.at_rest, run.fine)[: len(time)]
     fine[still & np.roll(still, 1 - run.fine)] = 0.0
-    every = (*run.fine_load.shape, 2)  # in one piece, as the compiled laws want it, however often they are asked
-    fine, slip = (np.ascontiguousarray(np.broadcast_to(x, every)) for x in (fine, refined(slip, run.fine)))
+    every = (*run.fine_load.shape, 2)  # views: a long record's states of pads that move alike are kept once
+    fine, slip = (np.broadcast_to(x, every) for x in (fine, refined(slip, run.fine)))
     return Instants(time, run.fine_load, fine, slip)

@@ -222,9 +222,9 @@ def _variances(
 
 def _sums(slopes: Array, values: Array, label: NDArray[np.int64]) -> Array:
     """Add up slopes (m, k) times values (m,) over the rows of each label, (labels, k)."""
-    out = np.zeros((int(label.max(initial=-1)) + 1, slopes.shape[1]))
-    np.add.at(out, label, slopes * values[:, None])
-    return out
+    # number by number: the product of all is as long as the runs together, for each of them
+    sums = [np.bincount(label, weights=column * values) for column in slopes.T]
+    return np.stack(sums, axis=1).astype(np.float64, copy=False)
 
 
 def _bound(free: Free, value: float) -> str:

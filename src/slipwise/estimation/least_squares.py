@@ -103,8 +103,8 @@ def with_slopes(problem: Fittable, solution: Solution) -> Solution:
 
 
 def slopes_of(solution: Solution) -> dict[str, Array]:
-    """Give the columns of a solution's Jacobian by the keys of its free numbers."""
-    return {f.key: solution.jacobian[:, j] for j, f in enumerate(solution.free)}
+    """Give the columns of a solution's Jacobian by the keys of its free numbers; none where it was not kept."""
+    return {f.key: solution.jacobian[:, j] for j, f in enumerate(solution.free) if len(solution.jacobian)}
 
 
 def jacobian(

@@ -127,7 +127,7 @@ def force_along(found: PadForces, state: Instants, share: Array | None) -> Array
     if share is None:
         return found.force[:, :, 0]
     out = np.empty(found.bound.shape)
-    _smoothed_reversal(found.force, found.bound, state.velocity, share, out)
+    _smoothed_reversal(found.force, found.bound, np.ascontiguousarray(state.velocity), share, out)
     return out
 
 

@@ -72,7 +72,8 @@ class Problem:
         across = ("across",) if all(r.across.size for r in self.runs) else ()
         self.relations: tuple[str, ...] = ("pads", *balances, *across)
         yaw_is_computable = self.balanced and not self.runs[0].states.has_yaw
-        self.kinematics = Kinematics(self.runs, self.specimen, self.terms, False, yaw_is_computable, Recent())
+        recent = Recent(sum(len(r.time) for r in self.runs))
+        self.kinematics = Kinematics(self.runs, self.specimen, self.terms, False, yaw_is_computable, recent)
         self._sort()
 
     @property
@@ -129,10 +130,9 @@ class Problem:
             finer: evaluate the laws at twice the instants from now on.
         """
         anew = self.having(self.terms)
-        anew.kinematics.recent = Recent()
+        anew.kinematics.recent = self.kinematics.recent.begun_anew()
         if finer:
-            anew.kinematics.refine(FINER)
-            anew.runs = anew.kinematics.runs
+            anew.runs = anew.kinematics.refine(FINER)
         anew.weigh(values)
         return anew
 

@@ -2,11 +2,10 @@
 
 from collections.abc import Callable
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.rig import Rig
+from slipwise.rig import Rig, storey_names
 
 Array = NDArray[np.float64]
 Reader = Callable[[str], Array]
@@ -14,14 +13,12 @@ Reader = Callable[[str], Array]
 
 def sensor(rig: Rig, name: str, sensordata: Array) -> Array:
     """Give the columns of one sensor, (..., dim)."""
-    found = rig.model.sensor(name)
-    start = int(found.adr[0])
-    return sensordata[..., start : start + int(found.dim[0])]
+    return sensordata[..., rig.sensors[name]]
 
 
 def has_sensor(rig: Rig, name: str) -> bool:
     """Tell whether the model has a sensor of this name."""
-    return mujoco.mj_name2id(rig.model, mujoco.mjtObj.mjOBJ_SENSOR, name) >= 0
+    return name in rig.sensors
 
 
 def to_channels(rig: Rig, sensordata: Array, control: Array, dt: float, pitching: bool) -> dict[str, Array]:
@@ -51,6 +48,9 @@ def to_channels(rig: Rig, sensordata: Array, control: Array, dt: float, pitching
     for edge in ("1", "2"):
         if has_sensor(rig, f"girder_edge_{edge}"):
             out[f"girder_az_{edge}"] = sensor(rig, f"girder_edge_{edge}", sensordata)[:, 2] - specimen.gravity
+    for storey in storey_names(specimen):
+        for i, axis in enumerate("xy"):
+            out[f"{storey}_a{axis}"] = sensor(rig, storey, sensordata)[:, i]
     half_step = 0.5 * dt
     if specimen.free:
         turning = sensor(rig, "turning", sensordata)

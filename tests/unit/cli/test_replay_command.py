@@ -42,6 +42,20 @@ def test_slip_and_energy_are_told_along_both_directions(slipwise, tmp_path):
     assert "slip along y, largest" in out and "largest of the vector" in out
 
 
+@pytest.mark.slow
+def test_the_same_input_gives_the_same_bytes_but_for_times_and_ids_of_rerun(slipwise, tmp_path):
+    one, two = tmp_path / "one", tmp_path / "two"
+    for folder in (one, two):
+        assert slipwise("replay", "sine:2Hz,0.3g,cycles=9", "--out", folder)[0] == 0
+    assert {p.name for p in one.iterdir()} == {p.name for p in two.iterdir()}
+    for path in (p for p in one.iterdir() if p.suffix in (".parquet", ".png")):
+        assert path.read_bytes() == (two / path.name).read_bytes(), path.name
+    numbers = [json.loads((folder / "summary.json").read_text()) for folder in (one, two)]
+    times = ("wall_s", "compile_s", "write_s", "draw_s")
+    first, second = ({k: v for k, v in of.items() if k not in times} for of in numbers)
+    assert first == second and len(first) > 20
+
+
 def test_json_is_for_a_program_to_read(slipwise, tmp_path):
     code, out, _ = slipwise(
         "replay", "sine:2Hz,0.3g,cycles=9", "--out", tmp_path, "--json", "--no-pictures", "--no-recording", "--csv"

@@ -1,0 +1,56 @@
+"""Of a long campaign the best slopes are kept and a thinned grid is screened; neither changes what is found."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bench import build_campaign
+from measured import as_campaign
+from slipwise.diagnosis import kept_slopes, screened_rows
+from slipwise.diagnosis.hypothesis import base_hypothesis
+from slipwise.diagnosis.screening import screen
+from slipwise.effects import catalogue
+from slipwise.estimation.base_fit import fit_base
+from slipwise.estimation.parameters import Term
+
+
+@pytest.fixture(scope="module")
+def base():
+    campaign = as_campaign(build_campaign(31, effects=("breakaway",), rig="bridge1"))
+    return fit_base(replace(campaign, runs=(campaign.runs[1], campaign.runs[4])))
+
+
+def test_slopes_of_the_best_are_kept_and_the_others_are_taken_anew_where_they_are_asked_for(base, monkeypatch):
+    found = base_hypothesis(base)
+    tried = [replace(found, terms=()) for _ in range(3)]
+    worth = {id(h): number for h, number in zip(tried, (1.0, 3.0, 2.0), strict=True)}
+    monkeypatch.setattr(kept_slopes, "ROOM", int(2.5 * kept_slopes.size_of(found.solution)))
+    kept_slopes.lighten(tried, lambda h: worth[id(h)])
+    assert [kept_slopes.size_of(h.solution) > 0 for h in tried] == [False, True, True]
+    again = kept_slopes.whole(tried[0])
+    assert again.solution.cost == found.solution.cost
+    assert again.summary is found.summary
+    for relation, parts in found.solution.residuals.parts.items():
+        np.testing.assert_array_equal(np.concatenate(again.solution.residuals.parts[relation]), np.concatenate(parts))
+    length = np.linalg.norm(found.solution.jacobian, axis=0)
+    assert again.solution.jacobian == pytest.approx(found.solution.jacobian, abs=0.2 * length.max())
+    assert kept_slopes.whole(again) is again
+
+
+def test_an_ordinary_campaign_is_screened_on_all_its_rows(base):
+    left = base.solution.residuals.stacked(base.problem.fitted, base.problem.relations)
+    assert screened_rows.on_screen(base.problem, left) is left
+    assert sum(screened_rows.rows_of(base.problem).values()) == len(left)
+
+
+def test_a_thinned_screen_sees_the_same_candidates_with_nearly_the_same_gains(base, monkeypatch):
+    terms = [Term(catalogue()[name]) for name in ("breakaway", "buffer_damping", "run_in")]
+    whole = {s.term.label: s.gain for s in screen(base, terms)}
+    problem, rows = base.problem, len(base.solution.jacobian)
+    monkeypatch.setattr(screened_rows, "_MOST", rows // 3 + 1)
+    assert screened_rows.thinning(problem) == 3
+    thinned = screen(base, terms)
+    assert len(thinned[0].column) == sum(screened_rows.rows_of(problem).values()) < 0.35 * rows
+    assert max(whole, key=lambda label: whole[label]) == thinned[0].term.label
+    assert thinned[0].gain == pytest.approx(max(whole.values()), rel=0.1)
