@@ -86,6 +86,9 @@ class Room:
         await self.show(page)
         for message in self._shown.values():
             await send(message)
+        for lane in (self._asked, self._aside):  # which says nothing by itself before its next step
+            if lane.now is not None:
+                await send(progress_told(lane.now.job, "at work", 0.0, lane.now.seconds, aside=lane.aside))
         await self._ask_for_what_is_missing()
         return page
 
