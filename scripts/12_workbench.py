@@ -37,7 +37,7 @@ class Followed:
         added: effects of the accepted model that the base model lacks.
         minor: those that the diagnosis calls minor.
         accepted: whether a model was accepted.
-        right: whether all that is hidden, and nothing else that matters, is in it.
+        right: whether all that is hidden, and nothing else that matters, was named and is in it.
         clicks: on what, in order.
         worst: error of the worst balance at the end [floors].
         seconds: it took.
@@ -96,8 +96,9 @@ def _judged(folder: Path, missing: list[str], clicks: list[str], worst: float, s
     model = sw.load_model(path, trust=True) if path.is_file() else None
     uses = [] if model is None else [use.effect for use in model.uses if not use.effect.base]
     added = ["unknown" if effect.name not in sw.effects.catalogue() else effect.name for effect in uses]
-    matters = set(added) - set(minor)
-    right = matters <= set(missing) <= set(added) and model is not None
+    # a fault of samples that was named is mended before any fit: no model holds it
+    matters, named = set(added) - set(minor), set(said.get("explain", {}).get("effects", []))
+    right = matters <= set(missing) <= set(added) | named and model is not None
     return Followed(folder.name, missing, added, minor, model is not None, right, clicks, worst, seconds)
 
 

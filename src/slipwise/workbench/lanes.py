@@ -59,6 +59,11 @@ class Lane:
         if (job, run) not in self.waiting:
             self.waiting.append((job, run))
 
+    def need(self, job: str) -> None:
+        """Let a piece of work wait, where it is neither waiting nor being done."""
+        if self.now is None or self.now.job != job:
+            self.ask(job)
+
     def refuse_if_busy(self) -> None:
         """Say that something is being done, if so.
 

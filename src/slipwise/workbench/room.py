@@ -86,6 +86,9 @@ class Room:
         await self.show(page)
         for message in self._shown.values():
             await send(message)
+        for lane in (self._asked, self._aside):  # which says nothing by itself before its next step
+            if lane.now is not None:
+                await send(progress_told(lane.now.job, "at work", 0.0, lane.now.seconds, aside=lane.aside))
         await self._ask_for_what_is_missing()
         return page
 
@@ -185,12 +188,12 @@ class Room:
     async def _ask_for_what_is_missing(self) -> None:
         """Ask for the base fit, the replay and the places where the model fails, where nobody has yet."""
         if not self.session.reference.fitted and not self.session.state.fitted:
-            self._asked.ask("fit")  # until it is done there is little else that a user could want
+            self._asked.need("fit")  # until it is done there is little else that a user could want
         if "replay" not in self._shown:
-            self._aside.ask("replay")
-            self._aside.ask("system")
+            self._aside.need("replay")
+            self._aside.need("system")
         if "locate" not in self.session.findings:
-            self._aside.ask("locate")
+            self._aside.need("locate")
         await self._next()
 
     async def _ask_for_watched(self) -> None:
