@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from slipwise.comparison.compare import compare
     from slipwise.comparison.result import Comparison
     from slipwise.diagnosis.ladder import Ladder, ladder
-    from slipwise.diagnosis.model_change import ModelChange, add, remove
     from slipwise.diagnosis.result import Diagnosis
     from slipwise.discovery.discover import diagnose_with_law as diagnose
     from slipwise.discovery.discover import discover
@@ -41,6 +40,7 @@ if TYPE_CHECKING:
     from slipwise.motion import TableMotion, load_motion
     from slipwise.params import Parameter
     from slipwise.record import Record, read_record, write_record
+    from slipwise.session.model_change import ModelChange, add, remove
     from slipwise.session.session import Session
     from slipwise.simulation.pier import pier_top
     from slipwise.simulation.replay import replay
@@ -68,8 +68,8 @@ _PLACES: dict[str, tuple[str, str]] = {
     "diagnose": ("discovery.discover", "diagnose_with_law"),
     "discover": ("discovery.discover", "discover"),
     "ladder": ("diagnosis.ladder", "ladder"),
-    "add": ("diagnosis.model_change", "add"),
-    "remove": ("diagnosis.model_change", "remove"),
+    "add": ("session.model_change", "add"),
+    "remove": ("session.model_change", "remove"),
     "next_test": ("experiment.next_test", "next_test"),
     "read_record": ("record", "read_record"),
     "write_record": ("record", "write_record"),
@@ -83,7 +83,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "Effect": ("effects", "Effect"),
     "Ladder": ("diagnosis.ladder", "Ladder"),
     "Limits": ("experiment.motions", "Limits"),
-    "ModelChange": ("diagnosis.model_change", "ModelChange"),
+    "ModelChange": ("session.model_change", "ModelChange"),
     "NextTest": ("experiment.next_test", "NextTest"),
     "Parameter": ("params", "Parameter"),
     "Record": ("record", "Record"),

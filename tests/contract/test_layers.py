@@ -69,7 +69,7 @@ ARROWS: dict[str, str] = {
     ),
     "workbench": (
         "campaign channels comparison diagnosis discovery effects errors estimation experiment instruments"
-        " interruption model parallel session units view"
+        " interruption model parallel session units view whole_file"
     ),
     "cli": "errors interruption view",
     "__main__": "cli interruption",

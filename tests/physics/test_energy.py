@@ -24,7 +24,7 @@ def earthquake(seconds=30.0, peak=0.7 * G, dt=5e-4, seed=11):
     return out
 
 
-@pytest.mark.parametrize("rig", ["bridge1", "bridge2", "block"])
+@pytest.mark.parametrize("rig", ["bridge1", "bridge2", "block", "pendulum", "building"])
 def test_energy_closes_over_an_earthquake_of_thirty_seconds(rig):
     replay = shaken(base_model(rig), earthquake())
     assert abs(replay.energy_error) < 0.002

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import slipwise as sw
 from slipwise.campaign import load_campaign
-from slipwise.diagnosis.model_change import add
 from slipwise.discovery.discover import discover
 
 pytestmark = pytest.mark.slow
@@ -46,6 +46,6 @@ def test_a_dip_of_the_coefficient_over_the_load_is_found_written_and_added(tmp_p
     (file,) = found.written(tmp_path / "out", "dip", "2026-11-27").files[:1]
     model = found.base.model
     for name in found.beside:
-        model = add(name, campaign, model).model
-    (row,) = add(str(file), campaign, model).rows()
+        model = sw.add(name, campaign, model).model
+    (row,) = sw.add(str(file), campaign, model).rows()
     assert row["after"] == pytest.approx(after, rel=0.05)

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from slipwise.diagnosis.model_change import add, remove
 from slipwise.model_file import load_model, save_model
+from slipwise.session.model_change import add, remove
 from unit.campaign.slider import HEADER, RUNS
 
 pytestmark = pytest.mark.slow

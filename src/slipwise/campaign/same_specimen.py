@@ -113,8 +113,11 @@ def _pressing(record: Record, pads: Sequence[str]) -> NDArray[np.float64]:
 
 
 def lever_of(record: Record, specimen: Specimen) -> float | None:
-    """Height of the centre of gravity over pad spacing, from the pitch of the loads; None where it cannot be seen."""
-    if not record.has_all("girder_ax", "slip_x") or record["girder_ax"].std() < _MOVING:
+    """Height of the centre of gravity over pad spacing, from the pitch of the loads; None where it cannot be seen.
+
+    Of a girder with storeys it cannot: they push at levers of their own.
+    """
+    if specimen.storeys or not record.has_all("girder_ax", "slip_x") or record["girder_ax"].std() < _MOVING:
         return None
     told = ("girder_ax", *(f"pad_{p}_N" for p in specimen.pads))
     if any(_clipped(record[name]) for name in told):

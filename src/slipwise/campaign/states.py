@@ -62,6 +62,7 @@ class States:
         record: all channels of the run on the same axis, lag taken out, not smoothed.
         missing: what could not be made for want of a channel, in words.
         scales: of the campaign.
+        velocity_errors: (n,) of the velocity along x where they differ from sample to sample [m/s]; else None.
     """
 
     specimen: Specimen
@@ -87,6 +88,7 @@ class States:
     record: Record
     missing: tuple[str, ...]
     scales: Scales = field(default_factory=Scales)
+    velocity_errors: Array | None = None
 
     @property
     def dt(self) -> float:
@@ -117,6 +119,13 @@ class States:
     def pad_velocity_error(self) -> Array:
         """Expected standard deviation of the velocity over each pad (p, 2) [m/s]: that of yaw comes on top."""
         return np.hypot(self.velocity_error, self.yaw_rate_error * self._across[0])
+
+    @cached_property
+    def pad_velocity_errors(self) -> Array:
+        """The same along x at every sample, (n, p) or (1, p) [m/s]."""
+        if self.velocity_errors is None:
+            return self.pad_velocity_error[None, :, 0]
+        return np.hypot(self.velocity_errors[:, None], self.yaw_rate_error * self._across[0, :, 0])
 
     @cached_property
     def pad_slip(self) -> Array:
@@ -152,7 +161,8 @@ def measured_states(run: Run, campaign: Campaign) -> States:
     pads = [pad for pad in specimen.pads if any(f"pad_{pad}_{kind}" in record for kind in ("N", "P", "Fx"))]
     load = _loads(record, specimen, pads, run, missing)
     scales = scales_of(campaign)
-    along = _along(record, specimen, campaign.gauges, missing, scales, aligned.measured)
+    unfiltered = lowpass.get("girder_ax") is None
+    along = _along(record, specimen, campaign.gauges, missing, scales, aligned.measured, unfiltered)
     across = _across(record, campaign.gauges, missing)
     yaw = fuse(record.time, record["yaw"]) if "yaw" in record else None
     if yaw is None and specimen.free:
@@ -183,6 +193,7 @@ def measured_states(run: Run, campaign: Campaign) -> States:
         has_y=across is not None,
         has_yaw=yaw is not None,
         lowpass=lowpass,
+        velocity_errors=along.velocity_errors,
         velocity_error=(along.velocity_error, across.velocity_error if across else 0.0),
         yaw_rate_error=yaw.velocity_error if yaw else 0.0,
         record=record,
@@ -249,6 +260,7 @@ def _along(
     missing: list[str],
     scales: Scales,
     measured: Mask,
+    unfiltered: bool,
 ) -> Fused:
     recorded = record["slip_vx"] if "slip_vx" in record else None
     if not record.has_all("girder_ax", "table_ax"):
@@ -261,11 +273,11 @@ def _along(
     levels = noise_of_slip(gauges, "x")
     pitch = girder_pitch(record, specimen)
     if pitch is None:
-        return fuse(record.time, record["slip_x"], relative, recorded, levels)
+        return fuse(record.time, record["slip_x"], relative, recorded, levels, undersampled=unfiltered)
     lean = specimen.centre_height * pitch
     leaning = derivative(lean, record.dt)
     raised = None if recorded is None else recorded + leaning
-    fused = fuse(record.time, record["slip_x"] + lean, relative, raised, levels)
+    fused = fuse(record.time, record["slip_x"] + lean, relative, raised, levels, undersampled=unfiltered)
     return Fused(
         position=fused.position - lean,
         velocity=fused.velocity - leaning,
@@ -274,6 +286,7 @@ def _along(
         velocity_error=fused.velocity_error,
         position_noise=fused.position_noise,
         acceleration_noise=fused.acceleration_noise,
+        velocity_errors=fused.velocity_errors,
     )
 
 

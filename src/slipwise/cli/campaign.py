@@ -11,6 +11,7 @@ from slipwise.cli.console import out_folder, print_json, say
 from slipwise.cli.diagnose import (
     Allowed,
     CampaignFolder,
+    Figures,
     Json,
     ModelFile,
     Own,
@@ -88,6 +89,7 @@ def compare(
     system: System = True,
     correct: Correct = None,
     recording: Annotated[bool, typer.Option(help="Write measured and simulated side by side for the viewer.")] = True,
+    figures: Figures = False,
     json: Json = False,
 ) -> None:
     """Hold the model against the measurement: how well does it do, and exactly where does it fail.
@@ -95,6 +97,7 @@ def compare(
     Example: `slipwise compare campaigns/march --out out/march`
     """
     from slipwise.view.compare_page import compare_page
+    from slipwise.view.figure_files import figures_into
     from slipwise.view.files import save_json, save_page
 
     measured = sw.load_campaign(campaign)
@@ -106,8 +109,9 @@ def compare(
         found = sw.compare(measured, start, system=system, progress=tell)
         tell("writing the report", 0.97)
         content = found.as_json()
-        page = save_page(compare_page(found), folder / "report.html")
-        files = [save_json(content, folder / "compare.json"), page]
+        with figures_into(folder / "figures" if figures else None) as drawn:
+            page = save_page(compare_page(found), folder / "report.html")
+        files = [save_json(content, folder / "compare.json"), page, *drawn]
         if recording:
             from slipwise.view.compare_recording import write_compare_recording
 
@@ -115,16 +119,14 @@ def compare(
     if json:
         print_json(content)
         return
-    from slipwise.view.compare_answers import one_minute
+    from slipwise.view.compare_answers import error_rows, one_minute
     from slipwise.view.floor_rows import floor_rows
     from slipwise.view.terminal import print_table
 
-    rows = [{"component": r, "fitted": found.error(r, held_out=False), "held out": found.error(r, held_out=True)}
-            for r in found.relations]  # fmt: skip
-    print_table("Error in multiples of the noise floor", rows)
-    print_table("Noise floor of one sample", floor_rows(found.floor))
     for question, answer in one_minute(found):
         say(f"{question} {answer}")
+    print_table("Error in multiples of the noise floor", error_rows(found))
+    print_table("Noise floor of one sample", floor_rows(found.floor))
     for path in files:
         say(f"wrote {path}")
 

@@ -13,8 +13,8 @@ from slipwise.view.patient_console import PatientConsole, write_out
 
 OUT = PatientConsole()
 ERR = PatientConsole(stderr=True)
-#: Without a terminal, progress is a line after at least so long [s].
-_SAID_EVERY = 30.0
+#: Without a terminal, progress is a line after at least so long: of one piece of work, and of many [s].
+_STEP_EVERY, _SAID_EVERY = 5.0, 30.0
 
 
 def say(words: str, console: Console = OUT) -> None:
@@ -60,13 +60,23 @@ def progress(words: str) -> Iterator[Callable[[float], None]]:
 
 @contextmanager
 def steps() -> Iterator[Callable[[str, float], None]]:
-    """Show what is being done, and how far it is."""
+    """Show what is being done, and how far it is; without a terminal (a batch job's log) by a line now and then."""
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
     columns = (TextColumn("{task.description:32s}"), BarColumn(), TimeElapsedColumn())
     with Progress(*columns, console=ERR, transient=True, disable=not ERR.is_terminal) as bar:
         task = bar.add_task("reading", total=1.0)
-        yield lambda words, share: bar.update(task, description=words, completed=share)
+        begin = said = time.monotonic()
+
+        def tell(words: str, share: float) -> None:
+            nonlocal said
+            now = time.monotonic()
+            bar.update(task, description=words, completed=share)
+            if not ERR.is_terminal and now - said > _STEP_EVERY:
+                say(f"{now - begin:4.0f} s  {100 * share:3.0f} %  {words}", ERR)
+                said = now
+
+        yield tell
 
 
 @contextmanager

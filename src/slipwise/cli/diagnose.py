@@ -5,11 +5,12 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from rich.console import Console
 
 import slipwise as sw
 from slipwise.cli.console import ERR, OUT, out_folder, print_json, say, steps
 from slipwise.cli.workers import Cluster, Workers
-from slipwise.errors import InputError, visible
+from slipwise.errors import InputError
 
 CampaignFolder = Annotated[Path, typer.Argument(help="Folder with campaign.toml and the measured runs.")]
 CampaignFolders = Annotated[
@@ -28,6 +29,9 @@ Trusted = Annotated[
 ]
 Allowed = Annotated[
     list[str] | None, typer.Option("--effect", help="Run this effect file where model.toml names it; may be repeated.")
+]
+Figures = Annotated[
+    bool, typer.Option("--figures", help="Write every figure of the report as SVG too, with its numbers as CSV beside.")
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON for a program to read.")]
 
@@ -70,8 +74,12 @@ def diagnose(
     recording: Annotated[
         bool, typer.Option(help="Write the model before and after beside the measurement, for the viewer.")
     ] = True,
+    figures: Figures = False,
     workers: Workers = None,
     cluster: Cluster = None,
+    accept: Annotated[
+        bool, typer.Option("--accept", help="Put what it names into the campaign's model.toml, and fit that.")
+    ] = False,
     json: Json = False,
 ) -> None:
     """Say which effect the model lacks, with a probability that means what it says.
@@ -84,13 +92,15 @@ def diagnose(
     Example: `slipwise diagnose campaigns/march --out out/march`
     """
     if len(campaign) > 1:
+        if accept:
+            raise InputError("--accept writes the model.toml of one campaign; give one")
         from slipwise.cli.many import Wanted, diagnose_many
 
         own = tuple(str(Path(name).resolve()) if name.endswith(".py") else name for name in effect or [])
         wanted = Wanted(model.resolve() if model else None, own, trust, system, recording)
         diagnose_many(campaign, out, wanted, workers, cluster, json)
         return
-    _diagnose_one(campaign[0], out, model, effect, trust, system, recording, json)
+    _diagnose_one(campaign[0], out, model, effect, trust, system, recording, figures, accept, json)
 
 
 def _diagnose_one(
@@ -101,46 +111,74 @@ def _diagnose_one(
     trust: bool,
     system: bool,
     recording: bool,
+    figures: bool,
+    accept: bool,
     json: bool,
 ) -> None:
     measured = sw.load_campaign(campaign)
     folder = out_folder(out)
+    start = start_model(campaign, model, trust, effect)
+    # opened first: whoever has this campaign open elsewhere hears so before minutes have passed
+    session = sw.Session(measured, start, trust=trust or effect or (), resume=False) if accept else None
+    try:
+        with steps() as tell:
+            found = sw.diagnose(measured, start, own=own_effects(effect, start), system=system, progress=tell)
+        _show(found, folder, recording and measured.specimen.free, figures, json)
+        if session is not None:
+            _accept(found, session, ERR if json else OUT)
+    finally:
+        if session is not None:
+            session.close()
+
+
+def _accept(found: "sw.Diagnosis", session: "sw.Session", console: Console) -> None:
+    """Put what a diagnosis names into model.toml, fitted, as the workbench does."""
+    from slipwise.cli.edit import tell_change
+
+    if not found.verdict.effects:
+        say("nothing is named that could be put into the model; model.toml is as it was", console)
+        return
     with steps() as tell:
-        start = start_model(campaign, model, trust, effect)
-        found = sw.diagnose(measured, start, own=own_effects(effect, start), system=system, progress=tell)
+        changed = sw.add(found, session, progress=tell)
+    tell_change(changed, held_out=bool(session.campaign.with_role("holdout")), console=console)
+    say(f"wrote {session.accept()}", console)
+
+
+def _show(found: "sw.Diagnosis", folder: Path, recording: bool, figures: bool, json: bool) -> None:
     try:
         if not json:  # before anything is drawn: who waits, waits for this
             _tell(found)
     finally:  # who listened may have left after some lines, as `head` does
-        files = write_diagnosis(found, folder, recording and measured.specimen.free)
+        files = write_diagnosis(found, folder, recording, figures)
     if json:
         print_json(found.as_json())
     else:
         _wrote(files)
 
 
-def write_diagnosis(found: "sw.Diagnosis", folder: Path, recording: bool) -> list[Path]:
-    """Write the diagnosis, its page and, if asked for, its recording; gives the files."""
+def write_diagnosis(found: "sw.Diagnosis", folder: Path, recording: bool, figures: bool = False) -> list[Path]:
+    """Write the diagnosis, its page and, if asked for, its recording and figures; gives the files."""
     from slipwise.view.diagnosis_page import diagnosis_page
+    from slipwise.view.figure_files import figures_into
     from slipwise.view.files import save_json, save_page
 
     files = [save_json(found.as_json(), folder / "diagnosis.json")]
-    files.append(save_page(diagnosis_page(found, found.ladder()), folder / "report.html"))
-    return [*files, *(_record(found, folder) if recording else [])]
+    with figures_into(folder / "figures" if figures else None) as drawn:
+        files.append(save_page(diagnosis_page(found, found.ladder()), folder / "report.html"))
+    return [*files, *drawn, *(_record(found, folder) if recording else [])]
 
 
 def _tell(found: "sw.Diagnosis") -> None:
     """Print the verdict, what each effect changes, its rivals and what it rests on."""
-    from slipwise.view.diagnosis_words import error_name, floors
+    from slipwise.view.diagnosis_words import error_name, floors, four_answers
     from slipwise.view.terminal import print_table
 
-    OUT.print(visible(found.sentence), markup=False, highlight=False)
-    if found.law:
-        say(f"{found.law['words']} `slipwise discover` writes it as an effect.")
+    for question, answer in four_answers(found):
+        say(f"{question} {answer}")
     for thing in found.first:
         say(f"before any fit: {thing.words}")
     print_effects(found)
-    for words in found.discriminating_tests:
+    for words in found.discriminating_tests[1:]:
         say(f"to tell apart: {words}")
     rows = [
         {"hypothesis": c.effect, "probability": f"{100 * c.probability:.1f} %", "before": floors(c.holdout_before),

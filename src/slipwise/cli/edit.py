@@ -1,13 +1,15 @@
 """`slipwise add` and `slipwise remove`: edit model.toml, refit, and print the error before and after."""
 
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated
 
 import typer
+from rich.console import Console
 
 import slipwise as sw
-from slipwise.cli.console import say, steps
-from slipwise.cli.diagnose import Allowed, Trusted, start_model
+from slipwise.cli.console import OUT, say, steps
+from slipwise.cli.diagnose import Allowed, Trusted
 
 Folder = Annotated[Path, typer.Option("--campaign", help="Folder with campaign.toml; model.toml is kept there too.")]
 
@@ -20,12 +22,11 @@ def add(
 ) -> None:
     """Add an effect to model.toml, refit everything, and print the error before and after.
 
+    `slipwise workbench` shows it as a step that can be undone.
+
     Example: `slipwise add run_in --campaign campaigns/march`
     """
-    measured = sw.load_campaign(campaign)
-    with steps() as tell:
-        changed = sw.add(name, measured, start_model(campaign, None, trust, effect), progress=tell)
-    _finish(changed, campaign, held_out=bool(measured.with_role("holdout")))
+    _change(sw.add, name, campaign, trust or effect or ())
 
 
 def remove(
@@ -36,22 +37,30 @@ def remove(
 ) -> None:
     """Take an effect out of model.toml, refit everything, and print the error before and after.
 
+    `slipwise workbench` shows it as a step that can be undone.
+
     Example: `slipwise remove run_in --campaign campaigns/march`
     """
-    measured = sw.load_campaign(campaign)
-    with steps() as tell:
-        changed = sw.remove(name, measured, start_model(campaign, None, trust, effect), progress=tell)
-    _finish(changed, campaign, held_out=bool(measured.with_role("holdout")))
+    _change(sw.remove, name, campaign, trust or effect or ())
 
 
-def _finish(changed: "sw.ModelChange", campaign: Path, *, held_out: bool) -> None:
+def _change(change: "Callable[..., sw.ModelChange]", name: str, campaign: Path, trust: bool | Sequence[str]) -> None:
+    session = sw.Session(campaign, trust=trust, resume=False)
+    try:
+        with steps() as tell:
+            changed = change(name, session, progress=tell)
+        tell_change(changed, held_out=bool(session.campaign.with_role("holdout")))
+        say(f"wrote {session.accept()}")
+    finally:
+        session.close()
+
+
+def tell_change(changed: "sw.ModelChange", *, held_out: bool, console: Console = OUT) -> None:
+    """Print the errors before and after."""
     from slipwise.view.terminal import print_table
 
     which = "Held-out error" if held_out else "Error of the runs that were fitted"
-    print_table(f"{which} in multiples of the noise floor", changed.rows())
-    path = campaign / "model.toml"
-    sw.save_model(changed.model, path)
-    say(f"wrote {path}")
+    print_table(f"{which} in multiples of the noise floor", changed.rows(), console)
 
 
 def register(app: typer.Typer) -> None:

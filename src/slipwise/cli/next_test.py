@@ -68,7 +68,11 @@ def _tell(ranked: "sw.NextTest") -> None:
         for p in ranked.proposals
         if not p.refused and not p.failed
     ]
-    say(f"{ranked.sentence}\n{told}:")
+    if not ranked.proposals:
+        say(ranked.words)
+    say(f"{ranked.sentence}\n{told}{':' if rows else '.'}")
+    if not ranked.proposals:
+        return
     if rows:
         print_table("What each motion would tell; separation in variances of the noise", rows)
     left = [f"the table cannot make {p.motion}: {p.refused}" for p in ranked.proposals if p.refused]

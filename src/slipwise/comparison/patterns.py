@@ -36,6 +36,8 @@ class Pattern:
         minus_error: (b,) standard error.
         samples: (b,) in both directions.
         explained: part of the squared residual that the means explain, what noise would explain taken off [1].
+        few: (2, b) mean residual sliding to +x and to -x of bins with samples, but too few that are independent for an
+            error of it [floors]; NaN elsewhere.
     """
 
     relation: str
@@ -47,6 +49,7 @@ class Pattern:
     minus_error: Array
     samples: Array
     explained: float
+    few: Array
 
     @property
     def odd(self) -> Array:
@@ -104,18 +107,18 @@ def patterns_of(samples: Samples) -> list[Pattern]:
             continue
         place = np.clip(np.searchsorted(edges, values, side="right") - 1, 0, len(edges) - 2)
         sides = [_means(samples, place, np.isfinite(values) & (direction == s), len(edges) - 1) for s in (1.0, -1.0)]
-        kept = sum(float(np.nansum(n * (m**2 - e**2))) for m, e, n in sides)
+        kept = sum(float(np.nansum(n * (m**2 - e**2))) for m, e, n, _ in sides)
         out.append(
             Pattern(
                 samples.relation, kind, edges, sides[0][0], sides[1][0], sides[0][1], sides[1][1],
-                sides[0][2] + sides[1][2], max(kept / total, 0.0),
+                sides[0][2] + sides[1][2], max(kept / total, 0.0), np.stack([sides[0][3], sides[1][3]]),
             )
         )  # fmt: skip
     return out
 
 
 def _means(samples: Samples, place: NDArray[np.int64], used: NDArray[np.bool_], count: int) -> Sequence[Array]:
-    """Give mean, standard error and number of samples of each bin, (count,) each."""
+    """Give mean, standard error and number of samples of each bin, and means that say little, (count,) each."""
     number = np.bincount(place[used], minlength=count).astype(float)
     first = np.bincount(place[used], weights=samples.residual[used], minlength=count)
     second = np.bincount(place[used], weights=samples.squared[used], minlength=count)
@@ -125,4 +128,5 @@ def _means(samples: Samples, place: NDArray[np.int64], used: NDArray[np.bool_], 
     mean = np.where(enough, first / safe, np.nan)
     spread = np.maximum(second / safe - (first / safe) ** 2, 0.0)
     error = np.where(enough, np.sqrt(spread / np.maximum(effective, 1.0)), np.nan)
-    return mean, error, number
+    few = np.where((number > 0.0) & ~enough, first / safe, np.nan)
+    return mean, error, number, few

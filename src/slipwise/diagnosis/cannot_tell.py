@@ -20,6 +20,7 @@ from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.parameters import ZERO, Term
+from slipwise.rig.frame import storey_channels
 
 Array = NDArray[np.float64]
 #: Two effects look alike when their columns agree so well: one run gives 0.95, two after a long rest 0.8 at most [1].
@@ -48,6 +49,7 @@ def cannot_tell(state: Search, final: BaseFit) -> list[tuple[str, str]]:
         *_rests_not_given(state),
         *_zero_not_shown(state, final),
         *_nothing_held_out(state.base),
+        *_storeys_not_measured(state.base),
         *_beyond_what_was_fitted(state.base),
         *_floors_not_credible(state),
         *_gauges_not_tried(state),
@@ -73,6 +75,14 @@ def _alike(state: Search, project: Callable[[Array], Array]) -> Iterator[tuple[s
 def _beyond_what_was_fitted(base: BaseFit) -> Iterator[tuple[str, str]]:
     for place, reason in not_testable(base.problem).items():
         yield f"held-out run {base.problem.runs[place].name}", f"not testable here, no fitted run covers it: {reason}"
+
+
+def _storeys_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
+    """Name the accelerations without which nobody knows what the storeys push."""
+    needed = storey_channels(base.campaign.specimen)
+    if absent := [n for n in needed if not all(n in run.record for run in base.campaign.runs)]:
+        reason = f"{', '.join(absent)} not measured: the storeys push the girder unknown, so these are left out"
+        yield "girder and pitch balance", reason
 
 
 def _floors_not_credible(state: Search) -> Iterator[tuple[str, str]]:

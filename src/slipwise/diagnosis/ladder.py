@@ -190,29 +190,39 @@ def _hypothesis_path(state: Search) -> list[Hypothesis]:
     return [*refitted, state.final if state.best.terms else final_refit_of(state.best)]
 
 
+def placed(base: BaseFit, effect: Effect) -> Screened:
+    """Find where an effect explains most of what a fit leaves, and how large it is there.
+
+    Args:
+        base: a fit with its slopes.
+        effect: a fault of a gauge may be of any channel.
+
+    Raises:
+        SettingError: the campaign cannot test it, or the model holds it already.
+    """
+    terms, cannot = candidates(base, [effect])
+    own = [t for t in terms if t.effect.name == effect.name]
+    if not own:
+        faults = "a fault of samples is found by looking at them: `slipwise diagnose` says whether there is one"
+        known = faults if effect.in_samples else "it is part of the model already"
+        raise SettingError(f"{effect.name} cannot be added here: {cannot.get(effect.name, known)}")
+    found = screen(base, own)
+    if not found:
+        raise SettingError(f"{effect.name} changes nothing in this campaign, so it cannot be fitted")
+    return found[0]
+
+
 def _asked(
     base: BaseFit, add: Sequence[Effect], tell: Callable[[float], None]
 ) -> tuple[list[Hypothesis], tuple[int, int], str]:
     """Add effects in the order asked for; a gauge's fault goes to the channel where it explains most."""
-    terms, cannot = candidates(base, add)
     path = [base_hypothesis(base)]
-    screened = 0
     for i, effect in enumerate(add):
-        own = [t for t in terms if t.effect.name == effect.name]
-        if not own:
-            faults = "a fault of samples is found by looking at them: `slipwise diagnose` says whether there is one"
-            known = faults if effect.in_samples else "it is part of the model already"
-            reason = cannot.get(effect.name, known)
-            raise SettingError(f"{effect.name} cannot be added here: {reason}")
         before = path[-1]
-        found: list[Screened] = screen(as_fit(base, before), own)
-        screened += len(found)
-        if not found:
-            raise SettingError(f"{effect.name} changes nothing in this campaign, so it cannot be fitted")
-        best = found[0]
+        best = placed(as_fit(base, before), effect)
         path.append(polished(refit(base, [*before.terms, best.term], {best.term.label: best.values}, before)))
         tell((i + 1) / len(add))
-    return [final_refit_of(h) for h in path], (screened, len(add)), "these effects were asked for"
+    return [final_refit_of(h) for h in path], (len(add), len(add)), "these effects were asked for"
 
 
 def _why(state: Search) -> str:

@@ -10,6 +10,7 @@ arithmetic, `math` and `memory[...]` may be used):
     area(real_area, ...) -> real_area          shear(shear, ...) -> shear
     coefficient(coefficient, ...) -> coefficient of friction, which follows from both and the load
     stick(bound, ...) -> (force_x, force_y)    pad(...) -> (force_x, force_y)
+    face(face) -> curvature of the sliding face [1/m], on which the girder rises and swings as a pendulum
     advance(...) -> None, changes memory[...] after the force is known
     deflection(deflection, ...) -> deflection  spring(force, ...) -> force         settle(...) -> None (buffer's memory)
     stretch(force, ...) -> stretch of the loading train between gauge and contact, of one slider

@@ -30,7 +30,7 @@ _STATE: dict[str, float] = {
     "load": 24.5e3, "pressure": 15e6, "true_pressure": 20e6, "apparent_area": 1.6e-3, "real_area": 1.2e-3,
     "shear": 2e6, "coefficient": 0.1, "bound": 2.5e3, "friction": 2e3, "speed": 0.1, "velocity_x": 0.08,
     "velocity_y": 0.06, "slip_x": 0.01, "slip_y": 0.005, "deflection": 0.01, "rate": 0.1, "stiffness": 1e6,
-    "force": 1e3, "time": 1.0, "dt": 5e-4,
+    "force": 1e3, "face": 0.0, "time": 1.0, "dt": 5e-4,
 }  # fmt: skip
 
 

@@ -30,7 +30,7 @@ def rig(specimen: Specimen, along: float, across: float) -> Specimen:
 
 def balance(states: BalanceStates, along: float, across: float) -> dict[str, NDArray[np.float64]]:
     """Give what the nearer pads carry more (n,) [N]."""
-    weight = states.specimen.mass * (states.specimen.gravity + states.girder_acceleration[:, 2])
+    weight = states.specimen.carried_mass * (states.specimen.gravity + states.girder_acceleration[:, 2])
     half_x, half_y = states.specimen.half_spacing
     return {"pitch": weight * along / half_x, "roll": weight * across / half_y}
 

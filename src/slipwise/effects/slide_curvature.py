@@ -1,29 +1,32 @@
 """A sliding face that is curved: a pendulum.
 
-    (F_x, F_y) += N (x, y) / R
+    1/R = 1/R_rated + curvature
 
 A plate that sags like a bowl (R > 0) drives the girder back to the middle, in proportion to the load; one that is
-crowned (R < 0) drives it away. Spherical bearings do this on purpose.
+crowned (R < 0) drives it away. The girder rises by R - sqrt(R^2 - x^2 - y^2), the normal turns, and the force along the
+table is F = N (x/sqrt(R^2 - x^2) + mu) / (1 - mu x/sqrt(R^2 - x^2)): N x/R + mu N where slip is small. Spherical
+bearings do this on purpose: their radius stands in the specimen, and this is what it differs by.
 
-Valid: slip much smaller than R; here |R| > 10 m, so that the lift x^2/(2R) is below 0.1 mm.
-Source: pendulum equation; Zayas, Low, Mahin (1990) for bearings that are meant so; size assumed.
+Valid: R down to 0.5 m; a double pendulum of equal friction is a single one with R = R_1 + R_2 less the slider's height.
+Source: Zayas, Low, Mahin (1990), Earthquake Spectra 6(2), 317-333; equilibrium on a sphere for what is not small; size
+assumed.
 """
 
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
 
 
-def pad(load: float, slip_x: float, slip_y: float, curvature: float) -> tuple[float, float]:
-    """Give the load's share along the curved face (force_x, force_y) [N]."""
-    return load * curvature * slip_x, load * curvature * slip_y
+def face(face: float, curvature: float) -> float:
+    """Give the curvature of the sliding face [1/m]."""
+    return face + curvature
 
 
 EFFECT = Effect(
     port="pad",
     component="pad friction",
-    equation="F += N x/R",
+    equation="1/R = 1/R_rated + curvature",
     parameters=(
-        Parameter("curvature", "1/m", 0.05, -1.0, 1.0, 0.0, "R > 10 m for a flat plate, assumed", "1/R"),
+        Parameter("curvature", "1/m", 0.05, -2.0, 2.0, 0.0, "R > 10 m for a flat plate, assumed", "1/R"),
     ),
     moves=RESPONSE,
     signature="even in velocity, proportional to N x: loops of the pads lean",

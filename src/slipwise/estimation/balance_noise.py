@@ -6,10 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import fftconvolve
 
+from slipwise.estimation.between_samples import jump_noise_in_pitch
 from slipwise.estimation.girder_balances import buffers_along, effects_in, heave_rate, through_pitch
 from slipwise.estimation.run_data import FitRun
 from slipwise.model import Model
 from slipwise.rig import Specimen
+from slipwise.rig.frame import frame_noise
 from slipwise.simulation.predict import predictor
 
 Array = NDArray[np.float64]
@@ -21,9 +23,10 @@ def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
     total, force = float(np.sqrt(np.sum(loads**2))), float(np.sqrt(np.sum(gauge**2)))
     stiffness = sum(specimen.buffer_stiffness)
     beside = np.hypot(force, stiffness * 0.1 * run.noise["slip_x"]) / specimen.mass
+    pushed, _ = frame_noise(specimen, run.noise)
     levels = {
-        "girder": np.hypot(run.noise.get("girder_ax", 0.0), beside),
-        "heave": np.hypot(total, specimen.mass * run.noise.get("girder_az", 0.0)),
+        "girder": np.hypot(run.noise.get("girder_ax", 0.0), np.hypot(beside, pushed / specimen.mass)),
+        "heave": np.hypot(total, specimen.carried_mass * run.noise.get("girder_az", 0.0)),
         "pitch": total,  # and what the friction gauges make of it, see `whitened`
         "roll": total,
         "warp": total,
@@ -35,7 +38,7 @@ def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
 def shares_of_noise(specimen: Specimen, run: FitRun) -> dict[str, dict[str, float]]:
     """Give the share of single channels in the variance of the balances of loads: relation -> channel -> share [1]."""
     loads = {f"pad_{p}_N": float(level**2) for p, level in zip(run.pads, run.gauge_noise[1], strict=True)}
-    heave = {**loads, "girder_az": (specimen.mass * run.noise.get("girder_az", 0.0)) ** 2}
+    heave = {**loads, "girder_az": (specimen.carried_mass * run.noise.get("girder_az", 0.0)) ** 2}
     powers = {"heave": heave, "pitch": loads, "roll": loads, "warp": loads}
     return {
         name: {channel: power / max(sum(of.values()), 1e-24) for channel, power in of.items()}
@@ -67,6 +70,9 @@ def weighed_balances(
             )
         if springs is not None:
             more |= vertical_friction_noise(model, run, buffers_along(springs, run, *np.zeros((2, len(run.time)))))
+        if run.filtered is None and "rig.logger" not in values:
+            pitch = (values["rig.pitch_frequency"], values["rig.pitch_damping"])
+            more["pitch"] = np.hypot(more.get("pitch", 0.0), jump_noise_in_pitch(model.specimen, run, *pitch))
         for name, level in levels.items():
             out.setdefault(name, []).append(np.hypot(level, more[name]) if name in more else level)
     return out
@@ -85,7 +91,7 @@ def heave_level(model: Model, run: FitRun, scale: Mapping[str, float]) -> float:
         scale: of `measurement_model.noise_scale`, by which the balance is divided.
     """
     loads = float(np.linalg.norm(run.gauge_noise[1])) * scale.get("loads", 1.0)
-    vertical = model.specimen.mass * run.noise.get("girder_az", 0.0) * scale.get("girder_az", 1.0)
+    vertical = model.specimen.carried_mass * run.noise.get("girder_az", 0.0) * scale.get("girder_az", 1.0)
     return float(np.hypot(loads, min(1.0, heave_noise(model, run)) * vertical)) / scale.get("heave", 1.0)
 
 
@@ -100,7 +106,7 @@ def heave_noise(model: Model, run: FitRun) -> float:
         return 1.0
     shaken = np.random.default_rng(0).normal(size=len(run.time))
     more = _more_heave(model, run, shaken)
-    return 1.0 if more is None else float(np.std(shaken + more / model.specimen.mass) / np.std(shaken))
+    return 1.0 if more is None else float(np.std(shaken + more / model.specimen.carried_mass) / np.std(shaken))
 
 
 def bent_noise_in_heave(model: Model, run: FitRun) -> Array:
@@ -116,7 +122,7 @@ def bent_noise_in_heave(model: Model, run: FitRun) -> Array:
     more = _more_heave(model, run, impulse)
     if more is None:
         return np.zeros(len(impulse) // 2 + 1)
-    mass = model.specimen.mass
+    mass = model.specimen.carried_mass
     passed = np.abs(np.fft.rfft(mass * impulse + more)) ** 2
     return run.noise.get("girder_az", 0.0) ** 2 * np.maximum(passed - mass**2, 0.0)
 
@@ -152,13 +158,15 @@ def vertical_friction_noise(model: Model, run: FitRun, buffers: Array) -> dict[s
 
 
 def force_noise_in_pitch(run: FitRun, specimen: Specimen, values: Mapping[str, float]) -> Array:
-    """Give what the friction gauges' noise adds to the predicted pitch load: the girder's pitch rings with it.
+    """Give what noise of friction and storeys adds to the predicted pitch load: the girder's pitch rings with it.
 
     Returns:
         spectrum (m,) at the frequencies of a real transform, as the variance of white noise of that height [N^2].
     """
-    ringing = specimen.centre_height / specimen.half_spacing[0] * pitch_impulse_response(run, values)
-    return float(np.sum(run.gauge_noise[0] ** 2)) * np.abs(np.fft.rfft(ringing)) ** 2
+    levers = specimen.centre_height * run.gauge_noise[0]
+    squared = float(np.sum(levers**2)) + frame_noise(specimen, run.noise)[1] ** 2
+    ringing = pitch_impulse_response(run, values) / specimen.half_spacing[0]
+    return squared * np.abs(np.fft.rfft(ringing)) ** 2
 
 
 def driven_noise_in_pitch(model: Model, runs: Sequence[FitRun], values: Mapping[str, float]) -> list[Array]:

@@ -1,13 +1,14 @@
 """What a rigid girder on its pads' springs asks of the measured channels, without any law of friction.
 
-    girder  m a_x = -(sum F + F_buffers + drag)
-    heave   sum N = m (g + a_z) - lift
+    girder  m a_x = -(sum F + F_buffers + drag + F_frame)
+    heave   sum N = (m + sum m_i) (g + a_z) - lift
     pitch   Q_pitch = P(s) [h sum F + (h - z_b) F_buffers] / half_x + (x + x_c) sum N / half_x + ...
     roll    Q_roll = y_c sum N / half_y,    warp = what the rated seating makes of it
     motion  a_x - a_x,table = d2(slip)/dt2
 
 P(s) = (2 z w s + w^2) / (s^2 + 2 z w s + w^2) is the girder's pitch on its pads: taken as quasi-static, the balance
-leaves 2.5 times the noise. Effects add to each by their `balance`, `spring`, `drag` and `lift` hooks.
+leaves 2.5 times the noise. What the storeys of a frame push is known from their accelerations. Effects add to each by
+their `balance`, `spring`, `drag` and `lift` hooks.
 
 Source: docs/theory.md, sections 1.2 and 1.4; Harris' Shock and Vibration Handbook, base-excited oscillator.
 """
@@ -24,6 +25,7 @@ from slipwise.estimation.pad_forces import as_logged
 from slipwise.estimation.run_data import FitRun, refined
 from slipwise.model import Model
 from slipwise.rig import Specimen
+from slipwise.rig.frame import frame_moment, frame_push, storey_channels
 from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import load_modes
 from slipwise.signals.ends import in_frequency
@@ -42,11 +44,12 @@ def available(run: FitRun, specimen: Specimen) -> tuple[str, ...]:
     out = []
     if not specimen.free or run.pads != specimen.pads or not np.isfinite(run.load).all():
         return ()
-    if "girder_ax" in run.record:
+    framed = run.record.has_all(*storey_channels(specimen))
+    if "girder_ax" in run.record and framed:
         out.append("girder")
     if np.isfinite(run.states.girder_acceleration[:, 2]).all():
         out.append("heave")
-    out += ["pitch"] if run.states.has_y else ["pitch", "roll"]
+    out += (["pitch"] if framed else []) + ([] if run.states.has_y else ["roll"])
     out += ["warp"] if len(specimen.pads) > 3 else []
     if run.record.has_all("girder_ax", "table_ax"):
         out.append("motion")
@@ -116,9 +119,12 @@ def predicted_balances(
     specimen, rated = model.built_specimen(), model.specimen
     half, half_y = specimen.half_spacing
     fb = buffers.sum(axis=1)
-    total = _total(run, force, specimen.mass, fb)
+    frame = frame_push(run.record, specimen)
+    total = _total(run, force, specimen.mass, fb - frame)
     height = specimen.centre_height
-    moment = height * total + buffers @ (height - np.array(specimen.buffer_heights))
+    moment = (height + _risen(run.slip, specimen)) * total + buffers @ (height - np.array(specimen.buffer_heights))
+    upward = np.nan_to_num(run.states.girder_acceleration[:, 2])
+    moment += frame_moment(run.record, specimen, upward, about=height)
     heave = run.load.sum(axis=1)
     # what effects add to the rated place of the centre of gravity and to the seating is theirs to say
     off_x, off_y = (c - m for c, m in zip((rated.centre_x, rated.centre_y), specimen.middle, strict=True))
@@ -129,8 +135,10 @@ def predicted_balances(
     seated = float((basis.warp @ (np.array(specimen.springs) * rated.seating))[:1].sum())
     mass, gravity = specimen.mass, specimen.gravity
     predicted = {
-        "girder": _delayed(-(total + fb) / mass, run.dt, values["rig.late_girder"]),
-        "heave": _delayed(mass * (gravity + run.states.girder_acceleration[:, 2]), run.dt, values["rig.late_load"]),
+        "girder": _delayed((frame - total - fb) / mass, run.dt, values["rig.late_girder"]),
+        "heave": _delayed(
+            specimen.carried_mass * (gravity + run.states.girder_acceleration[:, 2]), run.dt, values["rig.late_load"]
+        ),
         "pitch": _delayed(pitch, run.dt, values["rig.late_pitch"]),
         "roll": off_y / half_y * heave,
         "warp": np.full(len(heave), seated),
@@ -158,6 +166,15 @@ def _total(run: FitRun, force: Array, mass: float, buffers: Array) -> Array:
     from_motion = -mass * run.record["girder_ax"] - buffers
     off = np.abs(total - from_motion) > _SIGNIFICANT * mass * run.noise["girder_ax"]
     return np.where(np.any(invalid, axis=0) & off, from_motion, total)
+
+
+def _risen(slip: Array, specimen: Specimen) -> Array:
+    """Give how far the girder stands higher over its pads at a slip (n,) [m], because their faces are curved."""
+    curvature = specimen.pad_curvature
+    if not curvature or specimen.pads_on == "girder":
+        return np.zeros_like(slip)
+    away = np.minimum(np.abs(curvature * slip), 1.0)
+    return (1.0 - np.sqrt(1.0 - away**2)) / curvature
 
 
 def _delayed(values: Array, dt: float, lag: float) -> Array:

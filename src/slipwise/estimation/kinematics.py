@@ -15,7 +15,8 @@ from slipwise.estimation.parameters import PITCH_INERTIA, YAW_INERTIA, Term, fit
 from slipwise.estimation.recent_results import Key, Recent
 from slipwise.estimation.run_data import FitRun
 from slipwise.estimation.yaw import yaw_of
-from slipwise.rig import Specimen
+from slipwise.rig import Specimen, pad_frequencies
+from slipwise.rig.frame import frame_push
 from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import load_modes
 from slipwise.signals.ends import in_frequency
@@ -24,6 +25,8 @@ from slipwise.simulation.predict import predictor
 Array = NDArray[np.float64]
 #: Numbers of the rig on which yaw depends.
 _YAW_KEYS = ("rig.mass", "rig.buffer_stiffness", YAW_INERTIA)
+#: Above this frequency, over that at which the girder pitches on its pads, what is left of the pitch load is noise [1].
+_PITCHING = 1.56
 
 
 @dataclass
@@ -163,7 +166,7 @@ class Kinematics:
                 law.rest(run.rest_before)
                 still = np.zeros(len(run.time))
                 buffers = buffers_along(law, run, still, still)
-                force = _whole(run, specimen.mass, buffers)
+                force = _whole(run, specimen, buffers)
                 bound = self.bounds[i] if self.bounds else np.abs(force)
                 found.append(yaw_of(run, specimen, force, bound, buffers))
             return found
@@ -205,7 +208,7 @@ class Kinematics:
         for place, run in enumerate(runs):
             velocity = run.states.pad_velocity[:, here].copy()
             velocity[:, :, 0] += values.get("rig.pitch_slip", 0.0) * self._pitching[place][:, None]
-            velocity[:, :, 0] += by * run.states.pad_velocity_error[here, 0]
+            velocity[:, :, 0] += by * run.states.pad_velocity_errors[:, here]
             slip = run.states.pad_slip[:, here]
             if self.makes_yaw:
                 angle, rate = self.yaw_of_runs(values, count)[place]
@@ -221,7 +224,7 @@ def values_of(terms: Sequence[Term], values: Mapping[str, float]) -> Key:
     return tuple(x for t in terms for n in t.effect.parameter_names for x in (t.label, values[f"{t.label}.{n}"]))
 
 
-def _whole(run: FitRun, mass: float, buffers: Array) -> Array:
+def _whole(run: FitRun, specimen: Specimen, buffers: Array) -> Array:
     """Give the pads' forces (n, p) [N]; where one gauge is invalid, what the girder's balance leaves it."""
     force = run.force
     bad = np.stack([run.invalid.get(f"pad_{p}_Fx", np.zeros(len(force), dtype=bool)) for p in run.pads], axis=1)
@@ -229,7 +232,8 @@ def _whole(run: FitRun, mass: float, buffers: Array) -> Array:
     if not alone.any():
         return force
     others = np.where(bad, 0.0, force).sum(axis=1)
-    rest = -mass * run.channel("girder_ax") - buffers.sum(axis=1) - others
+    push = frame_push(run.record, specimen) - buffers.sum(axis=1)
+    rest = push - specimen.mass * run.channel("girder_ax") - others
     return np.where(alone, rest[:, None], force)
 
 
@@ -238,7 +242,8 @@ def _pitch_rate(run: FitRun) -> Array:
     loads, specimen = run.all_loads, run.states.specimen
     if loads is None or not specimen.free:
         return np.zeros(len(run.time))
+    highest = _PITCHING * pad_frequencies(specimen)["pitch"]
     smooth = in_frequency(
-        load_modes(loads, basis_of(specimen)).pitch, run.dt, lambda f: 1.0 / (1.0 + (f / 120.0) ** 8), 64
+        load_modes(loads, basis_of(specimen)).pitch, run.dt, lambda f: 1.0 / (1.0 + (f / highest) ** 8), 64
     )
     return np.gradient(smooth, run.dt)

@@ -77,7 +77,11 @@ def whitened(left: Array, run: FitRun, level: float, ringing: Array, driven: Arr
 def with_masked_noise(part: Array, masked: float) -> Array:
     """Count noise that an effect masks as if it were still there: the sum of squares grows by it, each sample alike.
 
+    Noise that it adds is taken out in the same way, as far as there is any.
+
     Put on every sample by itself it would make residuals jump as they change sign, and slopes of that are noise.
     """
     total = float(part @ part)
-    return part * np.sqrt(1.0 + masked * np.count_nonzero(part) / total) if total > 0.0 else part
+    if total == 0.0:
+        return part
+    return part * np.sqrt(max(1.0 + masked * np.count_nonzero(part) / total, 0.0))

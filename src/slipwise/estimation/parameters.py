@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from slipwise.effects import Effect
 from slipwise.model import EffectUse, Model
-from slipwise.rig import Specimen
+from slipwise.rig import Specimen, pad_frequencies
 
 #: Largest delay between the cards of a logger that counts as none [s].
 MAX_CARD_DELAY = 1.5e-4
@@ -17,12 +17,13 @@ _RIG_SHARES: dict[str, tuple[float, float]] = {
     "rig.buffer_stiffness": (0.4, 2.5),
     "rig.centre_height": (0.5, 2.0),
 }
-#: What no rig is rated for: start, low, high, scale, unit. Pitch of the girder on its pads; time by which channels of
-#: one card may lag behind those of another (more than that is a `channel_delay`).
+#: What no rig is rated for: start, low, high, scale, unit. Pitch of the girder on its pads, over its rated frequency;
+#: slip at the gauge for pitch load, as the height at which the girder's tilt for that load would show so [m]; time by
+#: which channels of one card may lag behind those of another (more than that is a `channel_delay`).
 _SMALL: dict[str, tuple[float, float, float, float, str]] = {
-    "rig.pitch_frequency": (80.0, 30.0, 200.0, 20.0, "Hz"),
+    "rig.pitch_frequency": (1.04, 0.39, 2.6, 0.26, "Hz"),
     "rig.pitch_damping": (0.05, 0.002, 0.6, 0.05, "1"),
-    "rig.pitch_slip": (0.0, -3e-9, 3e-9, 3e-10, "m/N"),
+    "rig.pitch_slip": (0.0, -3.6, 3.6, 0.36, "m/N"),
     "rig.late_girder": (0.0, -MAX_CARD_DELAY, MAX_CARD_DELAY, 5e-5, "s"),
     "rig.late_load": (0.0, -MAX_CARD_DELAY, MAX_CARD_DELAY, 5e-5, "s"),
     "rig.late_pitch": (0.0, -MAX_CARD_DELAY, MAX_CARD_DELAY, 5e-5, "s"),
@@ -139,9 +140,9 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True, length
             rated["rig.buffer_stiffness"] = sum(specimen.buffer_stiffness)
         units = {"rig.mass": "kg", "rig.centre_height": "m", "rig.buffer_stiffness": "N/m"}
         out += [_around(key, value, *_RIG_SHARES[key], units[key]) for key, value in rated.items()]
-        out += [Free(key, *numbers) for key, numbers in _SMALL.items()]
+        out += [_small(key, specimen) for key in _SMALL]
     elif specimen.free:  # the sliding plane moves against the gauge all the same
-        out.append(Free("rig.pitch_slip", *_SMALL["rig.pitch_slip"]))
+        out.append(_small("rig.pitch_slip", specimen))
     if specimen.free:
         card_delay = MAX_CARD_DELAY if logger_known else _MAX_CARD_DELAY_UNKNOWN
         out.append(Free("rig.late_force", 0.0, -card_delay, card_delay, 5e-5, "s"))
@@ -149,6 +150,17 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True, length
             out.append(Free("rig.logger", *_LOGGER, "Hz"))
     delayed = {entry.target for entry in model.uses if entry.effect.lag}
     return [f for f in out if f.key not in _LAGS or not _covered(_LAGS[f.key], delayed, specimen)]
+
+
+def _small(key: str, specimen: Specimen) -> Free:
+    """Give a number that no rig is rated for, in the size of this rig."""
+    *numbers, unit = _SMALL[key]
+    sizes = {
+        "rig.pitch_frequency": pad_frequencies(specimen).get("pitch", 1.0),
+        "rig.pitch_slip": specimen.half_spacing[0] / specimen.pitch_stiffness,
+    }
+    start, low, high, scale = (sizes.get(key, 1.0) * number for number in numbers)
+    return Free(key, start, low, high, scale, unit)
 
 
 def stick_free(length: float) -> Free:

@@ -45,7 +45,7 @@ from slipwise.record import Record
 from slipwise.signals.filters import lowpass
 from slipwise.simulation.replay import replay
 
-#: No motion makes anybody surer than this.
+#: No motion makes anybody surer than this: who is, needs none.
 _SUREST = 0.99
 #: Rivals that are held against each other: three cost nine fits a motion.
 _MOST = 3
@@ -96,6 +96,9 @@ def next_test(
 def _ranked(found: Diagnosis, every: Contest, asked: Mapping[str, str], tell: Callable[[str, float], None]) -> NextTest:
     """Rank motions, each with why the table cannot make it, by how well they tell a contest's hypotheses apart."""
     contest, chances = every.hypotheses[:_MOST], every.chances[:_MOST]
+    if chances[0] >= _SUREST:
+        words = "Nothing is in doubt: no motion could make anybody surer of this than the campaign does."
+        return NextTest(tuple(h.names for h in contest), chances, (), words, found.sentence)
     models = [_as_shaken(found, h) for h in contest]
     out = []
     for i, (text, refused) in enumerate(asked.items()):

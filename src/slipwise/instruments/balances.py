@@ -3,7 +3,7 @@
 Every relation is a residual that is zero for true channels, linear in a few constants of the rig:
 
     heave      sum N - m (g + a_z)
-    girder     sum F + m a_x + K x                     (y alike)
+    girder     sum F + m a_x + K x + sum m_i a_i       (y alike; with the storeys of a frame)
     pitch      half_x Q1 - x sum N + (m h) a_x + (K z_b) x + J Q1'',    Q1 = sum N_i x_i / half_x
     roll       half_y Q2 - y sum N + (m h) a_y + (K z_b) y + J Q2'',    Q2 = sum N_i y_i / half_y
     warp       what is left of the loads: nothing of three pads, N_A - N_B - N_C + N_D of four
@@ -26,7 +26,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.record import Record
-from slipwise.rig import Specimen
+from slipwise.rig import Specimen, storey_names
+from slipwise.rig.frame import frame_moment, frame_push
 from slipwise.rig.load_basis import basis_of, end_pairs
 from slipwise.rig.load_modes import LoadModes, load_modes, vertical_acceleration
 from slipwise.signals.ends import in_frequency
@@ -76,7 +77,7 @@ def relations(record: Record, specimen: Specimen) -> tuple[list[Relation], list[
         loads = loads_of(specimen)
         possible += [_heave(record, loads), *([_warp(loads)] if len(loads) > 3 else []), _upright(record, loads)]
         for axis in ("x", "y"):
-            possible += [_girder(axis, specimen), _tilting(axis, record, loads), _kinematic(axis, loads)]
+            possible += [_girder(axis, specimen), _tilting(axis, record, specimen), _kinematic(axis, loads)]
             possible += _pairs(axis, specimen)
     kept = [relation for relation in possible if record.has_all(*relation.needs)]
     cannot = [
@@ -112,7 +113,7 @@ def _heave(record: Record, loads: tuple[str, ...]) -> Relation:
     return Relation(
         "heave",
         (*loads, *needs),
-        lambda r, s: _sum(r, s, "N"),
+        lambda r, s: _sum(r, s, "N") - (s.carried_mass - s.mass) * (s.gravity + vertical_acceleration(r)),
         {"mass": lambda r, s: -(s.gravity + vertical_acceleration(r))},
     )
 
@@ -120,13 +121,17 @@ def _heave(record: Record, loads: tuple[str, ...]) -> Relation:
 def _girder(axis: str, specimen: Specimen) -> Relation:
     return Relation(
         f"girder_{axis}",
-        (*(f"pad_{pad}_F{axis}" for pad in specimen.pads), f"girder_a{axis}", f"slip_{axis}"),
-        lambda r, s: _sum(r, s, f"F{axis}"),
+        (
+            *(f"pad_{pad}_F{axis}" for pad in specimen.pads),
+            *(f"{storey}_a{axis}" for storey in storey_names(specimen)),
+            *(f"girder_a{axis}", f"slip_{axis}"),
+        ),
+        lambda r, s: _sum(r, s, f"F{axis}") - frame_push(r, s, axis),
         {"mass": lambda r, s: r[f"girder_a{axis}"], f"stiffness_{axis}": lambda r, s: r[f"slip_{axis}"]},
     )
 
 
-def _tilting(axis: str, record: Record, loads: tuple[str, ...]) -> Relation:
+def _tilting(axis: str, record: Record, specimen: Specimen) -> Relation:
     """Pitch (about y, from motion along x) or roll."""
     name, place = ("pitch", 0) if axis == "x" else ("roll", 1)
 
@@ -141,7 +146,7 @@ def _tilting(axis: str, record: Record, loads: tuple[str, ...]) -> Relation:
             moment = moment - off * _sum(r, s, "N")
         if s.pads_on == "table" and f"slip_{axis}" in r:
             moment = moment - r[f"slip_{axis}"] * _sum(r, s, "N")
-        return moment
+        return moment - frame_moment(r, s, _upward(r), axis)
 
     terms: dict[str, Term] = {
         f"{name}_inertia": lambda r, s: _twice(mode(r, s), r.dt),
@@ -150,8 +155,15 @@ def _tilting(axis: str, record: Record, loads: tuple[str, ...]) -> Relation:
         terms["lever"] = lambda r, s: r[f"girder_a{axis}"]
     if f"slip_{axis}" in record:
         terms[f"buffer_lever_{axis}"] = lambda r, s: r[f"slip_{axis}"]
-    needs = (*loads, "girder_ax", "slip_x") if axis == "x" else loads
+    loads, storeys = loads_of(specimen), tuple(f"{storey}_a{axis}" for storey in storey_names(specimen))
+    needs = (*loads, *storeys, "girder_ax", "slip_x") if axis == "x" else (*loads, *storeys)
     return Relation(name, needs, known, terms)
+
+
+def _upward(record: Record) -> Array:
+    """Give the girder's vertical acceleration (n,) [m/s^2]; nothing where it was not measured."""
+    known = "girder_az" in record or record.has_all("girder_az_1", "girder_az_2")
+    return vertical_acceleration(record) if known else np.zeros(len(record))
 
 
 def _warp(loads: tuple[str, ...]) -> Relation:

@@ -1,17 +1,17 @@
 """Load and friction cells on a second logger that was started late: found by friction, which follows the slip.
 
-    sum F(t + tau) = a s(t) + b x(t) + c girder_ax(t) + d,      s = tanh(v / v_0)
+    sum F(t + tau) = a s(t) + b x(t) + c girder_ax(t) + sum c_i storey_i_ax(t) + d,      s = tanh(v / v_0)
 
-is fitted at every lag at which one of the three resembles the sum of the pads' friction most; the best lag counts
+is fitted at every lag at which one of these resembles the sum of the pads' friction most; the best lag counts
 where all runs agree on it and without it much less is explained. Shorter delays are the fits' own business.
 """
-
-from collections.abc import Sequence
 
 import numpy as np
 
 from slipwise.campaign import Campaign, Run
 from slipwise.instruments.lags import EXPLAINED, MORE, MOST, LateChannels, agreed, explained, strongest, vertex
+from slipwise.rig import Specimen
+from slipwise.rig.frame import storey_channels
 
 #: Slip rate at which friction has turned [m/s].
 _TURNED = 0.02
@@ -23,7 +23,7 @@ def late_cells(campaign: Campaign) -> LateChannels | None:
     """Tell whether the pads' cells are late as one, of a girder that slides by itself; None where they are not."""
     if not campaign.specimen.free:
         return None
-    lags = [lag for run in campaign.runs if (lag := _lag(run, campaign.specimen.pads)) is not None]
+    lags = [lag for run in campaign.runs if (lag := _lag(run, campaign.specimen)) is not None]
     delay = agreed(lags, campaign.runs[0].record.dt)
     if delay is None:
         return None
@@ -31,15 +31,15 @@ def late_cells(campaign: Campaign) -> LateChannels | None:
     return LateChannels(tuple(names), delay)
 
 
-def _lag(run: Run, pads: Sequence[str]) -> float | None:
+def _lag(run: Run, specimen: Specimen) -> float | None:
     """Give by how much the friction of a run comes late [s]; None where it says nothing."""
     record, dt = run.record, run.record.dt
-    names = [f"pad_{p}_Fx" for p in pads]
-    if not record.has_all(*names, "slip_x", "girder_ax"):
+    names, floors = [f"pad_{p}_Fx" for p in specimen.pads], storey_channels(specimen)
+    if not record.has_all(*names, *floors, "slip_x", "girder_ax"):
         return None
     slip = record["slip_x"]
     force = np.sum([record[n] for n in names], axis=0)
-    states = [np.tanh(np.gradient(slip, dt) / _TURNED), slip, record["girder_ax"]]
+    states = [np.tanh(np.gradient(slip, dt) / _TURNED), slip, record["girder_ax"], *(record[n] for n in floors)]
     if not all(np.isfinite(x).all() and np.ptp(x) > 0.0 for x in (force, *states)):
         return None
     most = min(round(MOST / dt), len(force) // 2)

@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.errors import SettingError
-from slipwise.rig.mjcf_writer import mjcf_text
+from slipwise.rig.mjcf_writer import mjcf_text, storey_names
 from slipwise.rig.specimen import Specimen
+from slipwise.rig.storeys import fixed_base_frequencies
 
 #: Impedance of the pads' contacts: constant and low, so that a contact is a spring (see `_pad_contact`).
 _IMPEDANCE = 0.001
@@ -58,7 +59,7 @@ class Rig:
 
 def pad_frequencies(specimen: Specimen) -> dict[str, float]:
     """Give the frequencies of heave, pitch and roll on the pads [Hz], each by itself, the girder taken as rigid."""
-    stiffness, mass = stiffness_at_rest(specimen), np.array([specimen.mass, *specimen.inertia[:2]])
+    stiffness, mass = stiffness_at_rest(specimen), np.array([specimen.carried_mass, *specimen.inertia[:2]])
     values = np.sqrt(np.diag(stiffness) / mass) / (2.0 * np.pi)
     heave, roll, pitch = (float(value) for value in values)
     return {"heave": heave, "pitch": pitch, "roll": roll} if specimen.free else {"heave": heave}
@@ -77,7 +78,10 @@ def largest_step(specimen: Specimen) -> float:
         return _STABLE / (2.0 * np.pi * pad_frequencies(specimen)["heave"])
     scale = 1.0 / np.sqrt([specimen.mass, *specimen.inertia[:2]])
     stiffest = np.linalg.eigvalsh(stiffness_at_rest(specimen) * scale[:, None] * scale).max()
-    return float(_STABLE / np.sqrt(stiffest))
+    fastest = max(
+        (fixed_base_frequencies(specimen.storeys, axis)[-1] for axis in "xy" if specimen.storeys), default=0.0
+    )
+    return float(_STABLE / max(np.sqrt(stiffest), 2.0 * np.pi * fastest))
 
 
 def check_step(specimen: Specimen, dt: float) -> None:
@@ -177,10 +181,10 @@ def _drive_table(spec: mujoco.MjSpec, specimen: Specimen) -> None:
     for axis in TABLE_AXES:
         actuator = spec.actuator(f"table_{axis}")
         turning = axis == "apitch"
-        moved = 0.0 if turning else table_mass + (specimen.mass if specimen.free or axis == "az" else 0.0)
+        moved = 0.0 if turning else table_mass + (specimen.carried_mass if specimen.free or axis == "az" else 0.0)
         actuator.gainprm[0] = _ARMATURE + moved
         if axis == "az":
-            actuator.biasprm[0] = (specimen.mass + table_mass) * specimen.gravity
+            actuator.biasprm[0] = (specimen.carried_mass + table_mass) * specimen.gravity
     for joint in ("table_x", "table_y", "table_z", "table_pitch"):
         spec.joint(joint).armature = _ARMATURE
 
@@ -215,6 +219,9 @@ def _add_sensors(spec: mujoco.MjSpec, specimen: Specimen) -> None:
     sites = ["girder_centre"] + (["girder_edge_1", "girder_edge_2"] if specimen.free else [])
     for site in sites:
         spec.add_sensor(name=site, type=kinds.mjSENS_FRAMELINACC, objtype=body.mjOBJ_SITE, objname=site)
+    for storey in storey_names(specimen):
+        site = {"objtype": body.mjOBJ_SITE, "objname": storey}
+        spec.add_sensor(name=storey, type=kinds.mjSENS_FRAMELINACC, **site)
     if specimen.free:
         spec.add_sensor(name="turning", type=kinds.mjSENS_FRAMEANGACC, objtype=body.mjOBJ_SITE, objname="girder_centre")
     for joint in [j.name for j in spec.joints]:

@@ -6,7 +6,7 @@ from pathlib import Path
 from slipwise.errors import unknown_name
 
 #: Specimens that ship with the package.
-RIGS: tuple[str, ...] = ("bridge1", "bridge2", "block", "pad", "three_pads", "six_pads")
+RIGS: tuple[str, ...] = ("bridge1", "bridge2", "block", "pad", "three_pads", "six_pads", "pendulum", "building")
 #: What a file of a rig may end in.
 SUFFIXES: tuple[str, ...] = (".xml", ".toml")
 #: What is looked for in a folder that is given as a rig.

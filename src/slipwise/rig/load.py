@@ -11,6 +11,7 @@ from slipwise.rig.mjcf_attributes import check_attributes
 from slipwise.rig.mjcf_inertia import girder_body, principal_inertia
 from slipwise.rig.mjcf_parts import OF_EACH_PAD, WORDS, check_parts, is_free, names_of, pads_of
 from slipwise.rig.mjcf_places import edge_distance, pad_places, pad_radii, seating
+from slipwise.rig.mjcf_storeys import read_storeys
 from slipwise.rig.mjcf_tendons import buffers, check_arms
 from slipwise.rig.places import Place, values_of
 from slipwise.rig.rest_check import check_rest
@@ -76,6 +77,7 @@ def _specimen(file: Mjcf) -> Specimen:
             places=places,
             free=is_free(model),
             buffers=held,
+            storeys=read_storeys(file),
             sources={n.removeprefix("source "): data for n, data in texts.items() if n.startswith("source ")},
             **{name: value for name, (value, _) in values.items()},
         )
@@ -88,9 +90,10 @@ def _specimen(file: Mjcf) -> Specimen:
 def _places(file: Mjcf) -> tuple[Place, ...]:
     """Collect what each pad is."""
     pads = pads_of(file)
-    of_each = [[float(v) for v in file.model.numeric(name).data] for name in OF_EACH_PAD]
-    stiffness, damping = (given * (len(pads) if len(given) == 1 else 1) for given in of_each)
-    rows = zip(pads, pad_places(file), seating(file), pad_radii(file), stiffness, damping, strict=True)
+    there = names_of(file.model, "numeric")
+    of_each = [[float(v) for v in file.model.numeric(n).data] if n in there else [0.0] for n in OF_EACH_PAD]
+    each = (given * (len(pads) if len(given) == 1 else 1) for given in of_each)
+    rows = zip(pads, pad_places(file), seating(file), pad_radii(file), *each, strict=True)
     return tuple(Place(name, x, y, z, *rest) for name, (x, y), z, *rest in rows)
 
 

@@ -29,10 +29,12 @@ class GirderBody:
 
 
 def bodies_of_girder(model: mujoco.MjModel) -> list[int]:
-    """Give the girder's body and those that stand in it, by their ids."""
+    """Give the girder's body and those that are fixed to it, by their ids."""
     girder = model.body("girder").id
     inside = [girder]
     for body in range(girder + 1, model.nbody):
+        if model.body_jntnum[body]:
+            continue  # a storey moves by itself
         if model.body_parentid[body] in inside:
             inside.append(body)
     return inside

@@ -15,10 +15,11 @@ GUIDED_JOINTS = ("girder_z",)
 ACTUATORS = ("table_ax", "table_ay", "table_az", "table_apitch")
 #: Numbers and words that a file may give: `<numeric>`, the first four needed, and `<text>`.
 NUMBERS = ("pad_stiffness", "pad_damping", "plastic_pressure", "shear_strength")
-OF_EACH_PAD = ("pad_stiffness", "pad_damping")
-MORE_NUMBERS = ("bending_mass", "bending_frequency", "bending_damping")
+OF_EACH_PAD = ("pad_stiffness", "pad_damping", "pad_curvature")
+MORE_NUMBERS = ("pad_curvature", "bending_mass", "bending_frequency", "bending_damping")
 WORDS = ("pads_on", "stick_capacity")
 #: What pads and buffers are called, by the convention of names.
+_STOREY = re.compile(r"storey_[1-9][0-9]*")
 _PAD, _BUFFER = re.compile(r"pad_([A-Za-z0-9]+)"), re.compile(r"buffer_([A-Za-z0-9]+)_[xy]")
 #: What acts on a body and has no place in a rig: list in the compiled spec -> what it is called.
 _FORBIDDEN = {
@@ -109,11 +110,13 @@ def _check_bodies(file: Mjcf) -> None:
                 raise file.refused(
                     f"the body {body.name} lies in {parent!r}; move it into {wanted!r}", "body", body.name
                 )
+        elif _STOREY.fullmatch(body.name) and free:
+            continue  # `mjcf_storeys.py` holds it to what a storey is
         elif body.jntnum[0] or (mass > _NOTHING and i not in fixed):
             what = f"has a mass of {mass:g} kg, which would not be counted" if mass > _NOTHING else "has joints"
             raise file.refused(
                 f"the body {body.name or i!r} {what}; give its mass and inertia to the girder, or fix it to the "
-                "girder, the only body that moves",
+                "girder; besides it only storeys move: storey_1, storey_2 ... as in building.xml",
                 "body",
                 body.name,
             )
@@ -167,7 +170,7 @@ def _check_geom_masses(file: Mjcf) -> None:
     """Refuse a mass of a geom that MuJoCo does not count, because the body says its own."""
     if int(file.spec.compiler.inertiafromgeom) == _FROM_GEOMS or not file.spec.body("girder").explicitinertial:
         return
-    for geom in file.spec.body("girder").geoms:
+    for geom in (g for body in file.spec.bodies if body.explicitinertial and body.name != "table" for g in body.geoms):
         if geom.mass > 0.0 or geom.density not in (0.0, _UNSAID):
             given = f"mass of {geom.mass:g} kg" if geom.mass > 0.0 else f"density of {geom.density:g} kg/m^3"
             raise file.refused(

@@ -3,18 +3,21 @@
 Everything stands in one file, what all rigs share (`models/common.xml`) included, so that it can be passed on.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
 from slipwise.rig.files import models_folder
 from slipwise.rig.places import Buffer, Place
 from slipwise.rig.specimen import Specimen
+from slipwise.rig.storeys import Storey
 
 #: What the table reaches beyond the pads, and the girder's deck above the sliding plane [m]: for the eye alone.
 _MARGIN, _DECK = 0.25, 0.08
 #: Thickness of plates and soles, half of it [m].
 _PLATE = 0.01
+#: Inertia of a floor about its own middle over the girder's [1].
+_SMALL = 1e-6
 _DRIVEN = ("table_x slide 1 0 0", "table_y slide 0 1 0", "table_z slide 0 0 1", "table_pitch hinge 0 1 0")
 _FREE = (
     "girder_x slide 1 0 0", "girder_y slide 0 1 0", "girder_z slide 0 0 1", "girder_roll hinge 1 0 0",
@@ -79,6 +82,8 @@ def _custom(specimen: Specimen) -> list[str]:
         values |= {
             name: (getattr(specimen, name),) for name in ("bending_mass", "bending_frequency", "bending_damping")
         }
+    if any(p.curvature for p in specimen.places):
+        values["pad_curvature"] = tuple(p.curvature for p in specimen.places)
     for name, given in values.items():
         out.append(f'<numeric name="{name}" data="{_numbers(given[:1] if len(set(given)) == 1 else given)}"/>')
     return out
@@ -135,7 +140,40 @@ def _girder(specimen: Specimen) -> list[str]:
     if specimen.free:
         for edge, x in ((1, specimen.edge_distance), (2, -specimen.edge_distance)):
             inside.append(f'<site name="girder_edge_{edge}" pos="{x!r} 0 0" size="0.02" rgba="0.1 0.1 0.8 1"/>')
+    inside += _frame(specimen, specimen.storeys, 1, float(centre[2]))
     return [f'<body name="girder" pos="{_numbers(centre)}">', *(f"  {line}" for line in inside), "</body>"]
+
+
+def storey_names(specimen: Specimen) -> tuple[str, ...]:
+    """Give what the storeys are called, in the MJCF and in channels, from below: "storey_1" ..."""
+    return tuple(f"storey_{number}" for number in range(1, len(specimen.storeys) + 1))
+
+
+def _frame(specimen: Specimen, storeys: Sequence[Storey], number: int, below: float) -> list[str]:
+    """Write a storey, the others upon it, as bodies that slide on what is below, whose origin stands at a height [m].
+
+    A floor is a mass without an inertia of its own, which MuJoCo must have: a millionth of the girder's.
+    """
+    if not storeys:
+        return []
+    storey, name = storeys[0], f"storey_{number}"
+    joints = (
+        ("x", "1 0 0", storey.stiffness_x, storey.damping_x),
+        ("y", "0 1 0", storey.stiffness_y, storey.damping_y),
+    )
+    inside = [
+        f'<joint name="{name}_{axis}" type="slide" axis="{along}" stiffness="{stiffness!r}" damping="{damping!r}"/>'
+        for axis, along, stiffness, damping in joints
+    ]
+    inertia = _numbers([_SMALL * max(specimen.inertia)] * 3)
+    size = _numbers([*np.maximum(0.8 * np.array(specimen.half_spacing), 0.2), 0.03])
+    inside += [
+        f'<inertial pos="0 0 0" mass="{storey.mass!r}" diaginertia="{inertia}"/>',
+        f'<geom name="{name}" type="box" size="{size}" material="girder" class="visual"/>',
+        f'<site name="{name}" pos="0 0 0" size="0.03" rgba="0.8 0.1 0.1 1"/>',
+        *_frame(specimen, storeys[1:], number + 1, storey.z),
+    ]
+    return [f'<body name="{name}" pos="0 0 {storey.z - below!r}">', *(f"  {line}" for line in inside), "</body>"]
 
 
 def _tendons(specimen: Specimen) -> list[str]:

@@ -25,6 +25,7 @@ class Place:
         radius: of the sliding disc [m].
         stiffness: vertical, of the pad with its cell [N/m].
         damping: vertical [N s/m].
+        curvature: 1/R of its sliding face, above zero for a bowl: a pendulum; 0 for a flat plate [1/m].
     """
 
     name: str
@@ -34,6 +35,7 @@ class Place:
     radius: float
     stiffness: float
     damping: float
+    curvature: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -99,6 +101,7 @@ def values_of(part: Place | Buffer) -> dict[str, tuple[float, ...]]:
             "pad_radius": (part.radius,),
             "pad_stiffness": (part.stiffness,),
             "pad_damping": (part.damping,),
+            "pad_curvature": (part.curvature,),
         }
     return {
         "buffer_places": (part.x, part.y),

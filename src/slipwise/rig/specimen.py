@@ -11,6 +11,7 @@ from slipwise.rig.bounds import BOUNDS, out_of_bounds
 from slipwise.rig.changed_parts import PART_VALUES, changed_parts
 from slipwise.rig.places import MOST_PADS, Buffer, Place, check_parts, mean
 from slipwise.rig.similarity import LENGTH_SCALE
+from slipwise.rig.storeys import Storey, check_storeys
 
 
 @dataclass(frozen=True)
@@ -20,7 +21,7 @@ class Specimen:
     Attributes:
         name: as in its file.
         path: the file: MJCF or specimen.toml.
-        mass: of girder and everything above the pads [kg].
+        mass: of the girder with all that is fixed to it [kg].
         inertia: about the centre of gravity, roll, pitch, yaw [kg m^2].
         centre_height: centre of gravity above the sliding plane [m].
         centre_x: centre of gravity off the middle of the table [m].
@@ -36,6 +37,7 @@ class Specimen:
         bending_damping: its fraction of critical damping [1].
         edge_distance: of the two gauges of `girder_az_1` and `_2` from the centre of gravity, along x [m].
         gravity: [m/s^2].
+        storeys: of a frame that stands on the girder, from below; none for a rigid specimen.
         free: whether the girder can move horizontally; False where slip is prescribed.
         sources: where each rated value comes from.
     """
@@ -50,6 +52,7 @@ class Specimen:
     shear_strength: float
     buffers: tuple[Buffer, ...]
     gravity: float
+    storeys: tuple[Storey, ...] = ()
     free: bool = True
     centre_x: float = 0.0
     centre_y: float = 0.0
@@ -68,6 +71,9 @@ class Specimen:
                 raise SettingError(f"{self.name}: {wrong}")
         check_parts(self.name, "pad", self.places)
         check_parts(self.name, "buffer", self.buffers)
+        check_storeys(self.name, self.storeys, 0.0)
+        if self.storeys and not self.free:
+            raise SettingError(f"{self.name}: storeys need a girder that is free; the slip of this one is prescribed")
         fewest = 3 if self.free else 1
         if not fewest <= len(self.places) <= (MOST_PADS if self.free else 1):
             possible = f"3 to {MOST_PADS} pads" if self.free else "one pad"
@@ -123,6 +129,11 @@ class Specimen:
         return mean(self.pad_areas)
 
     @property
+    def pad_curvature(self) -> float:
+        """Curvature of a pad's sliding face, their mean where they differ [1/m]; 0 for flat plates."""
+        return mean(place.curvature for place in self.places)
+
+    @property
     def springs(self) -> tuple[float, ...]:
         """Vertical stiffness of each pad, (n_pads,) [N/m]."""
         return tuple(place.stiffness for place in self.places)
@@ -166,9 +177,14 @@ class Specimen:
         return replace(self, places=places, buffers=buffers, **values)
 
     @property
+    def carried_mass(self) -> float:
+        """Mass of all that the pads carry [kg]: the girder and its storeys."""
+        return self.mass + sum(storey.mass for storey in self.storeys)
+
+    @property
     def weight(self) -> float:
-        """Weight of the girder [N]."""
-        return self.mass * self.gravity
+        """Weight of all that the pads carry [N]."""
+        return self.carried_mass * self.gravity
 
     @property
     def rated_pressure(self) -> float:
@@ -202,7 +218,7 @@ class Specimen:
     @property
     def frequency(self) -> float:
         """Natural frequency of the girder on its buffers, without friction [Hz]."""
-        return float(np.sqrt(sum(self.buffer_stiffness) / self.mass) / (2.0 * np.pi))
+        return float(np.sqrt(sum(self.buffer_stiffness) / self.carried_mass) / (2.0 * np.pi))
 
     @property
     def length_scale(self) -> float:

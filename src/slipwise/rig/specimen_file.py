@@ -13,6 +13,7 @@ A = { x = "1.8 m", y = "1.3 m" }
 
 import tomllib
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -23,17 +24,25 @@ from slipwise.rig.known import SPECIMEN_UNITS, SPECIMEN_WORDS
 from slipwise.rig.places import Buffer, Place
 from slipwise.rig.specimen import Specimen
 from slipwise.rig.statics import at_rest
+from slipwise.rig.storeys import Storey
 from slipwise.units import quantity
 
-_PAD = {"x": "m", "y": "m", "z": "m", "radius": "m", "stiffness": "N/m", "damping": "N*s/m"}
+_PAD = {
+    "x": "m", "y": "m", "z": "m", "radius": "m", "stiffness": "N/m", "damping": "N*s/m", "radius_of_curvature": "m",
+}  # fmt: skip
 _BUFFER = {
     "x": "m", "y": "m", "z": "m", "stiffness": "N/m", "stiffness_x": "N/m", "stiffness_y": "N/m", "gap": "m",
 }  # fmt: skip
+_STOREY = {
+    "mass": "kg", "z": "m", "stiffness": "N/m", "stiffness_x": "N/m", "stiffness_y": "N/m", "damping": "N*s/m",
+    "damping_x": "N*s/m", "damping_y": "N*s/m",
+}  # fmt: skip
 #: Quantities of the girder; what is said of all pads or buffers stands in `pad`, [pads] and [buffers].
 _GIRDER = {n: u for n, u in SPECIMEN_UNITS.items() if not n.startswith(("pad_", "buffer_"))} | {"edge_distance": "m"}
-_TABLES = ("box", "inertia", "pad", "pads", "buffers", "sources")
-#: Damping of heave where none is given: fraction of critical [1]. Assumed.
+_TABLES = ("box", "inertia", "pad", "pads", "buffers", "storeys", "sources")
+#: Damping of heave, and of a storey, where none is given: fraction of critical [1]. Assumed.
 _CRITICAL = 0.05
+_OF_A_STOREY = 0.02
 _EXAMPLE = {"mass": "12 t", "centre_height": "0.4 m"}
 #: What stands where nothing is given, and why.
 _USUAL: Mapping[str, tuple[float, str]] = {
@@ -81,6 +90,8 @@ def _specimen(path: Path, content: Mapping[str, Any]) -> Specimen:
     if not isinstance(free, bool):
         raise InputError(f"{where}: free = {free!r}; write true, or false where the slip of one pad is prescribed")
     places = _places(content, where)
+    if any(place.curvature for place in places):
+        sources["pad_curvature"] = where
     if any(np.isnan(place.damping) for place in places):
         places, sources["pad_damping"] = _damped(places, given), f"assumed: {_CRITICAL:.0%} of critical in heave"
     given.setdefault("edge_distance", max((abs(place.x) for place in places), default=0.0) or 1.5)
@@ -91,6 +102,7 @@ def _specimen(path: Path, content: Mapping[str, Any]) -> Specimen:
         inertia=_inertia(content, given["mass"], where),
         places=places,
         buffers=_buffers(content, where),
+        storeys=_storeys(content, where),
         free=free,
         sources=sources | {n: str(words) for n, words in _table(content, "sources", where).items()},
         **given,
@@ -155,6 +167,9 @@ def _places(content: Mapping[str, Any], where: str) -> tuple[Place, ...]:
         for needed in ("x", "y", "radius", "stiffness"):
             if needed not in values:
                 raise InputError(f"{here} lacks {needed}; give it there, or for every pad in pad = {{ ... }}")
+        if not (bend := values.pop("radius_of_curvature", float("inf"))):
+            raise InputError(f"{here}: radius_of_curvature = 0 m cannot be; leave it out where the plate is flat")
+        values["curvature"] = 1.0 / bend
         out.append(Place(name, **values))
     return tuple(out)
 
@@ -163,10 +178,7 @@ def _damped(places: tuple[Place, ...], given: Mapping[str, float]) -> tuple[Plac
     """Give pads the damping that is assumed where none is given: each in proportion to its stiffness."""
     total = sum(place.stiffness for place in places)
     share = 2.0 * _CRITICAL * (given["mass"] / total) ** 0.5 if total > 0.0 and given["mass"] > 0.0 else 0.0
-    return tuple(
-        Place(p.name, p.x, p.y, p.z, p.radius, p.stiffness, share * p.stiffness if np.isnan(p.damping) else p.damping)
-        for p in places
-    )
+    return tuple(replace(p, damping=share * p.stiffness) if np.isnan(p.damping) else p for p in places)
 
 
 def _buffers(content: Mapping[str, Any], where: str) -> tuple[Buffer, ...]:
@@ -174,12 +186,38 @@ def _buffers(content: Mapping[str, Any], where: str) -> tuple[Buffer, ...]:
     for name, given in _table(content, "buffers", where).items():
         here = f"{where}, buffer {name}"
         values = {"z": 0.0, "gap": 0.0} | _quantities(given, _BUFFER, here)
-        both = values.pop("stiffness", None)
-        for axis in "xy":
-            if both is not None:
-                values.setdefault(f"stiffness_{axis}", both)
+        _both_ways(values, "stiffness")
         for needed in ("x", "y", "stiffness_x", "stiffness_y"):
             if needed not in values:
                 raise InputError(f"{here} lacks {needed}; a buffer has x, y and stiffness, or stiffness_x and _y")
         out.append(Buffer(name, **values))
+    return tuple(out)
+
+
+def _both_ways(values: dict[str, float], name: str) -> None:
+    """Take what is said of both directions for each of which nothing is said, in place."""
+    both = values.pop(name, None)
+    for axis in "xy":
+        if both is not None:
+            values.setdefault(f"{name}_{axis}", both)
+
+
+def _storeys(content: Mapping[str, Any], where: str) -> tuple[Storey, ...]:
+    """Collect the storeys, from below; one without damping has 2 % of critical as if its floor stood alone on it."""
+    given = content.get("storeys", [])
+    if not isinstance(given, list):
+        raise InputError(f'{where}: storeys = {given!r}; write each as a table [[storeys]] with mass = "2 t"')
+    out = []
+    for number, table in enumerate(given, 1):
+        here = f"{where}, storey {number}"
+        values = _quantities(table, _STOREY, here)
+        _both_ways(values, "stiffness")
+        _both_ways(values, "damping")
+        for needed in ("mass", "z", "stiffness_x", "stiffness_y"):
+            if needed not in values:
+                raise InputError(f"{here} lacks {needed}; a storey has mass, z and stiffness, or stiffness_x and _y")
+        for axis in "xy":
+            alone = 2.0 * _OF_A_STOREY * (abs(values["mass"] * values[f"stiffness_{axis}"])) ** 0.5
+            values.setdefault(f"damping_{axis}", alone)
+        out.append(Storey(**values))
     return tuple(out)

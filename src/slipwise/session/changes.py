@@ -73,6 +73,22 @@ def with_number(ready: Evaluator, state: State, key: str, value: float | str) ->
     return replace(state, values={**state.values, key: found}, fitted=False, words=edited, edit=key)
 
 
+def removed(ready: Evaluator, state: State, effect: str) -> State:
+    """Give a state without an effect.
+
+    Args:
+        ready: the campaign.
+        state: as it is.
+        effect: its name, or its label ("channel_gain[pad_A_N]").
+
+    Raises:
+        SettingError: the model does not hold it, or cannot do without it.
+    """
+    ready.model_of(state).without(effect)  # says what it holds
+    terms = tuple(t for t in state.terms if effect not in (t.label, t.effect.name))
+    return _having(ready, state, terms, {}, f"{effect} removed")
+
+
 def without_additions(ready: Evaluator, state: State) -> State:
     """Give a state without the effects that have no role in the base model, all other numbers as they are."""
     terms = tuple(t for t in state.terms if t.effect.base)

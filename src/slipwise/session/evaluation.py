@@ -10,7 +10,7 @@ from slipwise.campaign.scales import scales_of
 from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.selection import prepared
 from slipwise.estimation.base_fit import BaseFit, free_numbers, scaled_model, with_logger
-from slipwise.estimation.least_squares import Solution
+from slipwise.estimation.least_squares import Solution, solve
 from slipwise.estimation.parameters import Free, inertia_free, stick_damping_free, terms_of
 from slipwise.estimation.problem import Problem
 from slipwise.estimation.residuals import Residuals
@@ -115,6 +115,11 @@ class Evaluator:
         left = residuals.stacked(problem.fitted, problem.relations)
         solution = Solution(dict(state.values), free, residuals, np.empty((0, 0)), float(left @ left), 0)
         return BaseFit(self.campaign, self.model_of(state), problem, free, solution)
+
+    def with_slopes(self, state: State) -> BaseFit:
+        """Give a state that was fitted as a fit with its slopes, for screening."""
+        fit = self.as_fit(state)
+        return replace(fit, solution=solve(fit.problem, dict(state.values), list(fit.free), most=1))
 
 
 def evaluator(campaign: Campaign, model: Model | None) -> tuple[Evaluator, State]:

@@ -20,12 +20,14 @@ class Kept:
     Attributes:
         history: every step.
         reference: the state with which errors are compared.
+        accepted: whether model.toml holds that one.
         findings: what was found last, as plain data.
         notes: what a user should know of how it was taken up again.
     """
 
     history: History
     reference: State
+    accepted: bool = False
     findings: Mapping[str, dict[str, Any]] = field(default_factory=dict[str, dict[str, Any]])
     notes: tuple[str, ...] = ()
 
@@ -41,6 +43,7 @@ class Kept:
             "model": _hash_of(model),
             "history": self.history.as_json(),
             "reference": as_json(self.reference),
+            "accepted": self.accepted,
             "findings": dict(self.findings),
         }
 
@@ -76,13 +79,15 @@ def resumed(
         return replace(begun(start), notes=(words,))
     try:
         history = history_from_json(content["history"], effect_of)
-        kept = Kept(history, from_json(content["reference"], effect_of), content["findings"])
+        reference = from_json(content["reference"], effect_of)
+        kept = Kept(history, reference, content["accepted"], content["findings"])
     except SlipwiseError as error:
         return replace(begun(start), notes=(f"the last session was not taken up again: {error}",))
     if not given and content["model"] == _hash_of(model):
         return kept
     words = "the model was read anew; undo leads back to the last session"
-    return replace(kept, history=history.pushed(replace(start, words="the model was read anew")), notes=(words,))
+    anew = history.pushed(replace(start, words="the model was read anew"))
+    return replace(kept, history=anew, accepted=False, notes=(words,))
 
 
 def _hash_of(path: Path) -> str:

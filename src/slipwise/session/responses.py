@@ -1,14 +1,16 @@
-"""What an engineer reads off: the held-out run replayed in MuJoCo, with an effect and without it."""
+"""What an engineer reads off: a run replayed in MuJoCo, and the error of such replays."""
 
+import re
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.comparison.measured_replay import measured_motion, simulation_step
-from slipwise.comparison.system_level import replayed_model
+from slipwise.comparison.system_level import pooled_system, replayed_model, system_level
 from slipwise.diagnosis.importance import memory_before
-from slipwise.errors import InputError
+from slipwise.errors import InputError, SettingError
 from slipwise.record import Record
 from slipwise.session.evaluation import Evaluator
 from slipwise.session.state import State
@@ -17,11 +19,13 @@ from slipwise.simulation.replay import replay
 Array = NDArray[np.float64]
 #: What is read off -> SI unit; of a measurement also, but for the time that no pad's cell can tell.
 RESPONSES: dict[str, str] = {"peak_slip": "m", "energy": "J", "largest_load": "N", "uplift": "s"}
+#: Of the noise that a replay is given beside [1].
+_SEED = 1
 
 
 @dataclass(frozen=True)
-class HeldOutReplay:
-    """A run that no fit has seen, driven by the table's measured motion alone.
+class RunReplay:
+    """A run driven by the table's measured motion alone.
 
     Attributes:
         run: name.
@@ -36,18 +40,53 @@ class HeldOutReplay:
     measured: dict[str, float]
 
 
-def replay_held_out(ready: Evaluator, state: State) -> HeldOutReplay:
-    """Replay the first held-out run (the last one where none is held out), memory carried over from those before.
+def replayed_run(ready: Evaluator) -> str:
+    """Give the name of the run that is replayed unless another is named: the first held out, else the last."""
+    return next((r.name for r in ready.runs if r.role == "holdout"), ready.runs[-1].name)
+
+
+def replay_errors(ready: Evaluator, state: State, progress: Callable[[float], None] | None = None) -> dict[str, float]:
+    """Give the errors at system level, of held-out runs if there are any: channels -> error in floors.
+
+    Replays restart from the measured slip every second, and their floor has the noise of what they are fed with in it.
+
+    Args:
+        ready: the campaign.
+        state: whose model.
+        progress: called with the share done; what it raises ends the work.
 
     Raises:
         InputError: the slip is prescribed, or the table's motion was not recorded.
     """
-    if not ready.model.specimen.free:
-        raise InputError("the slip of this rig is prescribed: there is nothing to replay")
+    _check_free(ready)
+    errors = system_level(ready.as_fit(state), np.random.default_rng(_SEED), progress).errors
+    held = any(e.role == "holdout" for e in errors)
+    names = dict.fromkeys(re.sub(r"^pad_[^_]+_", "pad_*_", e.channel) for e in errors)
+    found = {name: pooled_system(errors, name, held_out=held) for name in names}
+    return {name: error for name, error in found.items() if error is not None}
+
+
+def replay_run(ready: Evaluator, state: State, name: str = "") -> RunReplay:
+    """Replay a run, memory carried over from those before.
+
+    Args:
+        ready: the campaign.
+        state: whose model.
+        name: of the run; `replayed_run` if not given.
+
+    Raises:
+        SettingError: no such run.
+        InputError: the slip is prescribed, or the table's motion was not recorded.
+    """
+    name = name or replayed_run(ready)
+    _check_free(ready)
     fit = ready.as_fit(state)
     model, _ = replayed_model(fit)
     runs = fit.problem.runs
-    place = (fit.problem.held_out or [len(runs) - 1])[0]
+    names = [r.name for r in runs]
+    if name not in names:
+        raise SettingError(f"no run {name!r}; runs: {', '.join(names)}")
+    place = names.index(name)
     run = runs[place]
     answer = replay(
         model,
@@ -68,4 +107,9 @@ def replay_held_out(ready: Evaluator, state: State) -> HeldOutReplay:
         "energy": float(np.sum(run.force * run.velocity[:, None]) * run.dt),
         "largest_load": float(np.nanmax(run.load)),
     }
-    return HeldOutReplay(run.name, answer.record, responses, measured)
+    return RunReplay(run.name, answer.record, responses, measured)
+
+
+def _check_free(ready: Evaluator) -> None:
+    if not ready.model.specimen.free:
+        raise InputError("the slip of this rig is prescribed: there is nothing to replay")

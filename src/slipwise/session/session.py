@@ -1,6 +1,7 @@
 """The session: compare, see where it fails, learn what is missing, add it, watch the error fall, go back."""
 
 import io
+from base64 import b64encode
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -20,9 +21,10 @@ from slipwise.session.evaluation import BalanceError, errors_of, evaluator
 from slipwise.session.findings import discovered, explained, suggested
 from slipwise.session.fitting import Progress, fit_state
 from slipwise.session.kept import Kept, resumed
-from slipwise.session.responses import HeldOutReplay, replay_held_out
+from slipwise.session.place import session_folder
+from slipwise.session.responses import RunReplay, replay_errors, replay_run
 from slipwise.session.series import Series, series_of
-from slipwise.session.snapshot import Store, session_folder
+from slipwise.session.snapshot import Store
 from slipwise.session.sources import Sources
 from slipwise.session.state import State, from_json
 from slipwise.shown import Drawn, Tabular
@@ -36,6 +38,7 @@ class Session(Drawn, Tabular):
         ready: the campaign as fits see it.
         history: every step.
         reference: the state with which errors are compared: the last that was fitted at the beginning, or accepted.
+        accepted: whether the model.toml beside the campaign holds that one.
         findings: "explain", "discover": what was found last, as plain data.
         notes: what a user should know of how the session was opened.
         store: its folder on disk; None for a session that leaves nothing there.
@@ -56,7 +59,7 @@ class Session(Drawn, Tabular):
             campaign: or its folder.
             model: or its model.toml; the model.toml beside the campaign, or the paper's law on its rig, if not given.
             trust: effect files that a model or the last session names and that may be run.
-            resume: go on where the last session ended.
+            resume: go on where the last session ended; else from the model as it is stated, and undo leads back.
             keep: keep every step on disk; another program cannot open the campaign meanwhile.
 
         Raises:
@@ -66,17 +69,18 @@ class Session(Drawn, Tabular):
         self.campaign = as_campaign(campaign)
         self._sources = Sources(self.campaign, trust)
         self._file = self.campaign.folder / "model.toml"
-        self.store = Store(session_folder(self.campaign)) if keep else None
+        self.store = Store(self.campaign.folder) if keep else None
         try:
             stated = model if model is not None else self._file if self._file.is_file() else None
             self.ready, start = evaluator(self.campaign, None if stated is None else self._sources.model(stated))
-            before = self.store.read() if resume and self.store is not None else None
-            kept = resumed(before, self.campaign, self._file, self._kept_effect, start, given=model is not None)
+            before = self.store.read() if self.store is not None else None
+            given = model is not None or not resume
+            kept = resumed(before, self.campaign, self._file, self._kept_effect, start, given=given)
         except BaseException:
             self.close()
             raise
         self.history, self.reference, self.notes = kept.history, kept.reference, kept.notes
-        self.findings = dict(kept.findings)
+        self.accepted, self.findings = kept.accepted, dict(kept.findings)
         self.keep()
 
     @property
@@ -100,7 +104,7 @@ class Session(Drawn, Tabular):
             UnknownNameError: no such effect.
             SettingError: effects that cannot act together, or a target that is missing or is none.
         """
-        return self._push(changes.toggled(self.ready, self.state, self._effect(effect), target))
+        return self.push(changes.toggled(self.ready, self.state, self.effect(effect), target))
 
     def set(self, key: str, value: float | str, *, keep: bool = True) -> State:
         """Change one number of the model.
@@ -115,7 +119,7 @@ class Session(Drawn, Tabular):
             SettingError: a value out of bounds.
             UnitError: a unit of the wrong dimension, or none.
         """
-        return self._push(changes.with_number(self.ready, self.state, key, value), keep=keep)
+        return self.push(changes.with_number(self.ready, self.state, key, value), keep=keep)
 
     def errors(self, state: State | None = None) -> tuple[BalanceError, ...]:
         """Give the error of every balance, component level, in floors: of the model as it is now, or of a state."""
@@ -146,7 +150,7 @@ class Session(Drawn, Tabular):
             progress: called with what is being done and the share done; what it raises ends the fit, and the session
                 is as before.
         """
-        return self.fitted(fit_state(self.ready, self.state, progress or _silent))
+        return self.fitted(fit_state(self.ready, self.state, progress or (lambda words, share: None)))
 
     def fitted(self, state: State) -> State:
         """Take over a state that a fit has found, here or in another process.
@@ -154,16 +158,16 @@ class Session(Drawn, Tabular):
         The first fit of the model as it was opened is what others are held against.
         """
         if not self.reference.fitted and state.terms == self.reference.terms:
-            self.reference = state
-        return self._push(state)
+            self.reference, self.accepted = state, False
+        return self.push(state)
 
-    def replay(self, state: State | None = None) -> HeldOutReplay:
-        """Replay the held-out run from the table's motion, and read off what an engineer asks for.
+    def replay(self, state: State | None = None, run: str = "") -> RunReplay:
+        """Replay a run, the held-out one if none is named, from the table's motion; see `replay_run`."""
+        return replay_run(self.ready, state or self.state, run)
 
-        Raises:
-            InputError: the slip is prescribed, or the table's motion was not recorded.
-        """
-        return replay_held_out(self.ready, state or self.state)
+    def replay_errors(self, state: State | None = None) -> dict[str, float]:
+        """Give the held-out errors at system level in floors; see `responses.replay_errors`."""
+        return replay_errors(self.ready, state or self.state)
 
     def explain(self, progress: Progress | None = None) -> Diagnosis:
         """Say which effect the model lacks, as it is now; `take_suggestion` puts it in."""
@@ -185,7 +189,7 @@ class Session(Drawn, Tabular):
     @property
     def folder(self) -> Path:
         """Where a session of this campaign lies, with the effect files of laws that were found."""
-        return session_folder(self.campaign)
+        return session_folder(self.campaign.folder)
 
     def remember(self, kind: str, content: Mapping[str, Any]) -> None:
         """Keep a finding, made here or in another process."""
@@ -200,7 +204,7 @@ class Session(Drawn, Tabular):
         """
         parts = suggested(self.findings.get("explain"), self._kept_effect)
         names = ", ".join(term.label for term, _ in parts)
-        return self._push(changes.with_terms(self.ready, self.state, parts, f"{names} added, as suggested"))
+        return self.push(changes.with_terms(self.ready, self.state, parts, f"{names} added, as suggested"))
 
     def accept(self, path: Path | str | None = None) -> Path:
         """Write the model as it is now; from here on errors are compared with it.
@@ -208,11 +212,11 @@ class Session(Drawn, Tabular):
         Args:
             path: of the model.toml; the one beside the campaign if not given.
         """
-        path = self._file if path is None else Path(path)
-        save_model(self.model, path)
-        self.reference = self.state
+        target = self._file if path is None else Path(path)
+        save_model(self.model, target)
+        self.reference, self.accepted = self.state, target.resolve() == self._file.resolve()
         self.keep()
-        return path
+        return target
 
     def undo(self) -> State:
         """Go one step back; a SettingError says that there is none."""
@@ -249,7 +253,7 @@ class Session(Drawn, Tabular):
         if self.store is not None:
             self.store.close()
 
-    def _effect(self, name: str) -> Effect:
+    def effect(self, name: str) -> Effect:
         """Give an effect of the model with its bounds there, which hold what was stated; or another."""
         held = next((u.effect for u in self.ready.model.uses if u.effect.name == name), None)
         return held or self._sources.effect(name)
@@ -260,9 +264,10 @@ class Session(Drawn, Tabular):
         return from_json(content, lambda name: self._kept_effect(name, sources))
 
     def _kept_effect(self, name: str, sources: Sources | None = None) -> Effect:
-        return self._effect(name) if name in catalogue() else (sources or self._sources).kept_effect(name)
+        return self.effect(name) if name in catalogue() else (sources or self._sources).kept_effect(name)
 
-    def _push(self, state: State, *, keep: bool = True) -> State:
+    def push(self, state: State, *, keep: bool = True) -> State:
+        """Take a state as the next step."""
         self.history = self.history.pushed(state)
         if keep:
             self.keep()
@@ -271,7 +276,7 @@ class Session(Drawn, Tabular):
     def keep(self) -> None:
         """Write every step to disk, as each does by itself."""
         if self.store is not None:
-            kept = Kept(self.history, self.reference, self.findings)
+            kept = Kept(self.history, self.reference, self.accepted, self.findings)
             self.store.write(kept.as_json(self.campaign, self._file))
 
     def _headline(self) -> str:
@@ -286,11 +291,7 @@ class Session(Drawn, Tabular):
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         """Give a notebook the table and the picture."""
-        drawn = io.StringIO()
-        self.plot().savefig(drawn, format="svg")
-        svg = drawn.getvalue()
-        return {"text/plain": repr(self), "text/html": self._repr_html_() + svg[svg.index("<svg") :]}
-
-
-def _silent(words: str, share: float) -> None:
-    pass
+        drawn = io.BytesIO()
+        self.plot().savefig(drawn, format="png", dpi=90)
+        picture = f'<img alt="error before and now" src="data:image/png;base64,{b64encode(drawn.getvalue()).decode()}">'
+        return {"text/plain": repr(self), "text/html": self._repr_html_() + picture}

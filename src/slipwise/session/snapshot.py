@@ -8,26 +8,18 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from slipwise.cache import cache_folder
 from slipwise.campaign import Campaign
 from slipwise.errors import InputError
 from slipwise.record import write_text
+from slipwise.session.place import session_folder, snapshot_file
 
 try:
     import fcntl
 except ModuleNotFoundError:  # Windows
     fcntl = None
 
-_SCHEMA = 1
-_NAME, _LOCK = "session.json", "lock"
-
-
-def session_folder(campaign: Campaign) -> Path:
-    """Give the folder of a campaign's session: beside its files, or in the cache where nothing may be written there."""
-    folder = campaign.folder.resolve()
-    if os.access(folder, os.W_OK):
-        return folder / ".slipwise"
-    return cache_folder() / "sessions" / f"{folder.name}-{sha256(str(folder).encode()).hexdigest()[:12]}"
+_SCHEMA = 2
+_LOCK = "lock"
 
 
 def fingerprint(campaign: Campaign) -> str:
@@ -39,13 +31,17 @@ def fingerprint(campaign: Campaign) -> str:
 class Store:
     """The folder of a session, held by one program as long as it is open."""
 
-    def __init__(self, folder: Path) -> None:
-        """Take the folder.
+    def __init__(self, campaign: Path) -> None:
+        """Take the folder of the session.
+
+        Args:
+            campaign: folder of the campaign.
 
         Raises:
             InputError: another program works there; the message says which, and where.
         """
-        self.folder = folder
+        folder = self.folder = session_folder(campaign)
+        self._file = snapshot_file(campaign)
         folder.mkdir(parents=True, exist_ok=True)
         self._lock = open(folder / _LOCK, "a+", encoding="utf-8")  # noqa: SIM115  held until `close`
         if fcntl is not None:
@@ -71,14 +67,14 @@ class Store:
     def read(self) -> Mapping[str, Any] | None:
         """Give what was written last; None where nothing was, or by another version."""
         try:
-            content = json.loads((self.folder / _NAME).read_text(encoding="utf-8"))
+            content = json.loads(self._file.read_text(encoding="utf-8"))
         except (OSError, ValueError):
             return None
         return content if isinstance(content, dict) and content.get("schema") == _SCHEMA else None
 
     def write(self, content: Mapping[str, Any]) -> None:
         """Write a snapshot; a program that is killed leaves the one before."""
-        write_text(self.folder / _NAME, json.dumps({"schema": _SCHEMA, **content}, allow_nan=False))
+        write_text(self._file, json.dumps({"schema": _SCHEMA, **content}, allow_nan=False))
 
     def close(self) -> None:
         """Let others take the folder."""

@@ -19,6 +19,7 @@ from scipy.optimize import minimize
 from slipwise.errors import InputError
 from slipwise.signals.ends import Array
 from slipwise.signals.noise import white_level
+from slipwise.signals.sampled_jumps import squared_jumps
 from slipwise.signals.smoother import smooth, unlikelihood
 
 #: A bias wanders by about this in one second [m/s^2].
@@ -46,6 +47,7 @@ class Fused:
         velocity_error: standard deviation that the smoother expects of its own velocity, in the middle [m/s].
         position_noise: of one sample of the gauge [m].
         acceleration_noise: of one sample of the relative acceleration [m/s^2]; 0 without accelerometers.
+        velocity_errors: (n,) as `velocity_error`, where it differs from sample to sample; else None.
     """
 
     position: Array
@@ -55,6 +57,7 @@ class Fused:
     velocity_error: float
     position_noise: float
     acceleration_noise: float
+    velocity_errors: Array | None = None
 
 
 def fuse(
@@ -65,6 +68,7 @@ def fuse(
     levels: tuple[float, float] | None = None,
     *,
     may_jump: bool = False,
+    undersampled: bool = False,
 ) -> Fused:
     """Fuse a displacement gauge with accelerometers, or smooth it alone.
 
@@ -78,6 +82,8 @@ def fuse(
         velocity: (n,) recorded velocity [m/s], NaN where missing; None when there is none.
         levels: noise of one sample of position [m] and acceleration [m/s^2], as if it were white; None: not known. A
             recorded velocity, or no acceleration, leaves more to be known, and they are not used.
+        undersampled: whether the acceleration was sampled without a filter, so that nobody knows at which instant of a
+            step it jumped: speed may then be wrong by J dt/sqrt(12) after a jump J.
         may_jump: whether the speed may change at once, as an actuator's does; looked for where only the gauge is known.
 
     Raises:
@@ -102,6 +108,8 @@ def fuse(
     jumps = np.zeros(len(steps))
     if may_jump and acceleration is None and velocity is None:
         found, variances, jumps = _with_jumps(steps, ramp, half, place, found)
+    if undersampled and acceleration is not None:
+        jumps = squared_jumps(acceleration, float(found[2])) * steps**2 / 12.0
     state, spread = smooth(steps, ramp, half, place, *variances, jumps)
     with_bias = state[:, 2] if acceleration is not None else np.zeros(len(time))
     relative = -state[:, 2] if acceleration is None else acceleration - state[:, 2]
@@ -110,7 +118,8 @@ def fuse(
         velocity=state[:, 1],
         acceleration=relative,
         bias=with_bias,
-        velocity_error=float(np.sqrt(spread[len(time) // 2])),
+        velocity_error=float(np.sqrt(np.median(spread) if undersampled else spread[len(time) // 2])),
+        velocity_errors=np.sqrt(spread) if undersampled and jumps.any() else None,
         position_noise=float(found[0]),
         acceleration_noise=float(found[2]) if acceleration is not None else 0.0,
     )

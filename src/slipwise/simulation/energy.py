@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.rig import Rig
+from slipwise.rig import Rig, storey_names
 from slipwise.simulation.sensor_channels import has_sensor, sensor
 
 Array = NDArray[np.float64]
@@ -25,8 +25,8 @@ class EnergyBook:
         table: work of the table's acceleration on the girder, in the table's frame.
         friction: dissipated and stored at the pads along x and y, (n_pads, 2).
         buffers: dissipated and stored in the buffers.
-        others: work of gravity, of the pads' contacts, of drag, of the shear keys' vertical friction and of the bending
-            mode on the girder.
+        others: work of gravity, of the columns of storeys, of the pads' contacts, of drag, of the shear keys' vertical
+            friction and of the bending mode on the girder.
     """
 
     rig: Rig
@@ -78,6 +78,9 @@ class EnergyBook:
         if has_sensor(rig, "at_bending"):
             self._add_bending(sensordata, at)
         kinetic = 0.5 * np.sum(inertia * ends**2, axis=1)
+        if specimen.storeys:
+            rate = np.concatenate([sensor(rig, f"rate_girder_{n}", sensordata) for n in names], axis=1)
+            kinetic += self._add_storeys(sensordata, control, at, rate)
         if self.kinetic_start is None:
             self.kinetic_start = float(kinetic[0])
         self.kinetic_end = float(kinetic[1])
@@ -91,6 +94,30 @@ class EnergyBook:
         pull = omega**2 * q - specimen.gravity + 2.0 * specimen.bending_damping * omega * rate
         spring = specimen.bending_mass * pull
         self.others += _work(spring, np.diff(at[:, 2:3], axis=0))
+
+    def _add_storeys(self, sensordata: Array, control: Array, at: Array, rate: Array) -> Array:
+        """Book what moves the floors and what their columns take; gives their kinetic energy at both ends (2,) [J]."""
+        specimen, kinetic = self.rig.specimen, np.zeros(2)
+        place, speed = at[:, :3].copy(), rate[:, :3].copy()
+        for name, storey in zip(storey_names(specimen), specimen.storeys, strict=True):
+            arm, moved = storey.z - specimen.centre_height, []
+            for axis, (stiffness, damping) in enumerate(
+                ((storey.stiffness_x, storey.damping_x), (storey.stiffness_y, storey.damping_y))
+            ):
+                bent = sensor(self.rig, f"at_{name}_{'xy'[axis]}", sensordata)
+                bending = sensor(self.rig, f"rate_{name}_{'xy'[axis]}", sensordata)
+                self.others -= _work(stiffness * bent + damping * bending, np.diff(bent, axis=0))
+                place[:, axis : axis + 1] += bent
+                speed[:, axis : axis + 1] += bending
+                turned = (4, 1.0) if axis == 0 else (3, -1.0)  # pitch moves what is above along x, roll along -y
+                moved.append([states[:, turned[0]] * turned[1] * arm for states in (at, rate)])
+            along = place + np.stack([moved[0][0], moved[1][0], np.zeros(len(at))], axis=1)
+            velocity = speed + np.stack([moved[0][1], moved[1][1], np.zeros(len(at))], axis=1)
+            steps = np.diff(along, axis=0)
+            self.table += _work(-storey.mass * control[:, :3], steps)
+            self.others += _work(np.full((len(at), 1), -storey.mass * specimen.gravity), steps[:, 2:3])
+            kinetic += 0.5 * storey.mass * np.sum(velocity[[0, -1]] ** 2, axis=1)
+        return kinetic
 
     @property
     def dissipated(self) -> float:

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.rig import Rig
+from slipwise.rig import Rig, storey_names
 
 Array = NDArray[np.float64]
 Reader = Callable[[str], Array]
@@ -48,6 +48,9 @@ def to_channels(rig: Rig, sensordata: Array, control: Array, dt: float, pitching
     for edge in ("1", "2"):
         if has_sensor(rig, f"girder_edge_{edge}"):
             out[f"girder_az_{edge}"] = sensor(rig, f"girder_edge_{edge}", sensordata)[:, 2] - specimen.gravity
+    for storey in storey_names(specimen):
+        for i, axis in enumerate("xy"):
+            out[f"{storey}_a{axis}"] = sensor(rig, storey, sensordata)[:, i]
     half_step = 0.5 * dt
     if specimen.free:
         turning = sensor(rig, "turning", sensordata)

@@ -24,7 +24,8 @@ def numbers_for(law: Kernel, rig: Rig, model: Model, dt: float) -> Array:
     """Fill the law's array with everything that a simulation needs, at rest."""
     numbers = fill(law.layout, model, dt)
     count, dofs = len(rig.specimen.pads), rig.model.nv
-    numbers[places.N_DOFS] = dofs
+    arms = min(dofs, MAX_DOFS)
+    numbers[places.N_DOFS], numbers[places.N_ARMS] = dofs, arms
     numbers[places.USER_SENSOR] = rig.user_sensor
     axes = ("x", "y", "z", "roll", "pitch", "yaw")
     numbers[places.GIRDER_DOF : places.GIRDER_DOF + 6] = [_dof(rig.model, f"girder_{axis}") for axis in axes]
@@ -34,7 +35,7 @@ def numbers_for(law: Kernel, rig: Rig, model: Model, dt: float) -> Array:
     numbers[places.TABLE_DOF], numbers[places.TABLE_VELOCITY] = _dof(rig.model, "table_x"), np.nan
     tendons = np.array(rig.tendons).reshape(-1, 2)
     jacobian = np.zeros((len(tendons), 2, MAX_DOFS))
-    jacobian[:, :, :dofs] = rig.jacobian.reshape(-1, 2, dofs)
+    jacobian[:, :, :arms] = rig.jacobian.reshape(-1, 2, dofs)[:, :, :arms]
     jacobian = jacobian.reshape(len(tendons), 2 * MAX_DOFS)
     pads, buffers = pad_blocks(law.layout, numbers), buffer_blocks(law.layout, numbers)[: len(tendons) - count]
     pads[:, places.PAD_GEOM] = rig.pad_geoms

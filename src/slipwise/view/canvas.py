@@ -12,7 +12,19 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from slipwise.view.style import styled
 from slipwise.whole_file import atomic
 
+#: Of a figure in a notebook.
+_DPI = 90
 _REFERENCE = re.compile(r'(\bid="|href="#|url\(#)')
+
+
+class ShownFigure(Figure):
+    """A figure that a notebook shows by itself, whatever backend is chosen there."""
+
+    def _repr_png_(self) -> bytes:
+        drawn = io.BytesIO()
+        with styled():
+            self.savefig(drawn, format="png", dpi=_DPI, metadata={"Software": None})
+        return drawn.getvalue()
 
 
 def new_figure(width: float, height: float, title: str = "") -> Figure:
@@ -23,7 +35,7 @@ def new_figure(width: float, height: float, title: str = "") -> Figure:
         height: [inch].
         title: above everything.
     """
-    figure = Figure(figsize=(width, height), layout="constrained")
+    figure = ShownFigure(figsize=(width, height), layout="constrained")
     FigureCanvasAgg(figure)
     if title:
         figure.suptitle(title, x=0.01, y=1.0 - 0.15 / height, ha="left", va="top", fontsize=13.0, fontweight="bold")

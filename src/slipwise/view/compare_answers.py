@@ -1,5 +1,7 @@
 """A comparison in words: what everybody asks first, and the answers in a sentence each."""
 
+from typing import Any
+
 from slipwise.comparison.cells import ALLOWANCE
 from slipwise.comparison.component_level import NAMES
 from slipwise.comparison.result import Comparison
@@ -13,7 +15,7 @@ def headline(found: Comparison) -> tuple[str, str, Tone]:
     if not found.places:
         return (
             "Nothing above the noise floor is left",
-            f"The largest error of any component is {error:.2f} floors {where} ({NAMES[relation][0]}).",
+            f"The largest error of any balance is {error:.2f} floors {where} ({NAMES[relation][0]}).",
             "good",
         )
     words = f"{capital(NAMES[relation][0])} errs by {error:.3g} times the noise floor {where}."
@@ -27,6 +29,14 @@ def one_minute(found: Comparison) -> list[tuple[str, str]]:
         ("What is the noise floor?", _floor_words(found)),
         ("How well does the model do?", _error_words(found)),
         ("Exactly where does it fail?", place_words(found)),
+    ]
+
+
+def error_rows(found: Comparison) -> list[dict[str, Any]]:
+    """Give the error of every balance in floors as rows of a table."""
+    return [
+        {"balance": NAMES[r][0], "fitted": found.error(r, held_out=False), "held out": found.error(r, held_out=True)}
+        for r in found.relations
     ]
 
 
@@ -62,7 +72,7 @@ def _error_words(found: Comparison) -> str:
     known = {r: e for r, e in errors.items() if e is not None}
     good = [r for r, e in known.items() if e <= ALLOWANCE]
     bad = sorted((r for r in known if r not in good), key=lambda r: -known[r])
-    words = f"{len(good)} of {len(known)} components are at the floor"
+    words = f"{len(good)} of {len(known)} balances are at the floor"
     if bad:
         words += "; above it: " + ", ".join(f"{NAMES[r][0]} {known[r]:.3g}" for r in bad)
     if found.system:
@@ -82,7 +92,7 @@ def place_words(found: Comparison) -> str:
         return "Nowhere: no state of motion, pad, speed, pressure or run stands above the floor."
     first = found.places[0].words
     more = len(found.places) - 1
-    return capital(first) + (f". And {more} more component{'s' if more > 1 else ''}, below." if more else ".")
+    return capital(first) + (f". And {more} more balance{'s' if more > 1 else ''}, below." if more else ".")
 
 
 def size(value: float | None, unit: str) -> str:

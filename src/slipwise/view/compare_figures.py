@@ -1,5 +1,7 @@
 """Figures of a comparison: errors over the floor, overlaid histories and loops."""
 
+from textwrap import fill
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -26,8 +28,8 @@ def shown_run(found: Comparison) -> int:
     return held[0] if held else len(found.base.problem.runs) - 1
 
 
-def errors_figure(found: Comparison) -> Figure:
-    """Draw every component's and channel's error in multiples of its floor, fitted and held-out runs apart."""
+def errors_figure(found: Comparison, *, narrow: bool = False) -> Figure:
+    """Draw every balance's and channel's error in multiples of its floor, fitted and held-out runs apart."""
     rows: list[tuple[str, float | None, float | None]] = [
         (NAMES[r][0], found.error(r, held_out=False), found.error(r, held_out=True)) for r in found.relations
     ]
@@ -46,7 +48,7 @@ def errors_figure(found: Comparison) -> Figure:
             if any(p is not None for p in pair):
                 rows.append((label, pair[0], pair[1]))
     with styled():
-        figure = new_figure(9.0, 1.1 + 0.42 * len(rows))
+        figure = new_figure(4.7 if narrow else 9.0, 1.1 + 0.42 * len(rows))
         axes = figure.add_subplot()
         places = -np.arange(len(rows), dtype=float) - np.where(np.arange(len(rows)) >= split, 0.6, 0.0)
         largest = max(v for _, a, b in rows for v in (a, b) if v is not None)
@@ -57,7 +59,8 @@ def errors_figure(found: Comparison) -> Figure:
                 if value is None:
                     continue
                 above = value > ALLOWANCE and colour == _HELD
-                axes.barh(place + shift, value, height=height, color=UPLIFT if above else colour, zorder=2)
+                words = "held-out runs" if colour == _HELD else "fitted runs"
+                axes.barh(place + shift, value, height, color=UPLIFT if above else colour, zorder=2, label=words)
                 axes.text(
                     value * 1.03,
                     place + shift,
@@ -66,19 +69,21 @@ def errors_figure(found: Comparison) -> Figure:
                     fontsize=8.5 if colour == _HELD else 7.5,
                     color=INK if colour == _HELD else MUTED,
                 )
-        axes.set_yticks(places, [r[0] for r in rows])
+        axes.set_yticks(places, [fill(r[0], 16) if narrow else r[0] for r in rows])
         axes.set_ylim(places[-1] - 0.6, places[0] + 0.6)
         axes.set_xscale("log")
         axes.set_xlim(0.5, max(2.0, largest) * 1.5)
         ticks = [t for t in (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000) if t <= max(2.0, largest) * 1.5]
         axes.set_xticks(ticks, [f"{t:g}" for t in ticks])
         axes.minorticks_off()
-        axes.set_xlabel("error in multiples of the noise floor (1 = only noise is left)")
+        axes.set_xlabel(
+            "error in noise floors" if narrow else "error in multiples of the noise floor (1 = only noise is left)"
+        )
         axes.grid(False, axis="y")
         if found.system:
             for start, words in (
-                (0, "component level: laws fed with what was measured"),
-                (split, "system level: replay from the measured table motion"),
+                (0, "laws fed with what was measured"),
+                (split, "replay from the measured table motion"),
             ):
                 axes.text(
                     0.995,
@@ -92,7 +97,7 @@ def errors_figure(found: Comparison) -> Figure:
                 )
         handles = [Patch(color=c) for c in ("#b9c1cb", _HELD, UPLIFT)]
         words = ["fitted runs", "held-out runs", "held out, above the floor"]
-        figure.legend(handles, words, loc="outside upper right", ncols=3)
+        figure.legend(handles, words, loc="outside upper right", ncols=2 if narrow else 3)
     return figure
 
 

@@ -38,7 +38,7 @@ def _summary(found: Comparison) -> list[Any]:
     for held, label in ((True, "held out"), (False, "fitted")):
         value = found.error(found.worst[0], held_out=held)
         if value is not None:
-            facts[f"worst component, {label}"] = f"{value:.3g} floors"
+            facts[f"worst balance, {label}"] = f"{value:.3g} floors"
     slip = found.system_errors.get("slip_x")
     if slip is not None:
         facts["slip of the replay"] = f"{slip:.3g} floors"
@@ -56,16 +56,17 @@ def _errors(found: Comparison) -> list[Any]:
     pieces: list[Any] = [
         figure(
             figures.errors_figure(found),
-            "Error of every component and channel in multiples of its noise floor. Left of the green line a model "
+            "Error of every balance and channel in multiples of its noise floor. Left of the green line a model "
             "cannot get; blue bars are runs that the fit has not seen.",
-            "Bars of error over floor for every component and channel",
+            "Bars of error over floor for every balance and channel",
+            narrow=figures.errors_figure(found, narrow=True),
         )
     ]
     rows = []
     for e in found.components:
         rows.append(
             {
-                "component": NAMES[e.relation][0],
+                "balance": NAMES[e.relation][0],
                 "run": e.run,
                 "role": e.role,
                 "error [floors]": round(e.error, 3),
@@ -73,7 +74,7 @@ def _errors(found: Comparison) -> list[Any]:
                 "samples": e.samples,
             }
         )
-    pieces.append(details("Every component in every run", [table(rows)]))
+    pieces.append(details("Every balance in every run", [table(rows)]))
     pieces += predicted_runs(found)
     if found.system:
         own = [
@@ -106,9 +107,9 @@ def _places(found: Comparison) -> list[Any]:
     pieces.append(
         figure(
             error_maps.map_figure(found),
-            f"Error by component and state of motion, in floors. Bold: above the floor beyond doubt (more than "
+            f"Error by balance and state of motion, in floors. Bold: above the floor beyond doubt (more than "
             f"{ALLOWANCE:g} floors, corrected for the {len(found.cells)} cells looked at).",
-            "Table of error over floor by component and state of motion",
+            "Table of error over floor by balance and state of motion",
         )
     )
     for relation in error_maps.shown_relations(found):
@@ -119,7 +120,7 @@ def _places(found: Comparison) -> list[Any]:
                     error_maps.patterns_figure(found, relation),
                     f"{capital(called)}: mean residual (measured less predicted) over every state, both directions "
                     "of sliding apart, with two standard errors. Mirrored curves are friction, equal curves a constant "
-                    "pull.",
+                    "pull. Hollow: too few independent samples to say how sure the mean is.",
                     f"Mean residual of {called} over states of motion",
                 )
             )
@@ -135,7 +136,7 @@ def _places(found: Comparison) -> list[Any]:
         pieces.append(details("The worst cells", [table([_cell_row(c) for c in worst])]))
     split = [
         {
-            "component": NAMES[p.relation][0],
+            "balance": NAMES[p.relation][0],
             "turns with the direction [floors]": round(p.odd, 2),
             "does not turn [floors]": round(p.even, 2),
             "rms sliding to +x": round(p.plus, 2),
@@ -154,7 +155,7 @@ def _cell_row(cell: Cell) -> dict[str, Any]:
         unit, factor = UNITS[cell.kind]
         label = f"{factor * cell.low:.3g} to {factor * cell.high:.3g} {unit}"
     return {
-        "component": NAMES[cell.relation][0],
+        "balance": NAMES[cell.relation][0],
         "sorted by": cell.kind,
         "cell": label,
         "error [floors]": round(cell.error, 2),
@@ -205,14 +206,14 @@ def _floor(found: Comparison) -> list[Any]:
         again = row["repeated_runs"]
         rows.append(
             {
-                "component": NAMES[row["relation"]][0],
+                "balance": NAMES[row["relation"]][0],
                 "while sliding": size(row["floor"], row["unit"]),
                 "near reversals": size(row["near_reversals"], row["unit"]),
                 "a repeated run shows": "" if again is None else f"{again:.2f} floors",
             }
         )
     words = (
-        "The floor of a component is what a perfect model would leave: noise of its gauges, and near reversals the "
+        "The floor of a balance is what a perfect model would leave: noise of its gauges, and near reversals the "
         "noise of the velocity, which turns friction round a little early or late. A repeated run tests it: what "
         "differs between two runs of one motion is noise."
     )

@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.ladder import Ladder, LadderStep
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.unknown_surface import WORDS, Surface
@@ -16,11 +17,10 @@ from slipwise.view.numbers import in_words, usual_unit
 from slipwise.view.style import EXPECTED, INK, MODEL_COLOURS, MUTED
 
 Array = NDArray[np.float64]
-#: Balance -> how it is written under an axis.
-RELATIONS: dict[str, str] = {
-    "pads": "pads\nF(N, v)", "girder": "girder\nbalance", "heave": "heave\nsum N", "pitch": "pitch", "roll": "roll",
-    "warp": "warp", "motion": "slip against\naccelerometers", "across": "pads\nacross",
-}  # fmt: skip
+#: Inches across which a figure has on a desk, and on a phone.
+_WIDE, _NARROW = 8.0, 4.7
+#: Letters of a line under an axis.
+_LINE = 14
 #: Letters that fit under the axes of a ladder.
 _WIDEST = 95
 #: Letters that fit over one of two panels.
@@ -32,9 +32,14 @@ _SMALL = 1000.0
 _BEFORE, _AFTER = MODEL_COLOURS[0], MODEL_COLOURS[5]
 
 
-def balances_figure(found: Diagnosis) -> Figure:
+def under_axis(relation: str) -> str:
+    """Write what a balance is called under an axis, in short lines."""
+    return fill(NAMES[relation][0], _LINE)
+
+
+def balances_figure(found: Diagnosis, *, narrow: bool = False) -> Figure:
     """Draw the error of every balance, before and after, in multiples of the floor; held-out where runs are."""
-    figure = new_figure(8.0, 3.4)
+    figure = new_figure(_NARROW if narrow else _WIDE, 3.4)
     axes = figure.subplots()
     names = list(found.relations)
     places = np.arange(len(names))
@@ -44,7 +49,7 @@ def balances_figure(found: Diagnosis) -> Figure:
         axes.bar(places + 0.19, after, 0.36, color=_AFTER, label=_with(found))
     axes.axhline(1.0, color=INK, lw=1.0, ls="--")
     axes.annotate("noise floor", (1.0, 1.0), xycoords=("axes fraction", "data"), ha="right", va="bottom", color=MUTED)
-    axes.set_xticks(places, [RELATIONS.get(n, n) for n in names])
+    axes.set_xticks(places, [under_axis(n) for n in names], rotation=90 if narrow else 0, fontsize=8.0)
     held = found.search.base.problem.held_out
     axes.set_ylabel(f"{'held-out error' if held else 'error on fitted runs'} / floor")
     axes.legend()

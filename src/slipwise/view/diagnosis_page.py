@@ -102,7 +102,11 @@ def _evidence(found: Diagnosis) -> Section:
                 f"Every balance of the rig, on {where}, in multiples of the noise floor: 1 is what a perfect model "
                 "leaves. Pads are driven by measured load and speed: each part answers for itself."
             ),
-            figure(balances_figure(found), f"{errors}{', before and after' if found.added else ''}."),
+            figure(
+                balances_figure(found),
+                f"{errors}{', before and after' if found.added else ''}.",
+                narrow=balances_figure(found, narrow=True),
+            ),
             figure(loops_figure(found), f"Friction of one pad against slip in {run}."),
             *(paragraph(f"{run.words}.") for run in found.predicted_friction),
         ],

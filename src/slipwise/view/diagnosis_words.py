@@ -2,6 +2,8 @@
 
 from math import isfinite
 
+from slipwise.comparison.component_level import NAMES
+from slipwise.diagnosis.ladder import FLOOR_REACHED
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.verdict import Verdict
 
@@ -33,6 +35,36 @@ def confirmed_words(found: Diagnosis) -> str:
     if found.confirmed:
         return f"Confirmed on runs that no fit has seen: {runs}."
     return f"It does not carry over to {runs}, which no fit has seen: the error there does not fall."
+
+
+def four_answers(found: Diagnosis) -> list[tuple[str, str]]:
+    """Give the four questions that everybody asks, with their answers in a sentence each."""
+    good = [NAMES[r][0] for r, (base, _) in found.relations.items() if base < FLOOR_REACHED]
+    bad = {NAMES[r][0]: pair for r, pair in found.relations.items() if pair[0] >= FLOOR_REACHED}
+    after = bool(found.added)
+    fails = ", ".join(f"{n} {floors(a)}" + (f" -> {floors(b)}" if after else "") for n, (a, b) in bad.items())
+    agrees = ", ".join(good) + (" are" if len(good) > 1 else " is") + " at the noise floor." if good else "No balance."
+    return [
+        ("What agrees?", agrees),
+        ("Where does it fail?", f"In noise floors: {fails}." if fails else "Nowhere: no balance is above its floor."),
+        ("What is missing?", found.sentence),
+        ("What next?", _next_words(found)),
+    ]
+
+
+def _next_words(found: Diagnosis) -> str:
+    if found.discriminating_tests:
+        return f"To tell them apart: {found.discriminating_tests[0]}"
+    if found.law:
+        return f"{found.law['words']} `slipwise discover` writes it as an effect."
+    match found.verdict.kind:
+        case "instrument":
+            return "See to the gauge, or correct it: `slipwise audit` says how."
+        case "unknown":
+            return "`slipwise discover` looks for its law."
+        case "complete":
+            return "Nothing: the model may be used as far as these motions go."
+    return f"Put it into the model: `slipwise diagnose --accept`. Then: {found.left_over}."
 
 
 def weighed(found: Verdict) -> tuple[str, ...]:

@@ -12,7 +12,7 @@ from slipwise.discovery.splines import knots_of
 from slipwise.discovery.states import State
 from slipwise.view.canvas import new_figure
 from slipwise.view.compare_figures import widest_loop
-from slipwise.view.diagnosis_figures import RELATIONS
+from slipwise.view.diagnosis_figures import under_axis
 from slipwise.view.discovery_figures import LAW
 from slipwise.view.discovery_samples import after, left_over, predicted_acceleration, predicted_forces, predicted_load
 from slipwise.view.discovery_words import state_axis
@@ -43,11 +43,12 @@ def errors(found: Discovery) -> dict[str, dict[str, tuple[float, float | None]]]
     }
 
 
-def errors_figure(found: Discovery) -> Figure:
-    """Draw the error of every balance before and after, on fitted and on held-out runs."""
+def errors_figure(found: Discovery, *, narrow: bool = False) -> Figure:
+    """Draw the error of every balance before and after, of fitted and of held-out runs; if narrow, in a column."""
     groups = errors(found)
-    figure = new_figure(10.0, 3.8)
-    panels = figure.subplots(1, len(groups), sharey=True, squeeze=False)[0]
+    figure = new_figure(4.7, 3.4 * len(groups)) if narrow else new_figure(10.0, 3.8)
+    shape = (len(groups), 1) if narrow else (1, len(groups))
+    panels = figure.subplots(*shape, sharey=True, squeeze=False).ravel()
     for axes, (words, levels) in zip(panels, groups.items(), strict=True):
         places = np.arange(len(levels))
         before, later = zip(*levels.values(), strict=True)
@@ -56,7 +57,7 @@ def errors_figure(found: Discovery) -> Figure:
         if both:
             axes.bar(places + 0.19, later, 0.36, color=_AFTER, label="with the law")
         axes.axhline(1.0, color=mpl.rcParams["text.color"], lw=1.0, ls="--", label="noise floor")
-        axes.set_xticks(places, [RELATIONS.get(r, r) for r in levels], rotation=45, ha="right")
+        axes.set_xticks(places, [under_axis(r) for r in levels], rotation=90, fontsize=8.0)
         axes.set_title(words)
     panels[0].set_ylabel("error / floor")
     panels[-1].legend()

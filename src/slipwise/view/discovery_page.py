@@ -83,7 +83,11 @@ def _taken_away(found: Discovery) -> list[Section]:
             row[f"{runs}, before"] = floors(before)
             row |= {} if later is None else {f"{runs}, with the law": floors(later)}
     pair = ", before and with the law" if found.laws else ""
-    drawn = figure(errors_figure(found), f"Error of every balance{pair}; 1 is what a perfect model leaves.")
+    drawn = figure(
+        errors_figure(found),
+        f"Error of every balance{pair}; 1 is what a perfect model leaves.",
+        narrow=errors_figure(found, narrow=True),
+    )
     sections = [Section("The error of every balance", [drawn, table(list(rows.values()), "Error in noise floors")])]
     words = loop_words(found)
     caption = f"{words[0].upper()}{words[1:]} against slip: measured{pair}."

@@ -4,7 +4,9 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from slipwise.comparison.component_level import NAMES
 from slipwise.comparison.motion_states import STATES
@@ -35,7 +37,7 @@ def map_figure(found: Comparison) -> Figure:
         figure = new_figure(9.5, 1.2 + 0.45 * len(relations))
         axes = figure.add_subplot()
         top = max(3.0, float(np.nanmax(values)))
-        axes.imshow(np.log(np.clip(values, 1.0, top)), cmap="magma_r", vmin=0.0, vmax=1.35 * np.log(top), aspect="auto")
+        axes.imshow(np.clip(values, 1.0, top), cmap="magma_r", norm=LogNorm(1.0, top**1.35), aspect="auto")
         for (i, j), value in np.ndenumerate(values):
             if np.isfinite(value):
                 dark = np.log(max(value, 1.0)) > 0.7 * np.log(top)
@@ -58,8 +60,12 @@ def map_figure(found: Comparison) -> Figure:
 
 
 def patterns_figure(found: Comparison, relation: str) -> Figure:
-    """Draw the mean residual of a relation over every state of motion, both directions apart."""
-    own = [p for p in found.patterns if p.relation == relation]
+    """Draw the mean residual of a relation over every state of motion that has samples, both directions apart.
+
+    The state that explains most comes first; bins with too few independent samples for an error are hollow.
+    """
+    own = [p for p in found.patterns if p.relation == relation and np.isfinite([p.plus, p.minus, *p.few]).any()]
+    own.sort(key=lambda p: (-p.explained, -_largest(p)))
     with styled():
         height = 2.7 * int(np.ceil(len(own) / 3)) + 0.3
         figure = new_figure(10.5, height)
@@ -68,7 +74,10 @@ def patterns_figure(found: Comparison, relation: str) -> Figure:
             _pattern(axes, pattern)
         for axes in panels[len(own) :]:
             axes.set_axis_off()
-        panels[0].legend(loc="best", fontsize=8.0)
+        marks = [Line2D([], [], color=c, marker="o", markersize=4.0) for c in (_PLUS, _MINUS)]
+        hollow = Line2D([], [], color=MUTED, marker="o", markersize=4.0, markerfacecolor="white", linestyle="none")
+        words = ("sliding to +x", "sliding to −x", "too few independent samples")
+        figure.legend([*marks, hollow], words, loc="outside upper right", ncols=3, fontsize=8.0)
         for axes in panels[::3]:
             axes.set_ylabel("mean residual [floors]")
     return figure
@@ -127,10 +136,14 @@ def _pattern(axes: Axes, pattern: Pattern) -> None:
     middle = factor * 0.5 * (pattern.edges[1:] + pattern.edges[:-1])
     axes.axhspan(-1.0, 1.0, color="#eef1f4", zorder=0)
     axes.axhline(0.0, color="#b8c0cb", linewidth=0.8)
-    for mean, error, colour, words in (
-        (pattern.plus, pattern.plus_error, _PLUS, "sliding to +x"),
-        (pattern.minus, pattern.minus_error, _MINUS, "sliding to −x"),
+    for mean, error, few, colour, words in (
+        (pattern.plus, pattern.plus_error, pattern.few[0], _PLUS, "sliding to +x"),
+        (pattern.minus, pattern.minus_error, pattern.few[1], _MINUS, "sliding to −x"),
     ):
+        axes.plot(
+            middle, few, color=colour, marker="o", markersize=3.5, markerfacecolor="white", linewidth=0.6,
+            linestyle=":", label=f"{words}, few independent samples",
+        )  # fmt: skip
         axes.errorbar(
             middle,
             mean,
@@ -143,4 +156,15 @@ def _pattern(axes: Axes, pattern: Pattern) -> None:
             label=words,
         )
     axes.set_xlabel(f"{_STATES_CALLED.get(pattern.kind, pattern.kind)} [{unit}]")
-    axes.set_title(f"explains {pattern.explained:.0%}", fontsize=9.0)
+    axes.set_title(_explains(pattern), fontsize=9.0)
+
+
+def _explains(pattern: Pattern) -> str:
+    if pattern.explained >= 0.005:
+        return f"explains {pattern.explained:.0%}"
+    return "no more than noise would" if np.isfinite([pattern.plus, pattern.minus]).any() else "too few to judge"
+
+
+def _largest(pattern: Pattern) -> float:
+    """Give the largest mean residual of any bin [floors]."""
+    return float(np.nanmax(np.abs([pattern.plus, pattern.minus, *pattern.few])))

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from slipwise.errors import visible
 from slipwise.view.canvas import figure_svg
+from slipwise.view.figure_files import export
 from slipwise.view.html_style import STYLE
 from slipwise.view.terminal import cell
 
@@ -103,20 +104,29 @@ def table(rows: Sequence[Mapping[str, Any]], caption: str = "", marked: Sequence
     return Html(f'<div class="scroll" tabindex="0">{whole}</div>')
 
 
-def figure(picture: Figure | bytes, caption: str, alternative: str = "") -> Html:
+def figure(picture: Figure | bytes, caption: str, alternative: str = "", *, narrow: Figure | None = None) -> Html:
     """Make a figure with its caption.
 
     Args:
         picture: a matplotlib figure, which becomes SVG, or the bytes of a PNG file.
         caption: below the picture.
         alternative: what the picture shows, for those who cannot see it; the caption if not given.
+        narrow: the same for a phone, where the other would have to be scrolled.
     """
     words = escape(alternative or caption, quote=True)
     if isinstance(picture, Figure):
-        drawn = f'<div class="picture" role="img" aria-label="{words}">{figure_svg(picture)}</div>'
+        svg = figure_svg(picture)
+        export(picture, svg, alternative or caption)
+        drawn = _drawn(svg, words, "picture" if narrow is None else "picture wide")
+        if narrow is not None:
+            drawn += _drawn(figure_svg(narrow), words, "narrow")
     else:
         drawn = f'<img alt="{words}" src="data:image/png;base64,{base64.b64encode(picture).decode()}">'
     return Html(f"<figure>{drawn}<figcaption>{_inline(caption)}</figcaption></figure>")
+
+
+def _drawn(svg: str, words: str, kind: str) -> str:
+    return f'<div class="{kind}" role="img" aria-label="{words}">{svg}</div>'
 
 
 def verdict(headline: str, words: str, tone: Tone, facts: Mapping[str, Any] | None = None) -> Html:

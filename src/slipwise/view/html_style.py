@@ -51,6 +51,7 @@ nav li {{ break-inside: avoid; padding: .12rem 0; }}
 nav a {{ text-decoration: none; }} nav a:hover {{ text-decoration: underline; }}
 figure {{ margin: 1.4rem 0; }}
 figure img, figure svg {{ display: block; width: 100%; height: auto; }}
+.narrow {{ display: none; }}
 figcaption {{ color: var(--muted); font-size: .92rem; margin-top: .5rem; max-width: 46rem; }}
 .scroll {{ overflow-x: auto; margin: 1.2rem 0; }}
 table {{ border-collapse: collapse; font-size: .95rem; font-variant-numeric: tabular-nums; }}
@@ -77,14 +78,21 @@ summary {{ cursor: pointer; font-weight: 600; }}
   :root {{ {DARK} }}
   tr.marked td {{ background: #3a3015; }}
   figure svg, figure img {{ border-radius: 8px; background: {PAPER}; }} }}
-@media (max-width: 40rem) {{
+@media screen and (max-width: 40rem) {{
   main {{ padding: 1rem; }} header, header > div {{ padding-left: .5rem; padding-right: .5rem; }}
   figure .picture {{ overflow-x: auto; }} figure .picture svg {{ min-width: 40rem; }}
+  figure .wide {{ display: none; }} figure .narrow {{ display: block; }}
   nav ol {{ columns: 1; }} }}
 @media print {{
-  @page {{ margin: 16mm; }}
-  body {{ font-size: 10.5pt; }} header, nav ol, .verdict, aside {{ background: none; }}
-  main {{ padding: 0; }} nav {{ display: none; }} a {{ color: inherit; text-decoration: none; }}
-  figure, .verdict, aside, tr {{ break-inside: avoid; }} h2 {{ break-after: avoid; }}
+  @page {{ size: A4; margin: 14mm 13mm; }}
+  body {{ font-size: 9.5pt; line-height: 1.4; }} header, nav ol, .verdict, aside {{ background: none; }}
+  header, main {{ padding-left: 0; padding-right: 0; }} header > div, main {{ max-width: none; padding: 0; }}
+  nav {{ display: none; }} a {{ color: inherit; text-decoration: none; }}
+  h2 {{ font-size: 13pt; margin: 1.2rem 0 .4rem; break-after: avoid; }} p, ul, aside, figcaption {{ max-width: none; }}
+  figure {{ margin: .6rem 0; }} figure, .verdict, aside, tr {{ break-inside: avoid; }}
+  figure svg, figure img {{ max-height: 105mm; }}
+  .scroll {{ overflow: visible; margin: .6rem 0; }} table {{ font-size: 7.5pt; max-width: 100%; }}
+  th, td {{ padding: .12rem .5rem .12rem .1rem; overflow-wrap: anywhere; }}
+  details {{ border: 0; padding: 0; }}
   details > *:not(summary) {{ display: block; }} details::details-content {{ content-visibility: visible; }} }}
 """

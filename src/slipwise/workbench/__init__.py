@@ -4,11 +4,13 @@
 """
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from slipwise.effects import Trust
+if TYPE_CHECKING:
+    from slipwise.effects import Trust
 
 
-def serve(campaign: Path | str, *, trust: Trust = False, port: int = 0, show: bool = True) -> None:
+def serve(campaign: Path | str, *, trust: "Trust" = False, port: int = 0, show: bool = True) -> None:
     """Open a campaign on a page of this machine, and stay until Ctrl-C; what is done there is on disk at once.
 
     Args:

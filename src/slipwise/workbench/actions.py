@@ -24,7 +24,8 @@ async def act(room: Room, page: Page, message: Mapping[str, Any]) -> None:
 async def _act(room: Room, page: Page, message: Mapping[str, Any]) -> None:
     match message["do"]:
         case "look":
-            await room.look(page, str(message["run"]), str(message["relation"]), str(message["beside"]))
+            seen = [str(message[key]) for key in ("run", "relation", "beside")]
+            await room.look(page, seen[0], seen[1], seen[2], watches=bool(message.get("watches")))
         case "drag":
             await room.drag(page, str(message["key"]), float(message["value"]), _whole(message["n"]))
         case "settle":

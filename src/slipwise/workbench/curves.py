@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from slipwise.model import base_model
-from slipwise.session.responses import RESPONSES, HeldOutReplay
+from slipwise.session.responses import RESPONSES, RunReplay
 from slipwise.session.session import Session
 from slipwise.session.state import State
 from slipwise.workbench.frames import frame
@@ -24,11 +24,13 @@ class View:
         run: name.
         relation: balance whose history is shown.
         beside: "", `BEFORE`, `PAPER`, or the name of a model file of the campaign's folder.
+        watches: whether a recorded channel is shown, of which only a replay says anything.
     """
 
     run: str
     relation: str = "pads"
     beside: str = ""
+    watches: bool = False
 
 
 def beside_of(session: Session, view: View) -> State | None:
@@ -88,7 +90,7 @@ def curves_frame(session: Session, view: View, answers: int = 0, *, dragged: boo
     return frame(head, arrays)
 
 
-def replay_frame(now: HeldOutReplay, without: HeldOutReplay | None, left_out: list[str]) -> bytes:
+def replay_frame(now: RunReplay, without: RunReplay | None, left_out: list[str]) -> bytes:
     """Pack the replay of the held-out run, with what an engineer reads off, with and without what was added.
 
     Args:
@@ -105,4 +107,14 @@ def replay_frame(now: HeldOutReplay, without: HeldOutReplay | None, left_out: li
         "without": None if without is None else without.responses,
         "left_out": left_out,
     }
-    return frame(head, {"time": now.record.time, **{f"channel:{n}": v for n, v in now.record.channels.items()}})
+    return frame(head, _channels(now))
+
+
+def watched_frame(watched: RunReplay) -> bytes:
+    """Pack the replay of a run whose channels somebody looks at."""
+    return frame({"kind": "watched", "run": watched.run}, _channels(watched))
+
+
+def _channels(replayed: RunReplay) -> dict[str, Any]:
+    record = replayed.record
+    return {"time": record.time, **{f"channel:{n}": v for n, v in record.channels.items()}}

@@ -1,7 +1,6 @@
 """One session, the pages that look at it, and the work that is done for them; every change goes through here."""
 
 import asyncio
-import time
 from collections.abc import Awaitable, Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -12,11 +11,15 @@ from slipwise.campaign import Campaign
 from slipwise.effects import Trust
 from slipwise.errors import SettingError
 from slipwise.parallel import one_thread_algebra
+from slipwise.session.responses import replayed_run
 from slipwise.session.session import Session
 from slipwise.session.state import as_json, from_json, named
-from slipwise.workbench.curves import View, curves_frame, measured_frame, replay_frame
+from slipwise.workbench.curves import View, curves_frame, measured_frame, replay_frame, watched_frame
+from slipwise.workbench.jobs import SHOWN
+from slipwise.workbench.kept_page import keep_page
+from slipwise.workbench.lanes import Lane, Piece
 from slipwise.workbench.told import campaign_told, progress_told, state_told
-from slipwise.workbench.worker import Report, Worker
+from slipwise.workbench.worker import Report
 
 #: Gives text (as JSON) or bytes to one page.
 Send = Callable[[Mapping[str, Any] | bytes], Awaitable[None]]
@@ -39,18 +42,11 @@ class Page:
     measured: set[str]
 
 
-@dataclass
-class _Piece:
-    job: str
-    asked: bool
-    number: int = 0
-    began: float = 0.0
-
-
 class Room:
-    """A session with its pages and its worker.
+    """A session with its pages, and two processes that work for it.
 
-    Work that nobody has asked for (a replay after a change, where the model fails) makes way for what a user wants.
+    Work that nobody has asked for (a replay after a change, where the model fails) is done aside, so that what a user
+    asks for begins at once.
     """
 
     def __init__(self, campaign: Campaign | Path | str, trust: Trust) -> None:
@@ -58,55 +54,66 @@ class Room:
         self.session = Session(campaign, trust=trust)
         self.pages: list[Page] = []
         self._thread = ThreadPoolExecutor(1)
-        self._trust = trust
-        self._waiting: list[_Piece] = []
-        self._now: _Piece | None = None
-        self._replay: bytes | None = None
+        self._shown: dict[str, Mapping[str, Any] | bytes] = {}
         self._laws: set[str] = set()
-        self._worker: Worker | None = None
+        self._loop: asyncio.AbstractEventLoop | None = None
+        folder = self.session.campaign.folder
+        self._asked = Lane(folder, trust, self._listen, aside=False)
+        self._aside = Lane(folder, trust, self._listen, aside=True)
 
     def begin(self) -> None:
-        """Take the running loop, for the worker's reports."""
-        loop = asyncio.get_running_loop()
+        """Take the running loop, for the reports of the work."""
+        self._loop = asyncio.get_running_loop()
 
-        def listen(report: Report) -> None:
-            if not loop.is_closed():
-                asyncio.run_coroutine_threadsafe(self._hear(report), loop)
-
-        self._worker = Worker(self.session.campaign.folder, self._trust, listen)
+    def _listen(self, lane: Lane, report: Report) -> None:
+        if self._loop is not None and not self._loop.is_closed():
+            asyncio.run_coroutine_threadsafe(self._hear(lane, report), self._loop)
 
     def close(self) -> None:
         """End the worker and the session; all that was done is on disk."""
-        if self._worker is not None:
-            self._worker.close()
+        for lane in (self._asked, self._aside):
+            lane.close()
         self._thread.shutdown(cancel_futures=True)
+        self._keep_page()
         self.session.close()
 
     async def enter(self, send: Send) -> Page:
         """Let a page in: it is told everything, and shown the run that fails worst."""
-        worst = max(await self._do(self.session.errors), key=lambda e: max(e.runs.values()))
-        page = Page(send, View(max(worst.runs, key=lambda run: worst.runs[run])), set())
+        page = Page(send, await self._do(self._first_view), set())
         self.pages.append(page)
         await send(await self._do(lambda: campaign_told(self.session)))
         await send(await self._do(lambda: state_told(self.session)))
         await self.show(page)
-        if self._replay is not None:
-            await send(self._replay)
-        self._ask_for_what_is_missing()
+        for message in self._shown.values():
+            await send(message)
+        await self._ask_for_what_is_missing()
         return page
+
+    def _first_view(self) -> View:
+        """Give what a new page looks at: the run in which a balance fails worst."""
+        worst = max(self.session.errors(), key=lambda e: max(e.runs.values()))
+        return View(max(worst.runs, key=lambda run: worst.runs[run]))
+
+    def _keep_page(self) -> None:
+        """Keep what a new page is told, for the next time that the campaign is opened."""
+        view = self._first_view()
+        told = [campaign_told(self.session), state_told(self.session)]
+        curves = [measured_frame(self.session, view.run), curves_frame(self.session, view)]
+        keep_page(self.session.campaign.folder, [*told, *curves, *self._shown.values()])
 
     def leave(self, page: Page) -> None:
         """Let a page go; nothing else changes."""
         if page in self.pages:
             self.pages.remove(page)
 
-    async def look(self, page: Page, run: str, relation: str, beside: str) -> None:
+    async def look(self, page: Page, run: str, relation: str, beside: str, *, watches: bool = False) -> None:
         """Let a page look at something else."""
         names = [r.name for r in self.session.ready.runs]
         relations = await self._do(lambda: self.session.ready.problem(self.session.state).relations)
         if run in names and relation in relations:
-            page.view = View(run, relation, beside)
+            page.view = View(run, relation, beside, watches)
             await self.show(page)
+            await self._ask_for_watched()
 
     async def show(self, page: Page, answers: int = 0, *, dragged: bool = False) -> None:
         """Give a page the curves that it looks at; in a hurry while a number is dragged."""
@@ -156,82 +163,96 @@ class Room:
         await self._tell_all()
 
     async def work(self, job: str) -> None:
-        """Begin a piece of work that a user asks for; what nobody asked for makes way."""
-        assert self._worker is not None
-        if self._now is not None and self._now.asked:
-            raise SettingError(f"{self._now.job} is still at work; wait for it, or cancel it")
-        self._waiting.insert(0, _Piece(job, asked=True))
-        if self._now is not None:
-            self._waiting.append(_Piece(self._now.job, asked=False))
-            self._worker.call_off()
-        self._next()
+        """Begin a piece of work that a user asks for.
+
+        Raises:
+            SettingError: another one is still at work, or a fit that is to change the model.
+        """
+        self._asked.refuse_if_busy()
+        if job in _CHANGING:
+            self._refuse_while_fitting()
+        self._asked.ask(job)
+        await self._next()
 
     def cancel(self) -> None:
-        """Call off the work that is being done."""
-        if self._worker is not None:
-            self._worker.call_off()
+        """Call off the work that a user has asked for, or what is done aside."""
+        (self._aside if self._asked.now is None else self._asked).call_off()
 
     def _refuse_while_fitting(self) -> None:
-        if self._now is not None and self._now.job in _CHANGING:
+        if self._asked.now is not None and self._asked.now.job in _CHANGING:
             raise SettingError("a fit is at work on this model; wait for it, or cancel it")
 
-    def _ask_for_what_is_missing(self) -> None:
+    async def _ask_for_what_is_missing(self) -> None:
         """Ask for the base fit, the replay and the places where the model fails, where nobody has yet."""
         if not self.session.reference.fitted and not self.session.state.fitted:
-            self._background("fit")
-        if self._replay is None:
-            self._background("replay")
+            self._asked.ask("fit")  # until it is done there is little else that a user could want
+        if "replay" not in self._shown:
+            self._aside.ask("replay")
+            self._aside.ask("system")
         if "locate" not in self.session.findings:
-            self._background("locate")
-        self._next()
+            self._aside.ask("locate")
+        await self._next()
 
-    def _background(self, job: str) -> None:
-        if all(piece.job != job for piece in self._waiting):
-            self._waiting.append(_Piece(job, asked=False))
+    async def _ask_for_watched(self) -> None:
+        """Ask for the replays of runs whose channels somebody looks at."""
+        usual = replayed_run(self.session.ready)
+        for run in {page.view.run for page in self.pages if page.view.watches} - {usual}:
+            if f"watch {run}" not in self._shown:
+                self._aside.ask("watch", run)
+        await self._next()
 
-    def _next(self) -> None:
-        """Begin what waits, if nothing is being done."""
-        if self._now is not None or not self._waiting or self._worker is None:
-            return
-        piece = self._now = self._waiting.pop(0)
-        piece.began = time.monotonic()
-        piece.number = self._worker.start(piece.job, as_json(self.session.state))
+    async def _next(self) -> None:
+        """Begin what waits."""
+        for lane in (self._asked, self._aside):
+            begun = lane.next(lambda: as_json(self.session.state))
+            if begun is not None:  # told at once: a process that has to be started first says nothing for a while
+                await self._send_all(progress_told(begun.job, "getting ready", 0.0, 0.0, aside=lane.aside))
 
-    async def _hear(self, report: Report) -> None:
-        piece = self._now
+    async def _hear(self, lane: Lane, report: Report) -> None:
+        piece = lane.now
         if piece is None or report.number != piece.number:
             return
-        seconds = time.monotonic() - piece.began
         if report.kind == "progress":
             words, share = report.content
-            await self._send_all(progress_told(piece.job, words, share, seconds))
+            await self._send_all(progress_told(piece.job, words, share, piece.seconds, aside=lane.aside))
             return
-        self._now = None
+        lane.now = None
         if report.kind == "done":
-            await self._take(piece.job, report.content)
+            await (self._show_answer if piece.job in SHOWN else self._take)(piece, report.content)
         elif report.kind == "failed":
             await self._send_all({"kind": "problem", "job": piece.job, "words": report.content})
-        ended = {"kind": "ended", "job": piece.job, "how": report.kind, "seconds": seconds}
+        ended = {"kind": "ended", "job": piece.job, "how": report.kind, "aside": lane.aside, "seconds": piece.seconds}
         await self._send_all(ended)
-        self._next()
+        await self._next()
+        if self._asked.now is None and self._aside.now is None:
+            self._asked.warm()
+            await self._do(self._keep_page)
 
-    async def _take(self, job: str, answer: Any) -> None:
-        """Take an answer of the worker into the session, and show it."""
-        if job == "replay":
-            if isinstance(answer, str):
-                await self._send_all({"kind": "no replay", "words": answer})
-            else:
-                self._replay = replay_frame(*answer)
-                await self._send_all(self._replay)
+    async def _show_answer(self, piece: Piece, answer: Any) -> None:
+        """Show what was replayed; pages that come later are shown it too."""
+        if piece.job == "system":
+            message = {"kind": "system", "errors": answer}
+        elif isinstance(answer, str):
+            message = {"kind": "no replay", "words": answer}
+        elif piece.job == "replay":
+            message = replay_frame(*answer)
+        elif answer is not None:
+            message = watched_frame(answer)
+        else:
             return
-        if job == "fit":
+        self._shown[f"{piece.job} {piece.run}".rstrip()] = message
+        await self._send_all(message)
+
+    async def _take(self, piece: Piece, answer: Any) -> None:
+        """Take an answer into the session, and show it."""
+        if piece.job == "fit":
             known = {named(t.effect): t.effect for t in self.session.state.terms}
             state = from_json(answer, lambda name: known[name])
             await self._do(lambda: self.session.fitted(state))
         else:
             self._laws |= set(answer.get("files", ()))
-            await self._do(lambda: self.session.remember(job, answer))
-        await self._tell_all(replay=job == "fit")
+            await self._do(lambda: self.session.remember(piece.job, answer))
+        await self._tell_all(replay=piece.job == "fit")
 
     async def _tell_all(self, *, replay: bool = True) -> None:
         told = await self._do(lambda: state_told(self.session))
@@ -239,8 +260,13 @@ class Room:
             await page.send(told)
             await self.show(page)
         if replay:
-            self._background("replay")
-            self._next()
+            self._shown = {}  # of the model as it was
+            self._aside.drop("system")
+            await self._send_all({"kind": "system", "errors": None})
+            self._aside.ask("replay")
+            await self._ask_for_watched()
+            self._aside.ask("system")
+            await self._next()
 
     async def _send_all(self, message: Mapping[str, Any] | bytes) -> None:
         for page in list(self.pages):

@@ -8,14 +8,13 @@ import socket
 import webbrowser
 from collections.abc import AsyncIterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from slipwise.campaign import load_campaign
-from slipwise.effects import Trust
-from slipwise.errors import InputError
+from slipwise.errors import InputError, SlipwiseError
+from slipwise.session.place import session_folder
 from slipwise.view.html_style import DARK, LIGHT
-from slipwise.workbench.actions import act
-from slipwise.workbench.room import Room
+from slipwise.workbench.kept_page import kept_page
+from slipwise.workbench.opening import Opening
 
 try:
     import uvicorn
@@ -23,9 +22,12 @@ try:
     from starlette.requests import Request
     from starlette.responses import FileResponse, PlainTextResponse, Response
     from starlette.routing import Route, WebSocketRoute
-    from starlette.websockets import WebSocket, WebSocketDisconnect
+    from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 except ModuleNotFoundError as missing:
     raise InputError(f'{missing.name} is not installed; it comes with `pip install "slipwise[workbench]"`') from None
+
+if TYPE_CHECKING:
+    from slipwise.effects import Trust
 
 #: Colours of the project's pages; what is measured and what is modelled, and what stands on the blue of a button.
 _THEME = f""":root {{ {LIGHT} --measured: #8a96a3; --model: var(--blue); --on-blue: #ffffff; color-scheme: light; }}
@@ -51,14 +53,17 @@ _HEADERS = {
 _REPORT_HEADERS = _HEADERS | {
     "Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'none'"
 }
+#: Told until the session stands; what the page shows meanwhile is what it showed last.
+_OPENING = {"kind": "progress", "job": "open", "words": "getting the session ready", "share": 0.0, "seconds": 0.0,
+            "aside": False}  # fmt: skip
 _REPORTS = ("report.html", "diagnosis.html")
 
 
-def application(room: Room, token: str) -> Starlette:
+def application(opening: Opening, token: str) -> Starlette:
     """Make the application.
 
     Args:
-        room: the session and its pages.
+        opening: the session with its pages, which is opened when the application begins.
         token: first part of every address.
     """
 
@@ -72,8 +77,8 @@ def application(room: Room, token: str) -> Starlette:
         part, name = request.path_params["token"], request.path_params.get("name", "index.html")
         if not allowed(part, request.headers.get("host"), request.headers.get("origin")):
             return PlainTextResponse("This address has no page; take the one that `slipwise workbench` prints.\n", 404)
-        if name in _REPORTS and (room.session.folder / name).is_file():
-            return FileResponse(room.session.folder / name, headers=_REPORT_HEADERS)
+        if name in _REPORTS and (session_folder(opening.campaign) / name).is_file():
+            return FileResponse(session_folder(opening.campaign) / name, headers=_REPORT_HEADERS)
         if name == "theme.css":
             return Response(_THEME, media_type="text/css", headers=_HEADERS)
         known = {path.name: path for path in _STATIC.iterdir() if path.is_file()}
@@ -95,9 +100,20 @@ def application(room: Room, token: str) -> Starlette:
             with contextlib.suppress(RuntimeError, WebSocketDisconnect, TimeoutError):
                 await asyncio.wait_for(sent, _PATIENCE)
 
+        if not opening.done:
+            for message in [*kept_page(opening.campaign), _OPENING]:
+                await send(message)
+        try:
+            room = await opening.room()
+        except SlipwiseError as error:
+            await send({"kind": "over", "words": str(error)})
+            return
+        from slipwise.workbench.actions import act  # loaded with the room by now
+
+        await send({"kind": "ended", "job": "open", "how": "done", "aside": False})
         page = await room.enter(send)
         try:
-            while True:
+            while channel.application_state is WebSocketState.CONNECTED:  # a page that has gone hears no more
                 await act(room, page, json.loads(await channel.receive_text()))
         except (WebSocketDisconnect, ValueError):
             pass
@@ -106,33 +122,37 @@ def application(room: Room, token: str) -> Starlette:
 
     @contextlib.asynccontextmanager
     async def life(app: Starlette) -> AsyncIterator[None]:
-        room.begin()
+        opening.begin()
         yield
-        room.close()
+        await opening.end()
 
     routes = [WebSocketRoute("/{token}/socket", talk), Route("/{token}/", get), Route("/{token}/{name}", get)]
     return Starlette(routes=routes, lifespan=life)
 
 
-def run(campaign: Path | str, *, trust: Trust, port: int, show: bool) -> None:
+def run(campaign: Path | str, *, trust: "Trust", port: int, show: bool) -> None:
     """Serve one campaign until Ctrl-C; see `slipwise.workbench.serve`."""
-    measured = load_campaign(campaign)
+    folder = Path(campaign)
+    if not (folder / "campaign.toml").is_file():
+        from slipwise.campaign import load_campaign
+
+        load_campaign(folder)  # says what is wrong with it, before any page is opened
     listening = _listen(port)
     token = secrets.token_urlsafe(16)
     address = f"http://{_LOOPBACK}:{listening.getsockname()[1]}/{token}/"
-    if show:  # a browser takes as long to come as the session to open, and waits
+
+    def end() -> None:
+        server.should_exit = True
+
+    opening = Opening(folder, trust, address, end)
+    config = uvicorn.Config(
+        application(opening, token), log_level="warning", access_log=False, ws_max_size=2**16, server_header=False
+    )
+    server = uvicorn.Server(config)
+    if show:  # a browser takes as long to come as the session to open
         webbrowser.open(address)
-    room = Room(measured, trust)
-    try:
-        if room.session.store is not None:
-            room.session.store.tell(address)
-        print(f"{measured.name} is open at {address}\nCtrl-C ends it; nothing is lost.", flush=True)
-        config = uvicorn.Config(
-            application(room, token), log_level="warning", access_log=False, ws_max_size=2**16, server_header=False
-        )
-        asyncio.run(uvicorn.Server(config).serve(sockets=[listening]))
-    finally:
-        room.close()
+    asyncio.run(server.serve(sockets=[listening]))
+    opening.check()
 
 
 def _listen(port: int) -> socket.socket:

@@ -57,7 +57,7 @@ def state_told(session: Session) -> dict[str, Any]:
         "kind": "state",
         "words": state.words,
         "fitted": state.fitted,
-        "accepted": state == session.reference,
+        "accepted": session.accepted and state == session.reference,
         "effects": [{"name": t.effect.name, "label": t.label, "group": t.group} for t in state.terms],
         "own": [
             {"name": t.effect.name, "summary": t.effect.summary, "equation": t.effect.equation}
@@ -127,6 +127,6 @@ def _shown(unit: str, usual: str) -> dict[str, Any]:
     return {"si": unit, "usual": usual, "factor": parse_unit(usual, unit, "unit")}
 
 
-def progress_told(job: str, words: str, share: float, seconds: float) -> Mapping[str, Any]:
-    """Tell how far a piece of work is."""
-    return {"kind": "progress", "job": job, "words": words, "share": share, "seconds": seconds}
+def progress_told(job: str, words: str, share: float, seconds: float, *, aside: bool) -> Mapping[str, Any]:
+    """Tell how far a piece of work is; `aside` if nobody has asked for it."""
+    return {"kind": "progress", "job": job, "words": words, "share": share, "seconds": seconds, "aside": aside}

@@ -1,8 +1,10 @@
 """The process that does heavy work: MuJoCo's callbacks belong to a process, and a fit must not make the page wait."""
 
 import multiprocessing
+import os
 import threading
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
@@ -14,8 +16,11 @@ from slipwise.errors import SlipwiseError
 from slipwise.interruption import unheard_by_children
 from slipwise.parallel import begin_worker
 
-#: A piece of work that goes on so long after it was called off is ended with its process [s].
-_PATIENCE = 0.6
+#: A piece of work that goes on so long after it was called off is ended with its process, where somebody waits for that
+#: and where nobody does [s].
+_PATIENCE, _LONG_PATIENCE = 0.6, 10.0
+#: Work that nobody has asked for has this much less of the cores, as `nice` counts.
+_COURTESY = 5
 
 
 class _CalledOff(Exception):
@@ -40,15 +45,16 @@ class Report:
 class Worker:
     """A process for heavy work; it is started with the first piece, and anew when it had to be ended."""
 
-    def __init__(self, campaign: Path, trust: Trust, listen: Callable[[Report], None]) -> None:
+    def __init__(self, campaign: Path, trust: Trust, listen: Callable[[Report], None], *, aside: bool = False) -> None:
         """Make ready.
 
         Args:
             campaign: folder of the campaign.
             trust: as for `Session`.
             listen: called with every report, from a thread of the worker's own.
+            aside: with what others leave of the cores.
         """
-        self._campaign, self._trust, self._listen = campaign, trust, listen
+        self._campaign, self._trust, self._listen, self._aside = campaign, trust, listen, aside
         self._process: BaseProcess | None = None
         self._pipe: Connection | None = None
         self._context = multiprocessing.get_context("spawn")
@@ -61,26 +67,28 @@ class Worker:
         """Whether a piece of work is being done."""
         return self._busy.is_set()
 
-    def start(self, job: str, state: Mapping[str, Any]) -> int:
+    def start(self, job: str, run: str, state: Mapping[str, Any]) -> int:
         """Begin a piece of work; gives its number.
 
         Args:
             job: of `JOBS`.
+            run: that it is to look at, for work on one run.
             state: as `state.as_json` gives it.
         """
-        if self._process is None or not self._process.is_alive():
-            self._begin()
+        self.begin()
         assert self._pipe is not None
         self._number += 1
         self._busy.set()
-        self._pipe.send((self._number, job, dict(state)))
+        self._pipe.send((self._number, job, run, dict(state)))
         return self._number
 
-    def call_off(self) -> None:
+    def call_off(self, *, patiently: bool = False) -> None:
         """Call the work that is being done off: it stops at its next step, or with its process."""
         if self.busy:
             number = self._called_off.value = self._number
-            threading.Timer(_PATIENCE, self._end_if_still_at, (number,)).start()
+            timer = threading.Timer(_LONG_PATIENCE if patiently else _PATIENCE, self._end_if_still_at, (number,))
+            timer.daemon = True
+            timer.start()
 
     def close(self) -> None:
         """End the process."""
@@ -89,9 +97,12 @@ class Worker:
             self._process.join()
             self._process = None
 
-    def _begin(self) -> None:
+    def begin(self) -> None:
+        """Start the process, where there is none; it opens the campaign while it waits."""
+        if self._process is not None and self._process.is_alive():
+            return
         self._pipe, far = self._context.Pipe()
-        arguments = (far, self._called_off, str(self._campaign), self._trust)
+        arguments = (far, self._called_off, str(self._campaign), self._trust, self._aside)
         self._process = self._context.Process(target=_work, args=arguments, name="slipwise worker")
         with unheard_by_children():
             self._process.start()
@@ -119,15 +130,19 @@ class Worker:
             self._process.kill()
 
 
-def _work(pipe: Connection, called_off: Any, campaign: str, trust: Trust) -> None:
+def _work(pipe: Connection, called_off: Any, campaign: str, trust: Trust, aside: bool) -> None:
     """Do one piece of work after another, in a process of its own that has the cores for itself."""
+    if aside and hasattr(os, "nice"):
+        os.nice(_COURTESY)
     begin_worker(own_cores=True)
     from slipwise.session.session import Session
-    from slipwise.workbench.jobs import JOBS
+    from slipwise.workbench.jobs import JOBS, Task
 
     session: Session | None = None
+    with suppress(SlipwiseError):  # who asks for work is told
+        session = Session(campaign, trust=trust, resume=False, keep=False)
     while True:
-        number, job, content = pipe.recv()
+        number, job, run, content = pipe.recv()
 
         def tell(words: str, share: float, number: int = number) -> None:
             if called_off.value >= number:
@@ -138,7 +153,7 @@ def _work(pipe: Connection, called_off: Any, campaign: str, trust: Trust) -> Non
             tell("getting ready", 0.0)
             session = session or Session(campaign, trust=trust, resume=False, keep=False)
             state = session.read_state(content, trust=[one["effect"] for one in content["terms"]])
-            pipe.send(Report(number, "done", JOBS[job](session, state, tell)))
+            pipe.send(Report(number, "done", JOBS[job](Task(session, state, run), tell)))
         except _CalledOff:
             pipe.send(Report(number, "called off", ""))
         except SlipwiseError as error:

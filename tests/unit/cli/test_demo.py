@@ -3,18 +3,20 @@
 import json
 import re
 import shutil
+from contextlib import closing
 from importlib.resources import files
 from pathlib import Path
 
 import pytest
 
 from slipwise.model_file import load_model
+from slipwise.session.session import Session
 
 
 @pytest.mark.slow
 def test_the_demo_names_the_hidden_effect_and_the_error_falls_to_the_floor(slipwise, tmp_path):
     code, out, err = slipwise("demo", "--out", tmp_path)
-    assert (code, err) == (0, "")
+    assert code == 0 and all(re.fullmatch(r" *\d+ s +\d+ %  .+", line) for line in err.splitlines())
     written = json.loads((tmp_path / "diagnosis.json").read_text())
     assert (written["verdict"], written["effects"]) == ("named", ["run_in"])
     assert written["base_error"] > 2.0
@@ -42,6 +44,8 @@ def test_add_and_remove_edit_the_model_and_print_the_error_before_and_after(slip
     pads = next(line for line in out.splitlines() if line.strip().startswith("pads")).split()
     assert float(pads[1]) > 3.0 > 1.2 > float(pads[2])
     assert "run_in" in load_model(campaign / "model.toml")
+    with closing(Session(campaign)) as session:  # what the workbench opens
+        assert session.accepted and session.state.labels[-1] == "run_in" and session.history.before is not None
     code, out, _ = slipwise("remove", "run_in", "--campaign", campaign)
     assert code == 0
     pads = next(line for line in out.splitlines() if line.strip().startswith("pads")).split()

@@ -7,11 +7,11 @@ import pytest
 from hypotheses import base, decided, diagnosed, left_by, searched
 from slipwise.campaign import Campaign
 from slipwise.cli.diagnose import _record, _tell, diagnose
-from slipwise.cli.edit import _finish
+from slipwise.cli.edit import tell_change
 from slipwise.diagnosis.ladder import left_over
-from slipwise.diagnosis.model_change import ModelChange
 from slipwise.diagnosis.unknown_surface import leftover
 from slipwise.record import Record
+from slipwise.session.model_change import ModelChange
 
 
 def without_table(campaign: Campaign) -> Campaign:
@@ -72,8 +72,7 @@ def test_the_terminal_says_what_each_effect_changes_and_whether_it_is_confirmed(
 
 
 @pytest.mark.parametrize(("held_out", "title"), [(True, "Held-out error"), (False, "Error of the runs that were fit")])
-def test_an_edited_model_says_which_error_it_is_told_by(held_out: bool, title: str, monkeypatch, capsys, tmp_path):
-    monkeypatch.setattr("slipwise.save_model", lambda *_: None)
+def test_an_edited_model_says_which_error_it_is_told_by(held_out: bool, title: str, capsys):
     changed = ModelChange("heating added", base().model, {"pads": 4.0}, {"pads": 1.0})
-    _finish(changed, tmp_path, held_out=held_out)
+    tell_change(changed, held_out=held_out)
     assert capsys.readouterr().out.startswith(title)

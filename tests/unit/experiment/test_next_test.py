@@ -109,6 +109,13 @@ def test_a_motion_that_tells_nothing_leaves_the_probability_as_it_is(monkeypatch
     assert ranked.proposals[0].probability == pytest.approx(0.9)
 
 
+def test_where_nothing_is_in_doubt_that_is_said_and_nothing_is_shaken(monkeypatch):
+    monkeypatch.setattr("slipwise.experiment.next_test._separation", lambda *_: pytest.fail("shaken"))
+    monkeypatch.setattr("slipwise.experiment.next_test._chances", lambda *_: (0.995, 0.004))
+    ranked = next_test(diagnosis("named", fitted(("heating",), 1.0), fitted(("run_in",), 2.0)))
+    assert ranked.proposals == () and ranked.words.startswith("Nothing is in doubt")
+
+
 def test_motions_beyond_the_table_are_refused_and_made_smaller_until_it_can_make_them(monkeypatch):
     separate_by(monkeypatch, 1.0)
     ranked = next_test(diagnosis("named", fitted(("heating",), 1.0), fitted(("run_in",), 2.0)), SMALL)

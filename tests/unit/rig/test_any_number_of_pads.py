@@ -7,7 +7,7 @@ import pytest
 
 from slipwise.errors import InputError, SettingError, UnitError, UnknownNameError
 from slipwise.model import EffectUse, base_model, use
-from slipwise.rig import Buffer, Place, Specimen, build, load_specimen, new_rig, write_mjcf
+from slipwise.rig import Buffer, Place, Specimen, Storey, build, load_specimen, new_rig, write_mjcf
 from slipwise.rig.load_basis import basis_of, end_pairs, load_basis
 from slipwise.rig.load_modes import load_modes, pad_loads
 from slipwise.rig.mjcf_writer import mjcf_text
@@ -27,6 +27,7 @@ pads.B = { x = "-1.8 m", y = "1.3 m" }
 pads.C = { x = "1.8 m", y = "-1.3 m" }
 pads.west = { x = "-1.8 m", y = "-1.3 m", radius = "30 mm", stiffness = "150 kN/mm" }
 buffers.1 = { x = "0 m", y = "0.5 m", stiffness_x = "1.5 kN/mm", stiffness_y = "1 kN/mm", gap = "2 mm" }
+storeys = [{ mass = "1 t", z = "1.5 m", stiffness = "2 kN/mm", damping_y = "1 kN s/m" }]
 """
 
 
@@ -47,6 +48,7 @@ def irregular() -> Specimen:
 
 
 RIGS = {"three_pads": load_specimen("three_pads"), "six_pads": load_specimen("six_pads"), "irregular": irregular()}
+RIGS |= {name: load_specimen(name) for name in ("pendulum", "building")}
 
 
 @pytest.fixture(scope="module", params=RIGS)
@@ -76,11 +78,25 @@ def test_friction_stays_within_its_circle_and_opposes_the_slip(shaken):
     mu = specimen.shear_strength / specimen.plastic_pressure
     speed = np.hypot(record["slip_vx"], record["slip_vy"])
     for pad in specimen.pads:
-        force, load = np.hypot(record[f"pad_{pad}_Fx"], record[f"pad_{pad}_Fy"]), record[f"pad_{pad}_N"]
-        assert np.all(force <= mu * load * (1.0 + 1e-6) + 1e-6)
+        force, load = on_the_face(record, pad, specimen.places[0].curvature)
+        turning = 0.01 if specimen.places[0].curvature else 1e-6  # the sense of friction is that of the step before
+        assert np.all(force <= mu * load * (1.0 + turning) + 1e-6)
         fast = speed > 0.1
         assert np.median(force[fast] / load[fast]) == pytest.approx(mu, rel=1e-3)
-        assert np.all(record[f"pad_{pad}_Fx"][record["slip_vx"] > 0.1] > 0.0)
+        if not specimen.places[0].curvature:
+            assert np.all(record[f"pad_{pad}_Fx"][record["slip_vx"] > 0.1] > 0.0)
+
+
+def on_the_face(record, pad, curvature):
+    """Friction along a pad's face and the force normal to it (n,) [N], from what its load cell reads."""
+    slip = np.stack([record["slip_x"], record["slip_y"]])
+    slope = curvature * slip / np.sqrt(1.0 - curvature**2 * (slip**2).sum(axis=0))
+    load = record[f"pad_{pad}_N"]
+    pushed = np.stack([record[f"pad_{pad}_F{a}"] for a in "xy"]) - load * slope
+    steep = 1.0 + (slope**2).sum(axis=0)
+    along = pushed - slope * (slope * pushed).sum(axis=0) / steep
+    climb = (along * slope).sum(axis=0)
+    return np.sqrt((along**2).sum(axis=0) + climb**2), (load + climb) * np.sqrt(steep)
 
 
 def test_the_girder_balance_holds_with_all_pads_and_buffers(shaken):
@@ -90,6 +106,7 @@ def test_the_girder_balance_holds_with_all_pads_and_buffers(shaken):
     for axis in "xy":
         force = sum(r[f"pad_{p}_F{axis}"] for p in specimen.pads)
         force = force + sum(r[f"buffer_{b.name}_F{axis}"] for b in specimen.buffers)
+        force = force + sum(s.mass * r[f"storey_{i}_a{axis}"] for i, s in enumerate(specimen.storeys, 1))
         left = specimen.mass * r[f"girder_a{axis}"] + force
         scale = max(np.abs(specimen.mass * r["girder_ax"]).max(), 1.0)
         assert np.abs(left).max() < 5e-3 * scale, axis  # a tilting girder's pads push sideways too
@@ -170,7 +187,7 @@ def test_a_written_mjcf_reads_back_as_the_same_specimen(name, tmp_path):
     assert replace(read, path=RIGS[name].path, sources=RIGS[name].sources) == RIGS[name]
 
 
-@pytest.mark.parametrize("name", ["three_pads", "six_pads"])
+@pytest.mark.parametrize("name", ["three_pads", "six_pads", "pendulum", "building"])
 def test_a_shipped_mjcf_is_what_is_written_of_its_specimen_toml(name):
     shipped = load_specimen(name).path
     assert shipped.read_text() == mjcf_text(load_specimen(shipped.with_suffix(".toml")))
@@ -182,6 +199,9 @@ def test_ten_lines_are_a_rig(tmp_path):
     assert specimen.pads == ("A", "B", "C", "west") and specimen.places[3].radius == 0.03
     assert specimen.inertia == pytest.approx((9250.0, 16250.0, 25000.0))
     assert specimen.buffers == (Buffer("1", 0.0, 0.5, 0.0, 1.5e6, 1e6, 2e-3),)
+    alone = 2.0 * 0.02 * np.sqrt(2e6 * 1e3)
+    assert specimen.storeys == (Storey(1e3, 1.5, 2e6, 2e6, pytest.approx(alone), 1e3),)
+    assert specimen.weight == pytest.approx(13e3 * specimen.gravity)
     critical = 2.0 * 0.05 * np.sqrt(sum(specimen.springs) * specimen.mass)
     assert sum(p.damping for p in specimen.places) == pytest.approx(critical)
     assert "pad_west_Fx" in replay(base_model(specimen), "sine:2Hz,0.2g,cycles=9").record
@@ -215,6 +235,13 @@ def test_a_new_rig_is_a_file_to_edit_and_its_mjcf(tmp_path):
         ('stiffness_y = "1 kN/mm", ', "", InputError, "buffer 1 lacks stiffness_y"),
         ('radius = "25 mm", ', "", InputError, "pad A lacks radius"),
         ("pads.A", "pads.A.x", UnitError, "pad A, 'x'"),
+        ('mass = "1 t"', 'mass = "0 t"', InputError, "storey 1: mass = 0 kg cannot be"),
+        ('z = "1.5 m"', 'z = "-1.5 m"', InputError, "storey 1: it stands at -1.5 m, below"),
+        ('stiffness = "2 kN/mm"', 'stiffness = "-2 kN/mm"', InputError, "storey 1: storey_stiffness"),
+        ('z = "1.5 m", ', "", InputError, "storey 1 lacks z"),
+        ('[{ mass = "1 t"', '[{ weight = "1 t"', UnknownNameError, "weight"),
+        ('radius = "30 mm"', 'radius_of_curvature = "0 m"', InputError, "radius_of_curvature = 0 m cannot be"),
+        ('radius = "30 mm"', 'radius_of_curvature = "1 mm"', InputError, "pad_curvature = 1000 1/m cannot be"),
     ],
 )
 def test_what_cannot_be_a_rig_is_refused_in_one_sentence(old, new, error, words, tmp_path):

@@ -149,5 +149,5 @@ def test_the_held_out_replay_tells_what_an_engineer_asks_for(back):
 
 def test_a_notebook_shows_table_and_picture(back):
     shown = back._repr_mimebundle_()
-    assert "<table" in shown["text/html"] and "<svg" in shown["text/html"]
+    assert "<table" in shown["text/html"] and "data:image/png;base64," in shown["text/html"]
     assert "pad friction" in shown["text/html"]

@@ -192,7 +192,7 @@ def test_ties_and_rivals_are_told_in_words(found):
 def test_the_page_holds_the_law_its_range_and_that_no_mechanism_is_claimed(found):
     text = discovery_page(found)
     assert found.laws[0].equation in text and "0.019 to 0.021" in text and "Known for the slip speed" in text
-    assert text.count("<svg") == 4 and "No mechanism is claimed" in text
+    assert text.count("<svg") == 5 and "No mechanism is claimed" in text
     assert "the heat: it does not vary" in text and "97 %" in text and "nan" not in text.lower().split("<svg")[0]
 
 
@@ -201,7 +201,7 @@ def test_the_page_says_first_where_there_is_no_law(found, unknown, nothing):
     assert organised.index("but no law was found") < organised.index("<nav") and ">The law<" not in organised
     text = discovery_page(unknown)
     assert text.index("No law was found") < text.index("<nav")
-    assert text.count("<svg") == 4 and "with the law" not in text
+    assert text.count("<svg") == 5 and "with the law" not in text
     empty = discovery_page(nothing)
     assert "Nothing is left that a law could explain" in empty and empty.count("<svg") == 2
 

@@ -87,7 +87,7 @@ def test_a_report_fetches_nothing(whole):
 
 def test_a_report_reads_on_a_phone_and_on_paper(whole):
     assert 'name="viewport" content="width=device-width' in whole
-    assert "@media print" in whole and "@media (max-width" in whole
+    assert "@media print" in whole and "@media screen and (max-width" in whole
     assert '<html lang="en">' in whole and '<meta charset="utf-8">' in whole
     scrolled = re.findall(r"<div class=\"scroll\"[^>]*><table>", whole)
     assert len(scrolled) == whole.count("<table>")

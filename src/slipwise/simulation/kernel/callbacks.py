@@ -45,6 +45,7 @@ def installed(law: Kernel) -> Iterator[None]:
 def _python_callbacks(law: Kernel) -> tuple[Any, Any]:
     """Make the callbacks of the Python engine: the same law on numpy views."""
     control_step, sensor_step = law.functions["control_step"], law.functions["sensor_step"]
+    set_faces = law.functions["set_faces"]
     acceleration = int(mujoco.mjtStage.mjSTAGE_ACC)
     first_pad, size = law.layout.first_pad, law.layout.pad_block
 
@@ -52,6 +53,8 @@ def _python_callbacks(law: Kernel) -> tuple[Any, Any]:
         u, contact = data.userdata, data.contact
         blocks = range(first_pad, first_pad + int(u[places.N_PADS]) * size, size)
         begin_step(u, first_pad, size, data.qfrc_applied)
+        if u[places.CURVED] > 0.0:
+            set_faces(u, data.ten_length, data.ten_velocity)
         push = data.efc_J.reshape(data.nefc, model.nv)
         for first, second, row in zip(contact.geom1, contact.geom2, contact.efc_address, strict=True):
             if row >= 0:

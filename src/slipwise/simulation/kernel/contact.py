@@ -23,6 +23,8 @@ from slipwise.simulation.kernel.places import (
     PAD_DAMPING,
     PAD_STIFFNESS,
     RATE_AGE,
+    RISE,
+    RISE_RATE,
 )  # fmt: skip
 
 Array = NDArray[np.float64]
@@ -53,12 +55,15 @@ def apply_pad_load(u: Array, z: int, compression: float, rate: float, push: Arra
     Args:
         u: the law's numbers; load, compression and its rate in them are set.
         z: place in it of the pad's block.
-        compression: of the pad's spring, negative where it does not touch [m].
+        compression: of the pad's spring under a flat face, negative where it does not touch [m]; what the face rises
+            at the slip comes to it.
         rate: of it, half a step ago [m/s].
         push: (n_dofs,) rate of the gap over the rate of each degree of freedom.
         applied: generalised forces [N, N m]; added to.
     """
     dt = u[DT]
+    compression += u[z + RISE]
+    rate += u[z + RISE_RATE]
     acceleration = (rate - u[z + COMPRESSION_RATE]) / u[RATE_AGE]
     u[z + COMPRESSION] = compression
     u[z + COMPRESSION_RATE] = rate

@@ -36,6 +36,7 @@ class Dispatch(Protocol):
         coefficient: gives the coefficient of friction [1].
         stick: gives the force of what says how a pad sticks, along x and y [N].
         pad: gives the sum of the further forces at a pad, along x and y [N].
+        face: gives the curvature of a pad's sliding face [1/m].
         advance: lets the memory of a pad go on.
         stretch: gives how far the loading train of a slider stretches under a force [m].
         deflection: gives what is left of a buffer's deflection [m].
@@ -56,6 +57,7 @@ class Dispatch(Protocol):
     coefficient: Callable[..., float]
     stick: Callable[..., tuple[float, float]]
     pad: Callable[..., tuple[float, float]]
+    face: Callable[..., float]
     advance: Callable[..., None]
     stretch: Callable[..., float]
     deflection: Callable[..., float]
@@ -97,6 +99,7 @@ _HOOKS: dict[str, _Hook] = {
     "coefficient": _Hook(("u", "z", "coefficient", *_PAD), (), ("coefficient = {call}",), "coefficient"),
     "stick": _Hook(("u", "z", "bound", *_PAD), _NOTHING, ("force_x, force_y = {call}",), _FORCES),
     "pad": _Hook(("u", "z", "bound", "friction", *_PAD), _NOTHING, _ADD, _FORCES),
+    "face": _Hook(("u", "z", "face"), (), ("face = {call}",), "face"),
     "advance": _Hook(("u", "z", "bound", "friction", *_PAD), (), ("{call}",), "None"),
     "stretch": _Hook(("u", "force", "load"), ("stretched = 0.0",), ("stretched += {call}",), "stretched"),
     "deflection": _Hook(("u", "z", *_BUFFER), (), ("deflection = {call}",), "deflection"),

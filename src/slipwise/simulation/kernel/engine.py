@@ -24,6 +24,7 @@ from slipwise.effects import Effect, catalogue
 from slipwise.errors import SettingError, SlipwiseWarning
 from slipwise.simulation.kernel import derived_states
 from slipwise.simulation.kernel.compiled import module_text
+from slipwise.simulation.kernel.curved_face import set_faces
 from slipwise.simulation.kernel.dispatch import dispatch_text, function_name
 from slipwise.simulation.kernel.girder import buffer_spring, girder_drag, girder_lift
 from slipwise.simulation.kernel.layout import Layout, make_layout
@@ -36,7 +37,7 @@ ENGINES: tuple[str, ...] = ("compiled", "python")
 #: What is asked for from Python; all else is only called by these.
 _FUNCTIONS: tuple[Callable[..., Any], ...] = (
     pad_bound, follow_train, pad_explicit, pad_further, pad_advance, buffer_spring, girder_drag, girder_lift,
-    control_step, sensor_step, pads_over_record, buffers_over_record,
+    set_faces, control_step, sensor_step, pads_over_record, buffers_over_record,
 )  # fmt: skip
 
 

@@ -152,6 +152,8 @@ def fill(layout: Layout, model: Model, dt: float) -> NDArray[np.float64]:
     pads[:, places.APPARENT_AREA] = specimen.pad_areas
     pads[:, places.PAD_STIFFNESS] = specimen.springs
     pads[:, places.PAD_DAMPING] = [place.damping for place in specimen.places]
+    pads[:, places.CURVATURE] = [place.curvature for place in specimen.places]
+    array[places.RISES_OVER_PADS] = specimen.pads_on == "table"
     pads[:, places.SIDE : places.SIDE + 2] = basis_of(specimen).sides
     for block, buffer, side in zip(buffers, specimen.buffers, buffer_sides(specimen), strict=False):
         block[places.BUFFER_STIFFNESS : places.BUFFER_STIFFNESS + 2] = buffer.stiffness_x, buffer.stiffness_y
@@ -181,6 +183,8 @@ def set_values(layout: Layout, array: NDArray[np.float64], model: Model) -> None
     for place, hook in ((places.N_STICK, "stick"), (places.N_TRAIN, "stretch")):
         array[place] = sum(hook in u.effect.hooks and not u.is_neutral for u in model.uses)
     blocks, pads = pad_blocks(layout, array), model.specimen.pads
+    bent = any("face" in u.effect.hooks and not u.is_neutral for u in model.uses)
+    array[places.CURVED] = bent or bool(np.any(blocks[:, places.CURVATURE]))
     for entry in model.uses:
         start = layout.parameters.get(entry.effect.name)
         if start is None:

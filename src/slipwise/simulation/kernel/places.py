@@ -6,11 +6,12 @@ one compiled law serves any number of them. Places in a block count from its beg
 buffer.
 """
 
+#: Degrees of freedom that may move a pad: of the table and the girder, which come first, and its bending mode.
 MAX_DOFS = 11
 #: Hooks whose effects act one after another in the order of the model.
 CHAINS: tuple[str, ...] = (
-    "area", "shear", "coefficient", "stick", "pad", "advance", "stretch", "deflection", "spring", "settle", "lift",
-    "drag",
+    "area", "shear", "coefficient", "stick", "pad", "face", "advance", "stretch", "deflection", "spring", "settle",
+    "lift", "drag",
 )  # fmt: skip
 
 #: Step [s].
@@ -18,8 +19,10 @@ DT = 0
 N_PADS = DT + 1
 N_BUFFERS = N_PADS + 1
 N_DOFS = N_BUFFERS + 1
+#: Of these, the ones that move a pad or a buffer: at most MAX_DOFS.
+N_ARMS = N_DOFS + 1
 #: Where the first buffer's block begins.
-BUFFERS = N_DOFS + 1
+BUFFERS = N_ARMS + 1
 #: First place in `sensordata` of what the law writes there.
 USER_SENSOR = BUFFERS + 1
 #: Degrees of freedom of the girder: x, y, z, roll, pitch, yaw; the first is -1 where the girder is prescribed.
@@ -47,7 +50,10 @@ N_TRAIN = EFFECT_COUNT + len(CHAINS)
 #: How many of the model's effects of pads, and of buffers, ask for derived states.
 N_OBSERVE = N_TRAIN + 1
 N_OBSERVE_BUFFER = N_OBSERVE + 1
-END = N_OBSERVE_BUFFER + 1
+#: Above 0: a sliding face is curved at all; and where the girder then rises above the pads that stand on the table.
+CURVED = N_OBSERVE_BUFFER + 1
+RISES_OVER_PADS = CURVED + 1
+END = RISES_OVER_PADS + 1
 
 #: In a pad's block. Apparent area [m^2].
 APPARENT_AREA = 0
@@ -56,7 +62,9 @@ PAD_STIFFNESS = APPARENT_AREA + 1
 PAD_DAMPING = PAD_STIFFNESS + 1
 #: Where the pad stands along x and y, over the farthest pad's distance from their middle (-1 to 1).
 SIDE = PAD_DAMPING + 1
-PAD_GEOM = SIDE + 2
+#: Of its sliding face as rated, 1/R [1/m].
+CURVATURE = SIDE + 2
+PAD_GEOM = CURVATURE + 1
 #: The tendons along x and y, whose lengths are its slip.
 PAD_TENDON = PAD_GEOM + 1
 #: The constraint rows of dry friction along x and y.
@@ -71,8 +79,17 @@ COMPRESSION = COMPRESSION_RATE + 1
 LOAD = COMPRESSION + 1
 #: Friction force that it can carry, s A_r [N].
 BOUND = LOAD + 1
+#: Force normal to its sliding face [N]: the load where that is flat.
+NORMAL = BOUND + 1
+#: Height of the face at the slip over that at the middle [m], its rate [m/s], its slope along x and y [1].
+RISE = NORMAL + 1
+RISE_RATE = RISE + 1
+SLOPE = RISE_RATE + 1
+#: Load times slope along x and y [N], and the horizontal part of a friction that is an explicit force [N].
+RESTORING = SLOPE + 2
+ALONG = RESTORING + 2
 #: Force of the girder on it that is not dry friction, along x and y [N].
-EXPLICIT = BOUND + 1
+EXPLICIT = ALONG + 2
 #: Dry friction of the step before, along x and y [N].
 FORCE = EXPLICIT + 2
 #: Force of the loading train along x and y [N], and time [s] of the step before; rate of the contact [m/s].

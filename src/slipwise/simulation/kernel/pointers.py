@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.contact import INACTIVE, apply_pad_load, begin_step
+from slipwise.simulation.kernel.curved_face import set_faces
 from slipwise.simulation.kernel.dispatch import Dispatch
 from slipwise.simulation.kernel.mjdata import Offsets
-from slipwise.simulation.kernel.places import N_DOFS, N_PADS, PAD_GEOM
+from slipwise.simulation.kernel.places import CURVED, N_DOFS, N_PADS, PAD_GEOM
 from slipwise.simulation.kernel.step import control_step, sensor_step
 
 Array = NDArray[np.float64]
@@ -96,6 +97,8 @@ def control_at(effects: Dispatch, at: Fields, data: int) -> None:
     jacobian = _numbers(words[at.efc_J])
     reference = _numbers(words[at.efc_aref])
     begin_step(u, effects.first_pad, effects.pad_block, applied)
+    if u[CURVED] > 0.0:
+        set_faces(effects, u, _numbers(words[at.ten_length]), _numbers(words[at.ten_velocity]))
     dofs = int(u[N_DOFS])
     for i in range(carray(_as_pointer(data), (2 * at.size,), np.int32)[at.ncon]):
         contact = carray(_as_pointer(words[at.contact] + 4 * i * at.contact_size), (at.contact_size,), np.int32)

@@ -6,25 +6,37 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.simulation.kernel.compilable import compilable
+from slipwise.simulation.kernel.curved_face import (
+    along_face,
+    keep_along,
+    normal_force,
+    onto_table,
+    set_face,
+    sliding_bound,
+)
 from slipwise.simulation.kernel.dispatch import Dispatch
 from slipwise.simulation.kernel.girder import buffer_spring
 from slipwise.simulation.kernel.loading_train import follow_train
 from slipwise.simulation.kernel.pads import pad_advance, pad_bound, pad_explicit, pad_further
 from slipwise.simulation.kernel.places import (
+    ALONG,
     APPARENT_AREA,
     BUFFER_GAP,
     BUFFER_MEMORY,
     BUFFER_SIDE,
     BUFFER_STIFFNESS,
     BUFFERS,
+    CURVED,
     DT,
     N_ADVANCE,
     N_OBSERVE,
     N_PAD,
     N_STICK,
     N_TRAIN,
+    NORMAL,
     RIG_MOTION,
     SIDE,
+    SLOPE,
     TRAIN_VELOCITY,
 )
 
@@ -51,12 +63,12 @@ def pads_over_record(
         motion: (n, 3) of the rig, see `campaign.rig_motion`; (0, 3) where no effect asks for it.
         which: (p,) the rig's pad that each column is.
         force: (n, p, 2) of the girder on the pads [N]; filled.
-        bounds: (n, p) friction force that each can carry [N]; filled.
+        bounds: (n, p) friction force that each can carry along the table [N]; filled.
         first: of the columns to drive.
         last: the one behind the last of them.
     """
     bristle, further, remembers = u[N_STICK] > 0.0, u[N_PAD] > 0.0, u[N_ADVANCE] > 0.0
-    train, observed = u[N_TRAIN] > 0.0, u[N_OBSERVE] > 0.0
+    train, observed, curved = u[N_TRAIN] > 0.0, u[N_OBSERVE] > 0.0, u[CURVED] > 0.0
     first_dt = time[1] - time[0] if len(time) > 1 else u[DT]
     for pad in range(first, last):
         z = effects.first_pad + int(which[pad]) * effects.pad_block
@@ -86,19 +98,32 @@ def pads_over_record(
                     time[i],
                     dt,
                 )
+            normal = load[i, pad]
+            if curved:
+                set_face(effects, u, z, slip_x, slip_y)
+                normal = normal_force(u, z, load[i, pad], u[z + ALONG], u[z + ALONG + 1])
             if train:
                 force_x, force_y, bound = follow_train(
-                    effects, u, z, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time[i],
+                    effects, u, z, normal, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time[i],
                     dt,
                 )  # fmt: skip
                 velocity_x, velocity_y = u[z + TRAIN_VELOCITY], u[z + TRAIN_VELOCITY + 1]  # of the contact
+            elif curved and not bristle:
+                speed = sqrt(velocity_x * velocity_x + velocity_y * velocity_y)
+                toward_x, toward_y = (velocity_x / speed, velocity_y / speed) if speed > 0.0 else (0.0, 0.0)
+                bound, flat = sliding_bound(
+                    effects, u, z, load[i, pad], toward_x, toward_y, velocity_x, velocity_y, slip_x, slip_y, side_x,
+                    side_y, time[i], dt,
+                )  # fmt: skip
+                normal = u[z + NORMAL]
+                force_x, force_y = flat * toward_x, flat * toward_y
             else:
                 bound = pad_bound(
-                    effects, u, z, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time[i], dt
+                    effects, u, z, normal, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time[i], dt
                 )
                 if bristle:
                     force_x, force_y = pad_explicit(
-                        effects, u, z, bound, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x, side_y,
+                        effects, u, z, bound, normal, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y,
                         time[i], dt,
                     )  # fmt: skip
                 else:
@@ -107,9 +132,18 @@ def pads_over_record(
                     force_x = share * velocity_x
                     force_y = share * velocity_y
             friction = sqrt(force_x * force_x + force_y * force_y) if further or remembers or observed else 0.0
+            held = bound
+            if curved:
+                keep_along(u, z, force_x, force_y)
+                force_x, force_y = onto_table(u, z, force_x, force_y)
+                friction = along_face(u, z, force_x, force_y)
+                if friction > 0.0:
+                    held = bound * sqrt(force_x * force_x + force_y * force_y) / friction
+                force_x += load[i, pad] * u[z + SLOPE]
+                force_y += load[i, pad] * u[z + SLOPE + 1]
             if further:
                 more_x, more_y = pad_further(
-                    effects, u, z, bound, friction, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x,
+                    effects, u, z, bound, friction, normal, velocity_x, velocity_y, slip_x, slip_y, side_x,
                     side_y, time[i], dt,
                 )  # fmt: skip
                 force_x += more_x
@@ -119,12 +153,12 @@ def pads_over_record(
                     velocity_x = 0.5 * (velocity_x + velocity[i + 1, pad, 0])
                     velocity_y = 0.5 * (velocity_y + velocity[i + 1, pad, 1])
                 pad_advance(
-                    effects, u, z, bound, friction, load[i, pad], velocity_x, velocity_y, slip_x, slip_y, side_x,
+                    effects, u, z, bound, friction, normal, velocity_x, velocity_y, slip_x, slip_y, side_x,
                     side_y, time[i], time[i + 1] - time[i],
                 )  # fmt: skip
             force[i, pad, 0] = force_x
             force[i, pad, 1] = force_y
-            bounds[i, pad] = bound
+            bounds[i, pad] = held
 
 
 @compilable

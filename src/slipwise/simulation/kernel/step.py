@@ -11,11 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.simulation.kernel.compilable import compilable
+from slipwise.simulation.kernel.curved_face import along_face, keep_along, normal_force, onto_table, sliding_bound
 from slipwise.simulation.kernel.dispatch import Dispatch
+from slipwise.simulation.kernel.friction_rows import direction, lift_arms, split
 from slipwise.simulation.kernel.girder import buffer_spring, girder_drag, girder_lift
 from slipwise.simulation.kernel.loading_train import follow_train
 from slipwise.simulation.kernel.pads import pad_advance, pad_bound, pad_explicit, pad_further
 from slipwise.simulation.kernel.places import (
+    ALONG,
     APPARENT_AREA,
     BOUND,
     BUFFER_FORCE,
@@ -27,6 +30,7 @@ from slipwise.simulation.kernel.places import (
     BUFFER_TENDON,
     BUFFERS,
     COMPRESSION,
+    CURVED,
     DT,
     EXPLICIT,
     FORCE,
@@ -35,27 +39,27 @@ from slipwise.simulation.kernel.places import (
     GIRDER_FORCE,
     LOAD,
     MAX_DOFS,
+    N_ARMS,
     N_BUFFERS,
-    N_DOFS,
     N_OBSERVE,
     N_PADS,
     N_STICK,
     N_TRAIN,
+    NORMAL,
     PAD_JACOBIAN,
     PAD_TENDON,
     RATE_AGE,
+    RESTORING,
     RIG_MOTION,
+    RISE,
     SIDE,
+    SLOPE,
     TRAIN_VELOCITY,
     USER_SENSOR,
 )
 from slipwise.simulation.kernel.rig_motion import rig_motion
 
 Array = NDArray[np.float64]
-#: A bound that MuJoCo accepts and nobody feels [N].
-TINY = 1e-9
-#: Speed [m/s] from which on friction points along the velocity rather than along the friction of the step before.
-DIRECTION_SPEED = 1e-3
 
 
 @compilable
@@ -106,26 +110,41 @@ def push_pad(
     side_y = u[z + SIDE + 1]
     force_x = 0.0
     force_y = 0.0
+    curved = u[CURVED] > 0.0
+    explicit = u[N_STICK] + u[N_TRAIN] > 0.0
     if u[N_OBSERVE] > 0.0:
         before = sqrt((u[z + FORCE] + u[z + EXPLICIT]) ** 2 + (u[z + FORCE + 1] + u[z + EXPLICIT + 1]) ** 2)
         effects.observe(u, z, before, load, u[z + APPARENT_AREA], velocity_x, velocity_y, slip_x, slip_y, time, dt)
+    normal = normal_force(u, z, load, u[z + ALONG], u[z + ALONG + 1]) if curved else load
     if u[N_TRAIN] > 0.0:
         force_x, force_y, bound = follow_train(
-            effects, u, z, load, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt
+            effects, u, z, normal, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt
         )
         velocity_x, velocity_y = u[z + TRAIN_VELOCITY], u[z + TRAIN_VELOCITY + 1]
+    elif curved and not explicit:
+        toward_x, toward_y, length = direction(u, z, u[z + BOUND], velocity_x, velocity_y)
+        toward_x, toward_y = toward_x / length, toward_y / length
+        bound, flat = sliding_bound(
+            effects, u, z, load, toward_x, toward_y, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt
+        )
+        normal = u[z + NORMAL]
+        split(u, z, *onto_table(u, z, flat * toward_x, flat * toward_y), frictionloss)
     else:
-        bound = pad_bound(effects, u, z, load, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt)
+        bound = pad_bound(effects, u, z, normal, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt)
+    u[z + NORMAL] = normal
     u[z + BOUND] = bound
     if u[N_STICK] > 0.0:
         force_x, force_y = pad_explicit(
-            effects, u, z, bound, load, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt
+            effects, u, z, bound, normal, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt
         )
-    if u[N_STICK] + u[N_TRAIN] > 0.0:
-        frictionloss[int(u[z + FRICTION_ROW])] = TINY
-        frictionloss[int(u[z + FRICTION_ROW + 1])] = TINY
-    else:
-        split_bound(u, z, bound, velocity_x, velocity_y, frictionloss)
+    if explicit:
+        split(u, z, 0.0, 0.0, frictionloss)
+        if curved:
+            keep_along(u, z, force_x, force_y)
+            force_x, force_y = onto_table(u, z, force_x, force_y)
+    elif not curved:
+        toward_x, toward_y, length = direction(u, z, bound, velocity_x, velocity_y)
+        split(u, z, bound * toward_x / length, bound * toward_y / length, frictionloss)
     friction = sqrt(u[z + FORCE] ** 2 + u[z + FORCE + 1] ** 2)
     more_x, more_y = pad_further(
         effects, u, z, bound, friction, load, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt
@@ -134,32 +153,16 @@ def push_pad(
     force_y += more_y
     u[z + EXPLICIT] = force_x
     u[z + EXPLICIT + 1] = force_y
+    if curved:
+        u[z + RESTORING] = load * u[z + SLOPE]
+        u[z + RESTORING + 1] = load * u[z + SLOPE + 1]
+        force_x += u[z + RESTORING]
+        force_y += u[z + RESTORING + 1]
+        lift_arms(u, z, force_x + u[z + FORCE], force_y + u[z + FORCE + 1], applied)
     if force_x != 0.0 or force_y != 0.0:
         j = z + PAD_JACOBIAN
-        for dof in range(int(u[N_DOFS])):
+        for dof in range(int(u[N_ARMS])):
             applied[dof] -= u[j + dof] * force_x + u[j + MAX_DOFS + dof] * force_y
-
-
-@compilable
-def split_bound(u: Array, z: int, bound: float, velocity_x: float, velocity_y: float, frictionloss: Array) -> None:
-    """Split a pad's bound [N] over the rows along x and y, so that what it may carry is a circle.
-
-    bound_i = bound |e_i|,    e along v / (1 mm/s) + F / bound
-
-    Along the velocity where it slides, along the last friction F where it sticks: a circle in both.
-    """
-    row_x = int(u[z + FRICTION_ROW])
-    row_y = int(u[z + FRICTION_ROW + 1])
-    last = max(bound, 1.0)
-    toward_x = velocity_x / DIRECTION_SPEED + u[z + FORCE] / last
-    toward_y = velocity_y / DIRECTION_SPEED + u[z + FORCE + 1] / last
-    length = sqrt(toward_x * toward_x + toward_y * toward_y)
-    if length > 1e-9:
-        frictionloss[row_x] = max(bound * abs(toward_x) / length, TINY)
-        frictionloss[row_y] = max(bound * abs(toward_y) / length, TINY)
-    else:
-        frictionloss[row_x] = max(bound, TINY)
-        frictionloss[row_y] = TINY
 
 
 @compilable
@@ -180,7 +183,7 @@ def push_buffers(
             )  # fmt: skip
             u[b + BUFFER_FORCE + axis] = force
             j = b + BUFFER_JACOBIAN + axis * MAX_DOFS
-            for dof in range(int(u[N_DOFS])):
+            for dof in range(int(u[N_ARMS])):
                 applied[dof] -= u[j + dof] * force
             if axis == 0:
                 sum_x += abs(force)
@@ -254,7 +257,7 @@ def sensor_step(
         friction_force: of the constraint rows, on the girder [N].
         sensordata: MuJoCo's readings [N]; set from the place of the law's own sensor on: load and forces along x and y
             per pad, forces along x and y per buffer, further force on the girder along x, y, z; compression of
-            each pad [m].
+            each pad [m], less what its face has risen: how far the girder has come down on it.
     """
     n_pads = int(u[N_PADS])
     first = int(u[USER_SENSOR])
@@ -266,19 +269,19 @@ def sensor_step(
         friction_y = -friction_force[int(u[z + FRICTION_ROW + 1])]
         force_x = friction_x + u[z + EXPLICIT]
         force_y = friction_y + u[z + EXPLICIT + 1]
-        friction = sqrt(force_x * force_x + force_y * force_y)
+        friction = along_face(u, z, force_x, force_y)
         velocity_x, velocity_y = ten_velocity[tendon_x], ten_velocity[tendon_y]
         if u[N_TRAIN] > 0.0:
             velocity_x, velocity_y = u[z + TRAIN_VELOCITY], u[z + TRAIN_VELOCITY + 1]
         pad_advance(
-            effects, u, z, u[z + BOUND], friction, u[z + LOAD], velocity_x, velocity_y, ten_length[tendon_x],
+            effects, u, z, u[z + BOUND], friction, u[z + NORMAL], velocity_x, velocity_y, ten_length[tendon_x],
             ten_length[tendon_y], u[z + SIDE], u[z + SIDE + 1], time, u[DT],
         )  # fmt: skip
         u[z + FORCE] = friction_x
         u[z + FORCE + 1] = friction_y
         sensordata[first + 3 * pad] = u[z + LOAD]
-        sensordata[first + 3 * pad + 1] = force_x
-        sensordata[first + 3 * pad + 2] = force_y
+        sensordata[first + 3 * pad + 1] = force_x + u[z + RESTORING]
+        sensordata[first + 3 * pad + 2] = force_y + u[z + RESTORING + 1]
     n_forces = 2 * int(u[N_BUFFERS])
     for i in range(n_forces):
         b = int(u[BUFFERS]) + i // 2 * effects.buffer_block
@@ -287,4 +290,4 @@ def sensor_step(
         sensordata[first + 3 * n_pads + n_forces + axis] = u[GIRDER_FORCE + axis]
     for pad in range(n_pads):
         z = effects.first_pad + pad * effects.pad_block
-        sensordata[first + 3 * n_pads + n_forces + 3 + pad] = u[z + COMPRESSION]
+        sensordata[first + 3 * n_pads + n_forces + 3 + pad] = u[z + COMPRESSION] - u[z + RISE]

@@ -12,7 +12,7 @@ import * as units from "./units.js";
 
 const ONE = { si: "1", usual: "1", factor: 1 };
 const FLOORS = { si: "floors", usual: "floors", factor: 1 };
-const page = { campaign: null, state: null, measured: new Map(), curves: null, replay: null, noReplay: "", working: null };
+const page = { campaign: null, state: null, measured: new Map(), curves: null, replay: null, noReplay: "", system: null, replays: new Map(), work: {} };
 const view = { run: "", beside: "" };
 
 const loops = new Loops();
@@ -23,7 +23,7 @@ const histories = new Histories((index) => loops.mark(index), (ends, whole) => {
 });
 const link = new Link(hear, (open) => {
   if (!open) tellProblem("The workbench does not answer; it is tried again until it does. Nothing is lost.");
-  else { page.measured.clear(); tellProblem(""); working(null); }
+  else { page.measured.clear(); tellProblem(""); page.work = {}; working(); }
 });
 const ask = (message) => { tellProblem(""); link.send(message); };
 const effects = new Effects(ask, link);
@@ -34,15 +34,19 @@ function hear(message) {
     state: () => { page.state = message; drawState(); },
     measured: () => page.measured.set(message.run, message),
     curves: () => { page.curves = message; drawCurves(); },
-    replay: () => { page.replay = message; drawReadings(message); drawHistory(); },
-    "no replay": () => { page.replay = null; page.noReplay = message.words; drawReadings(null, message.words); },
-    progress: () => working(message),
-    ended: () => { working(null); if (message.job !== "replay") say(message.how === "done" ? `${message.job} is done` : `${message.job}: ${message.how}`); },
+    replay: () => { page.replay = message; page.replays.set(message.run, message); readings(); drawHistory(); },
+    watched: () => { page.replays.set(message.run, message); drawHistory(); },
+    "no replay": () => { page.replay = null; page.noReplay = message.words; readings(); },
+    system: () => { page.system = message.errors; readings(); },
+    progress: () => working(lane(message), { ...message, heard: performance.now() }),
+    ended: () => { working(lane(message), null); if (!["replay", "watch", "system", "open"].includes(message.job)) say(message.how === "done" ? `${message.job} is done` : `${message.job}: ${message.how}`); },
     problem: () => tellProblem(message.words),
+    over: () => { link.stop(); tellProblem(message.words); },
   }[message.kind];
   act?.();
 }
 
+const readings = () => drawReadings(page.replay, page.noReplay, page.system);
 const say = (words) => { find("news").textContent = words; };
 
 function tellProblem(words) {
@@ -50,23 +54,31 @@ function tellProblem(words) {
   find("problem").hidden = !words;
 }
 
+const lane = (message) => (message.aside ? "aside" : "asked");
+/** The work that is told of: what a user has asked for, else what is done aside. */
+const shownWork = () => page.work.asked ?? page.work.aside ?? null;
+
 // Work that is silent for a while is seen to go on.
 setInterval(() => {
-  if (page.working) find("work-seconds").textContent = `${(page.working.seconds + (performance.now() - page.heard) / 1000).toFixed(0)} s`;
+  const work = shownWork();
+  if (work) find("work-seconds").textContent = `${(work.seconds + (performance.now() - work.heard) / 1000).toFixed(0)} s`;
 }, 500);
 
-function working(message) {
-  if (message !== page.working) page.heard = performance.now();
-  page.working = message;
-  find("work").hidden = !message;
-  if (message) {
-    find("work-words").textContent = `${message.job}: ${message.words}`;
-    find("work-share").value = message.share;
-    find("work-seconds").textContent = `${message.seconds.toFixed(0)} s`;
+function working(place, message) {
+  if (place) page.work[place] = message;
+  const work = shownWork();
+  find("work").hidden = !work;
+  find("cancel").hidden = work?.job === "open";
+  if (work) {
+    find("work-words").textContent = `${work.job}: ${work.words}`;
+    find("work-share").value = work.share;
+    find("work-seconds").textContent = `${work.seconds.toFixed(0)} s`;
   }
-  const fitting = message?.job === "fit";
+  const fitting = Object.values(page.work).some((each) => each?.job === "fit");
   find("controls").disabled = fitting;
   for (const id of ["fit", "accept", "undo", "redo"]) find(id).disabled = fitting;
+  const next = find("go-on");
+  if (next) next.disabled = fitting || Boolean(page.work.asked);
   if (!fitting && page.state) [find("undo").disabled, find("redo").disabled] = [!page.state.undo, !page.state.redo];
 }
 
@@ -89,7 +101,7 @@ function drawState() {
   find("redo").title = state.redo ? `Redo: ${state.redo}` : "";
   drawStages(campaign, state, ask);
   effects.show(campaign, state);
-  working(page.working);
+  working();
   say(`${state.words}. ${errorsInWords(state.errors)}`);
 }
 
@@ -126,7 +138,7 @@ function drawHistory() {
     const unit = curves.unit === "1" ? FLOORS : campaign.relations[name].unit;
     shown = { unit, measured: sum(curves.arrays.measured), model: sum(curves.arrays.predicted), beside: sum(curves.arrays.beside_predicted), floor: curves.floor[0] };
   } else {
-    const replayed = page.replay?.run === curves.run ? page.replay.arrays[`channel:${name}`] : null;
+    const replayed = page.replays.get(curves.run)?.arrays[`channel:${name}`];
     shown = { unit: campaign.channels[name]?.unit ?? ONE, measured: measured.arrays[`channel:${name}`],
       model: replayed && replayed.length === time.length ? replayed : null, beside: null, floor: null };
   }
@@ -139,17 +151,17 @@ function look() {
   find("beside-key").hidden = !view.beside;
   find("beside-key").textContent = find("beside").selectedOptions[0]?.textContent ?? "";
   if (!view.beside) page.besideArrays = null;
-  link.send({ do: "look", run: find("run").value, relation: kind === "balance" ? name : "pads", beside: view.beside });
+  link.send({ do: "look", run: find("run").value, relation: kind === "balance" ? name : "pads", beside: view.beside, watches: kind === "channel" });
 }
 
 function redraw() {
   view.drawn = "";
-  if (page.state) { drawState(); drawCurves(); drawReadings(page.replay, page.noReplay); }
+  if (page.state) { drawState(); drawCurves(); readings(); }
 }
 
 for (const job of ["fit", "accept", "undo", "redo", "report", "cancel"]) find(job).addEventListener("click", () => ask({ do: job }));
 for (const id of ["run", "beside"]) find(id).addEventListener("change", look);
-find("history").addEventListener("change", () => { drawHistory(); if (find("history").value.startsWith("pads")) look(); });
+find("history").addEventListener("change", () => { drawHistory(); if (!find("history").value.startsWith("balance")) look(); });
 find("shape").addEventListener("change", drawCurves);
 find("whole").addEventListener("click", () => histories.zoom());
 for (const id of ["from", "to"]) find(id).addEventListener("change", () => {

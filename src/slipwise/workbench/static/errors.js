@@ -1,10 +1,11 @@
 // The error of every balance: how far above its noise floor, now, before, and of a model that stands beside.
 
 import { find, make } from "./dom.js";
+import { FLOOR_REACHED } from "./guide.js";
 import { floors } from "./units.js";
 
 /** Bars reach from 0 to this many floors, or as far as the largest error. */
-const LEAST_REACH = 3, OVER = 1.15;
+const LEAST_REACH = 3;
 
 const one = (found) => (found ? found.held_out ?? found.fitted : null);
 
@@ -20,7 +21,7 @@ export function drawErrors(errors) {
       piece.style[wide ? "width" : "left"] = place(error);
       bar.append(piece);
     };
-    add(one(e.now) > OVER ? "over" : "", one(e.now), true);
+    add(one(e.now) > FLOOR_REACHED ? "over" : "", one(e.now), true);
     add("fitted", e.now.fitted, true);
     add("floor", 1, false);
     add("mark", one(e.before), false);

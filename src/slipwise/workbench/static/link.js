@@ -36,11 +36,15 @@ export class Link {
     this.socket.onopen = () => { this.wait = FIRST_WAIT; this.opened(true); };
     this.socket.onmessage = ({ data }) => this.#hear(typeof data === "string" ? JSON.parse(data) : unpack(data));
     this.socket.onclose = () => {
+      if (this.over) return;
       this.opened(false);
       setTimeout(() => this.#begin(), this.wait);
       this.wait = Math.min(2 * this.wait, LONGEST_WAIT);
     };
   }
+
+  /** Come back no more. */
+  stop() { this.over = true; }
 
   send(message) {
     if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));

@@ -1,6 +1,7 @@
 // The left side: the stages from data to the next test, what each has found, and the one click that goes on.
 
 import { find, make } from "./dom.js";
+import { FLOOR_REACHED, drawGuide, judged } from "./guide.js";
 import { floors } from "./units.js";
 
 const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
@@ -12,9 +13,9 @@ export function drawStages(campaign, state, ask) {
   const labels = state.effects.map((e) => e.label);
   const { locate, explain, discover, next, report } = state.findings;
   const held = campaign.runs.filter((r) => r.role === "holdout").length;
-  const worst = state.errors.reduce((a, b) => ((b.now.held_out ?? b.now.fitted) > (a.now.held_out ?? a.now.fitted) ? b : a));
+  const worst = state.errors.reduce((a, b) => (judged(b) > judged(a) ? b : a));
   const worstFitted = Math.max(...state.errors.map((e) => e.now.fitted));
-  const good = Math.max(worst.now.held_out ?? 0, worstFitted) < 1.15;
+  const good = Math.max(worst.now.held_out ?? 0, worstFitted) < FLOOR_REACHED;
   const button = (job, words) => make("button", { id: `do-${job}`, class: "edits", onclick: () => ask({ do: job }) }, words);
   const link = (file, words) => make("p", {}, make("a", { href: file, target: "_blank", rel: "noopener" }, words));
   const stages = [
@@ -22,7 +23,7 @@ export function drawStages(campaign, state, ask) {
       ...(campaign.notes.length ? [make("details", {}, make("summary", {}, "Notes"), ...campaign.notes.map((n) => make("p", {}, n)))] : [])]],
     ["Instruments", locate ? (locate.accused ? "bad" : "done") : "", [locate ? locate.instruments : "Not checked yet."]],
     ["Model", state.fitted ? "done" : "here", [state.fitted ? "Fitted." : "Changed, not fitted yet.",
-      `Worst: ${worst.name}, ${floors(worst.now.held_out ?? worst.now.fitted)} floors.`]],
+      `Worst: ${worst.name}, ${floors(judged(worst))} floors.`]],
     ["Where it fails", locate ? (good ? "done" : "bad") : "", [
       ...(locate ? (locate.places.length ? locate.places.slice(0, 3).map((p) => p.words + stale(locate, labels)) : ["Nowhere above the floor."]) : ["Not looked for yet."]),
       button("locate", "Look again")]],
@@ -37,16 +38,5 @@ export function drawStages(campaign, state, ask) {
   ];
   find("stage-list").replaceChildren(...stages.map(([title, kind, pieces]) => make("li", { class: kind },
     make("strong", {}, title), ...pieces.map((piece) => (typeof piece === "string" ? make("p", {}, piece) : piece)))));
-  suggest(state, labels, ask);
-}
-
-/** Offer what the diagnosis names, as long as the model lacks it. */
-function suggest(state, labels, ask) {
-  const explain = state.findings.explain;
-  const missing = (explain?.suggestion ?? []).filter((s) => !labels.includes(s.group ? `${s.effect}[${s.group}]` : s.effect));
-  const box = find("suggestion");
-  if (!missing.length) return box.replaceChildren();
-  const names = missing.map((s) => s.effect).join(" and ");
-  box.replaceChildren(make("p", {}, `The diagnosis names ${names}.`),
-    make("button", { id: "do-take", class: "edits", onclick: () => ask({ do: "take" }) }, `Add ${names}`));
+  drawGuide(state, ask);
 }

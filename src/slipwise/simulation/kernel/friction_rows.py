@@ -1,0 +1,45 @@
+"""The rows of MuJoCo's constraints that a pad's dry friction is: which way it acts, how much they may carry, where."""
+
+from math import sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.simulation.kernel.compilable import compilable
+from slipwise.simulation.kernel.places import FORCE, FRICTION_ROW, GIRDER_DOF, RISE, RISES_OVER_PADS
+
+Array = NDArray[np.float64]
+#: A bound that MuJoCo accepts and nobody feels [N].
+TINY = 1e-9
+#: Speed [m/s] from which on friction points along the velocity rather than along the friction of the step before.
+DIRECTION_SPEED = 1e-3
+
+
+@compilable
+def direction(u: Array, z: int, bound: float, velocity_x: float, velocity_y: float) -> tuple[float, float, float]:
+    """Give a vector along which a pad's friction acts, and its length, so that what it may carry [N] is a circle.
+
+    e along v / (1 mm/s) + F / bound: along the velocity where it slides, along the last friction F where it sticks.
+    """
+    last = max(bound, 1.0)
+    toward_x = velocity_x / DIRECTION_SPEED + u[z + FORCE] / last
+    toward_y = velocity_y / DIRECTION_SPEED + u[z + FORCE + 1] / last
+    length = sqrt(toward_x * toward_x + toward_y * toward_y)
+    if length > 1e-9:
+        return toward_x, toward_y, length
+    return 1.0, 0.0, 1.0
+
+
+@compilable
+def split(u: Array, z: int, bound_x: float, bound_y: float, frictionloss: Array) -> None:
+    """Set what the rows of a pad's friction along x and y may carry: the size of each [N]."""
+    frictionloss[int(u[z + FRICTION_ROW])] = max(abs(bound_x), TINY)
+    frictionloss[int(u[z + FRICTION_ROW + 1])] = max(abs(bound_y), TINY)
+
+
+@compilable
+def lift_arms(u: Array, z: int, force_x: float, force_y: float, applied: Array) -> None:
+    """Add the moments [N m] of a pad's force [N], which acts lower under a girder that has risen over its pads."""
+    if u[RISES_OVER_PADS] > 0.0 and int(u[GIRDER_DOF]) >= 0:
+        applied[int(u[GIRDER_DOF + 4])] += u[z + RISE] * force_x
+        applied[int(u[GIRDER_DOF + 3])] -= u[z + RISE] * force_y

@@ -1,0 +1,50 @@
+// The one step that leads on from here, offered as a sentence and a button; whoever follows it ends at an accepted model.
+
+import { find, make } from "./dom.js";
+import { floors } from "./units.js";
+
+/** An error below this has reached the noise floor [floors]. */
+export const FLOOR_REACHED = 1.15;
+/** Give the error of a balance by which it is judged: of held-out runs, where any are. */
+export const judged = (error) => error.now.held_out ?? error.now.fitted;
+
+const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
+const labelOf = (s) => (s.group ? `${s.effect}[${s.group}]` : s.effect);
+
+/** Say what to do next: {words, button, message}; without a button where nothing is left to be done here. */
+export function nextStep(state) {
+  const labels = state.effects.map((e) => e.label);
+  const { explain, discover, next } = state.findings;
+  const worst = state.errors.reduce((a, b) => (judged(b) > judged(a) ? b : a));
+  const left = judged(worst) < FLOOR_REACHED ? "every balance is at its noise floor" : `${worst.name} is left at ${floors(judged(worst))} floors`;
+  const current = explain && same(explain.of, labels);
+  const missing = (explain?.suggestion ?? []).filter((s) => !labels.includes(labelOf(s)));
+  const follows = explain && explain.of.every((label) => labels.includes(label));
+  const accept = { words: `Fitted: ${left}. Accept keeps this model as model.toml.`, button: "Accept", message: { do: "accept" } };
+
+  if (!state.fitted) return { words: state.words === "opened" ? "A fit brings the model as near to the measurement as it comes." : "The model was changed: a fit shows how far the error falls.", button: "Fit", message: { do: "fit" } };
+  if (missing.length && follows) {
+    const names = missing.map((s) => s.effect).join(" and ");
+    return { words: `The diagnosis names ${names}.`, button: `Add ${names}`, message: { do: "take" } };
+  }
+  if (current) {
+    const law = same(discover?.of, labels) && discover.files?.length;
+    if (explain.leftover === "unknown" && law) return { words: discover.words, button: "Add this law", message: { do: "law" } };
+    if (explain.leftover === "unknown" && !same(discover?.of, labels))
+      return { words: "No effect of the catalogue explains what is left.", button: "Find a law for it", message: { do: "discover" } };
+    if (!state.accepted) return accept;
+    if (explain.verdict === "ambiguous" && !same(next?.of, labels))
+      return { words: "Several effects explain this campaign as well; another motion may tell them apart.", button: "Propose a motion", message: { do: "next" } };
+    return { words: `Nothing is missing that this campaign can show: ${left}, and the model is accepted.` };
+  }
+  const added = state.words === "fitted" && explain && follows && labels.length > explain.of.length;
+  if (added && !state.accepted) return accept;
+  if (added && judged(worst) < FLOOR_REACHED) return { words: "Accepted: every balance is at its noise floor." };
+  return { words: `Fitted: ${left}. The search for what is missing takes a minute or two.`, button: "Find what is missing", message: { do: "explain" } };
+}
+
+export function drawGuide(state, ask) {
+  const { words, button, message } = nextStep(state);
+  find("suggestion").replaceChildren(make("h3", {}, "Next step"), make("p", { id: "guide-words" }, words),
+    ...(button ? [make("button", { id: "go-on", class: "main edits", onclick: () => ask(message) }, button)] : []));
+}
