@@ -1,6 +1,6 @@
 """How time and memory grow with a campaign: `compare` and `diagnose` of more runs, longer runs and faster loggers.
 
-    python scripts/13_growth.py [--quick] [--out out/growth]
+    python scripts/12_growth.py [--quick] [--out out/growth]
 
 Each campaign is a replay of the paper's rig with a breakaway peak, with the noise of gauges, and is looked at in a
 process of its own. Time is that of all processors together, so that a busy machine does not count; memory is what all

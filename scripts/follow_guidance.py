@@ -1,7 +1,7 @@
 """Follow the workbench's own guidance on campaigns with hidden effects, and count the clicks to an accepted model.
 
     python scripts/make_bench.py --out out/bench --count 15 --seed 38000
-    python scripts/12_workbench.py out/bench --out out/workbench.json
+    python scripts/follow_guidance.py out/bench --out out/workbench.json
 
 Every campaign is opened in Chromium as a user has it. The button under "Next step" is clicked, and nothing else, until
 a model is accepted or no button is left; then the effects of model.toml are held against the campaign's answer. Effects

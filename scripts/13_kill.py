@@ -1,6 +1,6 @@
 """Kill commands at random moments (kill -9): what is there is whole, no process stays, the same command ends alike.
 
-    python scripts/14_kill.py [--quick] [--kills 100] [--seed 1] [--out out/kill]
+    python scripts/13_kill.py [--quick] [--kills 100] [--seed 1] [--out out/kill]
 
 Each command is killed again and again in one folder, as a user would start it again, and runs to its end at last. Then
 its results must be those of one that nobody disturbed, but for times. After every kill each file of the folder is read;
