@@ -6,13 +6,38 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.simulation.kernel.compilable import compilable
-from slipwise.simulation.kernel.places import FORCE, FRICTION_ROW, GIRDER_DOF, RISE, RISES_OVER_PADS
+from slipwise.simulation.kernel.places import (
+    DT,
+    FORCE,
+    FRICTION_ROW,
+    GIRDER_DOF,
+    LAST_VELOCITY,
+    RATE_AGE,
+    RISE,
+    RISES_OVER_PADS,
+)
 
 Array = NDArray[np.float64]
 #: A bound that MuJoCo accepts and nobody feels [N].
 TINY = 1e-9
 #: Speed [m/s] from which on friction points along the velocity rather than along the friction of the step before.
 DIRECTION_SPEED = 1e-3
+
+
+@compilable
+def rate_of_instant(u: Array, z: int, velocity_x: float, velocity_y: float) -> tuple[float, float]:
+    """Give a pad's slip rate [m/s] at the instant of its position, none where it turns round before that.
+
+    MuJoCo's rates stand half a step before its positions; that of the step before carries them on.
+    """
+    half = 0.5 * u[DT] / u[RATE_AGE]
+    now_x = velocity_x + half * (velocity_x - u[z + LAST_VELOCITY])
+    now_y = velocity_y + half * (velocity_y - u[z + LAST_VELOCITY + 1])
+    u[z + LAST_VELOCITY] = velocity_x
+    u[z + LAST_VELOCITY + 1] = velocity_y
+    if now_x * velocity_x + now_y * velocity_y < 0.0:
+        return 0.0, 0.0
+    return now_x, now_y
 
 
 @compilable

@@ -99,8 +99,10 @@ TRAIN_VELOCITY = TRAIN_TIME + 1
 #: What the effects on pads may know of the rig: rocking rate [rad/s], velocity [m/s] and acceleration [m/s^2] of the
 #: table.
 RIG_MOTION = TRAIN_VELOCITY + 2
+#: Slip rate of the step before, along x and y [m/s].
+LAST_VELOCITY = RIG_MOTION + 3
 #: Where the memory of the effects on pads begins; their parameters follow.
-PAD_MEMORY = RIG_MOTION + 3
+PAD_MEMORY = LAST_VELOCITY + 2
 
 #: In a buffer's block. Stiffness along x and y [N/m].
 BUFFER_STIFFNESS = 0

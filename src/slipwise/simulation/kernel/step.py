@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.curved_face import along_face, keep_along, normal_force, onto_table, sliding_bound
 from slipwise.simulation.kernel.dispatch import Dispatch
-from slipwise.simulation.kernel.friction_rows import direction, lift_arms, split
+from slipwise.simulation.kernel.friction_rows import direction, lift_arms, rate_of_instant, split
 from slipwise.simulation.kernel.girder import buffer_spring, girder_drag, girder_lift
 from slipwise.simulation.kernel.loading_train import follow_train
 from slipwise.simulation.kernel.pads import pad_advance, pad_bound, pad_explicit, pad_further
@@ -80,13 +80,13 @@ def control_step(
         applied: generalised forces [N, N m], of the pads' loads so far; added to.
     """
     rocking_rate, table_velocity, table_acceleration = rig_motion(u, qvel)
-    u[RATE_AGE] = u[DT]
     for pad in range(int(u[N_PADS])):
         z = effects.first_pad + pad * effects.pad_block
         u[z + RIG_MOTION] = rocking_rate
         u[z + RIG_MOTION + 1] = table_velocity
         u[z + RIG_MOTION + 2] = table_acceleration
         push_pad(effects, u, z, time, ten_length, ten_velocity, frictionloss, applied)
+    u[RATE_AGE] = u[DT]
     sum_x, sum_y = push_buffers(effects, u, time, ten_length, ten_velocity, applied)
     if int(u[GIRDER_DOF]) >= 0:
         push_girder(effects, u, sum_x, sum_y, time, ten_length, qvel, applied)
@@ -104,6 +104,7 @@ def push_pad(
     load = u[z + LOAD]
     velocity_x = ten_velocity[tendon_x]
     velocity_y = ten_velocity[tendon_y]
+    now_x, now_y = rate_of_instant(u, z, velocity_x, velocity_y)
     slip_x = ten_length[tendon_x]
     slip_y = ten_length[tendon_y]
     side_x = u[z + SIDE]
@@ -125,12 +126,12 @@ def push_pad(
         toward_x, toward_y, length = direction(u, z, u[z + BOUND], velocity_x, velocity_y)
         toward_x, toward_y = toward_x / length, toward_y / length
         bound, flat = sliding_bound(
-            effects, u, z, load, toward_x, toward_y, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt
+            effects, u, z, load, toward_x, toward_y, now_x, now_y, slip_x, slip_y, side_x, side_y, time, dt
         )
         normal = u[z + NORMAL]
         split(u, z, *onto_table(u, z, flat * toward_x, flat * toward_y), frictionloss)
     else:
-        bound = pad_bound(effects, u, z, normal, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt)
+        bound = pad_bound(effects, u, z, normal, now_x, now_y, slip_x, slip_y, side_x, side_y, time, dt)
     u[z + NORMAL] = normal
     u[z + BOUND] = bound
     if u[N_STICK] > 0.0:
