@@ -38,7 +38,7 @@ def new_figure(width: float, height: float, title: str = "") -> Figure:
     figure = ShownFigure(figsize=(width, height), layout="constrained")
     FigureCanvasAgg(figure)
     if title:
-        figure.suptitle(title, x=0.01, y=1.0 - 0.15 / height, ha="left", va="top", fontsize=13.0, fontweight="bold")
+        figure.suptitle(title, x=0.01, ha="left", fontsize=13.0, fontweight="bold")
     return figure
 
 
