@@ -223,8 +223,10 @@ def _variances(
 def _sums(slopes: Array, values: Array, label: NDArray[np.int64]) -> Array:
     """Add up slopes (m, k) times values (m,) over the rows of each label, (labels, k)."""
     # number by number: the product of all is as long as the runs together, for each of them
-    sums = [np.bincount(label, weights=column * values) for column in slopes.T]
-    return np.stack(sums, axis=1).astype(np.float64, copy=False)
+    out = np.zeros((int(label.max(initial=-1)) + 1, slopes.shape[1]))
+    for number, column in enumerate(slopes.T):
+        out[:, number] = np.bincount(label, weights=column * values)
+    return out
 
 
 def _bound(free: Free, value: float) -> str:

@@ -121,7 +121,7 @@ def demonstrate(effect: Effect, target: str = "pad_A_Fx") -> Demonstration:
         return _most("slip", without, pads, "friction of pad {}")
     model = base.adding(use(effect, target if effect.target else ""))
     hooks = effect.hooks
-    if hooks.keys() & {"area", "shear", "stick", "stretch", "pad"}:
+    if hooks.keys() & {"area", "shear", "coefficient", "stick", "stretch", "pad", "face"}:
         return _most("slip", pads, _forces(predictor(model), load)[0], "friction of pad {}")
     if hooks.keys() & {"deflection", "spring"}:
         return _most("slip", buffers, _forces(predictor(model), load)[1], "force of buffer {}")
