@@ -3,6 +3,7 @@
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -211,7 +212,8 @@ class Discovery(Drawn, Tabular):
                     "tied": list(law.tied),
                     "rivals": list(law.rivals),
                     "constants": {
-                        c.name: {"value": c.value, "low": c.low, "high": c.high, "unit": c.unit} for c in law.constants
+                        c.name: {"value": c.value, "low": _known(c.low), "high": _known(c.high), "unit": c.unit}
+                        for c in law.constants
                     },
                     "share": law.share,
                     "valid": {state: list(ends) for state, ends in law.valid.items()},
@@ -221,8 +223,8 @@ class Discovery(Drawn, Tabular):
             "beside": list(self.beside),
             "organised": None if self.organised is None else self.organised.label,
             "share": self.share,
-            "held_out": {"before": before, "after": after},
-            "relations": {name: list(errors) for name, errors in self.relations.items()},
+            "held_out": {"before": _known(before), "after": _known(after)},
+            "relations": {name: [_known(error) for error in errors] for name, errors in self.relations.items()},
             "cannot_judge": list(self.cannot_judge),
             "file": str(self.files[0]) if self.files else None,
             "files": [str(path) for path in self.files],
@@ -239,3 +241,8 @@ class Discovery(Drawn, Tabular):
             for law in self.laws
             for c in law.constants
         ]  # fmt: skip
+
+
+def _known(value: float) -> float | None:
+    """Give a number for JSON, which has none that is not known."""
+    return value if isfinite(value) else None

@@ -1,6 +1,7 @@
 """A discovered law as an effect file: what it says, and that it acts as the law does in the fit that found it."""
 
 import dataclasses
+import json
 import math
 from pathlib import Path
 from types import SimpleNamespace
@@ -145,3 +146,11 @@ def test_a_name_of_the_catalogue_is_refused(tmp_path: Path) -> None:
 
 def test_units_are_known_for_every_state() -> None:
     assert all(state in UNITS for _, states, _ in CASES for state in states)
+
+
+def test_what_is_not_known_of_a_constant_is_null_in_json() -> None:
+    told = discovery(law_of("adds to mu", ("speed",), ("bump",)))
+    told = dataclasses.replace(told, relations={"pads": (7.0, NAN)})
+    read = json.loads(json.dumps(told.as_json(), allow_nan=False))
+    assert read["laws"][0]["constants"]["width"]["low"] is None
+    assert read["held_out"] == {"before": 7.0, "after": None}
