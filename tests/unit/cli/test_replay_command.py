@@ -53,7 +53,7 @@ def test_the_same_input_gives_the_same_bytes_but_for_times_and_ids_of_rerun(slip
     numbers = [json.loads((folder / "summary.json").read_text()) for folder in (one, two)]
     times = ("wall_s", "compile_s", "write_s", "draw_s")
     first, second = ({k: v for k, v in of.items() if k not in times} for of in numbers)
-    assert first == second and len(first) > 20
+    assert first == second and {"slip_x_half_range_mm", "rig", "motion"} <= first.keys()
 
 
 def test_json_is_for_a_program_to_read(slipwise, tmp_path):
