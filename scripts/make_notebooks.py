@@ -46,6 +46,8 @@ def execute(source: Path) -> nbformat.NotebookNode:
         ).execute()
     for cell in made.cells:
         cell.metadata = {}  # when it ran is nobody's business, and differs every time
+        if "outputs" in cell:  # warnings are of the machine that ran it, and hold its paths
+            cell.outputs = [output for output in cell.outputs if output.get("name") != "stderr"]
     return made
 
 

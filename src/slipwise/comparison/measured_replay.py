@@ -176,14 +176,14 @@ def _memories(laws: Predictor, states: States, starts: Sequence[int]) -> tuple[M
     buffers = np.stack([states.slip] * max(1, len(laws.model.specimen.buffers)), axis=1)
     rates = np.stack([states.velocity] * buffers.shape[1], axis=1)
     bounds = [*starts, len(states.time)]
-    motion = rig_motion(states) if laws.asks_for_motion else np.zeros((0, 3))
+    motion = rig_motion(states) if laws.asks_for_motion else None
     kept = []
     for start, end in zip(bounds[:-1], bounds[1:], strict=True):
         kept.append(Memory(pad_memories(layout, laws.numbers).copy(), buffer_memories(layout, laws.numbers).copy()))
         if end - start > 1:
             till = slice(start, end + 1)  # pads' memory goes on between samples, that of buffers at each
             states_here = (states.load[till], states.pad_velocity[till], states.pad_slip[till])
-            laws.pads(states.time[till], *states_here, states.pads, motion[till])
+            laws.pads(states.time[till], *states_here, states.pads, None if motion is None else motion[till])
             if laws.model.specimen.buffer_stiffness:
                 here = slice(start, end)
                 laws.buffers(states.time[here], buffers[here], rates[here])

@@ -159,7 +159,7 @@ def memory_before(model: Model, runs: Sequence[FitRun]) -> Memory:
     for before in runs:
         law.rest(before.rest_before)
         states = before.states
-        motion = rig_motion(states)
+        motion = rig_motion(states) if law.asks_for_motion else None
         law.pads(states.time, states.load, states.pad_velocity, states.pad_slip, states.pads, motion)
         if model.specimen.buffer_stiffness:
             count = len(model.specimen.buffer_stiffness)
@@ -173,7 +173,8 @@ def _driven(model: Model, final: BaseFit, place: int) -> _Answer:
     force = run.states.pad_velocity  # of the run's own shape, where there is nothing before it
     for each in final.problem.runs[: place + 1]:
         law.rest(each.rest_before)
-        states, motion = each.states, rig_motion(each.states)
+        states = each.states
+        motion = rig_motion(states) if law.asks_for_motion else None
         force = law.pads(each.time, each.load, states.pad_velocity, states.pad_slip, each.pads, motion).force
     record = run.record.replaced(**{f"pad_{p}_Fx": force[:, i, 0] for i, p in enumerate(run.pads)})
     for entry in model.with_hook("gauge"):

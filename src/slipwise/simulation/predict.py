@@ -5,7 +5,7 @@ import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,7 +73,7 @@ class Predictor:
             drive(self.numbers, *arrays, force, bound, 0, count)
         return PadForces(force, bound)
 
-    @property
+    @cached_property
     def asks_for_motion(self) -> bool:
         """Whether one of the laws depends on the motion of the rig."""
         hooks = [hook for use in self.model.uses for hook in use.effect.instant_hooks.values()]
