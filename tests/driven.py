@@ -97,7 +97,9 @@ def answers(model: Model, engine: str = "compiled", moving: dict[str, np.ndarray
         if "gauge" in hooks:
             seen = hooks["gauge"](seen, entry.target, **entry.values)
         if "balance" in hooks:
-            added = hooks["balance"](states(model, moving, pads.force, first_buffers), **entry.values)
+            added = hooks["balance"](
+                states(model, moving, pads.force, first_buffers), target=entry.target, **entry.values
+            )
             balance = {name: balance[name] + added.get(name, 0.0) for name in balance}
     return {**out, "table": four, "balance": balance, "channels": dict(seen.channels)}
 

@@ -1,13 +1,14 @@
 """A model: a specimen, the effects that act on it in order, and the values of their parameters."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from slipwise.channels import check_pattern, part_of
-from slipwise.effects import PAD_HOOKS, PORTS, Effect, base_effects, find_effect
+from slipwise.effects import PORTS, Effect, base_effects, catalogue, find_effect
 from slipwise.errors import SettingError, unknown_name
+from slipwise.params import Parameter
 from slipwise.rig import Specimen, load_specimen
 from slipwise.shown import Tabular
 
@@ -19,7 +20,8 @@ class EffectUse(Tabular):
     Attributes:
         effect: which.
         values: parameter -> value [SI].
-        target: the channel it acts on, or channels ("pad_*_N", "all"), for effects that need one.
+        target: the channel it acts on, or channels ("pad_*_N", "all"), for effects that need one; the load of the pad
+            on which it sits alone, for effects that may.
         own: pad -> parameter -> value [SI], where a pad has another than all pads.
     """
 
@@ -40,23 +42,49 @@ class EffectUse(Tabular):
                 f"{self.effect.name} must be told which {self.effect.target} it acts on, "
                 "e.g. target = 'pad_A_N', 'pad_*_N' or 'all'"
             )
-        if self.target and not self.effect.target:
+        if self.target and self.effect.single and part_of(self.target)[0] != "pad":
+            raise SettingError(
+                f"{self.effect.name} sits on all pads together, or on the one whose load is its target, e.g. target = "
+                f"'pad_A_N'; {self.target!r} was given"
+            )
+        if self.target and not (self.effect.target or self.effect.single):
             raise SettingError(f"{self.effect.name} acts everywhere; it takes no target ({self.target!r} was given)")
         if self.target:
             check_pattern(self.target)
+        if self.own and not self.effect.differs_by_pad:
+            raise SettingError(
+                f"{self.effect.name} acts on more than single pads, so {_pads(self.own)} can have no value of "
+                f"{'their' if len(self.own) > 1 else 'its'} own; laws of friction at a pad can: "
+                f"{', '.join(e.name for e in catalogue().values() if e.differs_by_pad)}"
+            )
         for pad, own in self.own.items():
-            if not (hooks := self.effect.instant_hooks.keys()) or not hooks <= PAD_HOOKS:
-                raise SettingError(
-                    f"{self.effect.name} acts on more than single pads; pad {pad} has no value of its own"
-                )
             for name, value in own.items():
-                self.effect.parameter(name).check(value, f"{self.effect.name} of pad {pad}")
+                self.effect.parameter(name).of_pad(pad).check(value, self.effect.name)
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """Its parameters, then those that pads have of their own: strength, rate, strength[A]."""
+        own = (self.effect.parameter(name).of_pad(pad) for pad, values in self.own.items() for name in values)
+        return (*self.effect.parameters, *own)
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """The values of `parameters` [SI]."""
+        return {**self.values, **{f"{n}[{pad}]": v for pad, own in self.own.items() for n, v in own.items()}}
+
+    def of_pad(self, pad: str) -> dict[str, float]:
+        """Give the values that hold at a pad, parameter -> value [SI]."""
+        return {**self.values, **self.own.get(pad, {})}
+
+    def unused(self, pads: Sequence[str]) -> dict[str, float]:
+        """Give the values for all pads that no pad takes, because each of these pads has its own."""
+        return {n: v for n, v in self.values.items() if all(n in self.own.get(pad, {}) for pad in pads)}
 
     @property
     def is_neutral(self) -> bool:
         """Whether every parameter that could switch it on has its neutral value."""
         switches = [p for p in self.effect.parameters if p.neutral is not None]
-        given = [self.values, *(dict(self.values) | dict(own) for own in self.own.values())]
+        given = [self.values, *(self.of_pad(pad) for pad in self.own)]
         return bool(switches) and all(values[p.name] == p.neutral for p in switches for values in given)
 
     @property
@@ -65,11 +93,15 @@ class EffectUse(Tabular):
         return f"{self.effect.name}[{self.target}]" if self.target else self.effect.name
 
     def _headline(self) -> str:
-        values = (f"{p.name} = {self.values[p.name]:.4g} {p.unit}".removesuffix(" 1") for p in self.effect.parameters)
+        values = (f"{p.name} = {self.numbers[p.name]:.4g} {p.unit}".removesuffix(" 1") for p in self.parameters)
         return f"{self.label}({', '.join(values)})"
 
     def _rows(self) -> list[dict[str, Any]]:
-        return [{"effect": self.label, **p.row(), "value": self.values[p.name]} for p in self.effect.parameters]
+        return [{"effect": self.label, **p.row(), "value": self.numbers[p.name]} for p in self.parameters]
+
+
+def _pads(names: Iterable[str]) -> str:
+    return " and ".join(f"pad {name}" for name in names)
 
 
 def use(effect: Effect | str, target: str = "", **values: float | str) -> EffectUse:
@@ -78,7 +110,8 @@ def use(effect: Effect | str, target: str = "", **values: float | str) -> Effect
     Args:
         effect: itself, its name, or the path of a user's file ("./mine.py").
         target: the channel, for effects that need one.
-        values: parameter -> number [SI], or text with a unit ("5 %", "2 mm").
+        values: parameter -> number [SI], or text with a unit ("5 %", "2 mm"); what a pad has of its own is given
+            as `**{"strength[A]": "1.2 MPa"}`.
 
     Raises:
         UnknownNameError: no such effect or parameter.
@@ -88,7 +121,22 @@ def use(effect: Effect | str, target: str = "", **values: float | str) -> Effect
     found = find_effect(effect) if isinstance(effect, str) else effect
     if not isinstance(found, Effect):
         raise SettingError(f"an effect is a name, the path of a file or an Effect; got {type(found).__name__}")
-    return EffectUse(found, {**found.typical(), **_read(found, values)}, target)
+    return use_of(found, {**found.typical(), **_read(found, values)}, target)
+
+
+def use_of(effect: Effect, numbers: Mapping[str, float], target: str = "") -> EffectUse:
+    """Make a use of an effect from its numbers, those of single pads among them: strength, strength[A] [SI].
+
+    Raises:
+        UnknownNameError: no such parameter.
+        SettingError: a value is missing or out of bounds, or the effect has none of single pads.
+    """
+    own: dict[str, dict[str, float]] = {}
+    for name, value in numbers.items():
+        plain, bracket, pad = name.partition("[")
+        if bracket:
+            own.setdefault(pad.removesuffix("]"), {})[plain] = value
+    return EffectUse(effect, {n: v for n, v in numbers.items() if "[" not in n}, target, own)
 
 
 def _read(effect: Effect, values: Mapping[str, float | str]) -> dict[str, float]:
@@ -174,16 +222,16 @@ class Model(Tabular):
         return replace(self, uses=tuple(u for u in self.uses if u.label not in gone))
 
     def setting(self, name: str, **values: float | str) -> "Model":
-        """Give a model with other parameter values of one effect: numbers in SI, or texts with a unit."""
+        """Give a model with other parameter values of one effect, as `use` takes them."""
         old = self[name]
-        new = replace(old, values={**old.values, **_read(old.effect, values)})
+        new = use_of(old.effect, {**old.numbers, **_read(old.effect, values)}, old.target)
         return replace(self, uses=tuple(new if u is old else u for u in self.uses))
 
     def built_specimen(self) -> Specimen:
         """Give the specimen as the effects on ports `rig` and `girder` leave it."""
         specimen = self.specimen
         for entry in self.with_hook("rig"):
-            specimen = entry.effect.hooks["rig"](specimen, **entry.values)
+            specimen = entry.effect.hooks["rig"](specimen, target=entry.target, **entry.values)
         return specimen
 
     def _headline(self) -> str:

@@ -8,6 +8,8 @@
     [[effect]]
     name = "shear_rate"
     strength = "1.379 MPa"          # a parameter that is not given takes its typical value
+    [effect.pads]                   # what a pad has of its own, where an effect acts on single pads
+    A = { strength = "1.1 MPa" }
 
     [[effect]]
     name = "channel_gain"
@@ -27,11 +29,12 @@ from typing import Any, cast
 
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
-from tomlkit.items import AoT, Item, Table
+from tomlkit.items import AoT, Table
 
-from slipwise.effects import Effect, Trust, base_effects, catalogue, check_trusted, find_effect, holding, load_effect
+from slipwise.effects import Effect, Trust, base_effects, catalogue, find_effect
 from slipwise.errors import InputError, SettingError, unknown_name
 from slipwise.model import EffectUse, Model, base_model, use
+from slipwise.model_entry import entry_use, label_of, made, new_entry, write_values
 from slipwise.params import same_number
 from slipwise.record import write_text
 from slipwise.rig import RIGS, Specimen, load_specimen
@@ -39,7 +42,6 @@ from slipwise.rig.known import SPECIMEN_UNITS, better_known, known_better, read_
 from slipwise.units import quantity
 
 _TOP = ("rig", "specimen", "effect")
-_ENTRY = ("name", "file", "target")
 _HEAD = """# A model: the rig and the effects that act on it. `slipwise add` and `slipwise remove` edit this file too,
 # and keep your comments. `slipwise effects NAME` tells what an effect is.
 """
@@ -108,12 +110,12 @@ def save_model(model: Model, path: Path | str) -> None:
     labels = [u.label for u in model.uses]
     entries = _entries(document)
     for i in reversed(range(len(entries))):
-        if _label(entries[i], path) not in labels:
+        if label_of(entries[i], path) not in labels:
             del entries[i]
-    written = {_label(entry, path): entry for entry in entries}
+    written = {label_of(entry, path): entry for entry in entries}
     for wanted in model.uses:
         if wanted.label in written:
-            _write_values(written[wanted.label], wanted)
+            write_values(written[wanted.label], wanted)
         else:
             _append(document, wanted, _file_of(wanted.effect, path))
     write_text(path, tomlkit.dumps(document))
@@ -145,7 +147,7 @@ def add_effect(
     """
     document = _read(path)
     effect = find_effect(name)
-    _append(document, _made(effect, target, values or {}, name), _file_of(effect, path))
+    _append(document, made(effect, target, values or {}, name), _file_of(effect, path))
     model = _model(document, path, trust if isinstance(trust, bool) and trust else [effect.path, *(trust or ())])
     write_text(path, tomlkit.dumps(document))
     return model
@@ -168,7 +170,7 @@ def remove_effect(path: Path, name: str, *, trust: Trust = False) -> Model:
     """
     document = _read(path)
     entries = _entries(document)
-    labels = [_label(entry, path) for entry in entries]
+    labels = [label_of(entry, path) for entry in entries]
     found = [i for i, label in enumerate(labels) if name in (label.partition("[")[0], label)]
     if not found:
         raise unknown_name(f"effect (in {path.name})", name, labels)
@@ -205,44 +207,8 @@ def _model(document: tomlkit.TOMLDocument, path: Path, trust: Trust) -> Model:
     specimen = load_specimen(str(document["rig"]), path.parent)
     part = cast(Mapping[str, Any], document.get("specimen", {}))
     known = read_known(part, f"[specimen] of {path.name}")
-    uses = tuple(_use(entry, path, trust, slider=not specimen.free) for entry in _entries(document))
+    uses = tuple(entry_use(entry, path, trust, slider=not specimen.free) for entry in _entries(document))
     return Model(better_known(specimen, known, path.name), uses)
-
-
-def _file_in(entry: Table, path: Path) -> Path | None:
-    """Give the effect file that an entry names, None for an effect of the catalogue."""
-    if ("name" in entry) == ("file" in entry):
-        raise InputError(f'{path}: each [[effect]] needs either name = "heating" or file = "mine.py"')
-    given = str(entry["file"] if "file" in entry else entry["name"])
-    return path.parent / given if "file" in entry or given.endswith(".py") else None
-
-
-def _label(entry: Table, path: Path) -> str:
-    """Give an entry's label without running its file."""
-    file = _file_in(entry, path)
-    name = str(entry["name"]) if file is None else file.stem
-    return f"{name}[{entry['target']}]" if entry.get("target") else name
-
-
-def _use(entry: Table, path: Path, trust: Trust, *, slider: bool) -> EffectUse:
-    file = _file_in(entry, path)
-    if file is not None:
-        check_trusted(file, path, trust)
-    effect = find_effect(str(entry["name"])) if file is None else load_effect(file)
-    values = {key: entry[key] for key in entry if key not in _ENTRY}
-    return _made(effect, str(entry.get("target", "")), values, f"{path.name}, effect {effect.name}", slider=slider)
-
-
-def _made(effect: Effect, target: str, values: Mapping[str, Any], where: str, *, slider: bool = False) -> EffectUse:
-    si: dict[str, float] = {}
-    for name, value in values.items():
-        parameter = effect.parameter(name)
-        # A number of a TOML file must have a unit; one that a program gives is SI.
-        plain = isinstance(value, float | int) and not isinstance(value, Item)
-        found = float(value) if plain else quantity(value, parameter.unit, f"{where}, {name}")
-        si[name] = parameter.snapped(found)
-    # a slider's sizes are of no reference rig
-    return use(holding(effect, {**effect.typical(), **si}) if slider else effect, target, **si)
 
 
 def _file_of(effect: Effect, path: Path) -> str:
@@ -254,31 +220,12 @@ def _file_of(effect: Effect, path: Path) -> str:
 
 
 def _append(document: tomlkit.TOMLDocument, wanted: EffectUse, file: str) -> None:
-    entry = tomlkit.table()
-    entry["file" if file else "name"] = file or wanted.effect.name
-    if wanted.target:
-        entry["target"] = wanted.target
-    for parameter in wanted.effect.parameters:
-        bounds = [parameter.shown(bound, short=True).partition(" ")[0] for bound in (parameter.low, parameter.high)]
-        value = tomlkit.item(parameter.written(wanted.values[parameter.name]))
-        entry.add(parameter.name, value.comment(f"{parameter.meaning}; {' to '.join(bounds)}"))
     if "effect" not in document:
         document.add(tomlkit.nl())
         document["effect"] = tomlkit.aot()
     elif not tomlkit.dumps(document).endswith("\n\n"):
         _entries(document)[-1].add(tomlkit.nl())
-    _entries(document).append(entry)
-
-
-def _write_values(entry: Table, wanted: EffectUse) -> None:
-    """Put a model's values into an entry that is there; one that is not there and has its typical value stays away."""
-    for parameter in wanted.effect.parameters:
-        value = wanted.values[parameter.name]
-        if parameter.name in entry:
-            if not same_number(quantity(str(entry[parameter.name]), parameter.unit, parameter.name), value):
-                entry[parameter.name] = parameter.written(value)
-        elif value != parameter.typical:
-            entry[parameter.name] = parameter.written(value)
+    _entries(document).append(new_entry(wanted, file))
 
 
 def _write_specimen(document: tomlkit.TOMLDocument, known: Mapping[str, float | str]) -> None:

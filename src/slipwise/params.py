@@ -1,6 +1,6 @@
 """A parameter: a value with its unit, its bounds and its source."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from slipwise.errors import SettingError, UnitError
@@ -105,6 +105,10 @@ class Parameter:
             raise SettingError(
                 f"{name} is a number in SI or a text with its unit, {possible}; got {type(given).__name__}"
             ) from None
+
+    def of_pad(self, pad: str) -> "Parameter":
+        """Give the parameter that one pad has of its own, e.g. strength[A]."""
+        return replace(self, name=f"{self.name}[{pad}]", meaning=f"{self.meaning}; of pad {pad}")
 
     def row(self) -> dict[str, str | float | None]:
         """Give what a table says of it, SI."""

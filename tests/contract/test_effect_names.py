@@ -29,7 +29,7 @@ ALLOWED = {
     ("rig/mjcf_parts.py", "table_pitch"),  # a joint of the rig
     # what a user takes in the place of what an MJCF may not hold
     *(("rig/mjcf_attributes.py", n) for n in ("buffer_damping", "guide_drag", "key_clearance", "key_friction")),
-    ("model_file.py", "heating"),  # an example of an entry
+    ("model_entry.py", "heating"),  # an example of an entry
 }
 
 

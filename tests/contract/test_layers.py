@@ -30,18 +30,19 @@ ARROWS: dict[str, str] = {
     "motion": "channels errors shown signals text_encoding units",
     "rig": "channels errors record units",
     "effects": "channels errors params record rig shown signals",
-    "model": "channels effects errors rig shown",
-    "model_file": "effects errors model params record rig units",
+    "model": "channels effects errors params rig shown",
+    "model_entry": "effects errors model params units",
+    "model_file": "effects errors model model_entry params record rig units",
     "simulation": "cache channels effects errors model model_file motion one_at_a_time record rig shown whole_file",
     "campaign": "channels errors record rig shown signals text_encoding units",
     "instruments": "campaign channels effects errors parallel record rig shown signals statistics",
     "estimation": (
-        "campaign channels effects errors instruments model parallel record rig signals statistics simulation"
+        "campaign channels effects errors instruments model parallel params record rig signals statistics simulation"
     ),
     "evidence": "campaign channels errors estimation record signals statistics",
     "comparison": (
         "campaign channels effects errors estimation evidence instruments model model_file motion parallel record"
-        " shown signals statistics simulation"
+        " rig shown signals statistics simulation"
     ),
     "diagnosis": (
         "campaign channels comparison effects errors estimation evidence instruments model model_file"
@@ -61,7 +62,7 @@ ARROWS: dict[str, str] = {
     ),
     "session": (
         "cache campaign channels comparison diagnosis discovery effects errors estimation instruments model model_file"
-        " parallel record shown simulation units"
+        " parallel record rig shown simulation units"
     ),
     "view": (
         "channels comparison diagnosis discovery effects errors estimation evidence experiment instruments parallel"

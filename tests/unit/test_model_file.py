@@ -159,3 +159,65 @@ def test_an_effect_on_several_channels_is_removed_by_its_label(path: Path) -> No
 def test_a_missing_file_says_how_to_get_one(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="slipwise init"):
         load_model(tmp_path / "model.toml")
+
+
+OF_PADS = """rig = "six_pads"
+
+[[effect]]
+name = "contact_area"
+
+[[effect]]
+name = "shear_rate"
+strength = "1.379 MPa"
+[effect.pads]         # the two of the old batch
+B = { strength = "1.1 MPa", rate = "0.1 s/cm" }
+E = { strength = "1.2 MPa" }   # worn
+
+[[effect]]
+name = "run_in"
+pads.C.rise = 0.3
+"""
+
+
+def test_single_pads_have_values_of_their_own_and_keep_them(tmp_path: Path) -> None:
+    file = tmp_path / "model.toml"
+    file.write_text(OF_PADS)
+    model = load_model(file)
+    own = model["shear_rate"].own
+    assert own == {"B": {"strength": pytest.approx(1.1e6), "rate": pytest.approx(10.0)}, "E": {"strength": 1.2e6}}
+    assert model["run_in"].of_pad("C")["rise"] == 0.3 and model["run_in"].of_pad("A") == model["run_in"].values
+    save_model(model, file)
+    assert file.read_text() == OF_PADS
+    changed = model.setting("shear_rate", **{"strength[E]": "1.3 MPa"}).setting("run_in", **{"rise[D]": 0.1})
+    save_model(changed, file)
+    assert load_model(file) == changed and comments(file.read_text()) == comments(OF_PADS)
+    assert 'B = { strength = "1.1 MPa", rate = "0.1 s/cm" }' in file.read_text()
+    other = tmp_path / "other.toml"
+    save_model(changed, other)
+    assert load_model(other) == changed
+    plain = replace(changed, uses=tuple(replace(u, own={}) for u in changed.uses))
+    save_model(plain, file)
+    assert load_model(file) == plain and "pads" not in file.read_text().replace("six_pads", "")
+
+
+REFUSED_OF_PADS = {
+    "unknown pad": ("E = {", "G = {", UnknownNameError, "no pad of six_pads is called 'G'"),
+    "unknown parameter": ("rate = ", "rat = ", UnknownNameError, "did you mean rate"),
+    "out of bounds": ('"1.2 MPa"', '"12 MPa"', SettingError, r"shear_rate.strength\[E\] = 1.2e\+07 Pa is out"),
+    "no unit": ('"1.2 MPa"', "1.2", UnitError, r"strength\[E\].*no unit"),
+    "no pad law": ('"run_in"', '"guide_drag"', SettingError, "guide_drag acts on more than single pads, so pad C can"),
+    "how all stick": ('"run_in"', '"presliding"', SettingError, "presliding acts on more than single pads"),
+    "no table": ("pads.C.rise = 0.3", 'pads = "C"', InputError, r"written as \[effect.pads\] with A = "),
+    "no values": ('E = { strength = "1.2 MPa" }', "E = 1.2", InputError, r"pads.E is 1.2"),
+    "in brackets": ("pads.C.rise = 0.3", '"rise[C]" = 0.3', InputError, r"'rise\[C\]' is of one pad: write"),
+}
+
+
+@pytest.mark.parametrize("what", REFUSED_OF_PADS)
+def test_what_no_single_pad_can_have_is_refused(what: str, tmp_path: Path) -> None:
+    old, new, error, words = REFUSED_OF_PADS[what]
+    assert old in OF_PADS
+    file = tmp_path / "model.toml"
+    file.write_text(OF_PADS.replace(old, new).replace("rise", "damping" if "guide" in new else "rise"))
+    with pytest.raises(error, match=words):
+        load_model(file)

@@ -11,12 +11,15 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.campaign.draft_columns import Column, Mapped, column_of, map_columns
-from slipwise.campaign.draft_roles import is_sine, record_of, rig_of, roles_of
+from slipwise.campaign.draft_column import Column, Mapped, column_of
+from slipwise.campaign.draft_columns import map_columns
+from slipwise.campaign.draft_rig import rig_for
+from slipwise.campaign.draft_roles import is_sine, record_of, roles_of
 from slipwise.campaign.table import SUFFIXES, open_table
-from slipwise.channels import CHANNELS, PADS, channel
+from slipwise.channels import channel, is_channel, pads_in, part_of
 from slipwise.errors import InputError, SlipwiseError
 from slipwise.record import Record, write_text
+from slipwise.rig.files import SPECIMEN_FILE
 from slipwise.units import affine, parse_unit
 
 Array = NDArray[np.float64]
@@ -67,12 +70,15 @@ def init_campaign(folder: Path | str, *, ask: Ask | None = None) -> Path:
     path = Path(folder) / "campaign.toml"
     if path.exists():
         raise InputError(f"{path} exists and is not overwritten; move it away to draft a new one")
-    write_text(path, draft_campaign(Path(folder), ask))
+    text, specimen = draft_campaign(Path(folder), ask)
+    if specimen:
+        write_text(path.with_name(SPECIMEN_FILE), specimen)
+    write_text(path, text)
     return path
 
 
-def draft_campaign(folder: Path, ask: Ask | None = None) -> str:
-    """Write the text of a first campaign.toml.
+def draft_campaign(folder: Path, ask: Ask | None = None) -> tuple[str, str]:
+    """Write the text of a first campaign.toml, and that of a specimen.toml where it needs one, else "".
 
     Args:
         folder: with the data files.
@@ -93,23 +99,23 @@ def draft_campaign(folder: Path, ask: Ask | None = None) -> str:
     ours = list(dict.fromkeys(name for file in files for name in file.known))
     lines = _columns(headers, ours, mapped)
     named = [*ours, *re.findall(r'channel = "(\w+)", unit', "\n".join(line for line in lines if line[:1] != "#"))]
-    rig, why = rig_of([record for record in records.values() if record is not None])
-    if rig == "pad" and all(f"pad_{pad}_Fx" in named for pad in PADS):
-        rig, why = "bridge1", "four pads; nothing tells which rig"
-    rig = rig if ask is None else ask("Which rig (bridge1, bridge2, block, pad, or an MJCF file)?", rig)
+    known = [record for record in records.values() if record is not None]
+    guess, why, specimen = rig_for(known, pads_in(named), folder)
+    possible = "a name of `slipwise rigs`, a specimen.toml or an MJCF file"
+    rig = guess if ask is None else ask(f"Which rig ({possible})?", guess)
     head = [
         "# Drafted from the files of this folder. Lines with `decide` need your eyes.",
         "# `slipwise channels` lists the channels.",
         *(f"# not read: {words}" for words in passed),
         f"name = {_quoted(folder.resolve().name)}",
-        f"rig  = {_quoted(rig)}   # decide: bridge1, bridge2, block, pad (slip prescribed), or an MJCF file ({why})",
+        f"rig  = {_quoted(rig)}   # decide: {possible} ({why})",
         "",
     ]
     if rig != "pad":
         head += _logger(ask)
-    if not any(n.startswith("pad_") and n[6:] in ("N", "P") for n in named):
+    if not any(part_of(n)[0] == "pad" and n.endswith(("_N", "_P")) for n in named):
         lines += ["# [constants]             # decide: no column holds a pad's load", '# pad_A_N = "10 kN"', ""]
-    return "\n".join([*head, *lines, *_runs(records)]) + "\n"
+    return "\n".join([*head, *lines, *_runs(records)]) + "\n", specimen if rig == guess else ""
 
 
 def _logger(ask: Ask | None) -> list[str]:
@@ -121,7 +127,7 @@ def _logger(ask: Ask | None) -> list[str]:
 
 def _is_ours(header: str) -> bool:
     match = _OURS.match(header)
-    return bool(match and match["name"] in CHANNELS)
+    return bool(match and is_channel(match["name"]))
 
 
 def _data_files(folder: Path) -> tuple[list[DataFile], list[str]]:
@@ -156,7 +162,7 @@ def _opened(path: Path) -> DataFile:
         if not np.isfinite(values).all():
             continue
         match = _OURS.match(header)
-        if match and match["name"] in CHANNELS:
+        if match and is_channel(match["name"]):
             try:
                 factor, offset = affine(match["unit"], channel(match["name"]).unit, header)
             except SlipwiseError:

@@ -6,20 +6,15 @@ slip      starts at zero, and its second derivative is girder minus table
 girder, table   along x friction and slip make the girder's acceleration; upwards the loads follow the girder
 """
 
-import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.campaign.draft_column import LETTERS, Column, Mapped
 from slipwise.channels import PADS
-from slipwise.errors import UnitError
-from slipwise.units import affine
 
 Array = NDArray[np.float64]
-_HEADER = re.compile(r"^\s*(?P<name>.*?)\s*[\[(](?P<unit>[^\])]*)[\])]\s*$")
-_KINDS = (("time", "s"), ("acceleration", "m/s^2"), ("force", "N"), ("length", "m"), ("speed", "m/s"), ("angle", "rad"))
 _TABLE = {"table", "tab", "tbl", "base", "platform", "shaker", "actuator", "tisch", "ground", "foundation"}
 _GIRDER = {"girder", "deck", "beam", "mass", "block", "superstructure", "top", "slab", "bridge", "traeger", "gir"}
 _UP = {"z", "vert", "vertical", "v", "up", "n", "normal", "axial", "az"}
@@ -31,58 +26,6 @@ _STEADY, _ENOUGH = 0.6, 100
 _LARGEST_LOAD = 1e8
 #: Table and girder are told apart where the girder's forces explain this much more of one than of the other [1].
 _APART = 0.01
-
-
-@dataclass(frozen=True)
-class Column:
-    """A column of a file that is not named as we do.
-
-    Attributes:
-        header: as it stands there.
-        unit: as written.
-        kind: "time", "acceleration", "force", "length", "speed", "angle", or "" where the unit says nothing.
-        words: of its name, in lower case.
-        number: that its name holds, 1 for "LC1" and "pad A"; None without one.
-        values: (n,) SI.
-    """
-
-    header: str
-    unit: str
-    kind: str
-    words: frozenset[str]
-    number: int | None
-    values: Array
-
-
-@dataclass(frozen=True)
-class Mapped:
-    """A column that was recognised: its channel, its sign, why, and how sure that is."""
-
-    channel: str
-    unit: str
-    sign: int
-    why: str
-    sure: str
-
-
-def column_of(header: str, values: Array) -> Column:
-    """Look at one column; values as written (n,)."""
-    found = _HEADER.match(header)
-    name, unit = (found["name"], found["unit"]) if found else (header, "")
-    kind, si = "", values
-    for known, si_unit in _KINDS:
-        try:
-            factor, offset = affine(unit, si_unit, header)
-        except UnitError:
-            continue
-        kind, si = known, factor * values + offset
-        break
-    spaced = re.sub(r"(?<=[a-z])(?=[A-Z])|(?<=\d)(?=[A-Za-z])|(?<=[A-Za-z])(?=\d)", " ", name)
-    words = [word for word in re.split(r"[^A-Za-z0-9]+", spaced.lower()) if word]
-    numbers = [int(word) for word in words if word.isdigit()]
-    letters = [PADS.index(word.upper()) + 1 for word in words if word.upper() in PADS]
-    number = numbers[0] if numbers else letters[0] if letters else None
-    return Column(header, unit, kind, frozenset(words), number, si)
 
 
 def map_columns(columns: Sequence[Column], known: Mapping[str, Array]) -> dict[str, Mapped]:
@@ -228,22 +171,22 @@ def _pads(
     out: dict[str, Mapped],
     step: float,
 ) -> None:
-    """Map loads and frictions of four pads, or of one."""
+    """Map loads and frictions of a girder's pads, or of one."""
     if len(loads) == 1:
         _put(out, channels, loads[0], _load(loads[0], "A", "the only load", "likely"))
-    places = _places(loads, channels) if len(loads) == len(PADS) else {}
+    counted = range(3, len(LETTERS) + 1)
+    places = _places(loads, channels) if len(loads) in counted else {}
     for column, (pad, why, sure) in places.items():
         load = next(c for c in loads if c.header == column)
         _put(out, channels, load, _load(load, pad, why, sure))
     by_number = {c.number: places[c.header][0] for c in loads if c.header in places and c.number is not None}
     pads = [places[c.header][0] for c in loads if c.header in places]
     along = [c for c in frictions if not c.words & _ACROSS]
-    for k, column in enumerate(along if len(along) in (1, len(PADS)) else []):
+    for k, column in enumerate(along if len(along) in (1, *counted) else []):
         pad = by_number.get(column.number) if column.number in by_number else None
         why, sure = f"no mean; number {column.number} as the load's", "sure"
         if pad is None:
-            ordered = "A" if len(along) == 1 else PADS[k]
-            pad, why, sure = pads[k] if pads else ordered, "no mean; by its order", "guess"
+            pad, why, sure = pads[k] if k < len(pads) else LETTERS[k], "no mean; by its order", "guess"
         sign = 1
         if "slip_x" in channels:
             rate = np.gradient(_smooth(channels["slip_x"]), step)
@@ -262,8 +205,17 @@ def _load(column: Column, pad: str, why: str, sure: str) -> Mapped:
 
 
 def _places(loads: Sequence[Column], channels: Mapping[str, Array]) -> dict[str, tuple[str, str, str]]:
-    """Give header -> pad, why and how sure: pads at +x unload while the girder is pushed to +x; +y likewise."""
+    """Give header -> pad, why and how sure: pads at +x unload while the girder is pushed to +x; +y likewise.
+
+    Of four; where others stand is for a specimen.toml to say, and they are counted.
+    """
     order = sorted(loads, key=lambda c: (c.number is None, c.number or 0))
+    if len(loads) != len(PADS):
+        numbers = [c.number for c in order]
+        counted = numbers == list(range(1, len(order) + 1))
+        why, sure = (f"number {{}} of {len(order)}", "likely") if counted else ("by its order", "guess")
+        named = zip(order, LETTERS, strict=False)
+        return {c.header: (pad, why.format(c.number), sure) for c, pad in named}
     size = {c.header: np.abs(c.values) for c in loads}
     mean = np.asarray(np.mean(list(size.values()), axis=0), dtype=np.float64)
     sides: dict[str, dict[str, float]] = {}

@@ -37,8 +37,12 @@ def init(
     Example: `slipwise init campaigns/march`
     """
     ask = None if yes or not sys.stdin.isatty() else _ask
+    specimen = folder / "specimen.toml"
+    was_there = specimen.exists()
     path = sw.init_campaign(folder, ask=ask)
     say(f"wrote {path}; read it, and decide what is marked in it")
+    if specimen.exists() and not was_there:
+        say(f"wrote {specimen}: no rig of the package fits; fill in its places, sizes and heights")
     for line in path.read_text(encoding="utf-8").splitlines():
         if line.startswith("# not read: "):
             say(line.removeprefix("# "))

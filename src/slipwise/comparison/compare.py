@@ -19,7 +19,7 @@ from slipwise.comparison.sentences import places
 from slipwise.comparison.system_level import SystemLevel, system_level
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit, fit_finely
-from slipwise.estimation.girder_balances import BALANCES
+from slipwise.estimation.girder_balances import balances_of
 from slipwise.estimation.intervals import intervals
 from slipwise.estimation.prediction_interval import predicted_friction
 from slipwise.evidence.floor import noise_floor
@@ -147,7 +147,7 @@ def _cannot(base: BaseFit) -> list[str]:
     if not problem.specimen.free:
         out.append("balances of girder, heave, pitch, roll and warp: the slip of this rig is prescribed")
     else:
-        absent = [b for b in BALANCES if b not in problem.relations]
+        absent = [b for b in balances_of(problem.specimen) if b not in problem.relations]
         out += [f"{b} balance: a channel that it needs is missing" for b in absent]
     if not problem.held_out:
         out.append("held-out error: no run has the role holdout; errors are those of the fitted runs")

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.estimation.base_fit import BaseFit
+from slipwise.rig.load_basis import WARPS, basis_of
 
 Array = NDArray[np.float64]
 #: Relation -> what it is called, unit of its residual.
@@ -16,7 +17,7 @@ NAMES: Mapping[str, tuple[str, str]] = {
     "heave": ("heave of the loads", "N"),
     "pitch": ("pitch of the loads", "N"),
     "roll": ("roll of the loads", "N"),
-    "warp": ("warp of the loads", "N"),
+    **{name: (f"{name.replace('_', ' ')} of the loads", "N") for name in WARPS},
     "motion": ("slip against accelerometers", "1"),
     "across": ("pad friction across", "N"),
 }
@@ -84,7 +85,7 @@ def _measured(relation: str, run, judged: NDArray[np.bool_]) -> Array | None:
     if relation == "heave":
         return run.load.sum(axis=1)[judged]
     if relation == "pitch":
-        return (run.load[:, 0] + run.load[:, 2] - run.load[:, 1] - run.load[:, 3])[judged]
+        return (run.load @ basis_of(run.states.specimen).rigid[1])[judged]
     return None
 
 

@@ -148,7 +148,7 @@ def as_json(found: ComparisonData) -> dict[str, Any]:
         "schema": 1,
         "campaign": found.campaign.name,
         "rig": found.campaign.rig,
-        "model": [{"effect": u.effect.name, "target": u.target, "values": dict(u.values)} for u in found.model.uses],
+        "model": [{"effect": u.effect.name, "target": u.target, "values": u.numbers} for u in found.model.uses],
         "components": {
             r: {
                 "fit": found.error(r, held_out=False),

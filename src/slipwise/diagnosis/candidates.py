@@ -10,6 +10,7 @@ from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.parameters import Term
 from slipwise.estimation.problem import Problem
 from slipwise.instruments.gauge_groups import places_of
+from slipwise.rig.load_basis import WARPS
 
 #: Loads are steady in each run when they differ between runs by this many times more than within one [1].
 _STEADY = 3.0
@@ -52,6 +53,7 @@ def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], d
                 cannot[name] = "no gauge was recorded on which it would show"
         else:
             terms.append(Term(effect))
+            terms += _on_single_pads(effect, problem)
     return terms, cannot | _confounded(problem)
 
 
@@ -121,6 +123,13 @@ def _aimed(effect: Effect, problem: Problem) -> Iterator[Term]:
                 yield Term(effect, targets, "pad_*")
         elif problem.balanced or ((place.startswith("pad_") or place == "slip_x") and _alone(effect, targets)):
             yield Term(effect, targets, place)
+
+
+def _on_single_pads(effect: Effect, problem: Problem) -> Iterator[Term]:
+    """Give an effect on each pad alone, where loads tell which: those of three or four pads warp one way or not."""
+    if effect.single and WARPS[1] in problem.relations:
+        for pad in problem.specimen.pads:
+            yield Term(effect, (f"pad_{pad}_N",), f"pad_{pad}_N")
 
 
 def _alone(effect: Effect, targets: Iterable[str]) -> bool:

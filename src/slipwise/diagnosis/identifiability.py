@@ -151,7 +151,7 @@ def _named(base: BaseFit, free: Free) -> _Number | None:
     if free.key in _OF_RIG:
         return _Number(free.key, free.unit, free.unit, began, False, None)
     for use in base.model.uses:
-        for p in use.effect.parameters:
+        for p in use.parameters:
             if free.key == f"{use.label}.{p.name}":
                 symbol, colon, _ = p.meaning.partition(":")
                 title = f"{free.key} ({symbol})" if colon else free.key

@@ -163,7 +163,7 @@ def _screened(here: LawProblem, start: Solution) -> list[Candidate]:
 
 def _starts(before: LawProblem, solution: Solution, model: Model) -> list[Solution]:
     """Give the fit, and the fit with the base law's own numbers as rated where they are others."""
-    own = {f"{u.label}.{name}": value for u in model.uses for name, value in u.values.items()}
+    own = {f"{u.label}.{name}": value for u in model.uses for name, value in u.numbers.items()}
     rated = {k: v for k, v in own.items() if k in solution.values}
     if "rig.shear_strength" in solution.values:
         rated["rig.shear_strength"] = model.specimen.shear_strength

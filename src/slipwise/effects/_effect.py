@@ -24,7 +24,8 @@ Hooks of whole arrays (numpy):
     sharpen(record, target, ...) -> Record (its inverse as far as noise bears it, where there is no exact one)
     disturb(records, specimen) -> forms, each a list of free numbers: what each adds to the balances by which an audit
                         compares gauges, in every record; see `_disturbances`
-    balance(states, ...) -> {"heave" | "pitch" | "roll" | "warp": (n,), "girder": (n,)} added to what is predicted
+    balance(states, ...) -> {"heave" | "pitch" | "roll" | "warp" | "warp_2" ...: (n,), "girder": (n,)} added to what is
+                        predicted
     rest(memory, seconds, ...) -> None         what a pause between runs leaves of the memory
     begin(memory, share_x, share_y, bound, ...) -> None    what is remembered where a slider's record begins, by the
                                                share of the bound [1] that its force was then
@@ -49,7 +50,7 @@ from typing import Any
 from slipwise.channels import CHANNELS
 from slipwise.effects._declared import COMPONENT_NEEDS, NEEDS, Gauges
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._hooks import DERIVED, HOOKS
+from slipwise.effects._hooks import DERIVED, HOOKS, PAD_HOOKS
 from slipwise.errors import unknown_name
 from slipwise.params import Parameter
 from slipwise.shown import Drawn, Tabular
@@ -74,6 +75,7 @@ class Effect(Drawn, Tabular):
         confused_with: other effects -> the test that tells them apart.
         memory: names of the numbers it remembers, per pad or per buffer and direction; they start at zero.
         target: "channel" where the effect must be told which channel it acts on, else "".
+        single: whether it may sit on one pad alone, whose load channel is then its target.
         fault: of a gauge's fault: what the audit of the instruments needs to know of it.
         exact: whether geometry leaves no other form of it than this: what it does not explain is then something else.
         replaces: for a law that takes the place of a simpler one: which; such an effect has no neutral value.
@@ -108,6 +110,7 @@ class Effect(Drawn, Tabular):
     confused_with: Mapping[str, str]
     memory: tuple[str, ...] = ()
     target: str = ""
+    single: bool = False
     fault: GaugeFault | None = None
     exact: bool = False
     replaces: str = ""
@@ -139,6 +142,15 @@ class Effect(Drawn, Tabular):
         return {n: f for n, f in self.hooks.items() if HOOKS[n].instant}
 
     @property
+    def differs_by_pad(self) -> bool:
+        """Whether pads may have values of their own: it acts on single pads and on nothing that all have in common.
+
+        How friction turns round is one for all pads: an explicit force, or a bound.
+        """
+        hooks = self.instant_hooks.keys()
+        return bool(hooks) and hooks <= PAD_HOOKS - {"stick"} and "balance" not in self.hooks
+
+    @property
     def derived(self) -> tuple[str, ...]:
         """The derived states that its hooks of one instant ask for, in the order of `DERIVED`."""
         asked = {name for hook in self.instant_hooks.values() for name in inspect.signature(hook).parameters}
@@ -161,14 +173,15 @@ class Effect(Drawn, Tabular):
         return tuple(n for n in NEEDS if n in own)
 
     def parameter(self, name: str) -> Parameter:
-        """Look a parameter up.
+        """Look a parameter up, also one that a pad has of its own: strength[A].
 
         Raises:
             UnknownNameError: no such parameter.
         """
+        plain, bracket, pad = name.partition("[")
         for parameter in self.parameters:
-            if parameter.name == name:
-                return parameter
+            if parameter.name == plain:
+                return parameter.of_pad(pad.removesuffix("]")) if bracket else parameter
         raise unknown_name(
             f"parameter of {self.name}", name, self.parameter_names, f"`slipwise effects {self.name}` lists them."
         )

@@ -101,6 +101,7 @@ _AFTERWARDS = {n: words for n, words in PAD_INPUTS.items() if n not in ("real_ar
 _BOUND = {"bound": _FORCE_INPUTS["bound"]}
 _OF_BUFFER = {"force": "of the buffer so far [N]"}
 _RECORD = {"record": "the run so far, a Record", "target": "channel that it sits on, where EFFECT has a target"}
+_PAD_ALONE = {"target": "load channel of the pad on which it sits alone, where EFFECT is `single`; else empty"}
 _MEMORY = {"memory": "numbers that it remembers"}
 HOOKS: dict[str, Hook] = {
     "area": _hook(PAD_INPUTS, {"real_area": PAD_INPUTS["real_area"]}, "pad"),
@@ -120,7 +121,7 @@ HOOKS: dict[str, Hook] = {
         "buffer",
     ),
     "drag": _hook(GIRDER_INPUTS, {}),
-    "rig": _arrays({"specimen": "the rig so far, a Specimen"}),
+    "rig": _arrays({"specimen": "the rig so far, a Specimen", **_PAD_ALONE}),
     "table": _arrays(
         {
             "acceleration": "(n, 4) of the table along x, y, z [m/s^2] and in pitch [rad/s^2]",
@@ -134,7 +135,7 @@ HOOKS: dict[str, Hook] = {
     "corner": _arrays({}),
     "disturb": _arrays({"records": "of all runs, each a Record", "specimen": "the rated rig, a Specimen"}),
     "flat": _arrays({"coefficient": "coefficient of friction at any speed [1]"}),
-    "balance": _arrays({"states": "measured states of one run, BalanceStates"}),
+    "balance": _arrays({"states": "measured states of one run, BalanceStates", **_PAD_ALONE}),
     "rest": _arrays({**_MEMORY, "seconds": "length of the pause [s]"}, "pad"),
     "begin": _arrays(
         {

@@ -34,10 +34,16 @@ def _scaled(p: Parameter, factor: float) -> Parameter:
 
 
 def holding(effect: Effect, values: Mapping[str, float]) -> Effect:
-    """Give an effect whose bounds hold these values, pure numbers apart: what was stated of a slider is possible."""
-    kept = tuple(_holding(p, values[p.name]) if p.unit != "1" else p for p in effect.parameters)
+    """Give an effect whose bounds hold these values, pure numbers apart: what was stated of a slider is possible.
+
+    Args:
+        effect: whose bounds.
+        values: parameter -> value [SI], also those of single pads: strength[A].
+    """
+    kept = tuple(_holding(p, values) if p.unit != "1" else p for p in effect.parameters)
     return effect if kept == effect.parameters else replace(effect, parameters=kept)
 
 
-def _holding(p: Parameter, value: float) -> Parameter:
-    return replace(p, low=min(p.low, value), high=max(p.high, value))
+def _holding(p: Parameter, values: Mapping[str, float]) -> Parameter:
+    given = [v for n, v in values.items() if n.partition("[")[0] == p.name]
+    return replace(p, low=min(p.low, *given), high=max(p.high, *given))

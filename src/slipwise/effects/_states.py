@@ -5,7 +5,7 @@ The balances of a rigid girder tie the instruments together without any law of f
     heave   sum N = m (g + a_z)                        + balance["heave"]
     pitch   (N_A + N_C) - (N_B + N_D) = ...            + balance["pitch"]
     roll    (N_A + N_B) - (N_C + N_D) = ...            + balance["roll"]
-    warp    N_A - N_B - N_C + N_D = constant           + balance["warp"]
+    warp    N_A - N_B - N_C + N_D = constant           + balance["warp"], of more pads also balance["warp_2"] ...
     girder  m a_x + sum F + F_buffers + balance["girder"] = 0
 
 A hook returns what its effect adds, each (n,) [N]; what it does not name it does not touch.

@@ -12,6 +12,7 @@ from slipwise.estimation.run_data import FitRun
 from slipwise.model import Model
 from slipwise.rig import Specimen
 from slipwise.rig.frame import frame_noise
+from slipwise.rig.load_basis import basis_of, warps
 from slipwise.simulation.predict import predictor
 
 Array = NDArray[np.float64]
@@ -24,12 +25,12 @@ def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
     stiffness = sum(specimen.buffer_stiffness)
     beside = np.hypot(force, stiffness * 0.1 * run.noise["slip_x"]) / specimen.mass
     pushed, _ = frame_noise(specimen, run.noise)
+    basis = basis_of(specimen)
+    rows = {"pitch": basis.rigid[1], "roll": basis.rigid[2], **dict(zip(warps(specimen), basis.warp, strict=True))}
     levels = {
+        **{name: np.sqrt(np.sum((row * loads) ** 2)) for name, row in rows.items()},  # and see `whitened`
         "girder": np.hypot(run.noise.get("girder_ax", 0.0), np.hypot(beside, pushed / specimen.mass)),
         "heave": np.hypot(total, specimen.carried_mass * run.noise.get("girder_az", 0.0)),
-        "pitch": total,  # and what the friction gauges make of it, see `whitened`
-        "roll": total,
-        "warp": total,
         "motion": 1.0,
     }
     return {name: max(float(level), 1e-12) for name, level in levels.items()}
@@ -37,9 +38,13 @@ def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
 
 def shares_of_noise(specimen: Specimen, run: FitRun) -> dict[str, dict[str, float]]:
     """Give the share of single channels in the variance of the balances of loads: relation -> channel -> share [1]."""
-    loads = {f"pad_{p}_N": float(level**2) for p, level in zip(run.pads, run.gauge_noise[1], strict=True)}
-    heave = {**loads, "girder_az": (specimen.carried_mass * run.noise.get("girder_az", 0.0)) ** 2}
-    powers = {"heave": heave, "pitch": loads, "roll": loads, "warp": loads}
+    basis, cells = basis_of(specimen), [f"pad_{p}_N" for p in run.pads]
+    names = ("heave", "pitch", "roll", *warps(specimen))
+    powers: dict[str, dict[str, float]] = {
+        name: dict(zip(cells, map(float, (row * run.gauge_noise[1]) ** 2), strict=True))
+        for name, row in zip(names, (*basis.rigid, *basis.warp), strict=True)
+    }
+    powers["heave"]["girder_az"] = (specimen.carried_mass * run.noise.get("girder_az", 0.0)) ** 2
     return {
         name: {channel: power / max(sum(of.values()), 1e-24) for channel, power in of.items()}
         for name, of in powers.items()

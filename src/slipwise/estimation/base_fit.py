@@ -25,7 +25,7 @@ from slipwise.estimation.problem import Problem
 from slipwise.estimation.run_data import fit_runs
 from slipwise.instruments.logger_spectrum import estimate_logger
 from slipwise.instruments.repairs import InvalidSamples
-from slipwise.model import Model, base_model
+from slipwise.model import Model, base_model, use_of
 from slipwise.signals.filters import LowPass
 
 #: Noise near reversals depends on the fit and the fit on the noise: each is made anew, and every fit ends where a step
@@ -126,8 +126,8 @@ def scaled_model(model: Model, scales: Scales, *, typical: bool) -> Model:
     uses = []
     for entry in model.uses:
         effect = scaled(catalogue().get(entry.effect.name, entry.effect), scales.of)
-        values = {n: scales.of(effect.parameter(n).unit) * v if typical else v for n, v in entry.values.items()}
-        uses.append(replace(entry, effect=holding(effect, values), values=values))
+        values = {n: scales.of(effect.parameter(n).unit) * v if typical else v for n, v in entry.numbers.items()}
+        uses.append(use_of(holding(effect, values), values, entry.target))
     if not typical:
         return replace(model, uses=tuple(uses))
     rated = model.specimen

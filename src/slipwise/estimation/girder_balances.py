@@ -3,7 +3,7 @@
     girder  m a_x = -(sum F + F_buffers + drag + F_frame)
     heave   sum N = (m + sum m_i) (g + a_z) - lift
     pitch   Q_pitch = P(s) [h sum F + (h - z_b) F_buffers] / half_x + (x + x_c) sum N / half_x + ...
-    roll    Q_roll = y_c sum N / half_y,    warp = what the rated seating makes of it
+    roll    Q_roll = y_c sum N / half_y,    warp, warp_2 ... = what the rated seating makes of them
     motion  a_x - a_x,table = d2(slip)/dt2
 
 P(s) = (2 z w s + w^2) / (s^2 + 2 z w s + w^2) is the girder's pitch on its pads: taken as quasi-static, the balance
@@ -25,18 +25,24 @@ from slipwise.estimation.pad_forces import as_logged
 from slipwise.estimation.run_data import FitRun, refined
 from slipwise.model import Model
 from slipwise.rig import Specimen
+from slipwise.rig.curved_faces import rise_rate, risen
 from slipwise.rig.frame import frame_moment, frame_push, storey_channels
-from slipwise.rig.load_basis import basis_of
+from slipwise.rig.load_basis import WARPS, basis_of, by_warp, warps
 from slipwise.rig.load_modes import load_modes
 from slipwise.signals.ends import in_frequency
 from slipwise.signals.shift import shift
 from slipwise.simulation.predict import Predictor
 
 Array = NDArray[np.float64]
-BALANCES: tuple[str, ...] = ("girder", "heave", "pitch", "roll", "warp", "motion")
+BALANCES: tuple[str, ...] = ("girder", "heave", "pitch", "roll", *WARPS, "motion")
 #: Where a gauge of friction is invalid, the girder's accelerometer takes its place if the two differ by more than this
 #: many times the accelerometer's noise [1].
 _SIGNIFICANT = 4.0
+
+
+def balances_of(specimen: Specimen) -> tuple[str, ...]:
+    """Give the balances that a girder on these pads has, whatever was recorded."""
+    return tuple(name for name in BALANCES if name not in WARPS or name in warps(specimen))
 
 
 def available(run: FitRun, specimen: Specimen) -> tuple[str, ...]:
@@ -50,7 +56,7 @@ def available(run: FitRun, specimen: Specimen) -> tuple[str, ...]:
     if np.isfinite(run.states.girder_acceleration[:, 2]).all():
         out.append("heave")
     out += (["pitch"] if framed else []) + ([] if run.states.has_y else ["roll"])
-    out += ["warp"] if len(specimen.pads) > 3 else []
+    out += warps(specimen)
     if run.record.has_all("girder_ax", "table_ax"):
         out.append("motion")
     return tuple(out)
@@ -96,7 +102,7 @@ def buffers_along(law: Predictor, run: FitRun, yaw: Array, yaw_rate: Array) -> A
 
 
 def heave_rate(total: Array, dt: float, specimen: Specimen) -> Array:
-    """Give the girder's vertical rate over the table (n,) [m/s]: the pads' shortening under their measured load [N]."""
+    """Give the girder's vertical rate over its pads (n,) [m/s]: their shortening under their measured load [N]."""
     return -shortening_rate(total, dt, sum(specimen.springs), specimen.pad_damping / specimen.pad_stiffness)
 
 
@@ -122,7 +128,8 @@ def predicted_balances(
     frame = frame_push(run.record, specimen)
     total = _total(run, force, specimen.mass, fb - frame)
     height = specimen.centre_height
-    moment = (height + _risen(run.slip, specimen)) * total + buffers @ (height - np.array(specimen.buffer_heights))
+    higher = risen(run.states.slip, specimen) if specimen.pads_on == "table" else 0.0
+    moment = (height + higher) * total + buffers @ (height - np.array(specimen.buffer_heights))
     upward = np.nan_to_num(run.states.girder_acceleration[:, 2])
     moment += frame_moment(run.record, specimen, upward, about=height)
     heave = run.load.sum(axis=1)
@@ -132,7 +139,7 @@ def predicted_balances(
     pitch = _pitched((moment + swing) / half, run, values)
     basis = basis_of(specimen)
     modes = load_modes(run.load, basis)
-    seated = float((basis.warp @ (np.array(specimen.springs) * rated.seating))[:1].sum())
+    seated = by_warp(specimen, np.array(specimen.springs) * rated.seating)
     mass, gravity = specimen.mass, specimen.gravity
     predicted = {
         "girder": _delayed((frame - total - fb) / mass, run.dt, values["rig.late_girder"]),
@@ -141,10 +148,10 @@ def predicted_balances(
         ),
         "pitch": _delayed(pitch, run.dt, values["rig.late_pitch"]),
         "roll": off_y / half_y * heave,
-        "warp": np.full(len(heave), seated),
+        **{name: np.full(len(heave), load) for name, load in seated.items()},
     }
     measured = {"girder": run.channel("girder_ax"), "heave": heave, "pitch": modes.pitch, "roll": modes.roll}
-    measured["warp"] = modes.twist
+    measured |= by_warp(specimen, run.load)
     for name, more in effects_in(model, run, specimen, force, buffers).items():
         if name == "motion":
             continue  # taken out of the states already
@@ -166,15 +173,6 @@ def _total(run: FitRun, force: Array, mass: float, buffers: Array) -> Array:
     from_motion = -mass * run.record["girder_ax"] - buffers
     off = np.abs(total - from_motion) > _SIGNIFICANT * mass * run.noise["girder_ax"]
     return np.where(np.any(invalid, axis=0) & off, from_motion, total)
-
-
-def _risen(slip: Array, specimen: Specimen) -> Array:
-    """Give how far the girder stands higher over its pads at a slip (n,) [m], because their faces are curved."""
-    curvature = specimen.pad_curvature
-    if not curvature or specimen.pads_on == "girder":
-        return np.zeros_like(slip)
-    away = np.minimum(np.abs(curvature * slip), 1.0)
-    return (1.0 - np.sqrt(1.0 - away**2)) / curvature
 
 
 def _delayed(values: Array, dt: float, lag: float) -> Array:
@@ -216,11 +214,13 @@ def effects_in(
         table_acceleration=np.nan_to_num(run.states.table_acceleration) if table is None else table,
         buffer_force=np.stack([buffers.sum(axis=1), zero], axis=1),
         buffer_size=np.abs(buffers),
-        heave_rate=heave_rate(run.load.sum(axis=1), run.dt, specimen) + rising,
+        heave_rate=heave_rate(run.load.sum(axis=1), run.dt, specimen)
+        + rise_rate(run.states.slip, run.states.velocity, specimen)
+        + rising,
     )
     out: dict[str, Array] = {}
     for entry in uses:
-        for name, more in entry.effect.hooks["balance"](states, **entry.values).items():
+        for name, more in entry.effect.hooks["balance"](states, target=entry.target, **entry.values).items():
             out[name] = out.get(name, zero) + more
     return out
 

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.channels import VELOCITY_CHANNELS
+from slipwise.rig.load_basis import WARPS
 
 Mask = NDArray[np.bool_]
 #: Channels that the balances are made of, slip by all that it is fused from; pads and friction across take their own
@@ -44,6 +45,7 @@ def sample_masks(
         return ~np.any(bad, axis=0) if bad else np.ones(len(grounded), dtype=bool)
 
     out = {name: grounded & valid(*names) for name, names in _USES.items()}
+    out |= dict.fromkeys(WARPS, out["warp"])
     for name in _FROM_BEFORE:
         out[name] &= whole
     moving = sliding & valid(*VELOCITY_CHANNELS)

@@ -221,7 +221,7 @@ class Kinematics:
 
 def values_of(terms: Sequence[Term], values: Mapping[str, float]) -> Key:
     """Give the terms' labels and the values of their parameters."""
-    return tuple(x for t in terms for n in t.effect.parameter_names for x in (t.label, values[f"{t.label}.{n}"]))
+    return tuple(x for t in terms for key in t.parameters for x in (key, values[key]))
 
 
 def _whole(run: FitRun, specimen: Specimen, buffers: Array) -> Array:

@@ -1,10 +1,11 @@
 """What a fit may change: numbers of the rig, and parameters of effects, each with a key, a start and bounds."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from slipwise.effects import Effect
-from slipwise.model import EffectUse, Model
+from slipwise.model import EffectUse, Model, use_of
+from slipwise.params import Parameter
 from slipwise.rig import Specimen, pad_frequencies
 
 #: Largest delay between the cards of a logger that counts as none [s].
@@ -79,21 +80,31 @@ class Term:
         effect: which.
         targets: channels; ("",) for an effect that needs none.
         group: name for several targets together, e.g. "pad_*_Fx"; the target itself for one.
+        own: what pads have of their own, e.g. "strength[A]".
+        unused: values for all pads that no pad takes, because each has its own: nothing that a fit could find [SI].
     """
 
     effect: Effect
     targets: tuple[str, ...] = ("",)
     group: str = ""
+    own: tuple[str, ...] = ()
+    unused: Mapping[str, float] = field(default_factory=dict[str, float])
 
     @property
     def label(self) -> str:
         """Name with the channels it acts on."""
         return f"{self.effect.name}[{self.group}]" if self.group else self.effect.name
 
+    @property
+    def parameters(self) -> dict[str, Parameter]:
+        """Its parameters and those of single pads, by key: "shear_rate.strength", "shear_rate.strength[A]" ..."""
+        names = (*(n for n in self.effect.parameter_names if n not in self.unused), *self.own)
+        return {f"{self.label}.{n}": self.effect.parameter(n) for n in names}
+
     def uses(self, values: Mapping[str, float]) -> list[EffectUse]:
         """Give the uses for a model, with the values of a fit."""
-        own = {n: values[f"{self.label}.{n}"] for n in self.effect.parameter_names}
-        return [EffectUse(self.effect, own, target) for target in self.targets]
+        numbers = {**self.unused, **{p.name: values[key] for key, p in self.parameters.items()}}
+        return [use_of(self.effect, numbers, target) for target in self.targets]
 
     def free(self, start: Mapping[str, float]) -> list[Free]:
         """Give its parameters as free numbers.
@@ -111,7 +122,11 @@ class Term:
 
 def terms_of(model: Model) -> tuple[Term, ...]:
     """Give the effects of a model as terms, those of several targets one by one."""
-    return tuple(Term(u.effect, (u.target,), u.target) for u in model.uses)
+    pads = model.specimen.pads
+    return tuple(
+        Term(u.effect, (u.target,), u.target, tuple(n for n in u.numbers if n not in u.values), u.unused(pads))
+        for u in model.uses
+    )
 
 
 def base_free(model: Model, *, balances: bool, logger_known: bool = True, length: float = 1.0) -> list[Free]:
@@ -125,8 +140,9 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True, length
     """
     out: list[Free] = []
     for entry in model.uses:
-        for p in entry.effect.parameters:
-            value = entry.values[p.name]
+        unused = entry.unused(model.specimen.pads)
+        for p in (p for p in entry.parameters if p.name not in unused):
+            value = entry.numbers[p.name]
             scale = abs(value) or abs(p.typical) or 0.1 * (p.high - p.low)
             out.append(Free(f"{entry.label}.{p.name}", value, p.low, p.high, scale, p.unit))
     if not model.reverses:

@@ -23,9 +23,8 @@ _NEAR, _MOST = 0.03, 10
 def is_strength(base: BaseFit, free: Free) -> bool:
     """Tell whether a free number is an effect's strength that is absent at its lower bound."""
     for term in base.problem.terms:
-        for p in term.effect.parameters:
-            if free.key == f"{term.label}.{p.name}":
-                return p.neutral is not None and p.neutral == p.low
+        if p := term.parameters.get(free.key):
+            return p.neutral is not None and p.neutral == p.low
     return False
 
 

@@ -66,7 +66,9 @@ def yaw_of(run: FitRun, specimen: Specimen, force: Array, bound: Array, buffers:
     if specimen.buffer_stiffness:
         sides = np.array(specimen.buffer_places)[:, 1] - specimen.centre_y
         torque = torque + buffers @ sides
-        stiffness = float(np.array(specimen.buffer_stiffness) @ sides**2)
+        along = np.array(specimen.buffer_places)[:, 0] - specimen.centre_x
+        across = np.array([buffer.stiffness_y for buffer in specimen.buffers])
+        stiffness = float(np.array(specimen.buffer_stiffness) @ sides**2 + across @ along**2)
     places = pads - np.array([specimen.centre_x, specimen.centre_y])
     angle, rate = np.zeros(len(torque)), np.zeros(len(torque))
     stuck, inertia = run.states.stuck, specimen.inertia[2]

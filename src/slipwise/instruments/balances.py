@@ -6,9 +6,9 @@ Every relation is a residual that is zero for true channels, linear in a few con
     girder     sum F + m a_x + K x + sum m_i a_i       (y alike; with the storeys of a frame)
     pitch      half_x Q1 - x sum N + (m h) a_x + (K z_b) x + J Q1'',    Q1 = sum N_i x_i / half_x
     roll       half_y Q2 - y sum N + (m h) a_y + (K z_b) y + J Q2'',    Q2 = sum N_i y_i / half_y
-    warp       what is left of the loads: nothing of three pads, N_A - N_B - N_C + N_D of four
+    warp       what is left of the loads: nothing of three pads, N_A - N_B - N_C + N_D of four; warp_2 ... of more
     along      x - double integral of (a_x - table a_x), both without what is slower than 0.8 Hz      (across alike)
-    upright    a_z - table a_z + c1 (sum N)'' + c2 (sum N)'
+    upright    a_z - table a_z + c1 (sum N)'' + c2 (sum N)', and on curved sliders - (rise of their faces)''
     rest_*     an acceleration, or the slip's wandering, while nothing moves
     pair_*     F_A - F_C ..., pads that stand beside each other and carry like loads at like speed
 
@@ -27,8 +27,9 @@ from numpy.typing import NDArray
 
 from slipwise.record import Record
 from slipwise.rig import Specimen, storey_names
+from slipwise.rig.curved_faces import risen
 from slipwise.rig.frame import frame_moment, frame_push
-from slipwise.rig.load_basis import basis_of, end_pairs
+from slipwise.rig.load_basis import basis_of, by_warp, end_pairs, warps
 from slipwise.rig.load_modes import LoadModes, load_modes, vertical_acceleration
 from slipwise.signals.ends import in_frequency
 
@@ -75,7 +76,11 @@ def relations(record: Record, specimen: Specimen) -> tuple[list[Relation], list[
     possible = [*_rest(record)]
     if specimen.free:
         loads = loads_of(specimen)
-        possible += [_heave(record, loads), *([_warp(loads)] if len(loads) > 3 else []), _upright(record, loads)]
+        possible += [
+            _heave(record, loads),
+            *(_warp(name, loads) for name in warps(specimen)),
+            _upright(record, specimen),
+        ]
         for axis in ("x", "y"):
             possible += [_girder(axis, specimen), _tilting(axis, record, specimen), _kinematic(axis, loads)]
             possible += _pairs(axis, specimen)
@@ -166,14 +171,8 @@ def _upward(record: Record) -> Array:
     return vertical_acceleration(record) if known else np.zeros(len(record))
 
 
-def _warp(loads: tuple[str, ...]) -> Relation:
-    return Relation(
-        "warp",
-        loads,
-        lambda r, s: _modes(r, s).twist,
-        {},
-        accuses=False,
-    )
+def _warp(name: str, loads: tuple[str, ...]) -> Relation:
+    return Relation(name, loads, lambda r, s: by_warp(s, r.stacked("pad_{}_N", s.pads))[name], {}, accuses=False)
 
 
 def without_slow(values: Array, dt: float, integrations: int) -> Array:
@@ -199,12 +198,22 @@ def _kinematic(axis: str, loads: tuple[str, ...]) -> Relation:
     return Relation("along" if axis == "x" else "across", needs, known, terms, rows="inner")
 
 
-def _upright(record: Record, loads: tuple[str, ...]) -> Relation:
+def _upright(record: Record, specimen: Specimen) -> Relation:
     needs = ("girder_az",) if "girder_az" in record else ("girder_az_1", "girder_az_2")
+    curved = any(place.curvature for place in specimen.places)
+    slips = ("slip_x", *(("slip_y",) if "slip_y" in record else ())) if curved else ()
+
+    def known(r: Record, s: Specimen) -> Array:
+        upward = vertical_acceleration(r) - r["table_az"]
+        if not curved:
+            return upward
+        across = r["slip_y"] if "slip_y" in slips else np.zeros(len(r))
+        return upward - _twice(risen(np.stack([r["slip_x"], across], axis=1), s), r.dt)
+
     return Relation(
         "upright",
-        (*loads, "table_az", *needs),
-        lambda r, s: vertical_acceleration(r) - r["table_az"],
+        (*loads_of(specimen), "table_az", *needs, *slips),
+        known,
         {
             "sag": lambda r, s: _twice(_sum(r, s, "N"), r.dt),
             "sag_rate": lambda r, s: np.gradient(_sum(r, s, "N"), r.dt),

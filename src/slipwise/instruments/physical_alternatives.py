@@ -16,6 +16,7 @@ from slipwise.instruments.balances import Relation
 from slipwise.instruments.rows import Block, PreparedRun
 from slipwise.record import Record
 from slipwise.rig import Specimen
+from slipwise.rig.load_basis import warps
 from slipwise.signals.derivative import derivative
 
 Array = NDArray[np.float64]
@@ -75,7 +76,7 @@ def _all(
         yield "buffer carries weight", [{"heave": slips}, {"heave": [x**2 for x in slips]}]
     for name in ("girder_ax", "girder_az"):
         if recorded(records, name):
-            yield "pads of unequal stiffness", [{"warp": channel(records, name)}]
+            yield "pads of unequal stiffness", [{warp: channel(records, name)} for warp in warps(specimen)]
     for axis in "xy":
         if pairs := paired(records, specimen, axis):
             # one of each pair lies at +y of the other: yaw makes all pairs differ by the same share of their rate

@@ -7,12 +7,14 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.rig.places import Place
+from slipwise.rig.places import MOST_PADS, Place
 from slipwise.rig.specimen import Specimen
 
 Array = NDArray[np.float64]
 #: Patterns and places that differ by less are the same [1].
 _SAME = 1e-9
+#: What the warps are called: of n pads the first n - 3.
+WARPS: tuple[str, ...] = ("warp", *(f"warp_{k}" for k in range(2, MOST_PADS - 2)))
 
 
 @dataclass(frozen=True)
@@ -48,6 +50,16 @@ class LoadBasis:
 def basis_of(specimen: Specimen) -> LoadBasis:
     """Give the patterns of a specimen's pads."""
     return load_basis(specimen.pad_places, specimen.springs)
+
+
+def warps(specimen: Specimen) -> tuple[str, ...]:
+    """Give the names of a specimen's warps: none of three pads, "warp" of four, "warp" and "warp_2" of five ..."""
+    return WARPS[: max(len(specimen.pads) - 3, 0)]
+
+
+def by_warp(specimen: Specimen, loads: Array) -> dict[str, Array]:
+    """Give what loads (..., n) of the pads are in each warp, name -> (...)."""
+    return dict(zip(warps(specimen), basis_of(specimen).warp @ np.moveaxis(loads, -1, 0), strict=True))
 
 
 def buffer_sides(specimen: Specimen) -> tuple[float, ...]:

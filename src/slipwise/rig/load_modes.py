@@ -35,11 +35,6 @@ class LoadModes:
     roll: Array
     warp: Array
 
-    @property
-    def twist(self) -> Array:
-        """The first warp, that of the diagonals; zero of three pads, (n_times,) [N]."""
-        return self.warp[:, 0] if self.warp.shape[1] else np.zeros(len(self.warp))
-
 
 @dataclass(frozen=True)
 class LoadFactors:

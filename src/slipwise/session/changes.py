@@ -111,7 +111,7 @@ def as_stated(ready: Evaluator, state: State, model: Model) -> State:
         "rig.buffer_stiffness": sum(specimen.buffer_stiffness),
     }
     kept = {k: rated.get(k, v) for k, v in state.values.items()}
-    numbers = {f"{u.label}.{n}": v for u in model.uses for n, v in u.values.items()}
+    numbers = {f"{u.label}.{n}": v for u in model.uses for n, v in u.numbers.items()}
     return _having(ready, replace(state, values={**kept, **numbers}), terms, {}, "another model")
 
 
@@ -127,6 +127,8 @@ def _having(ready: Evaluator, state: State, terms: tuple[Term, ...], numbers: Ma
 
 
 def _aimed(ready: Evaluator, effect: Effect, target: str) -> Term:
+    if effect.single and target in {f"pad_{pad}_N" for pad in ready.model.specimen.pads}:
+        return Term(effect, (target,), target)
     if not effect.target:
         if target:
             raise SettingError(f"{effect.name} acts everywhere; it takes no target ({target!r} was given)")

@@ -10,12 +10,13 @@ from slipwise.estimation.girder_balances import buffers_along, predicted_balance
 from slipwise.estimation.measurement_model import acts_on_force, on_force
 from slipwise.estimation.problem import Problem
 from slipwise.estimation.residuals import Residuals
+from slipwise.rig.load_basis import WARPS
 from slipwise.session.state import State
 from slipwise.simulation.predict import predictor
 
 Array = NDArray[np.float64]
 #: Balances whose two sides are channels; of the others only the residual has a meaning, in floors.
-_TWO_SIDED = ("girder", "heave", "pitch", "roll", "warp")
+_TWO_SIDED = ("girder", "heave", "pitch", "roll", *WARPS)
 
 
 @dataclass(frozen=True)

@@ -117,12 +117,24 @@ def from_json(content: Mapping[str, Any], effect_of: EffectOf) -> State:
 
 def terms_json(terms: Sequence[Term]) -> list[dict[str, Any]]:
     """Give effects with the channels on which they act; a user's own by its file."""
-    return [{"effect": named(t.effect), "targets": list(t.targets), "group": t.group} for t in terms]
+    return [
+        {
+            "effect": named(t.effect),
+            "targets": list(t.targets),
+            "group": t.group,
+            "own": list(t.own),
+            "unused": dict(t.unused),
+        }
+        for t in terms
+    ]
 
 
 def terms_from_json(content: Sequence[Mapping[str, Any]], effect_of: EffectOf) -> tuple[Term, ...]:
     """Give the effects that `terms_json` wrote."""
-    return tuple(Term(effect_of(one["effect"]), tuple(one["targets"]), one["group"]) for one in content)
+    return tuple(
+        Term(effect_of(one["effect"]), tuple(one["targets"]), one["group"], tuple(one["own"]), dict(one["unused"]))
+        for one in content
+    )
 
 
 def named(effect: Effect) -> str:

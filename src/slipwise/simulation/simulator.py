@@ -195,7 +195,7 @@ def _answer(
         "made_by": "slipwise replay",
         "mujoco": mujoco.__version__,
         "rig": model.specimen.name,
-        "model": {u.label: dict(u.values) for u in model.uses},
+        "model": {u.label: u.numbers for u in model.uses},
         "settings": {"dt": dt, "output_dt": output_dt, "engine": engine},
         **(provenance or {}),
     }

@@ -197,7 +197,7 @@ def _balance(model: Model) -> Demonstration:
     )
     added: dict[str, Array] = {}
     for entry in model.with_hook("balance"):
-        added |= entry.effect.hooks["balance"](states, **entry.values)
+        added |= entry.effect.hooks["balance"](states, target=entry.target, **entry.values)
     name = max(added, key=lambda n: float(np.abs(added[n]).max()))
     if name == "girder":
         return _over("slip", "horizontal force on the girder", force[:, 0], force[:, 0] + added[name])

@@ -152,6 +152,6 @@ def _shown_unit(key: str, unit: str) -> str:
         return CALLED[key][1]
     owner, _, name = key.rpartition(".")
     effect = catalogue().get(owner.partition("[")[0])
-    if effect is not None and name in effect.parameter_names:
+    if effect is not None and name.partition("[")[0] in effect.parameter_names:
         return effect.parameter(name).shown_in or unit
     return usual_unit(unit)

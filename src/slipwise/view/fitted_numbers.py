@@ -50,9 +50,9 @@ def fitted_numbers(found: Comparison) -> list[Any]:
 def _of_effects(found: Comparison) -> dict[str, tuple[str, str]]:
     """Give what the parameters of the model's effects are called, in their files' own words and units."""
     return {
-        f"{term.label}.{p.name}": (f"{term.label}, {p.meaning}", p.shown_in or p.unit)
+        key: (f"{term.label}, {p.meaning}", p.shown_in or p.unit)
         for term in found.base.problem.terms
-        for p in term.effect.parameters
+        for key, p in term.parameters.items()
     }
 
 

@@ -15,7 +15,7 @@ from unit.campaign.slider import HEADER, slider, text
 def drafted(folder, **files: str) -> str:
     for name, content in files.items():
         (folder / f"{name}.csv").write_text(content, encoding="utf-8")
-    draft = draft_campaign(folder)
+    draft, _ = draft_campaign(folder)
     (folder / "campaign.toml").write_text(draft, encoding="utf-8")
     return draft
 
@@ -73,7 +73,7 @@ def test_four_pads_make_a_girder_and_one_pad_a_slider(tmp_path):
 
 def test_matlab_files_are_drafted_by_the_names_of_their_variables(tmp_path):
     savemat(tmp_path / "run.mat", {"t": slider(1)[:, 0], "x": slider(1)[:, 1:]})
-    draft = draft_campaign(tmp_path)
+    draft, _ = draft_campaign(tmp_path)
     assert 'file = "run.mat"' in draft and '# "x(:,1)"' in draft
 
 

@@ -72,7 +72,7 @@ def open_balances(model: Model) -> tuple[dict[str, np.ndarray], dict[str, np.nda
         "heave": modes.heave - specimen.mass * (G + acceleration[:, 2]),
         "pitch": modes.pitch - _through_pitch(turning, model) / half_x,
         "roll": modes.roll - (seen.slip[:, 1] * total - across) / half_y,
-        "warp": modes.twist,
+        "warp": modes.warp[:, 0],
         "girder": -(specimen.mass * acceleration[:, 0] + friction + key[:, 0]),
     }
     lean = height * np.gradient(np.gradient(record["pitch"], DT), DT)
@@ -80,7 +80,7 @@ def open_balances(model: Model) -> tuple[dict[str, np.ndarray], dict[str, np.nda
     left["motion"] = specimen.mass * (acceleration[:, 0] - record["table_ax"] - slipping - lean)
     predicted: dict[str, np.ndarray] = {}
     for entry in model.with_hook("balance"):
-        predicted |= entry.effect.hooks["balance"](seen, **entry.values)
+        predicted |= entry.effect.hooks["balance"](seen, target=entry.target, **entry.values)
     if "motion" in predicted:
         predicted["motion"] = specimen.mass * predicted["motion"]
     return left, predicted

@@ -191,10 +191,7 @@ def set_values(layout: Layout, array: NDArray[np.float64], model: Model) -> None
             continue
         names = entry.effect.parameter_names
         if of_each_pad(entry.effect):
-            blocks[:, start : start + len(names)] = [entry.values[n] for n in names]
-            for pad, own in entry.own.items():
-                for name, value in own.items():
-                    blocks[pads.index(pad), start + names.index(name)] = value
+            blocks[:, start : start + len(names)] = [[entry.of_pad(pad)[n] for n in names] for pad in pads]
         else:
             array[start : start + len(names)] = [entry.values[n] for n in names]
 
@@ -230,19 +227,23 @@ def apply_rest(layout: Layout, array: NDArray[np.float64], model: Model, seconds
 
     Memory of an effect without a `rest` hook survives unchanged.
     """
+    pads = model.specimen.pads
     for entry in model.with_hook("rest"):
         name, size = entry.effect.name, len(entry.effect.memory)
         if name in layout.pad_memory:
             blocks, start = pad_memories(layout, array), layout.pad_memory[name]
+            values = [entry.of_pad(pad) for pad in pads]
         else:
             memories, start = buffer_memories(layout, array), layout.buffer_memory[name]
             blocks = [direction for buffer in memories for direction in buffer]
-        for block in blocks:
-            entry.effect.hooks["rest"](block[start : start + size], seconds, **entry.values)
+            values = [entry.values] * len(blocks)
+        for block, here in zip(blocks, values, strict=True):
+            entry.effect.hooks["rest"](block[start : start + size], seconds, **here)
     for entry in (u for u in model.uses if observes(u.effect) == "observe" and "time_constant" in u.values):
         start = layout.derived[entry.effect.name]
-        for block in pad_memories(layout, array):
-            derived_states.cool(block[start : start + derived_states.SIZE], seconds, entry.values["time_constant"])
+        for block, pad in zip(pad_memories(layout, array), pads, strict=True):
+            lag = entry.of_pad(pad)["time_constant"]
+            derived_states.cool(block[start : start + derived_states.SIZE], seconds, lag)
 
 
 def begin_memory(

@@ -142,8 +142,8 @@ def _unit(key: str, model: Model) -> tuple[str, bool]:
         return SPECIMEN_UNITS[name], False
     known = [f"rig.{n}" for n in SPECIMEN_UNITS]
     for entry in model.uses:
-        if owner == entry.label and name in entry.effect.parameter_names:
+        if owner == entry.label and name in entry.numbers:
             parameter = entry.effect.parameter(name)
             return parameter.unit, parameter.whole
-        known += [f"{entry.label}.{n}" for n in entry.effect.parameter_names]
+        known += [f"{entry.label}.{n}" for n in entry.numbers]
     raise unknown_name("number", key, known, "An effect's are there when it is in the model: --effect NAME.")

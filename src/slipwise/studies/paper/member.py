@@ -71,7 +71,7 @@ class Member:
         """Give a hash of everything that decides the result, the code included."""
         model = self.model()
         specimen = {k: v for k, v in asdict(model.specimen).items() if k not in ("path", "sources")}
-        law = {u.label: dict(u.values) for u in model.uses}
+        law = {u.label: u.numbers for u in model.uses}
         motion = [self.seed, self.peak, self.frequency, self.strong, self.vertical, self.target]
         text = json.dumps([specimen, law, motion, version("mujoco"), hash_of_code(*_DECIDING)], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:20]
