@@ -132,6 +132,9 @@ def write_values(entry: Table, wanted: EffectUse) -> None:
 def _write_pads(entry: Table, wanted: EffectUse) -> None:
     """Put the values of single pads into an entry, and take those out that the model has not."""
     there = cast(_Part, entry.get(_PADS, tomlkit.table()))
+    if not wanted.own or not isinstance(there, _Part):  # pads.A = ... and pads.B = ... apart: no table to take from
+        entry.pop(_PADS, None)
+        there = tomlkit.table()
     for pad in [p for p in there if p not in wanted.own]:
         del there[pad]
     for pad, own in wanted.own.items():
@@ -144,8 +147,6 @@ def _write_pads(entry: Table, wanted: EffectUse) -> None:
             there[pad] = part
     if wanted.own and _PADS not in entry:
         entry[_PADS] = there
-    elif not wanted.own and _PADS in entry:
-        del entry[_PADS]
 
 
 def _write(part: _Part, parameter: Parameter, value: float) -> None:

@@ -205,8 +205,8 @@ REFUSED_OF_PADS = {
     "unknown parameter": ("rate = ", "rat = ", UnknownNameError, "did you mean rate"),
     "out of bounds": ('"1.2 MPa"', '"12 MPa"', SettingError, r"shear_rate.strength\[E\] = 1.2e\+07 Pa is out"),
     "no unit": ('"1.2 MPa"', "1.2", UnitError, r"strength\[E\].*no unit"),
-    "no pad law": ('"run_in"', '"guide_drag"', SettingError, "guide_drag acts on more than single pads, so pad C can"),
-    "how all stick": ('"run_in"', '"presliding"', SettingError, "presliding acts on more than single pads"),
+    "no pad law": ('"run_in"\npads.C.rise', '"guide_drag"\npads.C.damping = "1 N*s/m" #', SettingError, "guide_drag acts on more than single pads, so pad C can"),
+    "how all stick": ('"run_in"\npads.C.rise', '"presliding"\npads.C.exponent', SettingError, "presliding acts on more than single pads"),
     "no table": ("pads.C.rise = 0.3", 'pads = "C"', InputError, r"written as \[effect.pads\] with A = "),
     "no values": ('E = { strength = "1.2 MPa" }', "E = 1.2", InputError, r"pads.E is 1.2"),
     "in brackets": ("pads.C.rise = 0.3", '"rise[C]" = 0.3', InputError, r"'rise\[C\]' is of one pad: write"),
@@ -218,6 +218,6 @@ def test_what_no_single_pad_can_have_is_refused(what: str, tmp_path: Path) -> No
     old, new, error, words = REFUSED_OF_PADS[what]
     assert old in OF_PADS
     file = tmp_path / "model.toml"
-    file.write_text(OF_PADS.replace(old, new).replace("rise", "damping" if "guide" in new else "rise"))
+    file.write_text(OF_PADS.replace(old, new))
     with pytest.raises(error, match=words):
         load_model(file)

@@ -183,7 +183,7 @@ class Effect(Drawn, Tabular):
             if parameter.name == plain:
                 return parameter.of_pad(pad.removesuffix("]")) if bracket else parameter
         raise unknown_name(
-            f"parameter of {self.name}", name, self.parameter_names, f"`slipwise effects {self.name}` lists them."
+            f"parameter of {self.name}", plain, self.parameter_names, f"`slipwise effects {self.name}` lists them."
         )
 
     def neutral(self) -> dict[str, float]:
