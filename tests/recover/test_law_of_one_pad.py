@@ -7,7 +7,7 @@ import pytest
 
 import slipwise as sw
 from recover.own_replay import campaign_of
-from shaking import shaken, sine
+from shaking import shaken
 from slipwise.estimation.base_fit import fit_base
 from slipwise.estimation.intervals import intervals
 from slipwise.model import Model, base_model
@@ -26,7 +26,9 @@ def of_another_batch(rig: str = "bridge1", pad: str = "C") -> Model:
 def test_the_law_driven_by_what_a_replay_measures_answers_as_the_replay(engine: str) -> None:
     model = of_another_batch("six_pads", "E")
     pads = model.specimen.pads
-    record = shaken(model, sine(3.0, 4.0, 0.5 if engine == "python" else 2.0, vertical=(5.0, 2.0))).record
+    table = np.zeros((600 if engine == "python" else 2000, 3))
+    table[:, 0] = 6.0 * np.sin(2 * np.pi * 4.0 * 5e-4 * np.arange(len(table)))
+    record = shaken(model, table, engine=engine).record
     load = record.stacked("pad_{}_N", pads)
     places = np.array(model.specimen.pad_places)
     yaw, turning = record["yaw"], np.gradient(record["yaw"], record.dt)
@@ -39,10 +41,12 @@ def test_the_law_driven_by_what_a_replay_measures_answers_as_the_replay(engine: 
     assert slides.sum() > 100
     force = record.stacked("pad_{}_Fx", pads)
     assert np.abs(answer.force[:, :, 0] - force)[slides].max() < 1e-3 * np.abs(force).max()
-    mu = np.mean(np.abs(force[slides]) / load[slides], axis=0)
-    assert mu[pads.index("E")] / mu[pads.index("B")] == pytest.approx(WEAK, abs=0.01)
+    alike = predictor(base_model("six_pads"), engine=engine).pads(record.time, load, rate, slip)
+    less = answer.bound[slides] / alike.bound[slides]
+    assert np.all(less[:, pads.index("E")] < 0.95) and np.all(np.delete(less, pads.index("E"), axis=1) == 1.0)
 
 
+@pytest.mark.slow
 def test_a_fit_finds_the_law_of_one_pad_and_says_how_sure_it_is(tmp_path: Path) -> None:
     true = of_another_batch()
     campaign = sw.load_campaign(campaign_of(tmp_path / "own", "bridge1", 100.0, model=true))

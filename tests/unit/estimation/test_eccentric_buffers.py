@@ -43,7 +43,7 @@ def in_plane(table: np.ndarray, specimen, parts: int = 4) -> np.ndarray:
 
 def test_a_replay_turns_as_a_plate_on_springs_off_its_middle() -> None:
     model = eccentric(1e-9)
-    stiff = replace(model, specimen=model.specimen.changed(pad_stiffness=2e9, pad_damping=2e5))
+    stiff = replace(model, specimen=model.specimen.changed(pad_stiffness=1e9, pad_damping=1.5e5))
     table = sine(1.3, 0.6, 3.0)
     record = shaken(stiff, table, dt=DT).record
     own = in_plane(table[:, 0], stiff.specimen)
@@ -73,9 +73,9 @@ def test_the_balances_hold_with_forces_that_are_off_the_middle_and_above_the_pla
     moment = moment + (specimen.centre_x + record["slip_x"]) * loads.sum(axis=1)
     pitch = load_modes(loads, basis_of(specimen)).pitch
     inertia = specimen.inertia[1] * np.gradient(np.gradient(record["pitch"], record.dt), record.dt)
-    rest = specimen.half_spacing[0] * pitch - moment - inertia
+    rest = specimen.half_spacing[0] * pitch - moment + inertia
     slow = slice(200, -200)
-    assert np.abs(rest[slow]).max() < 0.02 * np.abs(moment[slow]).max()
+    assert np.std(rest[slow]) < 0.01 * np.std(moment[slow])  # a jerk at a reversal has no second difference
 
 
 def test_yaw_made_from_measured_forces_knows_the_springs_across() -> None:
