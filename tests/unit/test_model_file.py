@@ -200,23 +200,17 @@ def test_single_pads_have_values_of_their_own_and_keep_them(tmp_path: Path) -> N
     assert load_model(file) == plain and "pads" not in file.read_text().replace("six_pads", "")
 
 
+OTHER = {
+    "guide_drag": ('"run_in"\npads.C.rise = 0.3', '"guide_drag"\npads.C.damping = "1 N*s/m"'),
+    "presliding": ('"run_in"\npads.C.rise', '"presliding"\npads.C.exponent'),
+}
 REFUSED_OF_PADS = {
     "unknown pad": ("E = {", "G = {", UnknownNameError, "no pad of six_pads is called 'G'"),
     "unknown parameter": ("rate = ", "rat = ", UnknownNameError, "did you mean rate"),
     "out of bounds": ('"1.2 MPa"', '"12 MPa"', SettingError, r"shear_rate.strength\[E\] = 1.2e\+07 Pa is out"),
     "no unit": ('"1.2 MPa"', "1.2", UnitError, r"strength\[E\].*no unit"),
-    "no pad law": (
-        '"run_in"\npads.C.rise',
-        '"guide_drag"\npads.C.damping = "1 N*s/m" #',
-        SettingError,
-        "guide_drag acts on more than single pads, so pad C can",
-    ),
-    "how all stick": (
-        '"run_in"\npads.C.rise',
-        '"presliding"\npads.C.exponent',
-        SettingError,
-        "presliding acts on more than single pads",
-    ),
+    "no pad law": (*OTHER["guide_drag"], SettingError, "guide_drag acts on more than single pads, so pad C can"),
+    "how all stick": (*OTHER["presliding"], SettingError, "presliding acts on more than single pads"),
     "no table": ("pads.C.rise = 0.3", 'pads = "C"', InputError, r"written as \[effect.pads\] with A = "),
     "no values": ('E = { strength = "1.2 MPa" }', "E = 1.2", InputError, r"pads.E is 1.2"),
     "in brackets": ("pads.C.rise = 0.3", '"rise[C]" = 0.3', InputError, r"'rise\[C\]' is of one pad: write"),
