@@ -6,7 +6,9 @@ from fnmatch import fnmatchcase
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.campaign.aligned import spread
 from slipwise.channels import VELOCITY_CHANNELS
+from slipwise.rig import Specimen, pad_frequencies
 from slipwise.rig.load_basis import WARPS
 
 Mask = NDArray[np.bool_]
@@ -24,6 +26,9 @@ _USES: dict[str, tuple[str, ...]] = {
 _FROM_BEFORE = ("motion", "pitch")
 #: How far a cut is felt in slip against accelerometers: 20 noise variances after 50 ms, none after 100 [s].
 _CUT = 0.12
+#: Pitch of a girder that lifts is 700 times the floor of its balance: it has rung down after so many of its decay
+#: times [1], and never counts as ringing for longer than this [s].
+_DECAYS, _LONGEST = 6.5, 3.0
 
 
 def sample_masks(
@@ -52,6 +57,26 @@ def sample_masks(
     for name, axis, kept in (("pads", "x", moving), ("across", "y", moving & fast)):
         out[name] = np.stack([kept & valid(f"pad_{p}_N", f"pad_{p}_F{axis}") for p in pads], axis=1)
     return out
+
+
+def ringing_after_uplift(lifted: Mask, dt: float, specimen: Specimen) -> Mask:
+    """Give the samples at which the girder's pitch is not what its balance predicts: a pad lifts, or it rings from it.
+
+    Args:
+        lifted: (n,) a pad lifts.
+        dt: sampling step [s].
+        specimen: as rated.
+    """
+    if not specimen.free or not lifted.any():
+        return lifted
+    turn, lag = 2.0 * np.pi * pad_frequencies(specimen)["pitch"], specimen.pad_damping / specimen.pad_stiffness
+    decay = 2.0 / (lag * turn**2) if lag else np.inf  # time in which pitch falls to 1/e
+    return spread(lifted, 0, int(min(_DECAYS * decay, _LONGEST) / dt))
+
+
+def before_uplift(lifted: Mask, dt: float) -> Mask:
+    """Give the samples from which a pad's lifting is felt in slip against accelerometers, which look ahead, (n,)."""
+    return spread(lifted, round(_CUT / dt), 0) if lifted.any() else lifted
 
 
 def away_from_cuts(at_rest: Mask, dt: float) -> Mask:

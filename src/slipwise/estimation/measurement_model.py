@@ -12,7 +12,7 @@ from slipwise.estimation.parameters import Term
 from slipwise.estimation.run_data import FitRun, smoothed
 from slipwise.model import EffectUse
 from slipwise.record import Record
-from slipwise.rig.load_basis import WARPS
+from slipwise.rig.load_basis import warps
 
 Array = NDArray[np.float64]
 
@@ -157,7 +157,7 @@ def noise_scale(terms: Sequence[Term], values: Mapping[str, float], run: FitRun)
         out["heave"] = out["girder_az"]
     if any(name in gauges for name in loads):
         own = sum(gauges.get(name, 1.0) for name in loads) / len(loads)
-        out |= dict.fromkeys(("loads", "pitch", "roll", *WARPS), own)
+        out |= dict.fromkeys(("loads", "pitch", "roll", *warps(run.states.specimen)), own)
         either = max if own > 1.0 else min  # noise of heave is of both kinds
         out["heave"] = either(out.get("heave", 1.0), own)
     return out

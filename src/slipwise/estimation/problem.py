@@ -1,4 +1,4 @@
-"""One stacked fit: pads, girder, heave, pitch, roll, warp, motion and friction across with one set of numbers.
+"""One stacked fit: pads, girder, heave, pitch, roll, warps, motion and friction across with one set of numbers.
 
 Residuals are (measured - predicted) / noise in measured units: a fault of a gauge is put on the prediction, or its
 inverse on the measurement with the noise scaled alike. Else a gain below one would shrink the noise and look good.
@@ -191,8 +191,7 @@ class Problem:
         raised = self.kinematics.raised(values)
         shares = shares_of_noise(self.specimen, runs[0]) if raised else {}
         law = predictor(model)
-        parts: dict[str, list[Array]] = {r: [] for r in self.relations if r in BALANCES}
-        masked = 0.0
+        parts, masked = {r: list[Array]() for r in self.relations if r in BALANCES}, 0.0
         if "heave" in parts and self.sigmas:
             masked = 1.0 - (heave_level(model, runs[0], scale) / float(np.min(self.sigmas["heave"][0]))) ** 2
         driven: list[Array | None] = [None] * len(runs)
@@ -211,6 +210,7 @@ class Problem:
                     left = (measured[name] - predicted[name]) / scale.get(name, 1.0)
                     left = rewhitened(left, run, raised, shares.get(name, {}))
                 if name in self.ringing:
+                    left = np.where(run.ringing, 0.0, left)  # whitening looks both ways: not at what a lifted pad does
                     more = driven[i] if name == "pitch" else None
                     left = whitened(left, run, float(np.min(self.sigmas[name][i])), self.ringing[name][i], more)
                 parts[name].append(self._over(name, i, left, run.judged[name]))

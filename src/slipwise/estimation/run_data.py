@@ -12,7 +12,7 @@ from slipwise.campaign import Campaign, Run
 from slipwise.campaign.scales import Scales
 from slipwise.campaign.states import States, measured_states
 from slipwise.errors import InputError
-from slipwise.estimation.judged_samples import away_from_cuts, sample_masks
+from slipwise.estimation.judged_samples import away_from_cuts, before_uplift, ringing_after_uplift, sample_masks
 from slipwise.instruments.repairs import InvalidSamples
 from slipwise.record import Record
 from slipwise.signals.ends import in_frequency
@@ -47,6 +47,7 @@ class FitRun:
         sliding: (n,) samples at which the law gives the force of a pad.
         judged: relation -> samples by which it is judged, see `sample_masks`.
         invalid: channel -> samples (n,) at which it is no measurement.
+        ringing: (n,) a pad lifts, or the girder's pitch rings from it.
         noise: channel -> standard deviation of one sample.
         rigid_rotation_acceleration: part of the girder's acceleration over the table that is no slip, because both
             rotate as one body, (n,) or 0 [m/s^2].
@@ -65,6 +66,7 @@ class FitRun:
     sliding: Mask
     judged: Mapping[str, Mask]
     invalid: Mapping[str, Mask] = field(default_factory=dict[str, Mask])
+    ringing: Mask = field(default_factory=lambda: np.zeros(1, dtype=bool))
     noise: dict[str, float] = field(default_factory=dict[str, float])
     rigid_rotation_acceleration: Array | float = 0.0
     fine: int = FINE
@@ -235,7 +237,10 @@ def _fit_run(run: Run, campaign: Campaign, invalid: Mapping[str, Mask]) -> FitRu
     # samples were looked at as recorded; a gap of theirs is filled on the axis of the states
     bad = {c: np.interp(states.time, run.record.time, m.astype(float)) > 0.0 for c, m in invalid.items()}
     kept = sample_masks(grounded, sliding, fast, away_from_cuts(states.at_rest, states.dt), pads, bad)
-    return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, across, sliding, kept, bad)
+    ringing = ringing_after_uplift(states.uplift, states.dt, states.specimen)
+    kept["pitch"] &= ~ringing
+    kept["motion"] &= ~before_uplift(states.uplift, states.dt)
+    return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, across, sliding, kept, bad, ringing)
 
 
 def _stacked(record: Record, pads: tuple[str, ...], kind: str, otherwise: Array) -> Array:
