@@ -26,14 +26,22 @@ class Logger:
         every: the low-pass filter of every channel; None where it is not known or there was none.
         own: channel name or pattern ("pad_*_N") -> its own filter, None for a channel that is not filtered.
         known: whether the campaign says anything of the logger; if not, the audit estimates it.
+        thinning: the filter that every channel went through besides where its samples were thinned out; else None.
     """
 
     every: LowPass | None = None
     own: Mapping[str, LowPass | None] = field(default_factory=dict)
     known: bool = False
+    thinning: LowPass | None = None
 
     def of(self, channel: str) -> LowPass | None:
-        """Give the filter of one channel."""
+        """Give the filter of one channel: of the logger's own and that of thinning out the lower one."""
+        found = self._of(channel)
+        if not self.known or self.thinning is None:
+            return found
+        return self.thinning if found is None or found.frequency > self.thinning.frequency else found
+
+    def _of(self, channel: str) -> LowPass | None:
         if channel in self.own:
             return self.own[channel]
         for pattern, lowpass in self.own.items():

@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 from slipwise.campaign.campaign import Campaign, Run
 from slipwise.record import Record
 from slipwise.rig import Specimen
-from slipwise.signals.ends import in_frequency
+from slipwise.signals.filters import LowPass, lowpass
 
-Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 #: Samples a second that every law, the pads' pitch of 50 to 100 Hz and a logger's usual filter need [Hz].
 ENOUGH = 400.0
@@ -23,8 +22,8 @@ ENOUGH = 400.0
 ENOUGH_OF_SLIDER = 8000
 #: Steps that differ by more than this share are those of a logger whose rate was changed [1].
 _UNIFORM = 0.1
-#: Where the filter before thinning out begins and ends, as shares of the new half rate [1].
-_PASSED, _STOPPED = 1.0, 1.3
+#: The filter before thinning out, as a share of the new half rate [1], and its order.
+_HALVED, _ORDER = 1.15, 16
 
 
 def thinning(run: Run, specimen: Specimen) -> int:
@@ -55,21 +54,22 @@ def decimated(
     }
     runs = tuple(replace(run, record=records[run.name]) for run in campaign.runs)
     rate = 1.0 / next(iter(records.values())).dt
+    logger = replace(campaign.logger, thinning=_filter(rate))
     note = f"logged at {1.0 / campaign.runs[0].record.dt:.4g} Hz; fits use {rate:.4g} Hz, low-pass filtered before"
-    return replace(campaign, runs=runs, notes=(*campaign.notes, note)), masks
+    return replace(campaign, runs=runs, logger=logger, notes=(*campaign.notes, note)), masks
+
+
+def _filter(rate: float) -> LowPass:
+    """Give the filter before samples are thinned out to a rate [Hz]: friction that turns round at once shows it."""
+    return LowPass(_HALVED * 0.5 * rate, _ORDER)
 
 
 def _thinned(record: Record, every: int) -> Record:
     if every == 1:
         return record
-    half = 0.5 / (every * record.dt)
-
-    def gain(frequency: Array) -> Array:
-        place = np.clip((frequency / half - _PASSED) / (_STOPPED - _PASSED), 0.0, 1.0)
-        return 0.5 * (1.0 + np.cos(np.pi * place))
-
+    by = _filter(1.0 / (every * record.dt))
     channels = {
-        name: (in_frequency(values, record.dt, gain, 64 * every) if np.isfinite(values).all() else values)[::every]
+        name: (lowpass(values, record.dt, by) if np.isfinite(values).all() else values)[::every]
         for name, values in record.channels.items()
     }
     return Record(record.time[::every], channels, record.provenance)

@@ -108,7 +108,7 @@ def with_logger(
         problem = Problem(fit_runs(campaign, invalid), model.specimen, terms_of(model))
         start = _roughly(problem, free_numbers(campaign, model, problem), {}).values
         estimated = Logger(LowPass(start["rig.logger"]), known=True)
-    return replace(campaign, logger=estimated), start
+    return replace(campaign, logger=replace(estimated, thinning=campaign.logger.thinning)), start
 
 
 def scaled_model(model: Model, scales: Scales, *, typical: bool) -> Model:

@@ -12,8 +12,9 @@ from slipwise.rig.places import Buffer, Place
 from slipwise.rig.specimen import Specimen
 from slipwise.rig.storeys import Storey
 
-#: What the table reaches beyond the pads, and the girder's deck above the sliding plane [m]: for the eye alone.
-_MARGIN, _DECK = 0.25, 0.08
+#: What the table reaches beyond the pads, the girder's deck above the sliding plane, half the thickness of deck and
+#: floors, and half that of a column [m]: for the eye alone.
+_MARGIN, _DECK, _HALF_DECK, _HALF_FLOOR, _COLUMN = 0.25, 0.08, 0.06, 0.03, 0.04
 #: Thickness of plates and soles, half of it [m].
 _PLATE = 0.01
 #: Inertia of a floor about its own middle over the girder's [1].
@@ -125,9 +126,11 @@ def _girder(specimen: Specimen) -> list[str]:
     inside.append(f'<inertial pos="0 0 0" mass="{specimen.mass!r}" diaginertia="{_numbers(specimen.inertia)}"/>')
     look = 'material="girder" class="visual"'
     deck = _numbers([*middle, _DECK - centre[2]])
-    inside.append(f'<geom name="deck" type="box" size="{_numbers([*half, 0.06])}" pos="{deck}" {look}/>')
-    size = _numbers([*0.5 * half, min(0.12, 0.5 * centre[2])])
-    inside.append(f'<geom name="weight" type="box" size="{size}" pos="0 0 0" material="steel" class="visual"/>')
+    inside.append(f'<geom name="deck" type="box" size="{_numbers([*half, _HALF_DECK])}" pos="{deck}" {look}/>')
+    thick = min(0.12, 0.5 * centre[2])
+    weight = f'size="{_numbers([*0.5 * half, thick])}" pos="0 0 0" material="steel"'
+    inside.append(f'<geom name="weight" type="box" {weight} class="visual"/>')
+    inside += _upright("post", np.zeros(2), 0.15 * half, _DECK + _HALF_DECK - centre[2], -thick)
     for bit, pad in enumerate(specimen.places):
         at = _numbers([pad.x - centre[0], pad.y - centre[1], _PLATE - centre[2]])
         inside.append(f'<geom name="plate_{pad.name}" class="plate" conaffinity="{1 << bit}" pos="{at}"/>')
@@ -140,8 +143,16 @@ def _girder(specimen: Specimen) -> list[str]:
     if specimen.free:
         for edge, x in ((1, specimen.edge_distance), (2, -specimen.edge_distance)):
             inside.append(f'<site name="girder_edge_{edge}" pos="{x!r} 0 0" size="0.02" rgba="0.1 0.1 0.8 1"/>')
-    inside += _frame(specimen, specimen.storeys, 1, float(centre[2]))
+    inside += _frame(specimen, specimen.storeys, 1, float(centre[2]), _DECK + _HALF_DECK)
     return [f'<body name="girder" pos="{_numbers(centre)}">', *(f"  {line}" for line in inside), "</body>"]
+
+
+def _upright(name: str, at: np.ndarray, half: np.ndarray, foot: float, head: float) -> list[str]:
+    """Write what stands between two heights [m], for the eye; nothing where there is no room."""
+    if head <= foot:
+        return []
+    size, middle = _numbers([*half, 0.5 * (head - foot)]), _numbers([*at, 0.5 * (head + foot)])
+    return [f'<geom name="{name}" type="box" size="{size}" pos="{middle}" material="steel" class="visual"/>']
 
 
 def storey_names(specimen: Specimen) -> tuple[str, ...]:
@@ -149,8 +160,10 @@ def storey_names(specimen: Specimen) -> tuple[str, ...]:
     return tuple(f"storey_{number}" for number in range(1, len(specimen.storeys) + 1))
 
 
-def _frame(specimen: Specimen, storeys: Sequence[Storey], number: int, below: float) -> list[str]:
-    """Write a storey, the others upon it, as bodies that slide on what is below, whose origin stands at a height [m].
+def _frame(specimen: Specimen, storeys: Sequence[Storey], number: int, below: float, foot: float) -> list[str]:
+    """Write a storey, the others upon it, as bodies that slide on what is below.
+
+    The origin of that stands at a height [m], `below`, and the foot of the columns at another, both above the slide.
 
     A floor is a mass without an inertia of its own, which MuJoCo must have: a millionth of the girder's.
     """
@@ -166,12 +179,19 @@ def _frame(specimen: Specimen, storeys: Sequence[Storey], number: int, below: fl
         for axis, along, stiffness, damping in joints
     ]
     inertia = _numbers([_SMALL * max(specimen.inertia)] * 3)
-    size = _numbers([*np.maximum(0.8 * np.array(specimen.half_spacing), 0.2), 0.03])
+    half = np.maximum(0.8 * np.array(specimen.half_spacing), 0.2)
+    size, ends = _numbers([*half, _HALF_FLOOR]), (foot - storey.z, -_HALF_FLOOR)
+    corners = [(x, y) for x in (1.0, -1.0) for y in (1.0, -1.0)]
+    columns = [
+        _upright(f"{name}_column_{i}", (half - _COLUMN) * corner, np.full(2, _COLUMN), *ends)
+        for i, corner in enumerate(corners, 1)
+    ]
     inside += [
         f'<inertial pos="0 0 0" mass="{storey.mass!r}" diaginertia="{inertia}"/>',
         f'<geom name="{name}" type="box" size="{size}" material="girder" class="visual"/>',
         f'<site name="{name}" pos="0 0 0" size="0.03" rgba="0.8 0.1 0.1 1"/>',
-        *_frame(specimen, storeys[1:], number + 1, storey.z),
+        *(line for column in columns for line in column),
+        *_frame(specimen, storeys[1:], number + 1, storey.z, storey.z + _HALF_FLOOR),
     ]
     return [f'<body name="{name}" pos="0 0 {storey.z - below!r}">', *(f"  {line}" for line in inside), "</body>"]
 
