@@ -29,6 +29,8 @@ class RigGeometry:
         pad_names: of the pads; A, B ... when not given.
         buffer_names: of the buffers; 1, 2 ... when not given.
         pad_springs: vertical stiffness of each pad; the same when not given [N/m].
+        centre: of gravity from the middle of the table, along x and y [m].
+        storeys: heights of the floors of a frame above the sliding plane, from below [m].
     """
 
     girder_size: tuple[float, float, float]
@@ -43,6 +45,8 @@ class RigGeometry:
     pad_names: tuple[str, ...] = ()
     buffer_names: tuple[str, ...] = ()
     pad_springs: tuple[float, ...] = ()
+    centre: Place = (0.0, 0.0)
+    storeys: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse shapes that cannot be drawn."""
@@ -95,4 +99,6 @@ def geometry_of(specimen: Specimen) -> RigGeometry:
         pad_names=specimen.pads,
         buffer_names=tuple(buffer.name for buffer in specimen.buffers),
         pad_springs=specimen.springs,
+        centre=(specimen.centre_x, specimen.centre_y),
+        storeys=tuple(storey.z for storey in specimen.storeys),
     )

@@ -15,6 +15,8 @@ from slipwise.view.timeline import frames, time_column
 Array = NDArray[np.float64]
 _STEEL, _POST, _DECK = (150, 160, 172), (112, 122, 134), (150, 166, 186)
 _TOP, _RUBBER = (92, 104, 118), (22, 22, 26)
+#: Thickness of a floor and of its columns [m].
+_FLOOR = 0.08
 _NICE = (1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 30.0, 50.0, 100.0, 200.0)
 
 
@@ -125,7 +127,7 @@ def _log_girder(stream: rr.RecordingStream, path: str, geometry: RigGeometry, la
         f"{path}/weight",
         rr.Boxes3D(
             sizes=[[0.45 * long, 0.5 * wide, weight], [0.15 * long, 0.3 * wide, under]],
-            centers=[[0, 0, centre], [0, 0, foot + 0.5 * under]],
+            centers=[[*geometry.centre, centre], [*geometry.centre, foot + 0.5 * under]],
             colors=[_STEEL, _POST],
             fill_mode="solid",
         ),
@@ -134,7 +136,7 @@ def _log_girder(stream: rr.RecordingStream, path: str, geometry: RigGeometry, la
     stream.log(
         f"{path}/centre_of_gravity",
         rr.Points3D(
-            [[0, 0, centre + 0.5 * weight]],
+            [[*geometry.centre, centre + 0.5 * weight]],
             radii=0.04,
             colors=[rgb(NIGHT_INK)],
             labels=label or "centre of gravity",
@@ -142,6 +144,7 @@ def _log_girder(stream: rr.RecordingStream, path: str, geometry: RigGeometry, la
         ),
         static=True,
     )
+    _log_storeys(stream, f"{path}/storeys", geometry, foot)
     places = np.array(geometry.buffer_places).reshape(-1, 2)
     if len(places):
         stream.log(
@@ -153,6 +156,23 @@ def _log_girder(stream: rr.RecordingStream, path: str, geometry: RigGeometry, la
             ),
             static=True,
         )  # fmt: skip
+
+
+def _log_storeys(stream: rr.RecordingStream, path: str, geometry: RigGeometry, foot: float) -> None:
+    """Draw the floors of a frame on their columns, above a height [m]; how they sway is in the series of channels."""
+    long, wide = 0.8 * geometry.girder_size[0], 0.8 * geometry.girder_size[1]
+    sizes, centres = [], []
+    for floor in geometry.storeys:
+        sizes.append([long, wide, _FLOOR])
+        centres.append([*geometry.centre, floor])
+        high = max(floor - 0.5 * _FLOOR - foot, 0.0)
+        for x in (0.5 * (long - _FLOOR), -0.5 * (long - _FLOOR)):
+            for y in (0.5 * (wide - _FLOOR), -0.5 * (wide - _FLOOR)):
+                sizes.append([_FLOOR, _FLOOR, high])
+                centres.append([geometry.centre[0] + x, geometry.centre[1] + y, foot + 0.5 * high])
+        foot = floor + 0.5 * _FLOOR
+    if sizes:
+        stream.log(path, rr.Boxes3D(sizes=sizes, centers=centres, colors=[_POST], fill_mode="solid"), static=True)
 
 
 def _log_motion(
