@@ -57,4 +57,4 @@ def test_the_diagnosis_names_the_pad_that_stands_high(folder: Path) -> None:
 @pytest.mark.slow
 def test_the_audit_compares_every_warp_and_accuses_no_cell_for_a_pad_that_stands_high(folder: Path) -> None:
     report = sw.audit(folder)
-    assert not report.accused, report.findings
+    assert not report.accused, report.report.findings

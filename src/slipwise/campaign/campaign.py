@@ -19,6 +19,19 @@ ROLES: tuple[str, ...] = ("fit", "repeat", "holdout")
 
 
 @dataclass(frozen=True)
+class Thinning:
+    """Samples of which only some were kept.
+
+    Attributes:
+        by: the filter that every channel went through before.
+        step: between the samples as they were recorded [s].
+    """
+
+    by: LowPass
+    step: float
+
+
+@dataclass(frozen=True)
 class Logger:
     """What the logger did to the channels before it stored them.
 
@@ -26,20 +39,25 @@ class Logger:
         every: the low-pass filter of every channel; None where it is not known or there was none.
         own: channel name or pattern ("pad_*_N") -> its own filter, None for a channel that is not filtered.
         known: whether the campaign says anything of the logger; if not, the audit estimates it.
-        thinning: the filter that every channel went through besides where its samples were thinned out; else None.
+        thinning: of the samples, after the logger; None where all were kept.
     """
 
     every: LowPass | None = None
     own: Mapping[str, LowPass | None] = field(default_factory=dict)
     known: bool = False
-    thinning: LowPass | None = None
+    thinning: Thinning | None = None
 
     def of(self, channel: str) -> LowPass | None:
         """Give the filter of one channel: of the logger's own and that of thinning out the lower one."""
         found = self._of(channel)
         if not self.known or self.thinning is None:
             return found
-        return self.thinning if found is None or found.frequency > self.thinning.frequency else found
+        return self.thinning.by if found is None or found.frequency > self.thinning.by.frequency else found
+
+    def unseen(self, channel: str) -> float:
+        """Give the time within which a channel may have jumped at any instant before it was thinned out [s], or 0."""
+        jumped = self.known and self.thinning is not None and self._of(channel) is None
+        return self.thinning.step if jumped and self.thinning is not None else 0.0
 
     def _of(self, channel: str) -> LowPass | None:
         if channel in self.own:

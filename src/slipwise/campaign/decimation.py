@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.campaign.campaign import Campaign, Run
+from slipwise.campaign.campaign import Campaign, Run, Thinning
 from slipwise.record import Record
 from slipwise.rig import Specimen
 from slipwise.signals.filters import LowPass, lowpass
@@ -54,7 +54,7 @@ def decimated(
     }
     runs = tuple(replace(run, record=records[run.name]) for run in campaign.runs)
     rate = 1.0 / next(iter(records.values())).dt
-    logger = replace(campaign.logger, thinning=_filter(rate))
+    logger = replace(campaign.logger, thinning=Thinning(_filter(rate), campaign.runs[0].record.dt))
     note = f"logged at {1.0 / campaign.runs[0].record.dt:.4g} Hz; fits use {rate:.4g} Hz, low-pass filtered before"
     return replace(campaign, runs=runs, logger=logger, notes=(*campaign.notes, note)), masks
 

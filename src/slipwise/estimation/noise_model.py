@@ -24,7 +24,8 @@ def reversal_noise(run: FitRun, plain: Array, shifted: Array) -> Array:
         plain: (n, p) predicted by the law [N].
         shifted: (n, p) predicted with velocities that are wrong by as much as they may be [N].
     """
-    squared = (shifted - plain) ** 2 + (TIMING * run.scales.time * np.gradient(plain, run.dt, axis=0)) ** 2
+    timing = np.hypot(TIMING * run.scales.time, run.unseen / np.sqrt(12.0))
+    squared = (shifted - plain) ** 2 + (timing * np.gradient(plain, run.dt, axis=0)) ** 2
     if run.filtered is not None:
         reach = int(np.ceil(_SPREAD / (run.filtered.frequency * run.dt)))
         # a few newtons beside a reversal, the same at every reversal, are below one sample's noise but bend the fit

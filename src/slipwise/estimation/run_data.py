@@ -47,6 +47,7 @@ class FitRun:
         sliding: (n,) samples at which the law gives the force of a pad.
         judged: relation -> samples by which it is judged, see `sample_masks`.
         invalid: channel -> samples (n,) at which it is no measurement.
+        unseen: time within which friction may have jumped at any instant before samples were thinned out [s].
         ringing: (n,) a pad lifts, or the girder's pitch rings from it.
         noise: channel -> standard deviation of one sample.
         rigid_rotation_acceleration: part of the girder's acceleration over the table that is no slip, because both
@@ -66,6 +67,7 @@ class FitRun:
     sliding: Mask
     judged: Mapping[str, Mask]
     invalid: Mapping[str, Mask] = field(default_factory=dict[str, Mask])
+    unseen: float = 0.0
     ringing: Mask = field(default_factory=lambda: np.zeros(1, dtype=bool))
     noise: dict[str, float] = field(default_factory=dict[str, float])
     rigid_rotation_acceleration: Array | float = 0.0
@@ -240,7 +242,9 @@ def _fit_run(run: Run, campaign: Campaign, invalid: Mapping[str, Mask]) -> FitRu
     ringing = ringing_after_uplift(states.uplift, states.dt, states.specimen)
     kept["pitch"] &= ~ringing
     kept["motion"] &= ~before_uplift(states.uplift, states.dt)
-    return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, across, sliding, kept, bad, ringing)
+    unseen = campaign.logger.unseen(f"pad_{pads[0]}_Fx")
+    more = {"unseen": unseen, "ringing": ringing}
+    return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, across, sliding, kept, bad, **more)
 
 
 def _stacked(record: Record, pads: tuple[str, ...], kind: str, otherwise: Array) -> Array:
