@@ -47,7 +47,7 @@ def test_a_fit_finds_how_high_it_stands(folder: Path) -> None:
     assert found[f"uneven_seating[{HIGH}].warp"] == pytest.approx(HEIGHT, rel=0.02)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_diagnosis_names_the_pad_that_stands_high(folder: Path) -> None:
     found = sw.diagnose(folder)
     assert found.verdict.kind == "named" and found.verdict.effects == ("uneven_seating",), found.sentence

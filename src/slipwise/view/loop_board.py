@@ -65,7 +65,7 @@ def panels_of(record: Record, pads: Sequence[str]) -> dict[str, Array]:
     there = {pad: record[f"pad_{pad}_Fx"] for pad in pads if f"pad_{pad}_Fx" in record}
     if "slip_x" not in record:
         return {}
-    if len(there) == len(pads) > 1:
+    if len(there) == len(pads):  # of a lone slider too, whose panel would stand empty
         there[SUM] = np.sum(list(there.values()), axis=0)
     return there
 

@@ -117,7 +117,8 @@ def rig_view(
     root: str, name: str, geometry: RigGeometry, seen_from: tuple[float, float, float] = (0.95, -0.85, 0.55)
 ) -> rrb.View:
     """Show rigs from a place given in lengths of the girder from the middle."""
-    reach = max(geometry.girder_size[:2])
+    top = max(geometry.storeys, default=0.0)  # a frame is looked at from farther away, and at half its height
+    reach = max(*geometry.girder_size[:2], 1.3 * top)
     return rrb.Spatial3DView(
         origin=root,
         name=name,
@@ -126,7 +127,7 @@ def rig_view(
             plane=rr.components.Plane3D.XY.with_distance(-0.155 - geometry.table_size[2]), color=[255, 255, 255, 22]
         ),
         eye_controls=rrb.EyeControls3D(
-            position=[reach * along for along in seen_from], look_target=[0.0, 0.0, -0.04 * reach]
+            position=[reach * along for along in seen_from], look_target=[0.0, 0.0, 0.4 * top - 0.04 * reach]
         ),
     )
 

@@ -7,12 +7,13 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign
-from slipwise.estimation.judged_samples import away_from_cuts, sample_masks
+from slipwise.estimation.judged_samples import away_from_cuts, before_uplift, ringing_after_uplift, sample_masks
 from slipwise.estimation.kinematics import Kinematics
 from slipwise.estimation.recent_results import Recent
 from slipwise.estimation.run_data import FitRun, fit_runs
 from slipwise.instruments.repairs import for_fits
 from slipwise.instruments.sample_faults import sample_faults
+from slipwise.rig import load_specimen, pad_frequencies
 
 COUNT = 6
 ALL = np.ones(COUNT, dtype=bool)
@@ -69,3 +70,24 @@ def test_slip_is_not_held_against_accelerometers_where_a_record_was_cut(begins: 
     whole = away_from_cuts(at_rest, 0.002)
     assert (whole[0], whole[-1]) == (begins, ends)
     assert whole[100:400].all() and whole.sum() == 500 - 60 * (not begins) - 60 * (not ends)
+
+
+@pytest.mark.parametrize("rig", ["bridge1", "three_pads", "pendulum"])
+def test_pitch_is_left_out_for_as_long_as_a_girder_rings_that_has_lifted(rig: str) -> None:
+    specimen, dt = load_specimen(rig), 1e-3
+    lifted = np.zeros(3000, dtype=bool)
+    lifted[500:510] = True
+    ringing = ringing_after_uplift(lifted, dt, specimen)
+    turn = 2.0 * np.pi * pad_frequencies(specimen)["pitch"]
+    damping = 0.5 * turn * specimen.pad_damping / specimen.pad_stiffness
+    left = np.exp(-damping * turn * dt * np.count_nonzero(ringing[510:]))
+    assert ringing[500:510].all() and not ringing[:500].any()
+    assert left == pytest.approx(1.0 / 700.0, rel=0.2), "what was 700 times its floor is then no more than that"
+    ahead = before_uplift(lifted, dt)
+    assert ahead[400:500].all() and not ahead[510:].any()
+
+
+def test_a_girder_that_never_lifts_is_judged_throughout() -> None:
+    never = np.zeros(300, dtype=bool)
+    assert not ringing_after_uplift(never, 2e-3, load_specimen("three_pads")).any()
+    assert not before_uplift(never, 2e-3).any()
