@@ -18,7 +18,7 @@ try:
 except ModuleNotFoundError:  # Windows
     fcntl = None
 
-_SCHEMA = 3
+_SCHEMA = 2
 _LOCK = "lock"
 
 

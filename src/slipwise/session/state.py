@@ -132,7 +132,13 @@ def terms_json(terms: Sequence[Term]) -> list[dict[str, Any]]:
 def terms_from_json(content: Sequence[Mapping[str, Any]], effect_of: EffectOf) -> tuple[Term, ...]:
     """Give the effects that `terms_json` wrote."""
     return tuple(
-        Term(effect_of(one["effect"]), tuple(one["targets"]), one["group"], tuple(one["own"]), dict(one["unused"]))
+        Term(
+            effect_of(one["effect"]),
+            tuple(one["targets"]),
+            one["group"],
+            tuple(one.get("own", ())),
+            dict(one.get("unused", {})),
+        )
         for one in content
     )
 
