@@ -46,8 +46,17 @@ export function nextStep(state) {
   return { words: `Fitted: ${left}. The search for what is missing takes a minute or two.`, button: "Find what is missing", message: { do: "explain" } };
 }
 
+/** A step is asked for once: what it leads to draws another button, however long the answer takes. */
+function once(button, act) {
+  if (button.dataset.asked) return;
+  button.dataset.asked = "yes";
+  button.disabled = true;
+  button.setAttribute("aria-busy", "true");
+  act();
+}
+
 export function drawGuide(state, ask) {
   const { words, button, message } = nextStep(state);
   find("suggestion").replaceChildren(make("h3", {}, "Next step"), make("p", { id: "guide-words" }, words),
-    ...(button ? [make("button", { id: "go-on", class: "main edits", onclick: () => ask(message) }, button)] : []));
+    ...(button ? [make("button", { id: "go-on", class: "main edits", onclick: (event) => once(event.currentTarget, () => ask(message)) }, button)] : []));
 }
