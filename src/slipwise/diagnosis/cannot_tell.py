@@ -21,12 +21,15 @@ from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.parameters import ZERO, Term
 from slipwise.rig.frame import storey_channels
+from slipwise.rig.load_basis import buffers_off_centre
 
 Array = NDArray[np.float64]
 #: Two effects look alike when their columns agree so well: one run gives 0.95, two after a long rest 0.8 at most [1].
 _ALIKE = 0.85
 #: A model that leaves less than this share of a floor shows that the floor is too high [1].
 _CREDIBLE = 0.9
+#: Springs whose middle lies off the centre by more than this share of the pads' half spacing turn the girder [1].
+_OFF = 0.02
 #: Runs that are named one by one.
 _NAMED = 3
 #: A column of which the base leaves a smaller share does what the base does [1].
@@ -50,6 +53,7 @@ def cannot_tell(state: Search, final: BaseFit) -> list[tuple[str, str]]:
         *_zero_not_shown(state, final),
         *_nothing_held_out(state.base),
         *_storeys_not_measured(state.base),
+        *_turning_not_measured(state.base),
         *_beyond_what_was_fitted(state.base),
         *_floors_not_credible(state),
         *_gauges_not_tried(state),
@@ -83,6 +87,17 @@ def _storeys_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
     if absent := [n for n in needed if not all(n in run.record for run in base.campaign.runs)]:
         reason = f"{', '.join(absent)} not measured: the storeys push the girder unknown, so these are left out"
         yield "girder and pitch balance", reason
+
+
+def _turning_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
+    """Name the motion that springs off the middle bring with them and that no gauge shows."""
+    rig = base.campaign.specimen
+    along, across = buffers_off_centre(rig) if rig.free else (0.0, 0.0)
+    off = (f"the buffers' middle lies {size:.2g} m off the centre of gravity" for size in (across, along))
+    for name, size, half, words in zip(("yaw", "slip_y"), (across, along), rig.half_spacing[::-1], off, strict=True):
+        if abs(size) > _OFF * half and not all(name in run.record for run in base.campaign.runs):
+            moves = "turns" if name == "yaw" else "moves across"
+            yield name, f"not measured, but {words}, so the girder {moves}: what is left may be that"
 
 
 def _floors_not_credible(state: Search) -> Iterator[tuple[str, str]]:

@@ -75,6 +75,18 @@ def buffer_sides(specimen: Specimen) -> tuple[float, ...]:
     return (1.0,) * len(off)
 
 
+def buffers_off_centre(specimen: Specimen) -> tuple[float, float]:
+    """Give how far the buffers' middle lies from the centre of gravity (x, y) [m]: that of those along y, along x.
+
+    A force along x at y turns the girder, and so moves it across where those along y stand off x.
+    """
+    along = sum(b.stiffness_x for b in specimen.buffers)
+    across = sum(b.stiffness_y for b in specimen.buffers)
+    x = sum(b.stiffness_y * (b.x - specimen.centre_x) for b in specimen.buffers) / across if across else 0.0
+    y = sum(b.stiffness_x * (b.y - specimen.centre_y) for b in specimen.buffers) / along if along else 0.0
+    return x, y
+
+
 def end_pairs(specimen: Specimen) -> tuple[tuple[str, str], ...]:
     """Give the pads that stand beside each other across the girder: same x, neighbours along y, the one at +y first."""
     ends: dict[float, list[Place]] = {}

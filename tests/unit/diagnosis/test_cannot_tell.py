@@ -155,3 +155,12 @@ def test_an_effect_that_changes_nothing_that_was_measured_is_said() -> None:
 def test_faults_of_samples_are_not_looked_for_on_one_slider() -> None:
     _, cannot = candidates(fit_base(slider(0.3)))
     assert {"channel_sign", "channel_clipping", "dropped_samples"} <= cannot.keys()
+
+
+def test_springs_off_the_middle_need_the_turning_that_they_bring(base: BaseFit) -> None:
+    rig = base.campaign.specimen
+    one, other = rig.buffers
+    off = rig.changed(buffers=(replace(one, stiffness_x=2.0 * one.stiffness_x, x=0.4), other))
+    assert not {"yaw", "slip_y"} & reasons(base).keys()
+    told = reasons(replace(base, campaign=replace(base.campaign, specimen=off)))
+    assert "so the girder turns" in told["yaw"] and "so the girder moves across" in told["slip_y"]
