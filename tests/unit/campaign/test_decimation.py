@@ -25,7 +25,7 @@ def sharp(time: np.ndarray) -> np.ndarray:
 def logged(logger: Logger) -> Campaign:
     """A girder that slides to and fro, every channel sampled as it is; friction turns round at once."""
     specimen = load_specimen("bridge1")
-    time = np.arange(4000) * DT
+    time = np.asarray(np.arange(4000) * DT, dtype=np.float64)
     slip = 0.02 * (1.0 - np.cos(TURN * time))
     friction = sharp(time)
     channels = {"slip_x": slip, "table_ax": 0.0 * time, "girder_ax": np.gradient(np.gradient(slip, DT), DT)}
