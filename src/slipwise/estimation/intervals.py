@@ -161,7 +161,7 @@ def _limited(
     free, slopes = base.solution.free[place], base.solution.jacobian
     inside = [k for k, e in enumerate(entries) if k == place or (not e.bound and np.any(slopes[:, k]))]
     here = inside.index(place)
-    plain, robust, freedom = _variances(slopes[:, inside], left, block, shared)
+    plain, robust, freedom = _variances(slopes, inside, left, block, shared)
     reach = float(student.ppf(COVERAGE, freedom))
     inflation = float(robust[here, here] / plain[here, here]) if plain[here, here] > 0.0 else 1.0
     guess = reach * float(np.sqrt(robust[here, here])) * free.scale or free.scale
@@ -191,8 +191,7 @@ def of_fit(
     ends = [_bound(f, values[f.key]) for f in free]
     inside = [j for j, end in enumerate(ends) if not end and np.any(jacobian[:, j])]
     scale = np.array([free[j].scale for j in inside])
-    slopes = jacobian[:, inside]
-    _, robust, freedom = _variances(slopes, residual, block, shared)
+    _, robust, freedom = _variances(jacobian, inside, residual, block, shared)
     covariance = robust * np.outer(scale, scale)
     blocks = freedom + len(inside)
     deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0))
@@ -209,27 +208,31 @@ def of_fit(
 
 
 def _variances(
-    slopes: Array, residual: Array, block: NDArray[np.int64], shared: Shared | None
+    jacobian: Array, inside: Sequence[int], residual: Array, block: NDArray[np.int64], shared: Shared | None
 ) -> tuple[Array, Array, int]:
-    """Give the covariance (k, k) under white noise of unit size, the sandwich, and the degrees of freedom."""
+    """Give the covariance (k, k) under white noise of unit size, the sandwich, and the degrees of freedom.
+
+    Only the numbers inside count. Their columns are not put into an array of their own, which would be as large again.
+    """
     counted = np.bincount(block, weights=(residual != 0.0).astype(float))
-    blocks, count = int(np.count_nonzero(counted)), slopes.shape[1]
-    scores = _sums(slopes, residual, block)
-    bread = np.asarray(np.linalg.pinv(slopes.T @ slopes, rcond=1e-12, hermitian=True), dtype=np.float64)
-    freedom = max(blocks - count, 2)  # each fitted number takes one block's freedom
+    blocks = int(np.count_nonzero(counted))
+    scores = _sums(jacobian, inside, residual, block)
+    normal = (jacobian.T @ jacobian)[np.ix_(inside, inside)]
+    bread = np.asarray(np.linalg.pinv(normal, rcond=1e-12, hermitian=True), dtype=np.float64)
+    freedom = max(blocks - len(inside), 2)  # each fitted number takes one block's freedom
     meat = scores.T @ scores * (blocks / freedom)
     if shared is not None:
-        pulled = np.concatenate([_sums(slopes, kind, shared[1]) for kind in shared[0]])
+        pulled = np.concatenate([_sums(jacobian, inside, kind, shared[1]) for kind in shared[0]])
         meat = meat + pulled.T @ pulled
     return bread, bread @ meat @ bread, freedom
 
 
-def _sums(slopes: Array, values: Array, label: NDArray[np.int64]) -> Array:
-    """Add up slopes (m, k) times values (m,) over the rows of each label, (labels, k)."""
+def _sums(jacobian: Array, inside: Sequence[int], values: Array, label: NDArray[np.int64]) -> Array:
+    """Add up the columns inside of the Jacobian (m, n) times values (m,) over the rows of each label, (labels, k)."""
     # number by number: the product of all is as long as the runs together, for each of them
-    out = np.zeros((int(label.max(initial=-1)) + 1, slopes.shape[1]))
-    for number, column in enumerate(slopes.T):
-        out[:, number] = np.bincount(label, weights=column * values)
+    out = np.zeros((int(label.max(initial=-1)) + 1, len(inside)))
+    for number, column in enumerate(inside):
+        out[:, number] = np.bincount(label, weights=jacobian[:, column] * values)
     return out
 
 
