@@ -32,7 +32,11 @@ def settings_of(specimen: Specimen) -> Settings:
 
 
 def followed(specimen: Specimen, settings: Settings) -> dict[str, float]:
-    """Give how far slip, load and acceleration are off in an earthquake, channel -> rms over the standard deviation."""
+    """Give how far slip, load and acceleration are off in an earthquake, channel -> rms over the standard deviation.
+
+    Loads and acceleration are held against each other while the girder slides: where it sticks the second simulator's
+    elastic stick rings.
+    """
     motion = draw_quake(np.random.default_rng(5))
     other = second(settings, motion)
     every = round(DT / motion.step)
@@ -40,9 +44,10 @@ def followed(specimen: Specimen, settings: Settings) -> dict[str, float]:
     model = replace(base_model("bridge1"), specimen=specimen)
     record = simulate(model, table, dt=DT, output_dt=2e-3).record
     time, errors = np.asarray(other["time"]), {}
+    sliding = np.abs(np.interp(record.time, time, other["slip_vx"])) > 0.02
     for name in ("slip_x", f"pad_{specimen.pads[0]}_N", "girder_ax"):
-        theirs = np.interp(record.time, time, other[name])
-        errors[name] = float(np.sqrt(np.mean((record[name] - theirs) ** 2)) / np.std(theirs))
+        theirs, at = np.interp(record.time, time, other[name]), sliding | (name == "slip_x")
+        errors[name] = float(np.sqrt(np.mean((record[name] - theirs)[at] ** 2)) / np.std(theirs[at]))
     return errors
 
 
@@ -51,4 +56,5 @@ def test_slip_and_loads_follow_a_second_simulator_through_an_earthquake(rig):
     specimen = base_model(rig).specimen.changed(pad_stiffness=2.5e8, pad_damping=6.0e4)
     errors = followed(specimen, settings_of(specimen))
     assert errors.pop("slip_x") < 0.01
-    assert max(errors.values()) < 0.03, errors
+    assert errors.pop("girder_ax") < 0.01
+    assert max(errors.values()) < 0.03
