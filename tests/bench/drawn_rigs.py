@@ -93,8 +93,11 @@ def _pads(rng: np.random.Generator, mass: float, along: float, across: float) ->
     heights = rng.uniform(-1.0, 1.0, count) * 0.1 * share * GRAVITY / stiffness.mean() * (rng.random() < 0.25)
     curvature = 1.0 / rng.uniform(0.5, 3.0) if rng.random() < 0.25 else 0.0
     middle = stiffness @ places / stiffness.sum()
-    values = zip(places - middle, area, stiffness, damping, heights, strict=True)
-    return tuple(Pad("ABCDEFGH"[i], *map(float, (x, y, *rest)), curvature) for i, ((x, y), *rest) in enumerate(values))
+    columns = np.column_stack([places - middle, area, stiffness, damping, heights]).tolist()
+    return tuple(
+        Pad(name, x, y, size, spring, dashpot, high, curvature)
+        for name, (x, y, size, spring, dashpot, high) in zip("ABCDEFGH", columns, strict=False)
+    )
 
 
 def _buffers(
