@@ -6,6 +6,7 @@ Every relation is a residual that is zero for true channels, linear in a few con
     girder     sum F + m a_x + K x + sum m_i a_i       (y alike; with the storeys of a frame)
     pitch      half_x Q1 - x sum N + (m h) a_x + (K z_b) x + J Q1'',    Q1 = sum N_i x_i / half_x
     roll       half_y Q2 - y sum N + (m h) a_y + (K z_b) y + J Q2'',    Q2 = sum N_i y_i / half_y
+               and of each a share of the other's second derivative where the pads stand unevenly
     warp       what is left of the loads: nothing of three pads, N_A - N_B - N_C + N_D of four
     along      x - double integral of (a_x - table a_x), both without what is slower than 0.8 Hz      (across alike)
     upright    a_z - table a_z + c1 (sum N)'' + c2 (sum N)'
@@ -30,6 +31,7 @@ from slipwise.rig import Specimen, storey_names
 from slipwise.rig.frame import frame_moment, frame_push
 from slipwise.rig.load_basis import basis_of, end_pairs
 from slipwise.rig.load_modes import LoadModes, load_modes, vertical_acceleration
+from slipwise.rig.rocking import coupled
 from slipwise.signals.ends import in_frequency
 
 Array = NDArray[np.float64]
@@ -151,6 +153,8 @@ def _tilting(axis: str, record: Record, specimen: Specimen) -> Relation:
     terms: dict[str, Term] = {
         f"{name}_inertia": lambda r, s: _twice(mode(r, s), r.dt),
     }
+    if coupled(specimen):  # uneven pads turn pitch into roll
+        terms[f"{name}_coupling"] = lambda r, s: _twice(_modes(r, s).roll if axis == "x" else _modes(r, s).pitch, r.dt)
     if f"girder_a{axis}" in record:
         terms["lever"] = lambda r, s: r[f"girder_a{axis}"]
     if f"slip_{axis}" in record:
