@@ -29,7 +29,7 @@ from slipwise.rig import Specimen
 from slipwise.rig.frame import frame_moment, frame_push, storey_channels
 from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import load_modes
-from slipwise.rig.rocking import rocking_modes
+from slipwise.rig.rocking import coupled, rocking_modes
 from slipwise.signals.ends import in_frequency
 from slipwise.signals.shift import shift
 from slipwise.simulation.predict import Predictor
@@ -51,7 +51,8 @@ def available(run: FitRun, specimen: Specimen) -> tuple[str, ...]:
         out.append("girder")
     if np.isfinite(run.states.girder_acceleration[:, 2]).all():
         out.append("heave")
-    out += (["pitch"] if framed else []) + ([] if run.states.has_y else ["roll"])
+    # friction across, which a girder that rolls with its pitch calls up, is in no channel
+    out += (["pitch"] if framed else []) + ([] if run.states.has_y or coupled(specimen) else ["roll"])
     out += ["warp"] if len(specimen.pads) > 3 else []
     if run.record.has_all("girder_ax", "table_ax"):
         out.append("motion")

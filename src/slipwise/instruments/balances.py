@@ -160,7 +160,9 @@ def _tilting(axis: str, record: Record, specimen: Specimen) -> Relation:
     if f"slip_{axis}" in record:
         terms[f"buffer_lever_{axis}"] = lambda r, s: r[f"slip_{axis}"]
     loads, storeys = loads_of(specimen), tuple(f"{storey}_a{axis}" for storey in storey_names(specimen))
-    needs = (*loads, *storeys, "girder_ax", "slip_x") if axis == "x" else (*loads, *storeys)
+    # friction across holds a girder that rolls with its pitch
+    across = ("girder_ay",) if axis == "y" and coupled(specimen) else ()
+    needs = (*loads, *storeys, "girder_ax", "slip_x") if axis == "x" else (*loads, *storeys, *across)
     return Relation(name, needs, known, terms)
 
 
