@@ -85,6 +85,7 @@ def follow(browser: Browser, folder: Path, missing: list[str]) -> Followed:
 def _rest(page: Page) -> None:
     """Wait until nothing is being done, and the model is fitted or a fit is the next step."""
     for _ in range(3):
+        page.wait_for_selector("#go-on[data-asked]", state="detached", timeout=PATIENCE)
         page.wait_for_selector("#work", state="hidden", timeout=PATIENCE)
         page.wait_for_timeout(700)
 

@@ -238,6 +238,7 @@ def diagnosed(
         base_error=before,
         final_error=after,
         relations=errors,
+        all_samples={},
         system={},
         candidates=listed,
         confirmed=confirmed(state) if verdict.effects else None,

@@ -30,6 +30,8 @@ from slipwise.errors import SlipwiseError
 from slipwise.interruption import let_parent_hear, unheard_by_children
 
 Answer = TypeVar("Answer")
+#: Bytes that pieces of work may take side by side.
+ROOM = 512 * 2**20
 #: Bytes in which a place is written.
 _PLACE = 4
 #: Time in which a child that is asked to end removes what it has half written, before it is killed [s].
@@ -105,7 +107,7 @@ class _Shared:
         return pickle.loads(said, buffers=arrays)
 
 
-def on_every_core(work: Callable[[int], Answer], count: int, what: str = "") -> Iterator[Answer]:
+def on_every_core(work: Callable[[int], Answer], count: int, what: str = "", *, memory: int = 0) -> Iterator[Answer]:
     """Give work(0), work(1), ... in order; each answer must be one that can be pickled.
 
     Work is done here, one after another, where there is one core, where a process cannot be forked safely (Windows,
@@ -115,13 +117,15 @@ def on_every_core(work: Callable[[int], Answer], count: int, what: str = "") -> 
         work: what is done at a place.
         count: of places.
         what: the name of this work in an error; that of its module if not given.
+        memory: that each piece of work takes [bytes]. Where all cores together would take more than `ROOM`, it is done
+            one after another: a fit shares its columns out itself then.
 
     Raises:
         SlipwiseError: a child was killed, and so was the one that tried again.
         Exception: what `work` raises.
     """
     workers = min(_cores(), count)
-    if workers < 2:
+    if workers < 2 or workers * memory > ROOM:
         yield from map(work, range(count))
         return
     with ExitStack() as ends:

@@ -47,6 +47,14 @@ def test_each_core_takes_its_part(count: int, monkeypatch: pytest.MonkeyPatch) -
     assert len(processes) == count and os.getpid() in processes
 
 
+def test_work_that_takes_much_memory_is_done_one_after_another(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cores, "_cores", lambda: 2)
+    meeting = FORKED.Barrier(2)
+    beside = on_every_core(lambda _: (meeting.wait(LONG), os.getpid())[1], 2, memory=cores.ROOM // 2)
+    after = on_every_core(lambda _: os.getpid(), 4, memory=cores.ROOM // 2 + 1)
+    assert len(set(beside)) == 2 and set(after) == {os.getpid()}
+
+
 def test_what_is_asked_of_work_at_work_is_done_where_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
     """Children of children would fight for the cores, and those of the one who asked would too."""
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1})

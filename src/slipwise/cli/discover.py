@@ -9,7 +9,7 @@ import typer
 
 import slipwise as sw
 from slipwise.cli.console import OUT, out_folder, print_json, say, steps
-from slipwise.cli.diagnose import CampaignFolder, Json, ModelFile, Own, Trusted, own_effects, start_model
+from slipwise.cli.diagnose import CampaignFolder, Figures, Json, ModelFile, Own, Trusted, own_effects, start_model
 from slipwise.errors import visible
 
 
@@ -25,6 +25,7 @@ def discover(
     recording: Annotated[
         bool, typer.Option(help="Write the model before and with the law beside the measurement, for the viewer.")
     ] = True,
+    figures: Figures = False,
     json: Json = False,
 ) -> None:
     """Find the law of what the catalogue does not hold, and write it as an effect.
@@ -33,6 +34,7 @@ def discover(
     """
     from slipwise.view.discovery_page import discovery_page
     from slipwise.view.discovery_recording import write_discovery_recording
+    from slipwise.view.figure_files import figures_into
     from slipwise.view.files import save_json, save_page
 
     sw.effects.check_name(name)  # not after minutes of search
@@ -43,7 +45,9 @@ def discover(
         found = sw.discover(measured, start, own=own_effects(effect, start), progress=tell)
     found = found.written(folder, name, date.today().isoformat())
     files = [save_json(found.as_json(), folder / "discovery.json")]
-    files.append(save_page(discovery_page(found), folder / "report.html"))
+    with figures_into(folder / "figures" if figures else None) as drawn:
+        files.append(save_page(discovery_page(found), folder / "report.html"))
+    files += drawn
     if recording:
         files.append(write_discovery_recording(found, folder / "discovery.rrd"))
     if json:

@@ -35,7 +35,9 @@ def ensemble(
         list[str] | None,
         typer.Option(help="Count what exceeds it: RESPONSE=VALUE, e.g. slip_x=30mm or pad_load=60kN; may be repeated."),
     ] = None,
-    rig: Annotated[str, typer.Option(help="bridge1, bridge2, block, or the path of an MJCF file.")] = "bridge1",
+    rig: Annotated[
+        str, typer.Option(help="A name of slipwise rigs, or the path of a specimen.toml or an MJCF file.")
+    ] = "bridge1",
     effect: Annotated[
         list[str] | None, typer.Option(help="Switch an effect on, by name or file, at its typical size.")
     ] = None,

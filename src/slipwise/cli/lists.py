@@ -54,6 +54,8 @@ def rigs(
                 "file": specimen.path.name,
             }
         )
+    if rig is None and not json:  # a rig that ships lies in a file of its own name
+        rows = [{key: value for key, value in row.items() if key != "file"} for row in rows]
     _show("Rigs", rows, json)
 
 

@@ -185,7 +185,8 @@ def _hypothesis_path(state: Search) -> list[Hypothesis]:
     last = {frozenset(t.label for t in h.terms): h for h in state.path[:-1]}
     last.pop(frozenset(t.label for t in state.best.terms), None)
     before = list(last.values())
-    summaries = on_every_core(lambda i: final_refit_of(before[i]).summary, len(before))
+    memory = state.base.solution.fit_memory
+    summaries = on_every_core(lambda i: final_refit_of(before[i]).summary, len(before), memory=memory)
     refitted = [replace(h, summary=summary) for h, summary in zip(before, summaries, strict=True)]
     return [*refitted, state.final if state.best.terms else final_refit_of(state.best)]
 

@@ -58,6 +58,7 @@ class Diagnosis(Drawn, Tabular):
         base_error: held-out component-level error of the base model, worst relation, in floors.
         final_error: the same with the named effects.
         relations: relation -> (base, final) held-out error in floors.
+        all_samples: the same over all samples of the held-out runs, where stretches of them were judged; else empty.
         system: {"base", "final"} held-out error at replay level, in floors; empty where it was not asked for.
         candidates: hypotheses, best first.
         confirmed: whether the held-out runs agree with what was found; None where none is held out, or not testable.
@@ -77,6 +78,7 @@ class Diagnosis(Drawn, Tabular):
     base_error: float
     final_error: float
     relations: Mapping[str, tuple[float, float]]
+    all_samples: Mapping[str, tuple[float, float]]
     system: Mapping[str, float]
     candidates: tuple[Candidate, ...]
     confirmed: bool | None
@@ -196,7 +198,8 @@ class Diagnosis(Drawn, Tabular):
             "floor": 1.0,
             "final_error": _number(self.final_error),
             "confirmed": self.confirmed,
-            "relations": {k: {"base": _number(a), "final": _number(b)} for k, (a, b) in self.relations.items()},
+            "relations": _pairs(self.relations),
+            "all_samples": _pairs(self.all_samples),
             "system": {k: _number(v) for k, v in self.system.items()},
             "importance": {name: _importance(found) for name, found in self.importance.items()},
             "candidates": [_candidate(c) for c in self.candidates],
@@ -226,6 +229,10 @@ class Diagnosis(Drawn, Tabular):
             }
             for c in self.candidates
         ]
+
+
+def _pairs(found: Mapping[str, tuple[float, float]]) -> dict[str, Any]:
+    return {k: {"base": _number(a), "final": _number(b)} for k, (a, b) in found.items()}
 
 
 def _number(value: float, figures: int = 4) -> float | None:

@@ -92,15 +92,15 @@ def try_all(
     # what takes longest first, or one core waits for it
     asked = sorted(asked, key=lambda a: -sum(len(t.effect.parameters) for t in a[0]))
     # of a long campaign only what is fitted to the end has slopes: many at once would fill the memory
-    keep = len(asked) * size_of(state.base.solution) <= ROOM
-    fits = on_every_core(lambda i: _fit(refit(state.base, *asked[i], before), keep=keep), len(asked))
+    keep, takes = len(asked) * size_of(state.base.solution) <= ROOM, state.base.solution.fit_memory
+    fits = on_every_core(lambda i: _fit(refit(state.base, *asked[i], before), keep=keep), len(asked), memory=takes)
     found = [Hypothesis(tuple(a[0]), problem.adding(*a[0]), *fit) for a, fit in zip(asked, fits, strict=True)]
     found.sort(key=lambda h: -score(origin, h.summary))
     best: dict[tuple[str, ...], int] = {}
     for place, h in enumerate(found):
         best.setdefault(h.names, place)
     ended = [place for place in list(best.values())[:_POLISHED] if promising is None or promising(found[place])]
-    fits = on_every_core(lambda i: _fit(polished(found[ended[i]])), len(ended))
+    fits = on_every_core(lambda i: _fit(polished(found[ended[i]])), len(ended), memory=takes)
     for place, fit in zip(ended, fits, strict=True):
         found[place] = Hypothesis(found[place].terms, found[place].problem, *fit)
     state.tried.extend(found)

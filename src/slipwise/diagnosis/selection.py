@@ -31,6 +31,8 @@ class SelectionResult:
         search: what was looked at.
         faults: of samples, which were reversed, bridged or left out before.
         uncorrected: residuals of the base fit of the campaign as it was recorded, where samples had faults.
+        uncut: the campaign with its samples corrected, before stretches of long runs were cut out, and the samples
+            of it that must not be judged.
         other_rig: the rig that was shaken, where it is not the declared one.
     """
 
@@ -38,14 +40,20 @@ class SelectionResult:
     search: Search
     faults: tuple[SampleFault, ...]
     uncorrected: ResidualSummary | None
+    uncut: tuple[Campaign, InvalidSamples]
     other_rig: WrongRig | None = None
 
 
 def prepared(campaign: Campaign) -> tuple[Campaign, InvalidSamples, tuple[SampleFault, ...]]:
     """Give a campaign with wrong signs reversed, the samples that must not be judged, and the faults found."""
+    uncut, invalid, faults = _corrected(campaign)
+    return (*stretched(uncut, invalid), faults)
+
+
+def _corrected(campaign: Campaign) -> tuple[Campaign, InvalidSamples, tuple[SampleFault, ...]]:
     faults = tuple(fault for fault in sample_faults(campaign) if fault.kind in _OF_GAUGES)
     whole, invalid = for_fits(campaign, faults) if faults else (campaign, {})
-    return (*stretched(*decimated(whole, invalid)), faults)
+    return (*decimated(whole, invalid), faults)
 
 
 def select_effects(
@@ -66,7 +74,8 @@ def select_effects(
         InputError: the campaign lacks what every fit needs.
     """
     own = tuple(own)
-    whole, invalid, faults = prepared(campaign)
+    uncut, unjudged, faults = _corrected(campaign)
+    whole, invalid = stretched(uncut, unjudged)
     base = fit_base(whole, model, invalid)
     other = wrong_rig(base)
     if other is not None:  # from its rated numbers the fit begins anew, and the rest is diagnosed
@@ -85,4 +94,4 @@ def select_effects(
     if faults:
         recorded, _ = stretched(*decimated(campaign, {}))
         uncorrected = final_refit_of(base_hypothesis(fit_base(recorded, model))).summary
-    return SelectionResult(base, state, faults, uncorrected, other)
+    return SelectionResult(base, state, faults, uncorrected, (uncut, unjudged), other)

@@ -122,7 +122,11 @@ def intervals(base: BaseFit) -> Intervals:
     entries = (_widened_by_card_delay(e, *ends[e.key]) if e.key in own_lag else e for e in found.entries)
     found = replace(found, entries=tuple(entries))
     low = [j for j, f in enumerate(solution.free) if is_strength(base, f) and not found.entries[j].low > f.low]
-    limits = on_every_core(lambda i: _limited(base, found.entries, low[i], left, block, shared), len(low))
+    limits = on_every_core(
+        lambda i: _limited(base, found.entries, low[i], left, block, shared),
+        len(low),
+        memory=solution.fit_memory,
+    )
     limited = dict(zip(low, limits, strict=True))
     return replace(found, entries=tuple(limited.get(j, e) for j, e in enumerate(found.entries)))
 

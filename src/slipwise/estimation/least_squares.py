@@ -79,6 +79,11 @@ class Solution:
         return self.jacobian.T @ self.jacobian
 
     @property
+    def fit_memory(self) -> int:
+        """Bytes that a fit like this one takes: its slopes, those of another point or a part of them, and residuals."""
+        return 3 * self.jacobian.nbytes
+
+    @property
     def inside(self) -> Array:
         """Columns of the Jacobian of the numbers that ended inside their bounds: the others make up for nothing."""
         ends = set(self.at_bounds)

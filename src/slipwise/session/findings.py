@@ -15,13 +15,17 @@ from slipwise.session.state import EffectOf, terms_from_json, terms_json
 def explained(found: Diagnosis, of: tuple[str, ...]) -> dict[str, Any]:
     """Give what a session keeps of a diagnosis.
 
+    Its suggestion is what it names; where nothing that matters is missing, what is there and does not matter, for the
+    user may want the error at the floor all the same.
+
     Args:
         found: the diagnosis.
         of: labels of the effects of the model that was diagnosed.
     """
     best = found.search.best
-    terms = best.terms if found.verdict.effects else ()
-    values = found.final.solution.values
+    named, minor = found.verdict.effects, found.verdict.minor if found.verdict.kind == "complete" else ()
+    terms = best.terms if named else tuple(t for t in best.terms if t.effect.name in minor)
+    values = found.final.solution.values if named else best.solution.values
     suggestion = [
         {**said, "values": {n: values[f"{t.label}.{n}"] for n in t.effect.parameter_names}}
         for t, said in zip(terms, terms_json(terms), strict=True)

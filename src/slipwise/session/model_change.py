@@ -8,6 +8,7 @@ from typing import Any
 from slipwise.campaign import Campaign, as_campaign
 from slipwise.diagnosis.ladder import placed
 from slipwise.diagnosis.result import Diagnosis
+from slipwise.errors import SettingError
 from slipwise.model import Model, base_model
 from slipwise.session import changes
 from slipwise.session.findings import explained
@@ -111,6 +112,8 @@ def _added(session: Session, effect: str, progress: Progress | None) -> ModelCha
 
 
 def _taken(session: Session, found: Diagnosis, progress: Progress | None) -> ModelChange:
+    if not found.added:
+        raise SettingError("the diagnosis names no effect; there is nothing to add")
     tell = progress or _silent
     session.remember("explain", explained(found, session.state.labels))
     _fit(session, tell, "fitting without it", 0.0)

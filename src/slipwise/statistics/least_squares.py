@@ -73,6 +73,7 @@ def gauss_newton(
             return point, linear
         fresh = not moved.keep_slopes
         if fresh and (linearised_end or number < most):
+            del linear  # a long campaign's slopes need not be held twice
             linear = linearise(point)
     return point, linear
 

@@ -14,7 +14,7 @@ from slipwise.diagnosis.unknown_surface import WORDS, Surface
 from slipwise.units import convert
 from slipwise.view.canvas import new_figure
 from slipwise.view.numbers import in_words, usual_unit
-from slipwise.view.style import EXPECTED, INK, MODEL_COLOURS, MUTED
+from slipwise.view.style import EXPECTED, INK, MODEL_COLOURS
 
 Array = NDArray[np.float64]
 #: Inches across which a figure has on a desk, and on a phone.
@@ -47,12 +47,11 @@ def balances_figure(found: Diagnosis, *, narrow: bool = False) -> Figure:
     axes.bar(places - (0.19 if found.added else 0.0), before, 0.36, color=_BEFORE, label="base model")
     if found.added:
         axes.bar(places + 0.19, after, 0.36, color=_AFTER, label=_with(found))
-    axes.axhline(1.0, color=INK, lw=1.0, ls="--")
-    axes.annotate("noise floor", (1.0, 1.0), xycoords=("axes fraction", "data"), ha="right", va="bottom", color=MUTED)
+    axes.axhline(1.0, color=INK, lw=1.0, ls="--", label="noise floor")
     axes.set_xticks(places, [under_axis(n) for n in names], rotation=90 if narrow else 0, fontsize=8.0)
     held = found.search.base.problem.held_out
     axes.set_ylabel(f"{'held-out error' if held else 'error on fitted runs'} / floor")
-    axes.legend()
+    figure.legend(loc="outside upper right", ncols=1 if narrow else 3)  # bars may fill the panel
     return figure
 
 
@@ -99,7 +98,7 @@ def ladder_figure(found: Ladder) -> Figure:
     screened, refitted = found.tried
     words = f"{screened} candidates screened, {refitted} hypotheses refitted; {found.stopped}"
     axes.set_xlabel(fill(words, _WIDEST))
-    axes.legend()
+    figure.legend(loc="outside upper right", ncols=4)
     return figure
 
 

@@ -30,11 +30,21 @@ def confirmed_words(found: Diagnosis) -> str:
     if not found.held_out:
         return "Not confirmed: no run is held out, so every run has taken part in the fit."
     runs = " and ".join(run.name for run in found.final.campaign.with_role("holdout"))
+    whole = _whole_words(found)
     if found.confirmed is None:
-        return f"Not confirmed: the held-out runs ({runs}) cannot show what was found."
+        return f"Not confirmed: the held-out runs ({runs}) cannot show what was found.{whole}"
     if found.confirmed:
-        return f"Confirmed on runs that no fit has seen: {runs}."
-    return f"It does not carry over to {runs}, which no fit has seen: the error there does not fall."
+        return f"Confirmed on runs that no fit has seen: {runs}.{whole}"
+    return f"It does not carry over to {runs}, which no fit has seen: the error there does not fall.{whole}"
+
+
+def _whole_words(found: Diagnosis) -> str:
+    """Say the error over all samples of runs of which a stretch was judged, as a further sentence; "" without any."""
+    if not found.all_samples:
+        return ""
+    worst = max(found.all_samples, key=lambda r: found.all_samples[r][0])
+    before, after = found.all_samples[worst]
+    return f" Over all their samples, {NAMES[worst][0]} errs by {floors(before)} -> {floors(after)} floors."
 
 
 def four_answers(found: Diagnosis) -> list[tuple[str, str]]:

@@ -60,7 +60,7 @@ def errors_figure(found: Discovery, *, narrow: bool = False) -> Figure:
         axes.set_xticks(places, [under_axis(r) for r in levels], rotation=90, fontsize=8.0)
         axes.set_title(words)
     panels[0].set_ylabel("error / floor")
-    panels[-1].legend()
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper right", ncols=3)
     return figure
 
 

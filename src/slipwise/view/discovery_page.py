@@ -1,5 +1,6 @@
 """The page of a discovery: the law in a sentence, its numbers, the data under it, and what it takes away."""
 
+from slipwise.comparison.component_level import NAMES
 from slipwise.discovery.law import Discovery, Law
 from slipwise.view.diagnosis_words import floors
 from slipwise.view.discovery_errors import errors, errors_figure, loop_words, loops_figure, shown_states, states_figure
@@ -79,7 +80,7 @@ def _taken_away(found: Discovery) -> list[Section]:
     rows: dict[str, dict[str, str]] = {}
     for runs, of in levels.items():
         for name, (before, later) in of.items():
-            row = rows.setdefault(name, {"balance": name})
+            row = rows.setdefault(name, {"balance": NAMES[name][0]})
             row[f"{runs}, before"] = floors(before)
             row |= {} if later is None else {f"{runs}, with the law": floors(later)}
     pair = ", before and with the law" if found.laws else ""

@@ -32,6 +32,8 @@ _SUMMARY: tuple[tuple[str, str, str], ...] = (
     ("draw_s", "time to draw pictures and recording", "s"),
     ("engine", "engine", ""),
 )
+#: Letters of a row's name that are kept in one line at most.
+_NAME = 24
 _AFTER_LANDING = (
     "Pads lifted: what follows several landings hangs on the last digits of the motion, and the largest loads hang on "
     "the pads' damping, which is assumed. Compare motions that differ by less than the table's accuracy."
@@ -60,7 +62,10 @@ def print_table(title: str, rows: Sequence[Mapping[str, Any]], console: Console 
     table = Table(box=box.SIMPLE_HEAD, header_style="bold")
     for key in columns:
         numeric = all(isinstance(row.get(key), int | float) for row in rows if row.get(key) is not None)
-        table.add_column(Text(visible(str(key))), justify="right" if numeric else "left", overflow="fold")
+        # A name that the user types again must not be broken: the column that says whose row it is gets its room first.
+        room = min(max(len(cell(row.get(key))) for row in rows), _NAME) if rows and key == columns[0] else None
+        heading, side = Text(visible(str(key))), "right" if numeric else "left"
+        table.add_column(heading, justify=side, overflow="fold", min_width=room)
     for row in rows:
         # Text, so that brackets in names and units are printed and not taken for markup.
         table.add_row(*(Text(cell(row.get(key))) for key in columns))

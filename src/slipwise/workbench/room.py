@@ -158,7 +158,12 @@ class Room:
                 "no law was found since the workbench was opened; find it, or look at the file of an earlier one and "
                 "allow it by --effect when you open the workbench"
             )
-        await self.change(lambda session: session.toggle(files[0]))
+
+        def put_in(session: Session) -> None:
+            if session.effect(files[0]).name not in session.state.labels:  # asked for twice, it would go out again
+                session.toggle(files[0])
+
+        await self.change(put_in)
 
     async def settle(self) -> None:
         """Keep a number that was let go, and show everybody what it has changed."""

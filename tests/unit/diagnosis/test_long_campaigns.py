@@ -1,4 +1,4 @@
-"""Of a long campaign the best slopes are kept and a thinned grid is screened; neither changes what is found."""
+"""Of a long campaign the best slopes are kept and a thinned grid is screened; a whole run confirms what was found."""
 
 from dataclasses import replace
 
@@ -8,11 +8,14 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.diagnosis import kept_slopes, screened_rows
+from slipwise.diagnosis.all_samples import errors_on_all_samples
 from slipwise.diagnosis.hypothesis import base_hypothesis
 from slipwise.diagnosis.screening import screen
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import fit_base
 from slipwise.estimation.parameters import Term
+from slipwise.record import Record
+from slipwise.session.evaluation import errors_of
 
 
 @pytest.fixture(scope="module")
@@ -54,3 +57,19 @@ def test_a_thinned_screen_sees_the_same_candidates_with_nearly_the_same_gains(ba
     assert len(thinned[0].column) == sum(screened_rows.rows_of(problem).values()) < 0.35 * rows
     assert max(whole, key=lambda label: whole[label]) == thinned[0].term.label
     assert thinned[0].gain == pytest.approx(max(whole.values()), rel=0.1)
+
+
+def test_a_held_out_run_of_which_a_stretch_was_judged_is_predicted_over_all_its_samples(base):
+    whole, found = base.campaign, base_hypothesis(base)
+    last = whole.runs[-1]
+    record = Record(last.record.time[:900], {name: values[:900] for name, values in last.record.channels.items()})
+    cut = replace(whole, runs=(*whole.runs[:-1], replace(last, record=record)))
+    assert last.role == "holdout" and errors_on_all_samples(whole, {}, whole, [found]) == {}
+    both = errors_on_all_samples(whole, {}, cut, [found, found])
+    assert list(both) == list(base.problem.relations)
+    again = base.problem.weighed_anew(base.solution.values)
+    for error in errors_of(again, again.residuals(base.solution.values)):
+        assert both[error.relation][0] == pytest.approx(error.held_out, rel=0.01)
+        assert both[error.relation][0] == both[error.relation][1]
+    bad = {last.name: {"pad_A_Fx": np.arange(len(last.record)) % 2 == 0}}
+    assert errors_on_all_samples(whole, bad, cut, [found])["pads"] != both["pads"][:1]

@@ -6,7 +6,9 @@ import pytest
 
 from session_campaign import MISSING
 from slipwise.errors import SettingError, UnknownNameError
+from slipwise.estimation.parameters import Term
 from slipwise.session import model_change
+from slipwise.session.findings import explained
 from slipwise.session.model_change import add, remove
 
 
@@ -52,6 +54,30 @@ def test_what_a_diagnosis_names_is_put_in_fitted_and_kept_as_its_finding(back, m
     said = {"effects": [MISSING], "suggestion": [
         {"effect": MISSING, "targets": [""], "group": "", "values": back.effect(MISSING).typical()}]}  # fmt: skip
     monkeypatch.setattr(model_change, "explained", lambda found, of: said)
-    changed = add(SimpleNamespace(), back)
+    changed = add(SimpleNamespace(added=(MISSING,)), back)
     assert changed.words == f"{MISSING} added, as suggested" and MISSING in back.state.labels
     assert back.findings["explain"] == said
+
+
+def test_a_diagnosis_that_names_nothing_adds_nothing(back):
+    with pytest.raises(SettingError, match="names no effect"):
+        add(SimpleNamespace(added=()), back)
+
+
+@pytest.mark.parametrize(
+    ("kind", "named", "minor", "offered"),
+    [("complete", (), (MISSING,), [MISSING]), ("complete", (), (), []), ("unknown", (), (MISSING,), []),
+     ("named", (MISSING,), (), [MISSING])],
+)  # fmt: skip
+def test_where_nothing_matters_what_is_minor_is_offered(back, kind, named, minor, offered):
+    effect = back.effect(MISSING)
+    term = Term(effect)
+    values = {f"{term.label}.{n}": v for n, v in effect.typical().items()}
+    solution = SimpleNamespace(values=values)
+    found = SimpleNamespace(
+        verdict=SimpleNamespace(kind=kind, effects=named, minor=minor),
+        search=SimpleNamespace(best=SimpleNamespace(terms=(term,), solution=solution)),
+        final=SimpleNamespace(solution=solution),
+        as_json=dict,
+    )
+    assert [part["effect"] for part in explained(found, ("breakaway",))["suggestion"]] == offered

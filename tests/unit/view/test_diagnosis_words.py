@@ -25,6 +25,11 @@ def test_what_does_not_carry_over_is_said():
     assert "does not carry over to sine_holdout_2" in confirmed_words(_found("heating", unseen=25.0))
 
 
+def test_the_error_over_all_samples_is_told_where_stretches_were_judged():
+    found = replace(_found("heating"), all_samples={"pads": (6.21, 1.04), "girder": (1.0, 1.0)})
+    assert confirmed_words(found).endswith(" Over all their samples, pad friction errs by 6.21 -> 1.04 floors.")
+
+
 def test_without_held_out_runs_nothing_is_called_confirmed_or_held_out():
     found = _found("heating", held_out=False)
     assert confirmed_words(found).startswith("Not confirmed: no run is held out")

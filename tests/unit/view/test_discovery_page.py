@@ -24,6 +24,7 @@ from slipwise.view.discovery_page import discovery_page
 from slipwise.view.discovery_recording import write_discovery_recording
 from slipwise.view.discovery_samples import candidate_cloud, law_cloud, predicted_forces
 from slipwise.view.discovery_words import number_rows, range_words, tied_words
+from slipwise.view.figure_files import figures_into
 from slipwise.view.style import styled
 
 NAN = float("nan")
@@ -194,6 +195,14 @@ def test_the_page_holds_the_law_its_range_and_that_no_mechanism_is_claimed(found
     assert found.laws[0].equation in text and "0.019 to 0.021" in text and "Known for the slip speed" in text
     assert text.count("<svg") == 5 and "No mechanism is claimed" in text
     assert "the heat: it does not vary" in text and "97 %" in text and "nan" not in text.lower().split("<svg")[0]
+
+
+def test_every_figure_of_the_page_is_written_with_its_numbers(found, tmp_path):
+    with figures_into(tmp_path / "figures") as files:
+        discovery_page(found)
+    assert {f.suffix for f in files} == {".svg", ".csv"} and len(files) == 8
+    balances = next(f for f in files if "error_of_every_balance" in f.name and f.suffix == ".csv").read_text()
+    assert "with the law" in balances and "pad friction" in balances
 
 
 def test_the_page_says_first_where_there_is_no_law(found, unknown, nothing):

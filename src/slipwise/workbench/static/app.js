@@ -78,7 +78,7 @@ function working(place, message) {
   find("controls").disabled = fitting;
   for (const id of ["fit", "accept", "undo", "redo"]) find(id).disabled = fitting;
   const next = find("go-on");
-  if (next) next.disabled = fitting || Boolean(page.work.asked);
+  if (next) next.disabled = fitting || Boolean(page.work.asked || next.dataset.asked);
   if (!fitting && page.state) [find("undo").disabled, find("redo").disabled] = [!page.state.undo, !page.state.redo];
 }
 

@@ -23,8 +23,11 @@ export function nextStep(state) {
   const accept = { words: `Fitted: ${left}. Accept keeps this model as model.toml.`, button: "Accept", message: { do: "accept" } };
 
   if (!state.fitted) return { words: state.words === "opened" ? "A fit brings the model as near to the measurement as it comes." : "The model was changed: a fit shows how far the error falls.", button: "Fit", message: { do: "fit" } };
-  if (missing.length && follows) {
+  const matters = explain?.effects.length || judged(worst) >= FLOOR_REACHED;
+  if (missing.length && follows && matters) {
     const names = missing.map((s) => s.effect).join(" and ");
+    if (!explain.effects.length)
+      return { words: `Nothing that matters is missing. ${names} ${missing.length > 1 ? "are" : "is"} there and hardly changes what an engineer reads off; ${left}. Accept keeps the model as it is.`, button: `Add ${names}`, message: { do: "take" } };
     return { words: `The diagnosis names ${names}.`, button: `Add ${names}`, message: { do: "take" } };
   }
   if (current) {
@@ -43,8 +46,17 @@ export function nextStep(state) {
   return { words: `Fitted: ${left}. The search for what is missing takes a minute or two.`, button: "Find what is missing", message: { do: "explain" } };
 }
 
+/** A step is asked for once: what it leads to draws another button, however long the answer takes. */
+function once(button, act) {
+  if (button.dataset.asked) return;
+  button.dataset.asked = "yes";
+  button.disabled = true;
+  button.setAttribute("aria-busy", "true");
+  act();
+}
+
 export function drawGuide(state, ask) {
   const { words, button, message } = nextStep(state);
   find("suggestion").replaceChildren(make("h3", {}, "Next step"), make("p", { id: "guide-words" }, words),
-    ...(button ? [make("button", { id: "go-on", class: "main edits", onclick: () => ask(message) }, button)] : []));
+    ...(button ? [make("button", { id: "go-on", class: "main edits", onclick: (event) => once(event.currentTarget, () => ask(message)) }, button)] : []));
 }
