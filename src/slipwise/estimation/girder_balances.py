@@ -82,7 +82,7 @@ def _rocked(
         if not parts:
             continue
         frequency, damping = (mode.ratio * values[f"rig.pitch_{what}"] for what in ("frequency", "damping"))
-        passed = through_pitch(sum(parts[1:], parts[0]), run.dt, frequency, damping)
+        passed = through_pitch(np.sum(parts, axis=0), run.dt, frequency, damping)
         for i, shown in enumerate(mode.shown):
             if shown != 0.0:
                 out[i] = out[i] + shown / half[i] * passed
