@@ -125,19 +125,29 @@ def _idle_beside_its_like(name: str, run: Run, specimen: Specimen) -> bool:
     if match is None or len(others) < _LIKE_IT or not run.record.has_all(*others):
         return False
     moved = float(np.median([np.std(run.record[n]) for n in others]))
-    if match["kind"] == "N" and specimen.free and len(others) >= _HOLD and set(pads) == set(specimen.pads):
-        # one of the others may be dead itself
-        without = [others, *([n for n in others if n != left] for left in others if len(others) > _HOLD)]
-        moved = min(moved, *(float(np.std(_by_its_place(name, seen, run, specimen))) for seen in without))
+    if match["kind"] == "N" and specimen.free and set(pads) == set(specimen.pads):
+        moved = min([moved, *(float(np.std(load)) for load in _expected(name, others, run, specimen))])
     return float(np.std(run.record[name])) < _IDLE * moved
 
 
-def _by_its_place(name: str, others: Sequence[str], run: Run, specimen: Specimen) -> Array:
-    """Give what a pad carries (n,) [N] by those of the others: pads in the middle of a row do not feel the pitch."""
+def _expected(name: str, others: Sequence[str], run: Run, specimen: Specimen) -> list[Array]:
+    """Give what a pad carries (n,) [N] by the others: pads in the middle of a row do not feel the pitch.
+
+    A rigid girder says so by the place of three others, of which one may be dead itself where there are more; where
+    there are two, its weight and its vertical acceleration do.
+    """
+    if len(others) < _HOLD:
+        if not run.record.has_all("girder_az"):
+            return []
+        held = specimen.carried_mass * (specimen.gravity + run.record["girder_az"])
+        return [held - np.sum([run.record[n] for n in others], axis=0)]
     rigid = basis_of(specimen).rigid * np.array(specimen.springs)
     patterns = {f"pad_{pad}_N": rigid[:, i] for i, pad in enumerate(specimen.pads)}
-    loads = np.stack([run.record[n] for n in others])
-    return patterns[name] @ np.linalg.lstsq(np.stack([patterns[n] for n in others]), loads, rcond=None)[0]
+    found = []
+    for seen in (others, *([n for n in others if n != left] for left in others if len(others) > _HOLD)):
+        loads = np.stack([run.record[n] for n in seen])
+        found.append(patterns[name] @ np.linalg.lstsq(np.stack([patterns[n] for n in seen]), loads, rcond=None)[0])
+    return found
 
 
 def _rails(name: str, runs: Sequence[Run]) -> list[SampleFault]:
