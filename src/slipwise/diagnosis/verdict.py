@@ -80,18 +80,24 @@ def decide_verdict(state: Search, found: Sequence[Finding], limits: Materiality)
     rest = evidence_of_rest(origin, final, surface)
     of_effects = {f.name: evidence_of(f) for f in found}
     decided = decide(of_effects, rest, limits.channel, calibration())
+    kind = decided.kind
+    unsure = set(of_effects) - set(decided.minor)
+    bare = evidence_of_rest(origin, origin, None)
+    if kind == "complete" and unsure and remains(bare, limits.channel):
+        # what takes it away is not believed, so it is still there: a model that leaves it is not complete
+        kind, rest = "unknown", bare
     verdict = Verdict(
-        decided.kind,
+        kind,
         decided.named,
         decided.minor,
-        decided.probability if decided.kind == "unknown" else _confirmed(state, decided.probability),
+        decided.probability if kind == "unknown" else _confirmed(state, decided.probability),
         "unknown" if remains(rest, limits.channel) else "none",
         explained_share(origin, final),
         surface,
         (),
         tuple(found),
     )
-    if decided.kind == "unknown":  # what is drawn is all that is missing, not what unnamed effects have left of it
+    if kind == "unknown":  # what is drawn is all that is missing, not what unnamed effects have left of it
         whole = leftover(origin)
         return replace(verdict, surface=whole if structured(whole) else surface)
     if decided.tied:

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 from hypotheses import base, decided, left_by, searched
+from slipwise.diagnosis import verdict
 from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.diagnosis.verdict import Verdict, with_faults
+from slipwise.diagnosis.verdict import Verdict, evidence_of, with_faults
 from slipwise.effects import Effect, catalogue
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.parameters import Term
@@ -57,6 +58,15 @@ def test_an_effect_that_explains_all_is_named_with_confidence():
     found = _decided(of, left_by("heating", of=of), left_by("run_in", of=of, pads=200.0))
     assert (found.kind, found.effects, found.leftover) == ("named", ("heating",), "none")
     assert found.probability > 0.8
+
+
+def test_a_model_is_not_complete_where_only_what_is_not_believed_takes_away_what_it_leaves(monkeypatch) -> None:
+    weak = {"lead": np.log(0.1), "worth": 0.0, "share": np.log(1e-4)}  # no motion is predicted by a fit to the others
+    monkeypatch.setattr(verdict, "evidence_of", lambda finding: {**evidence_of(finding), **weak})
+    large, small = base(pads=400.0), base(pads=6.0)
+    found = _decided(large, left_by("heating", of=large))
+    assert (found.kind, found.effects, found.minor, found.leftover) == ("unknown", (), (), "unknown")
+    assert _decided(small, left_by("heating", of=small)).kind == "complete"
 
 
 def test_what_is_there_and_does_not_matter_is_minor_and_not_named() -> None:
