@@ -155,7 +155,9 @@ def build_campaign(
     natural = natural_frequency(base) if rig == DRAWN else NATURAL[rig]
     motions = draw_motions(natural, base, rngs[2], rich)
     hidden = hide(case.effects, size, base, rngs[3])
-    settings = base.changed(yaw_known=rich, **hidden.settings)
+    # on pads that stand unevenly each has a slip of its own, which follows from forces that are measured
+    yaw_known = rich or rig == DRAWN
+    settings = base.changed(yaw_known=yaw_known, **hidden.settings)
     clock = float(rngs[3].uniform(0.0, 100.0))
     runs = shake(settings, motions, clock)
     for _ in range(_CALMER):
@@ -174,7 +176,7 @@ def build_campaign(
     alone = {}
     for member in hidden.missing if len(hidden.missing) > 1 else ():
         part = hidden.only(member)
-        shaken = shake(base.changed(yaw_known=rich, **part.settings), motions, clock)
+        shaken = shake(base.changed(yaw_known=yaw_known, **part.settings), motions, clock)
         alone[member] = max(_floors(base, shaken, part, logger, names)["after_fit"].values())
     truth = Truth(name, seed, rig, rich, size if hidden.missing else "", hidden, base, logger, floors, alone)
     return Campaign(truth, runs, recorded, specimen_toml(said) if rig == DRAWN else "")
