@@ -2,13 +2,15 @@
 
     python scripts/07_bench.py --out out/bench --count 300 --seed 20000
     python scripts/07_bench.py --out out/dirty --dirty --count 200 --seed 81000
+    python scripts/07_bench.py --out out/drawn --drawn --count 100 --seed 36000
     python scripts/07_bench.py --quick
 
 Campaigns are made by `tests/bench`, whose physics is not the library's. Every finished campaign is one line of
 results.jsonl: a run that was stopped (Ctrl-C) shows what is done, and the same command goes on where it stopped.
 bench.html shows who is taken for whom (confusion.png), whether verdicts of probability 0.9 are right nine times in ten
 (calibration.png), how far the error falls (error_ratios.png), and every verdict that is wrong. bench.json has the
-numbers.
+numbers. Drawn campaigns are those of rigs of 1 to 100 t on three to eight pads, flat or curved, each with its
+specimen.toml.
 
 Dirty campaigns have many small imperfections at once; dirty.json has their scores and every verdict that is wrong. With
 `--made DIR` they are those that `make_bench.py --dirty --out DIR` has made, or made there and kept.
@@ -26,12 +28,12 @@ from typing import Any
 TESTS = Path(__file__).parents[1] / "tests"
 
 
-def one(folder: Path, name: str, seed: int, effects: tuple[str, ...], size: str, rich: bool) -> dict[str, Any]:
-    """Make one campaign, diagnose it blind, and give both answers."""
+def one(folder: Path, name: str, seed: int, hidden: dict[str, Any]) -> dict[str, Any]:
+    """Make one campaign, diagnose it blind, and give both answers; `hidden` are arguments of `make_campaign`."""
     sys.path.insert(0, str(TESTS))
     from bench import make_campaign  # pyright: ignore[reportMissingImports]
 
-    truth = make_campaign(folder / name, seed, effects=effects, size=size, rich=rich)
+    truth = make_campaign(folder / name, seed, **hidden)
     said = diagnosed(folder / name)
     shutil.rmtree(folder / name)
     return {"name": name, "truth": truth.as_dict(), "said": said}
@@ -84,14 +86,17 @@ def _line(result: dict[str, Any], number: int, total: int) -> str:
 
 def work(chosen: argparse.Namespace, count: int) -> dict[str, tuple[Any, ...]]:
     """Give name -> what makes and diagnoses it, and with which arguments."""
-    from bench import plan  # pyright: ignore[reportMissingImports]
+    from bench import DRAWN, plan  # pyright: ignore[reportMissingImports]
 
     folder, seed = chosen.out / "campaigns", chosen.seed
     if chosen.dirty:
         names = {f"d{s:05d}": s for s in range(seed, seed + count)}
         return {n: (one_dirty, chosen.made or folder, n, s, bool(chosen.made)) for n, s in names.items()}
+    if chosen.drawn:
+        return {f"r{s:05d}": (one, folder, f"r{s:05d}", s, {"rig": DRAWN}) for s in range(seed, seed + count)}
     cases = {f"b{seed + i:05d}": (seed + i, case) for i, case in enumerate(plan(count, seed))}
-    return {n: (one, folder, n, s, c.effects, c.size, c.rich) for n, (s, c) in cases.items()}
+    hidden = {n: (s, {"effects": c.effects, "size": c.size, "rich": c.rich}) for n, (s, c) in cases.items()}
+    return {n: (one, folder, n, s, one_hides) for n, (s, one_hides) in hidden.items()}
 
 
 def run(out: Path, cases: dict[str, tuple[Any, ...]], workers: int) -> list[dict[str, Any]]:
@@ -165,6 +170,7 @@ def main() -> None:
     )
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--dirty", action="store_true", help="many small imperfections at once in every campaign")
+    parser.add_argument("--drawn", action="store_true", help="rigs of any size; each seed decides everything")
     parser.add_argument("--made", type=Path, help="folder of dirty campaigns that are made already, or made there")
     parser.add_argument("--quick", action="store_true", help="two campaigns only")
     chosen = parser.parse_args()

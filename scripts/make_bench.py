@@ -3,10 +3,12 @@
     python scripts/make_bench.py --out out/bench --count 300 --seed 1000
     python scripts/make_bench.py --out out/bench --effects run_in key_friction --size medium
     python scripts/make_bench.py --out out/dirty --dirty --count 40 --seed 81000 --workers 2
+    python scripts/make_bench.py --out out/drawn --drawn --count 40 --seed 36000 --workers 2
 
 Campaigns go to OUT/NAME, answers to OUT/truth/NAME.json, where a diagnosis of the campaigns does not read them.
 Campaigns that have their answer already are kept, so an interrupted run goes on where it stopped. Dirty campaigns have
-many small imperfections at once, and their answers say of each effect whether it is material.
+many small imperfections at once, and their answers say of each effect whether it is material. Drawn campaigns are
+those of rigs of 1 to 100 t on three to eight pads, flat or curved, each with its specimen.toml.
 """
 
 import argparse
@@ -22,14 +24,14 @@ TESTS = Path(__file__).parents[1] / "tests"
 
 @dataclass(frozen=True)
 class Order:
-    """One campaign to make: its folder, its answer's file, its seed, and what a clean one hides."""
+    """One campaign to make: its folder, its answer's file, its seed, and what a clean one hides (None: it decides)."""
 
     folder: Path
     answer: Path
     seed: int
     dirty: bool
-    effects: tuple[str, ...] = ()
-    size: str = "medium"
+    effects: tuple[str, ...] | None = ()
+    size: str | None = "medium"
     rig: str | None = None
     rich: bool = False
 
@@ -55,7 +57,7 @@ def make(order: Order) -> str:
 def orders(chosen: argparse.Namespace) -> list[Order]:
     """Give what has no answer yet."""
     sys.path.insert(0, str(TESTS))
-    from bench import Case, plan  # pyright: ignore[reportMissingImports]
+    from bench import DRAWN, Case, plan  # pyright: ignore[reportMissingImports]
 
     count = 3 if chosen.quick else chosen.count
     cases = plan(count, chosen.seed)
@@ -63,10 +65,14 @@ def orders(chosen: argparse.Namespace) -> list[Order]:
         cases = [Case(tuple(chosen.effects), chosen.size or "medium", chosen.rich)] * count
     wanted = []
     for seed, case in enumerate(cases, start=chosen.seed):
-        name = f"{'d' if chosen.dirty else 'b'}{seed:05d}"
+        name = f"{'d' if chosen.dirty else 'r' if chosen.drawn else 'b'}{seed:05d}"
         places = (chosen.out / name, chosen.out / "truth" / f"{name}.json")
+        if chosen.drawn and chosen.effects is None:
+            wanted.append(Order(*places, seed, False, None, chosen.size, DRAWN, chosen.rich))
+            continue
         size, rich = chosen.size or case.size, chosen.rich or case.rich
-        wanted.append(Order(*places, seed, chosen.dirty, case.effects, size, chosen.rig, rich))
+        rig = DRAWN if chosen.drawn else chosen.rig
+        wanted.append(Order(*places, seed, chosen.dirty, case.effects, size, rig, rich))
     return [order for order in wanted if not order.answer.exists()]
 
 
@@ -80,6 +86,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--count", type=int, default=36, help="campaigns of the even plan (a third complete)")
     parser.add_argument("--seed", type=int, default=1000, help="seed of the plan and of the first campaign")
     parser.add_argument("--dirty", action="store_true", help="dirty campaigns; each seed decides everything")
+    parser.add_argument("--drawn", action="store_true", help="rigs of any size; each seed decides everything")
     parser.add_argument("--workers", type=int, default=1, help="processes")
     parser.add_argument("--effects", nargs="*", help="hide these in every campaign instead; none given: nothing")
     parser.add_argument("--size", choices=list(SIZES), help="of those effects")

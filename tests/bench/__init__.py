@@ -2,6 +2,7 @@
 
 from bench.campaign import Campaign, build_campaign, make_campaign, with_faults
 from bench.dirty import DirtyCampaign, build_dirty, make_dirty
+from bench.drawn_rigs import DRAWN
 from bench.faults import GROUPS, Fault
 from bench.hidden import INSTRUMENTS, PHYSICS, SIZES, Case, draw, plan
 from bench.law_campaign import LawCampaign, build_law_campaign, make_law_campaign
@@ -12,6 +13,7 @@ from bench.truth import Truth
 from bench.write import write_truth
 
 __all__ = [
+    "DRAWN",
     "GROUPS",
     "INSTRUMENTS",
     "PHYSICS",

@@ -32,15 +32,15 @@ def elastic_force(p, stiffness, x, largest):
 
 
 @njit(cache=True)
-def damping_force(p, v):
-    """Half of the pair's damping [N]: 1 linear, 2 a power 0.6 of speed, equal to the linear one at 0.2 m/s.
+def damping_force(p, v, share):
+    """A buffer's share of the damping [N]: 1 linear, 2 a power 0.6 of speed, equal to the linear one at 0.2 m/s.
 
     Form 3, Zener's rubber, takes the speed of its dashpot instead of that of the buffer.
     """
     if p.buffer_damping_form == 1 or p.buffer_damping_form == 3:
-        return 0.5 * p.buffer_damping * v
+        return share * p.buffer_damping * v
     if p.buffer_damping_form == 2:
-        return 0.5 * p.buffer_damping * 0.2 * v / (0.2**0.6 * (v * v + 1.0e-6) ** 0.2)
+        return share * p.buffer_damping * 0.2 * v / (0.2**0.6 * (v * v + 1.0e-6) ** 0.2)
     return 0.0
 
 

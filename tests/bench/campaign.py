@@ -7,13 +7,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from bench.drawn_rigs import DRAWN, as_built, draw_rig, natural_frequency, possible_on, specimen_toml, with_cells_for
 from bench.faults import Fault, with_rails
 from bench.floors import sizes_in_floors
-from bench.gauges import RICH, USUAL, Logger, draw_logger, measure
+from bench.gauges import Logger, draw_logger, measure, recorded_channels
 from bench.hidden import SIZES, Case, Hidden, draw, hide
-from bench.motions import Motion, draw_quake, draw_sine
+from bench.motions import NATURAL, Motion, draw_quake, draw_sine
 from bench.rig_ode import EVERY, STEP, Memory, simulate
-from bench.settings import GRAVITY, PADS, Settings, random_rig
+from bench.settings import GRAVITY, Settings, pad_names, random_rig, rated
 from bench.truth import Truth
 from bench.write import write_campaign
 
@@ -22,7 +23,7 @@ Run = dict[str, Array]
 MOST_SLIP = 0.045
 LEAST_LOAD = 600.0
 _COARSE = 4.0e-5
-_CALMER = 6  # times that motions are made smaller when a hidden effect lets the girder slip or lift too far
+_CALMER = 12  # times that motions are made smaller when a hidden effect lets the girder slip or lift too far
 
 
 @dataclass(frozen=True)
@@ -33,11 +34,13 @@ class Campaign:
         truth: the answer.
         true: run -> channels of `simulate` at 5 kHz, true slip speed among them.
         recorded: run -> channels at 500 Hz as the laboratory has them.
+        specimen: text of the specimen.toml of a drawn rig; "" for those that have a name.
     """
 
     truth: Truth
     true: dict[str, Run]
     recorded: dict[str, Run]
+    specimen: str = ""
 
     def at_samples(self, run: str) -> Run:
         """Give the true channels of a run, unfiltered and free of noise, at the recorded instants."""
@@ -55,9 +58,16 @@ def fit_amplitude(base: Settings, motion: Motion, target: float, low: float, hig
     return motion
 
 
-def draw_motions(rig: str, base: Settings, rng: np.random.Generator, rich: bool) -> dict[str, Motion]:
-    """Draw the five table motions of a campaign; slips of the base rig are about 10 to 32 mm."""
-    sine = draw_sine(rig, rng, rich)
+def draw_motions(natural: float, base: Settings, rng: np.random.Generator, rich: bool) -> dict[str, Motion]:
+    """Draw the five table motions of a campaign; slips of the base rig are about 10 to 32 mm.
+
+    Args:
+        natural: frequency of the girder on its buffers [Hz].
+        base: the rig.
+        rng: generator.
+        rich: with motion across.
+    """
+    sine = draw_sine(natural, rng, rich)
     sine = fit_amplitude(base, sine, rng.uniform(0.010, 0.022), 0.18 * GRAVITY, 0.5 * GRAVITY)
     first, second = draw_quake(rng, rich), draw_quake(rng, rich)
     first = fit_amplitude(base, first, rng.uniform(0.016, 0.032), 0.4 * GRAVITY, 0.95 * GRAVITY)
@@ -99,10 +109,10 @@ def shake(
     return runs
 
 
-def _too_wild(runs: dict[str, Run]) -> bool:
+def _too_wild(base: Settings, runs: dict[str, Run]) -> bool:
     slip = max(float(np.abs(run["slip_x"]).max()) for run in runs.values())
-    load = min(float(run[f"pad_{pad}_N"].min()) for run in runs.values() for pad in PADS)
-    return not (slip < MOST_SLIP and load > LEAST_LOAD)
+    load = min(float(run[f"pad_{pad}_N"].min()) for run in runs.values() for pad in pad_names(base))
+    return not (slip < MOST_SLIP and load > LEAST_LOAD * base.pad_size)
 
 
 def _floors(
@@ -129,27 +139,36 @@ def build_campaign(
         name: for the answer.
         effects: what to hide (see `bench.hidden.hide`); empty: nothing; None: drawn from the seed.
         size: "small", "medium" or "large"; None: drawn.
-        rig: "bridge1" or "bridge2"; None: drawn.
+        rig: "bridge1" or "bridge2"; None: one of them; `DRAWN`: any that stands.
         rich: motion across as well, and gauges for yaw, the girder's edges and F_y.
     """
     rngs = np.random.default_rng(seed).spawn(6)
-    case = draw(seed) if effects is None else Case(tuple(effects), str(rngs[0].choice(list(SIZES))), rich)
+    rig = rig or str(rngs[1].choice(["bridge1", "bridge2"]))
+    said = draw_rig(rngs[1]) if rig == DRAWN else rated(rig)
+    base = as_built(said, rngs[1]) if rig == DRAWN else random_rig(rig, rngs[1])
+    if effects is None:
+        case = draw(seed, possible_on(base))
+    else:
+        case = Case(tuple(effects), str(rngs[0].choice(list(SIZES))), rich)
     size = size or case.size
     rich = rich or case.rich
-    rig = rig or str(rngs[1].choice(["bridge1", "bridge2"]))
-    base = random_rig(rig, rngs[1])
-    motions = draw_motions(rig, base, rngs[2], rich)
+    natural = natural_frequency(base) if rig == DRAWN else NATURAL[rig]
+    motions = draw_motions(natural, base, rngs[2], rich)
     hidden = hide(case.effects, size, base, rngs[3])
-    settings = base.changed(yaw_known=rich, **hidden.settings)
+    # on pads that stand unevenly each has a slip of its own, which follows from forces that are measured
+    yaw_known = rich or rig == DRAWN
+    settings = base.changed(yaw_known=yaw_known, **hidden.settings)
     clock = float(rngs[3].uniform(0.0, 100.0))
     runs = shake(settings, motions, clock)
     for _ in range(_CALMER):
-        if not _too_wild(runs):
+        if not _too_wild(base, runs):
             break
         motions = {run: motion.scaled(0.85, 0.92) for run, motion in motions.items()}
         runs = shake(settings, motions, clock)
-    logger = draw_logger(rngs[4], rich)
-    names = RICH if rich else USUAL
+    names = recorded_channels(pad_names(base), rich)
+    logger = draw_logger(rngs[4], names)
+    if rig == DRAWN:
+        logger = with_cells_for(base, logger)
     faults = [with_rails(f, list(runs.values())) if f.effect == "channel_clipping" else f for f in hidden.faults]
     hidden = replace(hidden, faults=tuple(faults))
     recorded = {run: measure(true, names, logger, faults, rngs[5], i) for i, (run, true) in enumerate(runs.items())}
@@ -157,10 +176,10 @@ def build_campaign(
     alone = {}
     for member in hidden.missing if len(hidden.missing) > 1 else ():
         part = hidden.only(member)
-        shaken = shake(base.changed(yaw_known=rich, **part.settings), motions, clock)
+        shaken = shake(base.changed(yaw_known=yaw_known, **part.settings), motions, clock)
         alone[member] = max(_floors(base, shaken, part, logger, names)["after_fit"].values())
     truth = Truth(name, seed, rig, rich, size if hidden.missing else "", hidden, base, logger, floors, alone)
-    return Campaign(truth, runs, recorded)
+    return Campaign(truth, runs, recorded, specimen_toml(said) if rig == DRAWN else "")
 
 
 def with_faults(made: Campaign, faults: Sequence[Fault], seed: int) -> Campaign:
@@ -190,12 +209,15 @@ def make_campaign(
     rig: str | None = None,
     rich: bool = False,
 ) -> Truth:
-    """Write a campaign (campaign.toml and five CSV files, without the answer) and give the answer.
+    """Write a campaign (campaign.toml, five CSV files, a drawn rig's specimen.toml, no answer) and give the answer.
 
     Args:
         folder: of the campaign; its name becomes the campaign's.
         seed, effects, size, rig, rich: as in `build_campaign`.
     """
     made = build_campaign(seed, name=folder.name, effects=effects, size=size, rig=rig, rich=rich)
-    write_campaign(folder, made.truth.rig, made.truth.logger, made.recorded)
-    return made.truth
+    truth = made.truth
+    write_campaign(folder, "specimen.toml" if made.specimen else truth.rig, truth.logger, made.recorded)
+    if made.specimen:
+        (folder / "specimen.toml").write_text(made.specimen, encoding="utf-8")
+    return truth

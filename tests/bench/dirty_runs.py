@@ -4,7 +4,7 @@ import numpy as np
 
 from bench.campaign import fit_amplitude
 from bench.dirty_plan import Plan
-from bench.motions import Motion, draw_sine
+from bench.motions import NATURAL, Motion, draw_sine
 from bench.quakes import draw_pulse, draw_record, draw_sweep
 from bench.settings import GRAVITY, Settings
 
@@ -59,7 +59,9 @@ def _steady(rig: str, base: Settings, plan: Plan, rng: np.random.Generator) -> M
     kind = str(rng.choice(["sine", "sweep", "record"], p=[0.5, 0.25, 0.25]))
     if kind == "record" or plan.short:
         return _record(base, plan, rng)
-    motion = draw_sine(rig, rng, plan.rich) if kind == "sine" else draw_sweep(rng, _length(plan, rng), plan.rich)
+    motion = (
+        draw_sine(NATURAL[rig], rng, plan.rich) if kind == "sine" else draw_sweep(rng, _length(plan, rng), plan.rich)
+    )
     return fit_amplitude(base, motion, rng.uniform(0.008, 0.022), 0.12 * GRAVITY, 0.5 * GRAVITY)
 
 

@@ -1,87 +1,202 @@
-"""Rigs of any size for the bench: four pads, 1 to 100 t, h/b of 0.1 to 1, other spans, with a specimen.toml each."""
+"""Rigs of any size for the bench: 1 to 100 t on three to eight pads, flat or pendulums, h/b of 0.1 to 1.
+
+`draw_rig` draws what a laboratory knows of its rig and writes into its specimen.toml, `as_built` what it has then.
+"""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
-from bench.campaign import draw_motions, shake
-from bench.gauges import USUAL, draw_logger, measure
-from bench.motions import Motion
-from bench.settings import GRAVITY, PADS, Settings, rated
-from bench.write import write_campaign
+from bench.gauges import Logger
+from bench.hidden import PHYSICS
+from bench.parts import Buffer, Pad, pad_table
+from bench.rig_ode import rest_loads
+from bench.settings import GRAVITY, Settings, rated
 
-#: Pressure on the pads of the reference rig [Pa], and its mass [kg].
-_PRESSURE, _MASS = 16.9e6, 1.0e4
-#: A pad that carries less than this share of its load at rest is near lifting [1].
-_LEAST = 0.1
+Array = NDArray[np.float64]
+#: What a campaign of such a rig says of its rig.
+DRAWN = "drawn"
+#: Mass and area between the pads of the girder that hidden sizes are typical of [kg, m^2].
+_MASS, _AREA = 1.0e4, 15.0
+#: Every pad carries more than this share of the mean at rest [1].
+_LEAST = 0.45
+#: Frequencies round which a sine is drawn: of rigs that swing more slowly, or not at all, these [Hz].
+_SLOWEST, _FASTEST = 1.9, 4.0
+#: How effects are called that a rig without buffers cannot have.
+_OF_BUFFERS = ("buffer_", "key_")
 
 
 def draw_rig(rng: np.random.Generator) -> Settings:
-    """Draw a rig: its pads bear what those of the reference rig do, buffers swing it at 1.5 to 4 Hz, or there are none.
+    """Draw a rig as its laboratory knows it; heave is between 35 and 60 Hz, inertia that of a box."""
+    while True:
+        rig = _draw(rng)
+        loads = rest_loads(_table(rig), rig.mass, (rig.centre_x, rig.centre_y))
+        if loads.min() > _LEAST * loads.mean():
+            return rig
 
-    Heave is between 35 and 60 Hz. The spring of heave and the inertia of a box decide its pitch.
-    """
+
+def _draw(rng: np.random.Generator) -> Settings:
     mass = float(np.exp(rng.uniform(np.log(1.0e3), np.log(1.0e5))))
     size = (mass / _MASS) ** (1.0 / 3.0)
     along, across = size * rng.uniform(1.5, 5.0), size * rng.uniform(1.5, 5.0)
     height = along * rng.uniform(0.1, 0.35) if rng.random() < 0.7 else along * rng.uniform(0.35, 1.0)
     depth = min(2.0 * height, along)
-    stiffness = 0.25 * mass * (2.0 * np.pi * rng.uniform(35.0, 60.0)) ** 2
-    buffers = mass * (2.0 * np.pi * rng.uniform(1.5, 4.0)) ** 2 if rng.random() < 0.7 else 0.0
-    return rated("bridge1").changed(
+    pads = _pads(rng, mass, along, across)
+    count = len(pads)
+    centre_x, centre_y = rng.uniform(-0.04, 0.04, 2) * (along, across) * (rng.random() < 0.3)
+    buffers = _buffers(rng, mass, height, along, across, (centre_x, centre_y), curved=pads[0].curvature > 0.0)
+    return rated("block").changed(
         mass=mass,
         height=height,
-        spacing_x=along,
-        spacing_y=across,
+        centre_x=centre_x,
+        centre_y=centre_y,
+        spacing_x=2.0 * max(abs(pad.x) for pad in pads),
+        spacing_y=2.0 * max(abs(pad.y) for pad in pads),
         inertia_roll=mass / 12.0 * (across**2 + depth**2),
         inertia_pitch=mass / 12.0 * (along**2 + depth**2),
         inertia_yaw=mass / 12.0 * (along**2 + across**2),
-        pad_area=mass * GRAVITY / 4.0 / _PRESSURE,
-        pad_stiffness=stiffness,
-        pad_damping=2.0 * rng.uniform(0.03, 0.06) * np.sqrt(stiffness * 0.25 * mass),
-        buffer_stiffness=buffers,
-        buffer_place=0.3 * across,
+        pad_area=np.mean([pad.area for pad in pads]),
+        pad_stiffness=np.mean([pad.stiffness for pad in pads]),
+        pad_damping=np.mean([pad.damping for pad in pads]),
+        buffer_stiffness=sum(buffer.stiffness_x for buffer in buffers),
+        pads=pads,
+        buffers=buffers,
+        seating=(0.0,) * count,
+        patch=(0.0,) * count,
+        pad_factor=(1.0,) * count,
+        law_pads=(1.0,) * count,
+        size=mass / _MASS,
+        pad_size=4.0 * mass / _MASS / count,
+        length=np.sqrt(along * across / _AREA),
     )
 
 
+def _pads(rng: np.random.Generator, mass: float, along: float, across: float) -> tuple[Pad, ...]:
+    """Draw three to eight pads in two rows, not quite straight, their middle that of the table."""
+    count = int(rng.integers(3, 9))
+    first = (count + 1) // 2
+    rows = [np.linspace(-0.5, 0.5, n) if n > 1 else np.zeros(1) for n in (first, count - first)]
+    places = np.concatenate(
+        [np.stack([row, np.full(row.size, y)], axis=1) for row, y in zip(rows, (0.5, -0.5), strict=True)]
+    )
+    if rng.random() < 0.5 and count > 4:
+        places = places[:, ::-1]
+    if rng.random() < 0.6:
+        places = places + rng.uniform(-0.06, 0.06, places.shape)
+    places = places * (along, across)
+    unlike = 1.0 + rng.uniform(-0.15, 0.15, (2, count)) * (rng.random() < 0.5)
+    share = mass / count
+    stiffness = share * (2.0 * np.pi * rng.uniform(35.0, 60.0)) ** 2 * unlike[0]
+    damping = 2.0 * rng.uniform(0.03, 0.06) * np.sqrt(stiffness.mean() * share) * unlike[0]
+    area = share * GRAVITY / rng.uniform(10.0e6, 25.0e6) * unlike[1]
+    heights = rng.uniform(-1.0, 1.0, count) * 0.1 * share * GRAVITY / stiffness.mean() * (rng.random() < 0.25)
+    curvature = 1.0 / rng.uniform(0.5, 3.0) if rng.random() < 0.25 else 0.0
+    middle = stiffness @ places / stiffness.sum()
+    columns = np.column_stack([places - middle, area, stiffness, damping, heights]).tolist()
+    return tuple(
+        Pad(name, x, y, size, spring, dashpot, high, curvature)
+        for name, (x, y, size, spring, dashpot, high) in zip("ABCDEFGH", columns, strict=False)
+    )
+
+
+def _buffers(
+    rng: np.random.Generator, mass: float, height: float, along: float, across: float, centre: tuple[float, float],
+    curved: bool,
+) -> tuple[Buffer, ...]:  # fmt: skip
+    """Draw none to four buffers round the centre of gravity, on which the girder swings at 1.5 to 4 Hz."""
+    places = {
+        1: [(0.0, 0.0)],
+        2: [(0.0, 0.3), (0.0, -0.3)],
+        3: [(0.0, 0.0), (0.0, 0.3), (0.0, -0.3)],
+        4: [(0.3, 0.3), (-0.3, 0.3), (0.3, -0.3), (-0.3, -0.3)],
+    }
+    count = int(rng.integers(1, 5))
+    stiffness = mass * (2.0 * np.pi * rng.uniform(1.5, 4.0)) ** 2 / count
+    aside = stiffness * (rng.uniform(0.5, 1.5) if rng.random() < 0.5 else 1.0)
+    z = height * rng.uniform(0.0, 0.2) if rng.random() < 0.3 else 0.0
+    if rng.random() > (0.3 if curved else 0.75):
+        return ()
+    return tuple(
+        Buffer(str(i), centre[0] + x * along, centre[1] + y * across, z, stiffness, aside)
+        for i, (x, y) in enumerate(places[count], start=1)
+    )
+
+
+def as_built(rig: Settings, rng: np.random.Generator) -> Settings:
+    """Give what a rig is when it stands: some per cent off what its laboratory knows, as the bench's other rigs are."""
+    mass = rig.mass * (1.0 + rng.normal(0.0, 0.004))
+    spring, buffer = 1.0 + rng.normal(0.0, 0.05), 1.0 + rng.normal(0.0, 0.04)
+    pads = tuple(pad._replace(stiffness=spring * pad.stiffness) for pad in rig.pads)
+    buffers = tuple(
+        b._replace(stiffness_x=buffer * b.stiffness_x, stiffness_y=buffer * b.stiffness_y) for b in rig.buffers
+    )
+    return rig.changed(
+        mass=mass,
+        height=rig.height * (1.0 + rng.normal(0.0, 0.01)),
+        inertia_roll=rig.inertia_roll * rng.uniform(0.9, 1.1),
+        inertia_pitch=rig.inertia_pitch * rng.uniform(0.9, 1.1),
+        inertia_yaw=rig.inertia_yaw * rng.uniform(0.9, 1.1),
+        pads=pads,
+        pad_stiffness=spring * rig.pad_stiffness,
+        buffers=buffers,
+        buffer_stiffness=buffer * rig.buffer_stiffness,
+        s1=rig.s1 * (1.0 + rng.normal(0.0, 0.04)),
+        n=rig.n * (1.0 + rng.normal(0.0, 0.06)),
+        k=rig.k * (1.0 + rng.normal(0.0, 0.05)),
+        alpha=rig.alpha * (1.0 + rng.normal(0.0, 0.05)),
+        stick_length=rng.uniform(2.0e-6, 1.0e-5),
+        stick_damping=rng.uniform(0.4, 1.0),
+    )
+
+
+def _table(rig: Settings) -> Array:
+    return pad_table(rig.pads, rig.mass, rig.seating, (rig.pad_factor, rig.patch, rig.law_pads))
+
+
+def natural_frequency(rig: Settings) -> float:
+    """Give the frequency [Hz] on buffers and curved plates round which a sine is drawn."""
+    per_mass = rig.buffer_stiffness / rig.mass + GRAVITY * float(np.mean([pad.curvature for pad in rig.pads]))
+    return float(np.clip(np.sqrt(per_mass) / (2.0 * np.pi), _SLOWEST, _FASTEST))
+
+
+def possible_on(rig: Settings) -> tuple[str, ...]:
+    """Give the effects of the catalogue that a rig can have."""
+    pads = len(rig.pads) or 4
+    without = {"uneven_seating"} if pads == 3 else set()
+    if rig.pads and len({buffer.y for buffer in rig.buffers}) < 2:
+        without |= {"buffer_mismatch"}
+    there = bool(rig.buffer_stiffness)
+    return tuple(name for name in PHYSICS if name not in without and (there or not name.startswith(_OF_BUFFERS)))
+
+
+def with_cells_for(rig: Settings, logger: Logger) -> Logger:
+    """Give a chain with load cells whose range, and noise, is made for the load of a pad."""
+    larger = {"load": rig.pad_size, "force": rig.pad_size}
+    return replace(logger, noise={kind: level * larger.get(kind, 1.0) for kind, level in logger.noise.items()})
+
+
 def specimen_toml(rig: Settings) -> str:
-    """Write the rig as its laboratory would: what it knows, rounded, and not what the bench hides."""
+    """Write the rig as its laboratory would: rounded, and without what the bench hides."""
     inertia = ", ".join(f'"{value:.4g} kg m^2"' for value in (rig.inertia_roll, rig.inertia_pitch, rig.inertia_yaw))
-    radius = float(np.sqrt(rig.pad_area / np.pi))
     lines = [
         f'mass = "{rig.mass:.4g} kg"',
         f"inertia = [{inertia}]",
         f'centre_height = "{rig.height:.4g} m"',
-        f'pad = {{ radius = "{radius:.5g} m", stiffness = "{rig.pad_stiffness:.3g} N/m" }}',
-        *(
-            f'pads.{pad} = {{ x = "{x * rig.spacing_x / 2:.5g} m", y = "{y * rig.spacing_y / 2:.5g} m" }}'
-            for pad, x, y in zip(PADS, (1, -1, 1, -1), (1, 1, -1, -1), strict=True)
-        ),
+        f'centre_x = "{rig.centre_x:.4g} m"',
+        f'centre_y = "{rig.centre_y:.4g} m"',
     ]
-    if rig.buffer_stiffness:
-        stiffness = f'stiffness = "{rig.buffer_stiffness / 2:.4g} N/m"'
-        for number, side in (("1", 1.0), ("2", -1.0)):
-            lines.append(f'buffers.{number} = {{ x = "0 m", y = "{side * rig.buffer_place:.5g} m", {stiffness} }}')
+    for pad in rig.pads:
+        curved = f', radius_of_curvature = "{1.0 / pad.curvature:.6g} m"' if pad.curvature else ""
+        high = f', z = "{1e3 * pad.height:.4g} mm"' if pad.height else ""
+        lines.append(
+            f'pads.{pad.name} = {{ x = "{pad.x:.5g} m", y = "{pad.y:.5g} m", '
+            f'radius = "{1e3 * np.sqrt(pad.area / np.pi):.5g} mm", stiffness = "{pad.stiffness / 1e6:.4g} kN/mm", '
+            f'damping = "{pad.damping / 1e3:.4g} kN s/m"{high}{curved} }}'
+        )
+    for b in rig.buffers:
+        lines.append(
+            f'buffers.{b.name} = {{ x = "{b.x:.5g} m", y = "{b.y:.5g} m", z = "{b.z:.4g} m", '
+            f'stiffness_x = "{b.stiffness_x / 1e6:.4g} kN/mm", stiffness_y = "{b.stiffness_y / 1e6:.4g} kN/mm" }}'
+        )
     return "\n".join(lines) + "\n"
-
-
-def make_clean(folder: Path, seed: int) -> Settings:
-    """Write a campaign of a drawn rig that lacks nothing, with its specimen.toml, and give the rig."""
-    rngs = np.random.default_rng(seed).spawn(4)
-    rig = draw_rig(rngs[0])
-    motions: dict[str, Motion] = draw_motions("bridge1", rig, rngs[1], rich=False)
-    runs = shake(rig, motions, 0.0)
-    for _ in range(8):
-        lowest = min(float(run[f"pad_{pad}_N"].min()) for run in runs.values() for pad in PADS)
-        if lowest > _LEAST * rig.mass * GRAVITY / 4.0:
-            break
-        motions = {name: motion.scaled(0.8, 0.9) for name, motion in motions.items()}
-        runs = shake(rig, motions, 0.0)
-    logger = draw_logger(rngs[2], rich=False)
-    heavier = {kind: rig.mass / _MASS if kind in ("load", "force") else 1.0 for kind in logger.noise}
-    logger = replace(logger, noise={kind: level * heavier[kind] for kind, level in logger.noise.items()})
-    recorded = {name: measure(run, USUAL, logger, (), rngs[3], i) for i, (name, run) in enumerate(runs.items())}
-    write_campaign(folder, "specimen.toml", logger, recorded)
-    (folder / "specimen.toml").write_text(specimen_toml(rig), encoding="utf-8")
-    return rig

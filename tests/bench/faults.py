@@ -4,6 +4,7 @@ Beside the catalogue's there are those that a laboratory must find before any ba
 channels, and gravity in a vertical gauge.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -150,15 +151,19 @@ def apply_after_logger(fault: Fault, channels: dict[str, Array], number: int) ->
             channels[name] = channels[name][last]
 
 
-#: Groups of channels that a fault may touch together.
-GROUPS: dict[str, tuple[str, ...]] = {
-    "slip": ("slip_x",),
-    "girder": ("girder_ax",),
-    "forces": tuple(f"pad_{pad}_Fx" for pad in PADS),
-    "loads": tuple(f"pad_{pad}_N" for pad in PADS),
-    **{f"force {pad}": (f"pad_{pad}_Fx",) for pad in PADS},
-    **{f"load {pad}": (f"pad_{pad}_N",) for pad in PADS},
-    "table": ("table_ax",),
-    "table up": ("table_az",),
-    "girder up": ("girder_az",),
-}
+def groups(pads: Sequence[str]) -> dict[str, tuple[str, ...]]:
+    """Give the groups of channels that a fault may touch together, on a rig with these pads."""
+    return {
+        "slip": ("slip_x",),
+        "girder": ("girder_ax",),
+        "forces": tuple(f"pad_{pad}_Fx" for pad in pads),
+        "loads": tuple(f"pad_{pad}_N" for pad in pads),
+        **{f"force {pad}": (f"pad_{pad}_Fx",) for pad in pads},
+        **{f"load {pad}": (f"pad_{pad}_N",) for pad in pads},
+        "table": ("table_ax",),
+        "table up": ("table_az",),
+        "girder up": ("girder_az",),
+    }
+
+
+GROUPS = groups(PADS)

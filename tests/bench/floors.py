@@ -8,16 +8,38 @@ kinematics: girder less table acceleration, in x and in z, against the true one.
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import null_space
 
 from bench.gauges import Logger
-from bench.settings import GRAVITY, PAD_SIGN_X, PAD_SIGN_Y, PADS, Settings
+from bench.settings import GRAVITY, Settings, buffers_of, pad_names, pads_of
 
 Array = NDArray[np.float64]
 Balance = tuple[Array, Array]  # residual (n,), what base parameters can do to it (n, parameters)
 
 
-def _stack(run: dict[str, Array], part: str) -> Array:
-    return np.stack([run[f"pad_{pad}_{part}"] for pad in PADS])
+def _stack(p: Settings, run: dict[str, Array], part: str) -> Array:
+    return np.stack([run[f"pad_{pad}_{part}"] for pad in pad_names(p)])
+
+
+def _places(p: Settings) -> tuple[Array, Array]:
+    """Give how far the pads stand from the centre of gravity along x and y, (n,) each [m]."""
+    pads = pads_of(p)
+    return np.array([pad.x for pad in pads]) - p.centre_x, np.array([pad.y for pad in pads]) - p.centre_y
+
+
+def _springs(p: Settings) -> tuple[float, float, float]:
+    """Give the stiffness of the buffers along x [N/m], and their moment about the girder per slip along x and y [N]."""
+    buffers = buffers_of(p)
+    turn_x = sum(b.stiffness_x * (p.height - b.z) for b in buffers)
+    turn_y = sum(b.stiffness_y * (p.height - b.z) for b in buffers)
+    return sum(b.stiffness_x for b in buffers), turn_x, turn_y
+
+
+def _warps(p: Settings) -> Array:
+    """Give the patterns (n - 3, n) that the loads of pads in one plane, under a rigid girder, do not have."""
+    pads = pads_of(p)
+    rigid = np.array([(pad.stiffness, pad.stiffness * pad.x, pad.stiffness * pad.y) for pad in pads])
+    return 2.0 * null_space((rigid / np.abs(rigid).max(axis=0)).T).T
 
 
 def _pad_balance(
@@ -27,18 +49,19 @@ def _pad_balance(
     residual, columns = [], []
     speed = np.hypot(true["slip_vx"], true["slip_vy"])[::stride]
     phi = 1.0 - np.exp(-p.n * speed)
-    for pad in PADS:
-        base = true[f"pad_{pad}_F{axis}_base"]
-        load = true[f"pad_{pad}_N"][::stride]
-        filled = 1.0 - np.exp(-p.k * load / p.pad_area)
-        bound = p.s1 * p.pad_area * phi * filled + p.alpha * load
-        along = base[::stride] / np.maximum(bound, 1.0)
-        residual.append(clean[f"pad_{pad}_F{axis}"] - logger.filtered(base, rate)[::stride])
+    slip = true[f"slip_{axis}"][::stride]
+    for pad in pads_of(p):
+        base = true[f"pad_{pad.name}_F{axis}_base"]
+        load = true[f"pad_{pad.name}_N"][::stride]
+        filled = 1.0 - np.exp(-p.k * load / pad.area)
+        bound = p.s1 * pad.area * phi * filled + p.alpha * load
+        along = (base[::stride] - pad.curvature * load * slip) / np.maximum(bound, 1.0)
+        residual.append(clean[f"pad_{pad.name}_F{axis}"] - logger.filtered(base, rate)[::stride])
         columns.append(
             np.stack(
                 [
-                    along * p.s1 * p.pad_area * phi * filled,
-                    along * p.s1 * p.pad_area * (1.0 - phi) * filled * p.n * speed,
+                    along * p.s1 * pad.area * phi * filled,
+                    along * p.s1 * pad.area * (1.0 - phi) * filled * p.n * speed,
                     along * p.s1 * phi * (1.0 - filled) * load * p.k,
                     along * p.alpha * load,
                 ],
@@ -56,22 +79,26 @@ def _rigid_balances(
     def smooth(signal: Array) -> Array:
         return logger.filtered(signal, rate)[::stride]
 
-    load, force = _stack(clean, "N"), _stack(clean, "Fx").sum(axis=0)
+    load, force = _stack(p, clean, "N"), _stack(p, clean, "Fx").sum(axis=0)
     ax, az, slip = clean["girder_ax"], clean["girder_az"], clean["slip_x"]
-    buffer = p.buffer_stiffness * slip
-    arm_x = 0.5 * p.spacing_x * np.array(PAD_SIGN_X)[:, None] - slip
-    arm_y = 0.5 * p.spacing_y * np.array(PAD_SIGN_Y)[:, None] - smooth(true["slip_y"])
+    (x, y), (along, turn_x, turn_y), warps = _places(p), _springs(p), _warps(p)
+    buffer = along * slip
+    arm_x = x[:, None] - slip
+    arm_y = y[:, None] - smooth(true["slip_y"])
     turn, tilt = smooth(true["pitch_acceleration"]), smooth(true["roll_acceleration"])
     nothing = np.zeros((slip.size, 0))
-    across = smooth(_stack(true, "Fy").sum(axis=0)) + p.buffer_stiffness * smooth(true["slip_y"])
-    pitch = p.height * (force + buffer) - (arm_x * load).sum(axis=0)
-    roll = (arm_y * load).sum(axis=0) - p.height * across
+    along_x = p.height * force + turn_x * slip
+    along_y = p.height * smooth(_stack(p, true, "Fy").sum(axis=0)) + turn_y * smooth(true["slip_y"])
+    pitch = along_x - (arm_x * load).sum(axis=0)
+    roll = (arm_y * load).sum(axis=0) - along_y
+    known = np.array([pad.stiffness * pad.height for pad in pads_of(p)])
+    warp = (warps @ (load - known[:, None])).ravel()
     return {
         "girder": (p.mass * ax + force + buffer, np.stack([ax, slip], axis=1)),
         "heave": (load.sum(axis=0) - p.mass * (GRAVITY + az), (GRAVITY + az)[:, None]),
-        "pitch": (pitch - p.inertia_pitch * turn, np.stack([force + buffer, turn], axis=1)),
-        "roll": (roll - p.inertia_roll * tilt, np.stack([across, tilt], axis=1)),
-        "warp": (load[0] - load[1] - load[2] + load[3], nothing),
+        "pitch": (pitch - p.inertia_pitch * turn, np.stack([along_x, turn], axis=1)),
+        "roll": (roll - p.inertia_roll * tilt, np.stack([along_y, tilt], axis=1)),
+        **({"warp": (warp, np.zeros((warp.size, 0)))} if warp.size else {}),
         "kinematics": (ax - clean["table_ax"] - smooth(true["girder_ax"] - true["table_ax"]), nothing),
         "kinematics_z": (az - clean["table_az"] - smooth(true["girder_az"] - true["table_az"]), nothing),
     }
@@ -79,16 +106,18 @@ def _rigid_balances(
 
 def noise_floors(p: Settings, noise: dict[str, float]) -> dict[str, float]:
     """Give the standard deviation that sensor noise alone gives each balance, in its unit [N, N m or m/s^2]."""
-    buffer = p.buffer_stiffness * noise["slip"]
-    force = 2.0 * noise["force"]
+    (x, y), (along, moment, _) = _places(p), _springs(p)
+    root = np.sqrt(len(x))
+    force = root * noise["force"]
+    arms = float(np.sqrt((x**2).sum())), float(np.sqrt((y**2).sum()))
     return {
         "pads": noise["force"],
-        "girder": float(np.sqrt((p.mass * noise["girder"]) ** 2 + force**2 + buffer**2)),
-        "heave": float(np.hypot(2.0 * noise["load"], p.mass * noise["girder"])),
+        "girder": float(np.sqrt((p.mass * noise["girder"]) ** 2 + force**2 + (along * noise["slip"]) ** 2)),
+        "heave": float(np.hypot(root * noise["load"], p.mass * noise["girder"])),
         "pitch": float(
-            np.sqrt((p.spacing_x * noise["load"]) ** 2 + (p.height * force) ** 2 + (p.height * buffer) ** 2)
+            np.sqrt((arms[0] * noise["load"]) ** 2 + (p.height * force) ** 2 + (moment * noise["slip"]) ** 2)
         ),
-        "roll": p.spacing_y * noise["load"],
+        "roll": arms[1] * noise["load"],
         "warp": 2.0 * noise["load"],
         "kinematics": float(np.hypot(noise["girder"], noise["table"])),
         "kinematics_z": float(np.hypot(noise["girder"], noise["table"])),
@@ -109,7 +138,7 @@ def sizes_in_floors(
     balances: dict[str, list[Balance]] = {}
     for of_run, shown in zip(true, clean, strict=True):
         stride = int(round((shown["time"][1] - shown["time"][0]) / (of_run["time"][1] - of_run["time"][0])))
-        for axis in "xy" if "pad_A_Fy" in shown else "x":
+        for axis in "xy" if f"pad_{pad_names(p)[0]}_Fy" in shown else "x":
             balances.setdefault("pads", []).append(_pad_balance(p, of_run, shown, logger, stride, axis))
         for name, balance in _rigid_balances(p, of_run, shown, logger, stride).items():
             balances.setdefault(name, []).append(balance)

@@ -16,15 +16,21 @@ from bench.settings import PADS
 Array = NDArray[np.float64]
 RATE = 500.0
 
-USUAL: tuple[str, ...] = (
-    *("table_ax", "table_az", "girder_ax", "girder_az", "slip_x"),
-    *(f"pad_{pad}_{part}" for pad in PADS for part in ("N", "Fx")),
-)
-RICH: tuple[str, ...] = (
-    *("table_ax", "table_ay", "table_az", "girder_ax", "girder_ay", "girder_az", "girder_az_1", "girder_az_2"),
-    *("slip_x", "slip_y", "yaw"),
-    *(f"pad_{pad}_{part}" for pad in PADS for part in ("N", "Fx", "Fy")),
-)
+
+def recorded_channels(pads: Sequence[str], rich: bool) -> tuple[str, ...]:
+    """Give the channels that a laboratory records of a rig with these pads; rich: with motion across."""
+    if not rich:
+        cells = (f"pad_{pad}_{part}" for pad in pads for part in ("N", "Fx"))
+        return ("table_ax", "table_az", "girder_ax", "girder_az", "slip_x", *cells)
+    return (
+        *("table_ax", "table_ay", "table_az", "girder_ax", "girder_ay", "girder_az", "girder_az_1", "girder_az_2"),
+        *("slip_x", "slip_y", "yaw"),
+        *(f"pad_{pad}_{part}" for pad in pads for part in ("N", "Fx", "Fy")),
+    )
+
+
+USUAL = recorded_channels(PADS, rich=False)
+RICH = recorded_channels(PADS, rich=True)
 #: Standard deviation of sensor noise at 500 Hz, SI: as quiet stretches of rig records show.
 NOISE = {"table": 0.02, "girder": 0.03, "slip": 2.0e-5, "load": 40.0, "force": 15.0, "yaw": 1.0e-5}
 
@@ -83,13 +89,18 @@ class Logger:
         return signal[0] + np.asarray(sosfilt(sos, signal - signal[0]))
 
 
-def draw_logger(rng: np.random.Generator, rich: bool) -> Logger:
-    """Draw a chain: most say their filter, some do not; some have coloured noise, hum, or cards up to 0.2 ms apart."""
+def draw_logger(rng: np.random.Generator, names: Sequence[str]) -> Logger:
+    """Draw a chain: most say their filter, some do not; some have coloured noise, hum, or cards up to 0.2 ms apart.
+
+    Args:
+        rng: generator.
+        names: of the channels.
+    """
     noise = {kind: sd * float(np.exp(rng.normal(0.0, 0.25))) for kind, sd in NOISE.items()}
     late: dict[str, float] = {}
     if rng.random() < 0.3:
         by_card = {kind: float(rng.uniform(-9.5e-5, 9.5e-5)) for kind in NOISE}
-        late = {name: by_card[sensor(name)] for name in (RICH if rich else USUAL)}
+        late = {name: by_card[sensor(name)] for name in names}
     return Logger(
         lowpass=float(rng.choice([80.0, 100.0, 120.0, 150.0])),
         order=int(rng.choice([4, 4, 2])),

@@ -92,13 +92,13 @@ def hide_one(name: str, scale: float, base: Settings, rng: np.random.Generator) 
     """
     family, _, kind = name.partition(":")
     if family in GAUGE_EFFECTS:
-        fault = GAUGE_EFFECTS[family](rng, scale)
+        fault = GAUGE_EFFECTS[family](rng, scale, base)
         said = {"scale": scale, "form": fault.form, "channels": list(fault.channels), "size": fault.size}
         return Hidden((family,), faults=(fault,), details={family: said})
     if family == "law":
         change, form = LAWS[kind].change(rng, scale), kind
     elif family == "unknown":
-        change, form = unknown(kind or str(rng.choice(list(UNKNOWN_KINDS))), rng, scale)
+        change, form = unknown(kind or str(rng.choice(list(UNKNOWN_KINDS))), rng, scale, base)
     else:
         change, form = {**PAD_EFFECTS, **RIG_EFFECTS}[family](rng, scale, base)
     plain = {key: np.asarray(value).tolist() for key, value in change.items()}
@@ -111,28 +111,33 @@ def _rich(effects: Sequence[str], rng: np.random.Generator) -> bool:
     return bool(rng.random() < (0.5 if set(effects) & set(RICH_BETTER) else 0.06))
 
 
-def draw_pair(rng: np.random.Generator) -> tuple[str, ...]:
+def draw_pair(rng: np.random.Generator, physics: Sequence[str] = PHYSICS) -> tuple[str, ...]:
     """Draw two effects: physics with physics, or physics with an instrument."""
-    first = str(rng.choice(PHYSICS))
-    others = INSTRUMENTS if rng.random() < 0.4 else PHYSICS
+    first = str(rng.choice(physics))
+    others = INSTRUMENTS if rng.random() < 0.4 else physics
     while True:
         second = str(rng.choice(others))
         if second != first and {first, second} not in _CLASH:
             return first, second
 
 
-def draw(seed: int) -> Case:
-    """Draw a case: a third complete, then single physics, instruments, pairs and laws outside the catalogue."""
+def draw(seed: int, physics: Sequence[str] = PHYSICS) -> Case:
+    """Draw a case: a third complete, then single physics, instruments, pairs and laws outside the catalogue.
+
+    Args:
+        seed: decides all.
+        physics: effects of the catalogue that there can be.
+    """
     rng = np.random.default_rng([seed, 7])
     kind = rng.choice(["complete", "physics", "instrument", "pair", "unknown"], p=[0.33, 0.34, 0.13, 0.12, 0.08])
     size = str(rng.choice(list(SIZES)))
     effects: tuple[str, ...] = ()
     if kind == "physics":
-        effects = (str(rng.choice(PHYSICS)),)
+        effects = (str(rng.choice(physics)),)
     elif kind == "instrument":
         effects = (str(rng.choice(INSTRUMENTS)),)
     elif kind == "pair":
-        effects = draw_pair(rng)
+        effects = draw_pair(rng, physics)
     elif kind == "unknown":
         effects = ("unknown:" + str(rng.choice(list(UNKNOWN_KINDS))),)
     return Case(effects, size, _rich(effects, rng))

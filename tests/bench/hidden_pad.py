@@ -7,8 +7,9 @@ changed settings and the law's form in words.
 from typing import Any
 
 import numpy as np
+from scipy.linalg import null_space
 
-from bench.settings import GRAVITY, Settings
+from bench.settings import GRAVITY, Settings, pads_of
 
 Change = tuple[dict[str, Any], str]
 
@@ -86,7 +87,8 @@ def anisotropy(rng: np.random.Generator, scale: float, base: Settings) -> Change
 def position_patch(rng: np.random.Generator, scale: float, base: Settings) -> Change:
     """Another friction where a pad stands on a certain place of its plate; on one pad or on all."""
     form = int(rng.integers(1, 4))
-    which = np.ones(4) if rng.random() < 0.4 else np.eye(4)[rng.integers(4)]
+    pads = len(pads_of(base))
+    which = np.ones(pads) if rng.random() < 0.4 else np.eye(pads)[rng.integers(pads)]
     change = {
         "patch_form": form,
         "patch": tuple(_sign(rng) * min(0.12 * scale, 0.5) * which),
@@ -98,7 +100,7 @@ def position_patch(rng: np.random.Generator, scale: float, base: Settings) -> Ch
 
 def pad_spread(rng: np.random.Generator, scale: float, base: Settings) -> Change:
     """Pads of unlike friction, the same on average."""
-    spread = rng.normal(size=4)
+    spread = rng.normal(size=len(pads_of(base)))
     spread -= spread.mean()
     return {"pad_factor": tuple(1.0 + 0.05 * scale * spread / spread.std())}, "factor on each pad"
 
@@ -109,21 +111,30 @@ def slide_tilt(rng: np.random.Generator, scale: float, base: Settings) -> Change
 
 
 def slide_curvature(rng: np.random.Generator, scale: float, base: Settings) -> Change:
-    """Dished plates: a force N x / R. All dish alike, so the girder's rise changes no load and is left out."""
-    return {"curvature": 0.2 * scale * _sign(rng)}, "constant radius"
+    """Plates that are dished, or spheres of another radius than rated, by 5 to 30 %."""
+    rated = max((pad.curvature for pad in pads_of(base)), default=0.0)
+    typical = 0.12 * rated if rated else 0.2
+    return {"curvature": typical * scale * _sign(rng)}, "constant radius"
 
 
 def uneven_seating(rng: np.random.Generator, scale: float, base: Settings) -> Change:
-    """One diagonal of pads stands higher: a constant warp of the loads of 3 to 20 % of the rest load."""
+    """Pads that do not stand in one plane: warps of the loads of 3 to 20 % of the rest load."""
     higher = _sign(rng) * min(0.08 * scale, 0.25) * 0.25 * base.mass * GRAVITY / base.pad_stiffness
-    return {"seating": (higher, -higher, -higher, higher)}, "one diagonal higher"
+    if not base.pads:
+        return {"seating": (higher, -higher, -higher, higher)}, "one diagonal higher"
+    places = [(1.0, pad.x, pad.y) for pad in base.pads]
+    warps = null_space(np.array(places).T)
+    heights = warps @ rng.normal(size=warps.shape[1])
+    sag = 4.0 * higher / len(base.pads)
+    return {"seating": tuple(sag * heights / np.abs(heights).max())}, "out of any plane"
 
 
 def mass_eccentricity(rng: np.random.Generator, scale: float, base: Settings) -> Change:
-    """Centre of gravity off the middle of the pads by 1 to 8 cm, in x, y or both."""
+    """Centre of gravity off its place by 1 to 8 cm in 3 m, in x, y or both."""
     angle = rng.uniform(0.0, 2.0 * np.pi)
-    off = 0.03 * scale
-    return {"centre_x": off * np.cos(angle), "centre_y": off * np.sin(angle)}, "constant"
+    off = 0.03 * scale * base.length
+    x, y = base.centre_x + off * np.cos(angle), base.centre_y + off * np.sin(angle)
+    return {"centre_x": x, "centre_y": y}, "constant"
 
 
 PAD_EFFECTS = {

@@ -18,7 +18,7 @@ def buffer_hysteresis(rng: np.random.Generator, scale: float, base: Settings) ->
     form = int(rng.integers(1, 3))
     change = {
         "hysteresis_form": form,
-        "hysteresis_force": 1.3e3 * scale,
+        "hysteresis_force": 1.3e3 * scale * base.size,
         "hysteresis_length": rng.uniform(1.0e-3, 5.0e-3),
     }
     return change, ("Bouc-Wen, exponent 1", "Bouc-Wen, exponent 2")[form - 1]
@@ -47,12 +47,12 @@ def buffer_mismatch(rng: np.random.Generator, scale: float, base: Settings) -> C
 
 def buffer_height(rng: np.random.Generator, scale: float, base: Settings) -> Change:
     """The key passes its force above the sliding plane."""
-    return {"buffer_height": min(0.12 * scale, 0.8 * base.height)}, "constant"
+    return {"buffer_height": min(0.12 * scale * base.length, 0.8 * base.height)}, "constant"
 
 
 def key_clearance(rng: np.random.Generator, scale: float, base: Settings) -> Change:
     """The key has play of 0.2 to 1.5 mm either side, with or without damping as it closes."""
-    impact = rng.uniform(2.0e5, 8.0e5) if rng.random() < 0.5 else 0.0
+    impact = rng.uniform(2.0e5, 8.0e5) * base.size if rng.random() < 0.5 else 0.0
     return {"clearance": 6.0e-4 * scale, "key_impact": impact}, "gap with impact" if impact else "gap alone"
 
 
@@ -79,7 +79,7 @@ def girder_bending(rng: np.random.Generator, scale: float, base: Settings) -> Ch
 def guide_drag(rng: np.random.Generator, scale: float, base: Settings) -> Change:
     """A guide that drags with speed on the girder's side, at the height of its centre of gravity."""
     form = int(rng.integers(1, 3))
-    return {"drag_form": form, "drag": 5.0e3 * scale}, ("linear", "quadratic in speed")[form - 1]
+    return {"drag_form": form, "drag": 5.0e3 * scale * base.size}, ("linear", "quadratic in speed")[form - 1]
 
 
 def table_pitch(rng: np.random.Generator, scale: float, base: Settings) -> Change:
@@ -118,13 +118,18 @@ UNKNOWN_KINDS: dict[str, tuple[int, float, tuple[float, float], tuple[float, flo
 }
 
 
-def unknown(kind: str, rng: np.random.Generator, scale: float) -> Change:
+def unknown(kind: str, rng: np.random.Generator, scale: float, base: Settings) -> Change:
     """One of `UNKNOWN_KINDS`: laws that no catalogue has."""
     form, typical, widths, places = UNKNOWN_KINDS[kind]
     size, place = typical * scale, rng.uniform(*places)
+    width = rng.uniform(*widths)
     if kind == "late_contact_area":
         size, place = 1.0, place * scale
     elif kind == "swinging_mass":
-        size = min(size, 1.5e3)
-    change = {"unknown_form": form, "unknown_size": size, "unknown_scale": rng.uniform(*widths), "unknown_place": place}
+        size = min(size, 1.5e3) * base.size
+    elif kind == "rubbing_bar":
+        size *= base.size
+    elif kind == "load_rate_friction":
+        width *= base.pad_size
+    change = {"unknown_form": form, "unknown_size": size, "unknown_scale": width, "unknown_place": place}
     return change, kind

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from bench.dirty import DirtyCampaign, build_dirty
-from bench.gauges import draw_logger
+from bench.gauges import USUAL, draw_logger
 from bench.law_plan import LawPlan, draw_law_plan, law_of
 from bench.write import write_campaign, write_truth
 
@@ -73,7 +73,7 @@ def build_law_campaign(seed: int, *, name: str = "", law: str | None = None) -> 
 
 
 def _built(plan: LawPlan, seed: int, name: str) -> LawCampaign:
-    clean = replace(draw_logger(np.random.default_rng([seed, 43]), rich=False), late={})
+    clean = replace(draw_logger(np.random.default_rng([seed, 43]), USUAL), late={})
     return LawCampaign(plan, build_dirty(seed, name=name, plan=plan.plan, logger=None if plan.dirty else clean))
 
 

@@ -12,12 +12,12 @@ PORTS: tuple[str, ...] = ("adds to mu", "multiplies mu", "girder", "buffer", "lo
 
 
 @njit(cache=True)
-def law_bound(p, i, bound, m, vx, speed, place, load, acceleration, driver, step):
-    """Bound of pad i with the law [N]; `m` is its memory, `acceleration` that of its slip."""
+def law_bound(p, share, bound, m, vx, speed, place, load, acceleration, driver, step):
+    """Bound of a pad that has a `share` of the law [N]; `m` is its memory, `acceleration` that of its slip."""
     follow(m, vx, load, p.law_time, step)
     if p.law_port > 2:
         return bound
-    value = p.law_pads[i] * law_value(p, m, vx, speed, place, load, acceleration, driver)
+    value = share * law_value(p, m, vx, speed, place, load, acceleration, driver)
     return bound + load * value if p.law_port == 1 else bound * (1.0 + value)
 
 

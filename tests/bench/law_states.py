@@ -40,9 +40,9 @@ _REST = 1800.0
 DIRECTION, SINCE, WAY, PEAK, LAST_PEAK, LAST_STROKE, SIGN, NEW_SINCE, NEW_WAY, LAGGED_LOAD, HEAT, POWER = range(12)
 
 
-def fresh_memory(load: float) -> NDArray[np.float64]:
-    """Give the memories (5, 12) of four pads and of the middle after a long rest under `load` [N] each."""
-    memory = np.zeros((5, 12))
+def fresh_memory(load: float, pads: int = 4) -> NDArray[np.float64]:
+    """Give the memories (pads + 1, 12) of the pads and of the middle after a long rest under `load` [N] each."""
+    memory = np.zeros((pads + 1, 12))
     memory[:, SINCE] = memory[:, NEW_SINCE] = _REST
     memory[:, LAGGED_LOAD] = load
     return memory

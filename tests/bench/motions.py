@@ -59,9 +59,12 @@ def _ramps(time: Array, start: float, end: float, ramp: float) -> Array:
     return np.sin(0.5 * np.pi * inside) ** 2
 
 
-def draw_sine(rig: str, rng: np.random.Generator, across: bool = False) -> Motion:
-    """Give a horizontal and a vertical sine of unlike frequency, away from the buffers' resonance."""
-    natural = {"bridge1": 2.96, "bridge2": 2.39}.get(rig, 1.0)
+#: Frequency of the girder on its buffers [Hz].
+NATURAL = {"bridge1": 2.96, "bridge2": 2.39}
+
+
+def draw_sine(natural: float, rng: np.random.Generator, across: bool = False) -> Motion:
+    """Give a horizontal and a vertical sine of unlike frequency, away from the resonance at `natural` [Hz]."""
     low = rng.uniform(0.52, 0.68) * natural
     high = rng.uniform(1.4, 1.75) * natural
     frequency = low if rng.random() < 0.55 else high

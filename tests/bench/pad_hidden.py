@@ -4,6 +4,8 @@ import math
 
 from numba import njit
 
+from bench.parts import FACTOR, MASS, PATCH
+
 RATE_SPEED = 0.1  # speed at which rate_and_state changes nothing in the steady state [m/s]
 RATE_CUTOFF = 2.0e-4  # below it the direct effect levels off [m/s]
 
@@ -21,9 +23,9 @@ def grow_older(form, age, speed, length, step):
 
 
 @njit(cache=True)
-def pressure_factor(p, load):
-    """Other dependence on pressure: 1 power, 2 quadratic, 3 tanh; all 1 at the rest pressure."""
-    ratio = max(load / (0.25 * p.mass * 9.80665), 0.02)
+def pressure_factor(p, mass, load):
+    """Other dependence on pressure: 1 power, 2 quadratic, 3 tanh; all 1 at the rest pressure of a pad's `mass`."""
+    ratio = max(load / (mass * 9.80665), 0.02)
     if p.pressure_form == 1:
         return ratio**p.pressure_size
     if p.pressure_form == 2:
@@ -35,7 +37,7 @@ def pressure_factor(p, load):
 def heat_factor(p, heat):
     """1 first order, 3 three bodies: exponential in stored work; 2 half-space: kT of Kumar (2015) from 20 degrees C."""
     if p.heat_form != 2:
-        return math.exp(-p.heat * heat / 1300.0)
+        return math.exp(-p.heat * heat / (1300.0 * p.pad_size))
     return 0.789 * (0.7 ** ((20.0 + p.heat * heat) / 50.0) + 0.4) / 0.99968
 
 
@@ -64,8 +66,8 @@ def wear_factor(p, distance):
 
 
 @njit(cache=True)
-def patch_factor(p, i, place):
-    """1 Gaussian, 2 raised cosine, 3 plateau with soft edges."""
+def patch_factor(p, depth, place):
+    """1 Gaussian, 2 raised cosine, 3 plateau with soft edges; `depth` is that of this pad."""
     off = (place - p.patch_place) / p.patch_width
     if p.patch_form == 1:
         shape = math.exp(-off * off)
@@ -73,7 +75,7 @@ def patch_factor(p, i, place):
         shape = 0.5 * (1.0 + math.cos(math.pi * off)) if abs(off) < 1.0 else 0.0
     else:
         shape = 0.5 * (math.tanh(4.0 * (off + 1.0)) - math.tanh(4.0 * (off - 1.0)))
-    return 1.0 + p.patch[i] * shape
+    return 1.0 + depth * shape
 
 
 @njit(cache=True)
@@ -115,10 +117,10 @@ def unknown_bound(p, bound, load, lagged_bound, load_rate, vx, speed, place, acc
 
 
 @njit(cache=True)
-def hidden_bound(p, i, bound, load, speed, place, age, heat, distance):
-    """Bound of pad i with every catalogue effect that is switched on [N]."""
+def hidden_bound(p, pad, bound, load, speed, place, age, heat, distance):
+    """Bound of a pad, whose row of `bench.parts` is given, with every catalogue effect that is switched on [N]."""
     if p.pressure_form:
-        bound *= pressure_factor(p, load)
+        bound *= pressure_factor(p, pad[MASS], load)
     if p.breakaway_form:
         bound += breakaway_force(p, load, speed, age)
     if p.rate_form:
@@ -129,5 +131,5 @@ def hidden_bound(p, i, bound, load, speed, place, age, heat, distance):
     if p.wear_form:
         bound *= wear_factor(p, distance)
     if p.patch_form:
-        bound *= patch_factor(p, i, place)
-    return bound * p.pad_factor[i]
+        bound *= patch_factor(p, pad[PATCH], place)
+    return bound * pad[FACTOR]

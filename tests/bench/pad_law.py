@@ -6,16 +6,16 @@ from numba import njit
 
 
 @njit(cache=True)
-def base_bound(p, load, speed):
-    pressure = load / p.pad_area
-    area = p.pad_area * (1.0 - math.exp(-p.k * pressure))
+def base_bound(p, apparent, load, speed):
+    pressure = load / apparent
+    area = apparent * (1.0 - math.exp(-p.k * pressure))
     return p.s1 * (1.0 - math.exp(-p.n * speed)) * area + p.alpha * load
 
 
 @njit(cache=True)
-def stick_stiffness(p, length):
-    """Tangential stiffness [N/m] that reaches the rest load's fast friction after `length`."""
-    return base_bound(p, 0.25 * p.mass * 9.80665, 10.0) / length
+def stick_stiffness(p, apparent, mass, length):
+    """Tangential stiffness [N/m] of a pad that reaches the fast friction of its share of `mass` after `length`."""
+    return base_bound(p, apparent, mass * 9.80665, 10.0) / length
 
 
 @njit(cache=True)

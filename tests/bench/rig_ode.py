@@ -4,7 +4,7 @@ It shares no code with the library: penalty pads instead of contacts with constr
 instead of a friction-loss constraint, explicit 20 us steps instead of a solver.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,8 +12,10 @@ from numpy.typing import NDArray
 from bench.law_drivers import fresh_driver
 from bench.law_states import fresh_memory
 from bench.motions import Motion
-from bench.rig_loop import MIDDLE, PER_PAD, run
-from bench.settings import GRAVITY, PAD_SIGN_X, PAD_SIGN_Y, PADS, Settings
+from bench.parts import HEIGHT, STIFFNESS, X, Y, buffer_table, pad_table
+from bench.rig_loop import run
+from bench.rig_pads import MIDDLE, PER_PAD
+from bench.settings import GRAVITY, Settings, buffers_of, pad_names, pads_of
 
 Array = NDArray[np.float64]
 STEP = 2.0e-5
@@ -25,20 +27,26 @@ _LONG_REST = 1800.0
 DIFFUSIVITY = 4.44e-6
 CONDUCTIVITY = 18.0
 
-COLUMNS: tuple[str, ...] = (
+_GIRDER: tuple[str, ...] = (
     *("table_ax", "table_ay", "table_az", "girder_ax", "girder_ay", "girder_az", "girder_az_1", "girder_az_2"),
     *("slip_x", "slip_y", "slip_vx", "slip_vy", "yaw", "pitch", "roll", "pitch_acceleration", "roll_acceleration"),
-    *(f"pad_{pad}_{part}" for pad in PADS for part in ("N", "Fx", "Fy", "vx", "Fx_base", "Fy_base")),
-    *(f"buffer_{number}_F{axis}" for number in "12" for axis in "xy"),
 )
 
 
 @dataclass
 class Memory:
-    """What survives from run to run: slid distance and work of each pad, largest excursion of each buffer."""
+    """What survives from run to run: slid distance of each pad, largest excursion of each buffer; none: a new one."""
 
-    distance: Array = field(default_factory=lambda: np.zeros(4))
-    largest: Array = field(default_factory=lambda: np.zeros(2))
+    distance: Array | None = None
+    largest: Array | None = None
+
+
+def columns(settings: Settings) -> tuple[str, ...]:
+    """Give the names of the channels of a rig, in the order of the loop's columns."""
+    pads = [
+        f"pad_{pad}_{part}" for pad in pad_names(settings) for part in ("N", "Fx", "Fy", "vx", "Fx_base", "Fy_base")
+    ]
+    return (*_GIRDER, *pads, *(f"buffer_{buffer.name}_F{axis}" for buffer in buffers_of(settings) for axis in "xy"))
 
 
 def heat_kernel(terms: int = 12) -> tuple[Array, Array]:
@@ -52,15 +60,31 @@ def heat_kernel(terms: int = 12) -> tuple[Array, Array]:
     return rates, weights
 
 
-def rest_place(settings: Settings) -> Array:
-    """Give the static place of the girder (x, y, z, roll, pitch, yaw): weight on four springs of uneven height."""
-    p = settings
-    rx = 0.5 * p.spacing_x * np.array(PAD_SIGN_X) - p.centre_x
-    ry = 0.5 * p.spacing_y * np.array(PAD_SIGN_Y) - p.centre_y
-    down = np.stack([np.ones(4), ry, -rx])  # (3, 4): how z, roll and pitch lift the girder above each pad
-    weight = np.array([p.mass * GRAVITY, 0.0, 0.0])
-    lift = np.linalg.solve(p.pad_stiffness * down @ down.T, p.pad_stiffness * down @ np.array(p.seating) - weight)
+def rest_place(pads: Array, mass: float, centre: tuple[float, float]) -> Array:
+    """Give the static place of the girder (x, y, z, roll, pitch, yaw): weight on springs of uneven height.
+
+    Args:
+        pads: (n, 11) rows of `bench.parts`.
+        mass: of the girder [kg].
+        centre: of gravity, from the middle of the table [m].
+    """
+    down = _lifts(pads, centre)
+    weight = np.array([mass * GRAVITY, 0.0, 0.0])
+    held = pads[:, STIFFNESS] * down
+    lift = np.linalg.solve(held @ down.T, held @ pads[:, HEIGHT] - weight)
     return np.array([0.0, 0.0, lift[0], lift[1], lift[2], 0.0])
+
+
+def rest_loads(pads: Array, mass: float, centre: tuple[float, float]) -> Array:
+    """Give what the pads carry at rest, (n,) [N]; arguments as in `rest_place`."""
+    lift = rest_place(pads, mass, centre)[2:5]
+    return pads[:, STIFFNESS] * (pads[:, HEIGHT] - lift @ _lifts(pads, centre))
+
+
+def _lifts(pads: Array, centre: tuple[float, float]) -> Array:
+    """Give how z, roll and pitch lift the girder above each pad, (3, n)."""
+    rx, ry = pads[:, X] - centre[0], pads[:, Y] - centre[1]
+    return np.stack([np.ones(len(pads)), ry, -rx])
 
 
 def simulate(
@@ -76,7 +100,7 @@ def simulate(
         every: steps for a row of the result.
 
     Returns:
-        "time" [s] and `COLUMNS`, each (rows,), in SI units with the signs of the contract (N compression; Fx force of
+        "time" [s] and `columns`, each (rows,), in SI units with the signs of the contract (N compression; Fx force of
         the girder on the pad, positive when sliding to +x; buffer force positive when the girder is at +x).
         "pad_A_vx" is the pad's true slip speed, "pad_A_Fx_base" what the base law makes of the pad's load and of the
         slip at the middle of the pads (with `yaw_known`: at the pad).
@@ -84,21 +108,27 @@ def simulate(
         relative to the table.
     """
     memory = Memory() if memory is None else memory
+    p = settings
+    pads = pad_table(pads_of(p), p.mass, p.seating, (p.pad_factor, p.patch, p.law_pads))
+    buffers = buffer_table(buffers_of(p))
     rates, weights = heat_kernel()
-    pads = np.zeros((4, _PAD_MEMORY + rates.size))
-    pads[:, 4] = _LONG_REST
-    pads[:, 6] = memory.distance
-    buffers = np.zeros((2, 4))
-    buffers[:, 1] = memory.largest
+    of_pads = np.zeros((len(pads), _PAD_MEMORY + rates.size))
+    of_pads[:, 4] = _LONG_REST
+    of_pads[:, 6] = 0.0 if memory.distance is None else memory.distance
+    of_buffers = np.zeros((len(buffers), 4))
+    of_buffers[:, 1] = 0.0 if memory.largest is None else memory.largest
     table = np.ascontiguousarray(np.stack([motion.ax, motion.ay, motion.az], axis=1))
     steps = int(round(motion.duration / step))
-    out = np.zeros((-(-steps // every), MIDDLE + 4 * PER_PAD + 4))
+    out = np.zeros((-(-steps // every), MIDDLE + PER_PAD * len(pads) + 2 * len(buffers)))
     settle = int(round(SETTLE / step))
-    start = rest_place(settings)
-    memories = (fresh_memory(0.25 * settings.mass * GRAVITY), fresh_driver())
-    run(settings, start, table, motion.step, step, settle, steps, every, pads, buffers, rates, weights, *memories, out)
-    memory.distance = pads[:, 6].copy()
-    memory.largest = buffers[:, 1].copy()
-    channels = {name: np.ascontiguousarray(out[:, i]) for i, name in enumerate(COLUMNS)}
+    start = rest_place(pads, p.mass, (p.centre_x, p.centre_y))
+    numbers = p._replace(pads=(), buffers=(), seating=(), patch=(), pad_factor=(), law_pads=())
+    memories = (of_pads, of_buffers, rates, weights, fresh_memory(p.mass * GRAVITY / len(pads), len(pads)))
+    run(
+        numbers, pads, buffers, start, table, motion.step, step, settle, steps, every, *memories, fresh_driver(), out
+    )  # fmt: skip
+    memory.distance = of_pads[:, 6].copy()
+    memory.largest = of_buffers[:, 1].copy()
+    channels = {name: np.ascontiguousarray(out[:, i]) for i, name in enumerate(columns(p))}
     time: Array = step * every * np.arange(out.shape[0], dtype=np.float64)
     return {"time": time, **channels}

@@ -4,6 +4,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from bench.parts import Buffer, Pad
+
 GRAVITY = 9.80665
 PAD_AREA = np.pi * 0.0215**2
 PADS = ("A", "B", "C", "D")
@@ -12,9 +14,10 @@ PAD_SIGN_Y = (1.0, 1.0, -1.0, -1.0)
 #: (height of the centre of gravity [m], both buffers' stiffness [N/m])
 RIGS = {"bridge1": (0.366, 3.4612e6), "bridge2": (0.732, 2.2514e6), "block": (0.366, 0.0)}
 
-Four = tuple[float, float, float, float]
-NONE: Four = (0.0, 0.0, 0.0, 0.0)
-ONES: Four = (1.0, 1.0, 1.0, 1.0)
+#: One value for each pad.
+Each = tuple[float, ...]
+NONE: Each = (0.0, 0.0, 0.0, 0.0)
+ONES: Each = (1.0, 1.0, 1.0, 1.0)
 
 
 class Settings(NamedTuple):
@@ -24,7 +27,7 @@ class Settings(NamedTuple):
     times [s].
     """
 
-    # specimen: a box of 3 x 5 x 0.5 m on pads 3 m apart in x and 5 m in y
+    # specimen: a box of 3 x 5 x 0.5 m on four pads, 3 m apart in x and 5 m in y, and two buffers
     mass: float = 1.0e4
     height: float = 0.366
     inertia_roll: float = 21041.7
@@ -37,7 +40,7 @@ class Settings(NamedTuple):
     pad_area: float = PAD_AREA
     pad_stiffness: float = 2.5e8
     pad_damping: float = 6.0e4
-    seating: Four = NONE
+    seating: Each = NONE
     # eq. (7), and a stick that is elastic over a few micrometres with a share of critical damping
     s1: float = 1.379e6
     n: float = 19.7
@@ -49,6 +52,13 @@ class Settings(NamedTuple):
     buffer_stiffness: float = 3.4612e6
     buffer_place: float = 1.5
     buffer_height: float = 0.0
+    # another specimen: its pads and buffers in place of these; their spacing, total stiffness and so on stand above too
+    pads: tuple[Pad, ...] = ()
+    buffers: tuple[Buffer, ...] = ()
+    # weight, load of a pad and spans over those of the girder of 10 t: hidden forces and lengths go with them
+    size: float = 1.0
+    pad_size: float = 1.0
+    length: float = 1.0
     # pad friction
     breakaway_form: int = 0
     breakaway: float = 0.0
@@ -72,10 +82,10 @@ class Settings(NamedTuple):
     asymmetry: float = 0.0
     anisotropy: float = 0.0
     patch_form: int = 0
-    patch: Four = NONE
+    patch: Each = NONE
     patch_place: float = 0.0
     patch_width: float = 0.005
-    pad_factor: Four = ONES
+    pad_factor: Each = ONES
     tilt: float = 0.0
     curvature: float = 0.0
     # buffers and key
@@ -119,7 +129,7 @@ class Settings(NamedTuple):
     law_state: int = 0
     law_other: int = 0
     law_signed: int = 1
-    law_pads: Four = ONES
+    law_pads: Each = ONES
     law_size: float = 0.0
     law_place: float = 0.0
     law_scale: float = 1.0
@@ -140,9 +150,36 @@ _DEFAULT = Settings()
 
 
 def _like(default: Any, value: Any) -> Any:
+    if default == ():  # pads and buffers
+        return tuple(value)
     if isinstance(default, tuple):
         return tuple(float(one) for one in value)
     return type(default)(value)
+
+
+def pads_of(settings: Settings) -> tuple[Pad, ...]:
+    """Give the pads of a rig: its own, or four at the corners."""
+    p = settings
+    if p.pads:
+        return p.pads
+    half_x, half_y = 0.5 * p.spacing_x, 0.5 * p.spacing_y
+    places = zip(PADS, PAD_SIGN_X, PAD_SIGN_Y, strict=True)
+    kind = (p.pad_area, p.pad_stiffness, p.pad_damping)
+    return tuple(Pad(name, half_x * x, half_y * y, *kind) for name, x, y in places)
+
+
+def buffers_of(settings: Settings) -> tuple[Buffer, ...]:
+    """Give the buffers of a rig: its own, or one at either side."""
+    p = settings
+    if p.pads:
+        return p.buffers
+    half = 0.5 * p.buffer_stiffness
+    return tuple(Buffer(name, 0.0, y, 0.0, half, half) for name, y in (("1", p.buffer_place), ("2", -p.buffer_place)))
+
+
+def pad_names(settings: Settings) -> tuple[str, ...]:
+    """Give the names of the pads."""
+    return tuple(pad.name for pad in pads_of(settings))
 
 
 def rated(rig: str) -> Settings:

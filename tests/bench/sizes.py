@@ -62,12 +62,19 @@ _SAME_FORM: dict[str, tuple[tuple[str, ...], Callable[[Details], dict[str, float
     "slide_tilt": ((), lambda d: {"tilt": d["tilt"]}),
     "table_pitch": (("follows the table's acceleration",), lambda d: {"compliance": d["pitch_per_acceleration"]}),
 }
+#: Those whose numbers stand for the four pads and two buffers of the girder in the middle of its pads.
+_OF_FOUR = {
+    *("pad_spread", "position_patch", "uneven_seating", "mass_eccentricity", "buffer_damping", "buffer_hysteresis"),
+}
 
 
 def planted(truth: Mapping[str, Any]) -> dict[str, float]:
     """Give "effect.strength" -> planted value of a campaign's answer, where the laws are the same."""
     out: dict[str, float] = {}
+    other = _OF_FOUR if "pads" in truth["settings"] else set()
     for effect, details in truth["details"].items():
+        if effect in other:
+            continue
         if effect == "uneven_seating":
             stiffness = truth["settings"]["pad_stiffness"]
             out["uneven_seating.warp"] = details["seating"][0] * stiffness / _RATED_PAD

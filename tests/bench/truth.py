@@ -15,7 +15,7 @@ class Truth:
     Attributes:
         name: of the folder.
         seed: that made it.
-        rig: bridge1 or bridge2.
+        rig: bridge1, bridge2, or drawn.
         rich: whether it has motion across and more gauges.
         size: small, medium or large; "" for a complete model.
         hidden: what the base model lacks.
@@ -54,9 +54,18 @@ class Truth:
     def as_dict(self) -> dict[str, Any]:
         """Give the answer as plain data, in the form of the practice campaigns and more."""
         base = self.base
-        settings = {"h": base.height, "Kb": 0.5 * base.buffer_stiffness, "s1": base.s1, "n": base.n, "k": base.k}
+        settings: dict[str, Any] = {
+            "h": base.height,
+            "Kb": 0.5 * base.buffer_stiffness,
+            "s1": base.s1,
+            "n": base.n,
+            "k": base.k,
+        }
         settings |= {"alpha": base.alpha, "mass": base.mass, "pad_stiffness": base.pad_stiffness}
         settings |= {"pad_damping": base.pad_damping, "inertia_pitch": base.inertia_pitch}
+        if base.pads:
+            settings |= {"pads": [pad._asdict() for pad in base.pads], "centre": [base.centre_x, base.centre_y]}
+            settings |= {"buffers": [buffer._asdict() for buffer in base.buffers]}
         instruments = {fault.effect: fault.describe() for fault in self.hidden.faults}
         logger = {"lowpass": self.logger.lowpass, "order": self.logger.order, "phase": self.logger.phase}
         logger |= {"noise": self.logger.noise, "late": self.logger.late, "correlation": self.logger.correlation}

@@ -1,8 +1,9 @@
-"""The scales of a slider's record: its stroke, its speed, its load and its pressure, over those of the reference rig.
+"""The scales of a test: its stroke, its speed, its load and its pressure, over those of the reference rig.
 
-A girder on four pads is of the size of the reference rig, and so is what is looked for there. One slider may be rock
-that creeps by micrometres a second or a brake: lengths, times and forces that a fit begins with, and may reach, then
-come from its own record, so that an answer does not depend on the units, or on the size, of a test.
+What a girder's pads carry is known from its weight: forces and masses that a fit begins with, and may reach, and that
+matter to anybody, go with it. Its slip and its speed are those of an earthquake, however heavy it is. One slider may be
+rock that creeps by micrometres a second or a brake: its scales come from its own record, so that an answer does not
+depend on the units, or on the size, of a test.
 """
 
 from dataclasses import dataclass
@@ -11,10 +12,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.campaign import Campaign
+from slipwise.rig import Specimen
 from slipwise.units import powers_of
 
 #: Of the reference rig: stroke from end to end [m], mean speed [m/s], load of a pad [N], and its pressure [Pa].
 _STROKE, _SPEED, _LOAD, _PRESSURE = 0.1, 0.1, 24.5e3, 12.5e6
+#: What a pad of the reference rig carries at rest: a quarter of 10 t [N].
+_REST_LOAD = 2.5e3 * 9.80665
+#: Scales that a record shows are an order of magnitude: bounds are this much wider on both sides [1].
+_ROOM = 10.0
 #: Parts of a record whose means give its path, of so many samples at least: slip gauges are noisy [1].
 _PARTS, _SAMPLES = 1000, 4
 
@@ -28,12 +34,14 @@ class Scales:
         speed: mean speed of slip [1].
         load: mean load of a pad [1].
         pressure: mean load over the pad's area [1].
+        room: how much wider bounds are on both sides, for what is known of the scales [1].
     """
 
     length: float = 1.0
     speed: float = 1.0
     load: float = 1.0
     pressure: float = 1.0
+    room: float = 1.0
 
     @property
     def time(self) -> float:
@@ -49,14 +57,16 @@ class Scales:
 
 
 def scales_of(campaign: Campaign) -> Scales:
-    """Give the scales of a campaign, from its fitted runs.
+    """Give the scales of a campaign: of a free girder from its weight, of one slider from its fitted runs.
 
-    They are 1 for a free girder, and where slip or load was not recorded.
+    They are 1 where a slider's slip or load was not recorded.
     """
     specimen = campaign.specimen
+    if specimen.free:
+        return Scales(load=pad_load_scale(specimen))
     runs = [run for run in campaign.runs if run.role != "holdout"] or campaign.runs
     records = [run.record for run in runs if "slip_x" in run.record]
-    if specimen.free or not records:
+    if not records:
         return Scales()
     stroke = float(np.median([np.ptp(record["slip_x"]) for record in records]))
     speeds = [_path(record["slip_x"]) / float(record.time[-1] - record.time[0]) for record in records]
@@ -69,7 +79,12 @@ def scales_of(campaign: Campaign) -> Scales:
     load, speed = float(np.median(loads)) if loads else 0.0, float(np.median(speeds))
     if not (stroke > 0.0 and speed > 0.0 and load > 0.0):
         return Scales()
-    return Scales(stroke / _STROKE, speed / _SPEED, load / _LOAD, load / specimen.pad_area / _PRESSURE)
+    return Scales(stroke / _STROKE, speed / _SPEED, load / _LOAD, load / specimen.pad_area / _PRESSURE, _ROOM)
+
+
+def pad_load_scale(specimen: Specimen) -> float:
+    """Give what a pad of a free girder carries at rest, their mean, over that of the reference rig; else 1 [1]."""
+    return specimen.weight / len(specimen.pads) / _REST_LOAD if specimen.free else 1.0
 
 
 def _path(slip: NDArray[np.float64]) -> float:

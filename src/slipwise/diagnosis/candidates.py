@@ -30,9 +30,9 @@ def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], d
     problem, model = base.problem, base.model
     terms: list[Term] = []
     cannot: dict[str, str] = {}
-    scale = problem.runs[0].scales.of
+    scales = problem.runs[0].scales
     for name, as_rated in (catalogue() | {e.name: e for e in own}).items():
-        effect = scaled(as_rated, scale)
+        effect = scaled(as_rated, scales.of, scales.room)
         if effect.base == "springs" or (name in model and not effect.target):
             continue
         if effect.in_samples:

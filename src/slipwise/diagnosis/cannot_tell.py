@@ -22,6 +22,7 @@ from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.parameters import ZERO, Term
 from slipwise.rig.frame import storey_channels
 from slipwise.rig.load_basis import buffers_off_centre
+from slipwise.rig.rocking import coupled
 
 Array = NDArray[np.float64]
 #: Two effects look alike when their columns agree so well: one run gives 0.95, two after a long rest 0.8 at most [1].
@@ -54,6 +55,7 @@ def cannot_tell(state: Search, final: BaseFit) -> list[tuple[str, str]]:
         *_nothing_held_out(state.base),
         *_storeys_not_measured(state.base),
         *_turning_not_measured(state.base),
+        *_friction_across_not_measured(state.base),
         *_beyond_what_was_fitted(state.base),
         *_floors_not_credible(state),
         *_gauges_not_tried(state),
@@ -98,6 +100,13 @@ def _turning_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
         if abs(size) > _OFF * half and not all(name in run.record for run in base.campaign.runs):
             moves = "turns" if name == "yaw" else "moves across"
             yield name, f"not measured, but {words}, so the girder {moves}: what is left may be that"
+
+
+def _friction_across_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
+    """Say that roll is not judged where the girder rolls with its pitch, held by friction that nobody measured."""
+    if base.problem.balanced and coupled(base.campaign.specimen):
+        reason = "pads that stand unevenly turn pitch into roll, which friction across holds; it is not judged"
+        yield "roll balance", reason
 
 
 def _floors_not_credible(state: Search) -> Iterator[tuple[str, str]]:

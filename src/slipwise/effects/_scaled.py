@@ -1,4 +1,4 @@
-"""Effects for a slider of another size: typical values and bounds as its record scales them."""
+"""Effects for a rig of another size: typical values and bounds as its weight, or a slider's record, scales them."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -7,11 +7,8 @@ from slipwise.effects._catalogue import catalogue
 from slipwise.effects._effect import Effect
 from slipwise.params import Parameter
 
-#: What a record says of its scales is their order of magnitude: bounds are this much wider on both sides [1].
-_ROOM = 10.0
 
-
-def scaled(effect: Effect, scale: Callable[[str], float]) -> Effect:
+def scaled(effect: Effect, scale: Callable[[str], float], room: float) -> Effect:
     """Give an effect whose typical values and bounds are scaled by their units; itself where nothing is.
 
     One that is not of the catalogue stays as it is: its user has given it the numbers of his own rig.
@@ -19,18 +16,19 @@ def scaled(effect: Effect, scale: Callable[[str], float]) -> Effect:
     Args:
         effect: of the catalogue with the numbers of the reference rig, or a user's own.
         scale: SI unit -> how many times larger such quantities are [1].
+        room: how much wider the bounds of what is scaled are on both sides [1].
     """
     if effect.name not in catalogue() or all(scale(p.unit) == 1.0 for p in effect.parameters):
         return effect
-    return replace(effect, parameters=tuple(_scaled(p, scale(p.unit)) for p in effect.parameters))
+    return replace(effect, parameters=tuple(_scaled(p, scale(p.unit), room) for p in effect.parameters))
 
 
-def _scaled(p: Parameter, factor: float) -> Parameter:
+def _scaled(p: Parameter, factor: float, room: float) -> Parameter:
     if factor == 1.0:
         return p
-    low = p.low * factor * (_ROOM if p.low < 0.0 else 1.0 / _ROOM)
+    low = p.low * factor * (room if p.low < 0.0 else 1.0 / room)
     neutral = None if p.neutral is None else p.neutral * factor
-    return replace(p, typical=p.typical * factor, low=low, high=p.high * factor * _ROOM, neutral=neutral)
+    return replace(p, typical=p.typical * factor, low=low, high=p.high * factor * room, neutral=neutral)
 
 
 def holding(effect: Effect, values: Mapping[str, float]) -> Effect:

@@ -125,7 +125,7 @@ def scaled_model(model: Model, scales: Scales, *, typical: bool) -> Model:
         return model
     uses = []
     for entry in model.uses:
-        effect = scaled(catalogue().get(entry.effect.name, entry.effect), scales.of)
+        effect = scaled(catalogue().get(entry.effect.name, entry.effect), scales.of, scales.room)
         values = {n: scales.of(effect.parameter(n).unit) * v if typical else v for n, v in entry.numbers.items()}
         uses.append(use_of(holding(effect, values), values, entry.target))
     if not typical:

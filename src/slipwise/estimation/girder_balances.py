@@ -3,11 +3,12 @@
     girder  m a_x = -(sum F + F_buffers + drag + F_frame)
     heave   sum N = (m + sum m_i) (g + a_z) - lift
     pitch   Q_pitch = P(s) [h sum F + (h - z_b) F_buffers] / half_x + (x + x_c) sum N / half_x + ...
-    roll    Q_roll = y_c sum N / half_y,    warp, warp_2 ... = what the rated seating makes of them
+    roll    Q_roll = R(s) y_c sum N / half_y,    warp, warp_2 ... = what the rated seating makes of them
     motion  a_x - a_x,table = d2(slip)/dt2
 
 P(s) = (2 z w s + w^2) / (s^2 + 2 z w s + w^2) is the girder's pitch on its pads: taken as quasi-static, the balance
-leaves 2.5 times the noise. What the storeys of a frame push is known from their accelerations. Effects add to each by
+leaves 2.5 times the noise. R(s) is its roll; where pads stand unevenly, each shakes the other (`rig/rocking.py`).
+What the storeys of a frame push is known from their accelerations. Effects add to each by
 their `balance`, `spring`, `drag` and `lift` hooks.
 
 Source: docs/theory.md, sections 1.2 and 1.4; Harris' Shock and Vibration Handbook, base-excited oscillator.
@@ -29,6 +30,7 @@ from slipwise.rig.curved_faces import rise_rate, risen
 from slipwise.rig.frame import frame_moment, frame_push, storey_channels
 from slipwise.rig.load_basis import WARPS, basis_of, by_warp, warps
 from slipwise.rig.load_modes import load_modes
+from slipwise.rig.rocking import coupled, rocking_modes
 from slipwise.signals.ends import in_frequency
 from slipwise.signals.shift import shift
 from slipwise.simulation.predict import Predictor
@@ -55,7 +57,8 @@ def available(run: FitRun, specimen: Specimen) -> tuple[str, ...]:
         out.append("girder")
     if np.isfinite(run.states.girder_acceleration[:, 2]).all():
         out.append("heave")
-    out += (["pitch"] if framed else []) + ([] if run.states.has_y else ["roll"])
+    # friction across, which a girder that rolls with its pitch calls up, is in no channel
+    out += (["pitch"] if framed else []) + ([] if run.states.has_y or coupled(specimen) else ["roll"])
     out += warps(specimen)
     if run.record.has_all("girder_ax", "table_ax"):
         out.append("motion")
@@ -73,8 +76,23 @@ def through_pitch(values: Array, dt: float, frequency: float, damping: float) ->
     return in_frequency(values, dt, gain, int(3.0 / (dt * frequency * max(damping, 0.01))) + 8)
 
 
-def _pitched(load: Array, run: FitRun, values: Mapping[str, float]) -> Array:
-    return through_pitch(load, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
+def _rocked(
+    driven: tuple[Array | None, Array | None], specimen: Specimen, run: FitRun, values: Mapping[str, float]
+) -> tuple[Array, Array]:
+    """Give roll and pitch of the loads, (n,) each [N], that a moment over half a spacing makes of each; None: none."""
+    half = specimen.half_spacing[::-1]
+    out = [np.zeros(len(run.time)), np.zeros(len(run.time))]
+    for mode in rocking_modes(specimen):
+        shares = [h * d for h, d in zip(half, mode.drive, strict=True)]
+        parts = [share * one for share, one in zip(shares, driven, strict=True) if one is not None and share != 0.0]
+        if not parts:
+            continue
+        frequency, damping = (mode.ratio * values[f"rig.pitch_{what}"] for what in ("frequency", "damping"))
+        passed = through_pitch(np.sum(parts, axis=0), run.dt, frequency, damping)
+        for i, shown in enumerate(mode.shown):
+            if shown != 0.0:
+                out[i] = out[i] + shown / half[i] * passed
+    return out[0], out[1]
 
 
 def buffers_along(law: Predictor, run: FitRun, yaw: Array, yaw_rate: Array) -> Array:
@@ -136,7 +154,8 @@ def predicted_balances(
     # what effects add to the rated place of the centre of gravity and to the seating is theirs to say
     off_x, off_y = (c - m for c, m in zip((rated.centre_x, rated.centre_y), specimen.middle, strict=True))
     swing = (off_x + (run.slip if specimen.pads_on == "table" else 0.0)) * heave
-    pitch = _pitched((moment + swing) / half, run, values)
+    by_roll = _rocked((off_y / half_y * heave if off_y else None, None), specimen, run, values)
+    by_pitch = _rocked((None, (moment + swing) / half), specimen, run, values)
     basis = basis_of(specimen)
     modes = load_modes(run.load, basis)
     seated = by_warp(specimen, np.array(specimen.springs) * rated.seating)
@@ -146,17 +165,19 @@ def predicted_balances(
         "heave": _delayed(
             specimen.carried_mass * (gravity + run.states.girder_acceleration[:, 2]), run.dt, values["rig.late_load"]
         ),
-        "pitch": _delayed(pitch, run.dt, values["rig.late_pitch"]),
-        "roll": off_y / half_y * heave,
+        "pitch": _delayed(by_pitch[1], run.dt, values["rig.late_pitch"]) + by_roll[1],
+        "roll": _delayed(by_pitch[0], run.dt, values["rig.late_pitch"]) + by_roll[0],
         **{name: np.full(len(heave), load) for name, load in seated.items()},
     }
     measured = {"girder": run.channel("girder_ax"), "heave": heave, "pitch": modes.pitch, "roll": modes.roll}
     measured |= by_warp(specimen, run.load)
-    for name, more in effects_in(model, run, specimen, force, buffers).items():
+    added = effects_in(model, run, specimen, force, buffers)
+    rocking = [added.pop(name, None) for name in ("roll", "pitch")]
+    if any(one is not None for one in rocking):
+        added |= dict(zip(("roll", "pitch"), _rocked((rocking[0], rocking[1]), specimen, run, values), strict=True))
+    for name, more in added.items():
         if name == "motion":
             continue  # taken out of the states already
-        if name == "pitch":
-            more = _pitched(more, run, values)
         predicted[name] = predicted[name] + (-more / mass if name == "girder" else more)
     return predicted, measured
 

@@ -7,6 +7,7 @@ from slipwise.effects import Effect
 from slipwise.model import EffectUse, Model, use_of
 from slipwise.params import Parameter
 from slipwise.rig import Specimen, pad_frequencies
+from slipwise.rig.rocking import rolls
 
 #: Largest delay between the cards of a logger that counts as none [s].
 MAX_CARD_DELAY = 1.5e-4
@@ -41,8 +42,12 @@ _LAGS: dict[str, str] = {
 #: The zero of a slider's friction gauge.
 ZERO = "rig.zero_force"
 #: Axis, and the shares of the rated inertia between which it may be: 8 % more leave three floors in pads that yaw.
-YAW_INERTIA, PITCH_INERTIA = "rig.yaw_inertia", "rig.pitch_inertia"
-_INERTIAS: dict[str, tuple[int, tuple[float, float]]] = {YAW_INERTIA: (2, (0.6, 1.7)), PITCH_INERTIA: (1, (0.4, 3.0))}
+YAW_INERTIA, PITCH_INERTIA, ROLL_INERTIA = "rig.yaw_inertia", "rig.pitch_inertia", "rig.roll_inertia"
+_INERTIAS: dict[str, tuple[int, tuple[float, float]]] = {
+    YAW_INERTIA: (2, (0.6, 1.7)),
+    PITCH_INERTIA: (1, (0.4, 3.0)),
+    ROLL_INERTIA: (0, (0.4, 3.0)),
+}
 #: Slip over which a pad's friction reverses without any effect of its own [m]; longer than that it is `presliding`.
 _STICK_LENGTH = (1e-6, 1e-8, 8e-6, 1e-6)
 #: How that is damped [s], and the stick from which a damped one is looked for: one that reverses at once has no slopes.
@@ -157,6 +162,7 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True, length
         units = {"rig.mass": "kg", "rig.centre_height": "m", "rig.buffer_stiffness": "N/m"}
         out += [_around(key, value, *_RIG_SHARES[key], units[key]) for key, value in rated.items()]
         out += [_small(key, specimen) for key in _SMALL]
+        out += [inertia_free(specimen, ROLL_INERTIA)] if rolls(specimen) else []
     elif specimen.free:  # the sliding plane moves against the gauge all the same
         out.append(_small("rig.pitch_slip", specimen))
     if specimen.free:

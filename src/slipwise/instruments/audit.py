@@ -18,8 +18,9 @@ from slipwise.instruments.joint_fit import KNOWN_MASS, RATED_MASS, Case, Fit, st
 from slipwise.instruments.logger_spectrum import estimate_logger
 from slipwise.instruments.repairs import for_balances
 from slipwise.instruments.report import AuditReport, Balance, Finding
+from slipwise.instruments.rounding import coarse
 from slipwise.instruments.rows import noise_of_channels, noise_of_runs, prepare_runs
-from slipwise.instruments.sample_faults import RAILS, SampleFault, coarse, sample_faults
+from slipwise.instruments.sample_faults import RAILS, SampleFault, sample_faults
 from slipwise.instruments.sentences import as_sentence, confusable, how_to_settle, nearest, sentence
 from slipwise.instruments.suspects import Suspect, effect_of
 from slipwise.instruments.zeros import values_of_zero, with_refined_zeros

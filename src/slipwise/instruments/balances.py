@@ -6,6 +6,7 @@ Every relation is a residual that is zero for true channels, linear in a few con
     girder     sum F + m a_x + K x + sum m_i a_i       (y alike; with the storeys of a frame)
     pitch      half_x Q1 - x sum N + (m h) a_x + (K z_b) x + J Q1'',    Q1 = sum N_i x_i / half_x
     roll       half_y Q2 - y sum N + (m h) a_y + (K z_b) y + J Q2'',    Q2 = sum N_i y_i / half_y
+               and of each a share of the other's second derivative where the pads stand unevenly
     warp       what is left of the loads: nothing of three pads, N_A - N_B - N_C + N_D of four; warp_2 ... of more
     along      x - double integral of (a_x - table a_x), both without what is slower than 0.8 Hz      (across alike)
     upright    a_z - table a_z + c1 (sum N)'' + c2 (sum N)', and on curved sliders - (rise of their faces)''
@@ -31,6 +32,7 @@ from slipwise.rig.curved_faces import risen
 from slipwise.rig.frame import frame_moment, frame_push
 from slipwise.rig.load_basis import basis_of, by_warp, end_pairs, warps
 from slipwise.rig.load_modes import LoadModes, load_modes, vertical_acceleration
+from slipwise.rig.rocking import coupled
 from slipwise.signals.ends import in_frequency
 
 Array = NDArray[np.float64]
@@ -156,12 +158,16 @@ def _tilting(axis: str, record: Record, specimen: Specimen) -> Relation:
     terms: dict[str, Term] = {
         f"{name}_inertia": lambda r, s: _twice(mode(r, s), r.dt),
     }
+    if coupled(specimen):  # uneven pads turn pitch into roll
+        terms[f"{name}_coupling"] = lambda r, s: _twice(_modes(r, s).roll if axis == "x" else _modes(r, s).pitch, r.dt)
     if f"girder_a{axis}" in record:
         terms["lever"] = lambda r, s: r[f"girder_a{axis}"]
     if f"slip_{axis}" in record:
         terms[f"buffer_lever_{axis}"] = lambda r, s: r[f"slip_{axis}"]
     loads, storeys = loads_of(specimen), tuple(f"{storey}_a{axis}" for storey in storey_names(specimen))
-    needs = (*loads, *storeys, "girder_ax", "slip_x") if axis == "x" else (*loads, *storeys)
+    # friction across holds a girder that rolls with its pitch
+    across = ("girder_ay",) if axis == "y" and coupled(specimen) else ()
+    needs = (*loads, *storeys, "girder_ax", "slip_x") if axis == "x" else (*loads, *storeys, *across)
     return Relation(name, needs, known, terms)
 
 

@@ -55,7 +55,7 @@ def select_faults(case: Case, begun: Fit | None = None) -> FaultSelection:
     first = here = begun or start(case)
     # before physics is named, what a fault that stands has left is what the next one has to explain
     plain = first
-    candidates: list[Suspect | Alternative] = [*suspects(case.runs[0].record, case.effects)]
+    candidates: list[Suspect | Alternative] = [*suspects(case.runs[0].record, case.specimen, case.effects)]
     blocks: list[Block] = []
     itself: list[Mapping[str, float]] = []
     one_sided: list[bool] = []

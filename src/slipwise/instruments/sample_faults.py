@@ -6,15 +6,17 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import uniform_filter1d
 
 from slipwise.campaign import Campaign, Run
 from slipwise.channels import pads_in
 from slipwise.instruments.lags import in_step_campaign
 from slipwise.instruments.late_cells import late_cells
 from slipwise.instruments.late_motion import late_motion
+from slipwise.instruments.rounding import NEAR, chance_of_equal, coarse
 from slipwise.instruments.signs import wrong_signs
 from slipwise.instruments.zeros import tared_cells, zeros_of
+from slipwise.rig import Specimen
+from slipwise.rig.load_basis import basis_of
 from slipwise.signals.noise import quantum, white_level
 from slipwise.signals.resample import slower_rate
 
@@ -23,6 +25,8 @@ Array = NDArray[np.float64]
 _CELL, _IDLE = re.compile(r"pad_[A-Za-z0-9]+_(?P<kind>N|Fx|Fy)$"), 0.08
 #: Other cells of its kind that must be there to tell whether a cell is idle.
 _LIKE_IT = 2
+#: Other pads that tell how a rigid girder moves.
+_HOLD = 3
 Mask = NDArray[np.bool_]
 #: A rail holds at least this many samples of a campaign, in one place at least that many, this part side by side [1].
 _RAIL, _LONG_RAIL, _BESIDE = 6, 15, 0.5
@@ -36,10 +40,6 @@ _SURE, _REPEATED = 6.0, 0.002
 _MISJUDGED = 1.0
 #: Equal values at the end of a run, and of all runs, where single ones are rare: as many were lost before.
 _TAIL, _TAILS, _RARE = 4, 8, 0.15
-#: Steps are of one size within this; a size that more than this part of all steps have shows coarse rounding [1].
-_LIKE, _COMMON = 0.02, 0.08
-#: Samples over which noise is taken to be the same.
-_NEAR = 51
 #: A step of time longer than this many usual ones has lost samples.
 _GAP = 1.6
 
@@ -80,7 +80,7 @@ def sample_faults(campaign: Campaign) -> list[SampleFault]:
     cut = {run.name: min(_tail(values) for values in run.record.channels.values()) for run in campaign.runs}
     for name in names:
         runs = [run for run in campaign.runs if name in run.record]
-        fault = _dead(name, runs)
+        fault = _dead(name, runs, campaign.specimen)
         if fault is not None:
             found.append(fault)
             continue
@@ -104,28 +104,50 @@ def _shifted(campaign: Campaign) -> list[SampleFault]:
     return [SampleFault("shifted", zero.channels, zero.size, {}, every) for zero in zeros_of(campaign)]
 
 
-def _dead(name: str, runs: Sequence[Run]) -> SampleFault | None:
+def _dead(name: str, runs: Sequence[Run], specimen: Specimen) -> SampleFault | None:
     """A channel that never moves while others do; a constant of campaign.toml does not move in any run.
 
     The cell of a pad may be dead and noisy: it hardly scatters where the other cells of its kind move.
     """
     constant = {run.name for run in runs if np.ptp(run.record[name]) == 0.0}
     still = set() if len(constant) == len(runs) else constant
-    still |= {run.name for run in runs if _idle_beside_its_like(name, run)}
+    still |= {run.name for run in runs if _idle_beside_its_like(name, run, specimen)}
     if not still:
         return None
     bad = {run.name: np.ones(len(run.record), dtype=bool) for run in runs if run.name in still}
     return SampleFault("dead", (name,), -1.0, bad, tuple(bad))
 
 
-def _idle_beside_its_like(name: str, run: Run) -> bool:
+def _idle_beside_its_like(name: str, run: Run, specimen: Specimen) -> bool:
     match = _CELL.match(name)
     pads = pads_in(run.record.channels)
     others = [f"pad_{p}_{match['kind']}" for p in pads if f"pad_{p}_{match['kind']}" != name] if match else []
-    if len(others) < _LIKE_IT or not run.record.has_all(*others):
+    if match is None or len(others) < _LIKE_IT or not run.record.has_all(*others):
         return False
     moved = float(np.median([np.std(run.record[n]) for n in others]))
+    if match["kind"] == "N" and specimen.free and set(pads) == set(specimen.pads):
+        moved = min([moved, *(float(np.std(load)) for load in _expected(name, others, run, specimen))])
     return float(np.std(run.record[name])) < _IDLE * moved
+
+
+def _expected(name: str, others: Sequence[str], run: Run, specimen: Specimen) -> list[Array]:
+    """Give what a pad carries (n,) [N] by the others: pads in the middle of a row do not feel the pitch.
+
+    A rigid girder says so by the place of three others, of which one may be dead itself where there are more; where
+    there are two, its weight and its vertical acceleration do.
+    """
+    if len(others) < _HOLD:
+        if not run.record.has_all("girder_az"):
+            return []
+        held = specimen.carried_mass * (specimen.gravity + run.record["girder_az"])
+        return [held - np.sum([run.record[n] for n in others], axis=0)]
+    rigid = basis_of(specimen).rigid * np.array(specimen.springs)
+    patterns = {f"pad_{pad}_N": rigid[:, i] for i, pad in enumerate(specimen.pads)}
+    found = []
+    for seen in (others, *([n for n in others if n != left] for left in others if len(others) > _HOLD)):
+        loads = np.stack([run.record[n] for n in seen])
+        found.append(patterns[name] @ np.linalg.lstsq(np.stack([patterns[n] for n in seen]), loads, rcond=None)[0])
+    return found
 
 
 def _rails(name: str, runs: Sequence[Run]) -> list[SampleFault]:
@@ -187,47 +209,6 @@ def _held(name: str, runs: Sequence[Run]) -> SampleFault | None:
     return SampleFault("held", (name,), more / float(count), bad, tuple(n for n, b in bad.items() if b.any()))
 
 
-def coarse(values: Array) -> bool:
-    """Tell whether steps between neighbours come in few sizes, so that equal neighbours say nothing."""
-    steps = np.abs(np.diff(values))
-    steps = steps[steps > 0.0]
-    if len(steps) < 0.2 * len(values):
-        return True
-    sizes = np.unique(np.round(np.log(steps) / _LIKE), return_counts=True)[1]
-    return bool(sizes.max() > _COMMON * len(steps))
-
-
-def chance_of_equal(values: Array) -> Array:
-    """Give the probability that each sample equals the one before by rounding alone, (n,).
-
-    Two samples that differ by a slope d and independent noise s fall into the same step q with about
-    q / (2 sqrt(pi) s) exp(-d^2 / (4 s^2)). The step grows with the value where a file keeps a number of digits.
-    """
-    step = _rounding(values)
-    third = np.zeros(len(values))
-    third[2:-1] = np.diff(values, 3) ** 2 / 20.0
-    noise = np.sqrt(np.maximum(uniform_filter1d(third, _NEAR), 0.0))
-    slope = np.zeros(len(values))
-    slope[4:-3] = (values[7:] - values[:-7]) / 7.0
-    noise = np.maximum(noise, step / np.sqrt(12.0))
-    near = np.exp(-np.square(slope / np.maximum(2.0 * noise, 1e-300)))
-    return np.minimum(step / np.maximum(2.0 * np.sqrt(np.pi) * noise, 1e-300) * near, 1.0)
-
-
-def _rounding(values: Array) -> Array:
-    """Give the rounding step at each sample (n,): the smallest difference between values of like size."""
-    size = np.abs(values)
-    place = np.floor(np.log2(np.maximum(size, 1e-6 * max(float(size.max()), 1e-300)))).astype(int)
-    steps = np.zeros(len(values))
-    for number in np.unique(place):
-        here = place == number
-        # with their signs: where a mean was subtracted, steps below zero do not lie opposite to those above
-        apart = np.diff(np.unique(values[here]))
-        apart = apart[apart > 1e-9 * max(float(size[here].max()), 1e-300)]
-        steps[here] = float(apart.min()) if len(apart) else float(size[here].max())
-    return steps
-
-
 def _tail(values: Array) -> int:
     """How many samples before the last one equal it without a break."""
     different = np.flatnonzero(values != values[-1])
@@ -236,7 +217,7 @@ def _tail(values: Array) -> int:
 
 def _lost(name: str, runs: Sequence[Run], cut: Mapping[str, int]) -> SampleFault | None:
     tails = {run.name: _tail(run.record[name]) - cut[run.name] for run in runs}
-    ends = {run.name: chance_of_equal(run.record[name])[-_NEAR - tails[run.name] - cut[run.name] :] for run in runs}
+    ends = {run.name: chance_of_equal(run.record[name])[-NEAR - tails[run.name] - cut[run.name] :] for run in runs}
     shown = [n for n, tail in tails.items() if tail >= _TAIL and float(np.mean(ends[n])) < _RARE]
     if sum(tails[n] for n in shown) < _TAILS or any(coarse(run.record[name]) for run in runs):
         return None

@@ -7,15 +7,19 @@ the `gauge` of the effect that the fault is.
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
+from slipwise.campaign.scales import pad_load_scale
 from slipwise.channels import channel, pads_in, part_of
 from slipwise.effects import Effect, catalogue
 from slipwise.effects._fault import GaugeFault
 from slipwise.effects._gauges import span
 from slipwise.instruments.gauge_groups import places_of
 from slipwise.record import Record
+from slipwise.rig import Specimen
 
 #: The table's vertical motion is tied to the girder only through the pads' springs: its faults must be larger [1].
 _LOOSE = 3.0
+#: Units of sizes that matter the more the less a pad carries.
+_WITH_LOAD = ("N", "kg")
 #: Fewer pads carry no girder: their cells stand in no balance.
 _FEWEST = 3
 
@@ -80,18 +84,20 @@ def effect_of(kind: str) -> Effect:
     return next(e for e in catalogue().values() if e.fault and kind in e.fault.samples)
 
 
-def suspects(record: Record, effects: Iterable[Effect]) -> list[Suspect]:
+def suspects(record: Record, specimen: Specimen, effects: Iterable[Effect]) -> list[Suspect]:
     """Give all suspects for the channels of a record.
 
     Args:
         record: whose channels count.
+        specimen: whose weight says which force or mass matters.
         effects: those that are a fault of a gauge, of some least size and with an inverse, are looked for.
     """
     faults = [e for e in effects if e.fault and e.fault.least and e.hooks.keys() & {"undo", "sharpen"}]
-    return [suspect for effect in faults for suspect in _of_effect(effect, record)]
+    load = pad_load_scale(specimen)
+    return [suspect for effect in faults for suspect in _of_effect(effect, record, load)]
 
 
-def _of_effect(effect: Effect, record: Record) -> Iterator[Suspect]:
+def _of_effect(effect: Effect, record: Record, load: float) -> Iterator[Suspect]:
     pads = pads_in(record.channels)
     for place, channels in places_of(effect, record).items():
         if "*" in place and len(channels) < max(len(pads), _FEWEST):
@@ -102,30 +108,32 @@ def _of_effect(effect: Effect, record: Record) -> Iterator[Suspect]:
                 every = tuple(
                     n for n in record.channels if part_of(n)[0] == "pad" and n.rpartition("_")[2] in ("N", "Fx", "Fy")
                 )
-                yield from _forms(effect, "all", "", every)
+                yield from _forms(effect, "all", "", every, load)
         elif not effect.gauges.reads:
-            yield from _forms(effect, place, place, channels)
+            yield from _forms(effect, place, place, channels, load)
         for ending, other in effect.gauges.reads.items():
             # with a cell less no balance says whose reading it is
             cells = [f"pad_{pad}{kind}" for pad in pads for kind in (ending, other)]
             if place.endswith(ending) and len(pads) >= _FEWEST and record.has_all(*cells):
-                yield from _forms(effect, place, f"{place} from {other[1:]}", channels)
+                yield from _forms(effect, place, f"{place} from {other[1:]}", channels, load)
 
 
-def _forms(effect: Effect, target: str, words: str, channels: tuple[str, ...]) -> Iterator[Suspect]:
-    """Give a fault in each of its forms on one place."""
+def _forms(effect: Effect, target: str, words: str, channels: tuple[str, ...], load: float) -> Iterator[Suspect]:
+    """Give a fault in each of its forms on one place; `load` is that of a pad over the reference rig's [1]."""
     fault = declared(effect)
     own = fault.unit.startswith("channel")
     per = span(channels[0]) if own else 1.0
-    least = fault.least_on(channels[0])
+    unit = fault.unit.replace("channel", channel(channels[0]).unit) if own else fault.unit
+    factor = load if unit.split("/")[0] in _WITH_LOAD else 1.0
+    least = factor * fault.least_on(channels[0])
     for form, shape in fault.forms.items():
         yield Suspect(
             effect,
             words + form,
             target,
             channels,
-            fault.unit.replace("channel", channel(channels[0]).unit) if own else fault.unit,
-            least if fault.step is None else fault.step,
+            unit,
+            least if fault.step is None else factor * fault.step,
             least * (_LOOSE if channels == ("table_az",) and not own else 1.0),
             _values(effect.parameters[0].name, per, shape),
         )

@@ -44,7 +44,8 @@ class Sources:
             UnknownNameError: no such effect.
             InputError: no such file, or Python cannot import it.
         """
-        return scaled(find_effect(name), scales_of(self.campaign).of)
+        scales = scales_of(self.campaign)
+        return scaled(find_effect(name), scales.of, scales.room)
 
     def kept_effect(self, name: str) -> Effect:
         """Give an effect that the last session names.

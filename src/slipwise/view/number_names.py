@@ -11,6 +11,7 @@ CALLED: dict[str, tuple[str, str]] = {
     "rig.pitch_damping": ("its damping", "1"),
     "rig.yaw_inertia": ("inertia of the girder about the vertical", "t*m^2"),
     "rig.pitch_inertia": ("inertia of the girder in pitch", "t*m^2"),
+    "rig.roll_inertia": ("inertia of the girder in roll", "t*m^2"),
     "rig.pitch_slip": ("slip at the gauge for pitch load", "mm/kN"),
     "rig.stick_length": ("slip over which stick turns round", "um"),
     "rig.stick_damping": ("time by which its damper leads", "ms"),
