@@ -119,8 +119,8 @@ def test_what_is_not_named_is_not_drawn_as_added():
     unknown = replace(_found("slide_tilt"), verdict=Verdict("unknown", (), (), 0.8, "unknown", 0.4, None, (), ()))
     assert unknown.search.best.names == ("slide_tilt",) and unknown.added == ()
     with styled():
-        (axes,) = balances_figure(unknown).axes
-    assert [t.get_text() for t in axes.get_legend().get_texts()] == ["base model"]
+        (legend,) = balances_figure(unknown).legends
+    assert [t.get_text() for t in legend.get_texts()] == ["base model", "noise floor"]
 
 
 def test_where_nothing_is_added_one_loop_is_drawn_and_long_names_are_counted():
