@@ -89,8 +89,9 @@ def _inside(final: BaseFit) -> BaseFit:
     """Give a fit of the numbers inside their bounds, bounds away: what a strength is at most would take a profile."""
     solution = final.solution
     kept = [j for j, f in enumerate(solution.free) if f.key not in solution.at_bounds]
+    slopes = solution.jacobian if len(kept) == len(solution.free) else solution.jacobian[:, kept]
     free = tuple(replace(solution.free[j], low=-np.inf, high=np.inf) for j in kept)
-    return replace(final, solution=replace(solution, free=free, jacobian=solution.jacobian[:, kept]))
+    return replace(final, solution=replace(solution, free=free, jacobian=slopes))
 
 
 def how_identified(fit: BaseFit) -> dict[str, Identified]:
@@ -98,7 +99,7 @@ def how_identified(fit: BaseFit) -> dict[str, Identified]:
     found = intervals(fit)
     scale = {f.key: f.scale for f in fit.solution.free}
     inside = [j for j, f in enumerate(fit.solution.free) if f.key in found.keys]
-    own, tie = alone(fit.solution.jacobian[:, inside])
+    own, tie = alone(fit.solution.normal[np.ix_(inside, inside)])
     np.fill_diagonal(tie, 0.0)
     errors = np.sqrt(np.maximum(np.diag(found.covariance), 0.0))
     out = {}
@@ -110,11 +111,14 @@ def how_identified(fit: BaseFit) -> dict[str, Identified]:
     return out
 
 
-def alone(slopes: Array) -> tuple[Array, Array]:
-    """Give the length (k,) of what no other column of slopes (m, k) could do of each, and the correlations (k, k)."""
-    length = np.linalg.norm(slopes, axis=0)
-    unit = slopes / length
-    size, turn = np.linalg.eigh(unit.T @ unit)
+def alone(normal: Array) -> tuple[Array, Array]:
+    """Give the length (k,) of what no other slope could do of each, and the correlations (k, k).
+
+    Args:
+        normal: (k, k) product of the slopes with themselves.
+    """
+    length = np.sqrt(np.diag(normal))
+    size, turn = np.linalg.eigh(normal / np.outer(length, length))
     inverse = (turn / np.maximum(size, _ROUNDING**2)) @ turn.T
     more = np.sqrt(np.diag(inverse))
     return length / more, inverse / np.outer(more, more)

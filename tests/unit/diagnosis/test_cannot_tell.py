@@ -126,7 +126,7 @@ def test_a_column_that_others_can_make_is_not_identified_however_long_it_is() ->
     rng = np.random.default_rng(2)
     slopes = rng.normal(size=(400, 3))
     slopes[:, 2] = 5.0 * slopes[:, 0]
-    own, tie = alone(slopes)
+    own, tie = alone(slopes.T @ slopes)
     assert own[0] < 1e-4 and own[2] < 1e-3 and own[1] == pytest.approx(20.0, rel=0.1)
     assert tie[0, 2] == pytest.approx(-1.0) and abs(tie[0, 1]) < 0.5
 
