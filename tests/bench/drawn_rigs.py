@@ -12,7 +12,7 @@ from bench.gauges import Logger
 from bench.hidden import PHYSICS
 from bench.parts import Buffer, Pad, pad_table
 from bench.rig_ode import rest_loads
-from bench.settings import GRAVITY, Settings, rated
+from bench.settings import GRAVITY, Settings, drawn_law, rated
 
 Array = NDArray[np.float64]
 #: What a campaign of such a rig says of its rig.
@@ -141,12 +141,7 @@ def as_built(rig: Settings, rng: np.random.Generator) -> Settings:
         pad_stiffness=spring * rig.pad_stiffness,
         buffers=buffers,
         buffer_stiffness=buffer * rig.buffer_stiffness,
-        s1=rig.s1 * (1.0 + rng.normal(0.0, 0.04)),
-        n=rig.n * (1.0 + rng.normal(0.0, 0.06)),
-        k=rig.k * (1.0 + rng.normal(0.0, 0.05)),
-        alpha=rig.alpha * (1.0 + rng.normal(0.0, 0.05)),
-        stick_length=rng.uniform(2.0e-6, 1.0e-5),
-        stick_damping=rng.uniform(0.4, 1.0),
+        **drawn_law(rig, rng),
     )
 
 

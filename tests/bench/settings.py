@@ -188,6 +188,18 @@ def rated(rig: str) -> Settings:
     return Settings().changed(height=height, buffer_stiffness=stiffness)
 
 
+def drawn_law(base: Settings, rng: np.random.Generator) -> dict[str, float]:
+    """Draw a pad's law near that of a rig, and the stick over which it turns round, as settings."""
+    return {
+        "s1": base.s1 * (1.0 + rng.normal(0.0, 0.04)),
+        "n": base.n * (1.0 + rng.normal(0.0, 0.06)),
+        "k": base.k * (1.0 + rng.normal(0.0, 0.05)),
+        "alpha": base.alpha * (1.0 + rng.normal(0.0, 0.05)),
+        "stick_length": rng.uniform(2.0e-6, 1.0e-5),
+        "stick_damping": rng.uniform(0.4, 1.0),
+    }
+
+
 def random_rig(rig: str, rng: np.random.Generator) -> Settings:
     """Give a specimen whose base parameters are several percent off the rated ones.
 
@@ -206,11 +218,6 @@ def random_rig(rig: str, rng: np.random.Generator) -> Settings:
         inertia_yaw=base.inertia_yaw * rng.uniform(0.9, 1.1),
         pad_stiffness=stiffness,
         pad_damping=2.0 * rng.uniform(0.02, 0.06) * np.sqrt(stiffness * 0.25 * mass),
-        s1=base.s1 * (1.0 + rng.normal(0.0, 0.04)),
-        n=base.n * (1.0 + rng.normal(0.0, 0.06)),
-        k=base.k * (1.0 + rng.normal(0.0, 0.05)),
-        alpha=base.alpha * (1.0 + rng.normal(0.0, 0.05)),
-        stick_length=rng.uniform(2.0e-6, 1.0e-5),
-        stick_damping=rng.uniform(0.4, 1.0),
+        **drawn_law(base, rng),
         buffer_stiffness=base.buffer_stiffness * (1.0 + rng.normal(0.0, 0.04)),
     )

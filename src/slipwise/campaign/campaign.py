@@ -56,8 +56,9 @@ class Logger:
 
     def unseen(self, channel: str) -> float:
         """Give the time within which a channel may have jumped at any instant before it was thinned out [s], or 0."""
-        jumped = self.known and self.thinning is not None and self._of(channel) is None
-        return self.thinning.step if jumped and self.thinning is not None else 0.0
+        if not self.known or self.thinning is None or self._of(channel) is not None:
+            return 0.0
+        return self.thinning.step
 
     def _of(self, channel: str) -> LowPass | None:
         if channel in self.own:

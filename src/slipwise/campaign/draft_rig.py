@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from slipwise.campaign.draft_roles import rig_of
+from slipwise.campaign.zero_state import GRAVITY
 from slipwise.channels import PADS
 from slipwise.record import Record
 from slipwise.rig import RIGS, load_specimen
@@ -15,8 +16,8 @@ from slipwise.rig.files import SPECIMEN_FILE
 _SAME_WEIGHT = 0.05
 #: Pads that a draft has a rig for.
 MOST_DRAFTED = 12
-#: Standard gravity [m/s^2], and a mass where no load tells one [kg].
-_GRAVITY, _SOME_MASS = 9.80665, 10e3
+#: A mass where no load tells one [kg].
+_SOME_MASS = 10e3
 
 
 def rig_for(records: Sequence[Record], pads: tuple[str, ...], folder: Path) -> tuple[str, str, str]:
@@ -41,7 +42,7 @@ def rig_for(records: Sequence[Record], pads: tuple[str, ...], folder: Path) -> t
         if name and abs(sum(loads) / weights[name] - 1.0) < _SAME_WEIGHT:
             return name, f"its pads {', '.join(pads)} carry {sum(loads) / 1e3:.3g} kN here", ""
     if len(pads) > MOST_DRAFTED:
-        return "specimen.toml", f"{len(pads)} pads: `slipwise rigs --new NAME` writes a file to begin with", ""
+        return SPECIMEN_FILE, f"{len(pads)} pads: `slipwise rigs --new NAME` writes a file to begin with", ""
     why = f"no rig of the package has {len(pads)} pads so loaded: it was drafted beside this file, fill it in"
     return SPECIMEN_FILE, why, specimen_draft(pads, loads)
 
@@ -62,7 +63,7 @@ def specimen_draft(pads: Sequence[str], loads: Sequence[float] | None) -> str:
         pads: their names.
         loads: of each at rest [N]; None where they are not known.
     """
-    mass = _SOME_MASS if loads is None else sum(loads) / _GRAVITY
+    mass = _SOME_MASS if loads is None else sum(loads) / GRAVITY
     told = "no load tells it" if loads is None else f"the pads carry {sum(loads) / 1e3:.4g} kN together"
     lines = [
         "# Drafted: a rig that no file describes. Lines with `decide` are placeholders that need your eyes.",

@@ -12,13 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.campaign import Campaign
+from slipwise.campaign.zero_state import GRAVITY
 from slipwise.rig import Specimen
 from slipwise.units import powers_of
 
 #: Of the reference rig: stroke from end to end [m], mean speed [m/s], load of a pad [N], and its pressure [Pa].
 _STROKE, _SPEED, _LOAD, _PRESSURE = 0.1, 0.1, 24.5e3, 12.5e6
 #: What a pad of the reference rig carries at rest: a quarter of 10 t [N].
-_REST_LOAD = 2.5e3 * 9.80665
+_REST_LOAD = 2.5e3 * GRAVITY
 #: Scales that a record shows are an order of magnitude: bounds are this much wider on both sides [1].
 _ROOM = 10.0
 #: Parts of a record whose means give its path, of so many samples at least: slip gauges are noisy [1].

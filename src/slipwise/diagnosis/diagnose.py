@@ -90,7 +90,8 @@ def diagnose(
         except InputError as error:
             cannot.append(f"system level: {error}")
     relations = {r: (error_of(before.summary, r), error_of(shown.summary, r)) for r in before.summary.fitted}
-    whole = errors_on_all_samples(*selected.uncut, base.campaign, (before, shown))
+    judged = (before,) if shown is before else (before, shown)
+    whole = errors_on_all_samples(*selected.uncut, base.campaign, judged)
     recorded = selected.uncorrected or before.summary
     tell("done", 1.0)
     return Diagnosis(
@@ -100,7 +101,7 @@ def diagnose(
         base_error=max(error_of(recorded, r) for r in recorded.fitted),
         final_error=max(b for _, b in relations.values()),
         relations=relations,
-        all_samples={relation: (errors[0], errors[1]) for relation, errors in whole.items()},
+        all_samples={relation: (errors[0], errors[-1]) for relation, errors in whole.items()},
         system=replayed,
         candidates=_listed(selected, before.summary, decided, verdict, sizes),
         confirmed=confirmed(state) if decided.effects else None,

@@ -88,10 +88,9 @@ def unidentified(final: BaseFit, base: BaseFit) -> list[tuple[str, str]]:
 def _inside(final: BaseFit) -> BaseFit:
     """Give a fit of the numbers inside their bounds, bounds away: what a strength is at most would take a profile."""
     solution = final.solution
-    kept = [j for j, f in enumerate(solution.free) if f.key not in solution.at_bounds]
-    slopes = solution.jacobian if len(kept) == len(solution.free) else solution.jacobian[:, kept]
-    free = tuple(replace(solution.free[j], low=-np.inf, high=np.inf) for j in kept)
-    return replace(final, solution=replace(solution, free=free, jacobian=slopes))
+    kept = [f for f in solution.free if f.key not in solution.at_bounds]
+    free = tuple(replace(f, low=-np.inf, high=np.inf) for f in kept)
+    return replace(final, solution=replace(solution, free=free, jacobian=solution.inside))
 
 
 def how_identified(fit: BaseFit) -> dict[str, Identified]:

@@ -81,11 +81,11 @@ def decide_verdict(state: Search, found: Sequence[Finding], limits: Materiality)
     of_effects = {f.name: evidence_of(f) for f in found}
     decided = decide(of_effects, rest, limits.channel, calibration())
     kind = decided.kind
-    unsure = set(of_effects) - set(decided.minor)
-    bare = evidence_of_rest(origin, origin, None)
-    if kind == "complete" and unsure and remains(bare, limits.channel):
-        # what takes it away is not believed, so it is still there: a model that leaves it is not complete
-        kind, rest = "unknown", bare
+    if kind == "complete" and set(of_effects) - set(decided.minor):
+        bare = evidence_of_rest(origin, origin, None)
+        if remains(bare, limits.channel):
+            # what takes it away is not believed, so it is still there: a model that leaves it is not complete
+            kind, rest = "unknown", bare
     verdict = Verdict(
         kind,
         decided.named,

@@ -86,8 +86,8 @@ class Solution:
     @property
     def inside(self) -> Array:
         """Columns of the Jacobian of the numbers that ended inside their bounds: the others make up for nothing."""
-        ends = set(self.at_bounds)
-        return self.jacobian[:, [f.key not in ends for f in self.free]]
+        ends = set(self.at_bounds)  # without any, no copy: slopes of a long campaign are large
+        return self.jacobian[:, [f.key not in ends for f in self.free]] if ends else self.jacobian
 
 
 @dataclass(frozen=True)

@@ -85,12 +85,11 @@ def linear_fit(problem: Problem, solution: Solution) -> LinearFit:
     """Give a solution as a linear fit."""
     residual = solution.residuals.stacked(problem.fitted, problem.relations)
     ends = set(solution.at_bounds)
-    kept = [j for j, f in enumerate(solution.free) if f.key not in ends]
-    slopes = solution.jacobian if len(kept) == len(solution.free) else solution.jacobian[:, kept]
-    free = [solution.free[j] for j in kept]
+    free = [f for f in solution.free if f.key not in ends]
     room = [((f.low - solution.values[f.key]) / f.scale, (f.high - solution.values[f.key]) / f.scale) for f in free]
     low, high = np.array(room).reshape(-1, 2).T
-    return LinearFit(residual, slopes, np.maximum(low, -_REACH), np.minimum(high, _REACH), len(solution.free))
+    low, high = np.maximum(low, -_REACH), np.minimum(high, _REACH)
+    return LinearFit(residual, solution.inside, low, high, len(solution.free))
 
 
 def left_out(problem: Problem, fit: LinearFit) -> Array:
