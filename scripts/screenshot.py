@@ -17,12 +17,16 @@ import socket
 import subprocess
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 from matplotlib.image import imread
 
-from slipwise.view.style import PAD_COLOURS, rgb
+from rerun.chunk import RrdReader
+
+from slipwise.channels import pads_in
+from slipwise.view.style import pad_colour, rgb
 
 VIEWER = [
     sys.executable,
@@ -65,7 +69,7 @@ def main() -> int:
     if not given.out.is_file():
         print(f"the viewer made no picture; it said:\n{said[-2000:]}")
         return 1
-    fault = what_is_wrong(imread(given.out))
+    fault = what_is_wrong(imread(given.out), pads_of(given.recording))
     print(f"{given.out}: {fault or 'a true picture'}")
     return 1 if fault else 0
 
@@ -111,17 +115,26 @@ def picture_at(recording: Path, out: Path, seconds: float) -> str:
     return last
 
 
-def what_is_wrong(picture: np.ndarray) -> str:
+def pads_of(recording: Path) -> list[str]:
+    """Give the names of the pads whose channels a recording shows."""
+    reader = RrdReader(recording)
+    entities = {chunk.entity_path for store in reader.recordings() for chunk in reader.stream(store=store)}
+    return pads_in(entity.rpartition("/")[2] for entity in sorted(entities))
+
+
+def what_is_wrong(picture: np.ndarray, pads: Sequence[str]) -> str:
     """Say why a picture cannot be one of a recording; nothing if all is well.
 
     Args:
         picture: (height, width, 3 or 4), 0 to 1.
+        pads: names of the pads that it has to show.
     """
     pixels = np.rint(255.0 * picture[..., :3]).astype(np.int32)
     colours = len(np.unique(pixels @ np.array([65536, 256, 1])))
     if colours < 200:
         return f"it is blank: {colours} colours"
-    for pad, colour in PAD_COLOURS.items():
+    for pad in pads:
+        colour = pad_colour(pad)
         found = int(np.sum(np.all(np.abs(pixels - np.array(rgb(colour))) <= 12, axis=-1)))
         if found < PIXELS:
             return f"pad {pad} is not on it: {found} pixels of its colour {colour}"

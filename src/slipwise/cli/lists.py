@@ -45,7 +45,7 @@ def rigs(
         rows.append(
             {
                 "rig": specimen.name,
-                "mass [t]": specimen.mass / 1e3,
+                "mass [t]": specimen.carried_mass / 1e3,
                 "pads": len(specimen.pads),
                 "pressure [MPa]": round(specimen.rated_pressure / 1e6, 2),
                 "buffers [kN/mm]": round(sum(specimen.buffer_stiffness) / 1e6, 3),

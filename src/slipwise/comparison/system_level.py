@@ -145,7 +145,7 @@ def pad_springs(base: BaseFit, model: Model) -> tuple[float, float] | None:
     values = base.solution.values
     # pitch and heave ring on the same springs: c/k is known from the pitch, which rings freely after each reversal
     ratio = 2.0 * values["rig.pitch_damping"] / (2.0 * np.pi * values["rig.pitch_frequency"])
-    pads, mass = len(model.specimen.pads), model.specimen.mass
+    pads, mass = len(model.specimen.pads), model.specimen.carried_mass
 
     def left(scaled: Array) -> Array:
         stiffness = scaled[0] * rated

@@ -85,7 +85,7 @@ def _beyond_what_was_fitted(base: BaseFit) -> Iterator[tuple[str, str]]:
 
 def _storeys_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
     """Name the accelerations without which nobody knows what the storeys push."""
-    needed = storey_channels(base.campaign.specimen)
+    needed = storey_channels(base.campaign.specimen.storeys)
     if absent := [n for n in needed if not all(n in run.record for run in base.campaign.runs)]:
         reason = f"{', '.join(absent)} not measured: the storeys push the girder unknown, so these are left out"
         yield "girder and pitch balance", reason

@@ -43,7 +43,7 @@ FIRST_LAWS: dict[str, FirstLaw] = {
             ),
             _hook(
                 "balance", "states strength", "Give what the nearer pads carry more (n,) [N], for fits",
-                "weight = states.specimen.mass * (states.specimen.gravity + states.girder_acceleration[:, 2])",
+                "weight = states.specimen.carried_mass * (states.specimen.gravity + states.girder_acceleration[:, 2])",
                 'return {"pitch": weight * strength / states.specimen.half_spacing[0]}',
             ),
         ),

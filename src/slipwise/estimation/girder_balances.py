@@ -52,7 +52,7 @@ def available(run: FitRun, specimen: Specimen) -> tuple[str, ...]:
     out = []
     if not specimen.free or run.pads != specimen.pads or not np.isfinite(run.load).all():
         return ()
-    framed = run.record.has_all(*storey_channels(specimen))
+    framed = run.record.has_all(*storey_channels(specimen.storeys))
     if "girder_ax" in run.record and framed:
         out.append("girder")
     if np.isfinite(run.states.girder_acceleration[:, 2]).all():
@@ -149,7 +149,7 @@ def predicted_balances(
     higher = risen(run.states.slip, specimen) if specimen.pads_on == "table" else 0.0
     moment = (height + higher) * total + buffers @ (height - np.array(specimen.buffer_heights))
     upward = np.nan_to_num(run.states.girder_acceleration[:, 2])
-    moment += frame_moment(run.record, specimen, upward, about=height)
+    moment += frame_moment(run.record, specimen.storeys, specimen.gravity + upward, about=height)
     heave = run.load.sum(axis=1)
     # what effects add to the rated place of the centre of gravity and to the seating is theirs to say
     off_x, off_y = (c - m for c, m in zip((rated.centre_x, rated.centre_y), specimen.middle, strict=True))

@@ -130,7 +130,7 @@ def _girder(axis: str, specimen: Specimen) -> Relation:
         f"girder_{axis}",
         (
             *(f"pad_{pad}_F{axis}" for pad in specimen.pads),
-            *(f"{storey}_a{axis}" for storey in storey_names(specimen)),
+            *(f"{storey}_a{axis}" for storey in storey_names(specimen.storeys)),
             *(f"girder_a{axis}", f"slip_{axis}"),
         ),
         lambda r, s: _sum(r, s, f"F{axis}") - frame_push(r, s, axis),
@@ -153,7 +153,7 @@ def _tilting(axis: str, record: Record, specimen: Specimen) -> Relation:
             moment = moment - off * _sum(r, s, "N")
         if s.pads_on == "table" and f"slip_{axis}" in r:
             moment = moment - r[f"slip_{axis}"] * _sum(r, s, "N")
-        return moment - frame_moment(r, s, _upward(r), axis)
+        return moment - frame_moment(r, s.storeys, s.gravity + _upward(r), axis)
 
     terms: dict[str, Term] = {
         f"{name}_inertia": lambda r, s: _twice(mode(r, s), r.dt),
@@ -164,7 +164,7 @@ def _tilting(axis: str, record: Record, specimen: Specimen) -> Relation:
         terms["lever"] = lambda r, s: r[f"girder_a{axis}"]
     if f"slip_{axis}" in record:
         terms[f"buffer_lever_{axis}"] = lambda r, s: r[f"slip_{axis}"]
-    loads, storeys = loads_of(specimen), tuple(f"{storey}_a{axis}" for storey in storey_names(specimen))
+    loads, storeys = loads_of(specimen), tuple(f"{storey}_a{axis}" for storey in storey_names(specimen.storeys))
     # friction across holds a girder that rolls with its pitch
     across = ("girder_ay",) if axis == "y" and coupled(specimen) else ()
     needs = (*loads, *storeys, "girder_ax", "slip_x") if axis == "x" else (*loads, *storeys, *across)

@@ -34,7 +34,7 @@ def late_cells(campaign: Campaign) -> LateChannels | None:
 def _lag(run: Run, specimen: Specimen) -> float | None:
     """Give by how much the friction of a run comes late [s]; None where it says nothing."""
     record, dt = run.record, run.record.dt
-    names, floors = [f"pad_{p}_Fx" for p in specimen.pads], storey_channels(specimen)
+    names, floors = [f"pad_{p}_Fx" for p in specimen.pads], storey_channels(specimen.storeys)
     if not record.has_all(*names, *floors, "slip_x", "girder_ax"):
         return None
     slip = record["slip_x"]

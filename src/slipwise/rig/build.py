@@ -219,7 +219,7 @@ def _add_sensors(spec: mujoco.MjSpec, specimen: Specimen) -> None:
     sites = ["girder_centre"] + (["girder_edge_1", "girder_edge_2"] if specimen.free else [])
     for site in sites:
         spec.add_sensor(name=site, type=kinds.mjSENS_FRAMELINACC, objtype=body.mjOBJ_SITE, objname=site)
-    for storey in storey_names(specimen):
+    for storey in storey_names(specimen.storeys):
         site = {"objtype": body.mjOBJ_SITE, "objname": storey}
         spec.add_sensor(name=storey, type=kinds.mjSENS_FRAMELINACC, **site)
     if specimen.free:

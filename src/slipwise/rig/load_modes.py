@@ -8,7 +8,9 @@ from numpy.typing import NDArray
 
 from slipwise.errors import InputError
 from slipwise.record import Record
+from slipwise.rig.frame import frame_moment, storey_channels
 from slipwise.rig.load_basis import LoadBasis
+from slipwise.rig.storeys import Storey
 
 Array = NDArray[np.float64]
 #: The table is taken to rest while it accelerates less than this [m/s^2].
@@ -120,7 +122,7 @@ def load_factors(
 
     Args:
         record: with the load of every pad and the girder's vertical acceleration.
-        mass: of the girder [kg].
+        mass: of all that the pads carry [kg].
         gravity: [m/s^2].
         basis: of the pads.
         shares: (p,) of the weight on each pad; as the record shows at rest when not given.
@@ -146,11 +148,13 @@ def rigid_modes(
     centre_height: float,
     half_spacing: tuple[float, float],
     pads_on: str = "table",
+    storeys: Sequence[Storey] = (),
 ) -> LoadModes:
     """Give the modes that equilibrium of a rigid girder asks for, from accelerations and slip alone.
 
     heave = m (g + a_z); pitch = (-m a_x h + x heave) / half_x; roll likewise; warp = 0. The term x heave (P-delta) is
     the weight that moves over pads which stand on the table. Buffers push at the sliding plane and turning is slow.
+    Storeys add their mass to heave and their moment to pitch and roll.
 
     Args:
         record: with girder_ax and the girder's vertical acceleration; girder_ay, slip_x, slip_y count as 0 if absent.
@@ -159,6 +163,7 @@ def rigid_modes(
         centre_height: of the centre of gravity above the sliding plane [m].
         half_spacing: half the distance of the pads along x and y [m].
         pads_on: the side that carries the pads, "table" or "girder".
+        storeys: of a frame that stands on the girder; along y they count as still where they were not measured.
 
     Raises:
         InputError: the record lacks a channel.
@@ -166,12 +171,16 @@ def rigid_modes(
     Source: docs/theory.md, sections 1.2 and 1.4, with z_b = 0.
     """
     nothing = np.zeros(len(record))
-    heave = mass * (gravity + vertical_acceleration(record))
+    felt = gravity + vertical_acceleration(record)
+    heave = (mass + sum(storey.mass for storey in storeys)) * felt
+    if storeys:
+        record.stacked("{}", storey_channels(storeys))  # raises where one was not measured
     sides = []
     for axis, half, acceleration in (
         ("x", half_spacing[0], record["girder_ax"]),
         ("y", half_spacing[1], record["girder_ay"] if "girder_ay" in record else nothing),
     ):
         slip = record[f"slip_{axis}"] if f"slip_{axis}" in record and pads_on == "table" else nothing
-        sides.append((slip * heave - mass * acceleration * centre_height) / half)
+        framed = frame_moment(record, storeys, felt, axis)
+        sides.append((slip * heave - mass * acceleration * centre_height + framed) / half)
     return LoadModes(heave, sides[0], sides[1], np.zeros((len(record), 0)))

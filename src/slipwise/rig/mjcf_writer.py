@@ -155,9 +155,9 @@ def _upright(name: str, at: np.ndarray, half: np.ndarray, foot: float, head: flo
     return [f'<geom name="{name}" type="box" size="{size}" pos="{middle}" material="steel" class="visual"/>']
 
 
-def storey_names(specimen: Specimen) -> tuple[str, ...]:
+def storey_names(storeys: Sequence[Storey]) -> tuple[str, ...]:
     """Give what the storeys are called, in the MJCF and in channels, from below: "storey_1" ..."""
-    return tuple(f"storey_{number}" for number in range(1, len(specimen.storeys) + 1))
+    return tuple(f"storey_{number}" for number in range(1, len(storeys) + 1))
 
 
 def _frame(specimen: Specimen, storeys: Sequence[Storey], number: int, below: float, foot: float) -> list[str]:

@@ -99,7 +99,7 @@ class EnergyBook:
         """Book what moves the floors and what their columns take; gives their kinetic energy at both ends (2,) [J]."""
         specimen, kinetic = self.rig.specimen, np.zeros(2)
         place, speed = at[:, :3].copy(), rate[:, :3].copy()
-        for name, storey in zip(storey_names(specimen), specimen.storeys, strict=True):
+        for name, storey in zip(storey_names(specimen.storeys), specimen.storeys, strict=True):
             arm, moved = storey.z - specimen.centre_height, []
             for axis, (stiffness, damping) in enumerate(
                 ((storey.stiffness_x, storey.damping_x), (storey.stiffness_y, storey.damping_y))

@@ -48,7 +48,7 @@ def to_channels(rig: Rig, sensordata: Array, control: Array, dt: float, pitching
     for edge in ("1", "2"):
         if has_sensor(rig, f"girder_edge_{edge}"):
             out[f"girder_az_{edge}"] = sensor(rig, f"girder_edge_{edge}", sensordata)[:, 2] - specimen.gravity
-    for storey in storey_names(specimen):
+    for storey in storey_names(specimen.storeys):
         for i, axis in enumerate("xy"):
             out[f"{storey}_a{axis}"] = sensor(rig, storey, sensordata)[:, i]
     half_step = 0.5 * dt

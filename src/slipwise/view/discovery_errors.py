@@ -10,6 +10,7 @@ from slipwise.discovery.law import Discovery
 from slipwise.discovery.levels import level
 from slipwise.discovery.splines import knots_of
 from slipwise.discovery.states import State
+from slipwise.rig.frame import frame_push
 from slipwise.view.canvas import new_figure
 from slipwise.view.compare_figures import widest_loop
 from slipwise.view.diagnosis_figures import under_axis
@@ -181,7 +182,7 @@ def _predicted(found: Discovery, place: int, with_laws: bool) -> Array:
 
 def _beside_pads(found: Discovery, place: int, acceleration: Array) -> Array:
     """Give what holds the girder back beside its pads (n,) [N]."""
-    pads = found.base.problem.runs[place].force
-    mass = found.base.solution.values.get("rig.mass", found.base.problem.specimen.mass)
-    every = len(found.base.problem.specimen.pads) / pads.shape[1]
-    return -mass * acceleration - every * pads.sum(axis=1)
+    run, specimen = found.base.problem.runs[place], found.base.problem.specimen
+    mass = found.base.solution.values.get("rig.mass", specimen.mass)
+    every = len(specimen.pads) / run.force.shape[1]
+    return frame_push(run.record, specimen) - mass * acceleration - every * run.force.sum(axis=1)

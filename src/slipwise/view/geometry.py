@@ -8,6 +8,7 @@ import numpy as np
 from slipwise.errors import SettingError
 from slipwise.rig import Specimen
 from slipwise.rig.load_basis import LoadBasis, load_basis
+from slipwise.rig.storeys import Storey
 
 Place = tuple[float, float]
 
@@ -30,7 +31,8 @@ class RigGeometry:
         buffer_names: of the buffers; 1, 2 ... when not given.
         pad_springs: vertical stiffness of each pad; the same when not given [N/m].
         centre: of gravity from the middle of the table, along x and y [m].
-        storeys: heights of the floors of a frame above the sliding plane, from below [m].
+        storeys: of a frame that stands on the girder, from below.
+        pad_curvatures: 1/R of the plate of each pad, above zero for a bowl; flat when not given [1/m].
     """
 
     girder_size: tuple[float, float, float]
@@ -46,7 +48,8 @@ class RigGeometry:
     buffer_names: tuple[str, ...] = ()
     pad_springs: tuple[float, ...] = ()
     centre: Place = (0.0, 0.0)
-    storeys: tuple[float, ...] = ()
+    storeys: tuple[Storey, ...] = ()
+    pad_curvatures: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse shapes that cannot be drawn."""
@@ -57,9 +60,14 @@ class RigGeometry:
             raise SettingError("a rig is drawn with one pad or more; it has none")
 
     @property
+    def carried_mass(self) -> float:
+        """Mass of all that the pads carry [kg]: the girder and its storeys."""
+        return self.mass + sum(storey.mass for storey in self.storeys)
+
+    @property
     def pad_load(self) -> float:
         """Load on one pad at rest if all carry the same [N]."""
-        return self.mass * self.gravity / len(self.pad_places)
+        return self.carried_mass * self.gravity / len(self.pad_places)
 
     @property
     def pads(self) -> tuple[str, ...]:
@@ -100,5 +108,6 @@ def geometry_of(specimen: Specimen) -> RigGeometry:
         buffer_names=tuple(buffer.name for buffer in specimen.buffers),
         pad_springs=specimen.springs,
         centre=(specimen.centre_x, specimen.centre_y),
-        storeys=tuple(storey.z for storey in specimen.storeys),
+        storeys=specimen.storeys,
+        pad_curvatures=tuple(place.curvature for place in specimen.places),
     )

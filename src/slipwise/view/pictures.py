@@ -81,7 +81,7 @@ def loads_figure(record: Record, geometry: RigGeometry) -> Figure:
         panels = stacked_panels(figure, count, 2, sharex=True, sharey="col")
         try:
             shares = rest_shares(whole, layout.pads)
-            factors = load_factors(record, geometry.mass, geometry.gravity, geometry.basis, shares, layout.pads)
+            factors = load_factors(record, geometry.carried_mass, geometry.gravity, geometry.basis, shares, layout.pads)
         except InputError as error:
             factors = None
             note(panels[0][1], str(error))
@@ -125,10 +125,11 @@ def modes_figure(record: Record, geometry: RigGeometry) -> Figure:
             12.0, 0.6 + 1.9 * (4 - len(zero)), f"Pad loads as heave, pitch, roll and warp{left_out}{part}"
         )
         panels = [row[0] for row in stacked_panels(figure, 4 - len(zero), sharex=True)]
+        framed = " + M_{storeys}" if geometry.storeys else ""
         try:
             rigid: LoadModes | None = rigid_modes(
                 record, geometry.mass, geometry.gravity, geometry.girder_centre_height, geometry.half_spacing,
-                geometry.pads_on,
+                geometry.pads_on, geometry.storeys,
             )  # fmt: skip
         except InputError as error:
             rigid = None
@@ -138,7 +139,7 @@ def modes_figure(record: Record, geometry: RigGeometry) -> Figure:
             (
                 "pitch",
                 "Pitch  " + ("(A + C) − (B + D)" if corners else "the loads times their places along x"),
-                "rigid: $(x\\,\\Sigma N - m a_x h)$ / half spacing",
+                "rigid: $(x\\,\\Sigma N - m a_x h" + framed + ")$ / half spacing",
                 PAD_COLOURS["A"],
             ),
             (

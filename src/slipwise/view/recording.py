@@ -23,7 +23,7 @@ from slipwise.view.timeline import TIMELINE
 from slipwise.whole_file import atomic
 
 #: Raise it when a recording shows the same record differently.
-_LAYOUT = 2
+_LAYOUT = 3
 _IDS = uuid.UUID("5b1e2f52-6c39-4d0c-9b7e-51a9e5d0c0de")
 
 
@@ -117,7 +117,8 @@ def rig_view(
     root: str, name: str, geometry: RigGeometry, seen_from: tuple[float, float, float] = (0.95, -0.85, 0.55)
 ) -> rrb.View:
     """Show rigs from a place given in lengths of the girder from the middle."""
-    top = max(geometry.storeys, default=0.0)  # a frame is looked at from farther away, and at half its height
+    # a frame is looked at from farther away, and at half its height
+    top = max((storey.z for storey in geometry.storeys), default=0.0)
     reach = max(*geometry.girder_size[:2], 1.3 * top)
     return rrb.Spatial3DView(
         origin=root,

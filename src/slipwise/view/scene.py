@@ -8,15 +8,19 @@ from numpy.typing import NDArray
 
 from slipwise.record import Record
 from slipwise.view.arrows import log_forces
+from slipwise.view.curved_plates import log_curved_plates
 from slipwise.view.geometry import RigGeometry
+from slipwise.view.storeys import log_storeys
 from slipwise.view.style import NIGHT_INK, UPLIFT, packed, pad_colour, rgb
 from slipwise.view.timeline import frames, time_column
 
 Array = NDArray[np.float64]
 _STEEL, _POST, _DECK = (150, 160, 172), (112, 122, 134), (150, 166, 186)
 _TOP, _RUBBER = (92, 104, 118), (22, 22, 26)
-#: Thickness of a floor and of its columns [m].
-_FLOOR = 0.08
+#: The deck's lower face above the sliding plane [m].
+_UNDER_DECK = 0.02
+#: Pads are drawn this many times wider than they are [1].
+_WIDER = 5.0
 _NICE = (1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 30.0, 50.0, 100.0, 200.0)
 
 
@@ -76,7 +80,9 @@ def log_rig(
     _log_motion(
         stream, girder, record, shown, ("slip_x", "slip_y", "heave"), ("roll", "pitch", "yaw"), scene.zoom, (0, 0, 0)
     )
-    carrier = table if geometry.pads_on == "table" else girder
+    log_storeys(stream, f"{girder}/storeys", record, geometry, _UNDER_DECK + _deck(geometry), scene.zoom)
+    carrier, other = (table, girder) if geometry.pads_on == "table" else (girder, table)
+    log_curved_plates(stream, f"{other}/plates", geometry, _WIDER * geometry.pad_radius, scene.zoom)
     _log_pads(stream, carrier, record, shown, geometry, pad_colours)
     log_forces(stream, table, carrier, record, geometry)
 
@@ -108,19 +114,19 @@ def _log_girder(stream: rr.RecordingStream, path: str, geometry: RigGeometry, la
     """Draw a deck above the pads and a weight on a post, its middle at the centre of gravity."""
     long, wide, high = geometry.girder_size
     centre = geometry.girder_centre_height
-    deck = min(0.12, 0.25 * high)
+    deck = _deck(geometry)
     stream.log(
         f"{path}/deck",
         rr.Boxes3D(
             sizes=[[long, wide, deck]],
-            centers=[[0, 0, 0.02 + 0.5 * deck]],
+            centers=[[0, 0, _UNDER_DECK + 0.5 * deck]],
             colors=[_DECK],
             radii=0.012,
             fill_mode=rr.components.FillMode.TransparentFillMajorWireframe,
         ),
         static=True,
     )
-    foot = 0.02 + deck
+    foot = _UNDER_DECK + deck
     weight = min(0.45 * high, 2.0 * max(centre - foot, 0.05))
     under = max(centre - 0.5 * weight - foot, 0.0)
     stream.log(
@@ -144,7 +150,6 @@ def _log_girder(stream: rr.RecordingStream, path: str, geometry: RigGeometry, la
         ),
         static=True,
     )
-    _log_storeys(stream, f"{path}/storeys", geometry, foot)
     places = np.array(geometry.buffer_places).reshape(-1, 2)
     if len(places):
         stream.log(
@@ -158,21 +163,9 @@ def _log_girder(stream: rr.RecordingStream, path: str, geometry: RigGeometry, la
         )  # fmt: skip
 
 
-def _log_storeys(stream: rr.RecordingStream, path: str, geometry: RigGeometry, foot: float) -> None:
-    """Draw the floors of a frame on their columns, above a height [m]; how they sway is in the series of channels."""
-    long, wide = 0.8 * geometry.girder_size[0], 0.8 * geometry.girder_size[1]
-    sizes, centres = [], []
-    for floor in geometry.storeys:
-        sizes.append([long, wide, _FLOOR])
-        centres.append([*geometry.centre, floor])
-        high = max(floor - 0.5 * _FLOOR - foot, 0.0)
-        for x in (0.5 * (long - _FLOOR), -0.5 * (long - _FLOOR)):
-            for y in (0.5 * (wide - _FLOOR), -0.5 * (wide - _FLOOR)):
-                sizes.append([_FLOOR, _FLOOR, high])
-                centres.append([geometry.centre[0] + x, geometry.centre[1] + y, foot + 0.5 * high])
-        foot = floor + 0.5 * _FLOOR
-    if sizes:
-        stream.log(path, rr.Boxes3D(sizes=sizes, centers=centres, colors=[_POST], fill_mode="solid"), static=True)
+def _deck(geometry: RigGeometry) -> float:
+    """Give the thickness of the deck [m]."""
+    return min(0.12, 0.25 * geometry.girder_size[2])
 
 
 def _log_motion(
@@ -211,7 +204,7 @@ def _log_pads(
     geometry: RigGeometry,
     colours: NDArray[np.uint32] | None,
 ) -> None:
-    """Draw pads five times wider than they are, coloured by what they do."""
+    """Draw pads wider than they are, coloured by what they do."""
     pads = geometry.pads
     height = -0.075 if geometry.pads_on == "table" else 0.0
     centres = np.column_stack([np.array(geometry.pad_places), np.full(len(pads), height)])
@@ -220,7 +213,7 @@ def _log_pads(
     stream.log(
         path,
         rr.Cylinders3D.from_fields(
-            lengths=[length] * len(pads), radii=[5.0 * geometry.pad_radius] * len(pads), centers=centres,
+            lengths=[length] * len(pads), radii=[_WIDER * geometry.pad_radius] * len(pads), centers=centres,
             fill_mode="solid", labels=list(pads), show_labels=False,
         ),
         static=True,

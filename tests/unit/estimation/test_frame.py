@@ -6,13 +6,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from slipwise.campaign import load_campaign
+from slipwise.campaign import Campaign, Logger, Run, load_campaign
+from slipwise.comparison.system_level import pad_springs
+from slipwise.errors import InputError
+from slipwise.estimation.base_fit import fit_base
 from slipwise.estimation.problem import Problem
 from slipwise.estimation.run_data import fit_runs
 from slipwise.instruments.balances import relations
 from slipwise.record import Record, write_record
 from slipwise.rig import load_specimen
-from slipwise.rig.frame import frame_moment, frame_push
+from slipwise.rig.frame import floor_sway, frame_moment, frame_push
+from slipwise.rig.load_basis import basis_of
+from slipwise.rig.load_modes import load_modes, rigid_modes
 from slipwise.simulation.replay import replay
 
 
@@ -32,12 +37,57 @@ def test_their_moment_and_the_weight_that_moves_load_the_pads(record: Record) ->
     """Slower than the base pitches on its pads, the loads balance all moments about the sliding plane."""
     building = load_specimen("building")
     loads = record.stacked("pad_{}_N", building.pads)
-    moment = frame_moment(record, building, record["girder_az"]) + record["slip_x"] * loads.sum(axis=1)
+    moment = frame_moment(record, building.storeys, building.gravity + record["girder_az"])
+    moment += record["slip_x"] * loads.sum(axis=1)
     moment -= building.mass * building.centre_height * record["girder_ax"]
     pitch = loads @ np.array(building.pad_places)[:, 0]
     slow = np.ones(25) / 25.0
     smooth = [np.convolve(values, slow, mode="valid") for values in (pitch, moment)]
     assert np.std(smooth[0] - smooth[1]) < 0.02 * np.std(smooth[0])
+
+
+def test_what_a_rigid_base_asks_of_the_pads_holds_its_storeys(record: Record) -> None:
+    """Heave to the numbers' last digits, pitch but for what the base itself turns."""
+    building = load_specimen("building")
+    measured = load_modes(record.stacked("pad_{}_N", building.pads), basis_of(building))
+    rigid = rigid_modes(
+        record, building.mass, building.gravity, building.centre_height, building.half_spacing, building.pads_on,
+        building.storeys,
+    )  # fmt: skip
+    assert rigid.heave == pytest.approx(measured.heave, rel=2e-3)
+    assert np.std(rigid.pitch - measured.pitch) < 0.05 * np.std(measured.pitch)
+    without = Record(record.time, {n: v for n, v in record.channels.items() if n != "storey_2_ax"})
+    with pytest.raises(InputError, match="storey_2_ax"):
+        rigid_modes(without, 6e3, 9.81, 0.5, (1.0, 1.0), storeys=building.storeys)
+
+
+def test_floors_stand_as_far_beside_the_base_as_in_the_replay(record: Record) -> None:
+    """Their drift is their acceleration against the base, integrated: seen at the frame's own 2.7 and 7 Hz."""
+    building = load_specimen("building")
+    top = floor_sway(record, building.storeys)[1]
+    rate = 1.0 / record.dt
+    against = record["storey_2_ax"] - record["girder_ax"]
+    frequency = np.fft.rfftfreq(len(top), record.dt)
+    seen = (frequency > 1.5) & (frequency < min(15.0, 0.5 * rate))
+    omega = 2.0 * np.pi * np.where(seen, frequency, 1.0)
+    integrated = np.fft.irfft(np.where(seen, -np.fft.rfft(against) / omega**2, 0.0), len(top))
+    band = np.fft.irfft(np.where(seen, np.fft.rfft(top), 0.0), len(top))
+    assert np.std(band - integrated) < 0.15 * np.std(band)
+
+
+def test_the_pads_springs_are_found_under_storeys_too(record: Record) -> None:
+    """Storeys ride up and down with the base: their mass is on the pads' springs."""
+    rng = np.random.default_rng(3)
+    kept = {
+        n: v for n, v in record.channels.items() if n.startswith(("table_a", "girder_a", "storey_", "pad_", "slip"))
+    }
+    noisy = {n: v + 0.005 * np.std(v) * rng.standard_normal(len(v)) for n, v in kept.items() if not n.endswith("_P")}
+    specimen = load_specimen("building")
+    run = Run("q", "fit", Record(record.time, noisy), 0.0, None, "q", "q")
+    campaign = Campaign("b", "building", specimen, Logger(None, known=True), (run,), Path())
+    base = fit_base(campaign)
+    found = pad_springs(base, base.model)
+    assert found is not None and found[0] == pytest.approx(specimen.pad_stiffness, rel=0.03)
 
 
 @pytest.mark.parametrize("lost", ["", "storey_2_ax"])

@@ -6,6 +6,7 @@ from rerun.chunk import RrdReader
 
 from slipwise.errors import InputError, SettingError
 from slipwise.record import Record
+from slipwise.rig.storeys import Storey
 from slipwise.view.geometry import RigGeometry
 from slipwise.view.recording import write_recording
 from slipwise.view.scene import nice_zoom
@@ -150,6 +151,40 @@ def test_a_rig_of_one_pad_is_drawn(record, geometry, tmp_path):
     one = RigGeometry(**{**vars(geometry), "pad_places": ((0.0, 0.0),), "buffer_places": ()})
     content = Content(write_recording(record, one, tmp_path / "p.rrd", "t"))
     assert np.array(content.column("/laboratory/table/load", "Arrows3D:vectors")).shape[1] == 1
+
+
+def test_floors_sway_as_far_as_their_columns_give_way_and_stand_still_where_nothing_was_measured(
+    record, geometry, tmp_path
+):
+    storeys = (Storey(3e3, 1.5, 2e6, 1e6, 0.0, 0.0), Storey(2e3, 2.7, 1e6, 1e6, 0.0, 0.0))
+    framed = RigGeometry(**{**vars(geometry), "storeys": storeys})
+    still = Content(write_recording(record, framed, tmp_path / "still.rrd", "t"))
+    place = np.array(still.column("/on_the_table/table/girder/storeys/floors", "Boxes3D:centers"))
+    assert np.ptp(place, axis=0).max() == 0.0 and place[0, :, 2].tolist() == pytest.approx([1.5, 2.7])
+    moved = record.replaced(storey_1_ax=record["girder_ax"], storey_2_ax=2.0 * record["girder_ax"])
+    content = Content(write_recording(moved, framed, tmp_path / "moved.rrd", "t"))
+    zoom = nice_zoom(np.abs(record["slip_x"]).max(), 0.5)
+    top = np.array(content.column("/on_the_table/table/girder/storeys/floors", "Boxes3D:centers"))[:, 1, 0]
+    sway = -((3e3 + 4e3) / 2e6 + 4e3 / 1e6) * record["girder_ax"]
+    shown = np.interp(content.times("/on_the_table/table/girder/storeys/floors"), record.time, zoom * sway)
+    assert top == pytest.approx(shown, abs=1e-5)
+    columns = np.array(content.column("/on_the_table/table/girder/storeys/columns", "LineStrips3D:strips"))
+    assert columns.shape[1:] == (8, 2, 3)
+
+
+@pytest.mark.parametrize("pads_on", ["table", "girder"])
+def test_a_slider_stays_on_its_curved_plate_as_drawn(record, geometry, tmp_path, pads_on):
+    curved = RigGeometry(**{**vars(geometry), "pads_on": pads_on, "pad_curvatures": (0.0, 0.5, 0.5, 0.5)})
+    content = Content(write_recording(record, curved, tmp_path / "c.rrd", "t"))
+    zoom = nice_zoom(np.abs(record["slip_x"]).max(), 0.5)
+    path = "/on_the_table/table/girder/plates" if pads_on == "table" else "/on_the_table/table/plates"
+    points = np.array(content.column(path, "Mesh3D:vertex_positions")[0])
+    assert len(points) % 3 == 0
+    from_b = points[: len(points) // 3] - [*geometry.pad_places[1], 0.0]
+    away = np.hypot(from_b[:, 0], from_b[:, 1])
+    rise = zoom * 0.5 * 0.5 * (away / zoom) ** 2
+    assert from_b[:, 2] == pytest.approx(-rise if pads_on == "table" else rise, abs=1e-6)
+    assert away.max() > zoom * np.abs(record["slip_x"]).max()
 
 
 def test_a_shape_that_cannot_be_drawn_is_refused(geometry):
