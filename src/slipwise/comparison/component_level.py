@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.estimation.base_fit import BaseFit
+from slipwise.rig.frame import frame_push
 from slipwise.rig.load_basis import WARPS, basis_of
 
 Array = NDArray[np.float64]
@@ -18,6 +19,7 @@ NAMES: Mapping[str, tuple[str, str]] = {
     "pitch": ("pitch of the loads", "N"),
     "roll": ("roll of the loads", "N"),
     **{name: (f"{name.replace('_', ' ')} of the loads", "N") for name in WARPS},
+    "storeys": ("push of the storeys", "N"),
     "motion": ("slip against accelerometers", "1"),
     "across": ("pad friction across", "N"),
 }
@@ -84,6 +86,8 @@ def _measured(relation: str, run, judged: NDArray[np.bool_]) -> Array | None:
         return run.channel("girder_ax")[judged]
     if relation == "heave":
         return run.load.sum(axis=1)[judged]
+    if relation == "storeys":
+        return frame_push(run.record, run.states.specimen)[judged]
     if relation == "pitch":
         return (run.load @ basis_of(run.states.specimen).rigid[1])[judged]
     return None

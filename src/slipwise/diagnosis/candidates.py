@@ -105,6 +105,7 @@ HAS: dict[str, Callable[[Problem], bool]] = {
     "heave": lambda problem: "heave" in problem.relations,
     "across": lambda problem: "across" in problem.relations,
     "prescribed slip": lambda problem: not problem.specimen.free,
+    "storeys": lambda problem: "storeys" in problem.relations,
     "several pads": lambda problem: len(problem.runs[0].pads) > 1,
     "both directions": lambda problem: not _one_way(problem),
     "changing load": _load_varies,

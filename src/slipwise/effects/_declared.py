@@ -11,6 +11,7 @@ NEEDS: dict[str, str] = {
     "heave": "needs girder_az and the loads of four pads",
     "across": "needs motion across, and friction of the pads along y",
     "prescribed slip": "the girder slides freely: no machine stands between gauge and contact",
+    "storeys": "needs a specimen with storeys, the accelerations of all of them, and the balances of its base",
     "several pads": "one slider only",
     "both directions": "the slider moves one way only, so what is even in velocity is one with friction",
     "changing load": "the load never changes, so this is one with an offset, an asymmetry or the base law",

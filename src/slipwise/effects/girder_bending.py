@@ -23,12 +23,12 @@ from numpy.typing import NDArray
 
 from slipwise.effects._disturbances import Number, swing_of
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._oscillator import oscillator
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
 from slipwise.record import Record
 from slipwise.rig import Specimen
 from slipwise.signals.ends import in_frequency
+from slipwise.signals.oscillator import oscillator
 
 Array = NDArray[np.float64]
 #: Swing of the middle of a simple beam for a unit of its first mode [1], and how far ends are carried on [s].

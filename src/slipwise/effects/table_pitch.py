@@ -20,10 +20,10 @@ from numpy.typing import NDArray
 
 from slipwise.effects._disturbances import Number, channel, recorded
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._oscillator import oscillator
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
 from slipwise.record import Record
+from slipwise.signals.oscillator import oscillator
 
 Array = NDArray[np.float64]
 

@@ -6,9 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import fftconvolve
 
-from slipwise.estimation.between_samples import jump_noise_in_pitch
+from slipwise.estimation.between_samples import jump_noise_in_pitch, jump_noise_in_push
 from slipwise.estimation.girder_balances import buffers_along, effects_in, heave_rate, through_pitch
 from slipwise.estimation.run_data import FitRun
+from slipwise.estimation.storey_balance import noise_in_push
 from slipwise.model import Model
 from slipwise.rig import Specimen
 from slipwise.rig.frame import frame_noise
@@ -31,6 +32,7 @@ def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
         **{name: np.sqrt(np.sum((row * loads) ** 2)) for name, row in rows.items()},  # and see `whitened`
         "girder": np.hypot(run.noise.get("girder_ax", 0.0), np.hypot(beside, pushed / specimen.mass)),
         "heave": np.hypot(total, specimen.carried_mass * run.noise.get("girder_az", 0.0)),
+        "storeys": pushed,  # and see `noise_in_push`
         "motion": 1.0,
     }
     return {name: max(float(level), 1e-12) for name, level in levels.items()}
@@ -78,6 +80,8 @@ def weighed_balances(
         if run.filtered is None and "rig.logger" not in values:
             pitch = (values["rig.pitch_frequency"], values["rig.pitch_damping"])
             more["pitch"] = np.hypot(more.get("pitch", 0.0), jump_noise_in_pitch(model.specimen, run, *pitch))
+            if model.specimen.storeys:
+                more["storeys"] = jump_noise_in_push(model.specimen, run)
         for name, level in levels.items():
             out.setdefault(name, []).append(np.hypot(level, more[name]) if name in more else level)
     return out
@@ -227,6 +231,8 @@ def noise_of_fault_correction(specimen: Specimen, reversal: Array, changed: Arra
 def ringing_noise(model: Model, runs: Sequence[FitRun], values: Mapping[str, float]) -> dict[str, list[Array]]:
     """Give what rings with gauges' noise in pitch and heave: relation -> per run spectrum (m,) [N^2]."""
     ringing = {"pitch": [force_noise_in_pitch(r, model.specimen, values) for r in runs]}
+    if model.specimen.storeys:
+        ringing["storeys"] = [noise_in_push(r, model.specimen) for r in runs]
     if model.with_hook("balance"):
         ringing["heave"] = [bent_noise_in_heave(model, r) for r in runs]
     return ringing

@@ -17,6 +17,7 @@ from scipy.signal import fftconvolve
 from slipwise.estimation.girder_balances import through_pitch
 from slipwise.estimation.run_data import FitRun
 from slipwise.rig import Specimen
+from slipwise.rig.storeys import frame_modes
 from slipwise.signals.sampled_jumps import squared_jumps
 
 Array = NDArray[np.float64]
@@ -40,6 +41,25 @@ def jump_noise_in_pitch(specimen: Specimen, run: FitRun, frequency: float, dampi
     lever = specimen.centre_height / specimen.half_spacing[0]
     missed = missed_instant(run.dt, frequency, damping)
     return lever * np.sqrt(np.maximum(fftconvolve(squared, missed, mode="same"), 0.0))
+
+
+def jump_noise_in_push(specimen: Specimen, run: FitRun) -> Array:
+    """Give the error of the predicted push for want of the instants at which friction jumped (n,) [N].
+
+    The girder's acceleration jumps with the pads' forces.
+
+    Args:
+        specimen: with the storeys.
+        run: whose pads' forces were sampled without a filter.
+    """
+    noise = float(np.linalg.norm(run.gauge_noise[0]))
+    squared = np.append(squared_jumps(run.force.sum(axis=1), noise), 0.0) / specimen.mass**2
+    masses = np.array([storey.mass for storey in specimen.storeys])
+    out = np.zeros(len(squared))
+    for mode in frame_modes(specimen.storeys):
+        missed = missed_instant(run.dt, mode.frequency, mode.damping)
+        out += float(masses @ mode.shape) ** 4 * np.maximum(fftconvolve(squared, missed, mode="same"), 0.0)
+    return np.sqrt(out)
 
 
 def missed_instant(dt: float, frequency: float, damping: float) -> Array:

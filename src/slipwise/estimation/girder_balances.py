@@ -4,6 +4,7 @@
     heave   sum N = (m + sum m_i) (g + a_z) - lift
     pitch   Q_pitch = P(s) [h sum F + (h - z_b) F_buffers] / half_x + (x + x_c) sum N / half_x + ...
     roll    Q_roll = R(s) y_c sum N / half_y,    warp, warp_2 ... = what the rated seating makes of them
+    storeys sum m_i a_i = what the frame makes of a_x and of the girder's pitch (`storey_balance.py`)
     motion  a_x - a_x,table = d2(slip)/dt2
 
 P(s) = (2 z w s + w^2) / (s^2 + 2 z w s + w^2) is the girder's pitch on its pads: taken as quasi-static, the balance
@@ -24,6 +25,7 @@ from slipwise.effects import BalanceStates
 from slipwise.estimation.inverse_filter import Spectrum
 from slipwise.estimation.pad_forces import as_logged
 from slipwise.estimation.run_data import FitRun, refined
+from slipwise.estimation.storey_balance import predicted_push
 from slipwise.model import Model
 from slipwise.rig import Specimen
 from slipwise.rig.curved_faces import rise_rate, risen
@@ -36,7 +38,7 @@ from slipwise.signals.shift import shift
 from slipwise.simulation.predict import Predictor
 
 Array = NDArray[np.float64]
-BALANCES: tuple[str, ...] = ("girder", "heave", "pitch", "roll", *WARPS, "motion")
+BALANCES: tuple[str, ...] = ("girder", "heave", "pitch", "roll", *WARPS, "storeys", "motion")
 #: Where a gauge of friction is invalid, the girder's accelerometer takes its place if the two differ by more than this
 #: many times the accelerometer's noise [1].
 _SIGNIFICANT = 4.0
@@ -44,7 +46,8 @@ _SIGNIFICANT = 4.0
 
 def balances_of(specimen: Specimen) -> tuple[str, ...]:
     """Give the balances that a girder on these pads has, whatever was recorded."""
-    return tuple(name for name in BALANCES if name not in WARPS or name in warps(specimen))
+    left_out = {*WARPS, *(() if specimen.storeys else ("storeys",))} - {*warps(specimen)}
+    return tuple(name for name in BALANCES if name not in left_out)
 
 
 def available(run: FitRun, specimen: Specimen) -> tuple[str, ...]:
@@ -60,6 +63,8 @@ def available(run: FitRun, specimen: Specimen) -> tuple[str, ...]:
     # friction across, which a girder that rolls with its pitch calls up, is in no channel
     out += (["pitch"] if framed else []) + ([] if run.states.has_y or coupled(specimen) else ["roll"])
     out += warps(specimen)
+    if specimen.storeys and "girder" in out:
+        out.append("storeys")
     if run.record.has_all("girder_ax", "table_ax"):
         out.append("motion")
     return tuple(out)
@@ -171,6 +176,8 @@ def predicted_balances(
     }
     measured = {"girder": run.channel("girder_ax"), "heave": heave, "pitch": modes.pitch, "roll": modes.roll}
     measured |= by_warp(specimen, run.load)
+    if "storeys" in available(run, rated):
+        predicted["storeys"], measured["storeys"] = predicted_push(run, specimen), frame
     added = effects_in(model, run, specimen, force, buffers)
     rocking = [added.pop(name, None) for name in ("roll", "pitch")]
     if any(one is not None for one in rocking):

@@ -20,6 +20,7 @@ _USES: dict[str, tuple[str, ...]] = {
     "pitch": ("pad_*_N", "pad_*_Fx", *VELOCITY_CHANNELS),
     "roll": ("pad_*_N",),
     "warp": ("pad_*_N",),
+    "storeys": ("storey_*_ax", "girder_ax", "pad_*_N"),
     "motion": VELOCITY_CHANNELS,
 }
 #: Relations that ring on with what was before.
@@ -72,6 +73,22 @@ def ringing_after_uplift(lifted: Mask, dt: float, specimen: Specimen) -> Mask:
     turn, lag = 2.0 * np.pi * pad_frequencies(specimen)["pitch"], specimen.pad_damping / specimen.pad_stiffness
     decay = 2.0 / (lag * turn**2) if lag else np.inf  # time in which pitch falls to 1/e
     return spread(lifted, 0, int(min(_DECAYS * decay, _LONGEST) / dt))
+
+
+def without_uplift(
+    kept: Mapping[str, Mask], ringing: Mask, lifted: Mask, dt: float
+) -> dict[str, Mask]:  # fmt: skip
+    """Give the samples by which each relation is judged, less those that a pad's lifting spoils.
+
+    Args:
+        kept: relation -> samples.
+        ringing: (n,) of `ringing_after_uplift`.
+        lifted: (n,) a pad lifts: its load no longer says how the girder pitches.
+        dt: sampling step [s].
+    """
+    # a frame sways on with what came before
+    spoilt = {"pitch": ringing, "motion": before_uplift(lifted, dt), "storeys": np.logical_or.accumulate(lifted)}
+    return {name: mask & ~spoilt[name] if name in spoilt else mask for name, mask in kept.items()}
 
 
 def before_uplift(lifted: Mask, dt: float) -> Mask:

@@ -12,7 +12,7 @@ from slipwise.campaign import Campaign, Run
 from slipwise.campaign.scales import Scales
 from slipwise.campaign.states import States, measured_states
 from slipwise.errors import InputError
-from slipwise.estimation.judged_samples import away_from_cuts, before_uplift, ringing_after_uplift, sample_masks
+from slipwise.estimation.judged_samples import away_from_cuts, ringing_after_uplift, sample_masks, without_uplift
 from slipwise.instruments.repairs import InvalidSamples
 from slipwise.record import Record
 from slipwise.signals.ends import in_frequency
@@ -240,8 +240,7 @@ def _fit_run(run: Run, campaign: Campaign, invalid: Mapping[str, Mask]) -> FitRu
     bad = {c: np.interp(states.time, run.record.time, m.astype(float)) > 0.0 for c, m in invalid.items()}
     kept = sample_masks(grounded, sliding, fast, away_from_cuts(states.at_rest, states.dt), pads, bad)
     ringing = ringing_after_uplift(states.uplift, states.dt, states.specimen)
-    kept["pitch"] &= ~ringing
-    kept["motion"] &= ~before_uplift(states.uplift, states.dt)
+    kept = without_uplift(kept, ringing, states.uplift, states.dt)
     unseen = campaign.logger.unseen(f"pad_{pads[0]}_Fx")
     more = {"unseen": unseen, "ringing": ringing}
     return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, across, sliding, kept, bad, **more)

@@ -62,10 +62,48 @@ def check_storeys(rig: str, storeys: Sequence[Storey], base: float) -> None:
         below = storey.z
 
 
+@dataclass(frozen=True)
+class FrameMode:
+    """One natural mode of a frame on a base that does not move.
+
+    Attributes:
+        frequency: [Hz].
+        damping: its share of critical [1].
+        shape: (n_storeys,) displacement of the floors for a modal mass of one [kg^-1/2].
+    """
+
+    frequency: float
+    damping: float
+    shape: Array
+
+
+def frame_modes(storeys: Sequence[Storey], axis: str = "x") -> list[FrameMode]:
+    """Give the modes of a frame on a base that does not move, lowest first; what dampers couple is left out.
+
+    Source: Chopra, Dynamics of Structures, chapters 10 and 11.
+    """
+    masses = np.array([storey.mass for storey in storeys])
+    scale = 1.0 / np.sqrt(masses)
+    stiffness, damping = (
+        _chained([getattr(storey, f"{of}_{axis}") for storey in storeys]) * scale[:, None] * scale
+        for of in ("stiffness", "damping")
+    )
+    squared, shapes = np.linalg.eigh(stiffness)
+    turn = np.sqrt(np.maximum(squared, 0.0))
+    ratios = np.sum(shapes * (damping @ shapes), axis=0) / (2.0 * turn)
+    return [
+        FrameMode(float(w / (2.0 * np.pi)), float(z), scale * shape)
+        for w, z, shape in zip(turn, ratios, shapes.T, strict=True)
+    ]
+
+
 def fixed_base_frequencies(storeys: Sequence[Storey], axis: str = "x") -> Array:
     """Give the natural frequencies of the frame on a base that does not move (n,) [Hz], lowest first."""
-    stiffness = np.array([getattr(storey, f"stiffness_{axis}") for storey in storeys])
-    above = np.append(stiffness[1:], 0.0)
-    matrix = np.diag(stiffness + above) - np.diag(stiffness[1:], 1) - np.diag(stiffness[1:], -1)
-    scale = 1.0 / np.sqrt([storey.mass for storey in storeys])
-    return np.sqrt(np.maximum(np.linalg.eigvalsh(matrix * scale[:, None] * scale), 0.0)) / (2.0 * np.pi)
+    return np.array([mode.frequency for mode in frame_modes(storeys, axis)])
+
+
+def _chained(links: Sequence[float]) -> Array:
+    """Give the matrix of floors each linked to the one below, the lowest to the base."""
+    below = np.array(links)
+    above = np.append(below[1:], 0.0)
+    return np.diag(below + above) - np.diag(below[1:], 1) - np.diag(below[1:], -1)

@@ -16,7 +16,7 @@ from slipwise.simulation.predict import predictor
 
 Array = NDArray[np.float64]
 #: Balances whose two sides are channels; of the others only the residual has a meaning, in floors.
-_TWO_SIDED = ("girder", "heave", "pitch", "roll", *WARPS)
+_TWO_SIDED = ("girder", "heave", "pitch", "roll", *WARPS, "storeys")
 
 
 @dataclass(frozen=True)

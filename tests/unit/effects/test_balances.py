@@ -8,12 +8,12 @@ from scipy.integrate import solve_ivp
 
 from shaking import coulomb, shaken
 from slipwise.effects import BalanceStates
-from slipwise.effects._oscillator import oscillator
 from slipwise.model import Model, base_model, use
 from slipwise.record import Record
 from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import load_modes
 from slipwise.signals.ends import in_frequency
+from slipwise.signals.oscillator import oscillator
 
 DT = 5e-4
 G = 9.80665

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from slipwise.effects._oscillator import oscillator
+from slipwise.signals.oscillator import oscillator
 
 
 @pytest.mark.parametrize("derivative", [0, 1, 2])
