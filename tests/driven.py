@@ -1,5 +1,6 @@
 """States that drive laws without a simulation, and everything that a model answers to them."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -7,6 +8,7 @@ import numpy as np
 from slipwise.effects import BalanceStates, Effect
 from slipwise.model import EffectUse, Model, base_model
 from slipwise.record import Record
+from slipwise.rig import load_specimen
 from slipwise.simulation.predict import predictor
 
 #: A channel on which an instrument effect can be tried; those of load cells need a cell.
@@ -18,9 +20,21 @@ def bridge() -> Model:
     return base_model("bridge1")
 
 
+@cache
+def framed() -> Model:
+    """Bridge 1 under a frame of two storeys."""
+    specimen = replace(bridge().specimen, storeys=load_specimen("building").storeys)
+    return replace(bridge(), specimen=specimen)
+
+
+def base_of(effect: Effect) -> Model:
+    """Bridge 1, with a frame on it where the effect is one of frames."""
+    return framed() if "storeys" in effect.needs else bridge()
+
+
 def with_effect(effect: Effect, values: dict[str, float] | None = None) -> Model:
-    """Bridge 1 with one effect, at typical values unless told otherwise."""
-    base = bridge().without(effect.name) if effect.name in bridge() else bridge()
+    """The base model with one effect, at typical values unless told otherwise."""
+    base = base_of(effect).without(effect.name) if effect.name in bridge() else base_of(effect)
     return base.adding(EffectUse(effect, values or effect.typical(), TARGET if effect.target else ""))
 
 

@@ -7,7 +7,7 @@ from statistics import median
 import numpy as np
 import pytest
 
-from driven import TARGET, answers, arrays, bridge, motion, record, with_effect
+from driven import TARGET, answers, arrays, base_of, bridge, motion, record, with_effect
 from slipwise.effects import COMPONENTS, PORTS, Effect, catalogue, moved_channels
 from slipwise.model import EffectUse
 from slipwise.simulation.kernel import kernel, places
@@ -38,7 +38,7 @@ key_friction
 girder_bending guide_drag table_pitch table_cross_axis table_gain
 channel_delay channel_gain channel_sign channel_offset channel_drift channel_filter channel_clipping dropped_samples
 clock_skew load_crosstalk cell_inertia
-machine_compliance backlash restrainer
+machine_compliance backlash restrainer superstructure
 """.split()
 
 
@@ -174,7 +174,7 @@ def test_one_instant_after_another_answers_as_the_whole_record(effect: Effect, e
 
 @every_optional_effect
 def test_at_its_neutral_value_an_effect_changes_no_bit(effect: Effect) -> None:
-    base, neutral = answers(bridge()), answers(with_effect(effect, effect.neutral()))
+    base, neutral = answers(base_of(effect)), answers(with_effect(effect, effect.neutral()))
     assert neutral["specimen"] == base["specimen"]
     ours = arrays(neutral)
     for name, array in arrays(base).items():
@@ -184,7 +184,7 @@ def test_at_its_neutral_value_an_effect_changes_no_bit(effect: Effect) -> None:
 @every_optional_effect
 def test_shape_constants_alone_switch_nothing_on(effect: Effect) -> None:
     values = effect.neutral() | {p.name: p.high for p in effect.parameters if p.neutral is None}
-    base, ours = arrays(answers(bridge())), arrays(answers(with_effect(effect, values)))
+    base, ours = arrays(answers(base_of(effect))), arrays(answers(with_effect(effect, values)))
     for name, array in base.items():
         assert np.array_equal(array, ours[name]), name
 
@@ -195,7 +195,7 @@ def test_an_effect_changes_what_it_should_and_nothing_else(effect: Effect) -> No
         values = {p.name: 1.1 * p.typical for p in effect.parameters}
         base = answers(with_effect(effect))
     else:
-        values, base = effect.typical(), answers(bridge())
+        values, base = effect.typical(), answers(base_of(effect))
     ours = answers(with_effect(effect, values))
     changed = {n for n, a in arrays(base).items() if not np.array_equal(a, arrays(ours)[n])}
     changed |= {"specimen"} if ours["specimen"] != base["specimen"] else set()
@@ -214,7 +214,7 @@ def test_an_effect_changes_what_it_should_and_nothing_else(effect: Effect) -> No
 
 @pytest.mark.parametrize("effect", [e for e in EFFECTS if "undo" in e.hooks], ids=lambda e: e.name)
 def test_undo_takes_back_what_the_gauge_did(effect: Effect) -> None:
-    pads = answers(bridge())["pads"][: motion()["time"].size * 8].reshape(-1, 4, 2)
+    pads = answers(base_of(effect))["pads"][: motion()["time"].size * 8].reshape(-1, 4, 2)
     true = record(motion(), pads)
     target = TARGET if effect.name in ("load_crosstalk", "cell_inertia") else "slip_x"
     read = effect.hooks["gauge"](true, target, **effect.typical())

@@ -29,8 +29,9 @@ def noise_of(name: str) -> float | None:
 
 
 def campaign_of(
-    folder: Path, rig: str, corner: float | None, *, model: Model | None = None, rate: float = 500.0, runs: int = 3
-) -> Path:
+    folder: Path, rig: str, corner: float | None, *, model: Model | None = None, rate: float = 500.0, runs: int = 3,
+    noisy: bool = True,
+) -> Path:  # fmt: skip
     """Replay a rig, filter, sample and add noise as a logger and gauges do, and write it as a campaign.
 
     Args:
@@ -40,6 +41,7 @@ def campaign_of(
         model: of the rig where it is not as rated.
         rate: at which it is logged [Hz], a whole part of 2000.
         runs: how many there are, from the first on.
+        noisy: whether gauges have noise; a simulation has none.
     """
     folder.mkdir()
     rng = np.random.default_rng(20261127)
@@ -52,7 +54,7 @@ def campaign_of(
         for name, values in record.channels.items():
             if (noise := noise_of(name)) is not None:
                 smooth = lowpass(values, record.dt, LowPass(corner)) if corner else values
-                channels[name] = smooth[::every] + rng.normal(0.0, noise, len(values[::every]))
+                channels[name] = smooth[::every] + noisy * rng.normal(0.0, noise, len(values[::every]))
         write_record(sw.Record(record.time[::every], channels), folder / f"run{number}.parquet")
         lines.append(f'[[run]]\nfile = "run{number}.parquet"\nrole = "{role}"\n')
     logger = f"{corner:g} Hz" if corner else "none"

@@ -30,3 +30,9 @@ def test_a_rigs_own_replay_lacks_nothing(tmp_path: Path, rig: str, corner: float
     assert found.verdict.kind == "complete", found.sentence
     if corner or rate > 1000.0:  # else what turns round gently between two samples is anybody's guess
         assert found.base_error < 1.5, found.relations
+
+
+@pytest.mark.parametrize("rig", ["bridge1", "building"])
+def test_a_simulation_without_noise_lacks_nothing(tmp_path: Path, rig: str) -> None:
+    found = sw.diagnose(campaign_of(tmp_path / "own", rig, None, runs=2, noisy=False))
+    assert found.verdict.kind == "complete", found.sentence

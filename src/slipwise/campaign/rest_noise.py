@@ -25,6 +25,9 @@ _ENOUGH_FOR_COLOUR, _LAGS = 200, 12
 _ONSET, _ONSET_SURE = 16, 4.0
 #: Correlations below this many of their own errors are none.
 _SURE = 3.0
+#: No gauge is truer than this share of what it measures: the best cells and displacement gauges have 0.02 to 0.1 % of
+#: their span of non-linearity. It is the floor of records without noise, such as those of another simulation [1].
+_TRUEST = 1e-3
 
 
 @dataclass(frozen=True)
@@ -81,15 +84,16 @@ def _gauge(parts: list[tuple[Array, Mask | None]]) -> Gauge:
     Where rest is too short in all runs together, the top of the spectrum must do, which noise that is not white does
     not reach.
     """
+    truest = _TRUEST * float(np.sqrt(np.mean([np.var(values) for values, _ in parts])))
     rests = [_before_onset(v[q]) for v, q in parts if q is not None and np.count_nonzero(q) >= _LEAST]
     still = [detrend(r) for r in rests if len(r) >= _LEAST]
     freedom = sum(len(s) - 2 for s in still)
     if freedom < _ENOUGH:
-        return Gauge(float(np.median([noise(values).level for values, _ in parts])))
+        return Gauge(max(float(np.median([noise(values).level for values, _ in parts])), truest))
     level = float(np.sqrt(sum(float(s @ s) for s in still) / freedom))
     resolution = float(np.median([quantum(values) for values, _ in parts])) / np.sqrt(12.0)
     # a coarse gauge may not even flicker at rest
-    return Gauge(max(level, resolution), _colour(still), rested=True)
+    return Gauge(max(level, resolution, truest), _colour(still), rested=True)
 
 
 def _before_onset(rest: Array) -> Array:

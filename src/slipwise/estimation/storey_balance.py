@@ -32,19 +32,31 @@ def predicted_push(run: FitRun, specimen: Specimen) -> Array:
         run: with girder_ax and the loads of all pads.
         specimen: as built.
     """
+    moment = (run.load @ basis_of(specimen).rigid[1]) * specimen.half_spacing[0]
+    push = push_from_rest(run.record["girder_ax"], (moment - moment[0]) / specimen.pitch_stiffness, run.dt, specimen)
+    return push if run.states.at_rest[0] else push + _rung_on(frame_push(run.record, specimen) - push, run, specimen)
+
+
+def push_from_rest(acceleration: Array, pitch: Array, dt: float, specimen: Specimen) -> Array:
+    """Give the force of the storeys on the girder along x (n,) [N].
+
+    Args:
+        acceleration: (n,) of the girder along x [m/s^2].
+        pitch: (n,) of the girder about y [rad].
+        dt: sampling step [s].
+        specimen: as built.
+    """
     heights = np.array([storey.z for storey in specimen.storeys]) - specimen.centre_height
     masses = np.array([storey.mass for storey in specimen.storeys])
-    moment = (run.load @ basis_of(specimen).rigid[1]) * specimen.half_spacing[0]
-    pitch = (moment - moment[0]) / specimen.pitch_stiffness
-    turning = np.gradient(np.gradient(pitch, run.dt), run.dt)
+    turning = np.gradient(np.gradient(pitch, dt), dt)
     push = -masses.sum() * specimen.gravity * pitch
     for mode in frame_modes(specimen.storeys):
         share, lever = float(masses @ mode.shape), float((masses * heights) @ mode.shape)
-        driven = share * (specimen.gravity * pitch - run.record["girder_ax"]) - lever * turning
+        driven = share * (specimen.gravity * pitch - acceleration) - lever * turning
         turn = 2.0 * np.pi * mode.frequency
         for order, factor in ((1, 2.0 * mode.damping * turn), (0, turn**2)):
-            push += share * factor * oscillator(driven, run.dt, mode.frequency, mode.damping, order)
-    return push if run.states.at_rest[0] else push + _rung_on(frame_push(run.record, specimen) - push, run, specimen)
+            push += share * factor * oscillator(driven, dt, mode.frequency, mode.damping, order)
+    return push
 
 
 def _rung_on(left: Array, run: FitRun, specimen: Specimen) -> Array:

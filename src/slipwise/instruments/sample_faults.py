@@ -201,6 +201,7 @@ def _held(name: str, runs: Sequence[Run]) -> SampleFault | None:
         same = np.zeros(len(values), dtype=bool)
         same[1:] = values[1:] == values[:-1]
         same[len(values) - _tail(values) :] = False
+        same[: 1 + _tail(values[::-1])] = False  # a simulation begins at rest, to the last digit
         equal, expected, count = equal + same.sum(), expected + chance_of_equal(values).sum(), count + len(values)
         bad[run.name] = same
     more = float(equal - expected)

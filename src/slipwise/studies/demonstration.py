@@ -8,9 +8,10 @@ from numpy.typing import NDArray
 
 from slipwise.channels import PADS
 from slipwise.effects import BalanceStates, Effect
+from slipwise.estimation.storey_balance import push_from_rest
 from slipwise.model import Model, base_model, use
 from slipwise.record import Record
-from slipwise.rig import Specimen
+from slipwise.rig import Specimen, load_specimen
 from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import LoadModes, pad_loads
 from slipwise.simulation.predict import Predictor, predictor, shaking
@@ -131,8 +132,20 @@ def demonstrate(effect: Effect, target: str = "pad_A_Fx") -> Demonstration:
         return _gauge(model, load, pads, target)
     if "balance" in hooks:
         return _balance(model)
+    if "storeys" in effect.needs:
+        return _frame(effect)
     specimen = model.built_specimen()
     return _over("slip", "load of pad A", load[:, 0], _loads(specimen, pads, buffers)[:, 0])
+
+
+def _frame(effect: Effect) -> Demonstration:
+    """Show what a frame of two storeys pushes while its base swings to and fro, and after it has come to rest."""
+    m, building = _motion(), load_specimen("building")
+    swing = _ramp(m.time) * _ramp(0.5 * _SECONDS - m.time) * np.sin(2.0 * np.pi * _ALONG[1] * m.time)
+    still = np.zeros_like(swing)
+    changed = base_model(building).adding(use(effect)).built_specimen()
+    pushes = [push_from_rest(2.0 * swing, still, _DT, rig) for rig in (building, changed)]
+    return _over("time", "push of the storeys", *pushes)
 
 
 def _over(x: str, what: str, base: Array, changed: Array, unit: str = "N") -> Demonstration:

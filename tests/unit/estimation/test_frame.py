@@ -6,13 +6,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from recover.own_replay import noise_of
 from slipwise.campaign import Campaign, Logger, Run, load_campaign
+from slipwise.comparison.component_level import component_errors, pooled
 from slipwise.comparison.system_level import pad_springs
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import fit_base
+from slipwise.estimation.judged_samples import without_uplift
 from slipwise.estimation.problem import Problem
 from slipwise.estimation.run_data import fit_runs
+from slipwise.estimation.storey_balance import predicted_push
 from slipwise.instruments.balances import relations
+from slipwise.model import base_model, use
 from slipwise.record import Record, write_record
 from slipwise.rig import load_specimen
 from slipwise.rig.frame import floor_sway, frame_moment, frame_push
@@ -73,6 +78,46 @@ def test_floors_stand_as_far_beside_the_base_as_in_the_replay(record: Record) ->
     integrated = np.fft.irfft(np.where(seen, -np.fft.rfft(against) / omega**2, 0.0), len(top))
     band = np.fft.irfft(np.where(seen, np.fft.rfft(top), 0.0), len(top))
     assert np.std(band - integrated) < 0.15 * np.std(band)
+
+
+@pytest.mark.parametrize("start", [0.0, 2.0])
+def test_the_frames_push_follows_from_what_its_base_does(record: Record, start: float) -> None:
+    """From rest, and where the record begins while the frame swings."""
+    building = load_specimen("building")
+    part = record.between(start, 99.0)
+    channels = {n: v for n, v in part.channels.items() if not n.endswith("_P")}
+    run = Run("q", "fit", Record(part.time, channels), 0.0, None, "q", "q")
+    campaign = Campaign("b", "building", building, Logger(None, known=True), (run,), Path())
+    (fitted,) = fit_runs(campaign)
+    assert bool(fitted.states.at_rest[0]) is (start == 0.0)
+    left = frame_push(fitted.record, building) - predicted_push(fitted, building)
+    assert np.std(left) < 0.01 * np.std(frame_push(fitted.record, building))
+    softer = base_model(building).adding(use("superstructure", stiffness=0.9)).built_specimen()
+    left = frame_push(fitted.record, building) - predicted_push(fitted, softer)
+    assert np.std(left) > 0.05 * np.std(frame_push(fitted.record, building))
+
+
+def test_a_frame_is_not_judged_once_a_pad_has_lifted() -> None:
+    lifted = np.zeros(100, dtype=bool)
+    lifted[40:45] = True
+    kept = without_uplift({"storeys": np.ones(100, dtype=bool), "heave": ~lifted}, lifted, lifted, 2e-3)
+    assert kept["storeys"].sum() == 40 and kept["heave"].sum() == 95
+
+
+def test_a_campaign_of_a_frame_that_is_softer_than_stated_is_fitted_by_its_effect(record: Record) -> None:
+    rng = np.random.default_rng(5)
+    stated = base_model("building").adding(use("superstructure", stiffness=1.25, damping=-0.005)).built_specimen()
+    kept = {n: v for n, v in record.channels.items() if noise_of(n) is not None}
+    noisy = {n: v + noise_of(n) * rng.standard_normal(len(v)) for n, v in kept.items()}
+    run = Run("q", "fit", Record(record.time, noisy), 0.0, None, "q", "q")
+    campaign = Campaign("b", "building", stated, Logger(None, known=True), (run,), Path())
+    base = fit_base(campaign)
+    assert pooled(component_errors(base), "storeys", held_out=False) > 5.0
+    better = fit_base(campaign, base.model.adding(use("superstructure", stiffness=1.0, damping=0.0)))
+    assert pooled(component_errors(better), "storeys", held_out=False) < 1.2
+    found = better.solution.values
+    assert found["superstructure.stiffness"] == pytest.approx(0.8, rel=0.01)
+    assert found["superstructure.damping"] == pytest.approx(0.005, abs=0.0015)
 
 
 def test_the_pads_springs_are_found_under_storeys_too(record: Record) -> None:

@@ -98,3 +98,13 @@ def test_a_speed_that_an_actuator_changes_at_once_is_followed_at_once():
     near = np.abs(time - 15.0) < 0.3
     assert np.count_nonzero(np.abs(found.velocity - speed)[near] > 2e-4) <= 3
     assert np.abs(found.velocity - speed)[~near].max() < 1e-4
+
+
+@pytest.mark.parametrize("accelerated", [False, True])
+@pytest.mark.parametrize("size", [0.0, 1e-13])
+def test_a_gauge_that_never_moves_gives_no_motion(accelerated, size):
+    """A simulation's motion across is zero, or what is left of zero."""
+    time = np.arange(2000) * 2e-3
+    still = size * np.random.default_rng(0).normal(size=2000)
+    found = fuse(time, still, 0.0 * still if accelerated else None, levels=(1e-16, 1e-12) if accelerated else None)
+    assert np.abs(found.velocity).max() < 1e-8

@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from slipwise.record import Record
+from slipwise.view.recording import write_recording
 from slipwise.view.style import PAD_COLOURS, rgb
 
 SCRIPT = Path(__file__).parents[3] / "scripts" / "screenshot.py"
@@ -27,18 +29,24 @@ def noise() -> np.ndarray:
 
 
 def test_an_empty_window_is_blank(script):
-    assert "blank" in script.what_is_wrong(np.full((100, 160, 4), 0.07))
+    assert "blank" in script.what_is_wrong(np.full((100, 160, 4), 0.07), "ABCD")
 
 
 def test_a_picture_without_the_pads_is_not_one_of_a_recording(script):
-    assert "pad A is not on it" in script.what_is_wrong(noise())
+    assert "pad A is not on it" in script.what_is_wrong(noise(), "ABCD")
 
 
 def test_a_picture_with_every_pad_passes(script):
     picture = noise()
     for i, colour in enumerate(PAD_COLOURS.values()):
         picture[10 * i : 10 * i + 8, :20, :3] = np.array(rgb(colour)) / 255.0
-    assert script.what_is_wrong(picture) == ""
+    assert script.what_is_wrong(picture, "ABCD") == ""
+    assert "pad E is not on it" in script.what_is_wrong(picture, "ABCDE")
+
+
+def test_a_recording_says_which_pads_it_shows(script, record, geometry, tmp_path):
+    three = Record(record.time, {n: v for n, v in record.channels.items() if not n.startswith("pad_D")})
+    assert list(script.pads_of(write_recording(three, geometry, tmp_path / "r.rrd", "t"))) == ["A", "B", "C"]
 
 
 def test_without_a_virtual_display_it_is_skipped_with_a_reason(script, monkeypatch, tmp_path, capsys):
