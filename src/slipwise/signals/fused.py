@@ -28,8 +28,8 @@ _BIAS_WALK = 3e-4
 _FIRST = (1.0, 3.0, 0.5)
 #: Least noise of gauges, of one that never moves too: position [m], velocity [m/s], acceleration [m/s^2].
 _STILL = (1e-9, 1e-8, 1e-6)
-#: Span of a motion that is taken where a gauge shows less, for a filter that expects none at all is singular [m].
-_LEAST_SPAN = 1e-6
+#: Span of a motion that is taken where a gauge shows none: a filter that expects none at all is singular [m].
+_ONE_STROKE = 1e-3
 #: Without accelerometers b is the acceleration itself.
 _FIRST_ACCELERATION = 300.0
 #: Jumps of the speed at most, samples about the strongest acceleration in which one is looked for, and by how much it
@@ -166,12 +166,13 @@ def _increments(time: Array, acceleration: Array | None) -> tuple[Array, Array]:
 def _start_levels(place: Array, acceleration: Array | None, dt: float) -> Array:
     """Guess (position noise, velocity noise, driving noise) from the tops of the spectra."""
     span = float(np.nanmax(place[:, 0]) - np.nanmin(place[:, 0]))
+    span = span if span > _STILL[0] else _ONE_STROKE
     gauge = max(white_level(place[:, 0]), 1e-6 * span, _STILL[0])
     speed = white_level(place[:, 1])
     if acceleration is not None:
         return np.array([gauge, max(speed, _STILL[1]), max(white_level(acceleration), _STILL[2])])
     # jerk of a motion that crosses its span in a quarter of a second
-    return np.array([gauge, max(speed, 1e-3 * span / dt, _STILL[1]), max(span, gauge, _LEAST_SPAN) * 1e3])
+    return np.array([gauge, max(speed, 1e-3 * span / dt, _STILL[1]), max(span, gauge) * 1e3])
 
 
 def _variances(levels: Array, dt: float, accelerometers: bool) -> tuple[float, float, float, float, Array]:

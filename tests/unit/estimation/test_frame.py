@@ -82,7 +82,7 @@ def test_floors_stand_as_far_beside_the_base_as_in_the_replay(record: Record) ->
 
 @pytest.mark.parametrize("start", [0.0, 2.0])
 def test_the_frames_push_follows_from_what_its_base_does(record: Record, start: float) -> None:
-    """From rest, and where the record begins while the frame swings."""
+    """From rest, and where the record begins while the frame swings; friction jumps between two samples cost 2 %."""
     building = load_specimen("building")
     part = record.between(start, 99.0)
     channels = {n: v for n, v in part.channels.items() if not n.endswith("_P")}
@@ -91,10 +91,10 @@ def test_the_frames_push_follows_from_what_its_base_does(record: Record, start: 
     (fitted,) = fit_runs(campaign)
     assert bool(fitted.states.at_rest[0]) is (start == 0.0)
     left = frame_push(fitted.record, building) - predicted_push(fitted, building)
-    assert np.std(left) < 0.01 * np.std(frame_push(fitted.record, building))
+    assert np.std(left) < 0.03 * np.std(frame_push(fitted.record, building))
     softer = base_model(building).adding(use("superstructure", stiffness=0.9)).built_specimen()
     left = frame_push(fitted.record, building) - predicted_push(fitted, softer)
-    assert np.std(left) > 0.05 * np.std(frame_push(fitted.record, building))
+    assert np.std(left) > 0.1 * np.std(frame_push(fitted.record, building))
 
 
 def test_a_frame_is_not_judged_once_a_pad_has_lifted() -> None:
