@@ -115,7 +115,7 @@ def picture_at(recording: Path, out: Path, seconds: float) -> str:
     return last
 
 
-def pads_of(recording: Path) -> list[str]:
+def pads_of(recording: Path) -> tuple[str, ...]:
     """Give the names of the pads whose channels a recording shows."""
     reader = RrdReader(recording)
     entities = {chunk.entity_path for store in reader.recordings() for chunk in reader.stream(store=store)}

@@ -77,8 +77,12 @@ class EffectUse(Tabular):
         return {**self.values, **self.own.get(pad, {})}
 
     def unused(self, pads: Sequence[str]) -> dict[str, float]:
-        """Give the values for all pads that no pad takes, because each of these pads has its own."""
-        return {n: v for n, v in self.values.items() if all(n in self.own.get(pad, {}) for pad in pads)}
+        """Give the values for all pads that no fit can find: pads have their own, or only single ones any."""
+        return {
+            n: v
+            for n, v in self.values.items()
+            if self.effect.parameter(n).by_pad or all(n in self.own.get(pad, {}) for pad in pads)
+        }
 
     @property
     def is_neutral(self) -> bool:

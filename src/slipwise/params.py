@@ -21,6 +21,8 @@ class Parameter:
         meaning: what it is, in a few words.
         shown_in: unit in which people read it, e.g. "s/cm"; the SI unit when empty.
         whole: whether only whole numbers make sense.
+        by_pad: for what only single pads have, `level[B]`, and nothing but a base law's own number if all had it: which
+            pads may have it, "each" or the "others" than the first, with which they are compared.
     """
 
     name: str
@@ -33,6 +35,7 @@ class Parameter:
     meaning: str
     shown_in: str = ""
     whole: bool = False
+    by_pad: str = ""
 
     def __post_init__(self) -> None:
         """Refuse a parameter that cannot be used.

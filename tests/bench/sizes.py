@@ -19,9 +19,17 @@ _RATED_PAD = 2.0e8
 
 
 def _spread(d: Details) -> dict[str, float]:
+    if len(d["pad_factor"]) != 4:  # each over the first
+        first, *others = d["pad_factor"]
+        return {f"level[{pad}]": factor / first - 1.0 for pad, factor in zip("BCDEFGH", others, strict=False)}
     factor, x, y = (np.asarray(v, dtype=float) for v in (d["pad_factor"], PAD_SIGN_X, PAD_SIGN_Y))
     modes = {"along": x, "across": y, "diagonal": x * y}
     return {name: float(np.mean(factor * mode)) for name, mode in modes.items()}
+
+
+def _patch(d: Details) -> dict[str, float]:
+    four = len(d["patch"]) == 4
+    return {f"pad_{p.lower()}" if four else f"rise[{p}]": v for p, v in zip("ABCDEFGH", d["patch"], strict=False)}
 
 
 def _filter(d: Details) -> dict[str, float]:
@@ -53,7 +61,7 @@ _SAME_FORM: dict[str, tuple[tuple[str, ...], Callable[[Details], dict[str, float
     "load_crosstalk": ((), lambda d: {"share": d["size"]}),
     "mass_eccentricity": ((), lambda d: {"along": d["centre_x"], "across": d["centre_y"]}),
     "pad_spread": ((), _spread),
-    "position_patch": (("Gaussian",), lambda d: {f"pad_{p}": v for p, v in zip("abcd", d["patch"], strict=True)}),
+    "position_patch": (("Gaussian",), _patch),
     "presliding": (("Dahl",), lambda d: {"length": d["presliding_length"]}),
     "pressure_law": (("power",), lambda d: {"slope": d["pressure_size"]}),
     "rate_and_state": (("ageing law",), lambda d: {"direct": d["rate_direct"], "state": d["rate_evolution"]}),
@@ -62,16 +70,18 @@ _SAME_FORM: dict[str, tuple[tuple[str, ...], Callable[[Details], dict[str, float
     "slide_tilt": ((), lambda d: {"tilt": d["tilt"]}),
     "table_pitch": (("follows the table's acceleration",), lambda d: {"compliance": d["pitch_per_acceleration"]}),
 }
-#: Those whose numbers stand for the four pads and two buffers of the girder in the middle of its pads.
-_OF_FOUR = {
-    *("pad_spread", "position_patch", "uneven_seating", "mass_eccentricity", "buffer_damping", "buffer_hysteresis"),
-}
+#: Those whose numbers stand for the pads and two buffers of the girder in the middle of its pads.
+_OF_GIRDER = {"uneven_seating", "mass_eccentricity", "buffer_damping", "buffer_hysteresis"}
+#: Those whose numbers are of four pads at the corners of a rectangle, or of each pad where there are not four.
+_OF_CORNERS = {"pad_spread", "position_patch"}
 
 
 def planted(truth: Mapping[str, Any]) -> dict[str, float]:
     """Give "effect.strength" -> planted value of a campaign's answer, where the laws are the same."""
     out: dict[str, float] = {}
-    other = _OF_FOUR if "pads" in truth["settings"] else set()
+    other = set[str]()
+    if "pads" in truth["settings"]:
+        other = _OF_GIRDER | (_OF_CORNERS if len(truth["settings"]["pads"]) == 4 else set())
     for effect, details in truth["details"].items():
         if effect in other:
             continue

@@ -5,12 +5,12 @@ from fnmatch import fnmatchcase
 
 import numpy as np
 
-from slipwise.effects import NEEDS, Effect, catalogue, scaled
+from slipwise.effects import NEEDS, Effect, catalogue, for_pads, scaled
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.parameters import Term
 from slipwise.estimation.problem import Problem
 from slipwise.instruments.gauge_groups import places_of
-from slipwise.rig.load_basis import WARPS
+from slipwise.rig.load_basis import WARPS, has_corners
 
 #: Loads are steady in each run when they differ between runs by this many times more than within one [1].
 _STEADY = 3.0
@@ -33,6 +33,7 @@ def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], d
     scales = problem.runs[0].scales
     for name, as_rated in (catalogue() | {e.name: e for e in own}).items():
         effect = scaled(as_rated, scales.of, scales.room)
+        effect = for_pads(effect, problem.specimen.pads, corners=has_corners(problem.specimen))
         if effect.base == "springs" or (name in model and not effect.target):
             continue
         if effect.in_samples:

@@ -1,5 +1,6 @@
 """The catalogue: one small file per physical or instrument effect."""
 
+from slipwise.effects._by_pad import for_pads
 from slipwise.effects._catalogue import base_effects, catalogue, find_effect, load_effect
 from slipwise.effects._declared import NEEDS, Gauges
 from slipwise.effects._effect import RESPONSE, Effect, moved_channels
@@ -37,6 +38,7 @@ __all__ = [
     "check_trusted",
     "effect_text",
     "find_effect",
+    "for_pads",
     "holding",
     "load_effect",
     "moved_channels",

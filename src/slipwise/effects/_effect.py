@@ -99,6 +99,7 @@ class Effect(Drawn, Tabular):
         text: the whole docstring; set when the file is read.
         hooks: the file's functions; set when the file is read.
         path: the file; set when the file is read.
+        whole: of which effect this is one with the parameters that a rig's pads can have, see `for_pads`.
     """
 
     port: str
@@ -130,6 +131,7 @@ class Effect(Drawn, Tabular):
     text: str = ""
     hooks: Mapping[str, Callable[..., Any]] = field(default_factory=dict[str, Callable[..., Any]])
     path: Path = Path()
+    whole: "Effect | None" = None
 
     @property
     def parameter_names(self) -> tuple[str, ...]:
@@ -179,6 +181,9 @@ class Effect(Drawn, Tabular):
             UnknownNameError: no such parameter.
         """
         plain, bracket, pad = name.partition("[")
+        for parameter in self.parameters:
+            if parameter.name == name:
+                return parameter
         for parameter in self.parameters:
             if parameter.name == plain:
                 return parameter.of_pad(pad.removesuffix("]")) if bracket else parameter

@@ -109,7 +109,9 @@ class Term:
     def uses(self, values: Mapping[str, float]) -> list[EffectUse]:
         """Give the uses for a model, with the values of a fit."""
         numbers = {**self.unused, **{p.name: values[key] for key, p in self.parameters.items()}}
-        return [use_of(self.effect, numbers, target) for target in self.targets]
+        effect = self.effect.whole or self.effect
+        numbers = {**{n: v for n, v in effect.neutral().items() if n not in numbers}, **numbers}
+        return [use_of(effect, numbers, target) for target in self.targets]
 
     def free(self, start: Mapping[str, float]) -> list[Free]:
         """Give its parameters as free numbers.

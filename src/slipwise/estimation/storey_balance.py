@@ -72,7 +72,7 @@ def _rung_on(left: Array, run: FitRun, specimen: Specimen) -> Array:
     kept = run.judged["storeys"]
     if np.count_nonzero(kept) < len(columns):
         return np.zeros(len(left))
-    return matrix @ np.linalg.lstsq(matrix[kept], left[kept], rcond=None)[0]
+    return np.asarray(matrix @ np.linalg.lstsq(matrix[kept], left[kept], rcond=None)[0], dtype=np.float64)
 
 
 def noise_in_push(run: FitRun, specimen: Specimen) -> Array:

@@ -52,6 +52,12 @@ def basis_of(specimen: Specimen) -> LoadBasis:
     return load_basis(specimen.pad_places, specimen.springs)
 
 
+def has_corners(specimen: Specimen) -> bool:
+    """Tell whether four pads stand one at each corner: what differs between them is along, across or diagonal."""
+    sides = basis_of(specimen).sides
+    return len(sides) == 4 and len({(x > 0.0, y > 0.0) for x, y in sides if x != 0.0 and y != 0.0}) == 4
+
+
 def warps(specimen: Specimen) -> tuple[str, ...]:
     """Give the names of a specimen's warps: none of three pads, "warp" of four, "warp" and "warp_2" of five ..."""
     return WARPS[: max(len(specimen.pads) - 3, 0)]

@@ -5,10 +5,11 @@ from pathlib import Path
 
 from slipwise.campaign import Campaign
 from slipwise.campaign.scales import scales_of
-from slipwise.effects import Effect, Trust, catalogue, check_trusted, find_effect, scaled
+from slipwise.effects import Effect, Trust, catalogue, check_trusted, find_effect, for_pads, scaled
 from slipwise.estimation.base_fit import scaled_model
 from slipwise.model import Model
 from slipwise.model_file import as_model, load_model
+from slipwise.rig.load_basis import has_corners
 
 
 @dataclass(frozen=True)
@@ -44,8 +45,9 @@ class Sources:
             UnknownNameError: no such effect.
             InputError: no such file, or Python cannot import it.
         """
-        scales = scales_of(self.campaign)
-        return scaled(find_effect(name), scales.of, scales.room)
+        scales, specimen = scales_of(self.campaign), self.campaign.specimen
+        effect = scaled(find_effect(name), scales.of, scales.room)
+        return for_pads(effect, specimen.pads, corners=has_corners(specimen))
 
     def kept_effect(self, name: str) -> Effect:
         """Give an effect that the last session names.

@@ -144,8 +144,8 @@ def _frame(effect: Effect) -> Demonstration:
     swing = _ramp(m.time) * _ramp(0.5 * _SECONDS - m.time) * np.sin(2.0 * np.pi * _ALONG[1] * m.time)
     still = np.zeros_like(swing)
     changed = base_model(building).adding(use(effect)).built_specimen()
-    pushes = [push_from_rest(2.0 * swing, still, _DT, rig) for rig in (building, changed)]
-    return _over("time", "push of the storeys", *pushes)
+    before, after = (push_from_rest(2.0 * swing, still, _DT, rig) for rig in (building, changed))
+    return _over("time", "push of the storeys", before, after)
 
 
 def _over(x: str, what: str, base: Array, changed: Array, unit: str = "N") -> Demonstration:

@@ -50,7 +50,7 @@ def log_storeys(
     stream.send_columns(
         f"{path}/columns",
         time,
-        rr.LineStrips3D.columns(strips=columns.reshape(-1, 2, 3)).partition([columns.shape[1]] * len(shown)),
+        rr.LineStrips3D.columns(strips=list(columns.reshape(-1, 2, 3))).partition([columns.shape[1]] * len(shown)),
     )
 
 

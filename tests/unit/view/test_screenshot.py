@@ -46,7 +46,7 @@ def test_a_picture_with_every_pad_passes(script):
 
 def test_a_recording_says_which_pads_it_shows(script, record, geometry, tmp_path):
     three = Record(record.time, {n: v for n, v in record.channels.items() if not n.startswith("pad_D")})
-    assert list(script.pads_of(write_recording(three, geometry, tmp_path / "r.rrd", "t"))) == ["A", "B", "C"]
+    assert script.pads_of(write_recording(three, geometry, tmp_path / "r.rrd", "t")) == ("A", "B", "C")
 
 
 def test_without_a_virtual_display_it_is_skipped_with_a_reason(script, monkeypatch, tmp_path, capsys):
