@@ -98,7 +98,7 @@ def _rigid_balances(
         "heave": (load.sum(axis=0) - p.mass * (GRAVITY + az), (GRAVITY + az)[:, None]),
         "pitch": (pitch - p.inertia_pitch * turn, np.stack([along_x, turn], axis=1)),
         "roll": (roll - p.inertia_roll * tilt, np.stack([along_y, tilt], axis=1)),
-        **({"warp": (warp, np.zeros((warp.size, 0)))} if warp.size else {}),
+        **({"warp": (warp, np.repeat(warps @ known, slip.size)[:, None])} if warp.size else {}),
         "kinematics": (ax - clean["table_ax"] - smooth(true["girder_ax"] - true["table_ax"]), nothing),
         "kinematics_z": (az - clean["table_az"] - smooth(true["girder_az"] - true["table_az"]), nothing),
     }

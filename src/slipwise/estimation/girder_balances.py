@@ -24,6 +24,7 @@ from slipwise.campaign.rig_motion import shortening_rate
 from slipwise.effects import BalanceStates
 from slipwise.estimation.inverse_filter import Spectrum
 from slipwise.estimation.pad_forces import as_logged
+from slipwise.estimation.parameters import SEAT_STIFFNESS
 from slipwise.estimation.run_data import FitRun, refined
 from slipwise.estimation.storey_balance import predicted_push
 from slipwise.model import Model
@@ -163,7 +164,7 @@ def predicted_balances(
     by_pitch = _rocked((None, (moment + swing) / half), specimen, run, values)
     basis = basis_of(specimen)
     modes = load_modes(run.load, basis)
-    seated = by_warp(specimen, np.array(specimen.springs) * rated.seating)
+    seated = by_warp(specimen, values.get(SEAT_STIFFNESS, 1.0) * np.array(specimen.springs) * rated.seating)
     mass, gravity = specimen.mass, specimen.gravity
     predicted = {
         "girder": _delayed((frame - total - fb) / mass, run.dt, values["rig.late_girder"]),

@@ -7,6 +7,7 @@ from slipwise.effects import Effect
 from slipwise.model import EffectUse, Model, use_of
 from slipwise.params import Parameter
 from slipwise.rig import Specimen, pad_frequencies
+from slipwise.rig.load_basis import is_uneven
 from slipwise.rig.rocking import rolls
 
 #: Largest delay between the cards of a logger that counts as none [s].
@@ -19,6 +20,7 @@ _RIG_SHARES: dict[str, tuple[float, float]] = {
     "rig.buffer_stiffness": (0.4, 2.5),
     "rig.centre_height": (0.5, 2.0),
 }
+_SEAT_SHARES = (0.4, 2.5)
 #: What no rig is rated for: start, low, high, scale, unit. Pitch of the girder on its pads, over its rated frequency;
 #: slip at the gauge for pitch load, as the height at which the girder's tilt for that load would show so [m]; time by
 #: which channels of one card may lag behind those of another (more than that is a `channel_delay`).
@@ -39,6 +41,8 @@ _LAGS: dict[str, str] = {
     "rig.late_girder": "girder_ax",
     "rig.late_slip": "slip_x",
 }
+#: Stiffness of the pads over rated, as the loads at rest show it where pads are stated to stand at unlike heights.
+SEAT_STIFFNESS = "rig.seat_stiffness"
 #: The zero of a slider's friction gauge.
 ZERO = "rig.zero_force"
 #: Axis, and the shares of the rated inertia between which it may be: 8 % more leave three floors in pads that yaw.
@@ -165,6 +169,8 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True, length
         out += [_around(key, value, *_RIG_SHARES[key], units[key]) for key, value in rated.items()]
         out += [_small(key, specimen) for key in _SMALL]
         out += [inertia_free(specimen, ROLL_INERTIA)] if rolls(specimen) else []
+        if is_uneven(specimen):
+            out.append(_around(SEAT_STIFFNESS, 1.0, *_SEAT_SHARES, "1"))
     elif specimen.free:  # the sliding plane moves against the gauge all the same
         out.append(_small("rig.pitch_slip", specimen))
     if specimen.free:

@@ -13,6 +13,8 @@ from slipwise.rig.specimen import Specimen
 Array = NDArray[np.float64]
 #: Patterns and places that differ by less are the same [1].
 _SAME = 1e-9
+#: Loads at rest that pads of unlike heights make, below this share of the weight, are none [1].
+_WARPED = 1e-6
 #: What the warps are called: of n pads the first n - 3.
 WARPS: tuple[str, ...] = ("warp", *(f"warp_{k}" for k in range(2, MOST_PADS - 2)))
 
@@ -66,6 +68,12 @@ def warps(specimen: Specimen) -> tuple[str, ...]:
 def by_warp(specimen: Specimen, loads: Array) -> dict[str, Array]:
     """Give what loads (..., n) of the pads are in each warp, name -> (...)."""
     return dict(zip(warps(specimen), basis_of(specimen).warp @ np.moveaxis(loads, -1, 0), strict=True))
+
+
+def is_uneven(specimen: Specimen) -> bool:
+    """Tell whether pads are stated to stand at heights that no plane goes through: they warp the loads at rest."""
+    loads = np.array(specimen.springs) * specimen.seating
+    return any(abs(load) > _WARPED * specimen.weight for load in by_warp(specimen, loads).values())
 
 
 def buffer_sides(specimen: Specimen) -> tuple[float, ...]:

@@ -12,6 +12,7 @@ CALLED: dict[str, tuple[str, str]] = {
     "rig.yaw_inertia": ("inertia of the girder about the vertical", "t*m^2"),
     "rig.pitch_inertia": ("inertia of the girder in pitch", "t*m^2"),
     "rig.roll_inertia": ("inertia of the girder in roll", "t*m^2"),
+    "rig.seat_stiffness": ("stiffness of the pads over rated, by their seats", "1"),
     "rig.pitch_slip": ("slip at the gauge for pitch load", "mm/kN"),
     "rig.stick_length": ("slip over which stick turns round", "um"),
     "rig.stick_damping": ("time by which its damper leads", "ms"),
