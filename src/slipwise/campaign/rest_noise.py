@@ -52,7 +52,7 @@ class Gauge:
 
 def noise_of_gauges(records: Sequence[Record]) -> dict[str, Gauge]:
     """Give the noise of every channel of a campaign's runs."""
-    quiet = [_at_rest(r) for r in records]
+    quiet = [before_motion(r) for r in records]
     channels = dict.fromkeys(c for r in records for c in r.channels)
     found = {c: _gauge([(r[c], q) for r, q in zip(records, quiet, strict=True) if c in r]) for c in channels}
     return {c: _with_contact(g, records, c) if all(q is None for q in quiet) else g for c, g in found.items()}
@@ -119,8 +119,8 @@ def _colour(still: list[Array]) -> float:
     return total
 
 
-def _at_rest(record: Record) -> Mask | None:
-    """Tell which samples at the start of a run are at rest (n,): the table has not moved yet."""
+def before_motion(record: Record) -> Mask | None:
+    """Tell which samples at the start of a run are at rest (n,): the table has not moved yet; None without table_ax."""
     if "table_ax" not in record:
         return None
     level = noise(record["table_ax"]).level

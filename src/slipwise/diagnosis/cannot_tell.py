@@ -19,6 +19,7 @@ from slipwise.diagnosis.starting_grid import shapes, strengths
 from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.judged_samples import rolls_only_at_rest
 from slipwise.estimation.parameters import ZERO, Term
 from slipwise.rig.frame import storey_channels
 from slipwise.rig.load_basis import buffers_off_centre
@@ -103,10 +104,12 @@ def _turning_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
 
 
 def _friction_across_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
-    """Say that roll is not judged where the girder rolls with its pitch, held by friction that nobody measured."""
-    if base.problem.balanced and coupled(base.campaign.specimen):
-        reason = "pads that stand unevenly turn pitch into roll, which friction across holds; it is not judged"
-        yield "roll balance", reason
+    """Say that roll is judged at rest only where the girder rolls with its pitch or moves across."""
+    if not base.problem.balanced or not rolls_only_at_rest(base.problem.runs[0].states.has_y, base.campaign.specimen):
+        return
+    why = "pads that stand unevenly turn pitch into roll" if coupled(base.campaign.specimen) else "it moves across"
+    judged = "judged before the motion only" if "roll" in base.problem.relations else "not judged"
+    yield "roll balance", f"{why}, and what turns the girder then is not all measured: it is {judged}"
 
 
 def _floors_not_credible(state: Search) -> Iterator[tuple[str, str]]:

@@ -31,11 +31,19 @@ def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
     levels = {
         **{name: np.sqrt(np.sum((row * loads) ** 2)) for name, row in rows.items()},  # and see `whitened`
         "girder": np.hypot(run.noise.get("girder_ax", 0.0), np.hypot(beside, pushed / specimen.mass)),
+        "roll": np.linalg.norm([*(rows["roll"] * loads), *_across_in_roll(specimen, run)]),
         "heave": np.hypot(total, specimen.carried_mass * run.noise.get("girder_az", 0.0)),
         "storeys": pushed,  # and see `noise_in_push`
         "motion": 1.0,
     }
     return {name: max(float(level), 1e-12) for name, level in levels.items()}
+
+
+def _across_in_roll(specimen: Specimen, run: FitRun) -> Array:
+    """Give what noise of the pads' friction across adds to the predicted roll load, (p,) or none [N]."""
+    if not run.across.size:
+        return np.zeros(0)
+    return specimen.centre_height / specimen.half_spacing[1] * np.array([run.noise[f"pad_{p}_Fy"] for p in run.pads])
 
 
 def shares_of_noise(specimen: Specimen, run: FitRun) -> dict[str, dict[str, float]]:

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from slipwise.campaign.rig_motion import shortening_rate
 from slipwise.effects import BalanceStates
 from slipwise.estimation.inverse_filter import Spectrum
+from slipwise.estimation.judged_samples import rolls_only_at_rest
 from slipwise.estimation.pad_forces import as_logged
 from slipwise.estimation.parameters import SEAT_STIFFNESS
 from slipwise.estimation.run_data import FitRun, refined
@@ -33,7 +34,7 @@ from slipwise.rig.curved_faces import rise_rate, risen
 from slipwise.rig.frame import frame_moment, frame_push, storey_channels
 from slipwise.rig.load_basis import WARPS, basis_of, by_warp, warps
 from slipwise.rig.load_modes import load_modes
-from slipwise.rig.rocking import coupled, rocking_modes
+from slipwise.rig.rocking import rocking_modes
 from slipwise.signals.ends import in_frequency
 from slipwise.signals.shift import shift
 from slipwise.simulation.predict import Predictor
@@ -43,6 +44,8 @@ BALANCES: tuple[str, ...] = ("girder", "heave", "pitch", "roll", *WARPS, "storey
 #: Where a gauge of friction is invalid, the girder's accelerometer takes its place if the two differ by more than this
 #: many times the accelerometer's noise [1].
 _SIGNIFICANT = 4.0
+#: Samples at rest by which roll is judged at least.
+_REST = 60
 
 
 def balances_of(specimen: Specimen) -> tuple[str, ...]:
@@ -61,8 +64,8 @@ def available(run: FitRun, specimen: Specimen) -> tuple[str, ...]:
         out.append("girder")
     if np.isfinite(run.states.girder_acceleration[:, 2]).all():
         out.append("heave")
-    # friction across, which a girder that rolls with its pitch calls up, is in no channel
-    out += (["pitch"] if framed else []) + ([] if run.states.has_y or coupled(specimen) else ["roll"])
+    rests = not rolls_only_at_rest(run.states.has_y, specimen) or np.count_nonzero(run.judged["roll"]) >= _REST
+    out += (["pitch"] if framed else []) + (["roll"] if rests else [])
     out += warps(specimen)
     if specimen.storeys and "girder" in out:
         out.append("storeys")
@@ -160,7 +163,10 @@ def predicted_balances(
     # what effects add to the rated place of the centre of gravity and to the seating is theirs to say
     off_x, off_y = (c - m for c, m in zip((rated.centre_x, rated.centre_y), specimen.middle, strict=True))
     swing = (off_x + (run.slip if specimen.pads_on == "table" else 0.0)) * heave
-    by_roll = _rocked((off_y / half_y * heave if off_y else None, None), specimen, run, values)
+    turning = off_y * heave if off_y else None
+    if run.across.size:  # what pads across hold while the girder rests
+        turning = height * run.across.sum(axis=1) + (0.0 if turning is None else turning)
+    by_roll = _rocked((None if turning is None else turning / half_y, None), specimen, run, values)
     by_pitch = _rocked((None, (moment + swing) / half), specimen, run, values)
     basis = basis_of(specimen)
     modes = load_modes(run.load, basis)

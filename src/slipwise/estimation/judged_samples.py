@@ -7,9 +7,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.aligned import spread
+from slipwise.campaign.rest_noise import before_motion
+from slipwise.campaign.states import States
 from slipwise.channels import VELOCITY_CHANNELS
+from slipwise.record import Record
 from slipwise.rig import Specimen, pad_frequencies
 from slipwise.rig.load_basis import WARPS
+from slipwise.rig.rocking import coupled
 
 Mask = NDArray[np.bool_]
 #: Channels that the balances are made of, slip by all that it is fused from; pads and friction across take their own
@@ -30,6 +34,26 @@ _CUT = 0.12
 #: Pitch of a girder that lifts is 700 times the floor of its balance: it has rung down after so many of its decay
 #: times [1], and never counts as ringing for longer than this [s].
 _DECAYS, _LONGEST = 6.5, 3.0
+
+
+def judged_and_ringing(
+    states: States, grounded: Mask, sliding: Mask, fast: Mask, pads: tuple[str, ...], invalid: Mapping[str, Mask]
+) -> tuple[dict[str, Mask], Mask]:
+    """Give the samples by which each relation of a run is judged, and those at which a pad lifts or pitch rings on.
+
+    Args:
+        states: of the run.
+        grounded: as of `sample_masks`, like what follows.
+        sliding: (n,).
+        fast: (n,).
+        pads: those measured.
+        invalid: channel -> (n,).
+    """
+    kept = sample_masks(grounded, sliding, fast, away_from_cuts(states.at_rest, states.dt), pads, invalid)
+    ringing = ringing_after_uplift(states.uplift, states.dt, states.specimen)
+    kept = without_uplift(kept, ringing, states.uplift, states.dt)
+    kept["roll"] = kept["roll"] & roll_is_known(states.record, states.has_y, states.specimen)
+    return kept, ringing
 
 
 def sample_masks(
@@ -73,6 +97,22 @@ def ringing_after_uplift(lifted: Mask, dt: float, specimen: Specimen) -> Mask:
     turn, lag = 2.0 * np.pi * pad_frequencies(specimen)["pitch"], specimen.pad_damping / specimen.pad_stiffness
     decay = 2.0 / (lag * turn**2) if lag else np.inf  # time in which pitch falls to 1/e
     return spread(lifted, 0, int(min(_DECAYS * decay, _LONGEST) / dt))
+
+
+def rolls_only_at_rest(has_y: bool, specimen: Specimen) -> bool:
+    """Tell whether roll is judged before the motion only: with motion across, or with a pitch that turns into roll.
+
+    Friction across, which a girder that rolls with its pitch calls up, is in no channel.
+    """
+    return specimen.free and (has_y or coupled(specimen))
+
+
+def roll_is_known(record: Record, has_y: bool, specimen: Specimen) -> Mask:
+    """Give the samples (n,) at which what rolls the girder was measured."""
+    if not rolls_only_at_rest(has_y, specimen):
+        return np.ones(len(record), dtype=bool)
+    resting = before_motion(record)
+    return np.zeros(len(record), dtype=bool) if resting is None else resting
 
 
 def without_uplift(

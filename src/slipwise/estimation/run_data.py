@@ -12,7 +12,7 @@ from slipwise.campaign import Campaign, Run
 from slipwise.campaign.scales import Scales
 from slipwise.campaign.states import States, measured_states
 from slipwise.errors import InputError
-from slipwise.estimation.judged_samples import away_from_cuts, ringing_after_uplift, sample_masks, without_uplift
+from slipwise.estimation.judged_samples import judged_and_ringing
 from slipwise.instruments.repairs import InvalidSamples
 from slipwise.record import Record
 from slipwise.signals.ends import in_frequency
@@ -238,9 +238,7 @@ def _fit_run(run: Run, campaign: Campaign, invalid: Mapping[str, Mask]) -> FitRu
     fast = np.hypot(*states.velocity.T) > FAST * states.scales.speed
     # samples were looked at as recorded; a gap of theirs is filled on the axis of the states
     bad = {c: np.interp(states.time, run.record.time, m.astype(float)) > 0.0 for c, m in invalid.items()}
-    kept = sample_masks(grounded, sliding, fast, away_from_cuts(states.at_rest, states.dt), pads, bad)
-    ringing = ringing_after_uplift(states.uplift, states.dt, states.specimen)
-    kept = without_uplift(kept, ringing, states.uplift, states.dt)
+    kept, ringing = judged_and_ringing(states, grounded, sliding, fast, pads, bad)
     unseen = campaign.logger.unseen(f"pad_{pads[0]}_Fx")
     more = {"unseen": unseen, "ringing": ringing}
     return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, across, sliding, kept, bad, **more)
