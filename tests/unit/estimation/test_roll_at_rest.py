@@ -1,0 +1,66 @@
+"""Roll of the loads is judged where all that rolls the girder was measured: before the motion, if it moves across."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from slipwise.campaign import Campaign, Logger, Run
+from slipwise.estimation.base_fit import fit_base
+from slipwise.estimation.judged_samples import roll_is_known
+from slipwise.estimation.parameters import SEAT_STIFFNESS, base_free
+from slipwise.model import base_model, use
+from slipwise.record import Record
+from slipwise.rig import Specimen, load_specimen
+from slipwise.simulation.replay import replay
+
+NOISE = {"ax": 0.02, "ay": 0.02, "az": 0.02, "slip_x": 2e-5, "slip_y": 2e-5, "N": 60.0, "Fx": 15.0, "Fy": 15.0}
+
+
+def measured(specimen: Specimen) -> Record:
+    model = base_model(specimen)
+    record = replay(model, "quake:seed=2,peak=0.6g,f=3Hz,strong=1.5s,vertical=0.2g,across=0.3g", output_dt=2e-3).record
+    rng = np.random.default_rng(7)
+    channels = {}
+    for name, values in record.channels.items():
+        noise = NOISE.get(name if name.startswith("slip") else name.rpartition("_")[2])
+        if noise and name.startswith(("table_a", "girder_a", "pad_", "slip_")):
+            channels[name] = values + rng.normal(0.0, noise, len(values))
+    return Record(record.time, channels)
+
+
+def campaign(record: Record, stated: Specimen) -> Campaign:
+    run = Run("q", "fit", record, 0.0, None, "q", "q")
+    return Campaign("c", stated.name, stated, Logger(None, known=True), (run,), Path())
+
+
+def test_motion_across_leaves_roll_to_the_rest_before_it() -> None:
+    stated = load_specimen("bridge1")
+    record = measured(stated)
+    known = roll_is_known(record, True, stated)
+    assert 60 < known.sum() < len(known) and known[0] and not known[-1]
+    assert np.abs(record["table_ax"][known]).max() < 0.2
+    assert roll_is_known(record, False, stated).all()
+
+
+def test_a_centre_of_gravity_off_across_shows_before_the_motion_and_its_effect_takes_it_away() -> None:
+    stated = load_specimen("bridge1")
+    base = fit_base(campaign(measured(replace(stated, centre_y=0.05)), stated))
+    assert "roll" in base.problem.relations and "across" in base.problem.relations
+    (left,) = base.solution.residuals.parts["roll"]
+    assert abs(left[left != 0.0].mean()) > 10.0
+    better = fit_base(campaign(measured(replace(stated, centre_y=0.05)), stated),
+                      base.model.adding(use("mass_eccentricity", along=0.0, across=0.0)))  # fmt: skip
+    (left,) = better.solution.residuals.parts["roll"]
+    assert abs(left[left != 0.0].mean()) < 0.5
+    assert better.solution.values["mass_eccentricity.across"] == pytest.approx(0.05, rel=0.02)
+
+
+def test_pads_of_stated_unlike_heights_show_their_stiffness_at_rest() -> None:
+    stated = load_specimen("bridge1").changed(seating=(2e-5, -2e-5, -1e-5, 3e-5))
+    stiffer = stated.changed(pad_stiffness=1.08 * stated.pad_stiffness)
+    base = fit_base(campaign(measured(stiffer), stated))
+    assert base.solution.values[SEAT_STIFFNESS] == pytest.approx(1.08, abs=0.01)
+    level = [f.key for f in base_free(base_model("bridge1"), balances=True)]
+    assert SEAT_STIFFNESS not in level
