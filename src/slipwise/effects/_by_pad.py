@@ -23,10 +23,10 @@ def for_pads(effect: Effect, pads: Sequence[str], *, corners: bool) -> Effect:
         return effect
     others = [p for p in effect.parameters if not p.by_pad]
     if corners:
-        return replace(effect, parameters=tuple(others), whole=effect)
+        return replace(effect, parameters=tuple(others), original=effect)
     size = next(p.typical for p in others if p.neutral is not None and p.typical != p.neutral)
     own = [_of_pad(p, pad, size) for p in single for pad in (pads if p.by_pad == "each" else pads[1:])]
-    return replace(effect, parameters=(*own, *(p for p in others if p.neutral is None)), whole=effect)
+    return replace(effect, parameters=(*own, *(p for p in others if p.neutral is None)), original=effect)
 
 
 def _of_pad(parameter: Parameter, pad: str, size: float) -> Parameter:

@@ -99,7 +99,7 @@ class Effect(Drawn, Tabular):
         text: the whole docstring; set when the file is read.
         hooks: the file's functions; set when the file is read.
         path: the file; set when the file is read.
-        whole: of which effect this is one with the parameters that a rig's pads can have, see `for_pads`.
+        original: for an effect with the parameters that a rig's pads can have, see `for_pads`: the one with all.
     """
 
     port: str
@@ -131,7 +131,7 @@ class Effect(Drawn, Tabular):
     text: str = ""
     hooks: Mapping[str, Callable[..., Any]] = field(default_factory=dict[str, Callable[..., Any]])
     path: Path = Path()
-    whole: "Effect | None" = None
+    original: "Effect | None" = None
 
     @property
     def parameter_names(self) -> tuple[str, ...]:

@@ -14,13 +14,15 @@ from slipwise.rig.rocking import rolls
 MAX_CARD_DELAY = 1.5e-4
 #: The same of the friction channels where nothing is known of the logger's filters [s].
 _MAX_CARD_DELAY_UNKNOWN = 4e-4
+#: Stiffness of the pads over rated, as the loads at rest show it where pads are stated to stand at unlike heights.
+SEAT_STIFFNESS = "rig.seat_stiffness"
 #: Rated values of the rig may be off by these shares; a frequency and a slip per pitch load are not rated at all.
 _RIG_SHARES: dict[str, tuple[float, float]] = {
     "rig.mass": (0.7, 1.4),
     "rig.buffer_stiffness": (0.4, 2.5),
     "rig.centre_height": (0.5, 2.0),
+    SEAT_STIFFNESS: (0.4, 2.5),
 }
-_SEAT_SHARES = (0.4, 2.5)
 #: What no rig is rated for: start, low, high, scale, unit. Pitch of the girder on its pads, over its rated frequency;
 #: slip at the gauge for pitch load, as the height at which the girder's tilt for that load would show so [m]; time by
 #: which channels of one card may lag behind those of another (more than that is a `channel_delay`).
@@ -41,8 +43,6 @@ _LAGS: dict[str, str] = {
     "rig.late_girder": "girder_ax",
     "rig.late_slip": "slip_x",
 }
-#: Stiffness of the pads over rated, as the loads at rest show it where pads are stated to stand at unlike heights.
-SEAT_STIFFNESS = "rig.seat_stiffness"
 #: The zero of a slider's friction gauge.
 ZERO = "rig.zero_force"
 #: Axis, and the shares of the rated inertia between which it may be: 8 % more leave three floors in pads that yaw.
@@ -113,7 +113,7 @@ class Term:
     def uses(self, values: Mapping[str, float]) -> list[EffectUse]:
         """Give the uses for a model, with the values of a fit."""
         numbers = {**self.unused, **{p.name: values[key] for key, p in self.parameters.items()}}
-        effect = self.effect.whole or self.effect
+        effect = self.effect.original or self.effect
         numbers = {**{n: v for n, v in effect.neutral().items() if n not in numbers}, **numbers}
         return [use_of(effect, numbers, target) for target in self.targets]
 
@@ -170,7 +170,7 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True, length
         out += [_small(key, specimen) for key in _SMALL]
         out += [inertia_free(specimen, ROLL_INERTIA)] if rolls(specimen) else []
         if is_uneven(specimen):
-            out.append(_around(SEAT_STIFFNESS, 1.0, *_SEAT_SHARES, "1"))
+            out.append(_around(SEAT_STIFFNESS, 1.0, *_RIG_SHARES[SEAT_STIFFNESS], "1"))
     elif specimen.free:  # the sliding plane moves against the gauge all the same
         out.append(_small("rig.pitch_slip", specimen))
     if specimen.free:
