@@ -39,7 +39,7 @@ ARROWS: dict[str, str] = {
     "estimation": (
         "campaign channels effects errors instruments model parallel params record rig signals statistics simulation"
     ),
-    "evidence": "campaign channels errors estimation record signals statistics",
+    "evidence": "campaign channels errors estimation record rig signals statistics",
     "comparison": (
         "campaign channels effects errors estimation evidence instruments model model_file motion parallel record"
         " rig shown signals statistics simulation"

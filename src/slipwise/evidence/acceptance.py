@@ -12,7 +12,8 @@ import numpy as np
 
 from slipwise.estimation.parameters import Term
 from slipwise.evidence.residual_summary import ResidualSummary
-from slipwise.evidence.score import FLOOR, largest_drop, score
+from slipwise.evidence.score import FLOOR, score
+from slipwise.rig.load_basis import WARPS
 
 
 @dataclass(frozen=True)
@@ -65,14 +66,26 @@ def is_kept(base: ResidualSummary, before: ResidualSummary, after: ResidualSumma
 def worsens(before: ResidualSummary, after: ResidualSummary) -> bool:
     """Tell whether a step repairs some relation at the cost of another.
 
-    Where something else is still hidden in that relation a right effect may cost some, if the score gains far more.
+    Where something else is still hidden in that relation a right effect may cost some, if the score gains far more. The
+    warps are one relation here: of pads that stand unevenly one after the other is found, and each moves all of them.
     """
-    worse, relation = largest_drop(after, before)
-    if worse <= LEAST.spoilt:
+    was, now = _levels(before), _levels(after)
+    relation = max(now, key=lambda r: now[r][0] / was[r][0])
+    (there, samples), (here, _) = was[relation], now[relation]
+    if 1.0 - there / here <= LEAST.spoilt:
         return False
-    there, here = (max(s.left_out_level(relation), FLOOR) for s in (before, after))
-    lost = 0.5 * before.counts[relation][0] * float(np.log(here / there))
+    lost = 0.5 * samples * float(np.log(here / there))
     return there < LEAST.hidden or score(before, after) < LEAST.gained * lost
+
+
+def _levels(summary: ResidualSummary) -> dict[str, tuple[float, int]]:
+    """Give the mean squared residual of every relation [noise variance], and its samples; all warps as one."""
+    sums: dict[str, tuple[float, int]] = {}
+    for relation in summary.fitted:
+        name = WARPS[0] if relation in WARPS else relation
+        total, samples = sums.get(name, (0.0, 0))
+        sums[name] = total + summary.left_out[relation], samples + summary.counts[relation][0]
+    return {name: (max(total / max(samples, 1), FLOOR), samples) for name, (total, samples) in sums.items()}
 
 
 def all_down(summary: ResidualSummary) -> bool:

@@ -10,9 +10,11 @@ from slipwise.evidence.score import largest_drop, lead, score
 COUNT = 10_000
 
 
-def left(pads: float, girder: float = 1.0, fitted: float | None = None, constants: int = 20) -> ResidualSummary:
+def left(
+    pads: float, girder: float = 1.0, fitted: float | None = None, constants: int = 20, **others: float
+) -> ResidualSummary:
     """Mean squared residuals of left-out motions, and of the fitted ones where those are others."""
-    levels = {"pads": pads, "girder": girder}
+    levels = {"pads": pads, "girder": girder, **others}
     total = {name: level * COUNT for name, level in levels.items()}
     own = {**total, "pads": (pads if fitted is None else fitted) * COUNT}
     blocks = {name: np.full(100, level * COUNT / 100) for name, level in levels.items()}
@@ -75,3 +77,10 @@ def test_a_lead_is_counted_in_standard_errors_of_blocks_of_time() -> None:
     alone, throughout = (lead(one, other) for other in others)
     assert alone == pytest.approx(1.0, abs=0.1)
     assert throughout > 10.0
+
+
+def test_warps_are_one_relation_that_a_step_may_make_worse() -> None:
+    """One pad that stands high moves all of them: of three, the first step leaves two worse than they were."""
+    before, after = left(1.0, warp=1900.0, warp_2=25.0, warp_3=4.0), left(1.0, warp=10.0, warp_2=30.0, warp_3=100.0)
+    assert not worsens(before, after)
+    assert worsens(before, left(1.0, warp=1900.0, warp_2=25.0, warp_3=100.0))
