@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 NEEDS: dict[str, str] = {
     "command": "the model is driven by the measured table motion; only the command could show it",
     "buffers": "no buffers, or neither girder_ax nor all pads' loads and friction to see them by",
-    "balances": "needs the balances of a girder: load and friction of all four pads, and accelerations",
-    "heave": "needs girder_az and the loads of four pads",
+    "balances": "needs the balances of a girder: load and friction of all pads, and accelerations",
+    "heave": "needs girder_az and the loads of all pads",
     "across": "needs motion across, and friction of the pads along y",
     "prescribed slip": "the girder slides freely: no machine stands between gauge and contact",
     "storeys": "needs a specimen with storeys, the accelerations of all of them, and the balances of its base",
