@@ -49,7 +49,8 @@ def least_drop(terms: Iterable[Term]) -> float:
 def is_kept(base: ResidualSummary, before: ResidualSummary, after: ResidualSummary, least: float) -> bool:
     """Tell whether a step is worth being kept.
 
-    An effect that only repairs what the one before has spoilt explains nothing of the rig.
+    An effect that only repairs what the one before has spoilt explains nothing of the rig, and a relation that is left
+    with less than its noise has nothing to explain: that noise was thought too large.
 
     Args:
         base: of the base model.
@@ -60,7 +61,7 @@ def is_kept(base: ResidualSummary, before: ResidualSummary, after: ResidualSumma
     if score(before, after) <= 0.0 or worsens(before, after):
         return False
     lower = {r: max(min(base.left_out_level(r), before.left_out_level(r)), FLOOR) for r in base.fitted}
-    return any(1.0 - max(after.left_out_level(r), FLOOR) / lower[r] >= least for r in lower)
+    return any(of > 1.0 and 1.0 - max(after.left_out_level(r), FLOOR) / of >= least for r, of in lower.items())
 
 
 def worsens(before: ResidualSummary, after: ResidualSummary) -> bool:

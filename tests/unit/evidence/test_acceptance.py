@@ -84,3 +84,9 @@ def test_warps_are_one_relation_that_a_step_may_make_worse() -> None:
     before, after = left(1.0, warp=1900.0, warp_2=25.0, warp_3=4.0), left(1.0, warp=10.0, warp_2=30.0, warp_3=100.0)
     assert not worsens(before, after)
     assert worsens(before, left(1.0, warp=1900.0, warp_2=25.0, warp_3=100.0))
+
+
+def test_a_relation_below_its_noise_has_nothing_to_explain() -> None:
+    """A record of three pads without a filter, whose noise at reversals was thought too large."""
+    assert not is_kept(left(0.61, girder=1.14), left(0.61, girder=1.14), left(0.53, girder=1.14), LEAST.law)
+    assert is_kept(left(1.2, girder=1.14), left(1.2, girder=1.14), left(0.9, girder=1.14), LEAST.law)
