@@ -22,7 +22,6 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.image import imread
-
 from rerun.chunk import RrdReader
 
 from slipwise.channels import pads_in
