@@ -54,11 +54,10 @@ def jump_noise_in_push(specimen: Specimen, run: FitRun) -> Array:
     """
     noise = float(np.linalg.norm(run.gauge_noise[0]))
     squared = np.append(squared_jumps(run.force.sum(axis=1), noise), 0.0) / specimen.mass**2
-    masses = np.array([storey.mass for storey in specimen.storeys])
     out = np.zeros(len(squared))
     for mode in frame_modes(specimen.storeys):
         missed = missed_instant(run.dt, mode.frequency, mode.damping)
-        out += float(masses @ mode.shape) ** 4 * np.maximum(fftconvolve(squared, missed, mode="same"), 0.0)
+        out += mode.share**4 * np.maximum(fftconvolve(squared, missed, mode="same"), 0.0)
     return np.sqrt(out)
 
 

@@ -183,7 +183,7 @@ def predicted_balances(
     }
     measured = {"girder": run.channel("girder_ax"), "heave": heave, "pitch": modes.pitch, "roll": modes.roll}
     measured |= by_warp(specimen, run.load)
-    if "storeys" in available(run, rated):
+    if rated.storeys and "storeys" in available(run, rated):
         predicted["storeys"], measured["storeys"] = predicted_push(run, specimen), frame
     added = effects_in(model, run, specimen, force, buffers)
     rocking = [added.pop(name, None) for name in ("roll", "pitch")]

@@ -51,11 +51,11 @@ def push_from_rest(acceleration: Array, pitch: Array, dt: float, specimen: Speci
     turning = np.gradient(np.gradient(pitch, dt), dt)
     push = -masses.sum() * specimen.gravity * pitch
     for mode in frame_modes(specimen.storeys):
-        share, lever = float(masses @ mode.shape), float((masses * heights) @ mode.shape)
-        driven = share * (specimen.gravity * pitch - acceleration) - lever * turning
+        lever = float((masses * heights) @ mode.shape)
+        driven = mode.share * (specimen.gravity * pitch - acceleration) - lever * turning
         turn = 2.0 * np.pi * mode.frequency
         for order, factor in ((1, 2.0 * mode.damping * turn), (0, turn**2)):
-            push += share * factor * oscillator(driven, dt, mode.frequency, mode.damping, order)
+            push += mode.share * factor * oscillator(driven, dt, mode.frequency, mode.damping, order)
     return push
 
 
@@ -82,10 +82,9 @@ def noise_in_push(run: FitRun, specimen: Specimen) -> Array:
         spectrum (m,) at the frequencies of a real transform, as the variance of white noise of that height [N^2].
     """
     turn = 2.0 * np.pi * np.fft.rfftfreq(len(run.time), run.dt)
-    masses = np.array([storey.mass for storey in specimen.storeys])
     gain = np.zeros(len(turn), dtype=complex)
     for mode in frame_modes(specimen.storeys):
         w = 2.0 * np.pi * mode.frequency
         spring = w**2 + 2j * mode.damping * w * turn
-        gain += (masses @ mode.shape) ** 2 * spring / (spring - turn**2)
+        gain += mode.share**2 * spring / (spring - turn**2)
     return (run.noise.get("girder_ax", 0.0) * np.abs(gain)) ** 2

@@ -70,11 +70,13 @@ class FrameMode:
         frequency: [Hz].
         damping: its share of critical [1].
         shape: (n_storeys,) displacement of the floors for a modal mass of one [kg^-1/2].
+        share: sum of mass times shape: its square is the mass that sways with the base in this mode [kg^1/2].
     """
 
     frequency: float
     damping: float
     shape: Array
+    share: float
 
 
 def frame_modes(storeys: Sequence[Storey], axis: str = "x") -> list[FrameMode]:
@@ -92,7 +94,7 @@ def frame_modes(storeys: Sequence[Storey], axis: str = "x") -> list[FrameMode]:
     turn = np.sqrt(np.maximum(squared, 0.0))
     ratios = np.sum(shapes * (damping @ shapes), axis=0) / (2.0 * turn)
     return [
-        FrameMode(float(w / (2.0 * np.pi)), float(z), scale * shape)
+        FrameMode(float(w / (2.0 * np.pi)), float(z), scale * shape, float(masses @ (scale * shape)))
         for w, z, shape in zip(turn, ratios, shapes.T, strict=True)
     ]
 
