@@ -18,6 +18,8 @@ Array = NDArray[np.float64]
 _TOLERANCE = 1e-22
 #: Gap [m] below which the law is asked for the load of a pad: more than any girder is thrown.
 _REACH = 0.5
+#: Sensors of acceleration, along and about.
+_ACCELERATION = (int(mujoco.mjtSensor.mjSENS_FRAMELINACC), int(mujoco.mjtSensor.mjSENS_FRAMEANGACC))
 
 
 def numbers_for(law: Kernel, rig: Rig, model: Model, dt: float) -> Array:
@@ -44,7 +46,44 @@ def numbers_for(law: Kernel, rig: Rig, model: Model, dt: float) -> Array:
     pads[:, places.PAD_JACOBIAN : places.PAD_JACOBIAN + 2 * MAX_DOFS] = jacobian[:count]
     buffers[:, places.BUFFER_TENDON : places.BUFFER_TENDON + 2] = tendons[count:]
     buffers[:, places.BUFFER_JACOBIAN : places.BUFFER_JACOBIAN + 2 * MAX_DOFS] = jacobian[count:]
+    pads[:, places.EXCESS : places.EXCESS + 2] = np.nan
+    if rig.specimen.free:
+        readings = _acceleration_readings(rig)
+        responses = _responses(rig, readings)
+        first = law.layout.responses(rig.specimen)
+        numbers[first : first + responses.size] = responses.ravel()
+        numbers[places.RESPONSES] = first
+        numbers[places.ACCELERATIONS], numbers[places.N_ACCELERATIONS] = readings.start, readings.stop - readings.start
     return numbers
+
+
+def _acceleration_readings(rig: Rig) -> slice:
+    """Give where the readings of acceleration stand in sensordata: one after another."""
+    found = [s for name, s in rig.sensors.items() if rig.model.sensor(name).type[0] in _ACCELERATION]
+    return slice(min(s.start for s in found), max(s.stop for s in found))
+
+
+def _responses(rig: Rig, readings: slice) -> Array:
+    """Work out what one newton of friction on each pad along x and y changes, (rows, dofs + rows + readings).
+
+    Accelerations of the degrees of freedom [m/s^2, rad/s^2], of the rows' slip [m/s^2], and readings, at rest.
+    """
+    model, count = rig.model, 2 * len(rig.specimen.pads)
+    data = mujoco.MjData(model)
+    data.qpos[:] = start_state(rig)
+    mujoco.mj_forward(model, data)
+    inertia = np.zeros((model.nv, model.nv))
+    mujoco.mj_fullM(model, data, inertia)
+    dofs = -np.linalg.solve(inertia, rig.jacobian[:count].T).T
+    read = np.zeros((readings.stop - readings.start, model.nv))
+    for name, at in rig.sensors.items():
+        sensor = model.sensor(name)
+        if sensor.type[0] in _ACCELERATION:
+            along, about = np.zeros((3, model.nv)), np.zeros((3, model.nv))
+            mujoco.mj_jacSite(model, data, along, about, int(sensor.objid[0]))
+            turns = sensor.type[0] == mujoco.mjtSensor.mjSENS_FRAMEANGACC
+            read[at.start - readings.start : at.stop - readings.start] = about if turns else along
+    return np.concatenate([dofs, dofs @ rig.jacobian[:count].T, dofs @ read.T], axis=1)
 
 
 def _dof(model: mujoco.MjModel, joint: str) -> int:

@@ -15,6 +15,7 @@ from slipwise.simulation.kernel.places import (
     RATE_AGE,
     RISE,
     RISES_OVER_PADS,
+    ROW_BOUND,
 )
 
 Array = NDArray[np.float64]
@@ -58,8 +59,9 @@ def direction(u: Array, z: int, bound: float, velocity_x: float, velocity_y: flo
 @compilable
 def split(u: Array, z: int, bound_x: float, bound_y: float, frictionloss: Array) -> None:
     """Set what the rows of a pad's friction along x and y may carry: the size of each [N]."""
-    frictionloss[int(u[z + FRICTION_ROW])] = max(abs(bound_x), TINY)
-    frictionloss[int(u[z + FRICTION_ROW + 1])] = max(abs(bound_y), TINY)
+    u[z + ROW_BOUND], u[z + ROW_BOUND + 1] = max(abs(bound_x), TINY), max(abs(bound_y), TINY)
+    frictionloss[int(u[z + FRICTION_ROW])] = u[z + ROW_BOUND]
+    frictionloss[int(u[z + FRICTION_ROW + 1])] = u[z + ROW_BOUND + 1]
 
 
 @compilable

@@ -5,6 +5,7 @@ different parameters share one model and one callback. Loops over records use th
 fixed places (see `places`); behind them stands what depends on the effects that there are.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -56,11 +57,28 @@ class Layout:
 
     def size(self, specimen: Specimen) -> int:
         """Give how many numbers the array of a specimen has."""
+        return self.responses(specimen) + math.prod(response_shape(specimen))
+
+    def responses(self, specimen: Specimen) -> int:
+        """Give where the responses of a specimen's rig to its pads' friction begin."""
         return self.buffers(len(specimen.pads)) + max(len(specimen.buffers), 1) * self.buffer_block
 
     def buffers(self, n_pads: int) -> int:
         """Give where the first buffer's block begins; there is always one, what the shear keys remember is in it."""
         return self.first_pad + n_pads * self.pad_block
+
+
+def response_shape(specimen: Specimen) -> tuple[int, int]:
+    """Give the rows of the pads' dry friction, and what answers to each: degrees of freedom, rows, accelerations.
+
+    The table has four degrees of freedom and the girder six, a bending mode one, a storey two; three accelerations are
+    read at the girder's middle, its two edges and each storey, and three of its turning.
+    """
+    if not specimen.free:
+        return 0, 0
+    rows, storeys = 2 * len(specimen.pads), len(specimen.storeys)
+    dofs = 10 + (specimen.bending_mass > 0.0) + 2 * storeys
+    return rows, dofs + rows + 3 * (4 + storeys)
 
 
 def of_each_pad(effect: Effect) -> bool:
@@ -204,7 +222,8 @@ def pad_blocks(layout: Layout, array: NDArray[np.float64]) -> NDArray[np.float64
 
 def buffer_blocks(layout: Layout, array: NDArray[np.float64]) -> NDArray[np.float64]:
     """View the buffers' blocks as (n_buffers or 1, buffer_block)."""
-    return array[layout.buffers(int(array[places.N_PADS])) :].reshape(-1, layout.buffer_block)
+    first, count = layout.buffers(int(array[places.N_PADS])), max(int(array[places.N_BUFFERS]), 1)
+    return array[first : first + count * layout.buffer_block].reshape(count, layout.buffer_block)
 
 
 def pad_memories(layout: Layout, array: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -78,8 +78,8 @@ def offsets() -> Offsets:
     Raises:
         SimulationError: this build of MuJoCo lays its data out in another way.
     """
-    data_fields = ("time", "ncon", "contact", "userdata", "qvel", "qfrc_applied", "ten_length", "ten_velocity",
-                   "efc_frictionloss", "efc_pos", "efc_vel",
+    data_fields = ("time", "ncon", "contact", "userdata", "qpos", "qvel", "qacc", "qfrc_applied",
+                   "qfrc_constraint", "ten_length", "ten_velocity", "efc_frictionloss", "efc_pos", "efc_vel",
                    "efc_J", "efc_aref", "efc_force", "sensordata")  # fmt: skip
     data, contact = _structure("mjData"), _structure("mjContact")
     found = Offsets(
@@ -99,7 +99,8 @@ def _check(found: Offsets) -> None:
     live.userdata[:] = [3.0, 4.0]
     mujoco.mj_forward(model, live)
     base = live._address
-    for name in ("userdata", "qvel", "qfrc_applied", "ten_length", "ten_velocity", "sensordata", "efc_J"):
+    plain = ("userdata", "qpos", "qvel", "qacc", "qfrc_applied", "qfrc_constraint", "ten_length", "ten_velocity")
+    for name in (*plain, "sensordata", "efc_J"):
         pointer = ctypes.c_void_p.from_address(base + found.data[name]).value
         if pointer != getattr(live, name).__array_interface__["data"][0]:
             raise SimulationError(_moved(name))

@@ -53,7 +53,12 @@ N_OBSERVE_BUFFER = N_OBSERVE + 1
 #: Above 0: a sliding face is curved at all; and where the girder then rises above the pads that stand on the table.
 CURVED = N_OBSERVE_BUFFER + 1
 RISES_OVER_PADS = CURVED + 1
-END = RISES_OVER_PADS + 1
+#: Where the responses of the rig to the pads' friction begin (see `reversals`), 0 where slip is prescribed.
+RESPONSES = RISES_OVER_PADS + 1
+#: How many readings of acceleration there are, and the first place of them in `sensordata`.
+N_ACCELERATIONS = RESPONSES + 1
+ACCELERATIONS = N_ACCELERATIONS + 1
+END = ACCELERATIONS + 1
 
 #: In a pad's block. Apparent area [m^2].
 APPARENT_AREA = 0
@@ -101,8 +106,23 @@ TRAIN_VELOCITY = TRAIN_TIME + 1
 RIG_MOTION = TRAIN_VELOCITY + 2
 #: Slip rate of the step before, along x and y [m/s].
 LAST_VELOCITY = RIG_MOTION + 3
+#: What each of its two rows of dry friction may carry in the step [N].
+ROW_BOUND = LAST_VELOCITY + 2
+#: Sense (-1 or 1) in which each row slides at the end of the step before; 0 where it sticks or does not touch.
+SENSE = ROW_BOUND + 2
+#: Acceleration of each row's slip [m/s^2] under all the friction that it may carry, in the step before; nan where it
+#: is not known.
+EXCESS = SENSE + 2
+#: Of a step in which friction turns round or gives way, per row: change of its mean force [N], a force on trial [N],
+#: slip rate at the step's end [m/s], when after the step's middle it happens [s], and change of the force at that
+#: instant times half the square of that time [N s^2].
+CHANGE = EXCESS + 2
+TRIAL = CHANGE + 2
+END_RATE = TRIAL + 2
+LATE = END_RATE + 2
+BEND = LATE + 2
 #: Where the memory of the effects on pads begins; their parameters follow.
-PAD_MEMORY = LAST_VELOCITY + 2
+PAD_MEMORY = BEND + 2
 
 #: In a buffer's block. Stiffness along x and y [N/m].
 BUFFER_STIFFNESS = 0

@@ -37,7 +37,10 @@ class Fields(NamedTuple):
     contact: int
     userdata: int
     qvel: int
+    qpos: int
+    qacc: int
     qfrc_applied: int
+    qfrc_constraint: int
     ten_length: int
     ten_velocity: int
     efc_frictionloss: int
@@ -136,5 +139,8 @@ def sensor_at(effects: Dispatch, at: Fields, data: int, stage: int) -> None:
         _numbers(words[at.ten_length]),
         _numbers(words[at.ten_velocity]),
         _numbers(words[at.efc_force]),
+        _numbers(words[at.qacc]),
+        _numbers(words[at.qpos]),
+        _numbers(words[at.qfrc_constraint]),
         _numbers(words[at.sensordata]),
     )

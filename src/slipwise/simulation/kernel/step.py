@@ -52,11 +52,14 @@ from slipwise.simulation.kernel.places import (
     RESTORING,
     RIG_MOTION,
     RISE,
+    ROW_BOUND,
+    SENSE,
     SIDE,
     SLOPE,
     TRAIN_VELOCITY,
     USER_SENSOR,
 )
+from slipwise.simulation.kernel.reversals import turn_friction
 from slipwise.simulation.kernel.rig_motion import rig_motion
 
 Array = NDArray[np.float64]
@@ -245,7 +248,7 @@ def push_girder(
 @compilable
 def sensor_step(
     effects: Dispatch, u: Array, time: float, ten_length: Array, ten_velocity: Array, friction_force: Array,
-    sensordata: Array,
+    qacc: Array, qpos: Array, constraint_force: Array, sensordata: Array,
 ) -> None:  # fmt: skip
     """Keep friction for the next step and write loads and forces as channels; what `mjcb_sensor` does.
 
@@ -255,11 +258,16 @@ def sensor_step(
         time: since the start of the run [s].
         ten_length: of MuJoCo's tendons: slip and deflection [m].
         ten_velocity: their rates [m/s].
-        friction_force: of the constraint rows, on the girder [N].
+        friction_force: of the constraint rows, on the girder [N]; changed where it turns round within the step, and
+            with it:
+        qacc: accelerations of the degrees of freedom [m/s^2, rad/s^2].
+        qpos: their positions [m, rad].
+        constraint_force: generalised forces of all constraints [N, N m].
         sensordata: MuJoCo's readings [N]; set from the place of the law's own sensor on: load and forces along x and y
             per pad, forces along x and y per buffer, further force on the girder along x, y, z; compression of
             each pad [m], less what its face has risen: how far the girder has come down on it.
     """
+    turn_friction(effects, u, ten_velocity, friction_force, qacc, qpos, constraint_force, sensordata)
     n_pads = int(u[N_PADS])
     first = int(u[USER_SENSOR])
     for pad in range(n_pads):
@@ -278,8 +286,8 @@ def sensor_step(
             effects, u, z, u[z + BOUND], friction, u[z + NORMAL], velocity_x, velocity_y, ten_length[tendon_x],
             ten_length[tendon_y], u[z + SIDE], u[z + SIDE + 1], time, u[DT],
         )  # fmt: skip
-        u[z + FORCE] = friction_x
-        u[z + FORCE + 1] = friction_y
+        u[z + FORCE] = u[z + SENSE] * u[z + ROW_BOUND] if u[z + SENSE] != 0.0 else friction_x
+        u[z + FORCE + 1] = u[z + SENSE + 1] * u[z + ROW_BOUND + 1] if u[z + SENSE + 1] != 0.0 else friction_y
         sensordata[first + 3 * pad] = u[z + LOAD]
         sensordata[first + 3 * pad + 1] = force_x + u[z + RESTORING]
         sensordata[first + 3 * pad + 2] = force_y + u[z + RESTORING + 1]
