@@ -69,8 +69,8 @@ def _python_callbacks(law: Kernel) -> tuple[Any, Any]:
     def sensor(model: Any, data: Any, stage: int) -> None:
         if stage == acceleration:
             sensor_step(
-                data.userdata, data.time, data.ten_length, data.ten_velocity, data.efc_force, data.qacc, data.qpos,
-                data.qfrc_constraint, data.sensordata,
+                data.userdata, data.time, data.ten_length, data.ten_velocity, data.efc_force, data.ctrl, data.qacc,
+                data.qpos, data.qfrc_constraint, data.sensordata,
             )  # fmt: skip
 
     return control, sensor

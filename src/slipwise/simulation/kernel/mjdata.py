@@ -78,7 +78,7 @@ def offsets() -> Offsets:
     Raises:
         SimulationError: this build of MuJoCo lays its data out in another way.
     """
-    data_fields = ("time", "ncon", "contact", "userdata", "qpos", "qvel", "qacc", "qfrc_applied",
+    data_fields = ("time", "ncon", "contact", "userdata", "ctrl", "qpos", "qvel", "qacc", "qfrc_applied",
                    "qfrc_constraint", "ten_length", "ten_velocity", "efc_frictionloss", "efc_pos", "efc_vel",
                    "efc_J", "efc_aref", "efc_force", "sensordata")  # fmt: skip
     data, contact = _structure("mjData"), _structure("mjContact")
@@ -99,7 +99,7 @@ def _check(found: Offsets) -> None:
     live.userdata[:] = [3.0, 4.0]
     mujoco.mj_forward(model, live)
     base = live._address
-    plain = ("userdata", "qpos", "qvel", "qacc", "qfrc_applied", "qfrc_constraint", "ten_length", "ten_velocity")
+    plain = ("userdata", "ctrl", "qpos", "qvel", "qacc", "qfrc_applied", "qfrc_constraint", "ten_length", "ten_velocity")
     for name in (*plain, "sensordata", "efc_J"):
         pointer = ctypes.c_void_p.from_address(base + found.data[name]).value
         if pointer != getattr(live, name).__array_interface__["data"][0]:
@@ -132,5 +132,5 @@ _PROBE = """
 <body pos="0 0 0.09"><joint name="x" type="slide" axis="0 0 1"/><geom size="0.1" condim="1"/></body>
 <body pos="1 0 0.09"><joint name="y" type="slide" axis="0 0 1"/><geom size="0.1" condim="1"/></body></worldbody>
 <tendon><fixed name="t" frictionloss="2"><joint joint="x" coef="1"/></fixed></tendon>
-<sensor><jointpos joint="x"/></sensor></mujoco>
+<actuator><motor joint="x"/></actuator><sensor><jointpos joint="x"/></sensor></mujoco>
 """

@@ -58,7 +58,9 @@ RESPONSES = RISES_OVER_PADS + 1
 #: How many readings of acceleration there are, and the first place of them in `sensordata`.
 N_ACCELERATIONS = RESPONSES + 1
 ACCELERATIONS = N_ACCELERATIONS + 1
-END = ACCELERATIONS + 1
+#: Armature of the table's joints [kg, kg m^2].
+TABLE_ARMATURE = ACCELERATIONS + 1
+END = TABLE_ARMATURE + 1
 
 #: In a pad's block. Apparent area [m^2].
 APPARENT_AREA = 0

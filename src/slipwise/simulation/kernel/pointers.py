@@ -37,6 +37,7 @@ class Fields(NamedTuple):
     contact: int
     userdata: int
     qvel: int
+    ctrl: int
     qpos: int
     qacc: int
     qfrc_applied: int
@@ -139,6 +140,7 @@ def sensor_at(effects: Dispatch, at: Fields, data: int, stage: int) -> None:
         _numbers(words[at.ten_length]),
         _numbers(words[at.ten_velocity]),
         _numbers(words[at.efc_force]),
+        _numbers(words[at.ctrl]),
         _numbers(words[at.qacc]),
         _numbers(words[at.qpos]),
         _numbers(words[at.qfrc_constraint]),

@@ -37,7 +37,9 @@ from slipwise.simulation.kernel.places import (
     DT,
     END_RATE,
     EXCESS,
+    FORCE,
     FRICTION_ROW,
+    LAST_VELOCITY,
     LATE,
     MAX_DOFS,
     N_ACCELERATIONS,
@@ -55,6 +57,11 @@ from slipwise.simulation.kernel.places import (
 Array = NDArray[np.float64]
 #: Share of what a row may carry from which on it counts as carrying all of it [1]: the solver's own error.
 _ALL = 1.0 - 1e-9
+#: Slip rate [m/s] below which a row is at rest: the solver lets friction creep by a hundredth of what it stops in a step.
+_REST = 1e-6
+#: Least share of what a row may carry that it must have carried in the step before to have slid as it does now [1]: the
+#: girder lands, or friction that holds next to nothing turns from one direction to another.
+_ALIKE = 0.5
 
 
 @compilable
@@ -79,6 +86,9 @@ def turn_friction(
     turns, sticks = False, False
     for row in range(2 * int(u[N_PADS])):
         z = effects.first_pad + row // 2 * effects.pad_block + row % 2
+        rate = u[z + SENSE] * ten_velocity[int(u[z + PAD_TENDON])]
+        if rate < _REST or u[z + SENSE] * u[z + FORCE] < _ALIKE * u[z + ROW_BOUND]:
+            u[z + SENSE] = 0.0
         if u[z + ROW_BOUND] <= 2.0 * TINY:
             u[z + SENSE], u[z + EXCESS] = 0.0, np.nan
         elif u[z + SENSE] == 0.0:
@@ -132,7 +142,7 @@ def _turn_round(effects: Dispatch, u: Array, ten_velocity: Array) -> None:
         sense = u[z + SENSE]
         end = sense * (u[z + END_RATE] + dt * _response(effects, u, row, CHANGE))
         if end < 0.0:
-            start = max(sense * ten_velocity[int(u[z + PAD_TENDON])], 0.0)
+            start = sense * ten_velocity[int(u[z + PAD_TENDON])]
             u[z + LATE] = dt * (start / (start - end) - 0.5)
             u[z + TRIAL] = -2.0 * sense * u[z + ROW_BOUND] * (0.5 - u[z + LATE] / dt)
             u[z + EXCESS] = end
@@ -145,8 +155,11 @@ def _turn_round(effects: Dispatch, u: Array, ten_velocity: Array) -> None:
         late, sense, most = u[z + LATE], u[z + SENSE], 2.0 * u[z + ROW_BOUND]
         if isnan(late):
             continue
-        u[z + EXCESS] = np.nan
         if u[z + END_RATE] < 0.0:
+            # The rate of the step before that leads on to the rates after the event: the law asks for it.
+            start = ten_velocity[int(u[z + PAD_TENDON])]
+            back = u[z + EXCESS] - sense * start + (u[z + END_RATE] - u[z + EXCESS]) / (0.5 - late / dt)
+            u[z + LAST_VELOCITY] = sense * (u[z + END_RATE] - back)
             u[z + CHANGE] += u[z + TRIAL]
             u[z + SENSE] = -sense
             bend = -sense * most
@@ -155,6 +168,7 @@ def _turn_round(effects: Dispatch, u: Array, ten_velocity: Array) -> None:
             bend = min(max(bend, -most), most)
             u[z + CHANGE] = 0.0
             u[z + SENSE] = 0.0
+        u[z + EXCESS] = np.nan
         u[z + BEND] = 0.5 * bend * late * late
 
 
@@ -181,9 +195,11 @@ def _give_way(effects: Dispatch, u: Array, ten_velocity: Array, friction_force: 
         now = sense * (end - ten_velocity[int(u[z + PAD_TENDON])]) / dt
         grown = now - u[z + EXCESS]  # nan where nothing is known of the step before
         u[z + EXCESS] = now
-        if grown > 0.0 and abs(now) < 0.5 * grown:
+        alike = abs(u[z + FORCE]) >= _ALIKE * u[z + ROW_BOUND] and u[z + FORCE] * u[z + TRIAL] > 0.0
+        if alike and grown > 0.0 and abs(now) < 0.5 * grown:
             rate = dt * (0.5 * (now + 0.5 * grown) ** 2 / grown - max(now, 0.0))
-            u[z + LATE] = sense * rate / (dt * _response(effects, u, row, TRIAL))
+            whole = dt * sense * _response(effects, u, row, TRIAL)
+            u[z + LATE] = max(rate / whole, -1.0) if whole < 0.0 else 0.0
         elif abs(u[z + CHANGE]) <= (1.0 - _ALL) * u[z + ROW_BOUND]:
             u[z + LATE] = 0.0
     for row in range(n_rows):

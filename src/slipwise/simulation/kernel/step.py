@@ -59,6 +59,7 @@ from slipwise.simulation.kernel.places import (
     TRAIN_VELOCITY,
     USER_SENSOR,
 )
+from slipwise.simulation.kernel.prescribed_table import follow_command
 from slipwise.simulation.kernel.reversals import turn_friction
 from slipwise.simulation.kernel.rig_motion import rig_motion
 
@@ -248,7 +249,7 @@ def push_girder(
 @compilable
 def sensor_step(
     effects: Dispatch, u: Array, time: float, ten_length: Array, ten_velocity: Array, friction_force: Array,
-    qacc: Array, qpos: Array, constraint_force: Array, sensordata: Array,
+    command: Array, qacc: Array, qpos: Array, constraint_force: Array, sensordata: Array,
 ) -> None:  # fmt: skip
     """Keep friction for the next step and write loads and forces as channels; what `mjcb_sensor` does.
 
@@ -259,7 +260,8 @@ def sensor_step(
         ten_length: of MuJoCo's tendons: slip and deflection [m].
         ten_velocity: their rates [m/s].
         friction_force: of the constraint rows, on the girder [N]; changed where it turns round within the step, and
-            with it:
+            with it what follows the command.
+        command: (4,) acceleration of the table [m/s^2, rad/s^2].
         qacc: accelerations of the degrees of freedom [m/s^2, rad/s^2].
         qpos: their positions [m, rad].
         constraint_force: generalised forces of all constraints [N, N m].
@@ -267,6 +269,7 @@ def sensor_step(
             per pad, forces along x and y per buffer, further force on the girder along x, y, z; compression of
             each pad [m], less what its face has risen: how far the girder has come down on it.
     """
+    follow_command(u, command, qacc, constraint_force)
     turn_friction(effects, u, ten_velocity, friction_force, qacc, qpos, constraint_force, sensordata)
     n_pads = int(u[N_PADS])
     first = int(u[USER_SENSOR])
