@@ -11,8 +11,12 @@ from slipwise.simulation.kernel.places import (
     FORCE,
     FRICTION_ROW,
     GIRDER_DOF,
+    LAST_COEFFICIENT,
+    LAST_SPEED,
     LAST_VELOCITY,
+    OVER_REST,
     RATE_AGE,
+    RATE_SHARE,
     RISE,
     RISES_OVER_PADS,
     ROW_BOUND,
@@ -23,6 +27,10 @@ Array = NDArray[np.float64]
 TINY = 1e-9
 #: Speed [m/s] from which on friction points along the velocity rather than along the friction of the step before.
 DIRECTION_SPEED = 1e-3
+#: Slip rate [m/s] below which a row is at rest: the solver lets friction creep by a hundredth of what it stops in a step.
+REST = 1e-6
+#: Largest share by which friction is taken to change along a straight line over the speeds of one step [1].
+MOST_CHANGE = 0.5
 
 
 @compilable
@@ -39,6 +47,27 @@ def rate_of_instant(u: Array, z: int, velocity_x: float, velocity_y: float) -> t
     if now_x * velocity_x + now_y * velocity_y < 0.0:
         return 0.0, 0.0
     return now_x, now_y
+
+
+@compilable
+def learn_rate_dependence(u: Array, z: int, bound: float, normal: float, speed_x: float, speed_y: float) -> None:
+    """Find how what a pad may carry depends on its speed near rest, from this step and the one before.
+
+    Friction that turns round within a step passes through other speeds than that of the step's instant.
+    """
+    speed = sqrt(speed_x * speed_x + speed_y * speed_y)
+    coefficient = bound / normal if normal > 0.0 else 0.0
+    u[z + RATE_SHARE], u[z + OVER_REST] = 0.0, 1.0
+    change = u[z + LAST_SPEED] - speed
+    if coefficient > 0.0 and u[z + LAST_COEFFICIENT] > 0.0 and change > REST:
+        slope = (u[z + LAST_COEFFICIENT] - coefficient) / change
+        at_rest = coefficient - slope * speed
+        if at_rest > 0.0:
+            # What a straight line says holds for small changes only: laws may be much steeper near rest.
+            most = MOST_CHANGE / max(u[z + LAST_SPEED], speed)
+            u[z + RATE_SHARE] = min(max(slope / at_rest, -most), most)
+            u[z + OVER_REST] = 1.0 + u[z + RATE_SHARE] * speed
+    u[z + LAST_COEFFICIENT], u[z + LAST_SPEED] = coefficient, speed
 
 
 @compilable

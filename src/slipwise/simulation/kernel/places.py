@@ -123,8 +123,14 @@ TRIAL = CHANGE + 2
 END_RATE = TRIAL + 2
 LATE = END_RATE + 2
 BEND = LATE + 2
+#: Coefficient of friction [1] of the step before, and the speed that it belongs to [m/s]; share by which a metre per
+#: second changes what the pad may carry at rest [s/m], and what it may carry at the step's speed over that [1].
+LAST_COEFFICIENT = BEND + 2
+LAST_SPEED = LAST_COEFFICIENT + 1
+RATE_SHARE = LAST_SPEED + 1
+OVER_REST = RATE_SHARE + 1
 #: Where the memory of the effects on pads begins; their parameters follow.
-PAD_MEMORY = BEND + 2
+PAD_MEMORY = OVER_REST + 1
 
 #: In a buffer's block. Stiffness along x and y [N/m].
 BUFFER_STIFFNESS = 0

@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.dispatch import Dispatch
-from slipwise.simulation.kernel.friction_rows import TINY
+from slipwise.simulation.kernel.friction_rows import REST, TINY
 from slipwise.simulation.kernel.places import (
     ACCELERATIONS,
     BEND,
@@ -46,8 +46,10 @@ from slipwise.simulation.kernel.places import (
     N_ARMS,
     N_DOFS,
     N_PADS,
+    OVER_REST,
     PAD_JACOBIAN,
     PAD_TENDON,
+    RATE_SHARE,
     RESPONSES,
     ROW_BOUND,
     SENSE,
@@ -57,8 +59,6 @@ from slipwise.simulation.kernel.places import (
 Array = NDArray[np.float64]
 #: Share of what a row may carry from which on it counts as carrying all of it [1]: the solver's own error.
 _ALL = 1.0 - 1e-9
-#: Slip rate [m/s] below which a row is at rest: the solver lets friction creep by a hundredth of what it stops in a step.
-_REST = 1e-6
 #: Least share of what a row may carry that it must have carried in the step before to have slid as it does now [1]: the
 #: girder lands, or friction that holds next to nothing turns from one direction to another.
 _ALIKE = 0.5
@@ -87,7 +87,7 @@ def turn_friction(
     for row in range(2 * int(u[N_PADS])):
         z = effects.first_pad + row // 2 * effects.pad_block + row % 2
         rate = u[z + SENSE] * ten_velocity[int(u[z + PAD_TENDON])]
-        if rate < _REST or u[z + SENSE] * u[z + FORCE] < _ALIKE * u[z + ROW_BOUND]:
+        if rate < REST or u[z + SENSE] * u[z + FORCE] < _ALIKE * u[z + ROW_BOUND]:
             u[z + SENSE] = 0.0
         if u[z + ROW_BOUND] <= 2.0 * TINY:
             u[z + SENSE], u[z + EXCESS] = 0.0, np.nan
@@ -119,7 +119,10 @@ def _start_changes(effects: Dispatch, u: Array, ten_velocity: Array, friction_fo
         sense = u[z + SENSE]
         if sense == 0.0:
             sense = 1.0 if force > 0.0 else -1.0
-        u[z + CHANGE] = sense * u[z + ROW_BOUND] - force
+        before = u[z + ROW_BOUND]
+        if u[z + SENSE] != 0.0:
+            before = _carried(u, z, row % 2, 0.5 * u[z + SENSE] * ten_velocity[int(u[z + PAD_TENDON])])
+        u[z + CHANGE] = sense * before - force
         u[z + TRIAL] = 0.0
         u[z + LATE] = np.nan
         u[z + BEND] = 0.0
@@ -144,12 +147,19 @@ def _turn_round(effects: Dispatch, u: Array, ten_velocity: Array) -> None:
         if end < 0.0:
             start = sense * ten_velocity[int(u[z + PAD_TENDON])]
             u[z + LATE] = dt * (start / (start - end) - 0.5)
-            u[z + TRIAL] = -2.0 * sense * u[z + ROW_BOUND] * (0.5 - u[z + LATE] / dt)
+            u[z + END_RATE] = 0.0
             u[z + EXCESS] = end
-    for row in range(n_rows):  # and as if it had the other sense from the event on
-        z = effects.first_pad + row // 2 * effects.pad_block + row % 2
-        if not isnan(u[z + LATE]):
-            u[z + END_RATE] = u[z + EXCESS] + dt * u[z + SENSE] * _response(effects, u, row, TRIAL)
+    for _ in range(2):  # and as if it had the other sense from the event on: at a rate that is found by the second round
+        for row in range(n_rows):
+            z = effects.first_pad + row // 2 * effects.pad_block + row % 2
+            if not isnan(u[z + LATE]):
+                before = _carried(u, z, row % 2, 0.5 * u[z + SENSE] * ten_velocity[int(u[z + PAD_TENDON])])
+                after = _carried(u, z, row % 2, max(-0.5 * u[z + END_RATE], 0.0))
+                u[z + TRIAL] = -u[z + SENSE] * (before + after) * (0.5 - u[z + LATE] / dt)
+        for row in range(n_rows):
+            z = effects.first_pad + row // 2 * effects.pad_block + row % 2
+            if not isnan(u[z + LATE]):
+                u[z + END_RATE] = u[z + EXCESS] + dt * u[z + SENSE] * _response(effects, u, row, TRIAL)
     for row in range(n_rows):
         z = effects.first_pad + row // 2 * effects.pad_block + row % 2
         late, sense, most = u[z + LATE], u[z + SENSE], 2.0 * u[z + ROW_BOUND]
@@ -170,6 +180,13 @@ def _turn_round(effects: Dispatch, u: Array, ten_velocity: Array) -> None:
             u[z + SENSE] = 0.0
         u[z + EXCESS] = np.nan
         u[z + BEND] = 0.5 * bend * late * late
+
+
+@compilable
+def _carried(u: Array, z: int, axis: int, rate: float) -> float:
+    """Give what a row may carry at a small slip rate [m/s], at `z` its pad's block plus its axis."""
+    pad = z - axis
+    return u[z + ROW_BOUND] / u[pad + OVER_REST] * (1.0 + u[pad + RATE_SHARE] * rate)
 
 
 @compilable

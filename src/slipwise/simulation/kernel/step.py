@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.curved_face import along_face, keep_along, normal_force, onto_table, sliding_bound
 from slipwise.simulation.kernel.dispatch import Dispatch
-from slipwise.simulation.kernel.friction_rows import direction, lift_arms, rate_of_instant, split
+from slipwise.simulation.kernel.friction_rows import direction, learn_rate_dependence, lift_arms, rate_of_instant, split
 from slipwise.simulation.kernel.girder import buffer_spring, girder_drag, girder_lift
 from slipwise.simulation.kernel.loading_train import follow_train
 from slipwise.simulation.kernel.pads import pad_advance, pad_bound, pad_explicit, pad_further
@@ -138,6 +138,7 @@ def push_pad(
         bound = pad_bound(effects, u, z, normal, now_x, now_y, slip_x, slip_y, side_x, side_y, time, dt)
     u[z + NORMAL] = normal
     u[z + BOUND] = bound
+    learn_rate_dependence(u, z, bound, normal, now_x, now_y)
     if u[N_STICK] > 0.0:
         force_x, force_y = pad_explicit(
             effects, u, z, bound, normal, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt
