@@ -99,7 +99,17 @@ def _check(found: Offsets) -> None:
     live.userdata[:] = [3.0, 4.0]
     mujoco.mj_forward(model, live)
     base = live._address
-    plain = ("userdata", "ctrl", "qpos", "qvel", "qacc", "qfrc_applied", "qfrc_constraint", "ten_length", "ten_velocity")
+    plain = (
+        "userdata",
+        "ctrl",
+        "qpos",
+        "qvel",
+        "qacc",
+        "qfrc_applied",
+        "qfrc_constraint",
+        "ten_length",
+        "ten_velocity",
+    )
     for name in (*plain, "sensordata", "efc_J"):
         pointer = ctypes.c_void_p.from_address(base + found.data[name]).value
         if pointer != getattr(live, name).__array_interface__["data"][0]:

@@ -149,7 +149,9 @@ def _turn_round(effects: Dispatch, u: Array, ten_velocity: Array) -> None:
             u[z + LATE] = dt * (start / (start - end) - 0.5)
             u[z + END_RATE] = 0.0
             u[z + EXCESS] = end
-    for _ in range(2):  # and as if it had the other sense from the event on: at a rate that is found by the second round
+    for _ in range(
+        2
+    ):  # and as if it had the other sense from the event on: at a rate that is found by the second round
         for row in range(n_rows):
             z = effects.first_pad + row // 2 * effects.pad_block + row % 2
             if not isnan(u[z + LATE]):

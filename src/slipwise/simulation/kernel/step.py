@@ -14,7 +14,7 @@ from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.curved_face import along_face, keep_along, normal_force, onto_table, sliding_bound
 from slipwise.simulation.kernel.dispatch import Dispatch
 from slipwise.simulation.kernel.friction_rows import direction, learn_rate_dependence, lift_arms, rate_of_instant, split
-from slipwise.simulation.kernel.girder import buffer_spring, girder_drag, girder_lift
+from slipwise.simulation.kernel.girder import push_buffers, push_girder
 from slipwise.simulation.kernel.loading_train import follow_train
 from slipwise.simulation.kernel.pads import pad_advance, pad_bound, pad_explicit, pad_further
 from slipwise.simulation.kernel.places import (
@@ -22,12 +22,6 @@ from slipwise.simulation.kernel.places import (
     APPARENT_AREA,
     BOUND,
     BUFFER_FORCE,
-    BUFFER_GAP,
-    BUFFER_JACOBIAN,
-    BUFFER_MEMORY,
-    BUFFER_SIDE,
-    BUFFER_STIFFNESS,
-    BUFFER_TENDON,
     BUFFERS,
     COMPRESSION,
     CURVED,
@@ -169,82 +163,6 @@ def push_pad(
         j = z + PAD_JACOBIAN
         for dof in range(int(u[N_ARMS])):
             applied[dof] -= u[j + dof] * force_x + u[j + MAX_DOFS + dof] * force_y
-
-
-@compilable
-def push_buffers(
-    effects: Dispatch, u: Array, time: float, ten_length: Array, ten_velocity: Array, applied: Array
-) -> tuple[float, float]:
-    """Add the buffers' forces; gives the sums of their sizes along x and y [N]. Arguments as `control_step`."""
-    sum_x = 0.0
-    sum_y = 0.0
-    for buffer in range(int(u[N_BUFFERS])):
-        b = int(u[BUFFERS]) + buffer * effects.buffer_block
-        for axis in range(2):
-            tendon = int(u[b + BUFFER_TENDON + axis])
-            z = b + BUFFER_MEMORY + axis * effects.buffer_memory
-            force = buffer_spring(
-                effects, u, z, ten_length[tendon], ten_velocity[tendon], u[b + BUFFER_STIFFNESS + axis],
-                u[b + BUFFER_GAP], u[b + BUFFER_SIDE], time, u[DT],
-            )  # fmt: skip
-            u[b + BUFFER_FORCE + axis] = force
-            j = b + BUFFER_JACOBIAN + axis * MAX_DOFS
-            for dof in range(int(u[N_ARMS])):
-                applied[dof] -= u[j + dof] * force
-            if axis == 0:
-                sum_x += abs(force)
-            else:
-                sum_y += abs(force)
-    return sum_x, sum_y
-
-
-@compilable
-def push_girder(
-    effects: Dispatch, u: Array, sum_x: float, sum_y: float, time: float, ten_length: Array, qvel: Array, applied: Array
-) -> None:
-    """Add drag and what the shear keys hold.
-
-    A key holds its share of the vertical force, V |F_b| / sum |F_b|, where it stands: it rolls and pitches the girder.
-
-    Args:
-        effects: the chosen effects.
-        u: the law's numbers.
-        sum_x: sum of the sizes of the buffers' forces along x [N].
-        sum_y: the same along y [N].
-        time: since the start of the run [s].
-        ten_length: of MuJoCo's tendons: slip and deflection [m].
-        qvel: rates of the degrees of freedom [m/s, rad/s].
-        applied: generalised forces [N, N m]; added to.
-    """
-    dof_x = int(u[GIRDER_DOF])
-    dof_y = int(u[GIRDER_DOF + 1])
-    dof_z = int(u[GIRDER_DOF + 2])
-    n_pads = int(u[N_PADS])
-    slip_x = 0.0
-    slip_y = 0.0
-    for pad in range(n_pads):
-        z = effects.first_pad + pad * effects.pad_block
-        slip_x += ten_length[int(u[z + PAD_TENDON])] / n_pads
-        slip_y += ten_length[int(u[z + PAD_TENDON + 1])] / n_pads
-    force_x, force_y = girder_drag(effects, u, qvel[dof_x], qvel[dof_y], qvel[dof_z], slip_x, slip_y, time, u[DT])
-    applied[dof_x] -= force_x
-    applied[dof_y] -= force_y
-    force_z = girder_lift(effects, u, sum_x, sum_y, qvel[dof_x], qvel[dof_y], qvel[dof_z], slip_x, slip_y, time, u[DT])
-    applied[dof_z] += force_z
-    if force_z != 0.0 and sum_x + sum_y > 0.0:
-        # The column of yaw in a tendon's Jacobian is the distance of the key from the middle.
-        dof_yaw = int(u[GIRDER_DOF + 5])
-        for buffer in range(int(u[N_BUFFERS])):
-            b = int(u[BUFFERS]) + buffer * effects.buffer_block
-            own_x = u[b + BUFFER_FORCE]
-            own_y = u[b + BUFFER_FORCE + 1]
-            held = force_z * (abs(own_x) + abs(own_y)) / (sum_x + sum_y)
-            j = b + BUFFER_JACOBIAN + dof_yaw
-            applied[int(u[GIRDER_DOF + 3])] -= u[j] * held
-            applied[int(u[GIRDER_DOF + 4])] -= u[j + MAX_DOFS] * held
-    u[GIRDER_FORCE] = -force_x
-    u[GIRDER_FORCE + 1] = -force_y
-    u[GIRDER_FORCE + 2] = force_z
 
 
 @compilable
