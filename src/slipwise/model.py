@@ -11,6 +11,7 @@ from slipwise.errors import SettingError, unknown_name
 from slipwise.params import Parameter
 from slipwise.rig import Specimen, load_specimen
 from slipwise.shown import Tabular
+from slipwise.unused_values import refuse_unused
 
 
 @dataclass(frozen=True, repr=False)
@@ -231,6 +232,11 @@ class Model(Tabular):
         new = use_of(old.effect, {**old.numbers, **_read(old.effect, values)}, old.target)
         return replace(self, uses=tuple(new if u is old else u for u in self.uses))
 
+    @property
+    def effects_by_label(self) -> dict[str, Effect]:
+        """Give the effects by the labels of their uses."""
+        return {u.label: u.effect for u in self.uses}
+
     def built_specimen(self) -> Specimen:
         """Give the specimen as the effects on ports `rig` and `girder` leave it."""
         specimen = self.specimen
@@ -262,7 +268,12 @@ def base_model(rig: str | Path | Specimen, effects: Sequence[str | Effect | Effe
     Args:
         rig: a name, the path of an MJCF file or of a specimen.toml, or a specimen.
         effects: names or effects (typical values) or uses; the paper's law, eqs. (7) and (8), when not given.
+
+    Raises:
+        SettingError: effects that cannot go together, or a stated value of the specimen that the model does not use.
     """
     chosen = base_effects("law") if effects is None else effects
     specimen = rig if isinstance(rig, Specimen) else load_specimen(rig)
-    return Model(specimen, tuple(e if isinstance(e, EffectUse) else use(e) for e in chosen))
+    model = Model(specimen, tuple(e if isinstance(e, EffectUse) else use(e) for e in chosen))
+    refuse_unused(model.specimen, model.built_specimen(), model.effects_by_label)
+    return model

@@ -40,6 +40,7 @@ from slipwise.record import write_text
 from slipwise.rig import RIGS, Specimen, load_specimen
 from slipwise.rig.known import SPECIMEN_UNITS, better_known, known_better, read_known
 from slipwise.units import quantity
+from slipwise.unused_values import refuse_unused, unused_values
 
 _TOP = ("rig", "specimen", "effect")
 _HEAD = """# A model: the rig and the effects that act on it. `slipwise add` and `slipwise remove` edit this file too,
@@ -106,7 +107,9 @@ def save_model(model: Model, path: Path | str) -> None:
     rated = load_specimen(str(document["rig"]), path.parent)
     if rated.path != model.specimen.path:
         raise SettingError(f"{path} is a model of {document['rig']!r}, not of {rig!r}; write to another file")
-    _write_specimen(document, known_better(model.specimen, rated))
+    unused = unused_values(model.built_specimen(), model.effects_by_label)
+    known = {n: value for n, value in known_better(model.specimen, rated).items() if n not in unused}
+    _write_specimen(document, known)
     labels = [u.label for u in model.uses]
     entries = _entries(document)
     for i in reversed(range(len(entries))):
@@ -208,7 +211,9 @@ def _model(document: tomlkit.TOMLDocument, path: Path, trust: Trust) -> Model:
     part = cast(Mapping[str, Any], document.get("specimen", {}))
     known = read_known(part, f"[specimen] of {path.name}")
     uses = tuple(entry_use(entry, path, trust, slider=not specimen.free) for entry in _entries(document))
-    return Model(better_known(specimen, known, path.name), uses)
+    model = Model(better_known(specimen, known, path.name), uses)
+    refuse_unused(model.specimen, model.built_specimen(), model.effects_by_label)
+    return model
 
 
 def _file_of(effect: Effect, path: Path) -> str:

@@ -71,10 +71,9 @@ def replay(
     shaking = _shaped(shaking, amplitude, peak, similarity, start, end)
     if pier is not None:
         shaking = sw.pier_top(shaking, pier)
+    sw.motion.warn_of_travel(shaking)
     if stroke is not None:
         sw.motion.warn_beyond_stroke(shaking, sw.quantity(stroke, "m", "--stroke"))
-    else:
-        sw.motion.warn_of_travel(shaking)
     model = _model(rig, law, effect or [])
     given = {"dt": (step, "--step"), "output_dt": (output_step, "--output-step")}
     settings: dict[str, Any] = {name: sw.quantity(text, "s", option) for name, (text, option) in given.items() if text}

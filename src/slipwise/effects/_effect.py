@@ -93,7 +93,7 @@ class Effect(Drawn, Tabular):
         in_samples: for a fault that is found by looking at the samples, and not by a fit: why it cannot be found so
             where an actuator prescribes the slip.
         base: its role in the base model, of `BASE_ROLES`; springs are never missing by themselves.
-        stands_for: numbers of the base fit in whose place it comes, e.g. "rig.shear_strength".
+        stands_for: numbers of the specimen or the base fit in whose place it comes, e.g. "rig.shear_strength".
         name: the file's name; set when the file is read.
         summary: first line of the file's docstring; set when the file is read.
         text: the whole docstring; set when the file is read.

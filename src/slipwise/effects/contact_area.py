@@ -41,4 +41,5 @@ EFFECT = Effect(
     confused_with={"pressure_law": "sines of equal speed at several pressures"},
     replaces="real area proportional to load, eq. (2)",
     base="law",
+    stands_for=("rig.plastic_pressure",),
 )  # fmt: skip

@@ -66,7 +66,8 @@ def better_known(specimen: Specimen, known: Mapping[str, float | str], source: s
     Raises:
         SettingError: a value that no rig can have.
     """
-    return specimen.changed(**known, sources={**specimen.sources, **dict.fromkeys(known, source)})
+    sources = {**specimen.sources, **dict.fromkeys(known, source)}
+    return specimen.changed(**known, sources=sources, stated=(*specimen.stated, *known))
 
 
 def known_better(specimen: Specimen, rated: Specimen) -> dict[str, float | str]:

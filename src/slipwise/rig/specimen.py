@@ -40,6 +40,7 @@ class Specimen:
         storeys: of a frame that stands on the girder, from below; none for a rigid specimen.
         free: whether the girder can move horizontally; False where slip is prescribed.
         sources: where each rated value comes from.
+        stated: names of the values that a person stated in specimen.toml, campaign.toml or model.toml.
     """
 
     name: str
@@ -63,6 +64,7 @@ class Specimen:
     bending_frequency: float = 15.0
     bending_damping: float = 0.02
     sources: dict[str, str] = field(default_factory=dict)
+    stated: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse values that no rig can have, and values that do not belong together."""

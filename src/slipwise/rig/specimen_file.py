@@ -83,6 +83,7 @@ def _specimen(path: Path, content: Mapping[str, Any]) -> Specimen:
     sources = dict.fromkeys((*given, *stated), where)
     if content.get("buffers"):
         sources |= {"buffer_stiffness": where, "buffer_place": where, "buffer_height": where}
+    by_hand = tuple(given)
     for name, (value, why) in _USUAL.items():
         if name not in given:
             given[name], sources[name] = value, why
@@ -105,6 +106,7 @@ def _specimen(path: Path, content: Mapping[str, Any]) -> Specimen:
         storeys=_storeys(content, where),
         free=free,
         sources=sources | {n: str(words) for n, words in _table(content, "sources", where).items()},
+        stated=by_hand,
         **given,
         **words,
     )
