@@ -86,7 +86,7 @@ def _stepped(numbers, state, sense, table, slope, h):
 
 @njit
 def _left(numbers, state, sense, along):
-    """What is above zero until the next event: speed in the old sense, or what friction can hold beyond what it must."""
+    """What is above zero until the next event: speed in the old sense, or what friction can hold and need not."""
     if sense != 0:
         return sense * state[1]
     return _most(numbers, 0.0, state[2], state[3]) - abs(along)

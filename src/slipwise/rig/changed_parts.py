@@ -40,6 +40,8 @@ def changed_parts(rig: str, name: str, parts: Sequence[Part], given: Any) -> tup
     if np.ndim(given) and len(given) != len(parts):
         what = "buffer" if name.startswith("buffer") else "pad"
         raise SettingError(f"{rig}: {len(given)} values of {name} and {len(parts)} {what}s; give one for each")
+    if not parts:
+        return ()
     fields = PART_VALUES[name]
     if fields == ("x", "y"):
         return tuple(replace(p, x=float(x), y=float(y)) for p, (x, y) in zip(parts, given, strict=True))

@@ -9,6 +9,7 @@ from slipwise.motion.load import as_motion
 from slipwise.motion.resample import resample
 from slipwise.motion.table_motion import TableMotion
 from slipwise.simulation.simulator import DT, OUTPUT_DT, Memory, Replay, simulate
+from slipwise.simulation.step_check import warn_of_coarse_step
 
 
 def replay(
@@ -39,9 +40,10 @@ def replay(
         SettingError: settings that cannot go together; the message says what is possible.
         SimulationDiverged: the simulation left every bound; the error holds the record so far.
     """
+    model = as_model(model)
     fitted = resample(as_motion(motion), dt)
-    return simulate(
-        as_model(model),
+    answer = simulate(
+        model,
         fitted.acceleration,
         dt=dt,
         output_dt=output_dt,
@@ -51,3 +53,5 @@ def replay(
         provenance={"motion": dict(fitted.about())},
         progress=progress,
     )
+    warn_of_coarse_step(model, answer, fitted.title)
+    return answer

@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 TINY = 1e-9
 #: Speed [m/s] from which on friction points along the velocity rather than along the friction of the step before.
 DIRECTION_SPEED = 1e-3
-#: Slip rate [m/s] below which a row is at rest: the solver lets friction creep by a hundredth of what it stops in a step.
+#: Slip rate [m/s] below which a row is at rest. The solver lets it creep: by a hundredth of what it stops in a step.
 REST = 1e-6
 #: Largest share by which friction is taken to change along a straight line over the speeds of one step [1].
 MOST_CHANGE = 0.5

@@ -107,8 +107,10 @@ def girder_lift(
 def push_buffers(
     effects: Dispatch, u: Array, time: float, ten_length: Array, ten_velocity: Array, applied: Array
 ) -> tuple[float, float]:
-    """Add the buffers' forces; gives the sums of their sizes along x and y [N]. Arguments as `control_step`
-    of `step.py`."""
+    """Add the buffers' forces; gives the sums of their sizes along x and y [N].
+
+    Arguments as `control_step` of `step.py`.
+    """
     sum_x = 0.0
     sum_y = 0.0
     for buffer in range(int(u[N_BUFFERS])):

@@ -233,7 +233,7 @@ def _give_way(effects: Dispatch, u: Array, ten_velocity: Array, friction_force: 
 
 @compilable
 def _response(effects: Dispatch, u: Array, row: int, forces: int) -> float:
-    """Give the acceleration [m/s^2] of the slip of a row under the forces that stand at a place of every pad's block."""
+    """Give the acceleration [m/s^2] of a row's slip under the forces that stand at a place of every pad's block."""
     n_rows, n_dofs = 2 * int(u[N_PADS]), int(u[N_DOFS])
     size = n_dofs + n_rows + int(u[N_ACCELERATIONS])
     at = int(u[RESPONSES]) + n_dofs + row
