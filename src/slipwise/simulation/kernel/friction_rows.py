@@ -7,14 +7,18 @@ from numpy.typing import NDArray
 
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.places import (
+    BOUND,
     DT,
     FORCE,
     FRICTION_ROW,
     GIRDER_DOF,
-    LAST_COEFFICIENT,
-    LAST_SPEED,
+    LAST_BOUND,
+    LAST_NORMAL,
+    LAST_RATE,
     LAST_VELOCITY,
+    NORMAL,
     OVER_REST,
+    RATE,
     RATE_AGE,
     RATE_SHARE,
     RISE,
@@ -50,24 +54,32 @@ def rate_of_instant(u: Array, z: int, velocity_x: float, velocity_y: float) -> t
 
 
 @compilable
-def learn_rate_dependence(u: Array, z: int, bound: float, normal: float, speed_x: float, speed_y: float) -> None:
-    """Find how what a pad may carry depends on its speed near rest, from this step and the one before.
+def keep_rate(u: Array, z: int, now_x: float, now_y: float) -> None:
+    """Keep the slip rate [m/s] for which the law of the pad at `z` is asked, and what the step before knew."""
+    u[z + LAST_BOUND], u[z + LAST_NORMAL] = u[z + BOUND], u[z + NORMAL]
+    u[z + LAST_RATE], u[z + LAST_RATE + 1] = u[z + RATE], u[z + RATE + 1]
+    u[z + RATE], u[z + RATE + 1] = now_x, now_y
+
+
+@compilable
+def learn_rate_dependence(u: Array, z: int) -> None:
+    """Find how what the pad at `z` may carry depends on its speed near rest, from this step and the one before.
 
     Friction that turns round within a step passes through other speeds than that of the step's instant.
     """
-    speed = sqrt(speed_x * speed_x + speed_y * speed_y)
-    coefficient = bound / normal if normal > 0.0 else 0.0
     u[z + RATE_SHARE], u[z + OVER_REST] = 0.0, 1.0
-    change = u[z + LAST_SPEED] - speed
-    if coefficient > 0.0 and u[z + LAST_COEFFICIENT] > 0.0 and change > REST:
-        slope = (u[z + LAST_COEFFICIENT] - coefficient) / change
-        at_rest = coefficient - slope * speed
-        if at_rest > 0.0:
-            # What a straight line says holds for small changes only: laws may be much steeper near rest.
-            most = MOST_CHANGE / max(u[z + LAST_SPEED], speed)
-            u[z + RATE_SHARE] = min(max(slope / at_rest, -most), most)
-            u[z + OVER_REST] = 1.0 + u[z + RATE_SHARE] * speed
-    u[z + LAST_COEFFICIENT], u[z + LAST_SPEED] = coefficient, speed
+    speed = sqrt(u[z + RATE] ** 2 + u[z + RATE + 1] ** 2)
+    last = sqrt(u[z + LAST_RATE] ** 2 + u[z + LAST_RATE + 1] ** 2)
+    if u[z + LAST_BOUND] <= 0.0 or u[z + BOUND] <= 0.0 or last - speed <= REST:
+        return
+    coefficient = u[z + BOUND] / u[z + NORMAL]
+    slope = (u[z + LAST_BOUND] / u[z + LAST_NORMAL] - coefficient) / (last - speed)
+    at_rest = coefficient - slope * speed
+    if at_rest > 0.0:
+        # What a straight line says holds for small changes only: laws may be much steeper near rest.
+        most = MOST_CHANGE / last
+        u[z + RATE_SHARE] = min(max(slope / at_rest, -most), most)
+        u[z + OVER_REST] = 1.0 + u[z + RATE_SHARE] * speed
 
 
 @compilable

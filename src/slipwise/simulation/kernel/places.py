@@ -123,11 +123,15 @@ TRIAL = CHANGE + 2
 END_RATE = TRIAL + 2
 LATE = END_RATE + 2
 BEND = LATE + 2
-#: Coefficient of friction [1] of the step before, and the speed that it belongs to [m/s]; share by which a metre per
-#: second changes what the pad may carry at rest [s/m], and what it may carry at the step's speed over that [1].
-LAST_COEFFICIENT = BEND + 2
-LAST_SPEED = LAST_COEFFICIENT + 1
-RATE_SHARE = LAST_SPEED + 1
+#: Slip rate along x and y [m/s] at the step's instant, for which the law was asked; of the step before that rate, what
+#: the pad could carry [N], and the force normal to its face [N].
+RATE = BEND + 2
+LAST_RATE = RATE + 2
+LAST_BOUND = LAST_RATE + 2
+LAST_NORMAL = LAST_BOUND + 1
+#: Share by which a metre per second changes what the pad may carry at rest [s/m], and what it may carry at the step's
+#: rate over that [1].
+RATE_SHARE = LAST_NORMAL + 1
 OVER_REST = RATE_SHARE + 1
 #: Where the memory of the effects on pads begins; their parameters follow.
 PAD_MEMORY = OVER_REST + 1

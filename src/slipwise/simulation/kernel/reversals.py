@@ -29,10 +29,11 @@ from numpy.typing import NDArray
 
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.dispatch import Dispatch
-from slipwise.simulation.kernel.friction_rows import REST, TINY
+from slipwise.simulation.kernel.friction_rows import REST, learn_rate_dependence
 from slipwise.simulation.kernel.places import (
     ACCELERATIONS,
     BEND,
+    BOUND,
     CHANGE,
     DT,
     END_RATE,
@@ -62,6 +63,8 @@ _ALL = 1.0 - 1e-9
 #: Least share of what a row may carry that it must have carried in the step before to have slid as it does now [1]: the
 #: girder lands, or friction that holds next to nothing turns from one direction to another.
 _ALIKE = 0.5
+#: Least share of its pad's friction at which a row matters [1]: across the motion it carries next to nothing.
+_LEAST = 1e-6
 
 
 @compilable
@@ -83,19 +86,22 @@ def turn_friction(
     """
     if u[RESPONSES] <= 0.0:
         return
-    turns, sticks = False, False
+    turns, near = False, False
     for row in range(2 * int(u[N_PADS])):
         z = effects.first_pad + row // 2 * effects.pad_block + row % 2
-        rate = u[z + SENSE] * ten_velocity[int(u[z + PAD_TENDON])]
-        if rate < REST or u[z + SENSE] * u[z + FORCE] < _ALIKE * u[z + ROW_BOUND]:
-            u[z + SENSE] = 0.0
-        if u[z + ROW_BOUND] <= 2.0 * TINY:
-            u[z + SENSE], u[z + EXCESS] = 0.0, np.nan
-        elif u[z + SENSE] == 0.0:
-            sticks = True
-        elif -u[z + SENSE] * friction_force[int(u[z + FRICTION_ROW])] < _ALL * u[z + ROW_BOUND]:
-            turns = True
-    if not turns and not sticks:
+        bound, force = u[z + ROW_BOUND], -friction_force[int(u[z + FRICTION_ROW])]
+        sense = u[z + SENSE]
+        if sense != 0.0:
+            rate = sense * ten_velocity[int(u[z + PAD_TENDON])]
+            if rate < REST or sense * u[z + FORCE] < _ALIKE * bound:
+                sense = u[z + SENSE] = 0.0
+        if sense != 0.0:
+            turns = turns or sense * force < _ALL * bound
+        elif abs(force) < _ALIKE * bound or bound <= _LEAST * u[z - row % 2 + BOUND]:
+            u[z + EXCESS] = np.nan
+        else:
+            near = True
+    if not turns and not near:
         return
     _start_changes(effects, u, ten_velocity, friction_force, qacc)
     if turns:
@@ -108,6 +114,8 @@ def turn_friction(
 @compilable
 def _start_changes(effects: Dispatch, u: Array, ten_velocity: Array, friction_force: Array, qacc: Array) -> None:
     """Find each row's rate at the step's end as solved, and what its friction lacks to all that it may carry."""
+    for pad in range(int(u[N_PADS])):
+        learn_rate_dependence(u, effects.first_pad + pad * effects.pad_block)
     for row in range(2 * int(u[N_PADS])):
         z = effects.first_pad + row // 2 * effects.pad_block + row % 2
         j = z - row % 2 + PAD_JACOBIAN + row % 2 * MAX_DOFS
@@ -200,7 +208,7 @@ def _give_way(effects: Dispatch, u: Array, ten_velocity: Array, friction_force: 
     dt, n_rows = u[DT], 2 * int(u[N_PADS])
     for row in range(n_rows):
         z = effects.first_pad + row // 2 * effects.pad_block + row % 2
-        if u[z + SENSE] == 0.0 and u[z + ROW_BOUND] > 2.0 * TINY:
+        if u[z + SENSE] == 0.0 and u[z + ROW_BOUND] > _LEAST * u[z - row % 2 + BOUND]:
             force = -friction_force[int(u[z + FRICTION_ROW])]
             u[z + TRIAL] = u[z + ROW_BOUND] if force > 0.0 else -u[z + ROW_BOUND]
         else:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.curved_face import along_face, keep_along, normal_force, onto_table, sliding_bound
 from slipwise.simulation.kernel.dispatch import Dispatch
-from slipwise.simulation.kernel.friction_rows import direction, learn_rate_dependence, lift_arms, rate_of_instant, split
+from slipwise.simulation.kernel.friction_rows import direction, keep_rate, lift_arms, rate_of_instant, split
 from slipwise.simulation.kernel.girder import push_buffers, push_girder
 from slipwise.simulation.kernel.loading_train import follow_train
 from slipwise.simulation.kernel.pads import pad_advance, pad_bound, pad_explicit, pad_further
@@ -103,6 +103,7 @@ def push_pad(
     velocity_x = ten_velocity[tendon_x]
     velocity_y = ten_velocity[tendon_y]
     now_x, now_y = rate_of_instant(u, z, velocity_x, velocity_y)
+    keep_rate(u, z, now_x, now_y)
     slip_x = ten_length[tendon_x]
     slip_y = ten_length[tendon_y]
     side_x = u[z + SIDE]
@@ -132,7 +133,6 @@ def push_pad(
         bound = pad_bound(effects, u, z, normal, now_x, now_y, slip_x, slip_y, side_x, side_y, time, dt)
     u[z + NORMAL] = normal
     u[z + BOUND] = bound
-    learn_rate_dependence(u, z, bound, normal, now_x, now_y)
     if u[N_STICK] > 0.0:
         force_x, force_y = pad_explicit(
             effects, u, z, bound, normal, velocity_x, velocity_y, slip_x, slip_y, side_x, side_y, time, dt
