@@ -84,7 +84,7 @@ def _responses(rig: Rig, readings: slice) -> Array:
             mujoco.mj_jacSite(model, data, along, about, int(sensor.objid[0]))
             turns = sensor.type[0] == mujoco.mjtSensor.mjSENS_FRAMEANGACC
             read[at.start - readings.start : at.stop - readings.start] = about if turns else along
-    return np.concatenate([dofs, dofs @ rig.jacobian[:count].T, dofs @ read.T], axis=1)
+    return np.concatenate([dofs, dofs @ rig.jacobian[:count].T, dofs @ read.T], axis=1, dtype=np.float64)
 
 
 def _dof(model: mujoco.MjModel, joint: str) -> int:
