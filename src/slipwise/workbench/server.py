@@ -1,4 +1,4 @@
-"""The local page: listens on this machine alone, answers nobody without the token, and reads no file but its own."""
+"""The local page: listens on this machine alone, answers nobody without the token, and gives no file but its own."""
 
 import asyncio
 import contextlib
@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from slipwise.errors import InputError, SlipwiseError
+from slipwise.session.campaign_folder import CampaignFolder
+from slipwise.session.own_files import read_own
 from slipwise.session.place import session_folder
 from slipwise.view.html_style import DARK, LIGHT
 from slipwise.workbench.kept_page import kept_page
@@ -20,7 +22,7 @@ try:
     import uvicorn
     from starlette.applications import Starlette
     from starlette.requests import Request
-    from starlette.responses import FileResponse, PlainTextResponse, Response
+    from starlette.responses import FileResponse, HTMLResponse, PlainTextResponse, Response
     from starlette.routing import Route, WebSocketRoute
     from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 except ModuleNotFoundError as missing:
@@ -77,8 +79,8 @@ def application(opening: Opening, token: str) -> Starlette:
         part, name = request.path_params["token"], request.path_params.get("name", "index.html")
         if not allowed(part, request.headers.get("host"), request.headers.get("origin")):
             return PlainTextResponse("This address has no page; take the one that `slipwise workbench` prints.\n", 404)
-        if name in _REPORTS and (session_folder(opening.campaign) / name).is_file():
-            return FileResponse(session_folder(opening.campaign) / name, headers=_REPORT_HEADERS)
+        if name in _REPORTS:
+            return await asyncio.to_thread(_report, opening.place, name)
         if name == "theme.css":
             return Response(_THEME, media_type="text/css", headers=_HEADERS)
         known = {path.name: path for path in _STATIC.iterdir() if path.is_file()}
@@ -114,8 +116,8 @@ def application(opening: Opening, token: str) -> Starlette:
         page = await room.enter(send)
         try:
             while channel.application_state is WebSocketState.CONNECTED:  # a page that has gone hears no more
-                await act(room, page, json.loads(await channel.receive_text()))
-        except (WebSocketDisconnect, ValueError):
+                await act(room, page, await _heard(channel))
+        except WebSocketDisconnect:
             pass
         finally:
             room.leave(page)
@@ -128,6 +130,30 @@ def application(opening: Opening, token: str) -> Starlette:
 
     routes = [WebSocketRoute("/{token}/socket", talk), Route("/{token}/", get), Route("/{token}/{name}", get)]
     return Starlette(routes=routes, lifespan=life)
+
+
+def _report(place: CampaignFolder, name: str) -> Response:
+    """Give a report of the session's folder, where it is a plain file of this user."""
+    try:
+        place.check()
+        page = read_own(session_folder(place.path) / name)
+    except SlipwiseError as error:
+        return PlainTextResponse(f"{error}\n", 404)
+    if page is None:
+        return PlainTextResponse(f"no {name} here\n", 404)
+    return HTMLResponse(page, headers=_REPORT_HEADERS)
+
+
+async def _heard(channel: WebSocket) -> str | bytes:
+    """Wait for what a page says.
+
+    Raises:
+        WebSocketDisconnect: it has gone.
+    """
+    message = await channel.receive()
+    if message["type"] == "websocket.disconnect":
+        raise WebSocketDisconnect(message["code"])
+    return message.get("text") or message.get("bytes") or b""
 
 
 def run(campaign: Path | str, *, trust: "Trust", port: int, show: bool) -> None:
