@@ -20,6 +20,10 @@ from slipwise.session.state import EffectOf, State, as_json, from_json
 #: What arithmetic says of numbers and names that fit the schema and make no model.
 _NONSENSE = (ArithmeticError, LookupError, TypeError, ValueError)
 
+#: A number that lies outside its range by so many times its width was never one of a session; a little outside it
+#: comes to lie when a user edits the rig [1].
+_FAR = 100.0
+
 
 @dataclass(frozen=True)
 class Kept:
@@ -97,7 +101,7 @@ def resumed(
             raise InputError("the campaign has changed since")
         kept = _taken_up(content, ready, effect_of)
     except SlipwiseError as error:
-        words = f"the last session was not taken up again: {error}; it is kept as {store.move_aside()}"
+        words = f"the last session was not taken up again, and is kept as {store.move_aside()}: {error}"
         warnings.warn(words, SlipwiseWarning, stacklevel=3)
         return replace(begun(start), notes=(words,))
     if not given and content["model"] == _hash_of(model):
@@ -118,13 +122,17 @@ def _taken_up(content: Mapping[str, Any], ready: Evaluator, effect_of: EffectOf)
 
 
 def _check_numbers(ready: Evaluator, state: State) -> None:
-    """Refuse a step that lacks a number, or acts on what the campaign has not."""
+    """Refuse a step that lacks a number, has one beyond reason, or acts on what the campaign has not."""
     try:
-        missing = [free.key for free in ready.free(state) if free.key not in state.values]
+        every = ready.free(state)
     except _NONSENSE as error:
         raise _impossible(state, error) from None
-    if missing:
-        raise InputError(f"its step {state.words!r} lacks {', '.join(missing)}")
+    for free in every:
+        value, reach = state.values.get(free.key), _FAR * (free.high - free.low)
+        if value is None:
+            raise InputError(f"its step {state.words!r} lacks {free.key}")
+        if not free.low - reach <= value <= free.high + reach:
+            raise InputError(f"its step {state.words!r} has {free.key} = {value:g}, far beyond its bounds")
 
 
 def _check_errors(ready: Evaluator, state: State) -> None:

@@ -27,7 +27,11 @@ _NO_LOCKS = frozenset({errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP, errno.EINVA
 
 
 class Lock:
-    """A lock file that is held."""
+    """A lock file that is held.
+
+    Attributes:
+        sure: False where the disk knows no locks, so that nobody can be kept out.
+    """
 
     def __init__(self, path: Path, campaign: Path) -> None:
         """Take a lock; the file stays when it is given back.
@@ -42,6 +46,7 @@ class Lock:
         """
         self._path, self._campaign = path, campaign
         self._memory: IO[bytes] | None = None
+        self.sure = fcntl is not None
         try:
             self._file = open(open_own(path, os.O_RDWR | os.O_CREAT), "r+b", buffering=0)  # noqa: SIM115  until `close`
         except InputError as error:
@@ -62,6 +67,7 @@ class Lock:
             fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError as error:
             if error.errno in _NO_LOCKS:
+                self.sure = False
                 return
             holder = _holder(self._file.read(100).decode("ascii", "replace"))
             raise InputError(

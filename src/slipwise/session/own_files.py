@@ -9,7 +9,7 @@ from slipwise.errors import InputError, cannot_write
 from slipwise.session.place import is_foreign
 
 #: No file of a session is larger [bytes].
-_LARGEST = 1 << 28
+_LARGEST = 250_000_000
 _KINDS = (
     (stat.S_ISLNK, "a link"),
     (stat.S_ISDIR, "a folder"),
@@ -80,14 +80,14 @@ def read_own(path: Path) -> bytes | None:
     """
     try:
         with open(open_own(path, os.O_RDONLY), "rb") as stream:
-            data = stream.read(_LARGEST + 1)
+            size = os.fstat(stream.fileno()).st_size
+            if size <= _LARGEST:
+                return stream.read()
     except FileNotFoundError:
         return None
     except OSError as error:
         raise InputError(f"{path} cannot be read ({os.strerror(error.errno or 0).lower()})") from None
-    if len(data) > _LARGEST:
-        raise InputError(f"{path} has more than {_LARGEST >> 20} MB, which no file of a session has")
-    return data
+    raise InputError(f"{path} has {size / 1e6:.0f} MB; no file of a session has more than {_LARGEST / 1e6:.0f}")
 
 
 def move_aside(path: Path) -> Path:

@@ -6,6 +6,9 @@ from pathlib import Path
 
 from slipwise.cache import cache_folder
 
+#: Folder of a session beside the files of its campaign.
+BESIDE = ".slipwise"
+
 
 def session_folder(campaign: Path) -> Path:
     """Give the folder of a campaign's session: beside its files, or in the cache where this user may write none there.
@@ -14,7 +17,7 @@ def session_folder(campaign: Path) -> Path:
         campaign: folder of the campaign.
     """
     folder = campaign.resolve()
-    beside = folder / ".slipwise"
+    beside = folder / BESIDE
     if os.access(folder, os.W_OK) and not is_foreign(beside):
         return beside
     return cache_folder() / "sessions" / f"{folder.name}-{sha256(str(folder).encode()).hexdigest()[:12]}"

@@ -1,7 +1,6 @@
 """What the file of a session holds: checked before anything in it is believed."""
 
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Annotated, Any, Literal, NotRequired, TypedDict
 
 import msgspec
@@ -107,27 +106,27 @@ class _Snapshot(TypedDict):
     findings: _Findings
 
 
-def checked(data: bytes, path: Path) -> Mapping[str, Any]:
+def checked(data: bytes, name: str) -> Mapping[str, Any]:
     """Read the file of a session.
 
     Args:
         data: its bytes.
-        path: as messages name it.
+        name: of the file, for messages.
 
     Raises:
         InputError: it is empty, cut off, of another version, or lacks what it must hold; the message says what.
     """
     if not data.strip(b"\0 \n"):
-        raise InputError(f"{path} is empty")
+        raise InputError(f"{name} is empty")
     try:
         content = msgspec.json.decode(data)
         found = content.get("schema") if isinstance(content, dict) else None
         if found != SCHEMA:
-            raise InputError(f"{path} is of another version (schema {found!r}; this one reads {SCHEMA})")
+            raise InputError(f"{name} is of another version (schema {found!r}; this one reads {SCHEMA})")
         msgspec.convert(content, _Snapshot)
     except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
-        raise InputError(f"{path} is damaged ({error})") from None
+        raise InputError(f"{name} is damaged ({error})") from None
     place, steps = content["history"]["place"], len(content["history"]["states"])
     if place >= steps:
-        raise InputError(f"{path} is damaged (it is at step {place + 1} of {steps})")
+        raise InputError(f"{name} is damaged (it is at step {place + 1} of {steps})")
     return content

@@ -78,7 +78,8 @@ class Session(Drawn, Tabular):
             self.ready, start = evaluator(self.campaign, None if stated is None else self._sources.model(stated))
             given = model is not None or not resume
             kept = resumed(self.store, self.campaign, self.ready, self._file, self._kept_effect, start, given=given)
-            self.history, self.reference, self.notes = kept.history, kept.reference, kept.notes
+            self.history, self.reference = kept.history, kept.reference
+            self.notes = (*(self.store.notes if self.store is not None else ()), *kept.notes)
             self.accepted, self.findings = kept.accepted, dict(kept.findings)
             self.keep()
         except BaseException:

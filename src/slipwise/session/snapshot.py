@@ -11,7 +11,7 @@ from slipwise.errors import OutputError
 from slipwise.session.campaign_folder import CampaignFolder
 from slipwise.session.lock import Lock
 from slipwise.session.own_files import move_aside, read_own
-from slipwise.session.place import snapshot_file
+from slipwise.session.place import BESIDE, is_foreign, snapshot_file
 from slipwise.session.schema import SCHEMA, checked
 from slipwise.whole_file import atomic
 
@@ -25,7 +25,12 @@ def fingerprint(campaign: Campaign) -> str:
 
 
 class Store:
-    """The folder of a session, held by one program as long as it is open."""
+    """The folder of a session, held by one program as long as it is open.
+
+    Attributes:
+        folder: where it is.
+        notes: what a user should know of it.
+    """
 
     def __init__(self, campaign: CampaignFolder) -> None:
         """Take the folder of the session.
@@ -42,6 +47,12 @@ class Store:
         self._file = snapshot_file(campaign.path)
         self._lock = Lock(self.folder / _LOCK, campaign.path)
         self._written = ""
+        notes: list[str] = []
+        if is_foreign(campaign.path / BESIDE):
+            notes.append(f"{campaign.path / BESIDE} belongs to another user; this session is kept in {self.folder}")
+        if not self._lock.sure:
+            notes.append("this disk knows no locks; see to it that no other program works at this campaign")
+        self.notes = tuple(notes)
 
     def tell(self, address: str) -> None:
         """Leave word where this session is to be found, for whoever comes second."""
@@ -54,7 +65,7 @@ class Store:
             InputError: it cannot be read, or is damaged.
         """
         data = read_own(self._file)
-        return None if data is None else checked(data, self._file)
+        return None if data is None else checked(data, self._file.name)
 
     def move_aside(self) -> Path:
         """Give the snapshot another name, so that the next one does not take its place; gives the path."""

@@ -3,6 +3,7 @@
 import asyncio
 import contextlib
 import json
+import logging
 import secrets
 import socket
 import webbrowser
@@ -22,7 +23,7 @@ try:
     import uvicorn
     from starlette.applications import Starlette
     from starlette.requests import Request
-    from starlette.responses import FileResponse, HTMLResponse, PlainTextResponse, Response
+    from starlette.responses import FileResponse, HTMLResponse, PlainTextResponse, RedirectResponse, Response
     from starlette.routing import Route, WebSocketRoute
     from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 except ModuleNotFoundError as missing:
@@ -58,22 +59,37 @@ _REPORT_HEADERS = _HEADERS | {
 #: Told until the session stands; what the page shows meanwhile is what it showed last.
 _OPENING = {"kind": "progress", "job": "open", "words": "getting the session ready", "share": 0.0, "seconds": 0.0,
             "aside": False}  # fmt: skip
+#: First part of the address that works once, and what is said when it has.
+_ONCE = "once"
+_USED = (
+    "This address was opened before; take the one that `slipwise workbench` prints. If you have not opened it, another "
+    "user of this machine has: end the workbench and start it again.\n"
+)
 _REPORTS = ("report.html", "diagnosis.html")
 
 
-def application(opening: Opening, token: str) -> Starlette:
+def application(opening: Opening, token: str, key: str) -> Starlette:
     """Make the application.
 
     Args:
         opening: the session with its pages, which is opened when the application begins.
         token: first part of every address.
+        key: leads to the page once: what a browser is started with can be read by every user of the machine.
     """
+    unused = {key}
 
     def allowed(part: str, host: str | None, origin: str | None) -> bool:
         """Tell whether a request comes from the page: by its token, on this machine, and from no other site."""
         names = [host] if origin is None else [host, origin.partition("://")[2]]
         local = all((name or "").rpartition(":")[0] in _HOSTS for name in names)
         return local and secrets.compare_digest(part.encode(), token.encode())
+
+    async def enter(request: Request) -> Response:
+        given = request.path_params["key"]
+        if given not in unused or not allowed(token, request.headers.get("host"), request.headers.get("origin")):
+            return PlainTextResponse(_USED, 404)
+        unused.clear()
+        return RedirectResponse(f"/{token}/", 303, headers=_HEADERS)
 
     async def get(request: Request) -> Response:
         part, name = request.path_params["token"], request.path_params.get("name", "index.html")
@@ -128,7 +144,12 @@ def application(opening: Opening, token: str) -> Starlette:
         yield
         await opening.end()
 
-    routes = [WebSocketRoute("/{token}/socket", talk), Route("/{token}/", get), Route("/{token}/{name}", get)]
+    routes = [
+        Route(f"/{_ONCE}/{{key}}", enter),
+        WebSocketRoute("/{token}/socket", talk),
+        Route("/{token}/", get),
+        Route("/{token}/{name}", get),
+    ]
     return Starlette(routes=routes, lifespan=life)
 
 
@@ -164,21 +185,29 @@ def run(campaign: Path | str, *, trust: "Trust", port: int, show: bool) -> None:
 
         load_campaign(folder)  # says what is wrong with it, before any page is opened
     listening = _listen(port)
-    token = secrets.token_urlsafe(16)
-    address = f"http://{_LOOPBACK}:{listening.getsockname()[1]}/{token}/"
+    token, key = secrets.token_urlsafe(16), secrets.token_urlsafe(16)
+    root = f"http://{_LOOPBACK}:{listening.getsockname()[1]}"
 
     def end() -> None:
         server.should_exit = True
 
-    opening = Opening(folder, trust, address, end)
+    opening = Opening(folder, trust, f"{root}/{token}/", end)
     config = uvicorn.Config(
-        application(opening, token), log_level="warning", access_log=False, ws_max_size=2**16, server_header=False
+        application(opening, token, key), log_level="warning", access_log=False, ws_max_size=2**16, server_header=False
     )
+    logging.getLogger("uvicorn.error").addFilter(_without_traceback)  # after the configuration of its own logging
     server = uvicorn.Server(config)
     if show:  # a browser takes as long to come as the session to open
-        webbrowser.open(address)
+        webbrowser.open(f"{root}/{_ONCE}/{key}")
     asyncio.run(server.serve(sockets=[listening]))
     opening.check()
+
+
+def _without_traceback(record: logging.LogRecord) -> bool:
+    """Leave the line of what a page has sent that is no text, and take the traceback of it away."""
+    if record.exc_info and isinstance(record.exc_info[1], UnicodeError):
+        record.exc_info = None
+    return True
 
 
 def _listen(port: int) -> socket.socket:
