@@ -93,19 +93,22 @@ class Talker:
             self._gone |= channel is self._channel
             self._heard.notify_all()
 
-    def say(self, data: bytes, *, as_text: bool = True) -> None:
-        """Say something; it may be lost where the server hangs up."""
+    def say(self, data: bytes, *, as_text: bool = True) -> bool:
+        """Say something; False where the server has hung up before, and the next thing is said to it anew."""
         try:
             self._channel.send(data, text=as_text)
         except ConnectionClosed:
             self._open()
+            return False
+        return True
 
     def answered(self, seconds: float = 120.0) -> bool:
         """Ask something until it is answered: everything before it is over then; False where nobody answers."""
         self._asked += 1
         word = f"question-{self._asked}"
         while True:
-            self.say(json.dumps({"do": word}).encode())
+            if not self.say(json.dumps({"do": word}).encode()):
+                continue
             with self._heard:
                 heard = self._heard.wait_for(lambda: self._gone or any(word in w for w in self.problems), seconds)
                 if not self._gone:

@@ -37,7 +37,7 @@ class CampaignFolder:
                 return ""
         return (
             f"the folder {self.path} was {self._whereto()} while it is open here, so nothing more is written; move it "
-            "back, or end this and open the campaign where it is now"
+            "back, or close this session and open the campaign where it is now"
         )
 
     def check(self) -> None:

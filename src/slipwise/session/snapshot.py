@@ -84,7 +84,7 @@ class Store:
         if not self._lock.holds():
             raise OutputError(
                 f"{self.folder} was removed or replaced while its session is open, so nothing more is written; put it "
-                "back, or end this and open the campaign again"
+                "back, or close this session and open the campaign again"
             )
         with atomic(self._file, "w", private=True) as stream:
             stream.write(text)

@@ -8,7 +8,7 @@ from typing import Any
 
 from slipwise.campaign import Campaign
 from slipwise.effects import Trust
-from slipwise.errors import SettingError, SlipwiseError
+from slipwise.errors import OutputError, SettingError, SlipwiseError
 from slipwise.parallel import one_thread_algebra
 from slipwise.session.responses import replayed_run
 from slipwise.session.session import Session
@@ -147,8 +147,16 @@ class Room:
             SlipwiseError: it cannot be changed so.
         """
         self._refuse_change()
-        await self._do(lambda: what(self.session))
-        await self._tell_all()
+        await self._step(lambda: what(self.session))
+
+    async def _step(self, what: Callable[[], Any], *, replay: bool = True) -> None:
+        """Do what changes the session and show it to everybody: also a step that is in memory and not on the disk."""
+        try:
+            await self._do(what)
+        except OutputError:
+            await self._tell_all(replay=replay)
+            raise
+        await self._tell_all(replay=replay)
 
     async def add_law(self) -> None:
         """Put the law in that was found here; one that another session has found is a file like any other.
@@ -260,11 +268,10 @@ class Room:
         if piece.job == "fit":
             known = {named(t.effect): t.effect for t in self.session.state.terms}
             state = from_json(answer, lambda name: known[name])
-            await self._do(lambda: self.session.fitted(state))
+            await self._step(lambda: self.session.fitted(state))
         else:
             self._laws |= set(answer.get("files", ()))
-            await self._do(lambda: self.session.remember(piece.job, answer))
-        await self._tell_all(replay=piece.job == "fit")
+            await self._step(lambda: self.session.remember(piece.job, answer), replay=False)
 
     async def _tell_all(self, *, replay: bool = True) -> None:
         told = await self._do(lambda: state_told(self.session))
