@@ -1,13 +1,14 @@
 """The snapshot of a session on disk: one private folder, one file that is always whole, one program at a time."""
 
 import json
+import warnings
 from collections.abc import Mapping
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 from slipwise.campaign import Campaign
-from slipwise.errors import OutputError
+from slipwise.errors import OutputError, SlipwiseWarning
 from slipwise.session.campaign_folder import CampaignFolder
 from slipwise.session.lock import Lock
 from slipwise.session.own_files import move_aside, read_own
@@ -53,6 +54,8 @@ class Store:
         if not self._lock.sure:
             notes.append("this disk knows no locks; see to it that no other program works at this campaign")
         self.notes = tuple(notes)
+        for words in notes:
+            warnings.warn(words, SlipwiseWarning, stacklevel=3)
 
     def tell(self, address: str) -> None:
         """Leave word where this session is to be found, for whoever comes second."""

@@ -39,8 +39,7 @@ class Room:
         self.pages: list[Page] = []
         self._thread = ThreadPoolExecutor(1)
         self._shown: dict[str, Mapping[str, Any] | bytes] = {}
-        self._laws: set[str] = set()
-        self._moved = ""
+        self._laws, self._moved = set[str](), ""
         self._loop: asyncio.AbstractEventLoop | None = None
         self._watch: asyncio.Task[None] | None = None
         folder = self.session.campaign.folder

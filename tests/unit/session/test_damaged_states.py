@@ -208,8 +208,9 @@ def test_a_session_of_another_user_is_left_alone_and_a_new_one_kept_elsewhere(ke
     monkeypatch.setattr(os, "getuid", lambda: kept.stat().st_uid + 1)
     monkeypatch.setattr("slipwise.session.own_files.is_foreign", lambda path: False)  # of what is made here
     monkeypatch.setattr("slipwise.session.own_files._check", lambda path, found: None)
-    session = Session(kept.parent)
-    assert "belongs to another user" in session.notes[0] and str(session.store.folder) in session.notes[0]
+    with pytest.warns(SlipwiseWarning, match="belongs to another user") as told:
+        session = Session(kept.parent)
+    assert str(session.store.folder) in str(told[0].message) and session.notes == (str(told[0].message),)
     session.close()
     assert (kept / "session.json").read_bytes() == whole and not (kept / "lock").exists()
 
