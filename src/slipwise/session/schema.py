@@ -29,7 +29,7 @@ class _Weights(TypedDict):
     terms: list[_Term]
     values: dict[str, float]
     finer: bool
-    yaw: NotRequired[bool]
+    yaw: bool
 
 
 class _State(TypedDict):
