@@ -1,6 +1,7 @@
 """The snapshot of a session on disk: one private folder, one file that is always whole, one program at a time."""
 
 import json
+import os
 import warnings
 from collections.abc import Mapping
 from hashlib import sha256
@@ -49,8 +50,10 @@ class Store:
         self._lock = Lock(self.folder / _LOCK, campaign.path)
         self._written = ""
         notes: list[str] = []
-        if is_foreign(campaign.path / BESIDE):
-            notes.append(f"{campaign.path / BESIDE} belongs to another user; this session is kept in {self.folder}")
+        beside = campaign.path / BESIDE
+        if self.folder != beside and os.path.lexists(beside):
+            why = "belongs to another user" if is_foreign(beside) else "cannot be written to"
+            notes.append(f"{beside} {why}; this session is kept in {self.folder}")
         if not self._lock.sure:
             notes.append("this disk knows no locks; see to it that no other program works at this campaign")
         self.notes = tuple(notes)

@@ -6,6 +6,7 @@ import json
 import logging
 import secrets
 import socket
+import time
 import webbrowser
 from collections.abc import AsyncIterator, Mapping
 from pathlib import Path
@@ -59,11 +60,11 @@ _REPORT_HEADERS = _HEADERS | {
 #: Told until the session stands; what the page shows meanwhile is what it showed last.
 _OPENING = {"kind": "progress", "job": "open", "words": "getting the session ready", "share": 0.0, "seconds": 0.0,
             "aside": False}  # fmt: skip
-#: First part of the address that works once, and what is said when it has.
-_ONCE = "once"
+#: First part of the address that works once, how long it waits for that [s], and what is said afterwards.
+_ONCE, _ONCE_LASTS = "once", 60.0
 _USED = (
-    "This address was opened before; take the one that `slipwise workbench` prints. If you have not opened it, another "
-    "user of this machine has: end the workbench and start it again.\n"
+    "This address was opened before, or a minute has gone by; take the one that `slipwise workbench` prints. If you "
+    "have not opened it within that minute, another user of this machine may have: end the workbench, start it again.\n"
 )
 _REPORTS = ("report.html", "diagnosis.html")
 
@@ -76,7 +77,7 @@ def application(opening: Opening, token: str, key: str) -> Starlette:
         token: first part of every address.
         key: leads to the page once: what a browser is started with can be read by every user of the machine.
     """
-    unused = {key}
+    unused, until = {key}, time.monotonic() + _ONCE_LASTS
 
     def allowed(part: str, host: str | None, origin: str | None) -> bool:
         """Tell whether a request comes from the page: by its token, on this machine, and from no other site."""
@@ -86,7 +87,8 @@ def application(opening: Opening, token: str, key: str) -> Starlette:
 
     async def enter(request: Request) -> Response:
         given = request.path_params["key"]
-        if given not in unused or not allowed(token, request.headers.get("host"), request.headers.get("origin")):
+        fresh = given in unused and time.monotonic() < until
+        if not fresh or not allowed(token, request.headers.get("host"), request.headers.get("origin")):
             return PlainTextResponse(_USED, 404)
         unused.clear()
         return RedirectResponse(f"/{token}/", 303, headers=_HEADERS)

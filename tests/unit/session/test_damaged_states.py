@@ -215,6 +215,14 @@ def test_a_session_of_another_user_is_left_alone_and_a_new_one_kept_elsewhere(ke
     assert (kept / "session.json").read_bytes() == whole and not (kept / "lock").exists()
 
 
+def test_a_session_where_nothing_may_be_written_any_more_is_left_alone_and_told(kept, monkeypatch, tmp_path, whole):
+    monkeypatch.setenv("SLIPWISE_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr(os, "access", lambda path, mode: False)
+    with pytest.warns(SlipwiseWarning, match=r"\.slipwise cannot be written to; this session is kept in .*cache"):
+        Session(kept.parent).close()
+    assert (kept / "session.json").read_bytes() == whole
+
+
 @pytest.mark.skipif(not hasattr(os, "getuid") or os.getuid() != 0, reason="only root gives files away")
 def test_a_snapshot_or_a_lock_of_another_user_is_not_opened(kept, whole):
     os.chown(kept / "session.json", 12345, -1)
