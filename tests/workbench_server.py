@@ -8,6 +8,7 @@ import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
+from typing import IO
 
 COMMAND = [sys.executable, "-c", "from slipwise.cli import main; main()", "workbench"]
 
@@ -21,8 +22,9 @@ class Server:
     address: str
 
     @classmethod
-    def of(cls, folder: Path) -> "Server":
-        process = subprocess.Popen([*COMMAND, str(folder), "--no-show"], stdout=subprocess.PIPE, text=True)
+    def of(cls, folder: Path, stderr: IO | None = None) -> "Server":
+        command = [*COMMAND, str(folder), "--no-show"]
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=stderr, text=True)
         found = re.search(r"http\S+", process.stdout.readline())
         assert found, "the workbench said no address"
         return cls(folder, process, found[0])

@@ -31,22 +31,32 @@ else:
 
 
 @contextmanager
-def atomic(path: Path, mode: str = "wb") -> Iterator[IO[Any]]:
+def atomic(path: Path, mode: str = "wb", *, private: bool = False) -> Iterator[IO[Any]]:
     """Open a file that appears under its name only when everything is written; its folder is made.
+
+    Args:
+        path: of the file.
+        mode: as for `open`.
+        private: let no other user read it, whatever the umask says.
 
     Raises:
         OutputError: the disk or its owner does not allow it; what stood there before still stands there.
     """
     try:
-        with written_beside(path, mode) as stream:
+        with written_beside(path, mode, private=private) as stream:
             yield stream
     except OSError as error:
         raise cannot_write(path, error) from error
 
 
 @contextmanager
-def written_beside(path: Path, mode: str = "wb") -> Iterator[IO[Any]]:
+def written_beside(path: Path, mode: str = "wb", *, private: bool = False) -> Iterator[IO[Any]]:
     """Open a file that appears under its name only when everything is written.
+
+    Args:
+        path: of the file.
+        mode: as for `open`.
+        private: let no other user read it, whatever the umask says.
 
     Raises:
         OSError: as the system says it.
@@ -57,9 +67,10 @@ def written_beside(path: Path, mode: str = "wb") -> Iterator[IO[Any]]:
     try:
         with os.fdopen(handle, mode, encoding=None if "b" in mode else "utf-8") as stream:
             yield stream
-        umask = os.umask(0)
-        os.umask(umask)
-        os.chmod(name, 0o666 & ~umask)
+        if not private:  # as a temporary file is by itself
+            umask = os.umask(0)
+            os.umask(umask)
+            os.chmod(name, 0o666 & ~umask)
         os.replace(name, path)
     except BaseException:  # an interruption too: nothing half-written stays
         Path(name).unlink(missing_ok=True)
@@ -79,6 +90,9 @@ def _begun(path: Path) -> tuple[int, str]:
 def _take_away_left_behind(path: Path) -> None:
     """Remove hidden files of a path whose writers were killed; what cannot be removed stays."""
     for left in path.parent.glob(f".{escape(path.name)}.????????"):
-        with suppress(OSError), left.open("rb") as stream:
-            if _is_free(stream.fileno()):
-                left.unlink()
+        with suppress(OSError):
+            if not left.is_file():  # a pipe would be waited for
+                continue
+            with left.open("rb") as stream:
+                if _is_free(stream.fileno()):
+                    left.unlink()

@@ -1,14 +1,17 @@
 """Nobody but its user reaches the workbench, no other file is read, and nothing is run that the user did not name."""
 
 import json
+import os
 import subprocess
 from urllib.error import HTTPError
 from urllib.parse import urlsplit
 from urllib.request import Request, urlopen
 
+import numpy as np
 import pytest
 
-from workbench_server import COMMAND
+from mutated_messages import Talker, mutated
+from workbench_server import COMMAND, Server
 
 websockets = pytest.importorskip("websockets.sync.client")
 
@@ -93,6 +96,57 @@ def test_nonsense_is_answered_and_harms_nobody(shared):
     )
     assert len(said) == 4 and all("did not understand" in words for words in said)
     assert status(shared.address) == 200
+
+
+def test_damaged_messages_are_answered_by_sentences_alone(folder, tmp_path):
+    said = tmp_path / "terminal"
+    with said.open("wb") as stream:
+        server = Server.of(folder, stderr=stream)
+        page = Talker(server.address)
+        rng = np.random.default_rng(11)
+        for _ in range(300):
+            data, as_text = mutated(rng)
+            page.say(data, as_text=as_text)
+        page.say(b"\xff", as_text=False)
+        page.say(b"\xff\xff", as_text=True)  # no text at all: the server hangs up
+        assert page.answered() and page.hung_up
+        page.close()
+        server.end()
+    assert "Traceback" not in said.read_text()
+
+
+@pytest.mark.parametrize("name", ["report.html", "diagnosis.html"])
+def test_a_report_is_given_where_it_is_a_file_of_the_session_and_no_link_out_of_it(shared, name):
+    page = shared.folder / ".slipwise" / name
+    page.write_text("<p>mine</p>")
+    with urlopen(f"{shared.address}{name}") as answer:
+        assert answer.read() == b"<p>mine</p>" and "script-src" not in answer.headers["Content-Security-Policy"]
+    for put in (lambda: page.symlink_to("/etc/passwd"), lambda: os.mkfifo(page), page.mkdir):
+        page.rmdir() if page.is_dir() and not page.is_symlink() else page.unlink()
+        put()
+        assert status(f"{shared.address}{name}") == 404
+    page.rmdir()
+
+
+def test_a_link_to_a_model_outside_of_the_campaign_is_not_offered(shared, tmp_path):
+    (tmp_path / "outside.toml").write_text("rig = 'bridge1'")
+    (shared.folder / "outside.toml").symlink_to(tmp_path / "outside.toml")
+    (shared.folder / "inside.toml").write_text("rig = 'bridge1'")
+    page = Talker(shared.address)
+    assert page.answered() and page.models == ["inside.toml"]
+    page.close()
+
+
+def test_the_address_that_a_browser_is_started_with_works_once(folder, tmp_path):
+    server = Server.early(folder, tmp_path)
+    with urlopen(server.address) as answer:
+        token = answer.geturl()
+    assert "/once/" in server.address and "/once/" not in token and status(token) == 200
+    with pytest.raises(HTTPError) as refused:
+        urlopen(server.address)
+    assert "another user of this machine may have" in refused.value.read().decode()
+    assert status(server.address.replace("once", "x"), Host="evil.example:80") == 404
+    server.end()
 
 
 def test_a_second_workbench_of_a_campaign_says_where_the_first_is(shared):

@@ -63,7 +63,7 @@ ARROWS: dict[str, str] = {
     ),
     "session": (
         "cache campaign channels comparison diagnosis discovery effects errors estimation instruments model model_file"
-        " parallel record rig shown simulation units"
+        " parallel record rig shown simulation units whole_file"
     ),
     "view": (
         "channels comparison diagnosis discovery effects errors estimation evidence experiment instruments parallel"

@@ -6,19 +6,33 @@ from pathlib import Path
 
 from slipwise.cache import cache_folder
 
+#: Folder of a session beside the files of its campaign.
+BESIDE = ".slipwise"
+
 
 def session_folder(campaign: Path) -> Path:
-    """Give the folder of a campaign's session: beside its files, or in the cache where nothing may be written there.
+    """Give the folder of a campaign's session: beside its files, or in the cache where this user may write none there.
 
     Args:
         campaign: folder of the campaign.
     """
     folder = campaign.resolve()
-    if os.access(folder, os.W_OK):
-        return folder / ".slipwise"
+    beside = folder / BESIDE
+    if os.access(folder, os.W_OK) and not is_foreign(beside):
+        return beside
     return cache_folder() / "sessions" / f"{folder.name}-{sha256(str(folder).encode()).hexdigest()[:12]}"
 
 
 def snapshot_file(campaign: Path) -> Path:
     """Give the file that holds every step of it."""
     return session_folder(campaign) / "session.json"
+
+
+def is_foreign(path: Path) -> bool:
+    """Tell whether a file, folder or link is there and belongs to another user."""
+    if not hasattr(os, "getuid"):  # Windows
+        return False
+    try:
+        return path.lstat().st_uid != os.getuid()
+    except OSError:
+        return False

@@ -17,11 +17,11 @@ from slipwise.model import Model
 from slipwise.model_file import save_model
 from slipwise.parallel import one_thread_algebra
 from slipwise.session import changes
+from slipwise.session.campaign_folder import CampaignFolder
 from slipwise.session.evaluation import BalanceError, errors_of, evaluator
 from slipwise.session.findings import discovered, explained, suggested
 from slipwise.session.fitting import Progress, fit_state
 from slipwise.session.kept import Kept, resumed
-from slipwise.session.place import session_folder
 from slipwise.session.responses import RunReplay, replay_errors, replay_run
 from slipwise.session.series import Series, series_of
 from slipwise.session.snapshot import Store
@@ -41,7 +41,8 @@ class Session(Drawn, Tabular):
         accepted: whether the model.toml beside the campaign holds that one.
         findings: "explain", "discover": what was found last, as plain data.
         notes: what a user should know of how the session was opened.
-        store: its folder on disk; None for a session that leaves nothing there.
+        place: folder of the campaign, as it was opened.
+        store: the session's folder on disk; None for a session that leaves nothing there.
     """
 
     def __init__(
@@ -65,23 +66,25 @@ class Session(Drawn, Tabular):
         Raises:
             InputError: the campaign lacks what every fit needs, an effect file is not trusted, or another program has
                 this session open.
+            OutputError: steps cannot be kept: the disk is full, for one.
         """
         self.campaign = as_campaign(campaign)
         self._sources = Sources(self.campaign, trust)
         self._file = self.campaign.folder / "model.toml"
-        self.store = Store(self.campaign.folder) if keep else None
+        self.place = CampaignFolder(self.campaign.folder)
+        self.store = Store(self.place) if keep else None
         try:
             stated = model if model is not None else self._file if self._file.is_file() else None
             self.ready, start = evaluator(self.campaign, None if stated is None else self._sources.model(stated))
-            before = self.store.read() if self.store is not None else None
             given = model is not None or not resume
-            kept = resumed(before, self.campaign, self._file, self._kept_effect, start, given=given)
+            kept = resumed(self.store, self.campaign, self.ready, self._file, self._kept_effect, start, given=given)
+            self.history, self.reference = kept.history, kept.reference
+            self.notes = (*(self.store.notes if self.store is not None else ()), *kept.notes)
+            self.accepted, self.findings = kept.accepted, dict(kept.findings)
+            self.keep()
         except BaseException:
             self.close()
             raise
-        self.history, self.reference, self.notes = kept.history, kept.reference, kept.notes
-        self.accepted, self.findings = kept.accepted, dict(kept.findings)
-        self.keep()
 
     @property
     def state(self) -> State:
@@ -183,13 +186,8 @@ class Session(Drawn, Tabular):
             progress: called with what is being done and the share done.
         """
         found = discover(self.campaign, self.model, progress=progress)
-        self.remember("discover", discovered(found, Path(folder or self.folder), self.state.labels))
+        self.remember("discover", discovered(found, Path(folder or self.place.session_folder()), self.state.labels))
         return found
-
-    @property
-    def folder(self) -> Path:
-        """Where a session of this campaign lies, with the effect files of laws that were found."""
-        return session_folder(self.campaign.folder)
 
     def remember(self, kind: str, content: Mapping[str, Any]) -> None:
         """Keep a finding, made here or in another process."""
@@ -213,6 +211,7 @@ class Session(Drawn, Tabular):
             path: of the model.toml; the one beside the campaign if not given.
         """
         target = self._file if path is None else Path(path)
+        self.place.check()
         save_model(self.model, target)
         self.reference, self.accepted = self.state, target.resolve() == self._file.resolve()
         self.keep()
@@ -274,7 +273,7 @@ class Session(Drawn, Tabular):
         return state
 
     def keep(self) -> None:
-        """Write every step to disk, as each does by itself."""
+        """Write every step to disk, as each does by itself; an OutputError says why not, and all stays in memory."""
         if self.store is not None:
             kept = Kept(self.history, self.reference, self.accepted, self.findings)
             self.store.write(kept.as_json(self.campaign, self._file))

@@ -1,24 +1,22 @@
-"""Where a session lies on disk: one folder, one file that is always whole, one program at a time."""
+"""The snapshot of a session on disk: one private folder, one file that is always whole, one program at a time."""
 
 import json
 import os
+import warnings
 from collections.abc import Mapping
-from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 from slipwise.campaign import Campaign
-from slipwise.errors import InputError
-from slipwise.record import write_text
-from slipwise.session.place import session_folder, snapshot_file
+from slipwise.errors import OutputError, SlipwiseWarning
+from slipwise.session.campaign_folder import CampaignFolder
+from slipwise.session.lock import Lock
+from slipwise.session.own_files import move_aside, read_own
+from slipwise.session.place import BESIDE, is_foreign, snapshot_file
+from slipwise.session.schema import SCHEMA, checked
+from slipwise.whole_file import atomic
 
-try:
-    import fcntl
-except ModuleNotFoundError:  # Windows
-    fcntl = None
-
-_SCHEMA = 2
 _LOCK = "lock"
 
 
@@ -29,55 +27,75 @@ def fingerprint(campaign: Campaign) -> str:
 
 
 class Store:
-    """The folder of a session, held by one program as long as it is open."""
+    """The folder of a session, held by one program as long as it is open.
 
-    def __init__(self, campaign: Path) -> None:
+    Attributes:
+        folder: where it is.
+        notes: what a user should know of it.
+    """
+
+    def __init__(self, campaign: CampaignFolder) -> None:
         """Take the folder of the session.
 
         Args:
-            campaign: folder of the campaign.
+            campaign: its folder.
 
         Raises:
-            InputError: another program works there; the message says which, and where.
+            InputError: another program works there, and where; or what has the folder's name is not this user's.
+            OutputError: nothing can be written there.
         """
-        folder = self.folder = session_folder(campaign)
-        self._file = snapshot_file(campaign)
-        folder.mkdir(parents=True, exist_ok=True)
-        self._lock = open(folder / _LOCK, "a+", encoding="utf-8")  # noqa: SIM115  held until `close`
-        if fcntl is not None:
-            try:
-                fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except OSError:
-                self._lock.seek(0)
-                holder = self._lock.read().strip() or "another program"
-                self._lock.close()
-                raise InputError(
-                    f"{folder.parent}: a session of this campaign is open already, in {holder}; close that one first, "
-                    "or go on there"
-                ) from None
-        self.tell("")
+        self._campaign = campaign
+        self.folder = campaign.session_folder()
+        self._file = snapshot_file(campaign.path)
+        self._lock = Lock(self.folder / _LOCK, campaign.path)
+        self._written = ""
+        notes: list[str] = []
+        beside = campaign.path / BESIDE
+        if self.folder != beside and os.path.lexists(beside):
+            why = "belongs to another user" if is_foreign(beside) else "cannot be written to"
+            notes.append(f"{beside} {why}; this session is kept in {self.folder}")
+        if not self._lock.sure:
+            notes.append("this disk knows no locks; see to it that no other program works at this campaign")
+        self.notes = tuple(notes)
+        for words in notes:
+            warnings.warn(words, SlipwiseWarning, stacklevel=3)
 
     def tell(self, address: str) -> None:
         """Leave word where this session is to be found, for whoever comes second."""
-        self._lock.seek(0)
-        self._lock.truncate()
-        self._lock.write(f"process {os.getpid()}" + (f" at {address}" if address else ""))
-        self._lock.flush()
+        self._lock.tell(address)
 
     def read(self) -> Mapping[str, Any] | None:
-        """Give what was written last; None where nothing was, or by another version."""
-        try:
-            content = json.loads(self._file.read_text(encoding="utf-8"))
-        except (OSError, ValueError):
-            return None
-        return content if isinstance(content, dict) and content.get("schema") == _SCHEMA else None
+        """Give what was written last; None where nothing was.
+
+        Raises:
+            InputError: it cannot be read, or is damaged.
+        """
+        data = read_own(self._file)
+        return None if data is None else checked(data, self._file.name)
+
+    def move_aside(self) -> Path:
+        """Give the snapshot another name, so that the next one does not take its place; gives the path."""
+        return move_aside(self._file)
 
     def write(self, content: Mapping[str, Any]) -> None:
-        """Write a snapshot; a program that is killed leaves the one before."""
-        write_text(self._file, json.dumps({"schema": _SCHEMA, **content}, allow_nan=False))
+        """Write a snapshot, if it is another than the last; a program that is killed leaves the one before.
+
+        Raises:
+            OutputError: the disk is full, or the folder is no longer where it was.
+        """
+        text = json.dumps({"schema": SCHEMA, **content}, allow_nan=False)
+        if text == self._written:
+            return
+        self._campaign.check()
+        if not self._lock.holds():
+            raise OutputError(
+                f"{self.folder} was removed or replaced while its session is open, so nothing more is written; put it "
+                "back, or close this session and open the campaign again"
+            )
+        with atomic(self._file, "w", private=True) as stream:
+            stream.write(text)
+        self._written = text
 
     def close(self) -> None:
         """Let others take the folder."""
-        with suppress(OSError, ValueError):
-            self._lock.truncate(0)
         self._lock.close()

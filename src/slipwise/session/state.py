@@ -107,7 +107,9 @@ def from_json(content: Mapping[str, Any], effect_of: EffectOf) -> State:
     return State(
         terms_from_json(content["terms"], effect_of),
         dict(content["values"]),
-        Weights(**{**weights, "terms": terms_from_json(weights["terms"], effect_of)}),
+        Weights(
+            terms_from_json(weights["terms"], effect_of), dict(weights["values"]), weights["finer"], weights["yaw"]
+        ),
         content["fitted"],
         {key: Known(*of) for key, of in known},
         content["words"],

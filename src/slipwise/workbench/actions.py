@@ -1,67 +1,68 @@
 """What a page may ask for: a short list, and nothing else."""
 
-from collections.abc import Mapping
-from typing import Any
+from msgspec.structs import asdict
 
 from slipwise.errors import SettingError, SlipwiseError
-from slipwise.workbench.room import Page, Room
+from slipwise.workbench import messages as said
+from slipwise.workbench.page import Page
+from slipwise.workbench.room import Room
 
-#: Work of `jobs.JOBS` that a page may ask for; a replay follows by itself.
-_WORK = ("fit", "locate", "report", "explain", "discover", "next")
 
+async def act(room: Room, page: Page, text: str | bytes) -> None:
+    """Do what a page asks for; what cannot be done, or is no request at all, it is told in words.
 
-async def act(room: Room, page: Page, message: Mapping[str, Any]) -> None:
-    """Do what a page asks for; what cannot be done it is told in words."""
+    Args:
+        room: the session.
+        page: that asks.
+        text: its message, as it came from the socket.
+    """
+    try:
+        message = said.read_message(text)
+    except SlipwiseError as error:
+        await page.tell_problem(str(error))
+        return
     try:
         await _act(room, page, message)
     except SlipwiseError as error:
-        await page.send({"kind": "problem", "job": "", "words": str(error)})
-        await room.show_state(page, answers=_whole(message.get("n", 0)))
-    except (KeyError, TypeError, ValueError, AttributeError):
-        await page.send({"kind": "problem", "job": "", "words": "the workbench did not understand this request"})
+        await page.tell_problem(str(error))
+        await room.show_state(page, answers=message.n if isinstance(message, said.Drag) else 0)
 
 
-async def _act(room: Room, page: Page, message: Mapping[str, Any]) -> None:
-    match message["do"]:
-        case "look":
-            seen = [str(message[key]) for key in ("run", "relation", "beside")]
-            await room.look(page, seen[0], seen[1], seen[2], watches=bool(message.get("watches")))
-        case "drag":
-            await room.drag(page, str(message["key"]), float(message["value"]), _whole(message["n"]))
-        case "settle":
+async def _act(room: Room, page: Page, message: said.Message) -> None:
+    match message:
+        case said.Look():
+            await room.look(page, **asdict(message))
+        case said.Drag(key, value, number):
+            await room.drag(page, key, value, number)
+        case said.Settle():
             await room.settle()
-        case "set":
-            given = message["value"]
-            value = given if isinstance(given, str) else float(given)
-            await room.change(lambda session: session.set(str(message["key"]), value))
-        case "toggle":
-            effect, target = _listed(room, str(message["effect"])), str(message.get("target", ""))
+        case said.Set(key, value):
+            await room.change(lambda session: session.set(key, value))
+        case said.Toggle(effect, target):
+            _refuse_file(room, effect)
             await room.change(lambda session: session.toggle(effect, target))
-        case "take":
+        case said.Take():
             await room.change(lambda session: session.take_suggestion())
-        case "law":
+        case said.Law():
             await room.add_law()
-        case "undo":
+        case said.Undo():
             await room.change(lambda session: session.undo())
-        case "redo":
+        case said.Redo():
             await room.change(lambda session: session.redo())
-        case "accept":
+        case said.Accept():
             await room.change(lambda session: session.accept())
-        case "cancel":
+        case said.Cancel():
             room.cancel()
-        case job if job in _WORK:
-            await room.work(job)
-        case other:
-            raise SettingError(f"the workbench knows no {other!r}")
+        case said.Fit() | said.Locate() | said.Report() | said.Explain() | said.Discover() | said.Next():
+            await room.work(type(message).__name__.lower())
 
 
-def _listed(room: Room, name: str) -> str:
-    """Give the name of an effect of the catalogue or of the model; a page names no file."""
-    own = {t.effect.name: t.effect for t in room.session.state.terms}
-    if name in own or not name.endswith(".py"):
-        return name
-    raise SettingError(f"{name}: a page may name effects, but no file; open the workbench with --effect {name}")
+def _refuse_file(room: Room, name: str) -> None:
+    """Refuse an effect that is neither of the catalogue nor of the model; a page names no file.
 
-
-def _whole(value: Any) -> int:
-    return int(value)
+    Raises:
+        SettingError: the name is that of a file.
+    """
+    own = {t.effect.name for t in room.session.state.terms}
+    if name.endswith(".py") and name not in own:
+        raise SettingError(f"{name}: a page may name effects, but no file; open the workbench with --effect {name}")

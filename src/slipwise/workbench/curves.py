@@ -1,5 +1,6 @@
 """Curves for the page: what was measured in a run, once; what the model says of it, after every change."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -113,6 +114,17 @@ def replay_frame(now: RunReplay, without: RunReplay | None, left_out: list[str])
 def watched_frame(watched: RunReplay) -> bytes:
     """Pack the replay of a run whose channels somebody looks at."""
     return frame({"kind": "watched", "run": watched.run}, _channels(watched))
+
+
+def shown_answer(job: str, answer: Any) -> Mapping[str, Any] | bytes | None:
+    """Give what pages are shown of an answer of `jobs.SHOWN`; None where it has nothing to show."""
+    if job == "system":
+        return {"kind": "system", "errors": answer}
+    if isinstance(answer, str):
+        return {"kind": "no replay", "words": answer}
+    if job == "replay":
+        return replay_frame(*answer)
+    return None if answer is None else watched_frame(answer)
 
 
 def _channels(replayed: RunReplay) -> dict[str, Any]:

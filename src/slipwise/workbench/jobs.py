@@ -97,7 +97,7 @@ def _report(task: Task, tell: Progress) -> dict[str, Any]:
         task.session.campaign, task.session.ready.model_of(task.state), progress=lambda w, s: tell(w, 0.8 * s)
     )
     tell("drawing the report", 0.8)
-    save_page(compare_page(found), task.session.folder / REPORT)
+    save_page(compare_page(found), task.session.place.session_folder() / REPORT)
     return {"of": list(task.state.labels), "file": REPORT}
 
 
@@ -106,13 +106,13 @@ def _explain(task: Task, tell: Progress) -> dict[str, Any]:
     model = task.session.ready.model_of(task.state)
     found = diagnose_with_law(task.session.campaign, model, progress=lambda w, s: tell(w, 0.9 * s))
     tell("drawing the report", 0.9)
-    save_page(diagnosis_page(found, found.ladder()), task.session.folder / DIAGNOSIS)
+    save_page(diagnosis_page(found, found.ladder()), task.session.place.session_folder() / DIAGNOSIS)
     return {**explained(found, task.state.labels), "file": DIAGNOSIS}
 
 
 def _discover(task: Task, tell: Progress) -> dict[str, Any]:
     found = discover(task.session.campaign, task.session.ready.model_of(task.state), progress=tell)
-    return discovered(found, task.session.folder, task.state.labels)
+    return discovered(found, task.session.place.session_folder(), task.state.labels)
 
 
 def _next(task: Task, tell: Progress) -> dict[str, Any]:

@@ -7,16 +7,27 @@ import json
 from collections.abc import Mapping, Sequence
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
+
+from msgspec import Meta, MsgspecError, Struct
+from msgspec.json import decode
 
 import slipwise
-from slipwise.errors import OutputError
+from slipwise.errors import SlipwiseError
+from slipwise.session.own_files import read_own
 from slipwise.session.place import session_folder, snapshot_file
 from slipwise.whole_file import atomic
 
 #: What a page is told: text (as JSON), or bytes.
 Message = Mapping[str, Any] | bytes
 _NAME = "page.bin"
+
+
+class _Head(Struct, forbid_unknown_fields=True):
+    """What stands before the messages: of which campaign they are; whether each is packed, and its size [bytes]."""
+
+    of: str
+    parts: list[tuple[bool, Annotated[int, Meta(ge=0)]]]
 
 
 def keep_page(campaign: Path, messages: Sequence[Message]) -> None:
@@ -30,31 +41,38 @@ def keep_page(campaign: Path, messages: Sequence[Message]) -> None:
     sizes = [[isinstance(m, bytes), len(p)] for m, p in zip(messages, parts, strict=True)]
     try:
         head = {"of": _fingerprint(campaign), "parts": sizes}
-        with atomic(session_folder(campaign) / _NAME) as stream:
+        with atomic(session_folder(campaign) / _NAME, private=True) as stream:
             stream.write(json.dumps(head).encode() + b"\n" + b"".join(parts))
-    except (OSError, OutputError):
+    except (OSError, SlipwiseError):
         return
 
 
 def kept_page(campaign: Path) -> list[Message]:
     """Give what was kept; nothing where the campaign, its session or the program is another by now."""
     try:
-        first, _, body = (session_folder(campaign) / _NAME).read_bytes().partition(b"\n")
-        head = json.loads(first)
-        if head["of"] != _fingerprint(campaign) or sum(size for _, size in head["parts"]) != len(body):
+        first, _, body = (read_own(session_folder(campaign) / _NAME) or b"").partition(b"\n")
+        head = decode(first, type=_Head)
+        if head.of != _fingerprint(campaign) or sum(size for _, size in head.parts) != len(body):
             return []
         out: list[Message] = []
-        for packed, size in head["parts"]:
-            out.append(body[:size] if packed else json.loads(body[:size]))
+        for packed, size in head.parts:
+            out.append(body[:size] if packed else decode(body[:size], type=dict[str, Any]))
             body = body[size:]
         return out
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, MsgspecError, RecursionError, UnicodeError, SlipwiseError):
         return []
 
 
 def _fingerprint(campaign: Path) -> str:
-    """Give what changes when the page may: files by size and date, which takes no time, as `make` does."""
-    files = sorted(p for p in campaign.resolve().iterdir() if p.is_file())
-    told = [(p.name, p.stat().st_size, p.stat().st_mtime_ns) for p in files]
-    session = sha256(snapshot_file(campaign).read_bytes()).hexdigest()
-    return sha256(repr((slipwise.__version__, told, session)).encode()).hexdigest()
+    """Give what changes when the page may: files by size and date, which takes no time, as `make` does.
+
+    Raises:
+        OSError: there is no session.
+        InputError: its file is none of this user's.
+    """
+    files = [(p.name, p.stat()) for p in sorted(campaign.resolve().iterdir()) if p.is_file()]
+    told = [(name, found.st_size, found.st_mtime_ns) for name, found in files]
+    session = read_own(snapshot_file(campaign))
+    if session is None:
+        raise FileNotFoundError(snapshot_file(campaign))
+    return sha256(repr((slipwise.__version__, told, sha256(session).hexdigest())).encode()).hexdigest()

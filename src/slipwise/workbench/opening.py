@@ -5,6 +5,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from slipwise.errors import SlipwiseError
+from slipwise.session.campaign_folder import CampaignFolder
+
 if TYPE_CHECKING:  # what it takes to load them is what the page need not wait for
     from slipwise.effects import Trust
     from slipwise.workbench.room import Room
@@ -22,9 +25,10 @@ class Opening:
             address: of the page, for whoever would open this campaign too.
             ended: called where it cannot be opened.
         """
-        self.campaign = campaign
+        self.campaign, self.place = campaign, CampaignFolder(campaign)
         self._trust, self._address, self._ended = trust, address, ended
         self._task: asyncio.Task[Room] | None = None
+        self._lost: SlipwiseError | None = None
 
     def begin(self) -> None:
         """Open the room beside the running loop."""
@@ -49,12 +53,21 @@ class Opening:
         if self._task is not None:
             await asyncio.wait([self._task])
             if self._task.exception() is None:
-                self._task.result().close()
+                try:
+                    self._task.result().close()
+                except SlipwiseError as error:
+                    self._lost = error
 
     def check(self) -> None:
-        """Raise what has kept the room from being opened, where anything did."""
+        """Raise what has kept the room from being opened, or what was done last from being written, where anything did.
+
+        Raises:
+            SlipwiseError: says which file.
+        """
         if self._task is not None and self.done:
             self._task.result()
+        if self._lost is not None:
+            raise self._lost
 
     async def _open(self) -> "Room":
         try:

@@ -1,45 +1,29 @@
 """One session, the pages that look at it, and the work that is done for them; every change goes through here."""
 
 import asyncio
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from slipwise.campaign import Campaign
 from slipwise.effects import Trust
-from slipwise.errors import SettingError
+from slipwise.errors import OutputError, SettingError, SlipwiseError
 from slipwise.parallel import one_thread_algebra
 from slipwise.session.responses import replayed_run
 from slipwise.session.session import Session
 from slipwise.session.state import as_json, from_json, named
-from slipwise.workbench.curves import View, curves_frame, measured_frame, replay_frame, watched_frame
+from slipwise.workbench.curves import View, curves_frame, measured_frame, shown_answer
+from slipwise.workbench.folder_watch import watch_folder
 from slipwise.workbench.jobs import SHOWN
 from slipwise.workbench.kept_page import keep_page
 from slipwise.workbench.lanes import Lane, Piece
+from slipwise.workbench.page import Page, Send
 from slipwise.workbench.told import campaign_told, progress_told, state_told
 from slipwise.workbench.worker import Report
 
-#: Gives text (as JSON) or bytes to one page.
-Send = Callable[[Mapping[str, Any] | bytes], Awaitable[None]]
 #: While one of these is done the model stands still: its answer is a step of the history.
 _CHANGING = ("fit",)
-
-
-@dataclass
-class Page:
-    """One open page.
-
-    Attributes:
-        send: gives it a message.
-        view: what it looks at.
-        measured: runs whose measurement it has.
-    """
-
-    send: Send
-    view: View
-    measured: set[str]
 
 
 class Room:
@@ -55,27 +39,34 @@ class Room:
         self.pages: list[Page] = []
         self._thread = ThreadPoolExecutor(1)
         self._shown: dict[str, Mapping[str, Any] | bytes] = {}
-        self._laws: set[str] = set()
+        self._laws, self._moved = set[str](), ""
         self._loop: asyncio.AbstractEventLoop | None = None
+        self._watch: asyncio.Task[None] | None = None
         folder = self.session.campaign.folder
         self._asked = Lane(folder, trust, self._listen, aside=False)
         self._aside = Lane(folder, trust, self._listen, aside=True)
 
     def begin(self) -> None:
-        """Take the running loop, for the reports of the work."""
+        """Take the running loop, for the reports of the work, and watch over the campaign's folder."""
         self._loop = asyncio.get_running_loop()
+        self._watch = self._loop.create_task(watch_folder(self.session.place, self._tell_moved))
 
     def _listen(self, lane: Lane, report: Report) -> None:
         if self._loop is not None and not self._loop.is_closed():
             asyncio.run_coroutine_threadsafe(self._hear(lane, report), self._loop)
 
     def close(self) -> None:
-        """End the worker and the session; all that was done is on disk."""
+        """End the worker and the session; an OutputError says why what was done last is not on disk."""
+        if self._watch is not None:
+            self._watch.cancel()
         for lane in (self._asked, self._aside):
             lane.close()
         self._thread.shutdown(cancel_futures=True)
-        self._keep_page()
-        self.session.close()
+        try:
+            self.session.keep()
+            self._keep_page()
+        finally:
+            self.session.close()
 
     async def enter(self, send: Send) -> Page:
         """Let a page in: it is told everything, and shown the run that fails worst."""
@@ -89,8 +80,18 @@ class Room:
         for lane in (self._asked, self._aside):  # which says nothing by itself before its next step
             if lane.now is not None:
                 await send(progress_told(lane.now.job, "at work", 0.0, lane.now.seconds, aside=lane.aside))
+        if self._moved:
+            await send({"kind": "moved", "words": self._moved})
+        elif self.session.notes:
+            await page.tell_problem(" ".join(self.session.notes))
         await self._ask_for_what_is_missing()
         return page
+
+    async def _tell_moved(self, words: str) -> None:
+        """Tell every page what became of the campaign's folder; "" where it is back, and work goes on."""
+        self._moved = words
+        await self._send_all({"kind": "moved", "words": words})
+        await self._next()
 
     def _first_view(self) -> View:
         """Give what a new page looks at: the run in which a balance fails worst."""
@@ -99,6 +100,8 @@ class Room:
 
     def _keep_page(self) -> None:
         """Keep what a new page is told, for the next time that the campaign is opened."""
+        if self.session.place.moved():
+            return
         view = self._first_view()
         told = [campaign_told(self.session), state_told(self.session)]
         curves = [measured_frame(self.session, view.run), curves_frame(self.session, view)]
@@ -132,7 +135,7 @@ class Room:
 
     async def drag(self, page: Page, key: str, value: float, answers: int) -> None:
         """Change a number while it is dragged: only the page that does so is shown, as fast as can be."""
-        self._refuse_while_fitting()
+        self._refuse_change()
         await self._do(lambda: self.session.set(key, value, keep=False))
         await self.show(page, answers, dragged=True)
 
@@ -142,9 +145,17 @@ class Room:
         Raises:
             SlipwiseError: it cannot be changed so.
         """
-        self._refuse_while_fitting()
-        await self._do(lambda: what(self.session))
-        await self._tell_all()
+        self._refuse_change()
+        await self._step(lambda: what(self.session))
+
+    async def _step(self, what: Callable[[], Any], *, replay: bool = True) -> None:
+        """Do what changes the session and show it to everybody: also a step that is in memory and not on the disk."""
+        try:
+            await self._do(what)
+        except OutputError:
+            await self._tell_all(replay=replay)
+            raise
+        await self._tell_all(replay=replay)
 
     async def add_law(self) -> None:
         """Put the law in that was found here; one that another session has found is a file like any other.
@@ -174,11 +185,11 @@ class Room:
         """Begin a piece of work that a user asks for.
 
         Raises:
-            SettingError: another one is still at work, or a fit that is to change the model.
+            SettingError: another one is still at work.
+            OutputError: the campaign is no longer at its place.
         """
         self._asked.refuse_if_busy()
-        if job in _CHANGING:
-            self._refuse_while_fitting()
+        self.session.place.check()
         self._asked.ask(job)
         await self._next()
 
@@ -186,7 +197,9 @@ class Room:
         """Call off the work that a user has asked for, or what is done aside."""
         (self._aside if self._asked.now is None else self._asked).call_off()
 
-    def _refuse_while_fitting(self) -> None:
+    def _refuse_change(self) -> None:
+        """Refuse a step that could not be kept, or that a fit would overtake."""
+        self.session.place.check()
         if self._asked.now is not None and self._asked.now.job in _CHANGING:
             raise SettingError("a fit is at work on this model; wait for it, or cancel it")
 
@@ -210,7 +223,9 @@ class Room:
         await self._next()
 
     async def _next(self) -> None:
-        """Begin what waits."""
+        """Begin what waits, where the folder from which workers take the campaign is still at its place."""
+        if self.session.place.moved():
+            return
         for lane in (self._asked, self._aside):
             begun = lane.next(lambda: as_json(self.session.state))
             if begun is not None:  # told at once: a process that has to be started first says nothing for a while
@@ -225,42 +240,37 @@ class Room:
             await self._send_all(progress_told(piece.job, words, share, piece.seconds, aside=lane.aside))
             return
         lane.now = None
-        if report.kind == "done":
-            await (self._show_answer if piece.job in SHOWN else self._take)(piece, report.content)
-        elif report.kind == "failed":
-            await self._send_all({"kind": "problem", "job": piece.job, "words": report.content})
-        ended = {"kind": "ended", "job": piece.job, "how": report.kind, "aside": lane.aside, "seconds": piece.seconds}
+        how, problem = report.kind, report.content if report.kind == "failed" else ""
+        if how == "done":
+            try:
+                await (self._show_answer if piece.job in SHOWN else self._take)(piece, report.content)
+            except SlipwiseError as error:  # what was found is there, and could not be written
+                how, problem = "failed", str(error)
+        if problem:
+            await self._send_all({"kind": "problem", "job": piece.job, "words": problem})
+        ended = {"kind": "ended", "job": piece.job, "how": how, "aside": lane.aside, "seconds": piece.seconds}
         await self._send_all(ended)
         await self._next()
-        if self._asked.now is None and self._aside.now is None:
+        if self._asked.now is None and self._aside.now is None and not self._moved:
             self._asked.warm()
             await self._do(self._keep_page)
 
     async def _show_answer(self, piece: Piece, answer: Any) -> None:
         """Show what was replayed; pages that come later are shown it too."""
-        if piece.job == "system":
-            message = {"kind": "system", "errors": answer}
-        elif isinstance(answer, str):
-            message = {"kind": "no replay", "words": answer}
-        elif piece.job == "replay":
-            message = replay_frame(*answer)
-        elif answer is not None:
-            message = watched_frame(answer)
-        else:
-            return
-        self._shown[f"{piece.job} {piece.run}".rstrip()] = message
-        await self._send_all(message)
+        message = shown_answer(piece.job, answer)
+        if message is not None:
+            self._shown[f"{piece.job} {piece.run}".rstrip()] = message
+            await self._send_all(message)
 
     async def _take(self, piece: Piece, answer: Any) -> None:
         """Take an answer into the session, and show it."""
         if piece.job == "fit":
             known = {named(t.effect): t.effect for t in self.session.state.terms}
             state = from_json(answer, lambda name: known[name])
-            await self._do(lambda: self.session.fitted(state))
+            await self._step(lambda: self.session.fitted(state))
         else:
             self._laws |= set(answer.get("files", ()))
-            await self._do(lambda: self.session.remember(piece.job, answer))
-        await self._tell_all(replay=piece.job == "fit")
+            await self._step(lambda: self.session.remember(piece.job, answer), replay=False)
 
     async def _tell_all(self, *, replay: bool = True) -> None:
         told = await self._do(lambda: state_told(self.session))

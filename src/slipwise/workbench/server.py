@@ -1,16 +1,20 @@
-"""The local page: listens on this machine alone, answers nobody without the token, and reads no file but its own."""
+"""The local page: listens on this machine alone, answers nobody without the token, and gives no file but its own."""
 
 import asyncio
 import contextlib
 import json
+import logging
 import secrets
 import socket
+import time
 import webbrowser
 from collections.abc import AsyncIterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from slipwise.errors import InputError, SlipwiseError
+from slipwise.session.campaign_folder import CampaignFolder
+from slipwise.session.own_files import read_own
 from slipwise.session.place import session_folder
 from slipwise.view.html_style import DARK, LIGHT
 from slipwise.workbench.kept_page import kept_page
@@ -20,7 +24,7 @@ try:
     import uvicorn
     from starlette.applications import Starlette
     from starlette.requests import Request
-    from starlette.responses import FileResponse, PlainTextResponse, Response
+    from starlette.responses import FileResponse, HTMLResponse, PlainTextResponse, RedirectResponse, Response
     from starlette.routing import Route, WebSocketRoute
     from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 except ModuleNotFoundError as missing:
@@ -56,16 +60,24 @@ _REPORT_HEADERS = _HEADERS | {
 #: Told until the session stands; what the page shows meanwhile is what it showed last.
 _OPENING = {"kind": "progress", "job": "open", "words": "getting the session ready", "share": 0.0, "seconds": 0.0,
             "aside": False}  # fmt: skip
+#: First part of the address that works once, how long it waits for that [s], and what is said afterwards.
+_ONCE, _ONCE_LASTS = "once", 60.0
+_USED = (
+    "This address was opened before, or a minute has gone by; take the one that `slipwise workbench` prints. If you "
+    "have not opened it within that minute, another user of this machine may have: end the workbench, start it again.\n"
+)
 _REPORTS = ("report.html", "diagnosis.html")
 
 
-def application(opening: Opening, token: str) -> Starlette:
+def application(opening: Opening, token: str, key: str) -> Starlette:
     """Make the application.
 
     Args:
         opening: the session with its pages, which is opened when the application begins.
         token: first part of every address.
+        key: leads to the page once: what a browser is started with can be read by every user of the machine.
     """
+    unused, until = {key}, time.monotonic() + _ONCE_LASTS
 
     def allowed(part: str, host: str | None, origin: str | None) -> bool:
         """Tell whether a request comes from the page: by its token, on this machine, and from no other site."""
@@ -73,12 +85,20 @@ def application(opening: Opening, token: str) -> Starlette:
         local = all((name or "").rpartition(":")[0] in _HOSTS for name in names)
         return local and secrets.compare_digest(part.encode(), token.encode())
 
+    async def enter(request: Request) -> Response:
+        given = request.path_params["key"]
+        fresh = given in unused and time.monotonic() < until
+        if not fresh or not allowed(token, request.headers.get("host"), request.headers.get("origin")):
+            return PlainTextResponse(_USED, 404)
+        unused.clear()
+        return RedirectResponse(f"/{token}/", 303, headers=_HEADERS)
+
     async def get(request: Request) -> Response:
         part, name = request.path_params["token"], request.path_params.get("name", "index.html")
         if not allowed(part, request.headers.get("host"), request.headers.get("origin")):
             return PlainTextResponse("This address has no page; take the one that `slipwise workbench` prints.\n", 404)
-        if name in _REPORTS and (session_folder(opening.campaign) / name).is_file():
-            return FileResponse(session_folder(opening.campaign) / name, headers=_REPORT_HEADERS)
+        if name in _REPORTS:
+            return await asyncio.to_thread(_report, opening.place, name)
         if name == "theme.css":
             return Response(_THEME, media_type="text/css", headers=_HEADERS)
         known = {path.name: path for path in _STATIC.iterdir() if path.is_file()}
@@ -114,8 +134,8 @@ def application(opening: Opening, token: str) -> Starlette:
         page = await room.enter(send)
         try:
             while channel.application_state is WebSocketState.CONNECTED:  # a page that has gone hears no more
-                await act(room, page, json.loads(await channel.receive_text()))
-        except (WebSocketDisconnect, ValueError):
+                await act(room, page, await _heard(channel))
+        except WebSocketDisconnect:
             pass
         finally:
             room.leave(page)
@@ -126,8 +146,37 @@ def application(opening: Opening, token: str) -> Starlette:
         yield
         await opening.end()
 
-    routes = [WebSocketRoute("/{token}/socket", talk), Route("/{token}/", get), Route("/{token}/{name}", get)]
+    routes = [
+        Route(f"/{_ONCE}/{{key}}", enter),
+        WebSocketRoute("/{token}/socket", talk),
+        Route("/{token}/", get),
+        Route("/{token}/{name}", get),
+    ]
     return Starlette(routes=routes, lifespan=life)
+
+
+def _report(place: CampaignFolder, name: str) -> Response:
+    """Give a report of the session's folder, where it is a plain file of this user."""
+    try:
+        place.check()
+        page = read_own(session_folder(place.path) / name)
+    except SlipwiseError as error:
+        return PlainTextResponse(f"{error}\n", 404)
+    if page is None:
+        return PlainTextResponse(f"no {name} here\n", 404)
+    return HTMLResponse(page, headers=_REPORT_HEADERS)
+
+
+async def _heard(channel: WebSocket) -> str | bytes:
+    """Wait for what a page says.
+
+    Raises:
+        WebSocketDisconnect: it has gone.
+    """
+    message = await channel.receive()
+    if message["type"] == "websocket.disconnect":
+        raise WebSocketDisconnect(message["code"])
+    return message.get("text") or message.get("bytes") or b""
 
 
 def run(campaign: Path | str, *, trust: "Trust", port: int, show: bool) -> None:
@@ -138,21 +187,29 @@ def run(campaign: Path | str, *, trust: "Trust", port: int, show: bool) -> None:
 
         load_campaign(folder)  # says what is wrong with it, before any page is opened
     listening = _listen(port)
-    token = secrets.token_urlsafe(16)
-    address = f"http://{_LOOPBACK}:{listening.getsockname()[1]}/{token}/"
+    token, key = secrets.token_urlsafe(16), secrets.token_urlsafe(16)
+    root = f"http://{_LOOPBACK}:{listening.getsockname()[1]}"
 
     def end() -> None:
         server.should_exit = True
 
-    opening = Opening(folder, trust, address, end)
+    opening = Opening(folder, trust, f"{root}/{token}/", end)
     config = uvicorn.Config(
-        application(opening, token), log_level="warning", access_log=False, ws_max_size=2**16, server_header=False
+        application(opening, token, key), log_level="warning", access_log=False, ws_max_size=2**16, server_header=False
     )
+    logging.getLogger("uvicorn.error").addFilter(_without_traceback)  # after the configuration of its own logging
     server = uvicorn.Server(config)
     if show:  # a browser takes as long to come as the session to open
-        webbrowser.open(address)
+        webbrowser.open(f"{root}/{_ONCE}/{key}")
     asyncio.run(server.serve(sockets=[listening]))
     opening.check()
+
+
+def _without_traceback(record: logging.LogRecord) -> bool:
+    """Leave the line of what a page has sent that is no text, and take the traceback of it away."""
+    if record.exc_info and isinstance(record.exc_info[1], UnicodeError):
+        record.exc_info = None
+    return True
 
 
 def _listen(port: int) -> socket.socket:

@@ -1,6 +1,7 @@
 """What the page is told: the campaign once, the state after every step; SI, with the units that people read."""
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from slipwise.channels import channel
@@ -86,9 +87,11 @@ def errors_told(session: Session, state: State, beside: State | None = None) -> 
     return out
 
 
-def other_models(session: Session) -> list[Any]:
-    """Give the model files of the campaign's folder: what may stand beside."""
-    return sorted(p for p in session.campaign.folder.glob("*.toml") if p.name != "campaign.toml")
+def other_models(session: Session) -> list[Path]:
+    """Give the model files of the campaign's folder: what may stand beside; a link that leads out of it may not."""
+    folder = session.place.path
+    files = sorted(p for p in folder.glob("*.toml") if p.name != "campaign.toml" and p.is_file())
+    return [p for p in files if p.resolve().is_relative_to(folder)]
 
 
 def _number(session: Session, free: Free) -> dict[str, Any]:

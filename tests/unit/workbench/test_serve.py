@@ -6,6 +6,8 @@ import sys
 
 import pytest
 
+from session_campaign import write_session_campaign
+
 COMMAND = "import sys; from slipwise.cli import main; sys.argv = ['slipwise', 'workbench', '{}']; main()"
 
 
@@ -29,6 +31,15 @@ def test_a_folder_without_a_campaign_and_a_port_that_is_taken_are_told_in_one_li
         port = taken.getsockname()[1]
         ended = run(f"from slipwise.workbench.server import _listen; _listen({port})")
     assert f"port {port} is taken" in ended.stderr
+
+
+def test_a_disk_that_is_full_at_the_start_is_told_with_the_path(tmp_path):
+    pytest.importorskip("starlette")
+    folder = write_session_campaign(tmp_path / "march")
+    limit = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))"
+    ended = run(f"{limit}; {COMMAND.format(folder)[:-8]}; sys.argv += ['--no-show']; main()")
+    assert ended.returncode == 2 and "Traceback" not in ended.stderr
+    assert f"error: cannot write {folder}/.slipwise/lock: file too large; free some space there" in ended.stderr
 
 
 def test_the_door_opens_without_the_extra_being_loaded():

@@ -12,7 +12,7 @@ import * as units from "./units.js";
 
 const ONE = { si: "1", usual: "1", factor: 1 };
 const FLOORS = { si: "floors", usual: "floors", factor: 1 };
-const page = { campaign: null, state: null, measured: new Map(), curves: null, replay: null, noReplay: "", system: null, replays: new Map(), work: {} };
+const page = { campaign: null, state: null, measured: new Map(), curves: null, replay: null, noReplay: "", system: null, replays: new Map(), work: {}, moved: "" };
 const view = { run: "", beside: "" };
 
 const loops = new Loops();
@@ -23,7 +23,7 @@ const histories = new Histories((index) => loops.mark(index), (ends, whole) => {
 });
 const link = new Link(hear, (open) => {
   if (!open) tellProblem("The workbench does not answer; it is tried again until it does. Nothing is lost.");
-  else { page.measured.clear(); tellProblem(""); page.work = {}; working(); }
+  else { page.measured.clear(); page.moved = ""; tellProblem(""); page.work = {}; working(); }
 });
 const ask = (message) => { tellProblem(""); link.send(message); };
 const effects = new Effects(ask, link);
@@ -41,6 +41,7 @@ function hear(message) {
     progress: () => working(lane(message), { ...message, heard: performance.now() }),
     ended: () => { working(lane(message), null); if (!["replay", "watch", "system", "open"].includes(message.job)) say(message.how === "done" ? `${message.job} is done` : `${message.job}: ${message.how}`); },
     problem: () => tellProblem(message.words),
+    moved: () => { page.moved = message.words; tellProblem(""); },
     over: () => { link.stop(); tellProblem(message.words); },
   }[message.kind];
   act?.();
@@ -49,9 +50,11 @@ function hear(message) {
 const readings = () => drawReadings(page.replay, page.noReplay, page.system);
 const say = (words) => { find("news").textContent = words; };
 
+/** Show what is wrong; a folder that was moved stays told until it is back. */
 function tellProblem(words) {
-  find("problem").textContent = words;
-  find("problem").hidden = !words;
+  const shown = words || page.moved;
+  find("problem").textContent = shown;
+  find("problem").hidden = !shown;
 }
 
 const lane = (message) => (message.aside ? "aside" : "asked");
