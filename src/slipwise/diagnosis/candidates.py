@@ -5,7 +5,7 @@ from fnmatch import fnmatchcase
 
 import numpy as np
 
-from slipwise.effects import NEEDS, Effect, catalogue, for_pads, scaled
+from slipwise.effects import Effect, catalogue, for_pads, scaled
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.parameters import Term
 from slipwise.estimation.problem import Problem
@@ -16,6 +16,8 @@ from slipwise.rig.load_basis import WARPS, has_corners
 _STEADY = 3.0
 #: A load that changes by less never changes [1].
 _STEADY_LOAD = 0.005
+#: A direction in which a smaller share of the sliding goes is not tried [1].
+_RARELY = 0.05
 #: Speeds of runs that differ by less count as the same [1].
 _SAME_SPEED = 0.15
 
@@ -74,7 +76,7 @@ def _confounded(problem: Problem) -> dict[str, str]:
 
 def _untestable(effect: Effect, problem: Problem) -> str:
     """Say what an effect needs first that this campaign has not; "" where it can be tested."""
-    return next((NEEDS[need] for need in effect.all_needs if not HAS[need](problem)), "")
+    return next((effect.without(need) for need in effect.all_needs if not HAS[need](problem)), "")
 
 
 def _sees_buffers(problem: Problem) -> bool:
@@ -82,8 +84,9 @@ def _sees_buffers(problem: Problem) -> bool:
 
 
 def _one_way(problem: Problem) -> bool:
-    forth = [float(np.mean(r.velocity[r.sliding] > 0.0)) for r in problem.runs if r.sliding.any()]
-    return bool(forth) and all(min(f, 1.0 - f) < 0.05 for f in forth)
+    """Tell whether all runs that are fitted slide the same way: one there and one back are both directions."""
+    forth = np.concatenate([r.velocity[r.sliding] > 0.0 for r in (problem.runs[i] for i in problem.fitted)])
+    return bool(forth.size) and min(float(np.mean(forth)), 1.0 - float(np.mean(forth))) < _RARELY
 
 
 def _load_varies(problem: Problem) -> bool:

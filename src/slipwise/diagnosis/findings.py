@@ -6,7 +6,7 @@ import numpy as np
 
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.choice import has_delay_for_filter
-from slipwise.diagnosis.hypothesis import Hypothesis, parameters_at_bound
+from slipwise.diagnosis.hypothesis import Hypothesis, at_limit, parameters_at_bound
 from slipwise.diagnosis.importance import Importance
 from slipwise.diagnosis.removal import without
 from slipwise.diagnosis.search_state import Search, left_with
@@ -44,6 +44,7 @@ class Finding:
         share: of the squared residual above the noise that the base model leaves, what comes back without it [1].
         rival: the effect that could best take its place; None where none comes near.
         at_bound: parameters that ended on a bound which is not their absence.
+        at_limit: whether that is a bound at which it is another effect, or none, so that it has no name of its own.
         importance: what leaving it out changes.
         material: importance over what matters, of what stays beside small faults of all gauges [1].
         stays: the share of its size that does [1].
@@ -56,6 +57,7 @@ class Finding:
     share: float
     rival: Rival | None
     at_bound: tuple[str, ...]
+    at_limit: bool
     importance: Importance
     material: float
     stays: float
@@ -79,7 +81,7 @@ def findings(state: Search, importances: dict[str, Importance], limits: Material
     parts = {name: tuple(t for t in final.terms if t.effect.name == name) for name in names}
     left = {n: without(final, parts[n], lambda rest: left_with(state, rest, final)) for n in names}
     rivals = _rivals(state, {n: parts[n] for n in names})
-    bounds = parameters_at_bound(final)
+    bounds, nameless = parameters_at_bound(final), at_limit(final)
     base, end = above_noise(origin, final.summary), above_noise(final.summary, final.summary)
     sizes = {n: importances[n].share_of_limit(limits) for n in names}
     stays = shares_that_stay(final, sizes, state.all_screened, limits)
@@ -92,6 +94,7 @@ def findings(state: Search, importances: dict[str, Importance], limits: Material
             share=float(np.clip((above_noise(left[n], final.summary) - end) / max(base, 1e-12), 0.0, 1.0)),
             rival=rivals.get(n),
             at_bound=tuple(p for label, p in bounds if label in {t.label for t in parts[n]}),
+            at_limit=any(t.label in nameless for t in parts[n]),
             importance=importances[n],
             material=sizes[n] * stays[n],
             stays=stays[n],

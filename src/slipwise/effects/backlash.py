@@ -10,6 +10,7 @@ Valid: play small against the stroke; no impact at its ends.
 Source: Coble et al. (2022) for a banded rotary friction damper with backlash; sizes assumed.
 """
 
+from slipwise.effects._declared import Limit
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
 
@@ -36,4 +37,5 @@ EFFECT = Effect(
         "presliding": "force begins to grow at the reversal, not behind the play",
     },
     needs=("prescribed slip",),
+    limits=(Limit("push", "high", "machine_compliance"),),  # friction never closes the play
 )  # fmt: skip

@@ -25,6 +25,7 @@ from math import exp, sqrt
 
 import numpy as np
 
+from slipwise.effects._declared import Limit
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.params import Parameter
 
@@ -97,4 +98,5 @@ EFFECT = Effect(
     },
     memory=("last_x", "last_y", "last_time", *(f"bristle_{k}_{axis}" for k in range(BRISTLES) for axis in "xy")),
     base="stick",
+    limits=(Limit("length", "high", "slide_curvature"),),  # what never slides is a spring
 )  # fmt: skip

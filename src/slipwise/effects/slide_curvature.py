@@ -35,5 +35,5 @@ EFFECT = Effect(
         "contact_area": "the rocking load leans the loops too, but not the load's product with x when friction is even",
     },
     exact=True,
-    needs=("both directions", "changing load"),
+    needs=("both directions",),
 )  # fmt: skip
