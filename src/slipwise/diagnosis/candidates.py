@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator
 from fnmatch import fnmatchcase
+from itertools import combinations
 
 import numpy as np
 
@@ -53,7 +54,7 @@ def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], d
             aimed = list(_aimed(effect, problem))
             terms += aimed
             if not aimed:
-                cannot[name] = "no gauge was recorded on which it would show"
+                cannot[name] = _unaimed(effect, problem)
         else:
             terms.append(Term(effect))
             terms += _on_single_pads(effect, problem)
@@ -61,17 +62,22 @@ def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], d
 
 
 def _confounded(problem: Problem) -> dict[str, str]:
-    """Say where a run of one load was also a run of one speed, so that what looks like one may be the other."""
-    runs = [r for r in problem.runs if r.sliding.any()]
+    """Say where no two fitted runs of unlike load have like speeds, so that what looks like one may be the other."""
+    runs = [r for r in (problem.runs[i] for i in problem.fitted) if r.sliding.any()]
     loads = np.array([float(np.mean(r.load[r.sliding])) for r in runs])
     within = np.array([float(np.std(r.load[r.sliding])) for r in runs])
     speeds = np.array([float(np.sqrt(np.mean(r.velocity[r.sliding] ** 2))) for r in runs])
-    steady = len(runs) > 1 and float(np.ptp(loads)) > _STEADY * float(within.max())
-    if not steady or speeds.max() < (1.0 + _SAME_SPEED) * speeds.min():
+    apart = _STEADY * float(within.max(initial=0.0))
+    unlike = [(i, j) for i, j in combinations(range(len(runs)), 2) if abs(loads[i] - loads[j]) > apart]
+    if not unlike or any(_alike(speeds[i], speeds[j]) for i, j in unlike):
         return {}
     span = f"{speeds.min():.3g} to {speeds.max():.3g} m/s"
     reason = f"load changes only from run to run, and speed differs between these runs too ({span})"
     return {"load against speed": reason}
+
+
+def _alike(one: float, other: float) -> bool:
+    return max(one, other) < (1.0 + _SAME_SPEED) * min(one, other)
 
 
 def _untestable(effect: Effect, problem: Problem) -> str:
@@ -128,6 +134,13 @@ def _aimed(effect: Effect, problem: Problem) -> Iterator[Term]:
                 yield Term(effect, targets, "pad_*")
         elif problem.balanced or ((place.startswith("pad_") or place == "slip_x") and _alone(effect, targets)):
             yield Term(effect, targets, place)
+
+
+def _unaimed(effect: Effect, problem: Problem) -> str:
+    """Say why a gauge's fault is looked for on none: none that it could sit on, or none beside the law of friction."""
+    if any(place.startswith(("pad_", "slip")) for place in places_of(effect, problem.runs[0].record)):
+        return "without a girder's balances it is one with the numbers of the friction law"
+    return "no gauge was recorded on which it would show"
 
 
 def _on_single_pads(effect: Effect, problem: Problem) -> Iterator[Term]:

@@ -8,6 +8,7 @@ from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.choice import has_delay_for_filter
 from slipwise.diagnosis.hypothesis import Hypothesis, at_limit, parameters_at_bound
 from slipwise.diagnosis.importance import Importance
+from slipwise.diagnosis.plainer import holds_as_limit
 from slipwise.diagnosis.removal import without
 from slipwise.diagnosis.search_state import Search, left_with
 from slipwise.diagnosis.small_faults import shares_that_stay
@@ -123,6 +124,7 @@ def _rivals(state: Search, parts: dict[str, tuple[Term, ...]]) -> dict[str, Riva
         rest = {t.label for t in best.terms if t.effect.name != name}
         others = [h for h in state.tried if name not in h.names and rest < {t.label for t in h.terms}]
         others = [h for h in others if len(h.terms) <= len(best.terms) and len(parameters_at_bound(h)) <= ends]
+        others = [h for h in others if not holds_as_limit(h, best)]  # that is as good by what it is at a bound
         if not has_delay_for_filter(best):  # a filter that takes nothing is a delay by another name
             others = [h for h in others if not has_delay_for_filter(h)]
         rival = max(others, key=lambda h: score(best.summary, h.summary), default=None)

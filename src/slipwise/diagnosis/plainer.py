@@ -53,6 +53,13 @@ def plainest(state: Search, found: Hypothesis) -> Hypothesis:
     return found
 
 
+def holds_as_limit(found: Hypothesis, plain: Hypothesis) -> bool:
+    """Tell whether a hypothesis is another with an effect in the place of the plainer one that it becomes."""
+    own, others = ({t.effect.name: t.effect for t in h.terms} for h in (found, plain))
+    gone = others.keys() - own.keys()
+    return any(limit.becomes in gone for name in own.keys() - others.keys() for limit in own[name].limits)
+
+
 def _plainer(state: Search, term: Term, beside: Sequence[Term]) -> list[Term]:
     """Give the candidates that an effect becomes at an end of its bounds, but those that are there already."""
     becomes = {limit.becomes for limit in term.effect.limits} - {t.effect.name for t in beside}

@@ -10,8 +10,7 @@ Valid: play small against the stroke; no impact at its ends.
 Source: Coble et al. (2022) for a banded rotary friction damper with backlash; sizes assumed.
 """
 
-from slipwise.effects._declared import Limit
-from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._effect import RESPONSE, Effect, Limit
 from slipwise.params import Parameter
 
 

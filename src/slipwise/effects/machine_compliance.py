@@ -13,8 +13,7 @@ Valid: quasi-static; a machine whose own resonance lies above what was recorded.
 Source: Rice & Ruina (1983), spring and slider; stiffnesses assumed.
 """
 
-from slipwise.effects._declared import Limit
-from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._effect import RESPONSE, Effect, Limit
 from slipwise.params import Parameter
 
 

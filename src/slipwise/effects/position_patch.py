@@ -11,8 +11,7 @@ Source: lubricated pads 0.1 to 0.4 of the friction, dirty ones 1.1 to 1.5; shape
 
 from math import exp
 
-from slipwise.effects._declared import Limit
-from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._effect import RESPONSE, Effect, Limit
 from slipwise.params import Parameter
 
 

@@ -13,8 +13,7 @@ assumed.
 
 from math import sqrt
 
-from slipwise.effects._declared import Limit
-from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._effect import RESPONSE, Effect, Limit
 from slipwise.params import Parameter
 
 
