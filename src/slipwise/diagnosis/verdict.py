@@ -14,10 +14,10 @@ from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import Surface, leftover, structured
 from slipwise.diagnosis.unknown_surface import above_noise as left_above_noise
 from slipwise.estimation.parameters import Term
+from slipwise.estimation.problem import Problem
 from slipwise.evidence.acceptance import LEAST
 from slipwise.evidence.calibration import calibration
 from slipwise.evidence.decision import EVEN_ODDS, decide, remains
-from slipwise.evidence.residual_summary import ResidualSummary, error_of
 from slipwise.evidence.score import relative_drop
 from slipwise.instruments.sample_faults import SampleFault
 from slipwise.instruments.suspects import effect_of
@@ -153,22 +153,35 @@ def evidence_of_rest(origin: Hypothesis, final: Hypothesis, surface: Surface | N
 
 
 def _confirmed(state: Search, probability: float, rest: Mapping[str, float]) -> float:
-    """Give the probability of a verdict that no held-out run has confirmed, or that leaves much; as it is otherwise."""
-    origin = state.path[0].summary
-    if state.final.terms and leaves_much(origin, state.final.summary):
+    """Give the probability of a verdict, less where the model leaves much or no held-out run has confirmed it."""
+    problem = state.final.problem
+    judged = _testable(problem) or problem.fitted
+    if state.final.terms and leaves_much(*_worst_errors(state, judged)):
         probability = min(probability, calibration().family(rest))
-    return probability if any(held for _, held in origin.counts.values()) else _UNCONFIRMED * probability
+    return probability if problem.held_out else _UNCONFIRMED * probability
 
 
-def leaves_much(base: ResidualSummary, final: ResidualSummary) -> bool:
-    """Tell whether a model leaves so much that it is not confirmed, however much it explains: see `_MUCH`.
+def leaves_much(before: float, after: float) -> bool:
+    """Tell whether a model leaves so much that it is not confirmed, however much it explains.
 
     Args:
-        base: of the base model.
-        final: of the model with the effects.
+        before: error of the base model [noise floors].
+        after: error of the model with the effects [noise floors].
     """
-    before, after = (max(error_of(s, r) for r in s.fitted) for s in (base, final))
     return after > max(_MUCH[0], _MUCH[1] * before)
+
+
+def _worst_errors(state: Search, runs: Sequence[int]) -> tuple[float, float]:
+    """Give the error over some runs of the base model and of the final one, each where it is worst [noise floors]."""
+    relations = state.path[0].summary.fitted
+    before, after = (max(h.level_of(r, runs) for r in relations) for h in (state.path[0], state.final))
+    return float(np.sqrt(before)), float(np.sqrt(after))
+
+
+def _testable(problem: Problem) -> list[int]:
+    """Give the places of the held-out runs that are not beyond what was fitted."""
+    beyond = not_testable(problem)
+    return [i for i in problem.held_out if i not in beyond]
 
 
 def confirmed(state: Search) -> bool | None:
@@ -180,12 +193,12 @@ def confirmed(state: Search) -> bool | None:
     """
     base, found = state.path[0], state.final
     origin, final = base.summary, found.summary
-    beyond = not_testable(found.problem)
-    runs = [i for i in found.problem.held_out if i not in beyond]
+    runs = _testable(found.problem)
     improved = [r for r in origin.fitted if relative_drop(origin, final, r) >= LEAST.law and origin.counts[r][1]]
     if not found.terms or not improved or not runs:
         return None
-    return not leaves_much(origin, final) and all(_carries_over(base, found, relation, runs) for relation in improved)
+    carried = all(_carries_over(base, found, relation, runs) for relation in improved)
+    return carried and not leaves_much(*_worst_errors(state, runs))
 
 
 def _carries_over(base: Hypothesis, found: Hypothesis, relation: str, runs: Sequence[int]) -> bool:
