@@ -51,6 +51,15 @@ def _whole_words(found: Diagnosis) -> str:
     return f" Over all their samples, {NAMES[worst][0]} errs by {floors(before)} -> {floors(after)} floors."
 
 
+def cannot_tell_words(found: Diagnosis) -> list[str]:
+    """Say what a campaign could not test, a line for each reason: of one bearing twenty effects lack the same."""
+    alike: dict[str, list[str]] = {}
+    for line in found.cannot_tell:
+        what, _, reason = line.partition(": ")
+        alike.setdefault(reason, []).append(what)
+    return [f"{', '.join(every)}: {reason}" for reason, every in alike.items()]
+
+
 def four_answers(found: Diagnosis) -> list[tuple[str, str]]:
     """Give the four questions that everybody asks, with their answers in a sentence each."""
     good = [NAMES[r][0] for r, (base, _) in found.relations.items() if base < FLOOR_REACHED]
