@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 #: What a campaign must have for an effect to be tested -> why it cannot be, where that is missing.
 NEEDS: dict[str, str] = {
     "command": "the model is driven by the measured table motion; only the command could show it",
-    "buffers": "needs buffers, and girder_ax or the loads and friction of all pads to see them by",
+    "buffers": "no buffers, or neither girder_ax nor all pads' loads and friction to see them by",
     "balances": "needs the balances of a girder: load and friction of all pads, and accelerations",
     "heave": "needs girder_az and the loads of all pads",
     "across": "needs motion across, and friction of the pads along y",
