@@ -14,9 +14,10 @@ from slipwise.simulation.predict import predictor
 
 STEP, LOAD = 0.002, 24.5e3
 LIMITS = [(e, limit) for e in catalogue().values() for limit in e.limits]
-#: Strokes [m]: far beyond a rim and through a play; within a patch, a bristle or the stretch of a machine.
+#: Strokes [m]: far beyond a rim and through a play; within a patch, a bristle, a play or the stretch of a machine.
 STROKES = {
-    "restrainer": 0.05, "backlash": 0.02, "position_patch": 0.01, "presliding": 0.5e-3, "machine_compliance": 1e-3,
+    "restrainer.limit": 0.05, "backlash.push": 0.02, "position_patch.width": 0.01, "presliding.length": 0.5e-3,
+    "backlash.play": 2e-3, "machine_compliance.compliance": 1e-3,
 }  # fmt: skip
 #: Share of the force that the plainer one need not make where a bound lies a little short of the limit [1].
 SHORT_OF_IT = 0.06
@@ -39,20 +40,20 @@ def plainer(effect: Effect, limit: Limit) -> list[Model]:
     if not limit.becomes:
         return []
     values = catalogue()[limit.becomes].typical()
-    if effect.name == "backlash":  # it is no straight line in this, so its size must be the same
+    if limit.parameter == "push":  # it is no straight line in this, so its size must be the same
         play = effect.parameter("play").typical
         values["compliance"] = play / (2.0 * effect.parameter("push").high * LOAD)
     return [with_effect(catalogue()[limit.becomes], values)]
 
 
 def test_every_declared_limit_is_an_effect_of_the_catalogue() -> None:
-    assert {e.name for e, _ in LIMITS} == STROKES.keys()
+    assert {f"{e.name}.{limit.parameter}" for e, limit in LIMITS} == STROKES.keys()
     assert {limit.becomes for _, limit in LIMITS} - {""} <= catalogue().keys()
 
 
 @pytest.mark.parametrize(("effect", "limit"), LIMITS, ids=[f"{e.name}.{m.parameter}" for e, m in LIMITS])
 def test_at_its_limit_an_effect_does_what_the_plainer_one_does(effect: Effect, limit: Limit) -> None:
-    stroke, bounds = STROKES[effect.name], effect.parameter(limit.parameter)
+    stroke, bounds = STROKES[f"{effect.name}.{limit.parameter}"], effect.parameter(limit.parameter)
     base = forces(base_of(effect), stroke)
     ended = with_effect(effect, {**effect.typical(), limit.parameter: getattr(bounds, limit.end)})
     does = forces(ended, stroke)

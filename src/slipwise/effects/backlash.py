@@ -36,5 +36,6 @@ EFFECT = Effect(
         "presliding": "force begins to grow at the reversal, not behind the play",
     },
     needs=("prescribed slip",),
-    limits=(Limit("push", "high", "machine_compliance"),),  # friction never closes the play
+    # friction never closes the play, or the slip never crosses it
+    limits=(Limit("push", "high", "machine_compliance"), Limit("play", "high", "slide_curvature")),
 )  # fmt: skip
