@@ -3,6 +3,7 @@
     python scripts/07_bench.py --out out/bench --count 300 --seed 20000
     python scripts/07_bench.py --out out/dirty --dirty --count 200 --seed 81000
     python scripts/07_bench.py --out out/drawn --drawn --count 100 --seed 36000
+    python scripts/07_bench.py --out out/bearings --bearings --count 20 --seed 52000
     python scripts/07_bench.py --quick
 
 Campaigns are made by `tests/bench`, whose physics is not the library's. Every finished campaign is one line of
@@ -11,6 +12,9 @@ bench.html shows who is taken for whom (confusion.png), whether verdicts of prob
 (calibration.png), how far the error falls (error_ratios.png), and every verdict that is wrong. bench.json has the
 numbers. Drawn campaigns are those of rigs of 1 to 100 t on three to eight pads, flat or curved, each with its
 specimen.toml.
+
+Tests of single bearings are pendulums under a load that is held, springs without friction, flat faces with a rim and
+without; bearings.json has what was said of each.
 
 Dirty campaigns have many small imperfections at once; dirty.json has their scores and every verdict that is wrong. With
 `--made DIR` they are those that `make_bench.py --dirty --out DIR` has made, or made there and kept.
@@ -53,6 +57,17 @@ def one_dirty(folder: Path, name: str, seed: int, keep: bool) -> dict[str, Any]:
     return {"name": name, "truth": json.loads(answer.read_text(encoding="utf-8")), "said": said}
 
 
+def one_bearing(folder: Path, name: str, kind: str, seed: int) -> dict[str, Any]:
+    """Make one test of a bearing, diagnose it blind, and give both answers."""
+    sys.path.insert(0, str(TESTS))
+    from bench import make_bearing  # pyright: ignore[reportMissingImports]
+
+    truth = make_bearing(folder / name, kind, seed)
+    said = diagnosed(folder / name)
+    shutil.rmtree(folder / name)
+    return {"name": name, "truth": {**truth, "missing": truth["may_name"], "group": kind}, "said": said}
+
+
 def diagnosed(folder: Path) -> dict[str, Any]:
     """Diagnose a campaign; one that breaks the diagnosis is counted as wrong, and shown."""
     from bench.evidence import evidence_in  # pyright: ignore[reportMissingImports]
@@ -86,7 +101,7 @@ def _line(result: dict[str, Any], number: int, total: int) -> str:
 
 def work(chosen: argparse.Namespace, count: int) -> dict[str, tuple[Any, ...]]:
     """Give name -> what makes and diagnoses it, and with which arguments."""
-    from bench import DRAWN, plan  # pyright: ignore[reportMissingImports]
+    from bench import DRAWN, bearing_plan, plan  # pyright: ignore[reportMissingImports]
 
     folder, seed = chosen.out / "campaigns", chosen.seed
     if chosen.dirty:
@@ -94,6 +109,8 @@ def work(chosen: argparse.Namespace, count: int) -> dict[str, tuple[Any, ...]]:
         return {n: (one_dirty, chosen.made or folder, n, s, bool(chosen.made)) for n, s in names.items()}
     if chosen.drawn:
         return {f"r{s:05d}": (one, folder, f"r{s:05d}", s, {"rig": DRAWN}) for s in range(seed, seed + count)}
+    if chosen.bearings:
+        return {n: (one_bearing, folder, n, *of) for n, of in bearing_plan(count, seed).items()}
     cases = {f"b{seed + i:05d}": (seed + i, case) for i, case in enumerate(plan(count, seed))}
     hidden = {n: (s, {"effects": c.effects, "size": c.size, "rich": c.rich}) for n, (s, c) in cases.items()}
     return {n: (one, folder, n, s, one_hides) for n, (s, one_hides) in hidden.items()}
@@ -159,6 +176,32 @@ def show_dirty(out: Path, results: list[dict[str, Any]]) -> None:
     print(f"wrote {out / 'dirty.json'}")
 
 
+def show_bearings(out: Path, results: list[dict[str, Any]]) -> None:
+    """Print for each kind of bearing how many verdicts are right, and every wrong one; write the numbers."""
+    from bench import is_right, radius_error  # pyright: ignore[reportMissingImports]
+    from slipwise.record import write_json
+
+    pairs = [(r["name"], r["truth"], r["said"]) for r in results]
+    for kind in dict.fromkeys(truth["kind"] for _, truth, _ in pairs):
+        right = [is_right(truth, said) for _, truth, said in pairs if truth["kind"] == kind]
+        print(f"{kind:55s} {sum(right):4d} of {len(right)}")
+    errors = [abs(e) for e in (radius_error(truth, said) for _, truth, said in pairs) if e == e]
+    if errors:
+        print(f"{'radius of the pendulums, largest error':55s} {100.0 * max(errors):7.2f} %")
+    seconds = sorted(said["seconds"] for _, _, said in pairs)
+    print(f"{'seconds of a verdict, median and longest':55s} {seconds[len(seconds) // 2]:7.0f} {seconds[-1]:5.0f}")
+    for name, truth, said in pairs:
+        if not is_right(truth, said):
+            print(f"{name}  {said['verdict']}: {'+'.join(said['effects'])} ({said['probability']:.2f})")
+    rows = [
+        {"name": n, "right": is_right(t, s), "radius error": None if (off := radius_error(t, s)) != off else off}
+        | {key: s[key] for key in ("verdict", "effects", "probability", "seconds")}
+        for n, t, s in pairs
+    ]
+    write_json(out / "bearings.json", {"campaigns": rows})
+    print(f"wrote {out / 'bearings.json'}")
+
+
 def main() -> None:
     """Run, score, print, draw."""
     sys.path.insert(0, str(TESTS))
@@ -171,15 +214,19 @@ def main() -> None:
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--dirty", action="store_true", help="many small imperfections at once in every campaign")
     parser.add_argument("--drawn", action="store_true", help="rigs of any size; each seed decides everything")
+    parser.add_argument("--bearings", action="store_true", help="tests of single bearings under a load that is held")
     parser.add_argument("--made", type=Path, help="folder of dirty campaigns that are made already, or made there")
     parser.add_argument("--quick", action="store_true", help="two campaigns only")
     chosen = parser.parse_args()
     count = 2 if chosen.quick else chosen.count
-    results = run(chosen.out, work(chosen, count), chosen.workers)
-    if len(results) < count:
-        print(f"stopped with {len(results)} of {count} campaigns done; the same command goes on from there")
+    cases = work(chosen, count)
+    results = run(chosen.out, cases, chosen.workers)
+    if len(results) < len(cases):
+        print(f"stopped with {len(results)} of {len(cases)} campaigns done; the same command goes on from there")
     if results and chosen.dirty:
         show_dirty(chosen.out, results)
+    elif results and chosen.bearings:
+        show_bearings(chosen.out, results)
     elif results:
         show(chosen.out, results, count)
 

@@ -11,7 +11,7 @@ from slipwise.campaign import Campaign, Logger, Run
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.diagnose import as_fit
 from slipwise.diagnosis.findings import Finding, _rivals, above_noise
-from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, parameters_at_bound
+from slipwise.diagnosis.hypothesis import Hypothesis, at_limit, base_hypothesis, parameters_at_bound
 from slipwise.diagnosis.importance import Change, Importance
 from slipwise.diagnosis.result import Candidate, Diagnosis
 from slipwise.diagnosis.search_state import Search, tried_before
@@ -195,6 +195,7 @@ def findings_of(
                 share=float(np.clip((above_noise(left, final.summary) - end) / base_over, 0.0, 1.0)),
                 rival=rivals.get(name),
                 at_bound=tuple(p for label, p in bounds if label in {t.label for t in terms}),
+                at_limit=any(t.label in at_limit(final) for t in terms),
                 importance=importance,
                 material=importance.share_of_limit(limits or Materiality()),
                 stays=1.0,

@@ -1,5 +1,6 @@
 """A blind bench: a second simulator of the rig that shares nothing with the library, and campaigns made with it."""
 
+from bench.bearing import bearing_plan, is_right, make_bearing, radius_error
 from bench.campaign import Campaign, build_campaign, make_campaign, with_faults
 from bench.dirty import DirtyCampaign, build_dirty, make_dirty
 from bench.drawn_rigs import DRAWN
@@ -27,14 +28,18 @@ __all__ = [
     "Motion",
     "Settings",
     "Truth",
+    "bearing_plan",
     "build_campaign",
     "build_dirty",
     "build_law_campaign",
     "draw",
+    "is_right",
+    "make_bearing",
     "make_campaign",
     "make_dirty",
     "make_law_campaign",
     "plan",
+    "radius_error",
     "random_rig",
     "rated",
     "simulate",

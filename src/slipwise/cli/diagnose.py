@@ -170,7 +170,7 @@ def write_diagnosis(found: "sw.Diagnosis", folder: Path, recording: bool, figure
 
 def _tell(found: "sw.Diagnosis") -> None:
     """Print the verdict, what each effect changes, its rivals and what it rests on."""
-    from slipwise.view.diagnosis_words import error_name, floors, four_answers
+    from slipwise.view.diagnosis_words import cannot_tell_words, error_name, floors, four_answers
     from slipwise.view.terminal import print_table
 
     for question, answer in four_answers(found):
@@ -189,7 +189,7 @@ def _tell(found: "sw.Diagnosis") -> None:
         print_table(f"Hypotheses; {error_name(found)} before and after, in noise floors", rows)
     for run in found.predicted_friction:
         say(run.words)
-    for words in found.cannot_tell:
+    for words in cannot_tell_words(found):
         say(f"cannot tell {words}")
 
 

@@ -84,12 +84,16 @@ def _write_new(name: str, port: str | None, out: Path | None) -> None:
 
 
 def _asks(effect: "sw.Effect") -> list[str]:
-    """Say whether an effect turns the girder, and what a campaign must have for it to be tested."""
+    """Say whether an effect turns the girder, what a campaign must have to test it, and where it is another effect."""
     turns = "yes, yaw belongs to its fit" if effect.turns else "no"
-    needs = [f"Needs {need}; not tested otherwise: {sw.effects.NEEDS[need]}." for need in effect.all_needs]
+    needs = [f"Needs {need}; not tested otherwise: {effect.without(need)}." for need in effect.all_needs]
     needs += [f"Needs pad_*{other} as well on a pad_*{ending}." for ending, other in effect.gauges.reads.items()]
     every = "Needs nothing beside what every fit needs: slip, and load and friction of a pad."
-    return [f"Turns the girder about the vertical (yaw): {turns}.", *(needs or [every])]
+    ends = [
+        f"Where {at.parameter} ends on its {at.end} bound it is {at.becomes or 'one with the base law'}, and not named."
+        for at in effect.limits
+    ]
+    return [f"Turns the girder about the vertical (yaw): {turns}.", *(needs or [every]), *ends]
 
 
 def register(app: typer.Typer) -> None:

@@ -5,6 +5,7 @@ from dataclasses import replace
 from slipwise.diagnosis.choice import has_delay_for_filter
 from slipwise.diagnosis.hypothesis import Hypothesis, final_refit_of
 from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects
+from slipwise.diagnosis.plainer import plainest
 from slipwise.diagnosis.removal import without
 from slipwise.diagnosis.search_state import Search, left_with, tried_before, try_one
 from slipwise.estimation.parameters import Term
@@ -43,6 +44,8 @@ def with_final_refit(state: Search) -> Search:
     A large first effect leaves the noise near reversals wrong until it is weighed anew, and a second one repairs that.
     """
     state = _simplified(_with_rivals_tried(state))
+    plain = plainest(state, state.best)
+    state = state if plain is state.best else pruned(state.stepped_to(plain))
     reported = final_refit_of(state.best)
     origin = state.path[0].summary
     while len(reported.terms) > 1:

@@ -2,10 +2,11 @@
 
 from collections.abc import Callable, Iterable, Iterator
 from fnmatch import fnmatchcase
+from itertools import combinations
 
 import numpy as np
 
-from slipwise.effects import NEEDS, Effect, catalogue, for_pads, scaled
+from slipwise.effects import Effect, catalogue, for_pads, scaled
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.parameters import Term
 from slipwise.estimation.problem import Problem
@@ -16,6 +17,8 @@ from slipwise.rig.load_basis import WARPS, has_corners
 _STEADY = 3.0
 #: A load that changes by less never changes [1].
 _STEADY_LOAD = 0.005
+#: A direction in which a smaller share of the sliding goes is not tried [1].
+_RARELY = 0.05
 #: Speeds of runs that differ by less count as the same [1].
 _SAME_SPEED = 0.15
 
@@ -51,7 +54,7 @@ def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], d
             aimed = list(_aimed(effect, problem))
             terms += aimed
             if not aimed:
-                cannot[name] = "no gauge was recorded on which it would show"
+                cannot[name] = _unaimed(effect, problem)
         else:
             terms.append(Term(effect))
             terms += _on_single_pads(effect, problem)
@@ -59,22 +62,27 @@ def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], d
 
 
 def _confounded(problem: Problem) -> dict[str, str]:
-    """Say where a run of one load was also a run of one speed, so that what looks like one may be the other."""
-    runs = [r for r in problem.runs if r.sliding.any()]
+    """Say where no two fitted runs of unlike load have like speeds, so that what looks like one may be the other."""
+    runs = [r for r in (problem.runs[i] for i in problem.fitted) if r.sliding.any()]
     loads = np.array([float(np.mean(r.load[r.sliding])) for r in runs])
     within = np.array([float(np.std(r.load[r.sliding])) for r in runs])
     speeds = np.array([float(np.sqrt(np.mean(r.velocity[r.sliding] ** 2))) for r in runs])
-    steady = len(runs) > 1 and float(np.ptp(loads)) > _STEADY * float(within.max())
-    if not steady or speeds.max() < (1.0 + _SAME_SPEED) * speeds.min():
+    apart = _STEADY * float(within.max(initial=0.0))
+    unlike = [(i, j) for i, j in combinations(range(len(runs)), 2) if abs(loads[i] - loads[j]) > apart]
+    if not unlike or any(_alike(speeds[i], speeds[j]) for i, j in unlike):
         return {}
     span = f"{speeds.min():.3g} to {speeds.max():.3g} m/s"
     reason = f"load changes only from run to run, and speed differs between these runs too ({span})"
     return {"load against speed": reason}
 
 
+def _alike(one: float, other: float) -> bool:
+    return max(one, other) < (1.0 + _SAME_SPEED) * min(one, other)
+
+
 def _untestable(effect: Effect, problem: Problem) -> str:
     """Say what an effect needs first that this campaign has not; "" where it can be tested."""
-    return next((NEEDS[need] for need in effect.all_needs if not HAS[need](problem)), "")
+    return next((effect.without(need) for need in effect.all_needs if not HAS[need](problem)), "")
 
 
 def _sees_buffers(problem: Problem) -> bool:
@@ -82,8 +90,9 @@ def _sees_buffers(problem: Problem) -> bool:
 
 
 def _one_way(problem: Problem) -> bool:
-    forth = [float(np.mean(r.velocity[r.sliding] > 0.0)) for r in problem.runs if r.sliding.any()]
-    return bool(forth) and all(min(f, 1.0 - f) < 0.05 for f in forth)
+    """Tell whether all runs that are fitted slide the same way: one there and one back are both directions."""
+    forth = np.concatenate([r.velocity[r.sliding] > 0.0 for r in (problem.runs[i] for i in problem.fitted)])
+    return bool(forth.size) and min(float(np.mean(forth)), 1.0 - float(np.mean(forth))) < _RARELY
 
 
 def _load_varies(problem: Problem) -> bool:
@@ -125,6 +134,13 @@ def _aimed(effect: Effect, problem: Problem) -> Iterator[Term]:
                 yield Term(effect, targets, "pad_*")
         elif problem.balanced or ((place.startswith("pad_") or place == "slip_x") and _alone(effect, targets)):
             yield Term(effect, targets, place)
+
+
+def _unaimed(effect: Effect, problem: Problem) -> str:
+    """Say why a gauge's fault is looked for on none: none that it could sit on, or none beside the law of friction."""
+    if any(place.startswith(("pad_", "slip")) for place in places_of(effect, problem.runs[0].record)):
+        return "without a girder's balances it is one with the numbers of the friction law"
+    return "no gauge was recorded on which it would show"
 
 
 def _on_single_pads(effect: Effect, problem: Problem) -> Iterator[Term]:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.diagnosis.hypothesis import Hypothesis, at_limit
 from slipwise.diagnosis.screening import Screened
 from slipwise.evidence.acceptance import is_kept, least_drop
 from slipwise.evidence.score import score
@@ -56,5 +56,5 @@ def has_delay_for_filter(found: Hypothesis) -> bool:
 
 
 def kept_alone(origin: Hypothesis, found: Hypothesis) -> bool:
-    """Tell whether effects are worth being kept as a first step from the base model."""
-    return is_kept(origin.summary, origin.summary, found.summary, least_drop(found.terms))
+    """Tell whether effects are worth being kept as a first step from the base model, and are what they are called."""
+    return not at_limit(found) and is_kept(origin.summary, origin.summary, found.summary, least_drop(found.terms))

@@ -6,8 +6,9 @@ import numpy as np
 
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.choice import has_delay_for_filter
-from slipwise.diagnosis.hypothesis import Hypothesis, parameters_at_bound
+from slipwise.diagnosis.hypothesis import Hypothesis, at_limit, parameters_at_bound
 from slipwise.diagnosis.importance import Importance
+from slipwise.diagnosis.plainer import holds_as_limit
 from slipwise.diagnosis.removal import without
 from slipwise.diagnosis.search_state import Search, left_with
 from slipwise.diagnosis.small_faults import shares_that_stay
@@ -44,6 +45,7 @@ class Finding:
         share: of the squared residual above the noise that the base model leaves, what comes back without it [1].
         rival: the effect that could best take its place; None where none comes near.
         at_bound: parameters that ended on a bound which is not their absence.
+        at_limit: whether that is a bound at which it is another effect, or none, so that it has no name of its own.
         importance: what leaving it out changes.
         material: importance over what matters, of what stays beside small faults of all gauges [1].
         stays: the share of its size that does [1].
@@ -56,6 +58,7 @@ class Finding:
     share: float
     rival: Rival | None
     at_bound: tuple[str, ...]
+    at_limit: bool
     importance: Importance
     material: float
     stays: float
@@ -79,7 +82,7 @@ def findings(state: Search, importances: dict[str, Importance], limits: Material
     parts = {name: tuple(t for t in final.terms if t.effect.name == name) for name in names}
     left = {n: without(final, parts[n], lambda rest: left_with(state, rest, final)) for n in names}
     rivals = _rivals(state, {n: parts[n] for n in names})
-    bounds = parameters_at_bound(final)
+    bounds, nameless = parameters_at_bound(final), at_limit(final)
     base, end = above_noise(origin, final.summary), above_noise(final.summary, final.summary)
     sizes = {n: importances[n].share_of_limit(limits) for n in names}
     stays = shares_that_stay(final, sizes, state.all_screened, limits)
@@ -92,6 +95,7 @@ def findings(state: Search, importances: dict[str, Importance], limits: Material
             share=float(np.clip((above_noise(left[n], final.summary) - end) / max(base, 1e-12), 0.0, 1.0)),
             rival=rivals.get(n),
             at_bound=tuple(p for label, p in bounds if label in {t.label for t in parts[n]}),
+            at_limit=any(t.label in nameless for t in parts[n]),
             importance=importances[n],
             material=sizes[n] * stays[n],
             stays=stays[n],
@@ -120,6 +124,7 @@ def _rivals(state: Search, parts: dict[str, tuple[Term, ...]]) -> dict[str, Riva
         rest = {t.label for t in best.terms if t.effect.name != name}
         others = [h for h in state.tried if name not in h.names and rest < {t.label for t in h.terms}]
         others = [h for h in others if len(h.terms) <= len(best.terms) and len(parameters_at_bound(h)) <= ends]
+        others = [h for h in others if not holds_as_limit(h, best)]  # that is as good by what it is at a bound
         if not has_delay_for_filter(best):  # a filter that takes nothing is a delay by another name
             others = [h for h in others if not has_delay_for_filter(h)]
         rival = max(others, key=lambda h: score(best.summary, h.summary), default=None)

@@ -10,9 +10,10 @@ from slipwise.diagnosis.backward_elimination import pruned, with_final_refit
 from slipwise.diagnosis.bound_check import with_bounds_checked
 from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.choice import best_of, kept_alone, limit_per_effect
-from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, strength_at_bound
+from slipwise.diagnosis.hypothesis import Hypothesis, at_limit, base_hypothesis, strength_at_bound
 from slipwise.diagnosis.kept_slopes import lighten, whole
 from slipwise.diagnosis.pairs import leading_pair
+from slipwise.diagnosis.plainer import plainest, with_plainer
 from slipwise.diagnosis.rescreening import rescreen, worth_refitting
 from slipwise.diagnosis.screened_rows import thinning
 from slipwise.diagnosis.screening import screen, screen_shapes
@@ -138,10 +139,11 @@ def _first(state: Search, start_hypothesis: Hypothesis | None = None) -> Search:
     chosen += [s for s in physics[:_REFITTED_PHYSICS] if all(s is not c for c in chosen)]
     least = _least_refitted(origin)
     asked = starts_of([s for s in chosen if s.gain > least]) + longer_stick(state, origin)
-    tried = try_all(state, asked)
+    tried = try_all(state, with_plainer(state, asked))
     if start_hypothesis is not None:
         tried.append(try_one(state, start_hypothesis.terms, {}, start_hypothesis))
     best = best_of(origin, tried)
+    best = best and plainest(state, best)
     pair = leading_pair(state.base, state.screened, best, least)
     if pair is not None:
         both = try_one(state, [p.term for p in pair], {p.term.label: p.values for p in pair})
@@ -198,11 +200,12 @@ def _further(state: Search) -> Search | None:
     chosen = [s for s in with_bounds_checked(as_base(state, before), chosen, 0.0) if s.gain > 0.0]
     tried = list[Hypothesis]()
     for asked in starting_points(state, chosen, tried):
+        asked = with_plainer(state, asked)
         tried += try_all(state, asked, before, lambda h: _is_kept(origin, before, h, _NEAR))
-        sound = [h for h in tried if strength_at_bound(before) or not strength_at_bound(h)]
+        sound = [h for h in tried if not at_limit(h) and (strength_at_bound(before) or not strength_at_bound(h))]
         good = [h for h in sound if _is_kept(origin, before, h)]
         if good:
-            return state.stepped_to(max(good, key=lambda h: score(before.summary, h.summary)))
+            return state.stepped_to(plainest(state, max(good, key=lambda h: score(before.summary, h.summary))))
     return None
 
 
@@ -243,7 +246,8 @@ def _exchanged(state: Search) -> Search | None:
         left -= len(chosen)
         if chosen:
             found = try_all(state, starts_of(chosen, rest), left_with(state, rest, best) if rest else None)
-            better += [h for h in found if score(origin, h.summary) > top and not _accuses_for_little(best, h)]
+            sound = [h for h in found if not at_limit(h) and not _accuses_for_little(best, h)]
+            better += [h for h in sound if score(origin, h.summary) > top]
     return state.stepped_to(max(better, key=lambda h: score(origin, h.summary))) if better else None
 
 

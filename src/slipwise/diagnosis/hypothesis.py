@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.diagnosis.starting_grid import REFERENCES, strengths
+from slipwise.effects import Limit
 from slipwise.estimation.base_fit import BaseFit, final_refit
 from slipwise.estimation.least_squares import Solution, slopes_of, solve
 from slipwise.estimation.parameters import ZERO, Free, Term, inertia_free, numbers_replaced
@@ -203,6 +204,17 @@ def strength_at_bound(found: Hypothesis) -> bool:
 def parameters_at_bound(found: Hypothesis) -> list[tuple[str, str]]:
     """Give label and name of every constant of its laws that has run against a bound other than its absence."""
     return [(t.label, name) for t in found.terms for name in sorted(_ends(found, t))]
+
+
+def at_limit(found: Hypothesis) -> list[str]:
+    """Give the labels of effects that ended where their files say that they are another effect, or nothing."""
+    return [t.label for t in found.terms if any(_reached(found, t, limit) for limit in t.effect.limits)]
+
+
+def _reached(found: Hypothesis, term: Term, limit: Limit) -> bool:
+    bounds, value = term.effect.parameter(limit.parameter), found.values_of(term)[limit.parameter]
+    end = "low" if value - bounds.low < bounds.high - value else "high"
+    return end == limit.end and limit.parameter in _ends(found, term)
 
 
 def _ends(found: Hypothesis, term: Term) -> set[str]:

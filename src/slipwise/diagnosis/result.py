@@ -146,13 +146,11 @@ class Diagnosis(Drawn, Tabular):
         chance = f"{100 * self.verdict.probability:.0f} %"
         names = " and ".join(self.verdict.effects)
         error = "held-out error" if self.search.base.problem.held_out else "error on the runs that were fitted"
-        fall = f"{error} {self.base_error:.2g} -> {self.final_error:.2g} times the noise floor"
+        fall = f"{error} {_short(self.base_error)} -> {_short(self.final_error)} times the noise floor"
         match self.verdict.kind:
             case "complete":
-                least = (
-                    "Nothing that matters is missing" if self.verdict.minor else "Nothing above the noise is missing"
-                )
-                return f"{least} ({self.base_error:.2g} times the floor; {chance}){self._minor}."
+                least = "that matters" if self.verdict.minor else "above the noise"
+                return f"Nothing {least} is missing ({_short(self.base_error)} times the floor; {chance}){self._minor}."
             case "named":
                 more = "; form not exact" if self.verdict.leftover == "unknown" else ""
                 return f"The model lacks {names} ({chance}); {fall}{more}{self._minor}{self._bounds}."
@@ -233,6 +231,11 @@ class Diagnosis(Drawn, Tabular):
 
 def _pairs(found: Mapping[str, tuple[float, float]]) -> dict[str, Any]:
     return {k: {"base": _number(a), "final": _number(b)} for k, (a, b) in found.items()}
+
+
+def _short(error: float) -> str:
+    """Write an error in two figures, or to a whole floor where that is more."""
+    return f"{error:.2g}" if error < 99.5 else f"{error:.0f}"
 
 
 def _number(value: float, figures: int = 4) -> float | None:

@@ -63,9 +63,6 @@ def discriminating_tests(found: Verdict, state: Search) -> tuple[str, ...]:
     return tuple(out)
 
 
-#: The report imports it by this name.
-
-
 def _discriminating_test(one: str, other: str, known: Mapping[str, Effect]) -> str:
     """Give the test of two effects from the file of either, in which "that" is the other one; "" if neither has it."""
     for effect, rival in ((one, other), (other, one)):

@@ -1,6 +1,6 @@
 """The verdict of a search: what its evidence decides, and what was fitted in the place of an effect."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,6 +14,7 @@ from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import Surface, leftover, structured
 from slipwise.diagnosis.unknown_surface import above_noise as left_above_noise
 from slipwise.estimation.parameters import Term
+from slipwise.estimation.problem import Problem
 from slipwise.evidence.acceptance import LEAST
 from slipwise.evidence.calibration import calibration
 from slipwise.evidence.decision import EVEN_ODDS, decide, remains
@@ -27,6 +28,8 @@ _UNCONFIRMED = 0.9
 _CARRIED_OVER = 0.5
 #: Mean squared residual of a held-out run over that of the motions left out, up to which they are left alike [1].
 _AS_LEFT_OUT = 1.5
+#: Error of a model in floors, and over that of the base model [1]: above both much is left unexplained.
+_MUCH = (3.0, 0.05)
 
 
 @dataclass(frozen=True)
@@ -78,20 +81,21 @@ def decide_verdict(state: Search, found: Sequence[Finding], limits: Materiality)
     surface = leftover(final)
     surface = surface if structured(surface) else None
     rest = evidence_of_rest(origin, final, surface)
-    of_effects = {f.name: evidence_of(f) for f in found}
+    of_effects = {f.name: evidence_of(f) for f in found if not f.at_limit}
     decided = decide(of_effects, rest, limits.channel, calibration())
     kind = decided.kind
-    if kind == "complete" and set(of_effects) - set(decided.minor):
+    if kind == "complete" and {f.name for f in found} - set(decided.minor):
         bare = evidence_of_rest(origin, origin, None)
         if remains(bare, limits.channel):
             # what takes it away is not believed, so it is still there: a model that leaves it is not complete
             kind, rest = "unknown", bare
+    nameless = any(f.at_limit and f.material >= 1.0 for f in found)
     verdict = Verdict(
         kind,
         decided.named,
         decided.minor,
-        decided.probability if kind == "unknown" else _confirmed(state, decided.probability),
-        "unknown" if remains(rest, limits.channel) else "none",
+        decided.probability if kind == "unknown" else _confirmed(state, decided.probability, rest),
+        "unknown" if remains(rest, limits.channel) or nameless else "none",
         explained_share(origin, final),
         surface,
         (),
@@ -148,26 +152,53 @@ def evidence_of_rest(origin: Hypothesis, final: Hypothesis, surface: Surface | N
     }
 
 
-def _confirmed(state: Search, probability: float) -> float:
-    if any(held for _, held in state.path[0].summary.counts.values()):
-        return probability
-    return _UNCONFIRMED * probability
+def _confirmed(state: Search, probability: float, rest: Mapping[str, float]) -> float:
+    """Give the probability of a verdict, less where the model leaves much or no held-out run has confirmed it."""
+    problem = state.final.problem
+    judged = _testable(problem) or problem.fitted
+    if state.final.terms and leaves_much(*_worst_errors(state, judged)):
+        probability = min(probability, calibration().family(rest))
+    return probability if problem.held_out else _UNCONFIRMED * probability
+
+
+def leaves_much(before: float, after: float) -> bool:
+    """Tell whether a model leaves so much that it is not confirmed, however much it explains.
+
+    Args:
+        before: error of the base model [noise floors].
+        after: error of the model with the effects [noise floors].
+    """
+    return after > max(_MUCH[0], _MUCH[1] * before)
+
+
+def _worst_errors(state: Search, runs: Sequence[int]) -> tuple[float, float]:
+    """Give the error over some runs of the base model and of the final one, each where it is worst [noise floors]."""
+    relations = state.path[0].summary.fitted
+    before, after = (max(h.level_of(r, runs) for r in relations) for h in (state.path[0], state.final))
+    return float(np.sqrt(before)), float(np.sqrt(after))
+
+
+def _testable(problem: Problem) -> list[int]:
+    """Give the places of the held-out runs that are not beyond what was fitted."""
+    beyond = not_testable(problem)
+    return [i for i in problem.held_out if i not in beyond]
 
 
 def confirmed(state: Search) -> bool | None:
     """Tell whether the held-out runs agree with what was found; None where none can tell or nothing was found.
 
     They agree where every balance that the effects improve has lost half of its excess over the noise there as well,
-    or is left as well as the motions that were left out. Runs beyond what was fitted take no part.
+    or is left as well as the motions that were left out, and the model does not leave much. Runs beyond what was
+    fitted take no part.
     """
     base, found = state.path[0], state.final
     origin, final = base.summary, found.summary
-    beyond = not_testable(found.problem)
-    runs = [i for i in found.problem.held_out if i not in beyond]
+    runs = _testable(found.problem)
     improved = [r for r in origin.fitted if relative_drop(origin, final, r) >= LEAST.law and origin.counts[r][1]]
     if not found.terms or not improved or not runs:
         return None
-    return all(_carries_over(base, found, relation, runs) for relation in improved)
+    carried = all(_carries_over(base, found, relation, runs) for relation in improved)
+    return carried and not leaves_much(*_worst_errors(state, runs))
 
 
 def _carries_over(base: Hypothesis, found: Hypothesis, relation: str, runs: Sequence[int]) -> bool:

@@ -13,8 +13,8 @@ NEEDS: dict[str, str] = {
     "prescribed slip": "the girder slides freely: no machine stands between gauge and contact",
     "storeys": "needs a specimen with storeys, the accelerations of all of them, and the balances of its base",
     "several pads": "one slider only",
-    "both directions": "the slider moves one way only, so what is even in velocity is one with friction",
-    "changing load": "the load never changes, so this is one with an offset, an asymmetry or the base law",
+    "both directions": "the slider moves one way only, so what leans on direction or place is one with friction",
+    "changing load": "the load never changes, and it is then one with {steady}",
 }
 #: What every effect of a component needs.
 COMPONENT_NEEDS: dict[str, tuple[str, ...]] = {
@@ -28,6 +28,25 @@ BASE_ROLES: tuple[str, ...] = ("law", "springs", "stick")
 #: How a fault sits on the gauges of one kind: on each alone or on all alike; on each alone; on a whole card of cells or
 #: a single other gauge; on all cells of all pads at once.
 SITS: tuple[str, ...] = ("either", "alone", "card", "pads")
+#: The ends of a parameter's bounds.
+ENDS: tuple[str, ...] = ("low", "high")
+
+
+@dataclass(frozen=True)
+class Limit:
+    """An end of a parameter's bounds towards which an effect becomes a plainer thing.
+
+    At that end itself it has no name of its own, and short of it only where it explains more than the plainer one.
+
+    Attributes:
+        parameter: of the effect.
+        end: of its bounds, one of `ENDS`.
+        becomes: the effect that it is there; "" for what the base model's own numbers do.
+    """
+
+    parameter: str
+    end: str
+    becomes: str = ""
 
 
 @dataclass(frozen=True)

@@ -36,8 +36,9 @@ Hooks that tell what some of its numbers mean:
     corner(...) -> frequency [Hz]                  of a gauge's filter: it takes what is above
 
 `EFFECT` also declares what hooks cannot say: what a campaign needs to test it, what it turns or shifts in time, which
-gauges it sits on, what it is one thing with. No other file knows an effect by its name, so that a user's own file has
-every right that a file of the catalogue has, but for a role in the base model and faults that are found in samples.
+gauges it sits on, what it is one thing with, at which bound it is another effect. No other file knows an effect by its
+name, so that a user's own file has every right that a file of the catalogue has, but for a role in the base model and
+faults that are found in samples.
 """
 
 import fnmatch
@@ -48,7 +49,7 @@ from pathlib import Path
 from typing import Any
 
 from slipwise.channels import CHANNELS
-from slipwise.effects._declared import COMPONENT_NEEDS, NEEDS, Gauges
+from slipwise.effects._declared import COMPONENT_NEEDS, NEEDS, Gauges, Limit
 from slipwise.effects._fault import GaugeFault
 from slipwise.effects._hooks import DERIVED, HOOKS, PAD_HOOKS
 from slipwise.errors import unknown_name
@@ -82,6 +83,8 @@ class Effect(Drawn, Tabular):
         adds: for a law that brings a share of its own: what scales friction as a whole, heat or wear or a patch of the
             plate, scales that share too, whichever was listed first.
         needs: what a campaign must have to test it, of `NEEDS`; what its component needs is known.
+        steady: for an effect that needs a changing load: what it is one with where the load never changes, in words.
+        limits: ends of its parameters' bounds at which it is another effect, or nothing beside the base model.
         same_unless: other effects that are one thing with it -> what tells them apart where it was measured: "yaw", or
             a balance of the girder ("pitch").
         turns: whether it turns the girder about the vertical, so that yaw belongs to its fit; known of effects with a
@@ -117,6 +120,8 @@ class Effect(Drawn, Tabular):
     replaces: str = ""
     adds: bool = False
     needs: tuple[str, ...] = ()
+    steady: str = "what does not follow the load"
+    limits: tuple[Limit, ...] = ()
     same_unless: Mapping[str, tuple[str, ...]] = field(default_factory=dict[str, tuple[str, ...]])
     turns: bool = False
     shifts: bool = False
@@ -173,6 +178,10 @@ class Effect(Drawn, Tabular):
         """What a campaign must have to test it, its component's needs included, in the order of `NEEDS`."""
         own = {*self.needs, *COMPONENT_NEEDS.get(self.component, ())}
         return tuple(n for n in NEEDS if n in own)
+
+    def without(self, need: str) -> str:
+        """Say why it cannot be tested in a campaign that has not what it needs, of `NEEDS`."""
+        return NEEDS[need].format(steady=self.steady)
 
     def parameter(self, name: str) -> Parameter:
         """Look a parameter up, also one that a pad has of its own: strength[A].

@@ -11,7 +11,7 @@ from types import ModuleType
 from typing import Any, cast
 
 from slipwise.channels import CHANNELS
-from slipwise.effects._declared import BASE_ROLES, NEEDS, SITS
+from slipwise.effects._declared import BASE_ROLES, ENDS, NEEDS, SITS, Limit
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import SAMPLE_FAULTS
 from slipwise.effects._hooks import COMPONENTS, HOOKS, LAGGING, PORTS, SIDES
@@ -76,15 +76,17 @@ def _check_declared(path: Path, effect: Effect) -> None:
     Raises:
         SettingError: with what is possible.
     """
-    for name, kind in (("parameters", Parameter), ("moves", str), ("memory", str), ("needs", str)):
+    for name, kind in (("parameters", Parameter), ("moves", str), ("memory", str), ("needs", str), ("limits", Limit)):
         given: object = getattr(effect, name)
         if not isinstance(given, tuple) or not all(isinstance(each, kind) for each in cast(tuple[object, ...], given)):
-            what = "Parameter(...)" if kind is Parameter else '"text"'
+            what = '"text"' if kind is str else f"{kind.__name__}(...)"
             raise SettingError(
                 f"{path.name}: write {name}=({what},) in EFFECT, with a comma behind each, one alone too"
             )
     for what, given, possible in (
         *(("need", need, NEEDS) for need in effect.needs),
+        *(("parameter with a limit", limit.parameter, effect.parameter_names) for limit in effect.limits),
+        *(("end of a parameter's bounds", limit.end, ENDS) for limit in effect.limits),
         *((("role in the base model", effect.base, BASE_ROLES),) if effect.base else ()),
         ("way to sit on gauges", effect.gauges.sits, SITS),
         *((("parameter for its lag", effect.lag, effect.parameter_names),) if effect.lag else ()),

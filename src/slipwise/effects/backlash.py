@@ -10,7 +10,7 @@ Valid: play small against the stroke; no impact at its ends.
 Source: Coble et al. (2022) for a banded rotary friction damper with backlash; sizes assumed.
 """
 
-from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._effect import RESPONSE, Effect, Limit
 from slipwise.params import Parameter
 
 
@@ -36,4 +36,6 @@ EFFECT = Effect(
         "presliding": "force begins to grow at the reversal, not behind the play",
     },
     needs=("prescribed slip",),
+    # friction never closes the play, or the slip never crosses it
+    limits=(Limit("push", "high", "machine_compliance"), Limit("play", "high", "slide_curvature")),
 )  # fmt: skip

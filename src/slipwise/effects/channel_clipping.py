@@ -41,5 +41,5 @@ EFFECT = Effect(
     signature="plateaus of equal height at the peaks",
     confused_with={"channel_gain": "a gain lowers every value, a rail only the peaks"},
     target="channel",
-    in_samples="an actuator may rest at its ends, which looks like a rail",
+    in_samples="only its slip: an actuator may rest at its ends, which looks like a rail",
 )  # fmt: skip

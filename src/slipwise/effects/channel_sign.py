@@ -40,5 +40,5 @@ EFFECT = Effect(
     signature="odd; balances fail by twice the channel",
     confused_with={"channel_gain": "a gain of -200 % is no gain"},
     target="channel",
-    in_samples="one slider has no balance that says which way a gauge is wired",
+    in_samples="only its slip: where force and slip disagree, the force is taken for the one that is reversed",
 )  # fmt: skip

@@ -50,5 +50,5 @@ EFFECT = Effect(
     signature="runs of equal values; spikes in the rate",
     confused_with={"channel_clipping": "a rail repeats one level, lost samples repeat any"},
     target="channel",
-    in_samples="an actuator may rest, and samples then repeat by themselves",
+    in_samples="only its slip: an actuator may rest, and samples then repeat by themselves",
 )  # fmt: skip

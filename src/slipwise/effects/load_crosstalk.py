@@ -60,5 +60,6 @@ EFFECT = Effect(
     },
     target="channel",
     needs=("both directions", "changing load"),
+    steady="an offset of the friction gauge",
     gauges=Gauges(reads={"_Fx": "_N", "_Fy": "_N", "_N": "_Fx"}, balance_only=("pad_*_N",)),
 )  # fmt: skip

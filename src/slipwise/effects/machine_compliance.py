@@ -13,7 +13,7 @@ Valid: quasi-static; a machine whose own resonance lies above what was recorded.
 Source: Rice & Ruina (1983), spring and slider; stiffnesses assumed.
 """
 
-from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._effect import RESPONSE, Effect, Limit
 from slipwise.params import Parameter
 
 
@@ -36,4 +36,5 @@ EFFECT = Effect(
         "backlash": "under play nothing is carried at first",
     },
     needs=("prescribed slip",),
+    limits=(Limit("compliance", "high", "slide_curvature"),),  # a contact that sticks for good
 )  # fmt: skip

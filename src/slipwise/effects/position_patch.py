@@ -11,7 +11,7 @@ Source: lubricated pads 0.1 to 0.4 of the friction, dirty ones 1.1 to 1.5; shape
 
 from math import exp
 
-from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._effect import RESPONSE, Effect, Limit
 from slipwise.params import Parameter
 
 
@@ -51,4 +51,5 @@ EFFECT = Effect(
         "heating": "its gate is at the middle and grows with time; a patch is there from the first cycle",
         "key_clearance": "that shows in the girder balance, not in a pad",
     },
+    limits=(Limit("width", "high"),),
 )  # fmt: skip

@@ -25,7 +25,7 @@ from math import exp, sqrt
 
 import numpy as np
 
-from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._effect import RESPONSE, Effect, Limit
 from slipwise.params import Parameter
 
 LEAST, BRISTLES = 1e-3, 8
@@ -96,5 +96,5 @@ EFFECT = Effect(
         "channel_filter": "the same; and the girder balance stays clean with pre-sliding",
     },
     memory=("last_x", "last_y", "last_time", *(f"bristle_{k}_{axis}" for k in range(BRISTLES) for axis in "xy")),
-    base="stick",
+    base="stick", limits=(Limit("length", "high", "slide_curvature"),),  # what never slides is a spring
 )  # fmt: skip

@@ -37,4 +37,5 @@ EFFECT = Effect(
     signature="odd, a function of pressure only: the slope of the trapezoid is wrong, the mean is right",
     confused_with={"contact_area": "only a wide range of pressure tells: sines of equal peak speed and different a_z"},
     needs=("changing load",),
+    steady="the strength of the base law",
 )  # fmt: skip

@@ -13,7 +13,7 @@ assumed.
 
 from math import sqrt
 
-from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._effect import RESPONSE, Effect, Limit
 from slipwise.params import Parameter
 
 
@@ -42,4 +42,5 @@ EFFECT = Effect(
     },
     exact=True,
     needs=("both directions",),
+    limits=(Limit("limit", "low", "slide_curvature"),),  # without a gap it is a spring through the middle
 )  # fmt: skip

@@ -32,8 +32,9 @@ EFFECT = Effect(
     signature="even in velocity, proportional to N x: loops of the pads lean",
     confused_with={
         "buffer_hardening": "that shows in the girder balance, this in the pads",
-        "contact_area": "the rocking load leans the loops too, but not the load's product with x when friction is even",
+        "contact_area": "a load that rocks with the slip leans the loops too, but the other way round on the way back",
+        "restrainer": "a rim is met beyond a gap only: a larger stroke bends the loop, a sphere goes on straight",
     },
     exact=True,
-    needs=("both directions", "changing load"),
+    needs=("both directions",),
 )  # fmt: skip

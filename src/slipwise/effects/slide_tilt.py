@@ -52,4 +52,5 @@ EFFECT = Effect(
     },
     exact=True,
     needs=("both directions", "changing load"),
+    steady="an offset of the friction gauge",
 )  # fmt: skip

@@ -59,12 +59,14 @@ class PredictedFriction:
 
     @property
     def words(self) -> str:
-        """Say it."""
-        predicted = f"{self.value:.3g} N"
+        """Say it, in kN where it is more than one."""
+        unit, size = ("kN", 1e3) if abs(self.measured) >= 1e3 else ("N", 1.0)
+        measured, value, low, high = (f"{x / size:.3g}" for x in (self.measured, self.value, self.low, self.high))
+        found = f"{self.run}: mean friction {measured} {unit} measured"
         if self.inside is None:
-            return f"{self.run}: mean friction {self.measured:.3g} N measured, {predicted} predicted, interval unknown"
-        where, interval = "inside" if self.inside else "outside", f"{predicted} ({self.low:.3g} to {self.high:.3g} N)"
-        return f"{self.run}: mean friction {self.measured:.3g} N measured, {where} what was predicted, {interval}"
+            return f"{found}, {value} {unit} predicted, interval unknown"
+        where = "inside" if self.inside else "outside"
+        return f"{found}, {where} what was predicted, {value} {unit} ({low} to {high} {unit})"
 
 
 def predicted_friction(fit: BaseFit) -> tuple[PredictedFriction, ...]:

@@ -3,7 +3,7 @@
 No law of friction and no fit: every gauge is held against the others that must move with it.
 
     along x, y    slip'' = girder - table, all three signs tried; below 12 Hz
-    friction      F has the sign of the slip's rate while a pad slides fast
+    friction      F has the sign of the slip's rate while a pad slides fast; of a slider, its work on the way is lost
     vertical      sum N and both vertical accelerations move together, for the pads are stiff
     load          N presses
 
@@ -12,6 +12,7 @@ On 32 planted signs this and a search through the balances of forces and moments
 """
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,14 +38,17 @@ _STRONG = 3.0
 
 
 def wrong_signs(campaign: Campaign, tared: Collection[str] = ()) -> list[str]:
-    """Give the channels that are wired the wrong way round; on a slider only loads, which have nothing but their sign.
+    """Give the channels that are wired the wrong way round.
+
+    Of a slider loads have their own sign; a force that drives the slip is no friction, and is taken for turned.
 
     Args:
         campaign: as recorded.
         tared: load cells that were set to zero under the girder: they neither press nor pull, and have no sign to see.
     """
     if not campaign.specimen.free:
-        return _against({name: [_presses(run.record, name) for run in campaign.runs] for name in _loads(campaign)})
+        seen = {name: [_presses(run.record, name) for run in campaign.runs] for name in _loads(campaign)}
+        return _against({**seen, **_dissipated(campaign)})
     along: dict[str, list[float]] = {}
     for run in campaign.runs:
         for name, value in _accelerations(run.record):
@@ -60,6 +64,19 @@ def wrong_signs(campaign: Campaign, tared: Collection[str] = ()) -> list[str]:
 def _loads(campaign: Campaign) -> list[str]:
     every = set.intersection(*(set(run.record.channels) for run in campaign.runs))
     return [name for name in (f"pad_{pad}_N" for pad in campaign.specimen.pads) if name in every]
+
+
+def _dissipated(campaign: Campaign) -> dict[str, list[float]]:
+    """Give for a slider's forces the share of the work to and fro that is lost [1]: negative, it would drive."""
+    out: dict[str, list[float]] = {}
+    for run in campaign.runs:
+        for pad, axis in product(campaign.specimen.pads, "xy"):
+            slip, force = f"slip_{axis}", f"pad_{pad}_F{axis}"
+            if run.record.has_all(slip, force):
+                way = np.gradient(_smooth(run.record)(run.record[slip] - run.record[slip][0]))
+                work = run.record[force] * way
+                out.setdefault(force, []).append(float(np.sum(work) / max(np.sum(np.abs(work)), 1e-300)))
+    return out
 
 
 def _presses(record: Record, name: str) -> float:

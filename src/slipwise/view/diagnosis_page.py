@@ -7,6 +7,7 @@ from slipwise.diagnosis.ladder import Ladder
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.rivals import discriminating_tests, explanations
 from slipwise.effects import Effect
+from slipwise.rig import Specimen
 from slipwise.units import convert
 from slipwise.view.diagnosis_effects import evidence_rows, importance_section, sizes_section
 from slipwise.view.diagnosis_figures import (
@@ -16,7 +17,7 @@ from slipwise.view.diagnosis_figures import (
     step_errors,
     surface_figure,
 )
-from slipwise.view.diagnosis_words import confirmed_words, error_name, floors
+from slipwise.view.diagnosis_words import cannot_tell_words, confirmed_words, error_name, floors
 from slipwise.view.html import Section, bullets, callout, details, figure, page, paragraph, table, verdict
 from slipwise.view.numbers import in_words, usual_unit
 from slipwise.view.style import styled
@@ -170,10 +171,13 @@ def _rivals(found: Diagnosis) -> Section:
 
 def _change(found: Diagnosis) -> Section:
     known, named = known_effects(found.search), found.verdict.effects
+    rig = found.final.campaign.specimen
     items = [f"{words}." for words in discriminating_tests(found.verdict, found.search)]
     for name in (n for n in named if n in known):
-        tests = known[name].confused_with.items()
-        items += [f"{rival} instead of {name}: {test}." for rival, test in tests if rival not in named]
+        tests = {
+            r: test for r, test in known[name].confused_with.items() if r not in named and _can_have(rig, known[r])
+        }
+        items += [f"{rival} instead of {name}: {test}." for rival, test in tests.items()]
     items.append(
         "A run of another kind (amplitude, frequency, rest before it), kept from the fit, on which the error does not "
         "fall."
@@ -181,10 +185,16 @@ def _change(found: Diagnosis) -> Section:
     return Section("What would change our mind", [bullets(items), paragraph("`slipwise next` ranks table motions.")])
 
 
+def _can_have(rig: Specimen, effect: Effect) -> bool:
+    """Tell whether a rig has what an effect acts on: one slider has neither buffers nor a girder."""
+    absent = {"buffers"} if not rig.buffer_stiffness else set[str]()
+    return absent.isdisjoint(effect.all_needs) and (rig.free or "balances" not in effect.all_needs)
+
+
 def _limits(found: Diagnosis) -> Section:
     pieces = []
     if found.cannot_tell:
-        pieces.append(bullets(list(found.cannot_tell)))
+        pieces.append(bullets(cannot_tell_words(found)))
     if notes := found.final.campaign.notes:
         pieces += [paragraph("What was done to the records, and what was assumed of them:"), bullets(list(notes))]
     known = known_effects(found.search)

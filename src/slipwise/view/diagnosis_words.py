@@ -5,7 +5,7 @@ from math import isfinite
 from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.ladder import FLOOR_REACHED
 from slipwise.diagnosis.result import Diagnosis
-from slipwise.diagnosis.verdict import Verdict
+from slipwise.diagnosis.verdict import Verdict, leaves_much
 
 
 def error_name(found: Diagnosis) -> str:
@@ -35,6 +35,10 @@ def confirmed_words(found: Diagnosis) -> str:
         return f"Not confirmed: the held-out runs ({runs}) cannot show what was found.{whole}"
     if found.confirmed:
         return f"Confirmed on runs that no fit has seen: {runs}.{whole}"
+    if found.final_error < found.base_error and leaves_much(found.base_error, found.final_error):
+        share = percent(found.final_error / found.base_error)
+        left = f"{floors(found.final_error)} noise floors, {share} of the error"
+        return f"Not confirmed: on {runs}, which no fit has seen, {left}, are left unexplained.{whole}"
     return f"It does not carry over to {runs}, which no fit has seen: the error there does not fall.{whole}"
 
 
@@ -45,6 +49,15 @@ def _whole_words(found: Diagnosis) -> str:
     worst = max(found.all_samples, key=lambda r: found.all_samples[r][0])
     before, after = found.all_samples[worst]
     return f" Over all their samples, {NAMES[worst][0]} errs by {floors(before)} -> {floors(after)} floors."
+
+
+def cannot_tell_words(found: Diagnosis) -> list[str]:
+    """Say what a campaign could not test, a line for each reason: of one bearing twenty effects lack the same."""
+    alike: dict[str, list[str]] = {}
+    for line in found.cannot_tell:
+        what, _, reason = line.partition(": ")
+        alike.setdefault(reason, []).append(what)
+    return [f"{', '.join(every)}: {reason}" for reason, every in alike.items()]
 
 
 def four_answers(found: Diagnosis) -> list[tuple[str, str]]:

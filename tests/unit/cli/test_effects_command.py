@@ -38,7 +38,17 @@ def test_the_list_and_one_effect_are_the_librarys_answers(run) -> None:
     ("name", "words"),
     [
         ("buffer_mismatch", ("(yaw): yes", "Needs buffers; not tested otherwise: no buffers")),
-        ("load_crosstalk", ("(yaw): no", "Needs changing load", "Needs pad_*_N as well on a pad_*_Fx")),
+        (
+            "load_crosstalk",
+            (
+                "(yaw): no",
+                "Needs changing load",
+                "one with an offset of the friction gauge",
+                "Needs pad_*_N as well on a pad_*_Fx",
+            ),
+        ),
+        ("restrainer", ("Where limit ends on its low bound it is slide_curvature, and not named",)),
+        ("position_patch", ("Where width ends on its high bound it is one with the base law, and not named",)),
         ("heating", ("(yaw): no", "Needs nothing beside what every fit needs")),
     ],
 )

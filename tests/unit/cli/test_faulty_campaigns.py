@@ -1,5 +1,6 @@
 """Campaigns that were answered wrongly once, through the command line; and what each answer advises, followed."""
 
+import json
 import re
 import runpy
 import shutil
@@ -138,3 +139,15 @@ def test_loads_that_count_compression_negative_are_mended_in_either_way_that_com
     (here / "campaign.toml").write_text(text)
     code, out, _ = slipwise("audit", ".")
     assert code == 0 and "no gauge is accused" in out
+
+
+@pytest.mark.slow
+def test_a_pendulum_bearing_under_a_load_that_stays_is_a_curved_face(slipwise, folder):
+    """A sphere of 2.2 m under 900 kN was called a restrainer of 410 kN/m without a gap."""
+    here = folder("31_pendulum_bearing_at_constant_load")
+    code, printed, _ = slipwise("diagnose", ".")
+    said = json.loads((here / "out" / "diagnosis" / "diagnosis.json").read_text())
+    assert code == 0 and "Confirmed on runs that no fit has seen: h." in printed
+    assert (said["verdict"], said["effects"], said["confirmed"]) == ("named", ["slide_curvature"], True)
+    curvature = said["candidates"][0]["parameters"]["slide_curvature.curvature"]
+    assert curvature["value"] == pytest.approx(1.0 / 2.2, rel=0.02)

@@ -9,7 +9,7 @@ from slipwise.diagnosis.candidates import candidates
 from slipwise.estimation.base_fit import fit_base
 from unit.campaign.slider import write_at_loads
 
-OF_LOAD = {"pressure_law", "slide_tilt", "slide_curvature"}
+OF_LOAD = {"pressure_law", "slide_tilt"}
 
 
 @pytest.mark.parametrize(

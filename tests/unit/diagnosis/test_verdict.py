@@ -173,3 +173,38 @@ def test_nobody_is_sure_of_what_no_held_out_run_has_confirmed():
     )
     assert seen.effects == unseen.effects == ("heating",)
     assert unseen.probability < seen.probability
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "confirmed_by_it"),
+    [(1e4, 4.0, True), (100.0, 4.0, True), (1e4, 20.0, True), (1e4, 100.0, False), (200.0, 16.0, False)],
+)
+def test_a_model_that_leaves_three_floors_and_a_twentieth_of_the_error_is_not_confirmed_and_less_probable(
+    before: float, after: float, confirmed_by_it: bool
+) -> None:
+    """Squared errors in noise variances: of 100 floors 4.5 are less than a twentieth, 10 are a tenth."""
+    of = base(pads=before)
+    state = searched(of, left_by("heating", of=of, pads=after))
+    assert verdict.confirmed(state) is confirmed_by_it
+    found, all_of_it = _decided(of, *state.tried), _decided(of, left_by("heating", of=of))
+    assert found.effects == all_of_it.effects == ("heating",)
+    assert (found.probability < 0.8) is not confirmed_by_it
+    assert (found.probability < all_of_it.probability - 0.1) is not confirmed_by_it
+
+
+def test_what_has_ended_where_it_is_another_effect_has_no_name() -> None:
+    """A restrainer without a gap is a spring, whatever it explains."""
+    of = base(pads=400.0)
+    gap = catalogue()["restrainer"].parameter("limit")
+    spring, rim = (
+        _decided(of, left_by("restrainer", of=of, values={"restrainer.limit": at})) for at in (gap.low, 10.0 * gap.low)
+    )
+    assert (spring.kind, spring.effects, spring.leftover) == ("unknown", (), "unknown")
+    assert (rim.kind, rim.effects) == ("named", ("restrainer",))
+
+
+def test_a_name_beside_one_that_has_none_leaves_something_unknown() -> None:
+    of = base(pads=400.0, girder=100.0)
+    gap = catalogue()["restrainer"].parameter("limit").low
+    found = _decided(of, left_by("restrainer", "buffer_damping", of=of, values={"restrainer.limit": gap}))
+    assert (found.kind, found.effects, found.leftover) == ("named", ("buffer_damping",), "unknown")

@@ -8,7 +8,15 @@ from hypotheses import base, diagnosed, left_by, searched
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.verdict import Verdict
-from slipwise.view.diagnosis_words import confirmed_words, error_name, floors, limits_words, minor_words, percent
+from slipwise.view.diagnosis_words import (
+    cannot_tell_words,
+    confirmed_words,
+    error_name,
+    floors,
+    limits_words,
+    minor_words,
+    percent,
+)
 
 
 def _found(*names: str, held_out: bool = True, unseen: float = 1.0, material: dict | None = None) -> Diagnosis:
@@ -69,3 +77,15 @@ def test_an_error_that_nobody_knows_is_no_number():
 @pytest.mark.parametrize(("share", "words"), [(0.12, "12 %"), (0.0996, "10 %"), (0.05, "5 %"), (0.0012, "0.12 %")])
 def test_shares_have_two_figures(share: float, words: str) -> None:
     assert percent(share) == words
+
+
+def test_what_much_is_left_of_is_not_confirmed_though_its_error_falls() -> None:
+    of = base(pads=1e4)
+    found = diagnosed(searched(of, left_by("heating", of=of, pads=100.0, held_out={"pads": 100.0})))
+    words = confirmed_words(found)
+    assert words.startswith("Not confirmed: on sine_holdout_2, which no fit has seen, 10.00 noise floors, 10 % of")
+
+
+def test_effects_that_lack_the_same_are_told_in_one_line() -> None:
+    found = replace(_found("heating"), cannot_tell=("a: needs one: two", "b: other", "c: needs one: two"))
+    assert cannot_tell_words(found) == ["a, c: needs one: two", "b: other"]

@@ -1,0 +1,71 @@
+"""Plainer effects: what an effect is at an end of its bounds is tried in its place, and named unless it explains less.
+
+A restrainer without a gap is a spring, and so is a contact that never slides. Such an effect holds the plainer one as
+its limit, so it fits any data at least as well: as a further effect must, it must explain a share of what the plainer
+one leaves. At the end itself it is nothing but the plainer one, and is not chosen.
+"""
+
+from collections.abc import Sequence
+
+from slipwise.diagnosis.hypothesis import Hypothesis, at_limit
+from slipwise.diagnosis.search_state import Search, tried_before, try_one
+from slipwise.diagnosis.starting_values import Start
+from slipwise.estimation.parameters import Term
+from slipwise.evidence.acceptance import is_kept, least_drop
+
+
+def with_plainer(state: Search, asked: Sequence[Start]) -> list[Start]:
+    """Ask for the plainer effects too that those asked for hold as limits, once each.
+
+    Args:
+        state: of a search.
+        asked: terms and starting values of refits.
+    """
+    out = list(asked)
+    known = {frozenset(t.label for t in terms) for terms, _ in asked}
+    for terms, starts in out:  # grows while it is read: a plainer effect may have one that is plainer still
+        for term in (t for t in terms if t.label in starts):
+            rest = [t for t in terms if t.label != term.label]
+            for plain in _plainer(state, term, rest):
+                labels = frozenset(t.label for t in (*rest, plain))
+                if labels not in known and not tried_before(state, [*rest, plain]):
+                    known.add(labels)
+                    others = {label: values for label, values in starts.items() if label != term.label}
+                    out.append(([*rest, plain], {**others, plain.label: _start(state, plain)}))
+    return out
+
+
+def plainest(state: Search, found: Hypothesis) -> Hypothesis:
+    """Give a hypothesis with plainer effects in the place of those that explain no more; fitted if they were not.
+
+    Args:
+        state: of a search.
+        found: one of its hypotheses.
+    """
+    origin = state.path[0].summary
+    for term in found.terms:
+        rest = found.without(term)
+        for plain in _plainer(state, term, rest):
+            starts = {plain.label: _start(state, plain)}
+            other = (tried_before(state, [*rest, plain]) or [try_one(state, [*rest, plain], starts, found)])[0]
+            if not is_kept(origin, other.summary, found.summary, least_drop([term])) and not at_limit(other):
+                return plainest(state, other)
+    return found
+
+
+def holds_as_limit(found: Hypothesis, plain: Hypothesis) -> bool:
+    """Tell whether a hypothesis is another with an effect in the place of the plainer one that it becomes."""
+    own, others = ({t.effect.name: t.effect for t in h.terms} for h in (found, plain))
+    gone = others.keys() - own.keys()
+    return any(limit.becomes in gone for name in own.keys() - others.keys() for limit in own[name].limits)
+
+
+def _plainer(state: Search, term: Term, beside: Sequence[Term]) -> list[Term]:
+    """Give the candidates that an effect becomes at an end of its bounds, but those that are there already."""
+    becomes = {limit.becomes for limit in term.effect.limits} - {t.effect.name for t in beside}
+    return [t for t in state.terms if t.effect.name in becomes and not t.group]
+
+
+def _start(state: Search, term: Term) -> dict[str, float]:
+    seen = (s.values for s in state.screened if s.term.label == term.label)
+    return next(seen, term.effect.typical())
