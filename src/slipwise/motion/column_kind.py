@@ -3,19 +3,26 @@
 import re
 from typing import Literal
 
+from slipwise.data_files.acceleration_unit import acceleration_factor
 from slipwise.errors import UnitError
 from slipwise.motion.orientation import orientation
-from slipwise.motion.stated import acceleration_factor
 from slipwise.units import parse_unit
 
 Kind = Literal["time", "acceleration", "velocity", "displacement", "row number", "other"]
 
-_TIME = {"time", "t", "zeit", "tempo", "temps", "tiempo", "elapsed time", "seconds", "sec"}
-_ROW_NUMBER = {"n", "no", "nr", "num", "index", "sample", "point", "row", "record", "i"}
+_TIME = {
+    "time", "t", "zeit", "tempo", "temps", "tiempo", "elapsed time", "seconds", "sec", "seconds elapsed", "zaman", "時間",
+    "時刻", "时间", "time since start", "elapsed",
+}  # fmt: skip
+_ROW_NUMBER = {
+    "", "n", "no", "nr", "num", "index", "idx", "sample", "point", "row", "record", "i", "unnamed: 0", "id", "step", "#",
+}  # fmt: skip
 _WORDS: dict[str, Kind] = {
     "acc": "acceleration", "accel": "acceleration", "acceleration": "acceleration", "vel": "velocity",
     "velocity": "velocity", "disp": "displacement", "displ": "displacement", "dis": "displacement",
     "displacement": "displacement",
+    # the length of the vector, which phones write beside its components
+    "absolute": "other", "total": "other", "resultant": "other", "magnitude": "other", "tgf": "other",
 }  # fmt: skip
 
 
@@ -46,7 +53,7 @@ def kind_of(name: str, unit: str, what: str) -> Kind:
         return "row number" if _bare(name) in _ROW_NUMBER else _word(name) or "acceleration"
     try:
         acceleration_factor(unit, what)
-        return "acceleration"
+        return "other" if _word(name) == "other" else "acceleration"
     except UnitError as error:
         refused = error
     kinds: tuple[tuple[Kind, str], ...] = (("time", "s"), ("velocity", "m/s"), ("displacement", "m"))
@@ -66,7 +73,7 @@ def _plain_unit(unit: str) -> str:
 
 
 def _bare(name: str) -> str:
-    return re.sub(r"[\s_.#]+", " ", name.lower()).strip()
+    return re.sub(r"[\s_.#]+", " ", name.lower()).strip() or name.strip()
 
 
 def _word(name: str) -> Kind | None:

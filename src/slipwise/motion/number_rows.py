@@ -1,5 +1,6 @@
 """Lines of numbers: cut at their separators, decimal commas or points; many lines alike are read at once."""
 
+import csv
 import re
 from collections.abc import Sequence
 
@@ -16,8 +17,14 @@ _PLAIN = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?"
 
 
 def split_row(line: str) -> list[str]:
-    """Cut a line at its commas, semicolons or tabs, or at blanks where there is none of these."""
+    """Cut a line at its commas, semicolons or tabs, or at blanks where there is none of these; quotes are left out."""
     text = line.strip()
+    if '"' in text:
+        for separator in ("\t", ";", ","):
+            fields = [field.strip() for field in next(csv.reader([text], delimiter=separator), [])]
+            if len(fields) > 1:
+                return fields
+        text = text.replace('"', "")
     separators = (";", "\t", ",") if _has_decimal_commas(text) else (",", ";", "\t")
     for separator in separators:
         if separator in text and not (separator == "," and _has_decimal_commas(text)):
@@ -28,7 +35,7 @@ def split_row(line: str) -> list[str]:
 
 def _has_decimal_commas(text: str) -> bool:
     """Tell whether a line is written with decimal commas: "0,01;1,5" and "0,01 1,5", but not "1,5"."""
-    fields = re.split(r"[;\t]|\s+", text.strip().rstrip(";"))
+    fields = split_row(text) if '"' in text else re.split(r"[;\t]|\s+", text.strip().rstrip(";"))
     fields = [field for field in fields if field]
     return len(fields) > 1 and "." not in text and any(DECIMAL_COMMA.fullmatch(f) for f in fields) and all(
         DECIMAL_COMMA.fullmatch(f) or is_number(f) for f in fields

@@ -28,7 +28,7 @@ class Rows:
     Attributes:
         names: of the columns, empty if the header does not name each of them.
         units: of the columns as written, likewise; "" of a column whose name has no unit.
-        header: the lines above the numbers that are not empty, without comment signs.
+        header: the lines above the numbers and above the names that are not empty, without comment signs.
         values: (n, columns), or the rows one by one where not all are of one length.
         places: index of the line of each row.
     """
@@ -94,8 +94,8 @@ def read_rows(source: SourceFile) -> Rows:
     single = _single_decimal_commas(source.lines[i] for i in places)
     columns = 1 if single else len(split_row(source.lines[start]))
     _refuse_damaged_first_row(source, start, columns)
-    names, units = _column_names(header, columns)
-    return Rows(names, units, tuple(header), rows_of_numbers(source, places, columns, single), places)
+    names, units, lines = _column_names(header, columns)
+    return Rows(names, units, tuple(header[: len(header) - lines]), rows_of_numbers(source, places, columns, single), places)
 
 
 def _after_the_headers_own(lines: Sequence[str], start: int) -> int:
@@ -140,21 +140,21 @@ def _single_decimal_commas(lines: Iterable[str]) -> bool:
     return any_line and signed
 
 
-def _column_names(header: Sequence[str], columns: int) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Give names and units of the columns from the lines just above them."""
+def _column_names(header: Sequence[str], columns: int) -> tuple[tuple[str, ...], tuple[str, ...], int]:
+    """Give names and units of the columns from the lines just above them, and how many lines these are."""
     if not header:
-        return (), ()
+        return (), (), 0
     cells = _CELL.findall(header[-1])
     # "El Centro (1940)" is a title; brackets without a letter hold no unit.
     if len(cells) == columns and all(any(c.isalpha() for c in unit) for _, unit in cells):
-        return tuple(name.strip() for name, _ in cells), tuple(unit.strip() for _, unit in cells)
+        return tuple(name.strip() for name, _ in cells), tuple(unit.strip() for _, unit in cells), 1
     if columns == 1:
-        return (), ()
+        return (), (), 0
     names, units = [], []
     above = [split_row(line) for line in header[-2:]]
     two = len(above) == 2 and all(len(row) == columns for row in above)
     if two and not any(map(is_number, above[0] + above[1])) and any(map(is_column_word, above[0])):
-        return tuple(cell.strip('"') for cell in above[0]), tuple(cell.strip('"()[] ') for cell in above[1])
+        return tuple(cell.strip('"') for cell in above[0]), tuple(cell.strip('"()[] ') for cell in above[1]), 2
     for cell in above[-1]:
         match = _BRACKETS.match(cell.strip('" '))
         names.append(match["name"].strip() if match else cell.strip('" '))
@@ -162,8 +162,8 @@ def _column_names(header: Sequence[str], columns: int) -> tuple[tuple[str, ...],
     # Two words above two columns may as well be a title: names without units must be known ones.
     named = any(units) or all(map(is_column_word, names)) or is_time_word(names[0])
     if len(names) != columns or any(is_number(name) for name in names) or not named:
-        return (), ()
-    return tuple(names), tuple(units)
+        return (), (), 0
+    return tuple(names), tuple(units), 1
 
 
 def _refuse_damaged_first_row(source: SourceFile, start: int, columns: int) -> None:

@@ -6,10 +6,11 @@ from difflib import get_close_matches
 from slipwise.channels import CHANNELS
 from slipwise.errors import InputError
 from slipwise.motion.displacement import acceleration_of
+from slipwise.motion.number_rows import split_row
 from slipwise.motion.rows import read_rows
 from slipwise.motion.source_file import SourceFile
 from slipwise.motion.stated import Given, settle_step, settle_unit
-from slipwise.motion.time_column import column_step
+from slipwise.motion.time_column import even_step, last_digit
 from slipwise.motion.trace import Trace
 from slipwise.units import parse_unit
 
@@ -48,7 +49,12 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
     if doubled:
         raise InputError(f"{source.name}: {', '.join(doubled)} stands there more than once; leave one of them")
     values = rows.table(source)
-    dt, dt_words = settle_step(column_step(rows, values, rows.units[0], source), given, source)
+    factor = parse_unit(rows.units[0], "s", f"column {rows.names[0]!r} of {source.name}")
+    last = split_row(source.lines[rows.places[-1]])[0]
+    step, wavers = even_step(values[:, 0], last_digit(last), lambda row: source.at(rows.places[row]))
+    if wavers:
+        raise InputError(f"{source.name}: the samples are not evenly spaced; the record must be resampled first")
+    dt, dt_words = settle_step(step * factor, given, source)
     traces = []
     for name in present:
         k = rows.names.index(name)
