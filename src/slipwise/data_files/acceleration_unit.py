@@ -47,3 +47,14 @@ def is_acceleration(unit: str) -> bool:
     except UnitError:
         return False
     return True
+
+
+def is_velocity_or_displacement(unit: str) -> bool:
+    """Tell whether a text is a unit of what an acceleration may be taken for."""
+    for si in ("m/s", "m"):
+        try:
+            parse_unit(re.sub(r"\bsec\b", "s", unit.lower()), si, "")
+            return True
+        except UnitError:
+            continue
+    return False

@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from slipwise.data_files.acceleration_unit import is_acceleration
+from slipwise.data_files.acceleration_unit import is_acceleration, is_velocity_or_displacement
 from slipwise.data_files.words import folded, words
 from slipwise.errors import InputError, UnitError
 from slipwise.units import quantity
@@ -16,6 +16,8 @@ from slipwise.units import quantity
 NUMBER = r"[+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eEdD][+-]?\d+)?"
 #: Beyond this a number is no statement.
 _LARGEST = 1e30
+#: A step of few digits may be off by its rounding, but by no more than this [1].
+_COARSEST = 0.01
 _INNER = re.compile(r"(?:_(?P<tail>[A-Za-z][\w/^]*))?\"?(?:\s*[(\[](?P<inner>[^)\]]*)[)\]])?")
 _SIGN = re.compile(r"\"?\s*(?:[:=]+|\t|;|->|\|)[\s\"'=]*")
 _WHOLE = re.compile(r"\d{1,3}(?:[,']\d{3})+(?![\d.])|\d+(?:\.0*)?(?![\d.])")
@@ -210,14 +212,15 @@ class _Value:
                 yield (depth[0] if fact == "sensor" and depth else value), 0.0
 
     def _unit(self) -> Iterator[tuple[str, float]]:
-        """Give the first unit of acceleration that stands there or, with a sign, the first word."""
-        value = self.text[: max(0, self.room - self.start)] or self.text
+        """Give the first unit of acceleration that stands there, else one of velocity or, with a sign, the first word."""
+        value = self.text[: max(0, self.room - self.start)] or self.text or self.unit
         listed = [part.strip("().[]\"'") for part in re.split(r"[\s,;]+", value)]
         found = next((part for part in listed if part and is_acceleration(part)), None)
-        if found is None and self.signed:
-            found = next((part for part in listed if part), None)
+        if found is None:
+            plain = self.signed or len(listed) == 1
+            found = next((part for part in listed if part and (plain or is_velocity_or_displacement(part))), None)
         if found:
-            self.used = self.start + self.text.index(found) + len(found)
+            self.used = self.start + self.text.find(found) + len(found)
             yield found, 0.0
 
     def _step(self, fact: str) -> Iterator[tuple[float, float]]:
@@ -282,6 +285,7 @@ def _step(number: str, unit: str, fact: str) -> Iterator[tuple[str, float, float
     step = value * factor if si == "s" else 1.0 / (value * factor)
     digits = text.partition("e")[0].partition(".")[2]
     rounding = 0.5 * 10.0 ** -len(digits) / abs(float(text.partition("e")[0])) if digits else 0.0
+    rounding = min(rounding, _COARSEST)
     if step > 0.0:
         yield "step", step, rounding
 

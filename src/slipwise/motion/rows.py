@@ -89,7 +89,7 @@ def read_rows(source: SourceFile) -> Rows:
     places: Sequence[int] = [i for i in range(start, end) if source.lines[i].strip()]
     if len(places) == end - start:
         places = range(start, end)  # two million numbers less
-    header = [line.strip().lstrip("#%/! ").rstrip(" ,;") for line in source.lines[:start]]
+    header = [line.strip().lstrip("#%/!*$ ").rstrip(" ,;") for line in source.lines[:start]]
     header = [line for line in header if line]
     single = _single_decimal_commas(source.lines[i] for i in places)
     columns = 1 if single else len(split_row(source.lines[start]))

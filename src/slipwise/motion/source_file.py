@@ -122,10 +122,15 @@ def blank_separated(source: SourceFile, start: int, count: int, stated_by: str, 
         InputError: something that is no number, or another count than stated.
     """
     end = _end_of_values(source, start)
-    values = [number(field, source.at(i)) for i in range(start, end) for field in source.lines[i].split()]
+    values = [number(field, source.at(i)) for i in range(start, end) for field in _fields(source.lines[i])]
     check_count(len(values), count, source, stated_by, short)
     _check_last_number(source, start, end)
     return values
+
+
+def _fields(line: str) -> list[str]:
+    """Cut a line at blanks and commas, and before a sign where two numbers of a fixed width touch."""
+    return re.sub(r"(?<=[\d.])(?=[+-])", " ", line.replace(",", " ")).split()
 
 
 def _end_of_values(source: SourceFile, start: int) -> int:

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from slipwise.motion.formats import (
+    abaqus_amplitude,
     columns,
     cosmos,
     csmip_v1,
@@ -13,6 +14,7 @@ from slipwise.motion.formats import (
     geonet_v2a,
     jma_csv,
     knet,
+    midas_sgs,
     peer_at2,
     seismology,
     slipwise_csv,
@@ -74,6 +76,8 @@ FORMATS: tuple[Format, ...] = (
     Format("K-NET and KiK-net ASCII", "one component a file; the mean is removed", knet.recognise, knet.read),
     Format("USGS SMC", "one component a file", usgs_smc.recognise, usgs_smc.read),
     Format("Slipwise CSV", "the table's channels of a motion or a run", slipwise_csv.recognise, slipwise_csv.read),
+    Format("MIDAS time function", "keywords name both axes", midas_sgs.recognise, midas_sgs.read),
+    Format("Abaqus amplitude", "each is a component; give --unit", abaqus_amplitude.recognise, abaqus_amplitude.read),
     Format("PEER AT2", "one component a file", peer_at2.recognise, peer_at2.read),
     Format(
         "text columns",

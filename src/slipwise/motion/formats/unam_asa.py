@@ -17,7 +17,7 @@ from slipwise.motion.table_motion import HeaderPeak
 from slipwise.motion.trace import Trace, half_last_digit
 
 _LOOK_AT = 200
-_DATA, _RULER = "DATOSDEACELERACION", re.compile(r"\s*-[-+\s]*-\s*")
+_DATA, _RULER = "DATOSDEACELERACION", re.compile(r"\s*--[-+\s]*")
 
 
 def recognise(head: bytes) -> bool:
@@ -48,7 +48,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
         return found
 
     def parts(label: str, without: str = "MUESTRA") -> list[str]:
-        return [part.strip() for value in values(label, without) for part in value.strip("/ ").split("/")]
+        return [part.strip() for value in values(label, without) if value.strip("/ ") for part in value.strip("/ ").split("/")]
 
     names = parts("ORIENTACION")
     steps = [positive(number(t, source.name), source.name, "the step") for t in parts("INTERVALO DE MUESTREO")]
