@@ -32,6 +32,11 @@ class Words:
     units: dict[str, tuple[str, float]]
     unit: str
 
+    def is_acceleration(self, word: str) -> bool:
+        """Tell whether a folded word is one for acceleration."""
+        match = self.key.fullmatch(word)
+        return match is not None and str(match.lastgroup).startswith("acceleration")
+
 
 def folded(text: str) -> str:
     """Give a text without accents and with plain digits and signs; the case stays, for mg and Mg differ."""

@@ -141,18 +141,14 @@ def _kind(table: ColumnTable, k: int, source: SourceFile) -> Kind:
     return "acceleration" if kind == "row number" and not counts_rows(table.values[:, k]) else kind
 
 
-def _timed(
-    table: ColumnTable, kinds: list[Kind], source: SourceFile, given: Given
-) -> tuple[ColumnTable, float | None]:
+def _timed(table: ColumnTable, kinds: list[Kind], source: SourceFile, given: Given) -> tuple[ColumnTable, float | None]:
     """Give the step [s] that the table states; where its clock wavers the values are put on even times.
 
     Raises:
         InputError: several columns of times, or times that are not even or contradict what is stated.
     """
     places = [k for k, kind in enumerate(kinds) if kind == "time"]
-    seconds = {
-        k: parse_unit(table.units[k] or "s", "s", f"column {table.names[k]!r} of {source.name}") for k in places
-    }
+    seconds = {k: parse_unit(table.units[k] or "s", "s", f"column {table.names[k]!r} of {source.name}") for k in places}
     if len(places) > 1:
         steps = {k: seconds[k] * float(np.median(np.diff(table.values[:, k]))) for k in places}
         places = [k for k in places if _STEP_RANGE[0] <= steps[k] <= _STEP_RANGE[1]]
@@ -193,9 +189,7 @@ def _headless_step(step: float, stated: float | None, source: SourceFile) -> flo
     )
 
 
-def _of_displacement(
-    table: ColumnTable, k: int, dt: float, dt_words: str, source: SourceFile, given: Given
-) -> Trace:
+def _of_displacement(table: ColumnTable, k: int, dt: float, dt_words: str, source: SourceFile, given: Given) -> Trace:
     """Make a component of a table's displacement."""
     name, unit = table.names[k], table.units[k]
     if not unit:

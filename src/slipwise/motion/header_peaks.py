@@ -37,7 +37,7 @@ def peak_of(peaks: Sequence[Peak], name: str, place: int, columns: int) -> Peak 
     if len(alike) == 1:
         return alike[0]
     plain_ones = [peak for peak in usable if not peak.label]
-    return plain_ones[place] if len(plain_ones) == columns and not labelled else None
+    return plain_ones[place] if len(plain_ones) == columns else None
 
 
 def unit_of_peaks(

@@ -7,7 +7,30 @@ from slipwise.data_files.statements import Statements
 
 Orientation = Literal["table x", "table y", "table z", "east-west", "horizontal", "up", "down", "unknown"]
 
-_UP = {"+V", "+UP", "ZUP", "DUSEY", "DÜŞEY", "上下", "竖向", "垂直", "UP", "U", "UD", "V", "VER", "VERT", "VERTICAL", "Z", "+Z", "UPDOWN", "UP/DOWN", "U/D", "VT", "VRT"}
+_UP = {
+    "+V",
+    "+UP",
+    "ZUP",
+    "DUSEY",
+    "DÜŞEY",
+    "上下",
+    "竖向",
+    "垂直",
+    "UP",
+    "U",
+    "UD",
+    "V",
+    "VER",
+    "VERT",
+    "VERTICAL",
+    "Z",
+    "+Z",
+    "UPDOWN",
+    "UP/DOWN",
+    "U/D",
+    "VT",
+    "VRT",
+}
 _DOWN = {"DWN", "DOWN", "DN", "D"}
 #: Also este-oeste, est-ouest, Ost-West, Turkish dogu-bati and Japanese.
 _EAST_WEST = {

@@ -95,7 +95,9 @@ def read_rows(source: SourceFile) -> Rows:
     columns = 1 if single else len(split_row(source.lines[start]))
     _refuse_damaged_first_row(source, start, columns)
     names, units, lines = _column_names(header, columns)
-    return Rows(names, units, tuple(header[: len(header) - lines]), rows_of_numbers(source, places, columns, single), places)
+    return Rows(
+        names, units, tuple(header[: len(header) - lines]), rows_of_numbers(source, places, columns, single), places
+    )
 
 
 def _after_the_headers_own(lines: Sequence[str], start: int) -> int:

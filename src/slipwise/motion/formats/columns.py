@@ -14,7 +14,7 @@ from slipwise.errors import InputError
 from slipwise.motion.column_traces import ColumnTable, column_traces
 from slipwise.motion.first_lines import read_first_lines
 from slipwise.motion.number_rows import split_row
-from slipwise.motion.rows import Rows, find_first_row, read_rows
+from slipwise.motion.rows import find_first_row, read_rows
 from slipwise.motion.source_file import SourceFile
 from slipwise.motion.stated import Given, agreed_step
 from slipwise.motion.time_column import last_digit

@@ -48,7 +48,12 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
         return found
 
     def parts(label: str, without: str = "MUESTRA") -> list[str]:
-        return [part.strip() for value in values(label, without) if value.strip("/ ") for part in value.strip("/ ").split("/")]
+        return [
+            part.strip()
+            for value in values(label, without)
+            if value.strip("/ ")
+            for part in value.strip("/ ").split("/")
+        ]
 
     names = parts("ORIENTACION")
     steps = [positive(number(t, source.name), source.name, "the step") for t in parts("INTERVALO DE MUESTREO")]
