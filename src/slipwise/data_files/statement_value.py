@@ -14,7 +14,7 @@ NUMBER = r"[+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eEdD][+-]?\d+)?"
 _LARGEST = 1e30
 #: A step of few digits may be off by its rounding, but by no more than this [1].
 _COARSEST = 0.01
-_INNER = re.compile(r"(?:_(?P<tail>[A-Za-z][\w/^]*))?\"?(?:\s*[(\[](?P<inner>[^)\]]*)[)\]])?")
+_INNER = re.compile(r"(?:_(?P<tail>[A-Za-z][\w/^]*))?\"?(?:[.\s]*[(\[](?P<inner>[^)\]]*)[)\]])?")
 _SIGN = re.compile(r"\"?\s*(?:[:=]+|\t|;|->|\|)[\s\"'=]*")
 _WHOLE = re.compile(r"\d{1,3}(?:[,']\d{3})+(?![\d.])|\d+(?:\.0*)?(?![\d.])")
 _UNIT = re.compile(r"\s*[(\[]?\s*([^\s,;:()\[\]=\"\d][^\s,;:()\[\]=\"]*)")
@@ -102,7 +102,7 @@ class StatementValue:
                 yield (depth[0] if fact == "sensor" and depth else value), 0.0
 
     def _unit(self) -> Iterator[tuple[str, float]]:
-        """Give the first unit of acceleration that stands there, else one of velocity or, with a sign, the first word."""
+        """Give the first unit of acceleration, else one of velocity or, with a sign, the first word."""
         value = self.text[: max(0, self.room - self.start)] or self.text or self.unit
         listed = [part.strip("().[]\"'") for part in re.split(r"[\s,;]+", value)]
         found = next((part for part in listed if part and is_acceleration(part)), None)
@@ -144,6 +144,8 @@ class StatementValue:
             # Names stand before all numbers or behind all of them.
             behind = _BEHIND.match(rest) if behind_all and not match["label"] else None
             rest = rest[behind.end() :] if behind else rest
+            if behind and not unit and (written := _UNIT.match(rest)) and is_acceleration(written[1].rstrip(".")):
+                unit, rest = written[1].rstrip("."), rest[written.end() :]
             at = _AT.match(rest)
             rest = rest[at.end() :] if at else rest
             called = match["label"] or (behind[1] if behind else "") or ("" if peaks else label)

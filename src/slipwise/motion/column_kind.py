@@ -11,11 +11,11 @@ from slipwise.units import parse_unit
 Kind = Literal["time", "acceleration", "velocity", "displacement", "row number", "other"]
 
 _TIME = {
-    "time", "t", "zeit", "tempo", "temps", "tiempo", "elapsed time", "seconds", "sec", "seconds elapsed", "zaman", "時間",
-    "時刻", "时间", "time since start", "elapsed",
+    "time", "t", "zeit", "tempo", "temps", "tiempo", "elapsed time", "seconds", "sec", "seconds elapsed", "zaman",
+    "時間", "時刻", "时间", "time since start", "elapsed",
 }  # fmt: skip
 _ROW_NUMBER = {
-    "", "n", "no", "nr", "num", "index", "idx", "sample", "point", "row", "record", "i", "unnamed: 0", "id", "step", "#",
+    "", "n", "no", "nr", "num", "index", "idx", "sample", "point", "row", "record", "i", "unnamed: 0", "id", "#",
 }  # fmt: skip
 _WORDS: dict[str, Kind] = {
     "acc": "acceleration", "accel": "acceleration", "acceleration": "acceleration", "vel": "velocity",

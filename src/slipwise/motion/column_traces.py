@@ -1,5 +1,6 @@
 """Components of a motion from columns, whatever file holds them: text, function file, workbook or MATLAB file."""
 
+import re
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -63,7 +64,7 @@ def column_traces(table: ColumnTable, source: SourceFile, given: Given) -> list[
         UnitError: no unit, or one that is none of acceleration.
     """
     table = _with_names(_without_row_numbers(table, given), source)
-    kinds = [_kind(table, k, source) for k in range(len(table.names))]
+    kinds: list[Kind] = [_kind(table, k, source) for k in range(len(table.names))]
     table, step = _timed(table, kinds, source, given)
     chosen = [k for k, kind in enumerate(kinds) if kind == "acceleration"]
     moved = [] if chosen else [k for k, kind in enumerate(kinds) if kind == "displacement"]
@@ -123,7 +124,12 @@ def _with_names(table: ColumnTable, source: SourceFile) -> ColumnTable:
     """
     width = table.values.shape[1]
     if table.names:
-        return table
+        # "gFx" of a phone is a share of gravity.
+        units = zip(table.names, table.units, strict=True)
+        return replace(
+            table,
+            units=tuple("g" if not unit and re.fullmatch(r"gF[xyz]|TgF", name) else unit for name, unit in units),
+        )
     if width > 2:
         raise InputError(
             f"{source.name}: {width} columns without a header that names them, and they do not look like one series "

@@ -8,39 +8,20 @@ from slipwise.data_files.statements import Statements
 Orientation = Literal["table x", "table y", "table z", "east-west", "horizontal", "up", "down", "unknown"]
 
 _UP = {
-    "+V",
-    "+UP",
-    "ZUP",
-    "DUSEY",
-    "DÜŞEY",
-    "上下",
-    "竖向",
-    "垂直",
-    "UP",
-    "U",
-    "UD",
-    "V",
-    "VER",
-    "VERT",
-    "VERTICAL",
-    "Z",
-    "+Z",
-    "UPDOWN",
-    "UP/DOWN",
-    "U/D",
-    "VT",
-    "VRT",
-}
+    "UP", "U", "UD", "V", "VER", "VERT", "VERTICAL", "Z", "+Z", "+V", "+UP", "ZUP", "UPDOWN", "UP/DOWN", "U/D", "VT",
+    "VRT", "DUSEY", "DÜŞEY", "上下", "竖向", "垂直",
+}  # fmt: skip
 _DOWN = {"DWN", "DOWN", "DN", "D"}
 #: Also este-oeste, est-ouest, Ost-West, Turkish dogu-bati and Japanese.
 _EAST_WEST = {
-    "EW", "E", "W", "WE", "EAST", "WEST", "EASTWEST", "E/W", "EO", "E/O", "OE", "O", "ESTE", "OESTE", "ESTEOESTE", "EST",
-    "OUEST", "OVEST", "OW", "OST", "DB", "DOGUBATI", "東西", "东西",
+    "EW", "E", "W", "WE", "EAST", "WEST", "EASTWEST", "E/W", "EO", "E/O", "OE", "O", "ESTE", "OESTE", "ESTEOESTE",
+    "EST", "OUEST", "OVEST", "OW", "OST", "DB", "DOGUBATI", "東西", "东西",
 }  # fmt: skip
 _HORIZONTAL = {
     "NS", "N", "S", "SN", "NORTH", "SOUTH", "NORTHSOUTH", "N/S", "L", "T", "LONG", "LONGITUDINAL", "TRAN", "TRANS",
     "TRANSVERSE", "TRANSVERSAL", "TRV", "LAT", "LATERAL", "RADIAL", "RADL", "RAD", "R", "TANG", "TANGENTIAL", "H1",
-    "H2", "NORTE", "SUR", "NORTESUR", "NORD", "SUD", "KG", "KUZEYGUNEY", "南北", "FN", "FP", "FAULTNORMAL", "FAULTPARALLEL",
+    "H2", "NORTE", "SUR", "NORTESUR", "NORD", "SUD", "KG", "KUZEYGUNEY", "南北", "FN", "FP", "FAULTNORMAL",
+    "FAULTPARALLEL",
 }  # fmt: skip
 _TABLE: dict[str, Orientation] = {
     "TABLE_AX": "table x", "TABLE_AY": "table y", "TABLE_AZ": "table z", "X": "table x", "Y": "table y",

@@ -94,6 +94,7 @@ def read_rows(source: SourceFile) -> Rows:
     single = _single_decimal_commas(source.lines[i] for i in places)
     columns = 1 if single else len(split_row(source.lines[start]))
     _refuse_damaged_first_row(source, start, columns)
+    _refuse_cut_number(source, places)
     names, units, lines = _column_names(header, columns)
     return Rows(
         names, units, tuple(header[: len(header) - lines]), rows_of_numbers(source, places, columns, single), places
@@ -176,3 +177,14 @@ def _refuse_damaged_first_row(source: SourceFile, start: int, columns: int) -> N
     numeric = [is_number(field) for field in fields]
     if len(fields) == columns and any(numeric) and not all(numeric):
         number(fields[numeric.index(False)], source.at(start - 1))
+
+
+def _refuse_cut_number(source: SourceFile, places: Sequence[int]) -> None:
+    """Refuse a file that ends within a number: no line end, and fewer decimals than every number above has."""
+    if len(places) < 6 or places[-1] != len(source.lines) - 1:
+        return
+    decimals = [len(re.split(r"[.,]", split_row(source.lines[i])[-1])[-1]) for i in (*places[-50:],)]
+    if len(set(decimals[:-1])) == 1 and decimals[-1] < decimals[0]:
+        raise InputError(
+            f"{source.at(places[-1])}: the last number is cut off; the record is truncated, fetch it again"
+        )

@@ -5,6 +5,7 @@ Source: Abaqus Analysis User's Guide, "Amplitude curves".
 """
 
 import re
+from dataclasses import replace
 
 import numpy as np
 
@@ -55,8 +56,8 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
         if kind == "tabular":
             if values.size < 4 or values.size % 2:
                 raise InputError(
-                    f"{source.at(start)}: the amplitude {name} holds {values.size} numbers; pairs of time and value are "
-                    "needed, at least two: the file is cut off or damaged"
+                    f"{source.at(start)}: the amplitude {name} holds {values.size} numbers; pairs of time and value "
+                    "are needed, at least two: the file is cut off or damaged"
                 )
             names, units, columns = ("time", name), ("s", ""), values.reshape(-1, 2)
         else:
@@ -73,7 +74,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
             title=comments[0] if comments else "",
             read_as="Abaqus amplitude",
         )
-        traces += column_traces(table, source, given)
+        traces += [replace(trace, name=name, letter_of_file=False) for trace in column_traces(table, source, given)]
     return traces
 
 

@@ -5,6 +5,7 @@ that contradict each other are refused. A headless time column has no unit, so i
 One series may be wrapped, several values or several pairs of time and value a line.
 """
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -15,7 +16,7 @@ from slipwise.motion.column_traces import ColumnTable, column_traces
 from slipwise.motion.first_lines import read_first_lines
 from slipwise.motion.number_rows import split_row
 from slipwise.motion.rows import find_first_row, read_rows
-from slipwise.motion.source_file import SourceFile
+from slipwise.motion.source_file import HEAD_BYTES, SourceFile
 from slipwise.motion.stated import Given, agreed_step
 from slipwise.motion.time_column import last_digit
 from slipwise.motion.trace import Trace
@@ -24,9 +25,9 @@ from slipwise.motion.wrapped import wrapped_pairs, wrapped_series
 
 def recognise(head: bytes) -> bool:
     """Tell whether some line of the head holds nothing but numbers."""
-    # The head may cut its last line anywhere.
-    lines = head.decode("utf-8", "replace").splitlines()
-    return find_first_row(lines if len(lines) < 2 else lines[:-1]) is not None
+    # A head that is not the whole file may end within a number.
+    whole = head if len(head) < HEAD_BYTES else re.sub(rb"[^\s,;]*$", b"", head)
+    return find_first_row(whole.decode("utf-8", "replace").splitlines()) is not None
 
 
 def read(source: SourceFile, given: Given) -> list[Trace]:

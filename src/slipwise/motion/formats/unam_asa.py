@@ -107,8 +107,8 @@ def _first_row(source: SourceFile) -> int:
     rulers = [i for i, line in enumerate(head) if i > data and _RULER.fullmatch(line)]
     if len(rulers) < 2:
         raise InputError(
-            f"{source.name}: the values of a standard file of acceleration stand below two rulers of hyphens under DATOS "
-            "DE ACELERACION, which are not there; it is damaged, fetch the file again"
+            f"{source.name}: the values of a standard file of acceleration stand below two rulers of hyphens under "
+            "DATOS DE ACELERACION, which are not there; it is damaged, fetch the file again"
         )
     return rulers[1] + 1
 
