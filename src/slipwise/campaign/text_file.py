@@ -201,7 +201,9 @@ def _parsed(
     names = [str(i) for i in range(len(layout.headers))]
     chosen = [names[i] for i in wanted]
     stamps = {names[i] for i in layout.stamps}
-    parts = [names[layout.part[0]]] if layout.part and stamps & set(chosen) else []
+    # the parts of a second that a clock of whole seconds does not show stand in a column of their own
+    part, unit = (names[layout.part[0]], layout.part[1]) if layout.part and stamps & set(chosen) else ("", 0.0)
+    read = [*chosen, part] if part and part not in chosen else chosen
     try:
         table = pa_csv.read_csv(
             source,
@@ -213,8 +215,8 @@ def _parsed(
             ),
             parse_options=pa_csv.ParseOptions(delimiter=layout.separator),
             convert_options=pa_csv.ConvertOptions(
-                column_types={name: pa.string() if name in stamps else pa.float64() for name in [*chosen, *parts]},
-                include_columns=list(dict.fromkeys([*chosen, *parts])),
+                column_types={name: pa.string() if name in stamps else pa.float64() for name in read},
+                include_columns=read,
                 null_values=list(MISSING),
                 decimal_point=layout.decimal,
                 strings_can_be_null=True,
@@ -229,8 +231,8 @@ def _parsed(
             continue
         texts = [text or "" for text in table.column(name).to_pylist()]
         seconds = seconds_of_stamps(texts, f"{path.name}, column {layout.headers[number]}")
-        for part in parts:
-            seconds = seconds + layout.part[1] * np.asarray(table.column(part).to_numpy(), dtype=float)
+        if part:
+            seconds = seconds + unit * np.asarray(table.column(part).to_numpy(), dtype=float)
         out.append(seconds)
     return out
 

@@ -1,4 +1,4 @@
-"""Columns of time stamps: "2031-02-03 10:15:00.01", "03.02.2031 10:15:00", "10:15:00:010", "15:00.0"; read as seconds."""
+"""Columns of time stamps, read as seconds: "2031-02-03 10:15:00.01", "03.02.2031 10:15:00", "10:15:00", "15:00.0"."""
 
 import re
 from collections.abc import Sequence

@@ -247,7 +247,9 @@ def languages() -> list[Written]:
 
 def rows_above() -> list[Written]:
     """What stands between names and numbers, and above both."""
-    kyowa = "IDM,T-100\nサンプリング周波数(Hz),50\nデータ数,240\nCH名称,変位,摩擦力,荷重\nCH No,1,2,3\nレンジ,OFF,OFF,OFF\n"
+    kyowa = (
+        "IDM,T-100\nサンプリング周波数(Hz),50\nデータ数,240\nCH名称,変位,摩擦力,荷重\nCH No,1,2,3\nレンジ,OFF,OFF,OFF\n"
+    )
     return [
         plain("a row of units", "Time,Slip,Shear,Normal\ns,mm,N,N", TWO, T, X, F, N,
               above="Operator,M. N.\nTest,7\nDate,2031-02-03\n\n"),
@@ -379,5 +381,15 @@ def girders() -> list[Written]:
 
 def all_tables() -> list[Written]:
     """All sixty-and-some of them."""
-    kinds = (names_and_units, languages, rows_above, clocks, rows_below, workbooks, one_way_tables, with_others, girders)
+    kinds = (
+        names_and_units,
+        languages,
+        rows_above,
+        clocks,
+        rows_below,
+        workbooks,
+        one_way_tables,
+        with_others,
+        girders,
+    )
     return [table for kind in kinds for table in kind()]
