@@ -224,6 +224,12 @@ def _not_used(header: str, name: str) -> str:
 
 def _to_si(path: Path, header: str, mapped: ColumnMap) -> tuple[float, float]:
     known = channel(mapped.channel)
+    if mapped.unit.strip() == "?":
+        plain = ', or unit = "1" for a coefficient of friction' if mapped.channel.endswith(("_Fx", "_Fy")) else ""
+        raise UnitError(
+            f'{path.name}, column {header!r}: its unit is still "?" in [columns] of campaign.toml; write it there, for '
+            f'example unit = "{known.shown_in}"{plain}'
+        )
     return affine(mapped.unit, known.unit, f"{path.name}, column {header!r} ({mapped.channel})")
 
 

@@ -71,24 +71,28 @@ def inspect_sheet(path: Path, wanted: str | None) -> Sheet:
 
 
 def read_sheet(path: Path, sheet: Sheet, wanted: Sequence[int]) -> list[Array]:
-    """Read columns by number, each (n,), down to the first empty row.
+    """Read columns by number, each (n,), down to the first empty row or to the sums below the table.
 
     Raises:
         InputError: a cell that is no number.
     """
-    columns: list[list[str]] = [[] for _ in wanted]
+    rows: list[list[str]] = []
     for number, row in enumerate(_rows(_workbook(path)[sheet.name], path)):
         if number < sheet.header.first:
             continue
         if not any(row):
             break
-        for column, k in zip(columns, wanted, strict=True):
-            column.append(row[k] if k < len(row) else "")
+        rows.append(row)
+    while len(rows) > 1 and not sheet.header.is_row(rows[-1]):
+        rows.pop()
+    part = sheet.header.part
+    columns = [[row[k] if k < len(row) else "" for row in rows] for k in wanted]
     out = []
     for column, k in zip(columns, wanted, strict=True):
         what = f"{path.name}, sheet {sheet.name}, column {sheet.headers[k]!r}"
         if k in sheet.header.stamps:
-            out.append(seconds_of_stamps(column, what))
+            seconds = seconds_of_stamps(column, what)
+            out.append(seconds if part is None else seconds + [part[1] * float(row[part[0]]) for row in rows])
             continue
         try:
             out.append(np.array([np.nan if cell in MISSING else float(cell.replace(",", ".")) for cell in column]))

@@ -8,18 +8,27 @@ from slipwise.units import quantity
 
 _NUMBER = r"(?P<value>[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?)\s*(?P<unit>[A-Za-z/]*)"
 _BETWEEN = r"\s*(?:[\[(](?P<inner>[A-Za-z/]+)[\])])?\s*[\"']?\s*[:=;,\t ]+\s*[\"']?"
-_RATE = re.compile(
-    r"\b(?:sampl(?:e|ing)|scan|acquisition|logging|storage)[\s_-]*(?:rate|freq(?:uency)?|frequenz)"
-    + _BETWEEN
-    + _NUMBER,
-    re.IGNORECASE,
+#: Words before a rate, and before a step, in the languages of laboratories.
+_RATE_WORDS = (
+    r"\b(?:sampl(?:e|ing)|scan|acquisition|logging|storage)[\s_-]*(?:rate|freq(?:uency)?|frequenz)",
+    r"\b(?:abtast|mess|sample)[\s_-]*(?:rate|frequenz)",
+    r"\b(?:fr[eé]quence d['’ ]?[eé]chantillonnage|cadence d['’ ]?acquisition)",
+    r"\b(?:frecuencia|frequ[eê]ncia|tasa|taxa) de (?:muestreo|amostragem|adquisici[oó]n)",
+    r"\bfrequenza di (?:campionamento|acquisizione)",
+    r"\b[oö]rnekleme (?:frekans[ıi]|h[ıi]z[ıi])",
+    r"(?:サンプリング|サンプル)(?:周波数|レート|速度)|(?:采样|采集|採樣|取樣)(?:频率|頻率|速率|率)",
 )
-_STEP = re.compile(
-    r"(?:\b(?:sampl(?:e|ing)|scan)[\s_-]*(?:interval|period|time|step)|\btime[\s_-]*(?:step|increment)|\bdelta_x)"
-    + _BETWEEN
-    + _NUMBER,
-    re.IGNORECASE,
+_STEP_WORDS = (
+    r"\b(?:sampl(?:e|ing)|scan)[\s_-]*(?:interval|period|time|step)|\btime[\s_-]*(?:step|increment)|\bdelta_x",
+    r"\b(?:abtast|mess)[\s_-]*(?:intervall|zeit|schritt|periode)|\bzeitschritt",
+    r"\b(?:pas de temps|p[eé]riode d['’ ]?[eé]chantillonnage)",
+    r"\b(?:intervalo|per[ií]odo) de (?:muestreo|amostragem)|\bpaso de tiempo",
+    r"\b(?:intervallo|passo|periodo) di (?:campionamento|tempo)|\bpasso temporale",
+    r"\b[oö]rnekleme (?:aral[ıi][gğ][ıi]|periyodu)|\bzaman ad[ıi]m[ıi]",
+    r"(?:サンプリング|サンプル)(?:間隔|周期)|(?:采样|採樣|取樣)(?:间隔|間隔|周期)|时间步长",
 )
+_RATE = re.compile(f"(?:{'|'.join(_RATE_WORDS)})" + _BETWEEN + _NUMBER, re.IGNORECASE)
+_STEP = re.compile(f"(?:{'|'.join(_STEP_WORDS)})" + _BETWEEN + _NUMBER, re.IGNORECASE)
 _PER_SECOND = {"": "Hz", "sps": "Hz", "s/s": "Hz", "samples/s": "Hz", "samples/sec": "Hz", "/s": "Hz", "1/s": "Hz"}
 
 

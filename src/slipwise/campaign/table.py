@@ -76,6 +76,7 @@ def open_table(path: Path) -> Table:
             layout.headers,
             lambda wanted: Columns(*read_text_columns(path, layout, wanted, table)),
             layout.step,
+            layout.notes,
         )
     if suffix == ".mat":
         return _of_columns(path, matlab_variables(path))

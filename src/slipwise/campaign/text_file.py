@@ -1,4 +1,4 @@
-"""Text tables: comma, semicolon or tab; decimal point or comma; loggers' encodings; lines above the header."""
+"""Text tables: comma, semicolon, tab or blanks; decimal point or comma; loggers' encodings; lines above and below."""
 
 import csv
 import io
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from slipwise.campaign.header_rows import MISSING, NUMBER, Header, find_header, looks_numeric
 from slipwise.campaign.labview_file import is_lvm, lvm_headers
 from slipwise.campaign.stated_rate import stated_step
+from slipwise.campaign.table_end import find_end
 from slipwise.campaign.text_blocks import Block, read_blocks
 from slipwise.campaign.time_stamps import seconds_of_stamps
 from slipwise.errors import InputError
@@ -25,6 +26,8 @@ Array = NDArray[np.float64]
 _HEAD, _LONG_HEAD = 1 << 16, 1 << 24
 #: Bytes that pyarrow reads at once where lines are long: one must fit.
 _WIDE_BLOCK = 1 << 25
+#: Columns that stand between any number of blanks.
+BLANKS = " "
 #: A rig has fewer channels than this.
 _WIDEST = 4096
 
@@ -42,6 +45,9 @@ class TextLayout:
         names: the line of column names as it stands there.
         stamps: numbers of the columns of time stamps.
         step: what the lines above state [s], None if they state none.
+        part: number and unit [s] of the column with the parts of a second that the time stamps do not show, or None.
+        end: bytes of the file up to the last row, None where nothing stands below it.
+        notes: what stands below the last row, in words.
     """
 
     headers: tuple[str, ...]
@@ -52,6 +58,14 @@ class TextLayout:
     names: str = ""
     stamps: tuple[int, ...] = ()
     step: float | None = None
+    part: tuple[int, float] | None = None
+    end: int | None = None
+    notes: tuple[str, ...] = ()
+
+    @property
+    def separator(self) -> str:
+        """The character between columns once blanks have become tabs."""
+        return "\t" if self.delimiter == BLANKS else self.delimiter
 
 
 def inspect_text(path: Path) -> TextLayout:
@@ -62,20 +76,33 @@ def inspect_text(path: Path) -> TextLayout:
     """
     head, lines = _first_lines(path)
     found = [(header, delimiter) for delimiter in ("\t", ";", ",") if (header := _header(lines, delimiter, path))]
+    if not found and (header := _header(lines, BLANKS, path)):
+        found = [(header, BLANKS)]
     if found:
         # The separator that makes the most of the first table's rows.
         header, delimiter = max(found, key=lambda pair: (len(pair[0].names), -pair[0].first))
         decimal = "," if _decimal_comma(lines[header.first :], delimiter) else "."
         step = stated_step(lines[: header.line], path.name)
         columns = lvm_headers(header.names, lines[: header.line]) if is_lvm(lines) else header.columns
+        end, below = find_end(path, encoding_of(head), lambda line: split_line(line, delimiter), header.is_row)
         return TextLayout(
-            columns, encoding_of(head), delimiter, decimal, header.first, lines[header.line], header.stamps, step
+            columns,
+            encoding_of(head),
+            delimiter,
+            decimal,
+            header.first,
+            lines[header.line],
+            header.stamps,
+            step,
+            header.part,
+            end,
+            below,
         )
     if looks_numeric(re.split(r"[\s;,]+", lines[0].strip())):
         raise InputError(f"{path}: the first line holds numbers; a line of column names is needed above them")
     raise InputError(
         f"{path}: no line of column names above rows of numbers was found in its first lines; "
-        "columns must be separated by comma, semicolon or tab"
+        "columns must be separated by comma, semicolon, tab or blanks"
     )
 
 
@@ -102,7 +129,7 @@ def _first_lines(path: Path) -> tuple[bytes, list[str]]:
 
 
 def _header(lines: Sequence[str], delimiter: str, path: Path) -> Header | None:
-    rows = [_split(line, delimiter) for line in lines[:500]]
+    rows = [split_line(line, delimiter) for line in lines[:500]]
     if any(len(row) > _WIDEST for row in rows):
         raise InputError(
             f"{path}: a line has more than {_WIDEST} columns; a table has a column for each channel and a row for each "
@@ -128,20 +155,38 @@ def read_text_columns(
     Raises:
         InputError: a row with another number of columns, or a cell that is no number; the message says where.
     """
+    names = _tabbed(layout.names, names=True) if layout.delimiter == BLANKS else layout.names
+    # Blanks become tabs, and what stands below the table is cut off.
+    text = None if layout.end is None and layout.delimiter != BLANKS else _text(path, layout)
+
+    def blocks_of() -> list[Block]:
+        whole = decoded(path.read_bytes()) if text is None else text
+        return read_blocks(path.name, whole, names, layout.separator, len(layout.headers), layout.skip)
+
     try:
         if table is None:
-            return _parsed(path, layout, wanted, layout.skip, layout.encoding, path), ()
+            source = path if text is None else io.BytesIO(text.encode())
+            encoding = layout.encoding if text is None else "utf-8"
+            return _parsed(source, layout, wanted, layout.skip, encoding, path), ()
     except InputError as plain:
-        blocks = read_blocks(path, layout.names, layout.delimiter, len(layout.headers), layout.skip)
+        blocks = blocks_of()
         if not blocks or (len(blocks) == 1 and _unchanged(plain)):
             raise
     else:
-        blocks = read_blocks(path, layout.names, layout.delimiter, len(layout.headers), layout.skip)
+        blocks = blocks_of()
     if table is not None and not 1 <= table <= len(blocks):
         raise InputError(f"{path.name}#{table}: the file holds {len(blocks)} tables; the first is {path.name}#1")
     chosen = blocks if table is None else [blocks[table - 1]]
-    text = io.BytesIO(b"".join(block.text for block in chosen))
-    return _parsed(text, layout, wanted, 0, "utf-8", path), tuple(blocks) if len(chosen) > 1 else ()
+    rows = io.BytesIO(b"".join(block.text for block in chosen))
+    return _parsed(rows, layout, wanted, 0, "utf-8", path), tuple(blocks) if len(chosen) > 1 else ()
+
+
+def _text(path: Path, layout: TextLayout) -> str:
+    """Give a file down to its last row, its columns separated as pyarrow can read them."""
+    text = decoded(path.read_bytes()[: layout.end])
+    if layout.delimiter != BLANKS:
+        return text
+    return "\n".join(map(_tabbed, re.split(r"\r\n|\n|\r", text))) + "\n"
 
 
 def _unchanged(error: InputError) -> bool:
@@ -156,6 +201,9 @@ def _parsed(
     names = [str(i) for i in range(len(layout.headers))]
     chosen = [names[i] for i in wanted]
     stamps = {names[i] for i in layout.stamps}
+    # the parts of a second that a clock of whole seconds does not show stand in a column of their own
+    part, unit = (names[layout.part[0]], layout.part[1]) if layout.part and stamps & set(chosen) else ("", 0.0)
+    read = [*chosen, part] if part and part not in chosen else chosen
     try:
         table = pa_csv.read_csv(
             source,
@@ -165,10 +213,10 @@ def _parsed(
                 encoding=encoding,
                 block_size=_WIDE_BLOCK if len(names) > 500 else None,
             ),
-            parse_options=pa_csv.ParseOptions(delimiter=layout.delimiter),
+            parse_options=pa_csv.ParseOptions(delimiter=layout.separator),
             convert_options=pa_csv.ConvertOptions(
-                column_types={name: pa.string() if name in stamps else pa.float64() for name in chosen},
-                include_columns=chosen,
+                column_types={name: pa.string() if name in stamps else pa.float64() for name in read},
+                include_columns=read,
                 null_values=list(MISSING),
                 decimal_point=layout.decimal,
                 strings_can_be_null=True,
@@ -176,12 +224,17 @@ def _parsed(
         )
     except (pa.ArrowException, UnicodeDecodeError, LookupError, OSError) as error:
         raise InputError(f"{path.name}: {_cell_error(str(error), layout)}") from None
-    return [
-        seconds_of_stamps([text or "" for text in table.column(name).to_pylist()], f"{path.name}, column {number}")
-        if name in stamps
-        else np.asarray(table.column(name).to_numpy(), dtype=float)
-        for name, number in zip(chosen, (layout.headers[i] for i in wanted), strict=True)
-    ]
+    out = []
+    for name, number in zip(chosen, wanted, strict=True):
+        if name not in stamps:
+            out.append(np.asarray(table.column(name).to_numpy(), dtype=float))
+            continue
+        texts = [text or "" for text in table.column(name).to_pylist()]
+        seconds = seconds_of_stamps(texts, f"{path.name}, column {layout.headers[number]}")
+        if part:
+            seconds = seconds + unit * np.asarray(table.column(part).to_numpy(), dtype=float)
+        out.append(seconds)
+    return out
 
 
 def _cell_error(message: str, layout: TextLayout) -> str:
@@ -195,15 +248,29 @@ def _cell_error(message: str, layout: TextLayout) -> str:
     return f"{where}: {words}; correct the cell, or leave it empty where no value was measured"
 
 
-def _split(line: str, delimiter: str) -> list[str]:
+def split_line(line: str, delimiter: str) -> list[str]:
+    """Give the cells of a line."""
+    if delimiter == BLANKS:
+        line, delimiter = _tabbed(line, names=not looks_numeric(line.split())), "\t"
     try:
         return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter), [])]
     except csv.Error:  # a cell longer than any name or number
         return [line]
 
 
+def _tabbed(line: str, *, names: bool = False) -> str:
+    """Put tabs between columns that stand between blanks; names with blanks in them stand two apart."""
+    line = line.strip()
+    if not names:
+        return "\t".join(line.split())
+    line = line.lstrip("#% ")
+    wide = re.split(r"\s{2,}|\t", line)
+    # a unit in brackets belongs to the word before it
+    return "\t".join(wide if len(wide) > 1 else re.split(r"\s+(?![\[(])", line))
+
+
 def _decimal_comma(lines: Sequence[str], delimiter: str) -> bool:
-    cells = [cell for line in lines[:200] for cell in _split(line, delimiter)]
+    cells = [cell for line in lines[:200] for cell in split_line(line, delimiter)]
     commas = sum("," in cell and bool(NUMBER.match(cell)) for cell in cells)
     points = sum("." in cell and bool(NUMBER.match(cell)) for cell in cells)
     return commas > points
