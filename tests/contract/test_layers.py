@@ -27,7 +27,7 @@ ARROWS: dict[str, str] = {
     "signals": "errors",
     "statistics": "",
     "record": "channels errors shown units whole_file",
-    "data_files": "errors text_encoding units",
+    "data_files": "channels errors text_encoding units",
     "motion": "channels data_files errors shown signals text_encoding units",
     "rig": "channels errors record units",
     "effects": "channels errors params record rig shown signals",

@@ -17,8 +17,8 @@ from slipwise.campaign.draft_lines import column_lines, quoted
 from slipwise.campaign.draft_rig import rig_for
 from slipwise.campaign.draft_roles import is_sine, record_of, roles_of
 from slipwise.campaign.draft_time import no_time
-from slipwise.campaign.table import SUFFIXES
 from slipwise.channels import pads_in, part_of
+from slipwise.data_files.table import SUFFIXES
 from slipwise.errors import InputError
 from slipwise.record import Record, write_text
 from slipwise.rig.files import SPECIMEN_FILE

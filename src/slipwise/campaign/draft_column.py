@@ -6,9 +6,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.campaign.column_names import KINDS, ColumnName, name_and_unit
-from slipwise.campaign.column_words import meanings_of, words_of
 from slipwise.channels import PADS, is_channel
+from slipwise.data_files.column_names import KINDS, ColumnName, name_and_unit
+from slipwise.data_files.column_words import meanings_of, words_of
 from slipwise.units import affine
 
 Array = NDArray[np.float64]

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.draft_column import Column, column_of
-from slipwise.campaign.table import SUFFIXES, Table, open_table
 from slipwise.channels import channel, is_channel
+from slipwise.data_files.table import SUFFIXES, Table, open_table
 from slipwise.errors import InputError, SlipwiseError
 from slipwise.units import affine
 

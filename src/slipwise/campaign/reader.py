@@ -17,9 +17,9 @@ from slipwise.campaign.friction_coefficient import forces_of, is_coefficient
 from slipwise.campaign.held_out_check import check_untouched
 from slipwise.campaign.same_specimen import check_same_specimen
 from slipwise.campaign.settings import ColumnMap, RunSettings, Settings, read_settings
-from slipwise.campaign.table import Table, open_table
 from slipwise.campaign.time_axis import check_time, time_of_file
 from slipwise.channels import CHANNELS, channel, is_channel, part_of
+from slipwise.data_files.table import Table, open_table
 from slipwise.errors import InputError, UnitError, unknown_name
 from slipwise.record import Record
 from slipwise.rig import Specimen, load_specimen

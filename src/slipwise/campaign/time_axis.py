@@ -5,8 +5,8 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.campaign.table import Table
-from slipwise.campaign.text_blocks import Block
+from slipwise.data_files.table import Table
+from slipwise.data_files.text_blocks import Block
 from slipwise.errors import InputError
 
 Array = NDArray[np.float64]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from slipwise.campaign import load_campaign
-from slipwise.campaign.table import open_table
+from slipwise.data_files.table import open_table
 from slipwise.errors import InputError, SlipwiseError
 
 N = 60

@@ -10,8 +10,8 @@ import pytest
 from scipy.io import savemat
 
 from slipwise.campaign import load_campaign
-from slipwise.campaign.matlab_file import matlab_variables
-from slipwise.campaign.table import open_table
+from slipwise.data_files.matlab_file import matlab_variables
+from slipwise.data_files.table import open_table
 from slipwise.errors import InputError
 
 TIME = 0.01 * np.arange(50)

@@ -9,11 +9,11 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from slipwise.campaign.labview_file import read_tdms
-from slipwise.campaign.matlab_file import matlab_variables
-from slipwise.campaign.spreadsheet import inspect_sheet, read_sheet
-from slipwise.campaign.text_blocks import Block
-from slipwise.campaign.text_file import inspect_text, read_text_columns
+from slipwise.data_files.labview_file import read_tdms
+from slipwise.data_files.matlab_file import matlab_variables
+from slipwise.data_files.spreadsheet import inspect_sheet, read_sheet
+from slipwise.data_files.text_blocks import Block
+from slipwise.data_files.text_file import inspect_text, read_text_columns
 from slipwise.errors import InputError
 
 Array = NDArray[np.float64]

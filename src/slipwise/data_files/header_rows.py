@@ -9,7 +9,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from slipwise.campaign.time_stamps import is_time_stamp
+from slipwise.data_files.time_stamps import is_time_stamp
 from slipwise.errors import UnitError
 from slipwise.units import parse_unit
 

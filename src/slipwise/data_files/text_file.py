@@ -12,12 +12,12 @@ import pyarrow as pa
 import pyarrow.csv as pa_csv
 from numpy.typing import NDArray
 
-from slipwise.campaign.header_rows import MISSING, NUMBER, Header, find_header, looks_numeric
-from slipwise.campaign.labview_file import is_lvm, lvm_headers
-from slipwise.campaign.stated_rate import stated_step
-from slipwise.campaign.table_end import find_end
-from slipwise.campaign.text_blocks import Block, read_blocks
-from slipwise.campaign.time_stamps import seconds_of_stamps
+from slipwise.data_files.header_rows import MISSING, NUMBER, Header, find_header, looks_numeric
+from slipwise.data_files.labview_file import is_lvm, lvm_headers
+from slipwise.data_files.stated_rate import stated_step
+from slipwise.data_files.table_end import find_end
+from slipwise.data_files.text_blocks import Block, read_blocks
+from slipwise.data_files.time_stamps import seconds_of_stamps
 from slipwise.errors import InputError
 from slipwise.text_encoding import decoded, encoding_of
 

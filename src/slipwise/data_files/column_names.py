@@ -4,8 +4,8 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from slipwise.campaign.column_words import meanings_of, words_of
 from slipwise.channels import channel, is_channel
+from slipwise.data_files.column_words import meanings_of, words_of
 from slipwise.errors import UnitError
 from slipwise.units import parse_unit
 

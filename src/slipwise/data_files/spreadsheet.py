@@ -10,9 +10,9 @@ from zipfile import ZipFile
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.campaign.header_rows import MISSING, Header, find_header
-from slipwise.campaign.stated_rate import stated_step
-from slipwise.campaign.time_stamps import seconds_of_stamps
+from slipwise.data_files.header_rows import MISSING, Header, find_header
+from slipwise.data_files.stated_rate import stated_step
+from slipwise.data_files.time_stamps import seconds_of_stamps
 from slipwise.errors import InputError
 
 Array = NDArray[np.float64]
