@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.data_files.header_rows import MISSING, Header, find_header
-from slipwise.data_files.stated_rate import stated_step
+from slipwise.data_files.statements import read_statements
 from slipwise.data_files.time_stamps import seconds_of_stamps
 from slipwise.errors import InputError
 
@@ -67,7 +67,7 @@ def inspect_sheet(path: Path, wanted: str | None) -> Sheet:
         raise InputError(f"{path}: no sheet holds a line of column names above rows of numbers")
     name, header, rows = found[0]
     above = [" ".join(cell for cell in row if cell) for row in rows[: header.line]]
-    return Sheet(name, header.columns, stated_step(above, path.name), header, tuple(other for other, _, _ in found[1:]))
+    return Sheet(name, header.columns, read_statements(above, path.name, ("step",)).step, header, tuple(other for other, _, _ in found[1:]))
 
 
 def read_sheet(path: Path, sheet: Sheet, wanted: Sequence[int]) -> list[Array]:

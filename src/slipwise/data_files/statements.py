@@ -5,7 +5,7 @@ in a line, and several may share one. Statements of one fact that contradict eac
 """
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from slipwise.data_files.statement_value import EACH, NUMBER, Peak, StatementValue, step_of
@@ -14,6 +14,8 @@ from slipwise.errors import InputError
 
 #: Words for a rate state the step, those for an acceleration with a unit behind them the unit.
 _FACTS = {"rate": "step", "acceleration": "unit"}
+#: Facts of which a record has one.
+BINDING = ("step", "count", "unit")
 _SEPARATOR = re.compile(r"[,;|\t()#]|\s{2,}|[.:]\s|\s-\s")
 
 
@@ -42,15 +44,17 @@ class Statements:
         return repr(self.lines[fact][:70]) if fact in self.lines else ""
 
 
-def read_statements(lines: Sequence[str], what: str) -> Statements:
+def read_statements(lines: Sequence[str], what: str, binding: Collection[str] = BINDING) -> Statements:
     """Read what the lines of a header state.
 
     Args:
         lines: of the header.
         what: the file, for messages.
+        binding: the facts that must not be stated twice with different contents; a table of many gauges states
+            several units.
 
     Raises:
-        InputError: two statements of one fact that contradict each other.
+        InputError: two statements of such a fact that contradict each other.
     """
     found: dict[str, tuple[object, float, str]] = {}
     peaks: list[Peak] = []
@@ -67,7 +71,7 @@ def read_statements(lines: Sequence[str], what: str) -> Statements:
             before = found.get(fact)
             if before is None or (_agree(before, content, rounding) and rounding < before[1]):
                 found[fact] = (content, rounding, stated)
-            elif fact != "peak time" and not _agree(before, content, rounding):
+            elif fact in binding and not _agree(before, content, rounding):
                 raise InputError(
                     f"{what}: the header contradicts itself: {before[2][:60]!r} and {stated[:60]!r}; "
                     "correct the wrong line"

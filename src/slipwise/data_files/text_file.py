@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from slipwise.data_files.header_rows import MISSING, NUMBER, Header, find_header, looks_numeric
 from slipwise.data_files.labview_file import is_lvm, lvm_headers
-from slipwise.data_files.stated_rate import stated_step
+from slipwise.data_files.statements import read_statements
 from slipwise.data_files.table_end import find_end
 from slipwise.data_files.text_blocks import Block, read_blocks
 from slipwise.data_files.time_stamps import seconds_of_stamps
@@ -82,7 +82,7 @@ def inspect_text(path: Path) -> TextLayout:
         # The separator that makes the most of the first table's rows.
         header, delimiter = max(found, key=lambda pair: (len(pair[0].names), -pair[0].first))
         decimal = "," if _decimal_comma(lines[header.first :], delimiter) else "."
-        step = stated_step(lines[: header.line], path.name)
+        step = read_statements(lines[: header.line], path.name, ("step",)).step
         columns = lvm_headers(header.names, lines[: header.line]) if is_lvm(lines) else header.columns
         end, below = find_end(path, encoding_of(head), lambda line: split_line(line, delimiter), header.is_row)
         return TextLayout(
