@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.data_files.header_rows import MISSING, Header, find_header
-from slipwise.data_files.statements import read_statements
 from slipwise.data_files.time_stamps import seconds_of_stamps
 from slipwise.errors import InputError
 
@@ -28,14 +27,14 @@ class Sheet:
     Attributes:
         name: of the sheet.
         headers: of its columns.
-        step: what the rows above state [s], None if they state none.
+        above: the rows above, each as one text.
         header: where it begins.
         others: sheets that hold tables too.
     """
 
     name: str
     headers: tuple[str, ...]
-    step: float | None
+    above: tuple[str, ...]
     header: Header
     others: tuple[str, ...]
 
@@ -66,8 +65,8 @@ def inspect_sheet(path: Path, wanted: str | None) -> Sheet:
     if not found:
         raise InputError(f"{path}: no sheet holds a line of column names above rows of numbers")
     name, header, rows = found[0]
-    above = [" ".join(cell for cell in row if cell) for row in rows[: header.line]]
-    return Sheet(name, header.columns, read_statements(above, path.name, ("step",)).step, header, tuple(other for other, _, _ in found[1:]))
+    above = tuple("\t".join(cell for cell in row if cell) for row in rows[: header.line])
+    return Sheet(name, header.columns, above, header, tuple(other for other, _, _ in found[1:]))
 
 
 def read_sheet(path: Path, sheet: Sheet, wanted: Sequence[int]) -> list[Array]:

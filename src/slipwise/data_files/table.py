@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from slipwise.data_files.labview_file import read_tdms
 from slipwise.data_files.matlab_file import matlab_variables
 from slipwise.data_files.spreadsheet import inspect_sheet, read_sheet
+from slipwise.data_files.statements import read_statements
 from slipwise.data_files.text_blocks import Block
 from slipwise.data_files.text_file import inspect_text, read_text_columns
 from slipwise.errors import InputError
@@ -41,6 +42,7 @@ class Table:
         columns: function of column numbers that reads these columns.
         step: what the file states beside its columns [s], None if it states none.
         notes: what a user should know of the file.
+        above: the lines above the names of the columns.
     """
 
     path: Path
@@ -48,6 +50,7 @@ class Table:
     columns: Callable[[Sequence[int]], Columns]
     step: float | None = None
     notes: tuple[str, ...] = ()
+    above: tuple[str, ...] = ()
 
 
 def open_table(path: Path) -> Table:
@@ -75,8 +78,9 @@ def open_table(path: Path) -> Table:
             path,
             layout.headers,
             lambda wanted: Columns(*read_text_columns(path, layout, wanted, table)),
-            layout.step,
+            read_statements(layout.above, path.name, ("step",)).step,
             layout.notes,
+            layout.above,
         )
     if suffix == ".mat":
         return _of_columns(path, matlab_variables(path))
@@ -89,7 +93,10 @@ def open_table(path: Path) -> Table:
             f"sheets {', '.join(sheet.others)} of {path.name} hold tables too and are not read" if sheet.others else ""
         )
         notes = (others,) if others else ()
-        return Table(path, sheet.headers, lambda wanted: Columns(read_sheet(path, sheet, wanted)), sheet.step, notes)
+        step = read_statements(sheet.above, path.name, ("step",)).step
+        return Table(
+            path, sheet.headers, lambda wanted: Columns(read_sheet(path, sheet, wanted)), step, notes, sheet.above
+        )
     if suffix == ".parquet":
         return _parquet(path)
     raise InputError(f"{path}: {suffix or 'no suffix'} is no format of a data file; possible: {', '.join(SUFFIXES)}")

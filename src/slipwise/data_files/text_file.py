@@ -3,8 +3,8 @@
 import csv
 import io
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from slipwise.data_files.header_rows import MISSING, NUMBER, Header, find_header, looks_numeric
 from slipwise.data_files.labview_file import is_lvm, lvm_headers
-from slipwise.data_files.statements import read_statements
 from slipwise.data_files.table_end import find_end
 from slipwise.data_files.text_blocks import Block, read_blocks
 from slipwise.data_files.time_stamps import seconds_of_stamps
@@ -37,28 +36,24 @@ class TextLayout:
     """How a text table is written.
 
     Attributes:
+        header: where it begins.
         headers: of all columns; "name [unit]" where the units stand in a row of their own.
-        encoding: Python's name.
+        above: the lines above the names.
+        names: the line of column names as it stands there.
         delimiter: between columns.
         decimal: "." or ",".
-        skip: lines above the first row of numbers.
-        names: the line of column names as it stands there.
-        stamps: numbers of the columns of time stamps.
-        step: what the lines above state [s], None if they state none.
-        part: number and unit [s] of the column with the parts of a second that the time stamps do not show, or None.
+        encoding: Python's name.
         end: bytes of the file up to the last row, None where nothing stands below it.
         notes: what stands below the last row, in words.
     """
 
+    header: Header
     headers: tuple[str, ...]
-    encoding: str
+    above: tuple[str, ...]
+    names: str
     delimiter: str
     decimal: str
-    skip: int
-    names: str = ""
-    stamps: tuple[int, ...] = ()
-    step: float | None = None
-    part: tuple[int, float] | None = None
+    encoding: str = "utf-8"
     end: int | None = None
     notes: tuple[str, ...] = ()
 
@@ -66,6 +61,10 @@ class TextLayout:
     def separator(self) -> str:
         """The character between columns once blanks have become tabs."""
         return "\t" if self.delimiter == BLANKS else self.delimiter
+
+    def cells(self, line: str) -> list[str]:
+        """Give the cells of a line."""
+        return split_line(line, self.delimiter)
 
 
 def inspect_text(path: Path) -> TextLayout:
@@ -75,35 +74,36 @@ def inspect_text(path: Path) -> TextLayout:
         InputError: an empty file, or no line of column names above rows of numbers.
     """
     head, lines = _first_lines(path)
-    found = [(header, delimiter) for delimiter in ("\t", ";", ",") if (header := _header(lines, delimiter, path))]
-    if not found and (header := _header(lines, BLANKS, path)):
-        found = [(header, BLANKS)]
-    if found:
-        # The separator that makes the most of the first table's rows.
-        header, delimiter = max(found, key=lambda pair: (len(pair[0].names), -pair[0].first))
-        decimal = "," if _decimal_comma(lines[header.first :], delimiter) else "."
-        step = read_statements(lines[: header.line], path.name, ("step",)).step
-        columns = lvm_headers(header.names, lines[: header.line]) if is_lvm(lines) else header.columns
-        end, below = find_end(path, encoding_of(head), lambda line: split_line(line, delimiter), header.is_row)
-        return TextLayout(
-            columns,
-            encoding_of(head),
-            delimiter,
-            decimal,
-            header.first,
-            lines[header.line],
-            header.stamps,
-            step,
-            header.part,
-            end,
-            below,
-        )
+    layout = layout_of(lines, str(path))
+    if layout is not None:
+        encoding = encoding_of(head)
+        end, below = find_end(path, encoding, layout.cells, layout.header.is_row)
+        return replace(layout, encoding=encoding, end=end, notes=below)
     if looks_numeric(re.split(r"[\s;,]+", lines[0].strip())):
         raise InputError(f"{path}: the first line holds numbers; a line of column names is needed above them")
     raise InputError(
         f"{path}: no line of column names above rows of numbers was found in its first lines; "
         "columns must be separated by comma, semicolon, tab or blanks"
     )
+
+
+def layout_of(lines: Sequence[str], name: str) -> TextLayout | None:
+    """Find out how a text table is written, from its first lines; None where no names stand above rows of numbers.
+
+    Raises:
+        InputError: a line with more columns than any table of channels.
+    """
+    found = [(header, delimiter) for delimiter in ("\t", ";", ",") if (header := _header(lines, delimiter, name))]
+    if not found and (header := _header(lines, BLANKS, name)):
+        found = [(header, BLANKS)]
+    if not found:
+        return None
+    # The separator that makes the most of the first table's rows.
+    header, delimiter = max(found, key=lambda pair: (len(pair[0].names), -pair[0].first))
+    decimal = "," if _decimal_comma(lines[header.first :], delimiter) else "."
+    above = tuple(lines[: header.line])
+    headers = lvm_headers(header.names, above) if is_lvm(lines) else header.columns
+    return TextLayout(header, headers, above, lines[header.line], delimiter, decimal)
 
 
 def _first_lines(path: Path) -> tuple[bytes, list[str]]:
@@ -128,11 +128,11 @@ def _first_lines(path: Path) -> tuple[bytes, list[str]]:
     )
 
 
-def _header(lines: Sequence[str], delimiter: str, path: Path) -> Header | None:
+def _header(lines: Sequence[str], delimiter: str, name: str) -> Header | None:
     rows = [split_line(line, delimiter) for line in lines[:500]]
     if any(len(row) > _WIDEST for row in rows):
         raise InputError(
-            f"{path}: a line has more than {_WIDEST} columns; a table has a column for each channel and a row for each "
+            f"{name}: a line has more than {_WIDEST} columns; a table has a column for each channel and a row for each "
             "sample: write it so"
         )
     return find_header(rows)
@@ -155,38 +155,44 @@ def read_text_columns(
     Raises:
         InputError: a row with another number of columns, or a cell that is no number; the message says where.
     """
+    if layout.end is not None or layout.delimiter == BLANKS:
+        return columns_of_text(decoded(path.read_bytes()[: layout.end]), path.name, layout, wanted, table)
+    return _columns(path, lambda: decoded(path.read_bytes()), path.name, layout, wanted, table)
+
+
+def columns_of_text(
+    text: str, name: str, layout: TextLayout, wanted: Sequence[int], table: int | None = None
+) -> tuple[list[Array], tuple[Block, ...]]:
+    """Read columns of a text that ends with the last row; the rest as in `read_text_columns`."""
+    if layout.delimiter == BLANKS:
+        text = "\n".join(map(_tabbed, re.split(r"\r\n|\n|\r", text))) + "\n"
+    return _columns(text, lambda: text, name, layout, wanted, table)
+
+
+def _columns(
+    source: Path | str,
+    whole: Callable[[], str],
+    name: str,
+    layout: TextLayout,
+    wanted: Sequence[int],
+    table: int | None,
+) -> tuple[list[Array], tuple[Block, ...]]:
     names = _tabbed(layout.names, names=True) if layout.delimiter == BLANKS else layout.names
-    # Blanks become tabs, and what stands below the table is cut off.
-    text = None if layout.end is None and layout.delimiter != BLANKS else _text(path, layout)
-
-    def blocks_of() -> list[Block]:
-        whole = decoded(path.read_bytes()) if text is None else text
-        return read_blocks(path.name, whole, names, layout.separator, len(layout.headers), layout.skip)
-
+    skip = layout.header.first
     try:
         if table is None:
-            source = path if text is None else io.BytesIO(text.encode())
-            encoding = layout.encoding if text is None else "utf-8"
-            return _parsed(source, layout, wanted, layout.skip, encoding, path), ()
+            return _parsed(source, layout, wanted, skip, name), ()
     except InputError as plain:
-        blocks = blocks_of()
+        blocks = read_blocks(name, whole(), names, layout.separator, len(layout.headers), skip)
         if not blocks or (len(blocks) == 1 and _unchanged(plain)):
             raise
     else:
-        blocks = blocks_of()
+        blocks = read_blocks(name, whole(), names, layout.separator, len(layout.headers), skip)
     if table is not None and not 1 <= table <= len(blocks):
-        raise InputError(f"{path.name}#{table}: the file holds {len(blocks)} tables; the first is {path.name}#1")
+        raise InputError(f"{name}#{table}: the file holds {len(blocks)} tables; the first is {name}#1")
     chosen = blocks if table is None else [blocks[table - 1]]
-    rows = io.BytesIO(b"".join(block.text for block in chosen))
-    return _parsed(rows, layout, wanted, 0, "utf-8", path), tuple(blocks) if len(chosen) > 1 else ()
-
-
-def _text(path: Path, layout: TextLayout) -> str:
-    """Give a file down to its last row, its columns separated as pyarrow can read them."""
-    text = decoded(path.read_bytes()[: layout.end])
-    if layout.delimiter != BLANKS:
-        return text
-    return "\n".join(map(_tabbed, re.split(r"\r\n|\n|\r", text))) + "\n"
+    rows = b"".join(block.text for block in chosen).decode()
+    return _parsed(rows, layout, wanted, 0, name), tuple(blocks) if len(chosen) > 1 else ()
 
 
 def _unchanged(error: InputError) -> bool:
@@ -194,23 +200,21 @@ def _unchanged(error: InputError) -> bool:
     return "column '" in str(error) and "\u2212" not in str(error)
 
 
-def _parsed(
-    source: Path | io.BytesIO, layout: TextLayout, wanted: Sequence[int], skip: int, encoding: str, path: Path
-) -> list[Array]:
+def _parsed(source: Path | str, layout: TextLayout, wanted: Sequence[int], skip: int, file: str) -> list[Array]:
     # Columns are numbered: headers may be doubled among the columns that nobody asks for.
     names = [str(i) for i in range(len(layout.headers))]
     chosen = [names[i] for i in wanted]
-    stamps = {names[i] for i in layout.stamps}
+    stamps = {names[i] for i in layout.header.stamps}
     # the parts of a second that a clock of whole seconds does not show stand in a column of their own
-    part, unit = (names[layout.part[0]], layout.part[1]) if layout.part and stamps & set(chosen) else ("", 0.0)
+    part, unit = (names[found[0]], found[1]) if (found := layout.header.part) and stamps & set(chosen) else ("", 0.0)
     read = [*chosen, part] if part and part not in chosen else chosen
     try:
         table = pa_csv.read_csv(
-            source,
+            io.BytesIO(source.encode()) if isinstance(source, str) else source,
             read_options=pa_csv.ReadOptions(
                 column_names=names,
                 skip_rows=skip,
-                encoding=encoding,
+                encoding="utf-8" if isinstance(source, str) else layout.encoding,
                 block_size=_WIDE_BLOCK if len(names) > 500 else None,
             ),
             parse_options=pa_csv.ParseOptions(delimiter=layout.separator),
@@ -223,14 +227,14 @@ def _parsed(
             ),
         )
     except (pa.ArrowException, UnicodeDecodeError, LookupError, OSError) as error:
-        raise InputError(f"{path.name}: {_cell_error(str(error), layout)}") from None
+        raise InputError(f"{file}: {_cell_error(str(error), layout)}") from None
     out = []
     for name, number in zip(chosen, wanted, strict=True):
         if name not in stamps:
             out.append(np.asarray(table.column(name).to_numpy(), dtype=float))
             continue
         texts = [text or "" for text in table.column(name).to_pylist()]
-        seconds = seconds_of_stamps(texts, f"{path.name}, column {layout.headers[number]}")
+        seconds = seconds_of_stamps(texts, f"{file}, column {layout.headers[number]}")
         if part:
             seconds = seconds + unit * np.asarray(table.column(part).to_numpy(), dtype=float)
         out.append(seconds)
