@@ -83,7 +83,7 @@ def inspect_text(path: Path) -> TextLayout:
         header, delimiter = max(found, key=lambda pair: (len(pair[0].names), -pair[0].first))
         decimal = "," if _decimal_comma(lines[header.first :], delimiter) else "."
         step = stated_step(lines[: header.line], path.name)
-        columns = lvm_headers(header.names, lines[: header.line]) if is_lvm(lines) else header.columns
+        columns = lvm_headers(header.names, lines[: header.line]) if is_lvm(lines) else header.columns(path.name)
         end, below = find_end(path, encoding_of(head), lambda line: split_line(line, delimiter), header.is_row)
         return TextLayout(
             columns,
