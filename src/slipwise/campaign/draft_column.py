@@ -66,7 +66,14 @@ def column_of(header: str, values: Array) -> Column:
     letters = [LETTERS.index(w.upper()) + 1 for before, w in pairwise(["", *words]) if _is_letter(w, before)]
     number = numbers[0] if numbers else letters[0] if letters else None
     channel = found.name if is_channel(found.name) else ""
-    why = "" if channel else _no_channel(found, meanings_of(words), meanings_of(w for w in words if len(w) > 2))
+    still = found.kind == "length" and len(values) > 1 and np.ptp(values) == 0.0
+    why = (
+        "it does not move"
+        if still
+        else ""
+        if channel
+        else _no_channel(found, meanings_of(words), meanings_of(w for w in words if len(w) > 2))
+    )
     return Column(header, found.unit, found.kind, meanings_of(words), number, si, channel, why)
 
 

@@ -29,10 +29,12 @@ def map_slips(
     lengths = [c for c in columns if c.kind == "length"]
     path = [c for c in lengths if "path" in c.meanings and (turn or len(lengths) > 1)]
     # what is called a slip comes first, then what moves most
+    # the actuator of a machine for one slider moves the slider, that of a shaking table the table
+    shaken = len(lengths) > 1 or any("_a" in name for name in channels)
     ranked = sorted(columns, key=lambda c: (c.kind != "length", "table" not in c.meanings, -float(np.ptp(c.values))))
     for column in ranked:
         axis = "y" if "across" in column.meanings else "x"
-        if column.kind == "length" and "table" in column.meanings:
+        if column.kind == "length" and "table" in column.meanings and shaken:
             yield column, Mapped(f"table_d{axis}", column.unit, 1, "its name says table", "likely")
             continue
         if column in path or "wear" in column.meanings:

@@ -33,7 +33,10 @@ def time_column(columns: Sequence[Column], step: float | None) -> tuple[str, Map
         return column.header, Mapped("time", unit, 1, why, sure)
     if step is not None:
         return None  # times follow from the stated step
-    for column in (c for c in rising if not c.kind and c.unit == "?" and rises_evenly(c.values)):
+    lengths = [c for c in columns if c.kind == "length"]
+    # "X_Value" is LabVIEW's word for the time, and looks like a displacement
+    bare = [c for c in rising if c.unit == "?" and (not c.kind or (c is columns[0] and c in lengths[:-1]))]
+    for column in (c for c in bare if rises_evenly(c.values)):
         if _counts(column.values):
             continue
         usual = float(np.median(np.diff(column.values)))

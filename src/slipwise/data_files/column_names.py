@@ -25,7 +25,7 @@ _SPELLED = {"ms2": "m/s^2", "mss": "m/s^2", "mps2": "m/s^2", "mps": "m/s", "mmps
 #: A column of a matrix that a single letter names, which says nothing of any of them: x(:,3).
 _OF_MATRIX = re.compile(r"^\w\((?::,\d+|\d+,:)\)$")
 #: Words that are a unit of time themselves.
-_CLOCKS = {"milli": "ms", "micro": "us", "mikro": "us"}
+_CLOCKS = {"millis": "ms", "milis": "ms", "micros": "us", "mikros": "us"}
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from functools import cache
 _MEANINGS: dict[str, str] = {
     # quantities
     "time": "time zeit* *zeit *zeitstempel tempo temps tiempo zaman timestamp t sec secs seconds clock elapsed hora"
-    " millis milli* micros 時間 時刻 时间",
+    " millis* milis* micros 時間 時刻 时间",
     "acceleration": "acc acc* accel* ax ay az beschl* acel* ivme* 加速度",
     "speed": "vel vel* speed speed* geschw* *geschw* vitesse* velocid* velocita hiz* v vx vslip rate 速度 速率",
     "length": "disp disp* displ* slip slip* stroke* position* pos travel weg* *weg verschieb* hub desplaz* despl* depl*"

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from slipwise.data_files.time_stamps import is_time_stamp
-from slipwise.errors import UnitError
+from slipwise.errors import InputError, UnitError
 from slipwise.units import parse_unit
 
 #: Lines in which a table must have begun.
@@ -62,15 +62,29 @@ class Header:
     leading: int = 0
     part: tuple[int, float] | None = None
 
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """Names with their units in brackets: "Force [kN]"."""
+    def columns(self, what: str) -> tuple[str, ...]:
+        """Give names with their units in brackets, "Force [kN]".
+
+        Args:
+            what: the file, for messages.
+
+        Raises:
+            InputError: a name and the row of units state different units.
+        """
         out = []
         for k, name in enumerate(self.names):
             unit = self.units[k].strip().strip("[]()").strip() if self.units else ""
             unit = "" if unit in _NO_UNITS else unit
+            own = re.search(r"[\[(]([^\])]*)[\])]\s*$", name)
             if k in self.stamps and "[" not in name:
                 unit = "s"  # time stamps are read as seconds since the first one
+            elif own and unit and unit != own[1].strip() and _is_unit(unit) and _is_unit(own[1].strip()):
+                raise InputError(
+                    f"{what}: the column {name!r} states its unit in its name, and the row of units says {unit!r}; "
+                    "correct the wrong one"
+                )
+            elif own and unit and _is_unit(own[1].strip()):
+                unit = ""
             out.append(f"{name} [{unit}]" if unit and "[" not in name else name)
         return tuple(out)
 
@@ -93,7 +107,8 @@ def find_header(rows: Sequence[Sequence[str]]) -> Header | None:
         if not above:
             continue
         following = [row for row in rows[first : first + _LOOK_AT] if len(row) == width]
-        found = _labelled(rows, above) or _unlabelled(rows, above, width)
+        labels = _labels(rows, above)
+        found = _labelled(above, labels) if labels else _unlabelled(rows, above, width)
         if found is None:
             continue
         line, units_at, labelled = found
@@ -165,16 +180,18 @@ def _lines_above(rows: Sequence[Sequence[str]], first: int) -> list[int]:
     return found[:_HEADER_LINES]
 
 
-def _labelled(rows: Sequence[Sequence[str]], above: Sequence[int]) -> tuple[int, int | None, bool] | None:
+def _labels(rows: Sequence[Sequence[str]], above: Sequence[int]) -> list[str]:
+    """Give what the first cell of each line says that the line holds; nothing where lines do not begin so."""
+    said = [next((what for what, label in _ROW_LABELS.items() if label.search(rows[i][0])), "") for i in above]
+    return said if sum(map(bool, said)) >= (2 if "names" in said else 3) else []
+
+
+def _labelled(above: Sequence[int], labels: Sequence[str]) -> tuple[int, int | None, bool] | None:
     """Give the lines of names and units where the first cell of each line says what it holds."""
-    said = {
-        i: next((what for what, label in _ROW_LABELS.items() if label.search(rows[i][0])), "") for i in above if rows[i]
-    }
-    names = [i for i, what in said.items() if what == "names"]
-    units = [i for i, what in said.items() if what == "units"]
-    if not names or sum(map(bool, said.values())) < 2:
+    if "names" not in labels:
         return None
-    return names[0], units[0] if units else None, True
+    units = above[labels.index("units")] if "units" in labels else None
+    return above[labels.index("names")], units, True
 
 
 def _unlabelled(rows: Sequence[Sequence[str]], above: Sequence[int], width: int) -> tuple[int, int | None, bool] | None:

@@ -66,7 +66,7 @@ def inspect_sheet(path: Path, wanted: str | None) -> Sheet:
         raise InputError(f"{path}: no sheet holds a line of column names above rows of numbers")
     name, header, rows = found[0]
     above = tuple("\t".join(cell for cell in row if cell) for row in rows[: header.line])
-    return Sheet(name, header.columns, above, header, tuple(other for other, _, _ in found[1:]))
+    return Sheet(name, header.columns(path.name), above, header, tuple(other for other, _, _ in found[1:]))
 
 
 def read_sheet(path: Path, sheet: Sheet, wanted: Sequence[int]) -> list[Array]:

@@ -102,7 +102,7 @@ def layout_of(lines: Sequence[str], name: str) -> TextLayout | None:
     header, delimiter = max(found, key=lambda pair: (len(pair[0].names), -pair[0].first))
     decimal = "," if _decimal_comma(lines[header.first :], delimiter) else "."
     above = tuple(lines[: header.line])
-    headers = lvm_headers(header.names, above) if is_lvm(lines) else header.columns
+    headers = lvm_headers(header.names, above) if is_lvm(lines) else header.columns(name)
     return TextLayout(header, headers, above, lines[header.line], delimiter, decimal)
 
 
