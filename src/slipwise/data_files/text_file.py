@@ -79,6 +79,11 @@ def inspect_text(path: Path) -> TextLayout:
         encoding = encoding_of(head)
         end, below = find_end(path, encoding, layout.cells, layout.header.is_row)
         return replace(layout, encoding=encoding, end=end, notes=below)
+    if any(len(re.split(r"[\t;,]", line)) > _WIDEST for line in lines):
+        raise InputError(
+            f"{path}: a line has more than {_WIDEST} columns; a table has a column for each channel and a row for each "
+            "sample: write it so"
+        )
     if looks_numeric(re.split(r"[\s;,]+", lines[0].strip())):
         raise InputError(f"{path}: the first line holds numbers; a line of column names is needed above them")
     raise InputError(
@@ -91,10 +96,10 @@ def layout_of(lines: Sequence[str], name: str) -> TextLayout | None:
     """Find out how a text table is written, from its first lines; None where no names stand above rows of numbers.
 
     Raises:
-        InputError: a line with more columns than any table of channels.
+        InputError: a name and the row of units state different units.
     """
-    found = [(header, delimiter) for delimiter in ("\t", ";", ",") if (header := _header(lines, delimiter, name))]
-    if not found and (header := _header(lines, BLANKS, name)):
+    found = [(header, delimiter) for delimiter in ("\t", ";", ",") if (header := _header(lines, delimiter))]
+    if not found and (header := _header(lines, BLANKS)):
         found = [(header, BLANKS)]
     if not found:
         return None
@@ -128,14 +133,9 @@ def _first_lines(path: Path) -> tuple[bytes, list[str]]:
     )
 
 
-def _header(lines: Sequence[str], delimiter: str, name: str) -> Header | None:
+def _header(lines: Sequence[str], delimiter: str) -> Header | None:
     rows = [split_line(line, delimiter) for line in lines[:500]]
-    if any(len(row) > _WIDEST for row in rows):
-        raise InputError(
-            f"{name}: a line has more than {_WIDEST} columns; a table has a column for each channel and a row for each "
-            "sample: write it so"
-        )
-    return find_header(rows)
+    return None if any(len(row) > _WIDEST for row in rows) else find_header(rows)
 
 
 def read_text_columns(

@@ -15,7 +15,7 @@ from slipwise.motion.displacement import acceleration_of
 from slipwise.motion.header_peaks import header_peak, peak_of, unit_of_peaks
 from slipwise.motion.orientation import component_of, name_from_stem, orientation, sensor_of
 from slipwise.motion.origin import origin_of
-from slipwise.motion.source_file import SourceFile, check_count
+from slipwise.motion.source_file import LARGEST, SourceFile, check_count
 from slipwise.motion.stated import Given, agreed_step, agreed_unit, settle_step, settle_unit
 from slipwise.motion.time_column import counts_rows, even_step, rises_evenly
 from slipwise.motion.trace import Trace
@@ -64,6 +64,7 @@ def column_traces(table: ColumnTable, source: SourceFile, given: Given) -> list[
         UnitError: no unit, or one that is none of acceleration.
     """
     table = _with_names(_without_row_numbers(table, given), source)
+    _refuse_gaps(table)
     kinds: list[Kind] = [_kind(table, k, source) for k in range(len(table.names))]
     table, step = _timed(table, kinds, source, given)
     chosen = [k for k, kind in enumerate(kinds) if kind == "acceleration"]
@@ -92,6 +93,20 @@ def column_traces(table: ColumnTable, source: SourceFile, given: Given) -> list[
         _trace(table, k, peak, by_peaks, len(chosen) > 1, dt, dt_words, source, given)
         for k, peak in zip(chosen, peaks, strict=True)
     ]
+
+
+def _refuse_gaps(table: ColumnTable) -> None:
+    """Refuse values that are missing, not finite or beyond all reason.
+
+    Raises:
+        InputError: there are some; the message names the first row.
+    """
+    wrong = np.argwhere(~(np.abs(table.values) < LARGEST))
+    if len(wrong):
+        row, k = (int(place) for place in wrong[0])
+        value = table.values[row, k]
+        words = "is too large to be a measurement" if np.isfinite(value) else "is missing"
+        raise InputError(f"{table.at(row)}: the value {value:g} {words}; fill or cut the gap, a table cannot follow it")
 
 
 def _without_row_numbers(table: ColumnTable, given: Given) -> ColumnTable:

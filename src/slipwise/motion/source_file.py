@@ -4,7 +4,7 @@ import hashlib
 import math
 import re
 import warnings
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from slipwise.errors import InputError, SlipwiseWarning
@@ -32,6 +32,7 @@ class SourceFile:
         head: its first characters, as UTF-8 without a byte-order mark; of a file that is no text its first bytes.
         lines: the decoded lines, without their ends; none of a file that is no text.
         data: its bytes, kept of a file that is no text.
+        path: where it stands, None of bytes that are in memory only.
     """
 
     name: str
@@ -40,6 +41,7 @@ class SourceFile:
     head: bytes
     lines: tuple[str, ...]
     data: bytes = field(default=b"", repr=False)
+    path: Path | None = None
 
     def at(self, index: int) -> str:
         """Give "name, line 5" for the line with index 4."""
@@ -60,7 +62,7 @@ def open_source(path: Path) -> SourceFile:
         raise InputError(f"{path}: no such file; give the path of a motion file or `sine:2Hz,0.3g`") from None
     except (OSError, ValueError) as error:
         raise InputError(f"{path}: cannot be read ({error})") from None
-    return source_of(path.name, path.stem, data)
+    return replace(source_of(path.name, path.stem, data), path=path)
 
 
 def source_of(name: str, stem: str, data: bytes) -> SourceFile:

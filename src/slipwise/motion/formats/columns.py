@@ -14,6 +14,7 @@ from slipwise.data_files.statements import read_statements
 from slipwise.errors import InputError
 from slipwise.motion.column_traces import ColumnTable, column_traces
 from slipwise.motion.first_lines import read_first_lines
+from slipwise.motion.named_table import text_table
 from slipwise.motion.number_rows import split_row
 from slipwise.motion.rows import find_first_row, read_rows
 from slipwise.motion.source_file import HEAD_BYTES, SourceFile
@@ -38,6 +39,9 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
             statements that contradict each other.
         UnitError: no unit, or one that is none of acceleration.
     """
+    table = text_table(source)
+    if table is not None:
+        return column_traces(table, source, given)
     first = read_first_lines(read_rows(source), given.dt, source)
     rows, stated = first.rows, read_statements(first.rows.header, source.name)
     stated = replace(
