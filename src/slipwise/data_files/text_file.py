@@ -135,7 +135,18 @@ def _first_lines(path: Path) -> tuple[bytes, list[str]]:
 
 def _header(lines: Sequence[str], delimiter: str) -> Header | None:
     rows = [split_line(line, delimiter) for line in lines[:500]]
-    return None if any(len(row) > _WIDEST for row in rows) else find_header(rows)
+    if any(len(row) > _WIDEST for row in rows):
+        return None
+    header = find_header(rows)
+    first = next((i for i, row in enumerate(rows) if len(row) > 1 and looks_numeric(row)), 0)
+    above = next((i for i in reversed(range(first)) if lines[i].strip()), None)
+    if header is None and above is not None:
+        # Names with units may be separated in another way than the numbers.
+        for other in ("\t", ";", ",", BLANKS):
+            cells = split_line(lines[above], other)
+            if len(cells) == len(rows[first]) and all(re.search(r"[\[(].*[\])]", cell) for cell in cells):
+                return find_header([*rows[:above], cells, *rows[above + 1 :]])
+    return header
 
 
 def read_text_columns(

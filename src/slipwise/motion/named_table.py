@@ -13,6 +13,7 @@ from slipwise.data_files.text_file import TextLayout, columns_of_text, layout_of
 from slipwise.errors import InputError
 from slipwise.motion.column_kind import is_column_word, is_time_word
 from slipwise.motion.column_traces import ColumnTable
+from slipwise.motion.rows import COMMENT_SIGNS
 from slipwise.motion.source_file import SourceFile
 from slipwise.motion.time_column import last_digit
 
@@ -21,7 +22,6 @@ _LOOK_AT = 500
 _BRACKETS = re.compile(r"^\s*(?P<name>[^\[(]*?)\s*[\[(](?P<unit>.*)[\])]\s*$")
 #: Columns of a matrix of MATLAB, which nothing names: "x(:,3)".
 _UNNAMED = re.compile(r"\w+\((?::,\d+|\d+,:)\)")
-COMMENT_SIGNS = "#%/!*$ "
 
 
 def text_table(source: SourceFile) -> ColumnTable | None:

@@ -20,17 +20,16 @@ def wrapped_series(rows: Rows) -> Array | None:
     in a column.
     """
     count, width = len(rows.values), len(rows.values[0])
-    if rows.names or width < 3 or any(len(row) != width for row in rows.values[:-1]):
+    if width < 3 or any(len(row) != width for row in rows.values[:-1]):
         return None
     series, last = rows.series(), len(rows.values[-1])
     if count == 1:
         return series if width >= _SHORTEST else None
     if last > width or rises_evenly(np.array([row[0] for row in rows.values])):
         return None
-    above = rows.values[:-1]
-    columns = above if isinstance(above, np.ndarray) else np.stack(above)
     if last < width:
         return series
+    columns = series.reshape(count, width)[:-1]
     along = np.abs(np.diff(series)).mean()
     down = np.abs(np.diff(columns, axis=0)).mean() if len(columns) > 1 else 0.0
     return series if along < _SMOOTHER * down else None
@@ -39,11 +38,9 @@ def wrapped_series(rows: Rows) -> Array | None:
 def wrapped_pairs(rows: Rows) -> Array | None:
     """Give pairs of time and value (n, 2) that stand several to a line, as functions of finite-element programs do.
 
-    None where every other number does not rise evenly in reading order. Names may repeat with the pairs.
+    None where every other number does not rise evenly in reading order.
     """
-    width = len(rows.values[0])
-    repeated = not rows.names or rows.names == rows.names[:2] * (width // 2)
-    series = rows.series()
-    if width < 4 or width % 2 or series.size % 2 or not repeated or not rises_evenly(series[::2]):
+    width, series = len(rows.values[0]), rows.series()
+    if width < 4 or width % 2 or series.size % 2 or not rises_evenly(series[::2]):
         return None
     return series.reshape(-1, 2)

@@ -12,7 +12,7 @@ import numpy as np
 from slipwise.data_files.statements import read_statements
 from slipwise.errors import InputError
 from slipwise.motion.column_traces import ColumnTable, column_traces
-from slipwise.motion.number_rows import split_row
+from slipwise.motion.number_rows import numbers_of
 from slipwise.motion.source_file import SourceFile, number
 from slipwise.motion.stated import Given
 from slipwise.motion.time_column import last_digit
@@ -50,7 +50,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
             len(source.lines),
         )
         rows = [i for i in range(start + 1, end) if source.lines[i].strip() and not source.lines[i].startswith("**")]
-        fields = [(i, field) for i in rows for field in split_row(source.lines[i])]
+        fields = [(i, field) for i in rows for field in numbers_of(source.lines[i]) or source.lines[i].split(",")]
         values = np.array([number(field, source.at(i)) for i, field in fields])
         name = options.get("name", source.stem)
         if kind == "tabular":

@@ -8,15 +8,14 @@ One series may be wrapped, several values or several pairs of time and value a l
 import re
 from dataclasses import replace
 
-import numpy as np
-
+from slipwise.data_files.acceleration_unit import is_acceleration
 from slipwise.data_files.statements import read_statements
 from slipwise.errors import InputError
 from slipwise.motion.column_traces import ColumnTable, column_traces
 from slipwise.motion.first_lines import read_first_lines
-from slipwise.motion.named_table import text_table
-from slipwise.motion.number_rows import split_row
-from slipwise.motion.rows import find_first_row, read_rows
+from slipwise.motion.named_table import names_and_units, text_table
+from slipwise.motion.number_rows import numbers_of
+from slipwise.motion.rows import Rows, find_first_row, read_rows
 from slipwise.motion.source_file import HEAD_BYTES, SourceFile
 from slipwise.motion.stated import Given, agreed_step
 from slipwise.motion.time_column import last_digit
@@ -49,26 +48,33 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
         step=agreed_step(stated.step, first.step, "its first lines", source),
         count=agreed_count(first.count, stated.count, source),
     )
-    table = ColumnTable(
-        names=rows.names,
-        units=rows.units,
-        values=np.empty((0, 0)),
-        stated=stated,
-        at=lambda row: source.at(rows.places[min(row, len(rows.places) - 1)]),
-        rounding=lambda k: last_digit(split_row(source.lines[rows.places[-1]])[k]),
-        title=rows.title,
-    )
     per_line = len(rows.values[0])
-    pairs = wrapped_pairs(rows)
-    if pairs is not None:
+    names, units = _name_above(rows) if per_line == 1 else ((), ())
+    words: tuple[str, ...] = ()
+    if (values := wrapped_pairs(rows)) is not None:
+        names, units = ("time", ""), ("s", "")
         words = (f"{per_line // 2} pairs of time and value a line, time taken in seconds",)
-        names, units = (rows.names[:2], rows.units[:2]) if rows.names else (("time", ""), ("s", ""))
-        return column_traces(replace(table, names=names, units=units, values=pairs, words=words), source, given)
-    series = wrapped_series(rows)
-    if series is not None:
-        words = (f"{per_line} values a line, read line by line as one series",)
-        return column_traces(replace(table, values=series[:, None], words=words), source, given)
-    return column_traces(replace(table, values=rows.table(source)), source, given)
+    elif (series := wrapped_series(rows)) is not None:
+        values, words = series[:, None], (f"{per_line} values a line, read line by line as one series",)
+    else:
+        values = rows.table(source)
+    table = ColumnTable(
+        names,
+        units,
+        values,
+        stated,
+        at=lambda row: source.at(rows.places[min(row, len(rows.places) - 1)]),
+        rounding=lambda k: last_digit(numbers_of(source.lines[rows.places[-1]])[k]),
+        title=rows.header[0] if rows.header else "",
+        words=words,
+    )
+    return column_traces(table, source, given)
+
+
+def _name_above(rows: Rows) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Give name and unit of a single column, where the line above it is a name and a unit of acceleration."""
+    names, units = names_and_units(rows.header[-1:])
+    return (names, units) if any(map(is_acceleration, units)) else ((), ())
 
 
 def agreed_count(one: int | None, other: int | None, source: SourceFile) -> int | None:

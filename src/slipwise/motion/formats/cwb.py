@@ -8,9 +8,9 @@ import re
 import numpy as np
 
 from slipwise.errors import InputError
+from slipwise.motion.number_rows import table_of_numbers
 from slipwise.motion.origin import Origin, time_in
 from slipwise.motion.source_file import SourceFile, check_count, header_field, number, positive
-from slipwise.motion.spaced_table import spaced_table
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
 from slipwise.motion.trace import Trace, half_last_digit
@@ -45,7 +45,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
         raise InputError(f"{place}: the sequence {sequence[1]!r} cannot be read; 'Time U(+); N(+); E(+)' is")
     length, place = field(r"RecordLength\(sec\)", r"([\d.]+)")
     count = round(number(length[1], place) * per_second)
-    table = spaced_table(source, _rows(source), len(names) + 1)
+    table = table_of_numbers(source, _rows(source), len(names) + 1)
     check_count(len(table), count, source, "the header's record length", given.allow_short)
     if np.abs(table[:, 0] - table[0, 0] - np.arange(len(table)) * dt).max() > 0.5 * dt:
         raise InputError(

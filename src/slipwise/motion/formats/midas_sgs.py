@@ -6,12 +6,10 @@ that values are shares of gravity. Source: the files' own headers.
 
 import re
 
-import numpy as np
-
 from slipwise.data_files.statements import read_statements
 from slipwise.errors import InputError, UnitError
 from slipwise.motion.column_traces import ColumnTable, column_traces
-from slipwise.motion.number_rows import rows_of_numbers, split_row
+from slipwise.motion.number_rows import numbers_of, table_of_numbers
 from slipwise.motion.source_file import SourceFile
 from slipwise.motion.stated import Given, agreed_unit
 from slipwise.motion.time_column import last_digit
@@ -53,18 +51,13 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
     names = [(axis["name"] or "") if axis else "" for axis in axes]
     units = [(axis["unit"] or "") if axis else "" for axis in axes]
     of_values = agreed_unit(units[1] or None, "g" if kind[0] == "GRAV" else None, source)
-    numbers = rows_of_numbers(source, places, 2, single=False)
-    values = np.array([row for row in numbers if len(row) == 2])
-    if len(values) < len(places):
-        wrong = next(i for i, row in zip(places, numbers, strict=True) if len(row) != 2)
-        raise InputError(f"{source.at(wrong)}: a time and a value should stand here; the file is damaged")
     table = ColumnTable(
         (names[0] or "time", names[1] or source.stem),
         (units[0] or "s", of_values or ""),
-        values,
+        table_of_numbers(source, places, 2),
         read_statements([], source.name),
         at=lambda row: source.at(places[row]),
-        rounding=lambda k: last_digit(split_row(source.lines[places[-1]])[k]),
+        rounding=lambda k: last_digit(numbers_of(source.lines[places[-1]])[k]),
         title=" ".join(title for title in facts.get("TITLE", []) if title),
         read_as="MIDAS time function",
     )

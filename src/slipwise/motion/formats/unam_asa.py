@@ -9,9 +9,9 @@ import re
 
 from slipwise.data_files.words import folded
 from slipwise.errors import InputError
+from slipwise.motion.number_rows import table_of_numbers
 from slipwise.motion.origin import Origin, time_in
 from slipwise.motion.source_file import SourceFile, check_count, number, positive
-from slipwise.motion.spaced_table import spaced_table
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
 from slipwise.motion.trace import Trace, half_last_digit
@@ -66,7 +66,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
     dt, dt_words = settle_step(steps[0], given, source)
     unit = values("UNIDADES DE LOS DATOS")[0]
     factor, unit_words = settle_unit(unit, given, source)
-    table = spaced_table(source, range(first, len(source.lines)), len(names))
+    table = table_of_numbers(source, range(first, len(source.lines)), len(names))
     check_count(len(table), counts[0], source, "NUM. TOTAL DE MUESTRAS", given.allow_short)
     peaks, at = parts("ACEL. MAX."), parts("ACEL. MAX., C1-C6, EN LA MUESTRA", without="")
     station, event = values("CLAVE DE LA ESTACION")[0], values("FECHA DEL SISMO")[0]
