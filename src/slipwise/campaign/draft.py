@@ -80,6 +80,7 @@ def draft_campaign(folder: Path, ask: Ask | None = None) -> tuple[str, str]:
         "# Drafted from the files of this folder. Lines with `decide` need your eyes.",
         "# `slipwise channels` lists the channels.",
         *(f"# not read: {words}" for words in passed),
+        *(f"# {' '.join(note.split())}" for file in files for note in file.notes),
         f"name = {quoted(folder.resolve().name)}",
         f"rig  = {quoted(rig)}   # decide: {possible} ({why})",
         "",

@@ -10,7 +10,7 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from slipwise.campaign.labview_file import read_tdms
-from slipwise.campaign.matlab_file import matlab_variables
+from slipwise.campaign.matlab_file import read_matlab
 from slipwise.campaign.spreadsheet import inspect_sheet, read_sheet
 from slipwise.campaign.text_blocks import Block
 from slipwise.campaign.text_file import inspect_text, read_text_columns
@@ -79,7 +79,8 @@ def open_table(path: Path) -> Table:
             layout.notes,
         )
     if suffix == ".mat":
-        return _of_columns(path, matlab_variables(path))
+        matlab = read_matlab(path)
+        return _of_columns(path, matlab.columns, matlab.step, matlab.notes)
     if suffix == ".tdms":
         tdms = read_tdms(path)
         return _of_columns(path, tdms.columns, tdms.step)
@@ -95,7 +96,7 @@ def open_table(path: Path) -> Table:
     raise InputError(f"{path}: {suffix or 'no suffix'} is no format of a data file; possible: {', '.join(SUFFIXES)}")
 
 
-def _of_columns(path: Path, columns: dict[str, Array], step: float | None = None) -> Table:
+def _of_columns(path: Path, columns: dict[str, Array], step: float | None = None, notes: tuple[str, ...] = ()) -> Table:
     names = tuple(columns)
 
     def chosen(wanted: Sequence[int]) -> Columns:
@@ -106,7 +107,7 @@ def _of_columns(path: Path, columns: dict[str, Array], step: float | None = None
             raise InputError(f"{path.name}: the columns that are used differ in length: {counted}; cut the longer ones")
         return Columns(values)
 
-    return Table(path, names, chosen, step)
+    return Table(path, names, chosen, step, notes)
 
 
 def _parquet(path: Path) -> Table:
