@@ -80,16 +80,19 @@ def draft_campaign(folder: Path, ask: Ask | None = None) -> tuple[str, str]:
         "# Drafted from the files of this folder. Lines with `decide` need your eyes.",
         "# `slipwise channels` lists the channels.",
         *(f"# not read: {words}" for words in passed),
+        *(f"# note: {' '.join(note.split())}" for file in files for note in file.notes),
         f"name = {quoted(folder.resolve().name)}",
         f"rig  = {quoted(rig)}   # decide: {possible} ({why})",
         "",
     ]
-    if any('unit = "?"' in line for line in lines):
-        head.insert(2, '# Write the unit where it says "?": no header states it.')
+    notes = []
+    if open_units := sum('unit = "?"' in line for line in lines):
+        notes.append(f'# note: {open_units} of the units are "?", for no header states them: write them')
     untimed = [file for file in files if not _timed(file, mapped)]
     if untimed:
-        why = no_time(untimed[0].columns)
-        head.insert(-1, f'# sample_rate = "500 Hz"   # decide: {untimed[0].path.name} shows no time: {why}')
+        notes.append(f"# note: {untimed[0].path.name} shows no time: {no_time(untimed[0].columns)}")
+        head.insert(-1, '# sample_rate = "500 Hz"   # decide: map a column to "time", or write the rate here')
+    head[2:2] = notes
     if rig != "pad":
         head += _logger(ask)
     if not any(part_of(n)[0] == "pad" and n.endswith(("_N", "_P")) for n in named):

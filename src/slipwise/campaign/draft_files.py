@@ -29,6 +29,7 @@ class DataFile:
         columns: the others that hold numbers in every row.
         unread: header -> why a column was not looked at.
         step: that it states beside its columns [s], None if it states none.
+        notes: what a user should know of it.
     """
 
     path: Path
@@ -37,6 +38,7 @@ class DataFile:
     columns: tuple[Column, ...]
     unread: Mapping[str, str]
     step: float | None
+    notes: tuple[str, ...]
 
 
 def is_ours(header: str) -> bool:
@@ -87,7 +89,7 @@ def _opened(path: Path) -> DataFile:
             known[match["name"]] = factor * values + offset
         else:
             columns.append(column_of(header, values))
-    return DataFile(path, table.headers, known, tuple(columns), unread, table.step)
+    return DataFile(path, table.headers, known, tuple(columns), unread, table.step, table.notes)
 
 
 def _read(table: Table) -> list[Array | None]:

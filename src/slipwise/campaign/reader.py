@@ -42,6 +42,7 @@ class _File:
     sha256: str
     notes: tuple[str, ...]
     made: tuple[str, ...] = ()
+    computed: tuple[str, ...] = ()
 
 
 def load_campaign(folder: Path | str) -> Campaign:
@@ -139,9 +140,11 @@ def _read_file(path: Path, settings: Settings, specimen: Specimen) -> _File:
     areas = dict(zip(specimen.pads, specimen.pad_areas, strict=True))
     channels |= forces_of(coefficients, channels, areas, path.name)
     _check_temperatures(path.name, channels)
+    measured = set(channels)
     channels, added = completed(time, channels)
+    computed = tuple(name for name in channels if name not in measured)
     made = tuple(f"{path.name}: {word}" for word in added)
-    return _File(time, channels, _sha256(table.path), (*table.notes, *words, *made, *notes), made)
+    return _File(time, channels, _sha256(table.path), (*table.notes, *words, *made, *notes), made, computed)
 
 
 def _check_temperatures(name: str, channels: Mapping[str, Array]) -> None:
@@ -272,7 +275,7 @@ def _run(run: RunSettings, file: _File, settings: Settings) -> Run:
                 f"{run.file}: {key} has {len(bad)} missing values, the first at {time[inside][bad[0]]:g} s; cut "
                 "them off with a window, or fill them where that is honest"
             )
-    made = {"made": list(file.made)} if file.made else {}
+    made = {"made": list(file.made), "computed": list(file.computed)} if file.made else {}
     record = Record(time[inside], channels, {"file": run.file, "sha256": file.sha256, **made})
     return Run(name, run.role, record, run.rest_before, run.window, run.file, file.sha256)
 

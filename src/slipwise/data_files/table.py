@@ -10,7 +10,7 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from slipwise.data_files.labview_file import read_tdms
-from slipwise.data_files.matlab_file import matlab_variables
+from slipwise.data_files.matlab_file import read_matlab
 from slipwise.data_files.spreadsheet import inspect_sheet, read_sheet
 from slipwise.data_files.statements import read_statements
 from slipwise.data_files.text_blocks import Block
@@ -83,7 +83,8 @@ def open_table(path: Path) -> Table:
             layout.above,
         )
     if suffix == ".mat":
-        return _of_columns(path, matlab_variables(path))
+        matlab = read_matlab(path)
+        return _of_columns(path, matlab.columns, matlab.step, matlab.notes)
     if suffix == ".tdms":
         tdms = read_tdms(path)
         return _of_columns(path, tdms.columns, tdms.step)
@@ -102,7 +103,7 @@ def open_table(path: Path) -> Table:
     raise InputError(f"{path}: {suffix or 'no suffix'} is no format of a data file; possible: {', '.join(SUFFIXES)}")
 
 
-def _of_columns(path: Path, columns: dict[str, Array], step: float | None = None) -> Table:
+def _of_columns(path: Path, columns: dict[str, Array], step: float | None = None, notes: tuple[str, ...] = ()) -> Table:
     names = tuple(columns)
 
     def chosen(wanted: Sequence[int]) -> Columns:
@@ -113,7 +114,7 @@ def _of_columns(path: Path, columns: dict[str, Array], step: float | None = None
             raise InputError(f"{path.name}: the columns that are used differ in length: {counted}; cut the longer ones")
         return Columns(values)
 
-    return Table(path, names, chosen, step)
+    return Table(path, names, chosen, step, notes)
 
 
 def _parquet(path: Path) -> Table:

@@ -156,11 +156,12 @@ def _balances(first: Fit, last: Fit) -> tuple[Balance, ...]:
 
 
 def _rounded(campaign: Campaign) -> list[str]:
-    """Name channels whose rounding is coarser than their noise."""
-    found = []
-    for name in campaign.runs[0].record.channels:
-        values = campaign.runs[0].record[name]
-        if np.ptp(values) == 0.0:
+    """Name channels that are rounded by more than their noise; what was computed from others has no own steps."""
+    found, record = [], campaign.runs[0].record
+    computed = record.provenance.get("computed", ())
+    for name in record.channels:
+        values = record[name]
+        if np.ptp(values) == 0.0 or name in computed:
             continue
         step, noise = quantum(values), white_level(values)
         if step > _COARSE * noise > 0.0:

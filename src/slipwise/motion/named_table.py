@@ -4,11 +4,12 @@ import re
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from slipwise.data_files.acceleration_unit import is_acceleration
 from slipwise.data_files.column_names import name_and_unit
 from slipwise.data_files.statements import read_statements
-from slipwise.data_files.table import open_table
+from slipwise.data_files.table import Table, open_table
 from slipwise.data_files.text_file import TextLayout, columns_of_text, layout_of
 from slipwise.errors import InputError
 from slipwise.motion.column_kind import is_column_word, is_time_word
@@ -60,27 +61,47 @@ def file_table(source: SourceFile) -> ColumnTable:
     """Read the table of a file that is no text: a workbook, a MATLAB, Parquet or LabVIEW file.
 
     Raises:
-        InputError: the file cannot be read, or its columns differ in length.
+        InputError: the file cannot be read.
     """
     if source.path is None:
         raise InputError(f"{source.name}: this file is read from where it stands; give its path")
     table = open_table(source.path)
-    columns = table.columns(range(len(table.headers))).values
-    names, units = names_and_units(table.headers)
+    columns, left = _longest(table)
+    headers = [table.headers[k] for k in columns]
+    names, units = names_and_units(headers)
     stated = read_statements(table.above, source.name)
     if table.step is not None:
         stated = read_statements([*table.above, f"time step = {table.step!r} s"], source.name)
-    if all(map(_UNNAMED.fullmatch, table.headers)):
+    if all(map(_UNNAMED.fullmatch, headers)):
         names, units = (), ()
     return ColumnTable(
         names,
         units,
-        np.stack(columns, axis=1),
+        np.stack(list(columns.values()), axis=1),
         stated,
         at=lambda row: f"{source.name}, row {row + 1}",
         title=table.above[0].strip() if table.above else "",
         read_as="a table of a campaign",
+        words=(f"left out, for they are shorter or hold no numbers: {', '.join(left)}",) if left else (),
     )
+
+
+def _longest(table: Table) -> tuple[dict[int, NDArray[np.float64]], list[str]]:
+    """Read the columns (n,) of numbers that are as long as the longest, by number; the others are named.
+
+    Raises:
+        InputError: no column can be read.
+    """
+    read: dict[int, NDArray[np.float64]] = {}
+    for k in range(len(table.headers)):
+        try:
+            (read[k],) = table.columns([k]).values
+        except InputError:
+            if k == len(table.headers) - 1 and not read:
+                raise
+    longest = max(map(len, read.values()))
+    kept = {k: column for k, column in read.items() if len(column) == longest}
+    return kept, [header for k, header in enumerate(table.headers) if k not in kept]
 
 
 def names_and_units(headers: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
