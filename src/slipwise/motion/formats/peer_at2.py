@@ -13,13 +13,14 @@ from slipwise.data_files.statements import NUMBER, read_statements
 from slipwise.errors import InputError
 from slipwise.motion.orientation import name_from_stem, orientation, sensor_of
 from slipwise.motion.origin import Origin
-from slipwise.motion.rows import find_first_row
 from slipwise.motion.source_file import SourceFile, blank_separated
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.trace import Trace
 
 #: The line with NPTS stands among the first ones.
 _LOOK_AT = 10
+#: Values, neighbours may touch.
+_DATA = re.compile(r"[\s,]*[+-]?[\d.][\d\s.,+eEdD-]*")
 _OLD = re.compile(rf"^\s*(?P<count>\d{{1,9}})\s+(?P<dt>{NUMBER})\s*,?\s+NPTS\s*,\s*DT\b", re.IGNORECASE)
 
 
@@ -36,7 +37,8 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
         UnitError: no unit, an unknown one, or one of velocity or displacement (VT2, DT2).
     """
     at = next(i for i, line in enumerate(source.lines) if "NPTS" in line.upper())
-    start = at + 1 + (find_first_row(source.lines[at + 1 : at + _LOOK_AT]) or 0)
+    below = enumerate(source.lines[at + 1 : at + _LOOK_AT], at + 1)
+    start = next((i for i, line in below if _DATA.fullmatch(line)), at + 1)
     header = [_OLD.sub(r"NPTS= \g<count>, DT= \g<dt>", line) for line in source.lines[:start]]
     stated = read_statements(header, source.name)
     if stated.count is None or stated.step is None:
