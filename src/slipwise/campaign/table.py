@@ -9,18 +9,31 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
+from slipwise.campaign.catman_file import read_catman
+from slipwise.campaign.dewesoft_file import read_dewesoft
+from slipwise.campaign.diadem_file import read_tdm
 from slipwise.campaign.labview_file import read_tdms
 from slipwise.campaign.matlab_file import read_matlab
+from slipwise.campaign.mdf_file import read_mdf
+from slipwise.campaign.named_columns import NamedColumns
 from slipwise.campaign.spreadsheet import inspect_sheet, read_sheet
 from slipwise.campaign.text_blocks import Block
 from slipwise.campaign.text_file import inspect_text, read_text_columns
+from slipwise.campaign.uff_file import read_uff
 from slipwise.errors import InputError
 
 Array = NDArray[np.float64]
 #: Columns that take more memory than this are no record of a rig [bytes].
 _LARGEST = 800_000_000
 TEXT_SUFFIXES: tuple[str, ...] = (".csv", ".tsv", ".txt", ".dat", ".asc", ".lvm")
-SUFFIXES: tuple[str, ...] = (*TEXT_SUFFIXES, ".mat", ".parquet", ".tdms", ".xlsx")
+#: Files that are read whole, channel by channel.
+_CHANNEL_FILES: dict[str, Callable[[Path], NamedColumns]] = {
+    ".mat": read_matlab, ".tdms": read_tdms, ".mf4": read_mdf, ".mdf": read_mdf, ".uff": read_uff, ".unv": read_uff,
+    ".tdm": read_tdm, ".bin": read_catman, ".dxd": read_dewesoft, ".d7d": read_dewesoft,
+}  # fmt: skip
+SUFFIXES: tuple[str, ...] = (*TEXT_SUFFIXES, ".parquet", ".xlsx", *_CHANNEL_FILES)
+#: Files that belong to one of another suffix: the numbers of a .tdm.
+COMPANIONS: tuple[str, ...] = (".tdx", ".tdms_index")
 
 
 @dataclass(frozen=True)
@@ -78,12 +91,8 @@ def open_table(path: Path) -> Table:
             layout.step,
             layout.notes,
         )
-    if suffix == ".mat":
-        matlab = read_matlab(path)
-        return _of_columns(path, matlab.columns, matlab.step, matlab.notes)
-    if suffix == ".tdms":
-        tdms = read_tdms(path)
-        return _of_columns(path, tdms.columns, tdms.step)
+    if suffix in _CHANNEL_FILES:
+        return _of_columns(path, _CHANNEL_FILES[suffix](path))
     if suffix == ".xlsx":
         sheet = inspect_sheet(path, part)
         others = (
@@ -96,7 +105,8 @@ def open_table(path: Path) -> Table:
     raise InputError(f"{path}: {suffix or 'no suffix'} is no format of a data file; possible: {', '.join(SUFFIXES)}")
 
 
-def _of_columns(path: Path, columns: dict[str, Array], step: float | None = None, notes: tuple[str, ...] = ()) -> Table:
+def _of_columns(path: Path, read: NamedColumns) -> Table:
+    columns = read.columns
     names = tuple(columns)
 
     def chosen(wanted: Sequence[int]) -> Columns:
@@ -107,7 +117,7 @@ def _of_columns(path: Path, columns: dict[str, Array], step: float | None = None
             raise InputError(f"{path.name}: the columns that are used differ in length: {counted}; cut the longer ones")
         return Columns(values)
 
-    return Table(path, names, chosen, step, notes)
+    return Table(path, names, chosen, read.step, read.notes)
 
 
 def _parquet(path: Path) -> Table:
