@@ -41,6 +41,7 @@ def read_tdm(path: Path) -> NamedColumns:
         ) from None
     except Exception as error:  # tdm-loader lets errors of XML, of memory maps and of missing keys through
         first = (str(error).splitlines() or [""])[0][:120] or type(error).__name__
+        first = "the .tdx is shorter than the .tdm says" if first.startswith("mmap") else first
         raise InputError(f"{path}: not a readable DIAdem file ({first}); export .tdm and .tdx again") from None
     if steps and max(steps) > 1.000001 * min(steps):
         raise InputError(

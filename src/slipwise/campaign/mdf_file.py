@@ -1,5 +1,6 @@
 """MDF files (.mf4, .mdf) of ASAM, which most data acquisition of vehicles and machines writes; read by asammdf."""
 
+import mmap
 import struct
 from pathlib import Path
 
@@ -47,11 +48,13 @@ def _check_whole(path: Path) -> None:
     Raises:
         InputError: it was cut, or is no MDF file.
     """
-    data = path.read_bytes()
-    if data[:8] not in _MARKS:
-        raise InputError(f"{path}: not a readable MDF file: it does not begin with MDF; export it again")
+    with path.open("rb") as stream:
+        mark = stream.read(9)
+        if mark[:8] not in _MARKS:
+            raise InputError(f"{path}: not a readable MDF file: it does not begin with MDF; export it again")
+        data = mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ)
     # a file that its logger did not close is finished by asammdf; blocks before version 4 do not state their length
-    if data[:8] != _MARKS[0] or not data[8:9].isdigit() or int(data[8:9]) < 4:
+    if mark[:8] != _MARKS[0] or not mark[8:].isdigit() or int(mark[8:]) < 4:
         return
     waiting, seen = [_FIRST_BLOCK], set()
     while waiting:
@@ -63,8 +66,8 @@ def _check_whole(path: Path) -> None:
         length, links = struct.unpack_from("<QQ", head, 8) if len(head) == _BLOCK_HEAD else (0, 0)
         if not head.startswith(b"##") or at + length > len(data) or 8 * links > length:
             raise InputError(
-                f"{path}: the file ends before the blocks that it refers to: it was cut while it was copied or written; "
-                "copy or export it again"
+                f"{path}: the file ends before the blocks that it refers to: it was cut while it was copied or "
+                "written; copy or export it again"
             )
         waiting += [link for link in struct.unpack_from(f"<{links}Q", data, at + _BLOCK_HEAD) if link]
 

@@ -1,5 +1,6 @@
 """Universal files (.uff, .unv): time responses of dataset 58, which modal analysis exchanges; read by pyuff."""
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,8 @@ from slipwise.errors import InputError
 _TIME_RESPONSE, _NOT_TOLD = 1, 0
 #: Specific type of an abscissa of time.
 _TIME = 17
+#: What begins and ends a dataset; it stands behind the numbers of a binary one, and may be filled up with blanks.
+_MARK = re.compile(rb" {4}-1(?:[\r\n]| {74}|$)")
 _DIRECTIONS = {1: "X+", -1: "X-", 2: "Y+", -2: "Y-", 3: "Z+", -3: "Z-"}
 
 
@@ -29,6 +32,7 @@ def read_uff(path: Path) -> NamedColumns:
             f"{path}: universal files are read by pyuff; install it with `pip install 'slipwise[uff]'`, or export the "
             "time responses as CSV"
         ) from None
+    _check_whole(path)
     try:
         file = pyuff.UFF(str(path))
         kinds = [int(kind) for kind in np.atleast_1d(file.get_set_types())]
@@ -46,6 +50,19 @@ def read_uff(path: Path) -> NamedColumns:
     left = len(sets) - len(gauges)
     said = (f"{path.name}: {left} functions that are no time responses left out",) if left else ()
     return NamedColumns(read.columns, read.step, (*read.notes, *said))
+
+
+def _check_whole(path: Path) -> None:
+    """Refuse a file whose last dataset does not end; pyuff would leave it out without a word.
+
+    Raises:
+        InputError: it was cut, or is no universal file.
+    """
+    marks = len(_MARK.findall(path.read_bytes()))
+    if not marks:
+        raise InputError(f"{path}: not a readable universal file: no line of it is '    -1'; export it again")
+    if marks % 2:
+        raise InputError(f"{path}: the file ends before its last dataset does: it was cut; copy or export it again")
 
 
 def _is_time_response(one: Mapping[str, Any]) -> bool:

@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 from slipwise.campaign import load_campaign
+from slipwise.campaign.dewesoft_channels import keep_channels
+from slipwise.campaign.dewesoft_file import kept_columns
 from slipwise.campaign.draft import draft_campaign
 from slipwise.campaign.table import open_table
 from slipwise.errors import InputError
@@ -39,9 +41,9 @@ def write_uff(path: Path, *, kind: int = 1, binary: int = 0) -> None:
             ord_data_type=4, data=values, x=TIME, num_pts=N, abscissa_spacing=1, abscissa_min=0.0, abscissa_inc=0.01,
             abscissa_spec_data_type=17, abscissa_axis_units_lab="s", ordinate_spec_data_type=8,
             ordinate_axis_units_lab=unit, rsp_ent_name="NONE", ref_ent_name="NONE", orddenom_axis_units_lab="NONE",
-            z_axis_axis_units_lab="NONE",
+            z_axis_axis_units_lab="NONE", orddenom_spec_data_type=0, z_axis_spec_data_type=0,
         )  # fmt: skip
-        file.write_sets([one], "add" if k else "overwrite")
+        file.write_sets([one], "add")
 
 
 def write_tdm(path: Path, *, waveform: bool = True, numbers: bool = True) -> None:
@@ -251,12 +253,11 @@ def stand_in(channels: dict) -> types.ModuleType:
     return module
 
 
-def test_channels_of_a_dewesoft_file_that_its_library_cannot_read_are_named(tmp_path, monkeypatch):
+def test_channels_of_a_dewesoft_file_that_its_library_cannot_read_are_named(tmp_path):
     channels = {name: (unit, values, 100.0) for name, unit, values in CHANNELS}
     channels |= {"Bus": ("CAN", np.zeros(N), 100.0), "Room": ("degC", np.full(30, 21.0), 10.0)}
-    monkeypatch.setitem(sys.modules, "dwdatareader", stand_in(channels))
-    (tmp_path / "run.dxd").write_bytes(b"stand-in")
-    table = open_table(tmp_path / "run.dxd")
-    assert table.headers == ("time [s]", "Slip [mm]", "Friction [N]", "Normal load [N]")
-    assert table.notes[0] == "run.dxd: 1 channel has other times and left out: Room"
-    assert "Bus (CAN channels are not supported)" in table.notes[1]
+    keep_channels(stand_in(channels), "run.dxd", tmp_path)
+    read = kept_columns(Path("run.dxd"), tmp_path)
+    assert tuple(read.columns) == ("time [s]", "Slip [mm]", "Friction [N]", "Normal load [N]")
+    assert read.notes[0] == "run.dxd: 1 channel has other times and left out: Room"
+    assert "Bus (CAN channels are not supported)" in read.notes[1]
