@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from slipwise.campaign.draft_column import Column, column_of
 from slipwise.channels import channel, is_channel
-from slipwise.data_files.table import SUFFIXES, Table, open_table
+from slipwise.data_files.table import COMPANIONS, SUFFIXES, Table, open_table
 from slipwise.errors import InputError, SlipwiseError
 from slipwise.units import affine
 
@@ -51,6 +51,8 @@ def open_data_files(folder: Path) -> tuple[list[DataFile], list[str]]:
     """Open what can be a data file; say what is passed over and why."""
     files, passed = [], []
     for path in sorted(p for p in folder.iterdir() if p.is_file() and not p.name.startswith(".")):
+        if path.suffix.lower() in COMPANIONS:
+            continue
         if path.suffix.lower() not in SUFFIXES:
             passed.append(f"{path.name} (no data file)")
             continue

@@ -9,7 +9,6 @@ import struct
 import warnings
 import zlib
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +20,7 @@ from scipy.io.matlab import MatlabOpaque
 from slipwise.data_files.matlab_hdf5 import DEEPEST, LARGEST, WIDEST, read_hdf5
 from slipwise.data_files.matlab_objects import left_out, object_of
 from slipwise.data_files.matlab_structures import joined_headers, stated_steps, told_channel, told_matrix
+from slipwise.data_files.named_columns import NamedColumns
 from slipwise.errors import InputError
 
 Array = NDArray[np.float64]
@@ -29,22 +29,7 @@ _HEADER, _TAG, _COMPRESSED = 128, 8, 15
 _NAMED = 400
 
 
-@dataclass(frozen=True)
-class MatlabFile:
-    """What a .mat file holds.
-
-    Attributes:
-        columns: header -> (n,).
-        step: that it states beside them [s], None if it states none.
-        notes: what a user should know of it.
-    """
-
-    columns: dict[str, Array]
-    step: float | None = None
-    notes: tuple[str, ...] = ()
-
-
-def read_matlab(path: Path) -> MatlabFile:
+def read_matlab(path: Path) -> NamedColumns:
     """Read every column of numbers from a .mat file.
 
     Raises:
@@ -77,7 +62,7 @@ def read_matlab(path: Path) -> MatlabFile:
             f"{path}: it states different steps, {', '.join(f'{s:g} s' for s in sorted(steps))}; save the channels of "
             "one step in a file of their own"
         )
-    return MatlabFile(columns, next(iter(steps), None), (f"{path.name}: {said}",) if said else ())
+    return NamedColumns(columns, next(iter(steps), None), (f"{path.name}: {said}",) if said else ())
 
 
 def _checked(path: Path) -> dict[str, str]:

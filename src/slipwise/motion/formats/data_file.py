@@ -6,8 +6,8 @@ from slipwise.motion.source_file import SourceFile
 from slipwise.motion.stated import Given
 from slipwise.motion.trace import Trace
 
-#: How these files begin: ZIP, MATLAB 5 and 7.3, HDF5, Parquet, TDMS.
-_BEGINNINGS = (b"PK\x03\x04", b"MATLAB ", b"\x89HDF", b"PAR1", b"TDSm")
+#: How these files begin: ZIP, MATLAB 5 and 7.3, HDF5, Parquet, TDMS, MDF.
+_BEGINNINGS = (b"PK\x03\x04", b"MATLAB ", b"\x89HDF", b"PAR1", b"TDSm", b"MDF ")
 
 
 def recognise(head: bytes) -> bool:
