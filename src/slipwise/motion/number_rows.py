@@ -12,6 +12,8 @@ from slipwise.motion.source_file import FORTRAN, LARGEST, SourceFile, is_number,
 
 Array = NDArray[np.float64]
 DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+(?:[eEdD][+-]?\d+)?")
+#: Lines that are read at once: their texts take much more memory than their numbers.
+_BLOCK = 20_000
 
 
 def numbers_of(line: str) -> list[str]:
@@ -50,18 +52,23 @@ def rows_of_numbers(source: SourceFile, places: Sequence[int], single: bool = Fa
         InputError: a field that is no number; the message says where.
     """
     delimiter = BLANKS if single else delimiter_of(source.lines[places[0]]) or BLANKS
-    rows = [
-        _fields(source.lines[i].replace(",", ".") if delimiter != "," else source.lines[i], delimiter) for i in places
-    ]
-    flat = _at_once([field for row in rows for field in row])
-    if flat is None or flat.size != sum(map(len, rows)):
-        # Slower, and says where the damage is; another line may be separated in another way.
-        rows = [numbers_of(source.lines[i]) or row for i, row in zip(places, rows, strict=True)]
-        flat = np.array([number(field, source.at(i)) for i, row in zip(places, rows, strict=True) for field in row])
-    lengths = [len(row) for row in rows]
+    comma = "," if delimiter == "," else "."
+    blocks: list[Array] = []
+    lengths: list[int] = []
+    for k in range(0, len(places), _BLOCK):
+        part = places[k : k + _BLOCK]
+        rows = [_fields(source.lines[i].replace(",", comma), delimiter) for i in part]
+        flat = _at_once([field for row in rows for field in row])
+        if flat is None or flat.size != sum(map(len, rows)):
+            # Slower, and says where the damage is; another line may be separated in another way.
+            rows = [numbers_of(source.lines[i]) or row for i, row in zip(part, rows, strict=True)]
+            flat = np.array([number(field, source.at(i)) for i, row in zip(part, rows, strict=True) for field in row])
+        blocks.append(flat)
+        lengths += map(len, rows)
+    values = np.concatenate(blocks)
     if len(set(lengths)) == 1:
-        return flat.reshape(len(rows), -1)
-    return tuple(np.split(flat, np.cumsum(lengths)[:-1]))
+        return values.reshape(len(lengths), -1)
+    return tuple(np.split(values, np.cumsum(lengths)[:-1]))
 
 
 def _at_once(fields: list[str]) -> Array | None:

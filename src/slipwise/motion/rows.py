@@ -67,12 +67,16 @@ def read_rows(source: SourceFile) -> Rows:
     if start is None:
         raise InputError(f"{source.name}: no line of numbers is in this file; see `slipwise motions` for what is read")
     start = _after_the_headers_own(source.lines, start)
-    places = [i for i in range(start, _before_end_marks(source.lines, start)) if source.lines[i].strip()]
+    end = _before_end_marks(source.lines, start)
+    places: Sequence[int] = range(start, end)
+    if not all(map(str.strip, source.lines[start:end])):
+        places = [i for i in places if source.lines[i].strip()]
     header = [line.strip().lstrip(COMMENT_SIGNS).rstrip(" ,;") for line in source.lines[:start]]
-    lines = [source.lines[i].strip() for i in places]
     # "0,0123" in every line: the comma separates nothing.
-    single = all(map(DECIMAL_COMMA.fullmatch, lines)) and any(line[0] == "-" for line in lines)
-    columns = 1 if single else len(numbers_of(lines[0]))
+    single = all(DECIMAL_COMMA.fullmatch(source.lines[i].strip()) for i in places) and any(
+        source.lines[i].lstrip().startswith("-") for i in places
+    )
+    columns = 1 if single else len(numbers_of(source.lines[start]))
     _refuse_damaged_first_row(source, start, columns)
     if len(places) > 5 and places[-1] == len(source.lines) - 1:
         _refuse_cut_number(source, places)
