@@ -82,7 +82,8 @@ class StatementValue:
         if fact == "peak":
             yield from ((peak, 0.0) for peak in self._peaks(label))
             return
-        if self.how != "prose" and not self.signed:
+        # "単位(gal)" needs no sign, and "passo 0.01 s" none for its unit.
+        if self.how == "signed" and not self.signed and not (fact == "unit" and self.unit):
             return
         if fact == "unit":
             yield from self._unit()
@@ -103,14 +104,15 @@ class StatementValue:
 
     def _unit(self) -> Iterator[tuple[str, float]]:
         """Give the first unit of acceleration, else one of velocity or, with a sign, the first word."""
-        value = self.text[: max(0, self.room - self.start)] or self.text or self.unit
+        inner = self.unit if is_acceleration(self.unit) else ""
+        value = inner or self.text[: max(0, self.room - self.start)] or self.text
         listed = [part.strip("().[]\"'") for part in re.split(r"[\s,;]+", value)]
         found = next((part for part in listed if part and is_acceleration(part)), None)
         if found is None:
             plain = self.signed or len(listed) == 1
             found = next((part for part in listed if part and (plain or is_velocity_or_displacement(part))), None)
         if found:
-            self.used = self.start + self.text.find(found) + len(found)
+            self.used = self.start + max(0, self.text.find(found) + len(found)) if not inner else self.start
             yield found, 0.0
 
     def _step(self, fact: str) -> Iterator[tuple[float, float]]:
@@ -119,7 +121,7 @@ class StatementValue:
         if match is None:
             return
         unit = match[2] or self.unit
-        if not match[2] and (other := _UNIT.match(self.text, match.end(1))) and not self.unit:
+        if not match[2] and (other := _UNIT.match(self.text[: self.room - self.start], match.end(1))) and not self.unit:
             unit = other[1].rstrip(".")
         if self.how == "with_unit" and not unit:
             return
@@ -164,13 +166,12 @@ def step_of(number: str, unit: str, fact: str) -> Iterator[tuple[str, float, flo
     value = float(text)
     if not 0.0 < abs(value) < _LARGEST:
         return
-    si, factor = words().units.get(folded(unit).lower().strip("."), ("", 1.0))
-    bare = "Hz" if fact == "rate" else "s"
-    if not si:
-        si = bare
+    known = words().units.get(folded(unit).lower().strip("."))
+    si, factor = known or ("Hz" if fact == "rate" else "s", 1.0)
+    if unit and not known:
         for dimension in ("s", "Hz"):
             try:
-                factor, si = quantity(f"1 {unit}", dimension, "", plain_unit=unit) if unit else 1.0, dimension
+                factor, si = quantity(f"1 {unit}", dimension, "", plain_unit=unit), dimension
                 break
             except UnitError as error:
                 if "wrong dimension" in str(error) and dimension == "Hz":

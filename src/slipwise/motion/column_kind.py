@@ -13,6 +13,7 @@ Kind = Literal["time", "acceleration", "velocity", "displacement", "row number",
 _TIME = {
     "time", "t", "zeit", "tempo", "temps", "tiempo", "elapsed time", "seconds", "sec", "seconds elapsed", "zaman",
     "時間", "時刻", "时间", "time since start", "elapsed",
+    "timestamp", "datetime", "date time", "clock", "uhrzeit", "zeitstempel", "hora",
 }  # fmt: skip
 _ROW_NUMBER = {
     "", "n", "no", "nr", "num", "index", "idx", "sample", "point", "row", "record", "i", "unnamed: 0", "id", "#",

@@ -21,6 +21,8 @@ PHRASES = [
     ("Sampling rate (Hz) 200; acceleration units: G", 0.005, G, None),
     ("time increment = 5 ms", 0.005, None, None),
     ("The record was sampled at 0.01 s", 0.01, None, None),
+    ("Sampling frequency: 200", 0.005, None, None),
+    ("fs = 100, unit (gal)", 0.01, GAL, None),
     # Spanish
     ("Frecuencia de muestreo: 50 Hz", 0.02, None, None),
     ("Intervalo de muestreo 0.02 s; Aceleración en cm/s^2", 0.02, GAL, None),
@@ -40,6 +42,7 @@ PHRASES = [
     ("データ数 4000 サンプリング間隔 0.01秒", 0.01, None, 4000),
     ("加速度(gal) 刻み時間Δt=0.01秒", 0.01, GAL, None),
     ("時間刻み 0.005 秒、 加速度の単位 : m/s²", 0.005, SI, None),
+    ("単位(gal) サンプリング周波数(Hz) 100", 0.01, GAL, None),
     # Chinese
     ("采样频率：200Hz 单位：cm/s²", 0.005, GAL, None),
     ("时间间隔0.02秒，加速度(gal)", 0.02, GAL, None),
@@ -48,6 +51,7 @@ PHRASES = [
     # Italian
     ("Passo di campionamento: 0,005 s. Accelerazione in cm/s²", 0.005, GAL, None),
     ("Frequenza di campionamento = 200 Hz; unità di misura: g; numero di campioni: 4000", 0.005, G, 4000),
+    ("Accelerazione [cm/s^2], passo 0.01 s", 0.01, GAL, None),
     # French
     ("Fréquence d'échantillonnage : 100 Hz ; Unité : m/s2", 0.01, SI, None),
     ("Pas de temps: 10 ms, nombre de points: 4000, accélération en g", 0.01, G, 4000),

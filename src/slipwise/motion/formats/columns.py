@@ -10,6 +10,7 @@ from dataclasses import replace
 
 from slipwise.data_files.acceleration_unit import is_acceleration
 from slipwise.data_files.statements import read_statements
+from slipwise.data_files.text_file import layout_of
 from slipwise.errors import InputError
 from slipwise.motion.column_traces import ColumnTable, column_traces
 from slipwise.motion.first_lines import read_first_lines
@@ -24,10 +25,12 @@ from slipwise.motion.wrapped import wrapped_pairs, wrapped_series
 
 
 def recognise(head: bytes) -> bool:
-    """Tell whether some line of the head holds nothing but numbers."""
+    """Tell whether some line of the head holds nothing but numbers, or names stand above a table."""
     # A head that is not the whole file may end within a number.
     whole = head if len(head) < HEAD_BYTES else re.sub(rb"[^\s,;]*$", b"", head)
-    return find_first_row(whole.decode("utf-8", "replace").splitlines()) is not None
+    lines = whole.decode("utf-8", "replace").splitlines()
+    # Rows of named columns may hold time stamps.
+    return find_first_row(lines) is not None or layout_of(lines, "") is not None
 
 
 def read(source: SourceFile, given: Given) -> list[Trace]:
