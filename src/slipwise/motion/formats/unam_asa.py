@@ -10,8 +10,9 @@ import re
 from slipwise.data_files.words import folded
 from slipwise.errors import InputError
 from slipwise.motion.number_rows import table_of_numbers
+from slipwise.motion.orientation import orientation
 from slipwise.motion.origin import Origin, time_in
-from slipwise.motion.source_file import SourceFile, check_count, number, positive
+from slipwise.motion.source_file import SourceFile, check_count, is_number, number, positive
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
 from slipwise.motion.trace import Trace, half_last_digit
@@ -35,7 +36,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
     first = _first_row(source)
     header = [line.partition(":") for line in source.lines[:first]]
 
-    def values(label: str, without: str = "MUESTRA") -> list[str]:
+    def values(label: str, without: str = "MUESTRA", needed: bool = True) -> list[str]:
         """Give what stands behind the labels that begin so; channels 7 to 12 have a line of their own."""
         letters = _letters(label)
         found = [
@@ -43,19 +44,18 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
             for key, _, value in header
             if _letters(key).startswith(letters) and (not without or without not in _letters(key)[len(letters) :])
         ]
-        if not found:
+        if not found and needed:
             raise InputError(f"{source.name}: the header does not state {label}; it is damaged, fetch the file again")
         return found
 
-    def parts(label: str, without: str = "MUESTRA") -> list[str]:
-        return [
-            part.strip()
-            for value in values(label, without)
-            if value.strip("/ ")
-            for part in value.strip("/ ").split("/")
-        ]
+    def parts(label: str, without: str = "MUESTRA", needed: bool = True) -> list[str]:
+        lists = [value.strip("/ ") for value in values(label, without, needed)]
+        return [part.strip() for value in lists if value for part in value.split("/")]
 
-    names = parts("ORIENTACION")
+    def text(label: str) -> str:
+        return next(iter(values(label, needed=False)), "")
+
+    names = [_known(name) for name in parts("ORIENTACION")]
     steps = [positive(number(t, source.name), source.name, "the step") for t in parts("INTERVALO DE MUESTREO")]
     counts = [round(number(t, source.name)) for t in parts("NUM. TOTAL DE MUESTRAS")]
     if not len(names) == len(steps) == len(counts) or len(set(steps)) > 1 or len(set(counts)) > 1:
@@ -68,22 +68,23 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
     factor, unit_words = settle_unit(unit, given, source)
     table = table_of_numbers(source, range(first, len(source.lines)), len(names))
     check_count(len(table), counts[0], source, "NUM. TOTAL DE MUESTRAS", given.allow_short)
-    peaks, at = parts("ACEL. MAX."), parts("ACEL. MAX., C1-C6, EN LA MUESTRA", without="")
-    station, event = values("CLAVE DE LA ESTACION")[0], values("FECHA DEL SISMO")[0]
-    start = time_in(f"{event} {values('HORA DE LA PRIMERA MUESTRA')[0]}")
+    peaks = parts("ACEL. MAX.", needed=False)
+    at = parts("ACEL. MAX., C1-C6, EN LA MUESTRA", without="", needed=False)
+    station, event = text("CLAVE DE LA ESTACION"), text("FECHA DEL SISMO")
+    start = time_in(f"{event} {text('HORA DE LA PRIMERA MUESTRA')}")
     traces = []
     for column, name in enumerate(names):
         peak = None
-        if column < len(peaks) and column < len(at) and peaks[column] and at[column]:
+        if column < len(peaks) and is_number(peaks[column]):
             # Samples are counted from 1.
-            time = (number(at[column], source.name) - 1.0) * dt
+            time = (float(at[column]) - 1.0) * dt if column < len(at) and is_number(at[column]) else None
             size = number(peaks[column], source.name) * factor
             peak = HeaderPeak(size, time, half_last_digit(peaks[column]) * factor, f"{peaks[column]} {unit}")
         traces.append(
             Trace(
                 source=source,
                 name=name,
-                title=f"{values('NOMBRE DE LA ESTACION')[0]} {event}",
+                title=f"{text('NOMBRE DE LA ESTACION')} {event}".strip() or source.stem,
                 dt=dt,
                 acceleration=table[:, column] * factor,
                 baseline="none",
@@ -111,6 +112,12 @@ def _first_row(source: SourceFile) -> int:
             "DATOS DE ACELERACION, which are not there; it is damaged, fetch the file again"
         )
     return rulers[1] + 1
+
+
+def _known(name: str) -> str:
+    """Give the part of "L;N65E" (axis and bearing) that says where the channel points."""
+    parts = [part.strip() for part in name.split(";")]
+    return next((part for part in reversed(parts) if orientation(part) != "unknown"), name)
 
 
 def _letters(text: str) -> str:
