@@ -20,6 +20,8 @@ from slipwise.channels import PADS
 Array = NDArray[np.float64]
 #: Fewer samples than these show nothing.
 _ENOUGH = 100
+#: Loads from here on are told in kN [N].
+_KILO = 100.0
 #: Table and girder are told apart where the girder's forces explain this much more of one than of the other [1].
 _APART = 0.01
 
@@ -164,7 +166,8 @@ def _load(column: Column, pad: str, why: str, sure: str) -> Mapped:
     middle = float(np.median(column.values))
     sign = -1 if middle < 0.0 else 1
     negative = "; compression is negative in it" if sign < 0 else ""
-    size = f"{abs(middle):.3g}" if column.unit == "?" else f"{abs(middle) / 1e3:.3g} kN"
+    size = f"{abs(middle) / 1e3:.3g} kN" if abs(middle) >= _KILO else f"{abs(middle):.3g} N"
+    size = f"{abs(middle):.3g}" if column.unit == "?" else size
     return Mapped(f"pad_{pad}_N", column.unit, sign, f"stands at {size}, {why}{negative}", sure)
 
 

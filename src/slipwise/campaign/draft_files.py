@@ -27,7 +27,8 @@ class DataFile:
         headers: of its columns.
         known: channels that it names as we do, each (n,) SI.
         columns: the others that hold numbers in every row.
-        unread: header -> why a column was not looked at.
+        unread: header -> why a column cannot be used.
+        gaps: header -> what is missing in a column, which only its name can tell.
         step: that it states beside its columns [s], None if it states none.
         notes: what a user should know of it.
     """
@@ -37,6 +38,7 @@ class DataFile:
     known: Mapping[str, Array]
     columns: tuple[Column, ...]
     unread: Mapping[str, str]
+    gaps: Mapping[str, str]
     step: float | None
     notes: tuple[str, ...]
 
@@ -75,12 +77,16 @@ def _opened(path: Path) -> DataFile:
     known: dict[str, Array] = {}
     columns: list[Column] = []
     unread: dict[str, str] = {}
+    gaps: dict[str, str] = {}
     for header, values in zip(table.headers, _read(table), strict=True):
+        if header and table.headers.count(header) > 1:
+            unread[header] = f"{table.headers.count(header)} columns have this name; give each its own"
+            continue
         if values is None or not np.isfinite(values).any():
             unread[header] = "it holds no numbers"
             continue
         if not np.isfinite(values).all():
-            unread[header] = f"{int(np.sum(~np.isfinite(values)))} of its {len(values)} values are missing"
+            gaps[header] = f"{int(np.sum(~np.isfinite(values)))} of its {len(values)} values are missing"
             continue
         match = _OURS.match(header)
         if match and is_channel(match["name"]):
@@ -91,7 +97,7 @@ def _opened(path: Path) -> DataFile:
             known[match["name"]] = factor * values + offset
         else:
             columns.append(column_of(header, values))
-    return DataFile(path, table.headers, known, tuple(columns), unread, table.step, table.notes)
+    return DataFile(path, table.headers, known, tuple(columns), unread, gaps, table.step, table.notes)
 
 
 def _read(table: Table) -> list[Array | None]:

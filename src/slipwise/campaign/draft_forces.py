@@ -75,11 +75,11 @@ def _by_size(
 
 
 def _says_load(column: Column) -> bool:
-    return "load" in column.meanings and "friction" not in column.meanings
+    return bool(column.meanings & {"load", "up"}) and not column.meanings & {"friction", "along"}
 
 
 def _says_friction(column: Column) -> bool:
-    return "friction" in column.meanings and "load" not in column.meanings
+    return bool(column.meanings & {"friction", "along"}) and not column.meanings & {"load", "up"}
 
 
 def _stands(column: Column) -> bool:

@@ -37,6 +37,7 @@ def column_lines(files: Sequence[DataFile], ours: Sequence[str], mapped: Mapping
         return []
     looked = {column.header: column for file in reversed(files) for column in file.columns}
     unread = {header: why for file in reversed(files) for header, why in file.unread.items()}
+    gaps = {header: why for file in reversed(files) for header, why in file.gaps.items()}
     lines, taken = ["[columns]"], {name: name for name in ours} | {m.channel: h for h, m in mapped.items()}
     for header in headers:
         if header in mapped:
@@ -47,14 +48,15 @@ def column_lines(files: Sequence[DataFile], ours: Sequence[str], mapped: Mapping
             continue
         column = looked.get(header) or column_of(header, np.zeros(0))
         guess, unit = _guess(column), "1" if column.kind == "coefficient" else column.unit
-        if guess and guess not in taken and unread.get(header) != "it holds no numbers":
+        if guess and guess not in taken and header not in unread:
             taken[guess] = header
             entry = f"{{ channel = {quoted(guess)}, unit = {quoted(unit)} }}"
+            missing = f"; {gaps[header]}" if header in gaps else ""
             lines.append(
-                f"{quoted(header)} = {entry}   # decide: guess by its name: channel, sign (sign = -1 turns it)"
+                f"{quoted(header)} = {entry}   # decide: guess by its name: channel, sign (sign = -1 turns it){missing}"
             )
         else:
-            why = unread.get(header) or column.no_channel or _why_not(column, guess, taken)
+            why = unread.get(header) or column.no_channel or gaps.get(header) or _why_not(column, guess, taken)
             entry = f'{{ channel = "...", unit = {quoted("..." if unit == "?" else unit)} }}'
             lines.append(f"# {quoted(header)} = {entry}   # decide: not used: {one_line(why)}")
     return [*lines, ""]

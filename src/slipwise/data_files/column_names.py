@@ -20,10 +20,13 @@ _BETWEEN = re.compile(r"^\s*(?P<name>.*\S)(?:\s*[/,;]\s*|\s+(?:in|en)\s+)(?P<uni
 _LAST = re.compile(r"^\s*(?P<name>.*[^\W_])[_\s]+(?P<unit>[^\W_]+[/^*-]?\w*)\s*$")
 _CAMEL = re.compile(r"^\s*(?P<name>.*[a-z])(?P<unit>[A-Z][A-Za-z]*)\s*$")
 _LAST_TWO = re.compile(r"^\s*(?P<name>.*[^\W_])[_\s]+(?P<over>[^\W_]+)[_\s](?P<under>s\d?)\s*$")
-#: What stands for a unit in names that can hold no sign.
-_SPELLED = {"ms2": "m/s^2", "mss": "m/s^2", "mps2": "m/s^2", "mps": "m/s", "mmps": "mm/s", "mms": "mm/s"}
+_CYRILLIC = {"с": "s", "мс": "ms", "м": "m", "мм": "mm", "см": "cm", "н": "N", "кн": "kN", "мпа": "MPa", "мм/с": "mm/s"}
+#: What stands for a unit in names that can hold no sign, or in another script.
+_SPELLED = {"ms2": "m/s^2", "mss": "m/s^2", "mps2": "m/s^2", "mps": "m/s", "mmps": "mm/s", "mms": "mm/s", **_CYRILLIC}
 #: A column of a matrix that a single letter names, which says nothing of any of them: x(:,3).
 _OF_MATRIX = re.compile(r"^\w\((?::,\d+|\d+,:)\)$")
+#: Letters that are a quantity before a direction.
+_SYMBOLS = {"v": "speed", "a": "acceleration", "f": "force", "u": "length", "d": "length", "s": "length"}
 #: Words that are a unit of time themselves.
 _CLOCKS = {"millis": "ms", "milis": "ms", "micros": "us", "mikros": "us"}
 
@@ -118,7 +121,11 @@ def kind_of(unit: str) -> str | None:
 
 def _kind_of_words(header: str) -> str:
     """Give the kind of quantity that the words of a name mean, "" where they mean none or several."""
-    meant = meanings_of(words_of(header))
+    words = words_of(header)
+    symbol = _SYMBOLS.get(words[0]) if len(words) == 2 and words[1] in ("x", "y", "z") else None
+    if symbol is not None:  # v_x, a_x
+        return symbol
+    meant = meanings_of(words)
     if "count" in meant and not meant & {"friction", "force"}:
         return ""
     if "coefficient" in meant:

@@ -10,30 +10,42 @@ from functools import cache
 _MEANINGS: dict[str, str] = {
     # quantities
     "time": "time zeit* *zeit *zeitstempel tempo temps tiempo zaman timestamp t sec secs seconds clock elapsed hora"
-    " millis* milis* micros 時間 時刻 时间",
-    "acceleration": "acc acc* accel* ax ay az beschl* acel* ivme* 加速度",
-    "speed": "vel vel* speed speed* geschw* *geschw* vitesse* velocid* velocita hiz* v vx vslip rate 速度 速率",
+    " millis* milis* micros 時間 時刻 时间"
+    " время 시간",
+    "acceleration": "acc acc* accel* ax ay az beschl* acel* ivme* 加速度"
+    " ускорение 가속도",
+    "speed": "vel vel* speed speed* geschw* *geschw* vitesse* velocid* velocita hiz* v vx vslip rate 速度 速率"
+    " скорость 속도",
     "length": "disp disp* displ* slip slip* stroke* position* pos travel weg* *weg verschieb* hub desplaz* despl* depl*"
     " carrera course spost* corsa desloc* deplasman* degistirme otelenme lvdt* x s u dx distance* strecke distancia"
-    " mesafe extension crosshead ram piston laser 変位 位移 行程",
-    "force": "force* kraft* *kraft fuerza* forza* forca* effort* kuvvet* f fx fy fz ft fn fr ff fh fv 力",
-    "loading": "load load* last* *last carga* charge* carico yuk* lc lc* loadcell 荷重 载荷 荷载 載荷",
+    " mesafe extension crosshead ram piston laser 変位 位移 行程"
+    " перемещение смещение 변위",
+    "force": "force* kraft* *kraft fuerza* forza* forca* effort* kuvvet* f fx fy fz ft fn fr ff fh fv 力"
+    " сила усилие",
+    "loading": "load load* last* *last carga* charge* carico yuk* lc lc* loadcell 荷重 载荷 荷载 載荷"
+    " нагрузка 하중",
     "pressure": "pressure* *pressure druck* *druck presion* pression* pressione pressao basinc* p stress* spannung*"
-    " sigma* tau contrainte* tension* tensao* tensione 圧力 压力 压强 面圧 应力 応力",
-    "temperature": "temp temper* *temperatur sicaklik* 温度 溫度",
+    " sigma* tau contrainte* tension* tensao* tensione 圧力 压力 压强 面圧 应力 応力"
+    " давление напряжение 압력 응력",
+    "temperature": "temp temper* *temperatur sicaklik* 温度 溫度"
+    " температура 온도",
     "coefficient": "cof mu μ coefficient* koeff* reibwert* reibbeiwert* reibungszahl coeff* coef* katsayi* 係数 系数",
     # what a force does
     "load": "normal* axial* vert* *vertikal n fn fz fv z auflast* dusey* druckkraft eksenel compression* 鉛直 竖向 垂直"
-    " 法向 轴向 軸",
+    " 法向 轴向 軸"
+    " вертикальн нормальн 수직",
     "friction": "fric* reib* frot* frott* attrit* atrit* surtunme* shear* schub* scher* quer* cortante taglio cisail*"
-    " lateral* latera* tangent* *tangential traction fx ft fr ff fh h hor horiz* horz* yatay tau 摩擦 水平 剪 切向 横",
+    " lateral* latera* tangent* *tangential traction fx ft fr ff fh h hor horiz* horz* yatay tau 摩擦 水平 剪 切向 横"
+    " трени горизонтальн касательн 마찰 수평",
     # where it is, and in which direction
     "table": "table* tab tbl base platform shaker actuator tisch* ground foundation mesa tavola tabla"
     " 振動台 台面 振动台",
     "girder": "girder* deck* beam* mass block* superstructure top slab bridge traeger* trager* gir tablero viga trave"
     " kiris 桁 主梁 上部",
-    "up": "z vert* v up n normal* axial* az fz *vertikal dusey 鉛直 竖向 垂直 上下",
-    "along": "x long* h hor horz* horiz* shear* ax fx friction* quer* lateral* yatay 水平",
+    "up": "z vert* v up n normal* axial* az fz *vertikal dusey 鉛直 竖向 垂直 上下"
+    " вертикальн нормальн 수직",
+    "along": "x long* h hor horz* horiz* shear* ax fx friction* quer* lateral* yatay 水平"
+    " горизонтальн 수평",
     "across": "y trans transverse ay fy across enine",
     # what is no measured channel of a rig
     "command": "command* cmd setpoint* set soll* target* demand* desired consigne consigna ref reference* nominal*"

@@ -1,6 +1,8 @@
-"""Tables as people write them, drawn when the rules for the first sixty stood: 28 of these 33 were right at once."""
+"""Tables as people write them, drawn when the rules stood: at once 28 of 33 were right, then 21 of 23."""
 
 from unit.campaign.tables_as_written import FK, NK, ONE, TWO, F, N, T, V, Written, X, plain
+
+PRESSED = {**TWO, "pad_A_P": TWO["pad_A_N"] / 1e-4}
 
 
 def later_tables() -> list[Written]:
@@ -125,4 +127,91 @@ def later_tables() -> list[Written]:
         plain("lower case one way", "time,fx,fz,v", ONE, T, F, N, V),
         plain("Turkish", "Zaman [s];Kayma [mm];Kesme kuvveti [kN];Eksenel yük [kN]", TWO, T, X, FK, NK),
         plain("units above", "s,mm,N,N\ntime,slip,Fx,Fz", TWO, T, X, F, N),
+    ]
+
+
+def last_tables() -> list[Written]:
+    """Twenty-three more."""
+    return [
+        plain("rows of a force and a way", "Time;Kraft;Weg\ns;kN;mm", TWO, T, FK, X),
+        plain("symbols in two rows", "t,Q,N,u\ns,kN,kN,mm", TWO, T, FK, NK, X),
+        plain(
+            "wanted and measured load",
+            "Zeit [s];Normalkraft soll [N];Normalkraft ist [N];Reibkraft [N];Position [mm]",
+            TWO,
+            T,
+            ("", "command"),
+            N,
+            F,
+            X,
+        ),
+        plain(
+            "table and slip",
+            "time (sec),table disp (mm),slip (mm),shear (kN),axial (kN)",
+            TWO,
+            T,
+            ("", "zero"),
+            X,
+            FK,
+            NK,
+        ),
+        plain(
+            "depth and coefficient",
+            "Time [s],Load [N],Depth [um],Friction [N],COF,Position [mm]",
+            TWO,
+            T,
+            N,
+            ("", "up"),
+            F,
+            ("", "room"),
+            X,
+        ),
+        plain("cycles", "Time,Cycle,Position,Friction,Normal\ns,-,mm,N,N", TWO, T, ("", "index"), X, F, N),
+        plain("blanks before commas", "TIME(s) ,FH(kN) ,FV(kN) ,DH(mm)", TWO, T, FK, NK, X),
+        plain(
+            "one force beside a load", "Tiempo (s);Fuerza (kN);Carga (kN);Desp. (mm)", TWO, T, FK, NK, X, decimal=","
+        ),
+        plain("symbols with a direction", "time,v_x,F_x,F_z", ONE, T, V, F, N),
+        plain("torque beside", "Time [s],Torque [Nm],Speed [mm/s],Friction [N],Load [N]", ONE, T, ("", "up"), V, F, N),
+        plain("units as last words", "time s,velocity mm/s,friction N,load N", ONE, T, V, F, N),
+        plain("x in millimetres", "time,x mm,Fx kN,Fz kN", TWO, T, X, FK, NK),
+        plain(
+            "pressure for a load",
+            "Time (s),Pressure (MPa),Friction (N),Slip (mm)",
+            PRESSED,
+            T,
+            ("pad_A_P", "MPa"),
+            F,
+            X,
+        ),
+        plain("numbered channels", "Time,Ch1,Ch2,Ch3\ns,mm,N,N", TWO, T, X, F, N),
+        plain("numbered load cells", "ts,pos,load_cell_1,load_cell_2\ns,mm,N,N", TWO, T, X, F, N),
+        plain(
+            "both directions",
+            "Time (s),Horizontal displacement (mm),Vertical displacement (mm),Horizontal load (kN),Vertical load (kN)",
+            TWO,
+            T,
+            X,
+            ("", "up"),
+            FK,
+            NK,
+        ),
+        plain("Russian", "время (с);смещение (мм);сила трения (Н);нагрузка (Н)", TWO, T, X, F, N),
+        plain(
+            "Japanese actuator", "時間(s),アクチュエータ変位(mm),アクチュエータ荷重(kN),鉛直荷重(kN)", TWO, T, X, FK, NK
+        ),
+        plain("Korean", "시간(s),변위(mm),마찰력(N),수직하중(N)", TWO, T, X, F, N),
+        plain("stresses", "t_s,slip_mm,tau_kPa,sigma_n_MPa", ONE, T, X, ("", "up"), ("pad_A_P", "MPa")),
+        plain(
+            "targets and measured",
+            "Time (s),Measured Force X (N),Target Force Z (N),Measured Force Z (N),Stage X (mm)",
+            TWO,
+            T,
+            F,
+            ("", "command"),
+            N,
+            X,
+        ),
+        plain("an empty row", "Time;Displacement;Force;Vertical load\n[s];[mm];[kN];[kN]", TWO, T, X, FK, NK),
+        plain("index before the time", "Index,Time[s],Disp[mm],Force[N]", TWO, ("", "index"), T, X, F),
     ]

@@ -32,7 +32,6 @@ class Written:
         suffix: of the file.
         channels: the truth, name of a channel -> (n,) SI.
         units: channel -> unit in which the table holds it: what a person fills in where a table does not say.
-        optional: channels that may be told or not.
     """
 
     name: str
@@ -40,7 +39,6 @@ class Written:
     suffix: str
     channels: dict[str, Array]
     units: dict[str, str]
-    optional: tuple[str, ...] = ()
 
     def write(self, folder: Path) -> Path:
         """Write it into a folder."""
@@ -114,7 +112,6 @@ def plain(
     below: str = "",
     encoding: str = "utf-8",
     suffix: str = ".csv",
-    optional: tuple[str, ...] = (),
     sign: dict[str, int] | None = None,
     tail: str = "",
     form: str = ".6g",
@@ -137,7 +134,7 @@ def plain(
     rows = cells(values, decimal, form)
     text = above + header + tail + "\n" + body(rows, separator, tail=tail) + below
     units = {channel: unit for channel, unit in wanted if channel}
-    return Written(name, text.encode(encoding), suffix, {c: run[c] for c in units}, units, optional)
+    return Written(name, text.encode(encoding), suffix, {c: run[c] for c in units}, units)
 
 
 def with_texts(

@@ -130,9 +130,8 @@ def test_a_slip_that_is_integrated_from_its_speed_is_never_called_rounded(tmp_pa
     (tmp_path / "campaign.toml").write_text('rig = "pad"\n[[run]]\nfile = "run.csv"\nrole = "fit"\n')
     report = audit(load_campaign(tmp_path))
     assert not [note for note in report.notes if note.startswith("slip_x is rounded")]
-    (tmp_path / "run.csv").write_text(
-        "time [s],slip_x [mm],pad_A_Fx [N],pad_A_N [N]\n"
-        + "".join(f"{t:.2f},{1.5 * i},1.44,9\n" for i, t in enumerate(time))
-    )
+    steps = [(f"{t:.2f}", round(20.0 * np.sin(9.0 * t) + 0.2 * v)) for t, v in zip(time, speed - 75.0, strict=True)]
+    rows = "".join(f"{t},{x},1.44,9\n" for t, x in steps)
+    (tmp_path / "run.csv").write_text("time [s],slip_x [mm],pad_A_Fx [N],pad_A_N [N]\n" + rows)
     report = audit(load_campaign(tmp_path))
     assert [note for note in report.notes if note.startswith("slip_x is rounded")]
