@@ -146,10 +146,12 @@ def _with_names(table: ColumnTable, source: SourceFile) -> ColumnTable:
             units=tuple("g" if not unit and re.fullmatch(r"gF[xyz]|TgF", name) else unit for name, unit in units),
         )
     if width > 2:
+        text = table.read_as == "text columns"
+        where = "write a header as the last line above the numbers" if text else "save the columns under names"
         raise InputError(
             f"{source.name}: {width} columns without a header that names them, and they do not look like one series "
-            "with several values a line or pairs of time and value; write a header as the last line above "
-            "the numbers, for example 'time [s],EW [cm/s^2],NS [cm/s^2],UD [cm/s^2]'"
+            f"with several values a line or pairs of time and value; {where}, for example "
+            "'time [s],EW [cm/s^2],NS [cm/s^2],UD [cm/s^2]'"
         )
     return replace(table, names=("", "")[:width], units=("", "")[:width])
 

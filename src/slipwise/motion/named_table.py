@@ -68,7 +68,9 @@ def file_table(source: SourceFile) -> ColumnTable:
     table = open_table(source.path)
     columns, left = _longest(table)
     headers = [table.headers[k] for k in columns]
-    names, units = names_and_units(headers)
+    # "rec.time", "rec.ax": the structure that holds all of them tells nothing.
+    within = {header.rpartition(".")[0] for header in headers}
+    names, units = names_and_units([h.rpartition(".")[2] for h in headers] if len(within) == 1 else headers)
     stated = read_statements(table.above, source.name)
     if table.step is not None:
         stated = read_statements([*table.above, f"time step = {table.step!r} s"], source.name)

@@ -58,6 +58,8 @@ def test_what_a_workbook_states_binds(tmp_path):
         ({"t": TIME, "acc_g": THREE[:, 0] / 9.80665}, {}),
         ({"acc": THREE[:, 0]}, {"unit": "m/s^2", "dt": "0.01 s"}),
         ({"data": np.stack([TIME, THREE[:, 0]], axis=1)}, {"unit": "m/s^2", "dt": "0.01 s"}),
+        ({"acc": THREE[:, 0], "dt": 0.01}, {"unit": "m/s^2"}),
+        ({"rec": {"time": TIME, "ax": THREE[:, 0]}}, {"unit": "m/s^2"}),
         ({"time": TIME, "EW": THREE[:, 0], "gains": np.arange(3.0)}, {"unit": "m/s^2"}),
     ],
 )
