@@ -18,9 +18,11 @@ _INNER = re.compile(r"(?:_(?P<tail>[A-Za-z][\w/^]*))?\"?(?:[.\s]*[(\[](?P<inner>
 _SIGN = re.compile(r"\"?\s*(?:[:=]+|\t|;|->|\|)[\s\"'=]*")
 _WHOLE = re.compile(r"\d{1,3}(?:[,']\d{3})+(?![\d.])|\d+(?:\.0*)?(?![\d.])")
 _UNIT = re.compile(r"\s*[(\[]?\s*([^\s,;:()\[\]=\"\d][^\s,;:()\[\]=\"]*)")
-#: "Acceleration in g", "Ground Accel. (g)", "Acceleration, cm/s2": the unit of the values below.
-_MEASURED_IN = re.compile(
-    r"[^:=\d(\[]{0,30}?(?:\b(?:in|en|em|cinsinden)\s+|[(\[,:=]\s*)([^\s,;()\[\]]+)", re.IGNORECASE
+#: "Acceleration in g", "Ground Accel. (g)", "acceleration m/s2", "ivme g cinsinden": the unit of the values below.
+_MEASURED_IN = (
+    re.compile(r"[^:=\d(\[]{0,30}?(?:\b(?:in|en)\s+|[(\[,:=]\s*)([^\s,;()\[\]]+)", re.IGNORECASE),
+    re.compile(r"\s+([^\s,;()\[\]]+/s\S*)", re.IGNORECASE),
+    re.compile(r"[^:=\d(\[]{0,30}?\s(\S+)\s+cinsinden", re.IGNORECASE),
 )
 _LABEL = r"[(\[]?(?P<{}>[A-Za-z+][\w+.-]{{0,11}}|\d{{3}}(?=\s*[):=\]]))[)\]]?"
 _PEAK = re.compile(
@@ -63,21 +65,26 @@ class StatementValue:
         inner = _INNER.match(text)
         self.unit = ((inner["inner"] or inner["tail"] or "") if inner else "").strip()
         at = inner.end() if inner else 0
-        sign = _SIGN.match(text, at)
-        link = re.compile(rf"(?:[\s,]|\.(?!\d))*(?:{words().links})?[\s,\"']*", re.IGNORECASE).match(text, at)
+        # "between samples: ", "est de ", "of data = "
+        between = re.compile(rf"(?:[\s,\"']|\.(?!\d))*(?:(?:{words().links})[\s,\"']*){{0,4}}", re.IGNORECASE)
+        linked = between.match(text, at)
+        self.start = linked.end() if linked else at
+        sign = _SIGN.match(text, at) or _SIGN.match(text, self.start)
         self.signed = sign is not None
-        self.start = sign.end() if sign else (link.end() if link else at)
-        if sign and (more := re.compile(rf"(?:{words().links})\s+", re.IGNORECASE).match(text, self.start)):
-            self.start = more.end()
+        if sign:
+            linked = between.match(text, sign.end())
+            self.start = linked.end() if linked else sign.end()
         self.text = text[self.start :]
 
     def contents(self, fact: str, label: str) -> Iterator[tuple[object, float]]:
         """Give what the value states of a fact."""
         if fact == "acceleration":
-            match = _MEASURED_IN.match(self.behind_key)
-            if match and is_acceleration(match[1].rstrip(".")):
-                self.used = match.end()
-                yield match[1].rstrip("."), 0.0
+            for pattern in _MEASURED_IN:
+                match = pattern.match(self.behind_key)
+                if match and is_acceleration(match[1].rstrip(".")):
+                    self.used = match.end()
+                    yield match[1].rstrip("."), 0.0
+                    return
             return
         if fact == "peak":
             yield from ((peak, 0.0) for peak in self._peaks(label))
@@ -132,9 +139,11 @@ class StatementValue:
     def _peaks(self, label: str) -> Iterator[Peak]:
         """Give one peak, or those of several components: "(N-S) 12.2 (E-W) 8.2", "NS=12.2, EW=8.2", "12.2/8.2/2.9"."""
         bracket = bool(self.unit) and self.behind_key.lstrip().startswith(("(", "["))
-        text = self.text if self.signed or bracket else self.behind_key
-        named = re.match(rf"\s*{_LABEL.format('label')}\s*[:=]", text)
-        if not (self.signed or bracket or named):
+        named = re.match(rf"\s*{_LABEL.format('label')}\s*[:=]", self.behind_key)
+        text = self.behind_key if named and not (self.signed or bracket) else self.text
+        # Without a sign a number is a peak only if a unit of acceleration stands behind it.
+        direct = re.match(rf"{NUMBER}\s*([^\s,;]+)", text)
+        if not (self.signed or bracket or named or (direct and is_acceleration(direct[1].rstrip(".")))):
             return
         peaks: list[Peak] = []
         behind_all = True

@@ -104,7 +104,7 @@ def _facts(line: str, original: str) -> Iterator[tuple[str, object, float]]:
         before = _SEPARATOR.split(line[end : match.start()])[-1]
         begins = not re.search(r"\w", before.replace("_", " "))
         label = re.fullmatch(r"\W*([A-Za-z+][\w+-]{0,11})\W*", before) if fact == "peak" else None
-        if known.others.search(before) or (how != "prose" and not begins and label is None):
+        if known.others.search(before) or (how == "signed" and not begins and label is None):
             continue
         following = next((m.start() for m in keys[k + 1 :] if m.start() >= match.end()), len(line))
         statement = StatementValue(line[match.end() :], following - match.end(), how)
