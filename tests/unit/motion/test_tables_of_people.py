@@ -141,23 +141,38 @@ def test_stated_peaks_tell_the_unit_of_data_that_are_in_another(load):
         load(peak + one_column(GAL / 3.0).decode())
 
 
-def test_channels_of_one_station_are_cut_to_the_time_that_they_share(tmp_path):
+def stream_of(starts, samples: int = 400):
+    """Channels of one station with a pulse at 6 s, which begin so late [s]."""
     obspy = pytest.importorskip("obspy")
-    time = np.arange(400) * 0.02
+    time = np.arange(samples) * 0.02
     stream = obspy.Stream()
-    for channel, late in (("HNE", 0.0), ("HNN", 0.4), ("HNZ", 1.18)):
-        start = obspy.UTCDateTime(2001, 1, 1) + late
+    for channel, late in zip(("HNE", "HNN", "HNZ"), starts, strict=True):
         values = np.exp(-((time + late - 6.0) ** 2) / 0.02)
+        start = obspy.UTCDateTime(2001, 1, 1) + late
         header = {"delta": 0.02, "channel": channel, "station": "TEST", "network": "XX", "starttime": start}
         stream.append(obspy.Trace(values, header))
+    return stream
+
+
+@pytest.mark.parametrize(
+    "starts", [(0, 0.4, 0.7), (0, 0.4, 1.18), (0.3, 0, 0), (2.5, 0, 1), (0, 0.02, 0.04), (0, 0, 0)]
+)
+def test_channels_of_one_station_are_cut_to_the_time_that_they_share(tmp_path, starts):
+    stream = stream_of(starts)
     stream.write(str(tmp_path / "late.mseed"), format="MSEED")
     motion = load_motion(tmp_path / "late.mseed", unit="m/s^2")
-    assert (motion.acceleration.argmax(axis=0) == round((6.0 - 1.18) / 0.02)).all()
-    assert "cut to the time that all components share" in " ".join(motion.treatment)
+    assert (motion.acceleration.argmax(axis=0) == round((6.0 - max(starts)) / 0.02)).all()
+    assert ("cut to the time that all components share" in " ".join(motion.treatment)) == any(starts)
     for trace in stream:
         trace.write(str(tmp_path / f"{trace.stats.channel}.sac"), format="SAC")
     apart = load_motion(sorted(tmp_path.glob("*.sac")), unit="m/s^2")
     np.testing.assert_allclose(apart.acceleration, motion.acceleration, atol=1e-6)
+
+
+def test_channels_that_share_no_time_are_of_two_records(tmp_path):
+    stream_of((0, 0, 30.0)).write(str(tmp_path / "two.mseed"), format="MSEED")
+    with pytest.raises(InputError, match="are of different records: start"):
+        load_motion(tmp_path / "two.mseed", unit="m/s^2")
 
 
 def test_whole_numbers_are_counts_until_the_acceleration_of_one_is_given(tmp_path):
