@@ -88,7 +88,7 @@ def _unit(values: Array, given: Given, source: SourceFile, channel: str) -> tupl
         UnitError: nobody says the unit, or a unit without a number is given where the values are counts.
     """
     given.factor(source)
-    if given.unit is not None and not given.has_number and (values == np.round(values)).all():
+    if given.unit is not None and not given.has_number and values.any() and (values == np.round(values)).all():
         raise UnitError(
             f"{source.name}: channel {channel} holds whole numbers, counts of a digitizer; give the acceleration of "
             f"one count, for example --count '2.4e-6 m/s^2' (--unit '1 {given.unit}' if the values are in {given.unit})"
