@@ -85,7 +85,7 @@ def _no_channel(found: ColumnName, meanings: frozenset[str], spelled: frozenset[
         return "measured in the surroundings"
     if "count" in meanings and found.unit in ("?", ""):
         return "it counts"
-    if found.kind == "length" and meanings & {"up", "wear"} and "table" not in meanings:
+    if found.kind == "length" and "wear" in meanings and "table" not in meanings:
         return "a displacement across the sliding plane"
     if found.kind == "pressure" and "friction" in meanings:
         return "a shear stress; [derived] can make a force of it with the pad's area"

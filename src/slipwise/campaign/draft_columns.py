@@ -55,7 +55,7 @@ def map_columns(columns: Sequence[Column], known: Mapping[str, Array], step: flo
     loads, frictions, told = split_forces([c for c in rest if c.kind == "force"], loaded)
     total = np.asarray(np.sum([np.abs(c.values) for c in loads], axis=0), dtype=np.float64) if loads else None
     along = [c.values for c in frictions if "across" not in c.meanings]
-    slip = next((c.values for c in rest if c.kind == "length" and not c.meanings & {"table", "across"}), None)
+    slip = next((c.values for c in rest if c.kind == "length" and not c.meanings & {"table", "across", "up"}), None)
     pushes = [np.sum(along, axis=0), slip] if along and slip is not None else []
     _accelerations([c for c in rest if c.kind == "acceleration"], total, pushes, channels, out)
     for column, mapped in map_slips([c for c in rest if c.kind in ("length", "speed")], channels, frictions, spacing):

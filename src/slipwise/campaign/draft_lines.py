@@ -30,6 +30,9 @@ _BY_NAME: tuple[tuple[str, str], ...] = (
 )
 
 
+_ACROSS = "a displacement across the sliding plane"
+
+
 def column_lines(files: Sequence[DataFile], ours: Sequence[str], mapped: Mapping[str, Mapped]) -> list[str]:
     """Give [columns]: lines for what was recognised, or whose words and unit fit a channel, comments for the rest."""
     headers = list(dict.fromkeys(h for file in files for h in file.headers if not is_ours(h) and h))
@@ -39,6 +42,7 @@ def column_lines(files: Sequence[DataFile], ours: Sequence[str], mapped: Mapping
     unread = {header: why for file in reversed(files) for header, why in file.unread.items()}
     gaps = {header: why for file in reversed(files) for header, why in file.gaps.items()}
     lines, taken = ["[columns]"], {name: name for name in ours} | {m.channel: h for h, m in mapped.items()}
+    level = any(c.kind == "length" and not c.no_channel and "up" not in c.meanings for c in looked.values())
     for header in headers:
         if header in mapped:
             m = mapped[header]
@@ -48,7 +52,8 @@ def column_lines(files: Sequence[DataFile], ours: Sequence[str], mapped: Mapping
             continue
         column = looked.get(header) or column_of(header, np.zeros(0))
         guess, unit = _guess(column), "1" if column.kind == "coefficient" else column.unit
-        if guess and guess not in taken and header not in unread:
+        across = level and column.kind == "length" and "up" in column.meanings
+        if guess and guess not in taken and header not in unread and not across:
             taken[guess] = header
             entry = f"{{ channel = {quoted(guess)}, unit = {quoted(unit)} }}"
             missing = f"; {gaps[header]}" if header in gaps else ""
@@ -56,7 +61,13 @@ def column_lines(files: Sequence[DataFile], ours: Sequence[str], mapped: Mapping
                 f"{quoted(header)} = {entry}   # decide: guess by its name: channel, sign (sign = -1 turns it){missing}"
             )
         else:
-            why = unread.get(header) or column.no_channel or gaps.get(header) or _why_not(column, guess, taken)
+            why = (
+                unread.get(header)
+                or column.no_channel
+                or (_ACROSS if across else "")
+                or gaps.get(header)
+                or _why_not(column, guess, taken)
+            )
             entry = f'{{ channel = "...", unit = {quoted("..." if unit == "?" else unit)} }}'
             lines.append(f"# {quoted(header)} = {entry}   # decide: not used: {one_line(why)}")
     return [*lines, ""]

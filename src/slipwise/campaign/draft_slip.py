@@ -29,6 +29,8 @@ def map_slips(
     lengths = [c for c in columns if c.kind == "length"]
     path = [c for c in lengths if "path" in c.meanings and (turn or len(lengths) > 1)]
     # what is called a slip comes first, then what moves most
+    # "axial" is across the sliding plane, unless it is all that there is: a machine that slides along its axis
+    upright = any("up" not in c.meanings for c in lengths if c not in path)
     # the actuator of a machine for one slider moves the slider, that of a shaking table the table
     shaken = len(lengths) > 1 or any("_a" in name for name in channels)
     ranked = sorted(columns, key=lambda c: (c.kind != "length", "table" not in c.meanings, -float(np.ptp(c.values))))
@@ -37,7 +39,7 @@ def map_slips(
         if column.kind == "length" and "table" in column.meanings and shaken:
             yield column, Mapped(f"table_d{axis}", column.unit, 1, "its name says table", "likely")
             continue
-        if column in path or "wear" in column.meanings:
+        if column in path or (column in lengths and upright and "up" in column.meanings):
             continue
         name = f"slip_{axis}" if column.kind == "length" else f"slip_v{axis}"
         if name in channels:

@@ -126,6 +126,8 @@ def _kind_of_words(header: str) -> str:
     if symbol is not None:  # v_x, a_x
         return symbol
     meant = meanings_of(words)
+    if any(len(word) > 2 and "time" in meanings_of([word]) for word in (words or ("",))[:: max(1, len(words) - 1)]):
+        return "time"  # "slip.Time" is a time, whatever it is of
     if "count" in meant and not meant & {"friction", "force"}:
         return ""
     if "coefficient" in meant:

@@ -3,6 +3,7 @@
 import re
 from typing import Literal
 
+from slipwise.channels import is_channel
 from slipwise.data_files.acceleration_unit import acceleration_factor
 from slipwise.errors import UnitError
 from slipwise.motion.orientation import orientation
@@ -10,6 +11,9 @@ from slipwise.units import parse_unit
 
 Kind = Literal["time", "acceleration", "velocity", "displacement", "row number", "other"]
 
+TABLE_ACCELERATIONS = ("table_ax", "table_ay", "table_az")
+#: Taken where a file has no acceleration of the table: the command of most tables is a displacement.
+TABLE_DISPLACEMENTS = ("table_dx", "table_dy", "table_dz")
 _TIME = {
     "time", "t", "zeit", "tempo", "temps", "tiempo", "elapsed time", "seconds", "sec", "seconds elapsed", "zaman",
     "時間", "時刻", "时间", "time since start", "elapsed",
@@ -48,6 +52,9 @@ def kind_of(name: str, unit: str, what: str) -> Kind:
     Raises:
         UnitError: a unit that is not known.
     """
+    if is_channel(name):  # of a measured run only the table's channels are its motion
+        kind = "acceleration" if name in TABLE_ACCELERATIONS else "other"
+        return "time" if name == "time" else "displacement" if name in TABLE_DISPLACEMENTS else kind
     if not unit:
         if is_time_word(name):
             return "time"

@@ -221,6 +221,7 @@ def _of_displacement(table: ColumnTable, k: int, dt: float, dt_words: str, sourc
         raise UnitError(f"{source.name}: {name!r} is a displacement in {unit}; leave --unit {given.unit} out")
     metres = table.values[:, k] * parse_unit(unit, "m", f"column {name!r} of {source.name}")
     acceleration, words = acceleration_of(metres, dt, source, name)
+    name = name.replace("table_d", "table_a")
     si = replace(
         table,
         units=tuple("m/s^2" for _ in table.units),

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from scipy.io import savemat
 
+from slipwise.campaign import load_campaign
+from slipwise.campaign.draft import draft_campaign
 from slipwise.data_files.table import open_table
 from slipwise.errors import InputError
 
@@ -223,3 +225,23 @@ def test_a_spectrum_states_no_step(tmp_path):
     for signal in content.values():
         signal["x_values"]["quantity"]["label"] = "Hz"
     assert open_table(saved(tmp_path, content, "5")).step is None
+
+
+@pytest.mark.parametrize("version", ["5", "7.3"])
+@pytest.mark.parametrize("content", [dspace, simulink, lms, beside, catman, exported])
+def test_what_is_drafted_from_such_a_file_reads_as_what_was_measured(tmp_path, content, version):
+    saved(tmp_path, content(), version)
+    draft, _ = draft_campaign(tmp_path)
+    (tmp_path / "campaign.toml").write_text(draft, encoding="utf-8")
+    record = load_campaign(tmp_path).runs[0].record
+    np.testing.assert_allclose(record["slip_x"], 1e-3 * SLIP, atol=1e-9)
+    np.testing.assert_allclose(record["pad_A_N"], LOAD)
+    np.testing.assert_allclose(record.time, TIME, atol=1e-9)
+
+
+def test_objects_that_are_left_out_are_told_in_the_draft(tmp_path):
+    with_objects(tmp_path / "run.mat", "7.3", {"log": "timetable", "ts": "timeseries"}, Fx=SLIP)
+    draft, _ = draft_campaign(tmp_path)
+    assert "# note: run.mat: log (timetable) and ts (timeseries) are objects of MATLAB and left out" in draft
+    assert "# note: run.mat shows no time: no column is called time or rises evenly" in draft
+    assert '"Fx" = { channel = "pad_A_Fx", unit = "?" }' in draft
