@@ -96,3 +96,17 @@ def test_damaged_data_files_are_refused_in_one_sentence(tmp_path):
     ):
         with pytest.raises(SlipwiseError, match=words):
             load_motion(tmp_path / name)
+
+
+def test_of_a_measured_run_the_tables_channels_are_the_motion_in_any_file(tmp_path):
+    columns = {"time [s]": TIME, "table_ax [m/s^2]": THREE[:, 0], "girder_ax [m/s^2]": THREE[:, 1], "slip_x [mm]": TIME}
+    pq.write_table(pa.table(columns), tmp_path / "run.parquet")
+    (tmp_path / "run.csv").write_text(
+        ",".join(columns)
+        + "\n"
+        + "".join(",".join(f"{v:.17g}" for v in row) + "\n" for row in zip(*columns.values(), strict=True))
+    )
+    for name in ("run.parquet", "run.csv"):
+        motion = load_motion(tmp_path / name)
+        np.testing.assert_allclose(motion.acceleration[:, 0], THREE[:, 0])
+        assert motion.components == ("table_ax", "", "")
