@@ -195,6 +195,11 @@ def _timed(table: ColumnTable, kinds: list[Kind], source: SourceFile, given: Giv
             table = replace(table, words=(*table.words, f"column {name!r} has no unit: taken in seconds"))
     else:
         # A headless column of times has no unit: the step must be given all the same.
+        if table.stated.step is None and given.dt is None:
+            raise InputError(
+                f"{source.name}: the file does not state its time step; give it, for example --motion-dt '{step:g} s': "
+                f"the first column advances by {step:g} a row, and nothing says in what unit"
+            )
         settle_step(table.stated.step, given, source, table.stated.lines.get("step", ""))
         step = _headless_step(step, given.dt if given.dt is not None else table.stated.step, source)
     return table, agreed_step(table.stated.step, step, "its time column", source)
