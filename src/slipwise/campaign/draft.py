@@ -65,7 +65,7 @@ def draft_campaign(folder: Path, ask: Ask | None = None) -> tuple[str, str]:
         raise InputError(f"{folder}: no such folder; a campaign is a folder with data files")
     files, passed = open_data_files(folder)
     if not files:
-        why = f": {'; '.join(passed)}" if passed else ""
+        why = f" can be read: {'; '.join(passed)}" if passed else ""
         raise InputError(f"{folder}: no data file in it{why}; possible: {', '.join(SUFFIXES)}")
     mapped = _mapped(files)
     records = {file.path.name: _recognised(file, mapped) for file in files}
@@ -87,7 +87,13 @@ def draft_campaign(folder: Path, ask: Ask | None = None) -> tuple[str, str]:
     ]
     notes = []
     if open_units := sum('unit = "?"' in line for line in lines):
-        notes.append(f'# note: {open_units} of the units are "?", for no header states them: write them')
+        stand = "1 unit is" if open_units == 1 else f"{open_units} units are"
+        notes.append(f'# note: {stand} "?", because no header states it: write it')
+    for file in files:
+        lacking = [repr(header) for header in mapped if header not in file.headers]
+        if lacking:
+            others = f"{file.path.name} has no column {', '.join(lacking)}"
+            notes.append(f"# note: {others}: name its columns as in the other files, or give it a folder of its own")
     untimed = [file for file in files if not _timed(file, mapped)]
     if untimed:
         notes.append(f"# note: {untimed[0].path.name} shows no time: {no_time(untimed[0].columns)}")

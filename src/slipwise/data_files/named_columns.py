@@ -76,8 +76,10 @@ def of_gauges(path: Path, gauges: Sequence[Gauge], kind: str) -> NamedColumns:
     if not others:
         return NamedColumns(columns)
     listed = ", ".join(others[:_LISTED]) + (" and others" if len(others) > _LISTED else "")
-    counted = "1 channel has" if len(others) == 1 else f"{len(others)} channels have"
-    return NamedColumns(columns, None, (f"{path.name}: {counted} other times and left out: {listed}",))
+    counted = (
+        "1 channel has other times and is" if len(others) == 1 else f"{len(others)} channels have other times and are"
+    )
+    return NamedColumns(columns, None, (f"{path.name}: {counted} left out: {listed}",))
 
 
 def _together(one: Gauge, other: Gauge) -> bool:

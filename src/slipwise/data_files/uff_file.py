@@ -48,7 +48,7 @@ def read_uff(path: Path) -> NamedColumns:
         raise InputError(f"{path}: no time response is in this universal file; it holds {there}")
     read = of_gauges(path, gauges, "universal")
     left = len(sets) - len(gauges)
-    said = (f"{path.name}: {left} functions that are no time responses left out",) if left else ()
+    said = (f"{path.name}: left out are {left} functions that are no time responses",) if left else ()
     return NamedColumns(read.columns, read.step, (*read.notes, *said))
 
 

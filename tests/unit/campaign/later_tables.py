@@ -1,8 +1,14 @@
-"""Tables as people write them, drawn when the rules stood: at once 28 of 33 were right, then 21 of 23."""
+"""Tables as people write them, drawn when rules stood: 28 of 33 were right at once, then 21 of 23, then 19 of 20."""
 
-from unit.campaign.tables_as_written import FK, NK, ONE, TWO, F, N, T, V, Written, X, plain
+from unit.campaign.tables_as_written import FK, LOADS_FIRST, NK, ONE, TWO, F, N, T, V, Written, X, girder, plain
 
+KN = "kN,kN,kN,kN"
 PRESSED = {**TWO, "pad_A_P": TWO["pad_A_N"] / 1e-4}
+
+
+def each(form: str, numbers: str = "1234") -> str:
+    """One name for each pad."""
+    return ",".join(form.format(number) for number in numbers)
 
 
 def later_tables() -> list[Written]:
@@ -214,4 +220,81 @@ def last_tables() -> list[Written]:
         ),
         plain("an empty row", "Time;Displacement;Force;Vertical load\n[s];[mm];[kN];[kN]", TWO, T, X, FK, NK),
         plain("index before the time", "Index,Time[s],Disp[mm],Force[N]", TWO, ("", "index"), T, X, F),
+    ]
+
+
+def newest_tables() -> list[Written]:
+    """Nineteen more, girders among them."""
+    return [
+        girder(
+            "girder in plain English",
+            f"Time (s),Table acc (g),Deck acc (g),Slip (mm),{each('Vertical load {} (kN)')},{each('Shear {} (kN)')}",
+            "g",
+            *LOADS_FIRST,
+        ),
+        girder(
+            "girder in symbols",
+            f"t,at,ag,u,{each('N{}')},{each('F{}')}\ns,m/s2,m/s2,mm,{KN},{KN}",
+            "m/s^2",
+            *LOADS_FIRST,
+        ),
+        girder(
+            "girder in Japanese",
+            f"時間(s),振動台加速度(g),桁加速度(g),相対変位(mm),{each('鉛直荷重{}(kN)')},{each('水平荷重{}(kN)')}",
+            "g",
+            *LOADS_FIRST,
+        ),
+        girder(
+            "girder in French",
+            "Temps;Accélération table;Accélération tablier;Déplacement relatif;"
+            f"{each('Effort vertical {}')},{each('Effort horizontal {}')}\ns,g,g,mm,{KN},{KN}".replace(",", ";"),
+            "g",
+            *LOADS_FIRST,
+        ),
+        girder(
+            "girder by letters",
+            f"Time,Base_X,Mass_X,LVDT,{each('LC_{}_Z', 'ABCD')},{each('LC_{}_X', 'ABCD')}\ns,g,g,mm,{KN},{KN}",
+            "g",
+            *LOADS_FIRST,
+        ),
+        plain("static load", "Time (s),Slip (mm),Force (kN),Static load (kN)", TWO, T, X, FK, NK),
+        plain(
+            "coefficient in snake case",
+            "time,displacement,friction_coefficient,normal_force\ns,mm,,N",
+            ONE,
+            T,
+            X,
+            ("pad_A_Fx", "1"),
+            N,
+        ),
+        plain("sled", "Time [s]\tSled position [mm]\tPull force [N]\tDead weight [N]", ONE, T, X, F, N),
+        plain("pull force and weight", "Time (s),Pull force (N),Weight (N),Velocity (mm/s)", ONE, T, F, N, V),
+        plain(
+            "micrometres",
+            "Timestamp (ms);Position (µm);Tangential force (N);Normal force (N)",
+            TWO,
+            ("time", "ms"),
+            ("slip_x", "um"),
+            F,
+            N,
+        ),
+        plain(
+            "German feed", "Laufzeit [s];Verfahrweg [mm];Zugkraft [N];Anpresskraft [N]", ONE, T, X, F, N, decimal=","
+        ),
+        plain("Italian in brackets", "Tempo(s);Corsa(mm);Forza orizzontale(kN);Forza verticale(kN)", TWO, T, X, FK, NK),
+        plain("an empty last column", "Time,Disp,Force,\ns,mm,kN,", TWO, T, X, FK, tail=","),
+        plain("snake case with a stamp", "time_stamp,stroke_mm,shear_kN,axial_kN", TWO, T, X, FK, NK),
+        plain(
+            "jack and load cell",
+            "Elapsed (s),Actuator LVDT (mm),Actuator load cell (kN),Vertical jack (kN)",
+            TWO,
+            T,
+            X,
+            FK,
+            NK,
+        ),
+        plain("date and time in one", "Date/Time,Slip [mm],Friction [kN],Load [kN]", TWO, T, X, FK, NK),
+        plain("directions in letters", "Zeit,Weg,Kraft h,Kraft v\ns,mm,kN,kN", TWO, T, X, FK, NK),
+        plain("numbered gauges", "t(s),D1(mm),F1(kN),F2(kN)", TWO, T, X, FK, NK),
+        plain("a hash before the names", "# time[s],slip[mm],friction[N],normal[N]", TWO, T, X, F, N),
     ]

@@ -7,10 +7,14 @@ import datetime
 import io
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+
+import slipwise
+from slipwise.campaign import load_campaign
 
 Array = NDArray[np.float64]
 #: Unit -> factor to SI.
@@ -350,30 +354,44 @@ def with_others() -> list[Written]:
     ]  # fmt: skip
 
 
-def girders() -> list[Written]:
-    """Four pads on a shaking table: the demonstration campaign under other names."""
-    import slipwise
-    from slipwise.campaign import load_campaign
-
+@cache
+def shaken() -> dict[str, Array]:
+    """Four pads on a shaking table: the demonstration campaign."""
     record = load_campaign(Path(slipwise.__file__).parent / "demo_data").run("quake_hv").record
-    run = {"time": record.time, **record.channels}
-    out = []
-    for name, header, wanted in (
-        ("girder, snake case",
-         "time_s,acc_table_x_g,acc_deck_x_g,lvdt_mm," + ",".join(f"LC{k}_vert_kN,LC{k}_horz_kN" for k in (1, 2, 3, 4)),
-         [("time", "s"), ("table_ax", "g"), ("girder_ax", "g"), ("slip_x", "mm")]),
-        ("girder, German",
-         "Zeit [s];Tisch ax [g];Träger ax [g];Weg [mm];"
-         + ";".join(f"Last {k} [kN];Reibung {k} [kN]" for k in (1, 2, 3, 4)),
-         [("time", "s"), ("table_ax", "g"), ("girder_ax", "g"), ("slip_x", "mm")]),
-    ):  # fmt: skip
-        pads = [(f"pad_{pad}_{kind}", "kN") for pad in "ABCD" for kind in ("N", "Fx")]
-        separator = ";" if ";" in header else ","
-        rows = cells(columns(run, *wanted, *pads), form=".9g")
-        units = dict([*wanted, *pads])
-        text = header + "\n" + body(rows, separator)
-        out.append(Written(name, text.encode(), ".csv", {c: run[c] for c in units}, units))
-    return out
+    return {"time": record.time, **record.channels}
+
+
+def girder(name: str, header: str, acceleration: str, *pads: tuple[str, str]) -> Written:
+    """A table of time [s], accelerations of table and girder, slip [mm], and forces of pads [kN] by pad and kind."""
+    wanted = [T, ("table_ax", acceleration), ("girder_ax", acceleration), X]
+    wanted += [(f"pad_{pad}_{kind}", "kN") for pad, kind in pads]
+    rows = cells(columns(shaken(), *wanted), form=".9g")
+    text = header + "\n" + body(rows, ";" if ";" in header else ",")
+    return Written(name, text.encode(), ".csv", {c: shaken()[c] for c, _ in wanted}, dict(wanted))
+
+
+PAIRS = [(pad, kind) for pad in "ABCD" for kind in ("N", "Fx")]
+LOADS_FIRST = [(pad, kind) for kind in ("N", "Fx") for pad in "ABCD"]
+
+
+def girders() -> list[Written]:
+    """The demonstration campaign under other names."""
+    return [
+        girder(
+            "girder, snake case",
+            "time_s,acc_table_x_g,acc_deck_x_g,lvdt_mm,"
+            + ",".join(f"LC{k}_vert_kN,LC{k}_horz_kN" for k in (1, 2, 3, 4)),
+            "g",
+            *PAIRS,
+        ),
+        girder(
+            "girder, German",
+            "Zeit [s];Tisch ax [g];Träger ax [g];Weg [mm];"
+            + ";".join(f"Last {k} [kN];Reibung {k} [kN]" for k in (1, 2, 3, 4)),
+            "g",
+            *PAIRS,
+        ),
+    ]
 
 
 def all_tables() -> list[Written]:

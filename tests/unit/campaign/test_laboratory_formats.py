@@ -184,7 +184,7 @@ def test_a_missing_extra_is_named_with_the_command_that_installs_it(tmp_path, mo
 def test_channels_of_another_rate_are_left_out_by_name(tmp_path):
     table = open_table(written(tmp_path, ".mf4", slow=True))
     assert len(table.headers) == 4
-    assert table.notes == ("run.mf4: 1 channel has other times and left out: Room",)
+    assert table.notes == ("run.mf4: 1 channel has other times and is left out: Room",)
 
 
 def test_mdf_of_version_3_is_read(tmp_path):
@@ -259,5 +259,5 @@ def test_channels_of_a_dewesoft_file_that_its_library_cannot_read_are_named(tmp_
     keep_channels(stand_in(channels), "run.dxd", tmp_path)
     read = kept_columns(Path("run.dxd"), tmp_path)
     assert tuple(read.columns) == ("time [s]", "Slip [mm]", "Friction [N]", "Normal load [N]")
-    assert read.notes[0] == "run.dxd: 1 channel has other times and left out: Room"
+    assert read.notes[0] == "run.dxd: 1 channel has other times and is left out: Room"
     assert "Bus (CAN channels are not supported)" in read.notes[1]

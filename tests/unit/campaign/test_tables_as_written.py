@@ -9,10 +9,10 @@ import pytest
 from slipwise.campaign import load_campaign
 from slipwise.campaign.draft import draft_campaign
 from slipwise.errors import SlipwiseError
-from unit.campaign.later_tables import last_tables, later_tables
+from unit.campaign.later_tables import last_tables, later_tables, newest_tables
 from unit.campaign.tables_as_written import STEP, TWO, F, N, T, Written, X, all_tables, plain
 
-TABLES = [*all_tables(), *later_tables(), *last_tables()]
+TABLES = [*all_tables(), *later_tables(), *last_tables(), *newest_tables()]
 _ENTRY = re.compile(
     r'^"(?P<header>.*)" = \{ channel = "(?P<channel>\w+)", unit = "(?P<unit>[^"]*)".*?# decide: (?P<sure>\w+)'
 )
