@@ -13,7 +13,7 @@ import numpy as np
 
 from slipwise.campaign import load_campaign
 from slipwise.campaign.draft import draft_campaign
-from slipwise.campaign.table import open_table
+from slipwise.data_files.table import open_table
 from slipwise.errors import SlipwiseError
 from slipwise.model_file import load_model
 from slipwise.motion.load import load_motion

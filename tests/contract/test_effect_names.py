@@ -30,7 +30,7 @@ ALLOWED = {
     # what a user takes in the place of what an MJCF may not hold
     *(("rig/mjcf_attributes.py", n) for n in ("buffer_damping", "guide_drag", "key_clearance", "key_friction")),
     ("model_entry.py", "heating"),  # an example of an entry
-    *((f, "superstructure") for f in ("campaign/draft_columns.py", "view/paper_rig_pictures.py")),  # of a bridge
+    *((f, "superstructure") for f in ("data_files/column_words.py", "view/paper_rig_pictures.py")),  # of a bridge
 }
 
 

@@ -27,7 +27,8 @@ ARROWS: dict[str, str] = {
     "signals": "errors",
     "statistics": "",
     "record": "channels errors shown units whole_file",
-    "motion": "channels errors shown signals text_encoding units",
+    "data_files": "channels errors text_encoding units",
+    "motion": "channels data_files errors shown signals text_encoding units",
     "rig": "channels errors record units",
     "effects": "channels errors params record rig shown signals",
     "unused_values": "effects errors rig",
@@ -35,7 +36,7 @@ ARROWS: dict[str, str] = {
     "model_entry": "effects errors model params units",
     "model_file": "effects errors model model_entry params record rig units unused_values",
     "simulation": "cache channels effects errors model model_file motion one_at_a_time record rig shown whole_file",
-    "campaign": "channels errors record rig shown signals text_encoding units",
+    "campaign": "channels data_files errors record rig shown signals text_encoding units",
     "instruments": "campaign channels effects errors parallel record rig shown signals statistics",
     "estimation": (
         "campaign channels effects errors instruments model parallel params record rig signals statistics simulation"

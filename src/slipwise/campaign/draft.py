@@ -5,51 +5,25 @@ Nothing is guessed silently: every line that rests on a header's word carries "d
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.campaign.draft_column import Column, Mapped, column_of
+from slipwise.campaign.draft_column import Mapped
 from slipwise.campaign.draft_columns import map_columns
+from slipwise.campaign.draft_files import DataFile, open_data_files
+from slipwise.campaign.draft_lines import column_lines, quoted
 from slipwise.campaign.draft_rig import rig_for
 from slipwise.campaign.draft_roles import is_sine, record_of, roles_of
-from slipwise.campaign.table import SUFFIXES, open_table
-from slipwise.channels import channel, is_channel, pads_in, part_of
-from slipwise.errors import InputError, SlipwiseError
+from slipwise.campaign.draft_time import no_time
+from slipwise.channels import pads_in, part_of
+from slipwise.data_files.table import SUFFIXES
+from slipwise.errors import InputError
 from slipwise.record import Record, write_text
 from slipwise.rig.files import SPECIMEN_FILE
-from slipwise.units import affine, parse_unit
 
 Array = NDArray[np.float64]
-#: "disp (in)", "force [kip]": a name and its unit.
-_HEADER = re.compile(r"^\s*(?P<name>.*?)\s*[\[(](?P<unit>[^\])]*)[\])]\s*$")
-_OURS = re.compile(r"^(?P<name>[A-Za-z]\w*)\s*\[(?P<unit>[^\]]*)\]$")
-#: Words of a header -> channel that it may be.
-_WORDS: tuple[tuple[tuple[str, ...], str], ...] = (
-    (("time", "zeit", "tempo", "t"), "time"),
-    (("slip", "disp", "displacement", "position", "travel", "weg"), "slip_x"),
-    (("vel", "velocity", "speed"), "slip_vx"),
-    (("normal", "axial", "load", "vertical"), "pad_A_N"),
-    (("pressure", "druck"), "pad_A_P"),
-    (("force", "friction", "shear", "kraft"), "pad_A_Fx"),
-    (("temperature", "temp"), "pad_A_T"),
-    (("table",), "table_ax"),
-    (("acc", "accel", "acceleration", "girder"), "girder_ax"),
-)
-
-
-@dataclass(frozen=True)
-class DataFile:
-    """A data file of the folder: its headers, its columns of our names, and those that were looked at."""
-
-    path: Path
-    headers: tuple[str, ...]
-    known: Mapping[str, Array]
-    columns: tuple[Column, ...]
-
-
 #: Ask a person: (question, what is taken without an answer) -> answer.
 Ask = Callable[[str, str], str]
 
@@ -89,15 +63,14 @@ def draft_campaign(folder: Path, ask: Ask | None = None) -> tuple[str, str]:
     """
     if not folder.is_dir():
         raise InputError(f"{folder}: no such folder; a campaign is a folder with data files")
-    files, passed = _data_files(folder)
+    files, passed = open_data_files(folder)
     if not files:
-        why = f": {'; '.join(passed)}" if passed else ""
+        why = f" can be read: {'; '.join(passed)}" if passed else ""
         raise InputError(f"{folder}: no data file in it{why}; possible: {', '.join(SUFFIXES)}")
     mapped = _mapped(files)
     records = {file.path.name: _recognised(file, mapped) for file in files}
-    headers = list(dict.fromkeys(h for file in files for h in file.headers if not _is_ours(h)))
     ours = list(dict.fromkeys(name for file in files for name in file.known))
-    lines = _columns(headers, ours, mapped)
+    lines = column_lines(files, ours, mapped)
     named = [*ours, *re.findall(r'channel = "(\w+)", unit', "\n".join(line for line in lines if line[:1] != "#"))]
     known = [record for record in records.values() if record is not None]
     guess, why, specimen = rig_for(known, pads_in(named), folder)
@@ -107,10 +80,25 @@ def draft_campaign(folder: Path, ask: Ask | None = None) -> tuple[str, str]:
         "# Drafted from the files of this folder. Lines with `decide` need your eyes.",
         "# `slipwise channels` lists the channels.",
         *(f"# not read: {words}" for words in passed),
-        f"name = {_quoted(folder.resolve().name)}",
-        f"rig  = {_quoted(rig)}   # decide: {possible} ({why})",
+        *(f"# note: {' '.join(note.split())}" for file in files for note in file.notes),
+        f"name = {quoted(folder.resolve().name)}",
+        f"rig  = {quoted(rig)}   # decide: {possible} ({why})",
         "",
     ]
+    notes = []
+    if open_units := sum('unit = "?"' in line for line in lines):
+        stand = "1 unit is" if open_units == 1 else f"{open_units} units are"
+        notes.append(f'# note: {stand} "?", because no header states it: write it')
+    for file in files:
+        lacking = [repr(header) for header in mapped if header not in file.headers]
+        if lacking:
+            others = f"{file.path.name} has no column {', '.join(lacking)}"
+            notes.append(f"# note: {others}: name its columns as in the other files, or give it a folder of its own")
+    untimed = [file for file in files if not _timed(file, mapped)]
+    if untimed:
+        notes.append(f"# note: {untimed[0].path.name} shows no time: {no_time(untimed[0].columns)}")
+        head.insert(-1, '# sample_rate = "500 Hz"   # decide: map a column to "time", or write the rate here')
+    head[2:2] = notes
     if rig != "pad":
         head += _logger(ask)
     if not any(part_of(n)[0] == "pad" and n.endswith(("_N", "_P")) for n in named):
@@ -121,58 +109,8 @@ def draft_campaign(folder: Path, ask: Ask | None = None) -> tuple[str, str]:
 def _logger(ask: Ask | None) -> list[str]:
     known = "" if ask is None else ask('Low-pass filter of the logger ("100 Hz", "none", empty if not known)?', "")
     if known.strip():
-        return ["[logger]", f"lowpass = {_quoted(known.strip())}", ""]
+        return ["[logger]", f"lowpass = {quoted(known.strip())}", ""]
     return ["# [logger]                # decide: what the logger did to the channels", '# lowpass = "100 Hz"', ""]
-
-
-def _is_ours(header: str) -> bool:
-    match = _OURS.match(header)
-    return bool(match and is_channel(match["name"]))
-
-
-def _data_files(folder: Path) -> tuple[list[DataFile], list[str]]:
-    """Open what can be a data file; say what is passed over and why."""
-    files, passed = [], []
-    for path in sorted(p for p in folder.iterdir() if p.is_file() and not p.name.startswith(".")):
-        if path.suffix.lower() not in SUFFIXES:
-            passed.append(f"{path.name} (no data file)")
-            continue
-        try:
-            files.append(_opened(path))
-        except InputError as error:
-            words = str(error).removeprefix(f"{path}: ").removeprefix(f"{path.name}: ")
-            passed.append(f"{path.name} ({_one_line(words)})")
-    return files, passed
-
-
-def _one_line(text: str) -> str:
-    return " ".join(text.split())[:160]
-
-
-def _opened(path: Path) -> DataFile:
-    """Read all columns of a file that hold numbers."""
-    table = open_table(path)
-    known: dict[str, Array] = {}
-    columns: list[Column] = []
-    for i, header in enumerate(table.headers):
-        try:
-            (values,) = table.columns([i]).values
-        except InputError:
-            continue  # a column of words
-        if not np.isfinite(values).all():
-            continue
-        match = _OURS.match(header)
-        if match and is_channel(match["name"]):
-            try:
-                factor, offset = affine(match["unit"], channel(match["name"]).unit, header)
-            except SlipwiseError:
-                continue
-            known[match["name"]] = factor * values + offset
-        else:
-            columns.append(column_of(header, values))
-    if table.step is not None and "time" not in known and not any(c.kind == "time" for c in columns) and columns:
-        known["time"] = np.arange(len(columns[0].values), dtype=np.float64) * table.step
-    return DataFile(path, table.headers, known, tuple(columns))
 
 
 def _mapped(files: Sequence[DataFile]) -> dict[str, Mapped]:
@@ -181,7 +119,8 @@ def _mapped(files: Sequence[DataFile]) -> dict[str, Mapped]:
     for file in sorted(files, key=_liveliness, reverse=True):
         taken = {m.channel for m in out.values()}
         fresh = [c for c in file.columns if c.header not in out]
-        found = map_columns(fresh, {**file.known, **_channels(file, out)})
+        known = {m.channel: m.sign * c.values for c in file.columns if (m := out.get(c.header)) is not None}
+        found = map_columns(fresh, {**file.known, **known}, file.step)
         out |= {header: m for header, m in found.items() if m.channel not in taken}
     return out
 
@@ -195,53 +134,20 @@ def _liveliness(file: DataFile) -> tuple[bool, float]:
 
 
 def _channels(file: DataFile, mapped: Mapping[str, Mapped]) -> dict[str, Array]:
+    """Give the channels of a file that are known, its times from the stated step where no column holds them."""
     chosen = ((c, mapped[c.header]) for c in file.columns if c.header in mapped)
-    return {m.channel: m.sign * c.values for c, m in chosen}
+    channels = {**file.known, **{m.channel: m.sign * c.values for c, m in chosen}}
+    if "time" not in channels and file.step is not None and file.columns:
+        channels["time"] = np.arange(len(file.columns[0].values), dtype=np.float64) * file.step
+    return channels
+
+
+def _timed(file: DataFile, mapped: Mapping[str, Mapped]) -> bool:
+    return file.step is not None or "time" in _channels(file, mapped) or not file.columns
 
 
 def _recognised(file: DataFile, mapped: Mapping[str, Mapped]) -> Record | None:
-    return record_of({**file.known, **_channels(file, mapped)}, file.path)
-
-
-def _columns(headers: Sequence[str], ours: Sequence[str], mapped: Mapping[str, Mapped]) -> list[str]:
-    """Give [columns]: lines for what was recognised, or whose words and unit fit a channel, comments for the rest."""
-    if not headers:
-        return []
-    lines, taken = ["[columns]"], {*ours, *(m.channel for m in mapped.values())}
-    for header in headers:
-        found = _HEADER.match(header)
-        name, unit = (found["name"], found["unit"]) if found else (header, "")
-        if header in mapped:
-            m = mapped[header]
-            sign = ", sign = -1" if m.sign < 0 else ""
-            entry = f"{{ channel = {_quoted(m.channel)}, unit = {_quoted(m.unit)}{sign} }}"
-            lines.append(f"{_quoted(header)} = {entry}   # decide: {m.sure}: {_one_line(m.why)}")
-            continue
-        guess = _guess(name, unit)
-        if guess and guess not in taken:
-            taken.add(guess)
-            entry = f"{{ channel = {_quoted(guess)}, unit = {_quoted(unit)} }}"
-            lines.append(
-                f"{_quoted(header)} = {entry}   # decide: guess by its name: channel, sign (sign = -1 turns it)"
-            )
-        else:
-            lines.append(
-                f'# {_quoted(header)} = {{ channel = "...", unit = {_quoted(unit or "...")} }}   # decide: not used'
-            )
-    return [*lines, ""]
-
-
-def _guess(name: str, unit: str) -> str:
-    """Give the channel that a header's words and unit both fit; "" where none does."""
-    words = re.split(r"[^a-z]+", name.lower())
-    for known, wanted in _WORDS:
-        if any(word in known for word in words):
-            try:
-                parse_unit(unit, channel(wanted).unit, name)
-            except SlipwiseError:
-                continue
-            return wanted
-    return ""
+    return record_of(_channels(file, mapped), file.path)
 
 
 def _runs(records: Mapping[str, Record | None]) -> list[str]:
@@ -250,14 +156,9 @@ def _runs(records: Mapping[str, Record | None]) -> list[str]:
         reason = f" ({why})" if why else ""
         lines += [
             "[[run]]",
-            f"file = {_quoted(name)}",
-            f"role = {_quoted(role)}   # decide: fit, repeat (same motion again) or holdout{reason}",
+            f"file = {quoted(name)}",
+            f"role = {quoted(role)}   # decide: fit, repeat (same motion again) or holdout{reason}",
             '# rest_before = "30 min"   # decide: the pause before this run',
             "",
         ]
     return lines
-
-
-def _quoted(text: str) -> str:
-    plain = text.replace("\\", "\\\\").replace('"', '\\"')
-    return '"' + re.sub(r"[\x00-\x1f\x7f]", " ", plain) + '"'

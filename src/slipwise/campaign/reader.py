@@ -17,9 +17,9 @@ from slipwise.campaign.friction_coefficient import forces_of, is_coefficient
 from slipwise.campaign.held_out_check import check_untouched
 from slipwise.campaign.same_specimen import check_same_specimen
 from slipwise.campaign.settings import ColumnMap, RunSettings, Settings, read_settings
-from slipwise.campaign.table import Table, open_table
 from slipwise.campaign.time_axis import check_time, time_of_file
 from slipwise.channels import CHANNELS, channel, is_channel, part_of
+from slipwise.data_files.table import Table, open_table
 from slipwise.errors import InputError, UnitError, unknown_name
 from slipwise.record import Record
 from slipwise.rig import Specimen, load_specimen
@@ -42,6 +42,7 @@ class _File:
     sha256: str
     notes: tuple[str, ...]
     made: tuple[str, ...] = ()
+    computed: tuple[str, ...] = ()
 
 
 def load_campaign(folder: Path | str) -> Campaign:
@@ -139,9 +140,11 @@ def _read_file(path: Path, settings: Settings, specimen: Specimen) -> _File:
     areas = dict(zip(specimen.pads, specimen.pad_areas, strict=True))
     channels |= forces_of(coefficients, channels, areas, path.name)
     _check_temperatures(path.name, channels)
+    measured = set(channels)
     channels, added = completed(time, channels)
+    computed = tuple(name for name in channels if name not in measured)
     made = tuple(f"{path.name}: {word}" for word in added)
-    return _File(time, channels, _sha256(table.path), (*table.notes, *words, *made, *notes), made)
+    return _File(time, channels, _sha256(table.path), (*table.notes, *words, *made, *notes), made, computed)
 
 
 def _check_temperatures(name: str, channels: Mapping[str, Array]) -> None:
@@ -224,6 +227,12 @@ def _not_used(header: str, name: str) -> str:
 
 def _to_si(path: Path, header: str, mapped: ColumnMap) -> tuple[float, float]:
     known = channel(mapped.channel)
+    if mapped.unit.strip() == "?":
+        plain = ', or unit = "1" for a coefficient of friction' if mapped.channel.endswith(("_Fx", "_Fy")) else ""
+        raise UnitError(
+            f'{path.name}, column {header!r}: its unit is still "?" in [columns] of campaign.toml; write it there, for '
+            f'example unit = "{known.shown_in}"{plain}'
+        )
     return affine(mapped.unit, known.unit, f"{path.name}, column {header!r} ({mapped.channel})")
 
 
@@ -266,7 +275,7 @@ def _run(run: RunSettings, file: _File, settings: Settings) -> Run:
                 f"{run.file}: {key} has {len(bad)} missing values, the first at {time[inside][bad[0]]:g} s; cut "
                 "them off with a window, or fill them where that is honest"
             )
-    made = {"made": list(file.made)} if file.made else {}
+    made = {"made": list(file.made), "computed": list(file.computed)} if file.made else {}
     record = Record(time[inside], channels, {"file": run.file, "sha256": file.sha256, **made})
     return Run(name, run.role, record, run.rest_before, run.window, run.file, file.sha256)
 

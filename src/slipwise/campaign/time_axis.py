@@ -5,8 +5,8 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.campaign.table import Table
-from slipwise.campaign.text_blocks import Block
+from slipwise.data_files.table import Table
+from slipwise.data_files.text_blocks import Block
 from slipwise.errors import InputError
 
 Array = NDArray[np.float64]
@@ -35,21 +35,14 @@ def time_of_file(
         InputError: nothing tells the times, or two places contradict each other.
     """
     stated = table.step
+    if column is not None:
+        return column, _checked(name, column, stated, rate)
     if rate is not None and stated is not None and abs(rate * stated - 1.0) > _CLOCK:
         raise InputError(
             f"{name}: the file states a sample rate of {1.0 / stated:g} Hz, campaign.toml {rate:g} Hz; correct one of "
             "them"
         )
     step = 1.0 / rate if rate is not None else stated
-    if column is not None:
-        if rate is not None and len(column) > 1 and np.isfinite(column).all():
-            usual = float(np.median(np.diff(column)))
-            if usual > 0.0 and abs(usual * rate - 1.0) > _CLOCK:
-                raise InputError(
-                    f"{name}: its times advance by {usual:g} s, sample_rate = {rate:g} Hz says {1.0 / rate:g} s; "
-                    "correct one of them"
-                )
-        return column, ()
     if step is None or not channels:
         raise InputError(
             f"{name}: no column holds the time; its columns are {', '.join(map(repr, table.headers))}; name a "
@@ -60,6 +53,31 @@ def time_of_file(
     count = len(next(iter(channels.values())))
     times = np.arange(count, dtype=np.float64) * step
     return times, (f"{name}: times from the sample rate of {1.0 / step:g} Hz that {by} states",)
+
+
+def _checked(name: str, column: Array, stated: float | None, rate: float | None) -> tuple[str, ...]:
+    """Hold a column of times against the rates that campaign.toml and the file state; give what should be known.
+
+    Raises:
+        InputError: they contradict each other.
+    """
+    usual = float(np.median(np.diff(column))) if len(column) > 1 and np.isfinite(column).all() else 0.0
+    if usual <= 0.0:
+        return ()  # the times themselves are wrong, and are refused with their row
+    if rate is not None and abs(usual * rate - 1.0) > _CLOCK:
+        raise InputError(
+            f"{name}: its times advance by {usual:g} s, sample_rate = {rate:g} Hz says {1.0 / rate:g} s; correct one "
+            "of them"
+        )
+    if stated is None or abs(usual / stated - 1.0) <= _CLOCK:
+        return ()
+    words = f"{name}: its times advance by {usual:g} s, the lines above them state {1.0 / stated:g} Hz"
+    if rate is None:
+        raise InputError(
+            f'{words}; correct one of them, or write sample_rate = "{1.0 / usual:g} Hz" in campaign.toml where the '
+            "times are right"
+        )
+    return (f"{words}; the times agree with campaign.toml and are taken",)
 
 
 def check_time(name: str, time: Array, tables: tuple[Block, ...]) -> None:

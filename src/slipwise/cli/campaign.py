@@ -44,7 +44,7 @@ def init(
     if specimen.exists() and not was_there:
         say(f"wrote {specimen}: no rig of the package fits; fill in its places, sizes and heights")
     for line in path.read_text(encoding="utf-8").splitlines():
-        if line.startswith("# not read: "):
+        if line.startswith(("# not read: ", "# note: ")):
             say(line.removeprefix("# "))
 
 

@@ -32,6 +32,12 @@ def replay(
     join_anyway: Annotated[
         bool, typer.Option("--join-anyway", help="Join components of different stations, sensors, events or times.")
     ] = False,
+    count: Annotated[
+        str | None, typer.Option(help="Acceleration of one count of a digitizer, e.g. '2.4e-6 m/s^2'.")
+    ] = None,
+    allow_short: Annotated[
+        bool, typer.Option("--allow-short", help="Take a record that is a few values shorter than its header says.")
+    ] = False,
     amplitude: Annotated[float, typer.Option("--scale", help="Factor on the acceleration.")] = 1.0,
     peak: Annotated[str | None, typer.Option(help="Scale to this peak along x, e.g. '0.7 g'.")] = None,
     similarity: Annotated[
@@ -65,7 +71,18 @@ def replay(
 
     seconds = None if motion_dt is None else sw.quantity(motion_dt, "s", "--motion-dt")
     treatment: Any = baseline  # one of the words that load_motion checks
-    shaking = sw.load_motion(motion, x=x, y=y, z=z, dt=seconds, unit=unit, baseline=treatment, join_anyway=join_anyway)
+    shaking = sw.load_motion(
+        motion,
+        x=x,
+        y=y,
+        z=z,
+        dt=seconds,
+        unit=unit,
+        baseline=treatment,
+        join_anyway=join_anyway,
+        count=count,
+        allow_short=allow_short,
+    )
     if pier is not None and similarity is not None:
         raise SettingError("--pier shortens time by itself, as the model's; leave --similarity out")
     shaking = _shaped(shaking, amplitude, peak, similarity, start, end)

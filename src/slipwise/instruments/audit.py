@@ -30,6 +30,8 @@ from slipwise.signals.noise import quantum, white_level
 _SUREST = 0.99
 #: A rounding step above this many standard deviations of noise is worth a word [1].
 _COARSE = 2.0
+#: Samples of a coarsely rounded channel differ by fewer steps of its rounding than this.
+_FEW_STEPS = 20.0
 
 
 def audit(campaign: Campaign, own: Iterable[Effect] = ()) -> AuditReport:
@@ -156,15 +158,19 @@ def _balances(first: Fit, last: Fit) -> tuple[Balance, ...]:
 
 
 def _rounded(campaign: Campaign) -> list[str]:
-    """Name channels whose rounding is coarser than their noise."""
-    found = []
-    for name in campaign.runs[0].record.channels:
-        values = campaign.runs[0].record[name]
-        if np.ptp(values) == 0.0:
+    """Name channels that are rounded by more than their noise; what was computed from others has no own steps."""
+    found, record = [], campaign.runs[0].record
+    computed = record.provenance.get("computed", ())
+    for name in record.channels:
+        values = record[name]
+        if np.ptp(values) == 0.0 or name in computed:
             continue
         step, noise = quantum(values), white_level(values)
         if step > _COARSE * noise > 0.0:
             found.append(f"{name} is rounded to steps of {step:.3g} {channel(name).unit}, more than its noise")
-        if coarse(values):
+        moves = np.abs(np.diff(values))
+        if coarse(values) and step > 0.0 and float(np.median(moves[moves > 0.0])) < _FEW_STEPS * step:
             found.append(f"{name} is rounded so coarsely that repeated samples cannot be told")
+        elif coarse(values):
+            found.append(f"{name} has no noise, or moves evenly: repeated samples cannot be told from its motion")
     return found

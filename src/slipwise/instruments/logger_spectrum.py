@@ -22,6 +22,7 @@ from scipy.signal import welch
 from slipwise.campaign import Campaign, Logger
 from slipwise.instruments.report import LoggerEstimate
 from slipwise.parallel import on_every_core
+from slipwise.record import Record
 from slipwise.signals.filters import LowPass
 
 Array = NDArray[np.float64]
@@ -60,6 +61,8 @@ def estimate_logger(campaign: Campaign) -> LoggerEstimate:
     """
     spectrum = _spectrum(campaign)
     if spectrum is None:
+        if any(_forces(run.record) for run in campaign.runs):
+            return _unknown("its runs are too short, or sampled too slowly, for a spectrum of friction")
         return _unknown("no horizontal force was recorded, and only reversals of friction show it")
     frequency, power, weight = spectrum
     if len(frequency) < 24:
@@ -94,6 +97,10 @@ def _unknown(why: str, likeliest: Logger | None = None) -> LoggerEstimate:
     return LoggerEstimate(None, 0.0, 0.0, why, likeliest)
 
 
+def _forces(record: Record) -> list[str]:
+    return [n for n in record.channels if n.startswith("pad_") and n.endswith(("_Fx", "_Fy"))]
+
+
 def _spectrum(campaign: Campaign) -> tuple[Array, Array, float] | None:
     """Give frequencies, mean density over cells and runs, and the number of independent stretches."""
     total, count, frequency = None, 0.0, None
@@ -101,7 +108,7 @@ def _spectrum(campaign: Campaign) -> tuple[Array, Array, float] | None:
         record = run.record
         dt = record.dt
         size = round(_STRETCH / dt)
-        names = [n for n in record.channels if n.startswith("pad_") and n.endswith(("_Fx", "_Fy"))]
+        names = _forces(record)
         if size < 32 or len(record) < 2 * size or not names:
             continue
         if total is not None and len(total) != size // 2 + 1:

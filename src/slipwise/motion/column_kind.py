@@ -3,19 +3,31 @@
 import re
 from typing import Literal
 
+from slipwise.channels import is_channel
+from slipwise.data_files.acceleration_unit import acceleration_factor
 from slipwise.errors import UnitError
 from slipwise.motion.orientation import orientation
-from slipwise.motion.stated import acceleration_factor
 from slipwise.units import parse_unit
 
 Kind = Literal["time", "acceleration", "velocity", "displacement", "row number", "other"]
 
-_TIME = {"time", "t", "zeit", "tempo", "temps", "tiempo", "elapsed time", "seconds", "sec"}
-_ROW_NUMBER = {"n", "no", "nr", "num", "index", "sample", "point", "row", "record", "i"}
+TABLE_ACCELERATIONS = ("table_ax", "table_ay", "table_az")
+#: Taken where a file has no acceleration of the table: the command of most tables is a displacement.
+TABLE_DISPLACEMENTS = ("table_dx", "table_dy", "table_dz")
+_TIME = {
+    "time", "t", "zeit", "tempo", "temps", "tiempo", "elapsed time", "seconds", "sec", "seconds elapsed", "zaman",
+    "時間", "時刻", "时间", "time since start", "elapsed",
+    "timestamp", "datetime", "date time", "clock", "uhrzeit", "zeitstempel", "hora",
+}  # fmt: skip
+_ROW_NUMBER = {
+    "", "n", "no", "nr", "num", "index", "idx", "sample", "point", "row", "record", "i", "unnamed: 0", "id", "#",
+}  # fmt: skip
 _WORDS: dict[str, Kind] = {
     "acc": "acceleration", "accel": "acceleration", "acceleration": "acceleration", "vel": "velocity",
     "velocity": "velocity", "disp": "displacement", "displ": "displacement", "dis": "displacement",
     "displacement": "displacement",
+    # the length of the vector, which phones write beside its components
+    "absolute": "other", "total": "other", "resultant": "other", "magnitude": "other", "tgf": "other",
 }  # fmt: skip
 
 
@@ -40,13 +52,16 @@ def kind_of(name: str, unit: str, what: str) -> Kind:
     Raises:
         UnitError: a unit that is not known.
     """
+    if is_channel(name):  # of a measured run only the table's channels are its motion
+        kind = "acceleration" if name in TABLE_ACCELERATIONS else "other"
+        return "time" if name == "time" else "displacement" if name in TABLE_DISPLACEMENTS else kind
     if not unit:
         if is_time_word(name):
             return "time"
         return "row number" if _bare(name) in _ROW_NUMBER else _word(name) or "acceleration"
     try:
         acceleration_factor(unit, what)
-        return "acceleration"
+        return "other" if _word(name) == "other" else "acceleration"
     except UnitError as error:
         refused = error
     kinds: tuple[tuple[Kind, str], ...] = (("time", "s"), ("velocity", "m/s"), ("displacement", "m"))
@@ -66,7 +81,7 @@ def _plain_unit(unit: str) -> str:
 
 
 def _bare(name: str) -> str:
-    return re.sub(r"[\s_.#]+", " ", name.lower()).strip()
+    return re.sub(r"[\s_.#]+", " ", name.lower()).strip() or name.strip()
 
 
 def _word(name: str) -> Kind | None:

@@ -2,6 +2,7 @@
 
 import warnings
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,10 +10,11 @@ import numpy as np
 from slipwise.errors import InputError, SlipwiseWarning, UnknownNameError, unknown_name
 from slipwise.motion.baseline import without_baseline
 from slipwise.motion.detect import read_file
-from slipwise.motion.joining import check_one_record
+from slipwise.motion.joining import check_one_record, common_starts
 from slipwise.motion.orientation import orientation, plain
 from slipwise.motion.plausibility import check_gravity, warn_of_peak
 from slipwise.motion.stated import Given
+from slipwise.motion.stated_peak import check_stated_peak
 from slipwise.motion.table_motion import AXES, TableMotion
 from slipwise.motion.trace import Baseline, Trace
 
@@ -30,6 +32,8 @@ def read_motion(
     unit: str | None = None,
     baseline: Baseline | None = None,
     join_anyway: bool = False,
+    count: str | None = None,
+    allow_short: bool = False,
 ) -> TableMotion:
     """Read a table motion from files of any of the formats.
 
@@ -48,6 +52,8 @@ def read_motion(
         unit: unit of acceleration of files that do not state it.
         baseline: "mean", "linear" or "none"; by default what the format asks for (K-NET and KiK-net: mean).
         join_anyway: join components of different records with a warning, instead of refusing them.
+        count: acceleration of one count of a digitizer whose file holds counts, "2.4e-6 m/s^2".
+        allow_short: take a record that is a few values shorter than its header promises, with a warning.
 
     Raises:
         InputError: a file is missing or damaged, the steps differ, the components cannot be told apart or are of
@@ -55,16 +61,18 @@ def read_motion(
         UnitError: a unit is missing, unknown or of the wrong dimension.
         UnknownNameError: `x`, `y` or `z` names neither a component nor a file.
     """
-    given = Given(dt, unit)
+    given = Given(dt, unit, count, allow_short)
     wanted = {axis: str(choice) for axis, choice in zip(AXES, (x, y, z), strict=True) if choice is not None}
     if "" in wanted.values():
         raise InputError(f"a component has no name; give --x, --y and --z a name, a file, or {AT_REST!r}")
     files = [Path(path) for path in paths]
     read = {file: read_file(file, given) for file in dict.fromkeys(files)}
     for choice in wanted.values():
-        file = _file_of(_sign_and_name(choice, read)[1], read)
+        traces = [trace for group in read.values() for trace in group]
+        file = _file_of(_sign_and_name(choice, read, traces)[1], read)
         if file is not None and file not in read:
             read[file] = read_file(file, given)
+    read = _letters_judged(read)
     traces = [trace for group in read.values() for trace in group]
     if not traces:
         raise InputError("no motion is given; name a file or a synthetic motion such as sine:2Hz,0.3g")
@@ -74,7 +82,21 @@ def read_motion(
     taken = [pair[0] for pair in chosen.values() if pair]
     if files:
         _fill_by_name(chosen, [trace for trace in traces if not any(trace is other for other in taken)])
-    return _assemble({axis: chosen.get(axis) for axis in AXES}, baseline, join_anyway)
+    pairs = {axis: chosen.get(axis) for axis in AXES}
+    for trace in traces:
+        check_stated_peak(trace, unit, used=any(pair is not None and pair[0] is trace for pair in pairs.values()))
+    return _assemble(pairs, baseline, join_anyway)
+
+
+def _letters_judged(read: dict[Path, list[Trace]]) -> dict[Path, list[Trace]]:
+    """Take the last letter of a file's name for a component only where another component is there."""
+    traces = [trace for group in read.values() for trace in group]
+    if len({trace.name for trace in traces}) > 1 or not any(trace.letter_of_file for trace in traces):
+        return read
+    return {
+        file: [replace(t, name=t.source.stem, aliases=(*t.aliases, t.name)) if t.letter_of_file else t for t in group]
+        for file, group in read.items()
+    }
 
 
 def _file_of(text: str, read: dict[Path, list[Trace]]) -> Path | None:
@@ -85,16 +107,16 @@ def _file_of(text: str, read: dict[Path, list[Trace]]) -> Path | None:
     return Path(text) if Path(text).is_file() else None
 
 
-def _sign_and_name(choice: str, read: dict[Path, list[Trace]]) -> tuple[int | None, str]:
-    """Split "-EW" into -1 and "EW"; the sign is None where none is written, or where it begins a file's name."""
-    if choice[0] not in "+-" or _file_of(choice, read):
+def _sign_and_name(choice: str, read: dict[Path, list[Trace]], traces: list[Trace]) -> tuple[int | None, str]:
+    """Split "-EW" into -1 and "EW"; the sign is None where none is written, or where it begins a name, as in "+V"."""
+    if choice[0] not in "+-" or _file_of(choice, read) or any(trace.name == choice for trace in traces):
         return None, choice
     return (-1 if choice[0] == "-" else 1), choice[1:]
 
 
 def _pick(axis: str, choice: str, traces: list[Trace], read: dict[Path, list[Trace]]) -> tuple[Trace, int]:
     """Give the component that a user chose for an axis, and its sign."""
-    sign, name = _sign_and_name(choice, read)
+    sign, name = _sign_and_name(choice, read, traces)
     file = _file_of(name, read)
     candidates = read[file] if file else _called(name, traces)
     where = "name the component instead" if file else "give its file instead"
@@ -112,7 +134,8 @@ def _pick(axis: str, choice: str, traces: list[Trace], read: dict[Path, list[Tra
 
 def _called(name: str, traces: list[Trace]) -> list[Trace]:
     """Give the components of this name or, where none has it, of this number: "Long", "Chan 3", "3"."""
-    named = [trace for trace in traces if plain(trace.name) == plain(name)]
+    named = [trace for trace in traces if trace.name == name]
+    named = named or [trace for trace in traces if plain(trace.name) == plain(name)]
     return named or [trace for trace in traces if plain(name) in {plain(alias) for alias in trace.aliases}]
 
 
@@ -167,10 +190,14 @@ def _assemble(chosen: dict[str, tuple[Trace, int] | None], baseline: Baseline | 
                 f"the components have different steps: {first.name} ({first.source.name}) {first.dt:g} s, "
                 f"{trace.name} ({trace.source.name}) {trace.dt:g} s; resample one of the files"
             )
-    lengths = {axis: len(pair[0].acceleration) for axis, pair in chosen.items() if pair}
+    skipped = {id(t): n for (t, _), n in zip(pairs, common_starts([t for t, _ in pairs]), strict=True)}
+    lengths = {axis: len(pair[0].acceleration) - skipped[id(pair[0])] for axis, pair in chosen.items() if pair}
     length = min(lengths.values())
     acceleration = np.zeros((length, 3))
     treatment: list[str] = []
+    if any(skipped.values()):
+        cut = ", ".join(f"{trace.name} {skipped[id(trace)] * trace.dt:g} s" for trace, _ in pairs)
+        treatment.append(f"cut to the time that all components share; before it lay {cut}")
     names, peaks = [], []
     for column, axis in enumerate(AXES):
         pair = chosen[axis]
@@ -181,12 +208,13 @@ def _assemble(chosen: dict[str, tuple[Trace, int] | None], baseline: Baseline | 
         trace, sign = pair
         check_gravity(trace, axis, baseline)
         values, words = without_baseline(trace.acceleration, baseline or trace.baseline)
-        acceleration[:, column] = sign * values[:length]
+        start = skipped[id(trace)]
+        acceleration[:, column] = sign * values[start : start + length]
         name = f"-{trace.name}" if sign < 0 else trace.name
         names.append(name)
         peaks.append(trace.header_peak)
         treatment += [f"{axis}: {words}" for words in (*trace.treatment, words, f"{name} drives the table in {axis}")]
-    if max(lengths.values()) > length:
+    if max(lengths.values()) > length and not any(skipped.values()):
         counts = ", ".join(f"{axis} {count}" for axis, count in lengths.items())
         words = f"components of unequal length ({counts} samples): the first {length} of each are used"
         warnings.warn(f"{first.title}: {words}", SlipwiseWarning, stacklevel=4)

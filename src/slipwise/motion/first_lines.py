@@ -43,9 +43,11 @@ def read_first_lines(rows: Rows, given_step: float | None, source: SourceFile) -
     values = rows.values
     for lines, numbers in ((2, values[:2]), (1, values[:1])):
         top = [float(v) for row in numbers for v in row]
-        if len(values) < lines + 2 or len(top) not in (1, 2):
+        if len(values) < lines + 1 or len(top) not in (1, 2):
             continue
         below = rows.below(lines).series().size
+        if below < 2:
+            continue
         counts = {below, len(values) - lines}
         rest = rows.below(lines)
         for count, step in (top, top[::-1]) if len(top) == 2 else ((top[0], None),):

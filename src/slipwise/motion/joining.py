@@ -35,8 +35,7 @@ def check_one_record(traces: Sequence[Trace], anyway: bool) -> None:
                 SlipwiseWarning,
                 stacklevel=4,
             )
-        apart = abs((one.start - two.start).total_seconds()) if one.start and two.start else 0.0
-        if 0.5 * first.dt < apart <= _TWO_RECORDS:
+        if 0.5 * first.dt < _apart(first, other) <= _TWO_RECORDS and not _exact(first, other):
             warnings.warn(
                 f"{_called(first)} starts at {one.start}, {_called(other)} at {two.start}: they are joined as if they "
                 "started together",
@@ -45,12 +44,39 @@ def check_one_record(traces: Sequence[Trace], anyway: bool) -> None:
             )
 
 
+def common_starts(traces: Sequence[Trace]) -> list[int]:
+    """Give how many samples of each component lie before the time from which on all of them are there.
+
+    Starts that files state to the sample are trusted; other components start together.
+    """
+    if len(traces) < 2 or not all(_exact(traces[0], trace) for trace in traces):
+        return [0] * len(traces)
+    latest = max(trace.origin.start for trace in traces if trace.origin.start)
+    return [
+        round((latest - trace.origin.start).total_seconds() / trace.dt) if trace.origin.start else 0 for trace in traces
+    ]
+
+
+def _exact(one: Trace, two: Trace) -> bool:
+    """Tell whether both state the time of their first sample exactly, and share some of their time."""
+    return (
+        one.origin.exact_start
+        and two.origin.exact_start
+        and _apart(one, two) < min(one.dt * len(one.acceleration), two.dt * len(two.acceleration))
+    )
+
+
+def _apart(one: Trace, two: Trace) -> float:
+    starts = one.origin.start, two.origin.start
+    return abs((starts[0] - starts[1]).total_seconds()) if starts[0] and starts[1] else 0.0
+
+
 def _differences(first: Trace, other: Trace) -> list[str]:
     """Say what differs, naming both."""
     one, two = first.origin, other.origin
     pairs = [("station", one.station, two.station), ("sensor", one.sensor, two.sensor), ("event", one.event, two.event)]
     words = [f"{what} {a} and {b}" for what, a, b in pairs if a and b and a.casefold() != b.casefold()]
-    if one.start and two.start and abs((one.start - two.start).total_seconds()) > _TWO_RECORDS:
+    if _apart(first, other) > _TWO_RECORDS and not _exact(first, other):
         words.append(f"start {one.start} and {two.start}")
     return words
 

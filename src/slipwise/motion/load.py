@@ -21,6 +21,8 @@ def load_motion(
     unit: str | None = None,
     baseline: Baseline | None = None,
     join_anyway: bool = False,
+    count: str | None = None,
+    allow_short: bool = False,
 ) -> TableMotion:
     """Give the table motion that a user names.
 
@@ -33,6 +35,8 @@ def load_motion(
         unit: unit of acceleration of files that do not state it.
         baseline: "mean", "linear" or "none"; by default what the format asks for.
         join_anyway: join components of different records with a warning, instead of refusing them.
+        count: acceleration of one count of a digitizer whose file holds counts, "2.4e-6 m/s^2".
+        allow_short: take a record that is a few values shorter than its header promises, with a warning.
 
     Raises:
         InputError: files and descriptions mixed, settings that a synthetic motion cannot use, or a damaged file.
@@ -43,15 +47,26 @@ def load_motion(
     described = [str(spec) for spec in given if is_description(spec)]
     if not described:
         step = quantity(dt, "s", "dt") if isinstance(dt, str) else dt
-        return read_motion(given, x=x, y=y, z=z, dt=step, unit=unit, baseline=baseline, join_anyway=join_anyway)
+        return read_motion(
+            given,
+            x=x,
+            y=y,
+            z=z,
+            dt=step,
+            unit=unit,
+            baseline=baseline,
+            join_anyway=join_anyway,
+            count=count,
+            allow_short=allow_short,
+        )
     if len(given) > 1:
         raise InputError(
             f"{described[0]} is a motion by itself; it cannot be joined with "
             f"{', '.join(str(spec) for spec in given if str(spec) != described[0]) or 'itself'}"
         )
-    settings = {"x": x, "y": y, "z": z, "dt": dt, "unit": unit, "baseline": baseline}
+    settings = {"x": x, "y": y, "z": z, "dt": dt, "unit": unit, "baseline": baseline, "count": count}
     unused = [f"--{name}" for name, value in settings.items() if value is not None]
-    unused += ["--join-anyway"] if join_anyway else []
+    unused += [name for name, on in (("--join-anyway", join_anyway), ("--allow-short", allow_short)) if on]
     if unused:
         raise InputError(
             f"{described[0]}: {', '.join(unused)} belong to recorded motions; a synthetic one says everything itself "

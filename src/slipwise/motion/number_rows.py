@@ -1,4 +1,4 @@
-"""Lines of numbers: cut at their separators, decimal commas or points; many lines alike are read at once."""
+"""Lines of numbers without names: cut at their separators, decimal commas or points."""
 
 import re
 from collections.abc import Sequence
@@ -6,93 +6,94 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.data_files.text_file import BLANKS, split_line
+from slipwise.errors import InputError
 from slipwise.motion.source_file import FORTRAN, LARGEST, SourceFile, is_number, number
 
 Array = NDArray[np.float64]
 DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+(?:[eEdD][+-]?\d+)?")
-#: Lines that are read at once.
+#: Lines that are read at once: their texts take much more memory than their numbers.
 _BLOCK = 20_000
-_PLAIN = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?"
-
-
-def split_row(line: str) -> list[str]:
-    """Cut a line at its commas, semicolons or tabs, or at blanks where there is none of these."""
-    text = line.strip()
-    separators = (";", "\t", ",") if _has_decimal_commas(text) else (",", ";", "\t")
-    for separator in separators:
-        if separator in text and not (separator == "," and _has_decimal_commas(text)):
-            fields = [field.strip() for field in text.split(separator)]
-            return fields[:-1] if fields[-1] == "" else fields
-    return text.split()
-
-
-def _has_decimal_commas(text: str) -> bool:
-    """Tell whether a line is written with decimal commas: "0,01;1,5" and "0,01 1,5", but not "1,5"."""
-    fields = re.split(r"[;\t]|\s+", text.strip().rstrip(";"))
-    fields = [field for field in fields if field]
-    return len(fields) > 1 and "." not in text and any(DECIMAL_COMMA.fullmatch(f) for f in fields) and all(
-        DECIMAL_COMMA.fullmatch(f) or is_number(f) for f in fields
-    )  # fmt: skip
 
 
 def numbers_of(line: str) -> list[str]:
     """Give the fields of a line that holds nothing but numbers, with decimal points; none for another line."""
-    comma = _has_decimal_commas(line)
-    fields = [field.replace(",", ".") if comma else field for field in split_row(line)]
-    return fields if fields and all(is_number(field) for field in fields) else []
+    delimiter = delimiter_of(line)
+    return [] if delimiter is None else [field.replace(",", ".") for field in _fields(line, delimiter)]
 
 
-def rows_of_numbers(source: SourceFile, places: Sequence[int], columns: int, single: bool) -> Array | tuple[Array, ...]:
+def delimiter_of(line: str) -> str | None:
+    """Tell what separates the numbers of a line; None where it holds anything else."""
+    for delimiter in ("\t", ";", ",", BLANKS):
+        fields = _fields(line, delimiter) if delimiter in line.strip() or delimiter == BLANKS else []
+        if fields and all(is_number(field) or DECIMAL_COMMA.fullmatch(field) for field in fields):
+            return delimiter
+    return None
+
+
+def _fields(line: str, delimiter: str) -> list[str]:
+    """Cut a line; a separator may also end it."""
+    if '"' in line:
+        fields = split_line(line, delimiter)
+    else:
+        fields = line.split() if delimiter == BLANKS else [field.strip() for field in line.split(delimiter)]
+    return fields[:-1] if fields and not fields[-1] else fields
+
+
+def rows_of_numbers(source: SourceFile, places: Sequence[int], single: bool = False) -> Array | tuple[Array, ...]:
     """Read lines of numbers, (n, columns), or row by row where not all are of one length.
 
     Args:
         source: the file.
-        places: of the lines.
-        columns: numbers in the first line.
+        places: of the lines; all are separated as the first one is.
         single: every line is one number with a decimal comma.
 
     Raises:
         InputError: a field that is no number; the message says where.
     """
-    blocks: list[Array | list[Array]] = []
+    delimiter = BLANKS if single else delimiter_of(source.lines[places[0]]) or BLANKS
+    comma = "," if delimiter == "," else "."
+    blocks: list[Array] = []
+    lengths: list[int] = []
     for k in range(0, len(places), _BLOCK):
         part = places[k : k + _BLOCK]
-        alike = _alike([source.lines[i] for i in part], columns)
-        blocks.append(_one_by_one(source, part, single) if alike is None else alike)
-    if all(isinstance(block, np.ndarray) or all(len(row) == columns for row in block) for block in blocks):
-        return np.concatenate([np.asarray(block) for block in blocks])
-    return tuple(row for block in blocks for row in block)
+        rows = [_fields(source.lines[i].replace(",", comma), delimiter) for i in part]
+        flat = _at_once([field for row in rows for field in row])
+        if flat is None or flat.size != sum(map(len, rows)):
+            # Slower, and says where the damage is; another line may be separated in another way.
+            rows = [numbers_of(source.lines[i]) or row for i, row in zip(part, rows, strict=True)]
+            flat = np.array([number(field, source.at(i)) for i, row in zip(part, rows, strict=True) for field in row])
+        blocks.append(flat)
+        lengths += map(len, rows)
+    values = np.concatenate(blocks)
+    if len(set(lengths)) == 1:
+        return values.reshape(len(lengths), -1)
+    return tuple(np.split(values, np.cumsum(lengths)[:-1]))
 
 
-def _alike(lines: list[str], columns: int) -> Array | None:
-    """Read lines (n, columns) that are all written like the first; None where they are not."""
-    first = lines[0]
-    separator = next((s for s in ("\t", ";") if s in first), " ")
-    if "," in first:
-        if _has_decimal_commas(first):
-            if any("." in line for line in lines):
-                return None
-            lines = [line.replace(",", ".") for line in lines]
-        elif separator == " ":
-            separator = ","
-        else:
-            return None
-    between = "[ ]+" if separator == " " else f"[ ]*{separator}[ ]*"
-    row = re.compile(rf"[ \t]*{_PLAIN}(?:{between}{_PLAIN}){{{columns - 1}}}[ \t]*", re.ASCII)
-    if not all(map(row.fullmatch, lines)):
+def _at_once(fields: list[str]) -> Array | None:
+    """Read many numbers, None where one of them is none or no measurement."""
+    text = " ".join(fields).translate(FORTRAN)
+    try:
+        values = np.array(text.split(" "), dtype=np.float64)
+    except ValueError:
         return None
-    mark = separator if separator in ",;" else " "
-    values = np.fromstring(mark.join(lines).translate(FORTRAN), sep=mark)
-    if values.size != len(lines) * columns or not np.all(np.abs(values) < LARGEST):
-        return None
-    return values.reshape(-1, columns)
+    # float() would also take "1_000" and "infinity"
+    return values if "_" not in text and bool(np.all(np.abs(values) < LARGEST)) else None
 
 
-def _one_by_one(source: SourceFile, places: Sequence[int], single: bool) -> list[Array]:
-    values = []
-    for i in places:
-        line = source.lines[i]
-        comma = single or _has_decimal_commas(line)
-        fields = [line.strip()] if single else split_row(line)
-        values.append(np.array([number(f.replace(",", ".") if comma else f, source.at(i)) for f in fields]))
-    return values
+def table_of_numbers(source: SourceFile, places: Sequence[int], columns: int) -> Array:
+    """Read lines of numbers as a table (n, columns); empty lines are passed over.
+
+    Raises:
+        InputError: a line with more or fewer numbers, or with something else.
+    """
+    filled = [i for i in places if source.lines[i].strip()]
+    rows = rows_of_numbers(source, filled) if filled else np.empty((0, columns))
+    for i, row in zip(filled, rows, strict=True):
+        if len(row) != columns:
+            raise InputError(
+                f"{source.at(i)}: {len(row)} values stand where {columns} were expected; "
+                "the record is truncated or damaged, fetch the file again"
+            )
+    return np.asarray(rows)

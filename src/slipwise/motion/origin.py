@@ -4,6 +4,8 @@ import re
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 
+from slipwise.data_files.statements import Statements
+
 _TIME = re.compile(r"(\d{4})\D?(\d{1,2})\D?(\d{1,2})[\sT_-]+(\d{1,2})\D?(\d{1,2})(?:\D?(\d{1,2}(?:\.\d{1,6})?))?")
 
 
@@ -17,6 +19,7 @@ class Origin:
         place: in a structure, "Pier Cap 2".
         event: the earthquake.
         start: time of the first sample, in the file's own clock.
+        exact_start: whether the start is stated to the sample, as packets of data loggers do.
     """
 
     station: str = ""
@@ -24,6 +27,22 @@ class Origin:
     place: str = ""
     event: str = ""
     start: datetime | None = None
+    exact_start: bool = False
+
+
+def origin_of(stated: Statements) -> Origin:
+    """Give what the header of a text file states of its origin."""
+
+    def first(fact: str) -> str:
+        return next(iter(stated.texts.get(fact, ())), "")
+
+    depth = first("sensor")
+    return Origin(
+        station=first("station"),
+        sensor=("" if not depth else f"{float(depth):g} m deep" if float(depth) else "surface"),
+        event=first("event"),
+        start=time_in(first("start")),
+    )
 
 
 def time_in(text: str) -> datetime | None:

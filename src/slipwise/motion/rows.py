@@ -1,48 +1,37 @@
-"""Text files whose lines are rows of numbers, below a header of any kind."""
+"""Text files whose lines are rows of numbers without names, below a header of any kind."""
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.errors import InputError
-from slipwise.motion.column_kind import is_column_word, is_time_word
-from slipwise.motion.number_rows import DECIMAL_COMMA, numbers_of, rows_of_numbers, split_row
+from slipwise.motion.number_rows import DECIMAL_COMMA, delimiter_of, numbers_of, rows_of_numbers, table_of_numbers
 from slipwise.motion.source_file import SourceFile, is_number, number
 
-#: "Time[s]", "time (s)", "table_ax [m/s^2]": a name and, in brackets, its unit.
-_CELL = re.compile(r"\s*\"?([^\[\](),;\t]*?)\s*[\[(]([^\[\]()]*(?:\([^()]*\))?[^\[\]()]*)[\])]\"?\s*(?:[,;\t]|\s|$)")
-_BRACKETS = re.compile(r"^(?P<name>[^\[(]*?)\s*[\[(](?P<unit>.*)[\])]$")
 #: A header may hold rows of numbers of its own, no more than these, within so many lines.
 _OWN_ROWS, _HEADER_LINES = 12, 200
 #: Lines below the numbers that may mark the end: words, no digits.
 _END_MARKS = 3
+#: What may stand before the words of a header.
+COMMENT_SIGNS = "#%/!*$ "
 
 
 @dataclass(frozen=True)
 class Rows:
-    """A table of numbers as it stands in a file.
+    """Rows of numbers as they stand in a file.
 
     Attributes:
-        names: of the columns, empty if the header does not name each of them.
-        units: of the columns as written, likewise; "" of a column whose name has no unit.
         header: the lines above the numbers that are not empty, without comment signs.
         values: (n, columns), or the rows one by one where not all are of one length.
         places: index of the line of each row.
     """
 
-    names: tuple[str, ...]
-    units: tuple[str, ...]
     header: tuple[str, ...]
     values: NDArray[np.float64] | tuple[NDArray[np.float64], ...]
     places: Sequence[int]
-
-    @property
-    def title(self) -> str:
-        """The first header line, "" if there is none."""
-        return self.header[0] if self.header else ""
 
     def table(self, source: SourceFile) -> NDArray[np.float64]:
         """Give the values as a table (n, columns).
@@ -52,14 +41,7 @@ class Rows:
         """
         if isinstance(self.values, np.ndarray):
             return self.values
-        columns = len(self.values[0])
-        for i, row in zip(self.places, self.values, strict=True):
-            if len(row) != columns:
-                raise InputError(
-                    f"{source.at(i)}: {len(row)} values stand where {columns} were expected; "
-                    "the record is truncated or damaged"
-                )
-        return np.stack(self.values)
+        return table_of_numbers(source, self.places, len(self.values[0]))
 
     def series(self) -> NDArray[np.float64]:
         """Give all numbers in reading order."""
@@ -79,23 +61,26 @@ def read_rows(source: SourceFile) -> Rows:
     """Read the rows of numbers below a header.
 
     Raises:
-        InputError: no numbers, or a field that is no number.
+        InputError: no numbers, a field that is no number, or a last number that is cut off.
     """
     start = find_first_row(source.lines)
     if start is None:
         raise InputError(f"{source.name}: no line of numbers is in this file; see `slipwise motions` for what is read")
     start = _after_the_headers_own(source.lines, start)
     end = _before_end_marks(source.lines, start)
-    places: Sequence[int] = [i for i in range(start, end) if source.lines[i].strip()]
-    if len(places) == end - start:
-        places = range(start, end)  # two million numbers less
-    header = [line.strip().lstrip("#%/! ").rstrip(" ,;") for line in source.lines[:start]]
-    header = [line for line in header if line]
-    single = _single_decimal_commas(source.lines[i] for i in places)
-    columns = 1 if single else len(split_row(source.lines[start]))
+    places: Sequence[int] = range(start, end)
+    if not all(map(str.strip, source.lines[start:end])):
+        places = [i for i in places if source.lines[i].strip()]
+    header = [line.strip().lstrip(COMMENT_SIGNS).rstrip(" ,;") for line in source.lines[:start]]
+    # "0,0123" in every line: the comma separates nothing.
+    single = all(DECIMAL_COMMA.fullmatch(source.lines[i].strip()) for i in places) and any(
+        source.lines[i].lstrip().startswith("-") for i in places
+    )
+    columns = 1 if single else len(numbers_of(source.lines[start]))
     _refuse_damaged_first_row(source, start, columns)
-    names, units = _column_names(header, columns)
-    return Rows(names, units, tuple(header), rows_of_numbers(source, places, columns, single), places)
+    if len(places) > 5 and places[-1] == len(source.lines) - 1:
+        _refuse_cut_number(source, places)
+    return Rows(tuple(line for line in header if line), rows_of_numbers(source, places, single), places)
 
 
 def _after_the_headers_own(lines: Sequence[str], start: int) -> int:
@@ -106,7 +91,7 @@ def _after_the_headers_own(lines: Sequence[str], start: int) -> int:
             continue
         if numbers_of(lines[i]):
             own += 1
-        elif own > _OWN_ROWS or any(is_number(field) for field in split_row(lines[i])):
+        elif own > _OWN_ROWS or any(map(is_number, re.split(r"[\s,;]+", lines[i]))):
             # A line that is half numbers is a damaged row, not a header.
             break
         else:
@@ -129,48 +114,23 @@ def _before_end_marks(lines: Sequence[str], start: int) -> int:
     return len(lines)
 
 
-def _single_decimal_commas(lines: Iterable[str]) -> bool:
-    """Tell whether every line is one number with a decimal comma: "0,0123", so that the comma separates nothing."""
-    any_line = signed = False
-    for line in lines:
-        text = line.strip()
-        if not DECIMAL_COMMA.fullmatch(text):
-            return False
-        any_line, signed = True, signed or text[0] == "-"
-    return any_line and signed
-
-
-def _column_names(header: Sequence[str], columns: int) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Give names and units of the columns from the lines just above them."""
-    if not header:
-        return (), ()
-    cells = _CELL.findall(header[-1])
-    # "El Centro (1940)" is a title; brackets without a letter hold no unit.
-    if len(cells) == columns and all(any(c.isalpha() for c in unit) for _, unit in cells):
-        return tuple(name.strip() for name, _ in cells), tuple(unit.strip() for _, unit in cells)
-    if columns == 1:
-        return (), ()
-    names, units = [], []
-    above = [split_row(line) for line in header[-2:]]
-    two = len(above) == 2 and all(len(row) == columns for row in above)
-    if two and not any(map(is_number, above[0] + above[1])) and any(map(is_column_word, above[0])):
-        return tuple(cell.strip('"') for cell in above[0]), tuple(cell.strip('"()[] ') for cell in above[1])
-    for cell in above[-1]:
-        match = _BRACKETS.match(cell.strip('" '))
-        names.append(match["name"].strip() if match else cell.strip('" '))
-        units.append(match["unit"].strip() if match else "")
-    # Two words above two columns may as well be a title: names without units must be known ones.
-    named = any(units) or all(map(is_column_word, names)) or is_time_word(names[0])
-    if len(names) != columns or any(is_number(name) for name in names) or not named:
-        return (), ()
-    return tuple(names), tuple(units)
-
-
 def _refuse_damaged_first_row(source: SourceFile, start: int, columns: int) -> None:
     """Refuse a line of data that passes for a header because one of its fields is damaged."""
     if start == 0:
         return
-    fields = split_row(source.lines[start - 1])
-    numeric = [is_number(field) for field in fields]
+    delimiter = delimiter_of(source.lines[start])
+    fields = source.lines[start - 1].strip().split(None if delimiter == " " else delimiter)
+    numeric = [is_number(field.strip()) for field in fields]
     if len(fields) == columns and any(numeric) and not all(numeric):
         number(fields[numeric.index(False)], source.at(start - 1))
+
+
+def _refuse_cut_number(source: SourceFile, places: Sequence[int]) -> None:
+    """Refuse a file that ends within a number: no line end, and fewer decimals than every number above has."""
+    decimals = [
+        len(numbers_of(source.lines[i])[-1:][0].partition(".")[2]) for i in places[-50:] if numbers_of(source.lines[i])
+    ]
+    if len(set(decimals[:-1])) == 1 and decimals[-1] < decimals[0]:
+        raise InputError(
+            f"{source.at(places[-1])}: the last number is cut off; the record is truncated, fetch it again"
+        )

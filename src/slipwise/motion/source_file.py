@@ -3,16 +3,19 @@
 import hashlib
 import math
 import re
-from dataclasses import dataclass, field
+import warnings
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from slipwise.errors import InputError
+from slipwise.errors import InputError, SlipwiseWarning
 from slipwise.text_encoding import decoded
 
 #: How much of a file the recognition of its format sees.
 HEAD_BYTES = 4096
 #: Beyond this a number in a file is damage, and its square would overflow.
 LARGEST = 1e30
+#: A record is short by a few values if it lacks no more than this many, or this share of them.
+_FEW, _FEW_OF = 20, 0.01
 #: Fortran writes double precision with a D: 1.5D-03.
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?")
 FORTRAN = str.maketrans("dD", "ee")
@@ -29,6 +32,7 @@ class SourceFile:
         head: its first characters, as UTF-8 without a byte-order mark; of a file that is no text its first bytes.
         lines: the decoded lines, without their ends; none of a file that is no text.
         data: its bytes, kept of a file that is no text.
+        path: where it stands, None of bytes that are in memory only.
     """
 
     name: str
@@ -37,6 +41,7 @@ class SourceFile:
     head: bytes
     lines: tuple[str, ...]
     data: bytes = field(default=b"", repr=False)
+    path: Path | None = None
 
     def at(self, index: int) -> str:
         """Give "name, line 5" for the line with index 4."""
@@ -57,7 +62,7 @@ def open_source(path: Path) -> SourceFile:
         raise InputError(f"{path}: no such file; give the path of a motion file or `sine:2Hz,0.3g`") from None
     except (OSError, ValueError) as error:
         raise InputError(f"{path}: cannot be read ({error})") from None
-    return source_of(path.name, path.stem, data)
+    return replace(source_of(path.name, path.stem, data), path=path)
 
 
 def source_of(name: str, stem: str, data: bytes) -> SourceFile:
@@ -105,7 +110,7 @@ def is_number(text: str) -> bool:
     return bool(_NUMBER.fullmatch(text)) or text.lower().lstrip("+-") in ("nan", "inf", "infinity")
 
 
-def blank_separated(source: SourceFile, start: int, count: int, stated_by: str) -> list[float]:
+def blank_separated(source: SourceFile, start: int, count: int, stated_by: str, short: bool) -> list[float]:
     """Read numbers that stand between blanks, from a line to the end of the file.
 
     Args:
@@ -113,15 +118,21 @@ def blank_separated(source: SourceFile, start: int, count: int, stated_by: str) 
         start: index of the first line.
         count: how many the header states.
         stated_by: the header's words for it, for the message.
+        short: whether a few less are taken.
 
     Raises:
         InputError: something that is no number, or another count than stated.
     """
     end = _end_of_values(source, start)
-    values = [number(field, source.at(i)) for i in range(start, end) for field in source.lines[i].split()]
-    check_count(len(values), count, source, stated_by)
+    values = [number(field, source.at(i)) for i in range(start, end) for field in _fields(source.lines[i])]
+    check_count(len(values), count, source, stated_by, short)
     _check_last_number(source, start, end)
     return values
+
+
+def _fields(line: str) -> list[str]:
+    """Cut a line at blanks and commas, and before a sign where two numbers of a fixed width touch."""
+    return re.sub(r"(?<=[\d.])(?=[+-])", " ", line.replace(",", " ")).split()
 
 
 def _end_of_values(source: SourceFile, start: int) -> int:
@@ -150,8 +161,15 @@ def _check_last_number(source: SourceFile, start: int, end: int) -> None:
         )
 
 
-def check_count(found: int, stated: int, source: SourceFile, stated_by: str) -> None:
+def check_count(found: int, stated: int, source: SourceFile, stated_by: str, short: bool) -> None:
     """Refuse a record that holds another number of values than its header states.
+
+    Args:
+        found: how many there are.
+        stated: how many the header promises.
+        source: the file.
+        stated_by: the header's words for it, for the message.
+        short: whether a few less are taken, with a warning.
 
     Raises:
         InputError: it does.
@@ -159,10 +177,11 @@ def check_count(found: int, stated: int, source: SourceFile, stated_by: str) -> 
     if stated < 2:
         raise InputError(f"{source.name}: {stated_by} promises {stated} values; that is no record")
     if found < stated:
-        raise InputError(
-            f"{source.name}: the record is truncated: {stated_by} promises {stated} values, {found} are there; "
-            "fetch the file again"
-        )
+        words = f"{source.name}: the record is truncated: {stated_by} promises {stated} values, {found} are there"
+        few = stated - found <= max(_FEW, _FEW_OF * stated)
+        if not few or not short:
+            raise InputError(f"{words}; fetch the file again{', or take it with --allow-short' if few else ''}")
+        warnings.warn(f"{words}; taken as it is", SlipwiseWarning, stacklevel=3)
     if found > stated:
         raise InputError(
             f"{source.name}: {stated_by} promises {stated} values, but {found} are there; "

@@ -4,9 +4,10 @@ import math
 import re
 from dataclasses import dataclass
 
+from slipwise.data_files.acceleration_unit import acceleration_factor
 from slipwise.errors import InputError, UnitError
 from slipwise.motion.source_file import SourceFile
-from slipwise.units import parse_unit
+from slipwise.units import quantity
 
 #: Beyond these a step is a slip of the pen.
 _STEP_RANGE = (1e-6, 10.0)
@@ -18,11 +19,15 @@ class Given:
 
     Attributes:
         dt: step [s].
-        unit: of the acceleration, as written.
+        unit: of the acceleration, as written; a number before it, "2 mm/s^2", is a factor.
+        count: acceleration of one count of a digitizer, "2.4e-6 m/s^2".
+        allow_short: take a record that is a few values shorter than its header promises.
     """
 
     dt: float | None = None
     unit: str | None = None
+    count: str | None = None
+    allow_short: bool = False
 
     def __post_init__(self) -> None:
         """Refuse a step that is none.
@@ -33,62 +38,70 @@ class Given:
         if self.dt is not None and not (math.isfinite(self.dt) and self.dt > 0):
             raise InputError(f"the step given, {self.dt!r} s, is not possible; give a positive one")
 
+    def factor(self, source: SourceFile) -> tuple[float, str] | None:
+        """Give the factor from what the values are in to m/s^2 and what was given, None if nothing is.
 
-def acceleration_factor(unit: str, what: str) -> float:
-    """Give the factor from a unit of acceleration, in any of the agencies' spellings, to m/s^2.
+        Raises:
+            UnitError: it is none of acceleration, or a unit and a count are given.
+        """
+        if self.count is not None and self.unit is not None:
+            raise UnitError(f"{source.name}: --count {self.count} and --unit {self.unit} say the same; leave one out")
+        if self.count is not None:
+            return quantity(self.count, "m/s^2", "--count"), self.count
+        if self.unit is None:
+            return None
+        what = f"the unit given for {source.name}"
+        factor = quantity(self.unit, "m/s^2", what) if self.has_number else acceleration_factor(self.unit, what)
+        return factor, self.unit
 
-    Raises:
-        UnitError: unknown unit or another dimension.
-    """
-    text = unit.strip()
-    # JMA writes the unit twice, "gal(cm/s/s)": both must mean the same.
-    twice = re.fullmatch(r"(\w+)\s*\(([^()]+)\)", text)
-    if twice:
-        first, second = (acceleration_factor(part, what) for part in twice.groups())
-        if abs(first - second) > 1e-9 * abs(second):
-            raise UnitError(f"{what}: the unit {unit!r} contradicts itself; give the file's true unit in its header")
-        return first
-    # Agencies write CM/SEC/SEC, cm/sec2, cm/s2; only a lone G is standard gravity.
-    if re.search(r"[a-z]/|^gal$", text, re.IGNORECASE):
-        text = text.lower()
-        text = re.sub(r"\bsec\b|\bsec(?=[2^])", "s", text)
-        text = re.sub(r"(?<=/s)2\b", "^2", text)
-    factor = parse_unit(text, "m/s^2", what)
-    if not 0 < factor < 1e4:
-        raise UnitError(f"{what}: the unit {unit!r} is no unit of acceleration; a unit like 'm/s^2' is needed")
-    return factor
+    @property
+    def has_number(self) -> bool:
+        """Whether a number stands before the unit."""
+        return self.unit is not None and bool(re.match(r"[\d.]", self.unit.strip()))
 
 
-def settle_unit(stated: str | None, given: Given, source: SourceFile) -> tuple[float, str]:
+def settle_unit(stated: str | None, given: Given, source: SourceFile, line: str = "") -> tuple[float, str]:
     """Give the factor to m/s^2 and the words for the record.
 
     Args:
         stated: the unit that the file states, None if it states none.
         given: what the user says.
         source: the file.
+        line: the file's line that states it, for the message.
 
     Raises:
         UnitError: nobody says it, it is unknown, or the file and the user disagree.
     """
-    by_user = None if given.unit is None else acceleration_factor(given.unit, f"the unit given for {source.name}")
+    by_user = given.factor(source)
     if stated is None:
         if by_user is None:
             raise UnitError(
                 f"{source.name}: the file does not state the unit of its acceleration; "
                 "give it, for example --unit g or --unit cm/s^2"
             )
-        return by_user, f"unit {given.unit}, as given"
+        return by_user[0], f"unit {by_user[1]}, as given"
     by_file = acceleration_factor(stated, f"the header of {source.name}")
-    if by_user is not None and abs(by_user - by_file) > 1e-4 * by_file:
+    if by_user is not None and abs(by_user[0] - by_file) > 1e-4 * by_file:
+        option = "--unit" if given.count is None else "--count"
         raise UnitError(
-            f"{source.name}: the file states {stated!r} as its unit, {given.unit!r} was given; "
-            "leave --unit out, or correct the file's header"
+            f"{source.name}: the file states {stated!r} as its unit, {by_user[1]!r} was given; "
+            f"leave {option} out, or correct {_header_line(line)}"
         )
     return by_file, f"unit {stated}, as the file states"
 
 
-def settle_step(stated: float | None, given: Given, source: SourceFile) -> tuple[float, str]:
+def _header_line(line: str) -> str:
+    return f"its line {line!r}" if line else "the file's header"
+
+
+def settle_step(stated: float | None, given: Given, source: SourceFile, line: str = "") -> tuple[float, str]:
     """Give the step [s] and the words for the record.
+
+    Args:
+        stated: what the file states [s], None if it states none.
+        given: what the user says.
+        source: the file.
+        line: the file's line that states it, for the message.
 
     Raises:
         InputError: nobody says it, it is beyond all reason, or the file and the user disagree.
@@ -104,7 +117,7 @@ def settle_step(stated: float | None, given: Given, source: SourceFile) -> tuple
     if stated is not None and given.dt is not None and abs(given.dt - stated) > 1e-4 * abs(stated):
         raise InputError(
             f"{source.name}: the file states a step of {stated:g} s, {given.dt:g} s was given; "
-            "leave --motion-dt out, or correct the file's header"
+            f"leave --motion-dt out, or correct {_header_line(line)}"
         )
     if not _STEP_RANGE[0] <= dt <= _STEP_RANGE[1]:
         raise InputError(

@@ -27,11 +27,13 @@ class HeaderPeak:
         value: as stated, with the sign of the file's component [m/s^2].
         time: after the first sample of the file [s]; None where the file gives no time.
         rounding: half of the last digit that the file gives [m/s^2].
+        written: number and unit as they stand there, "" if the file's format fixes the unit.
     """
 
     value: float
     time: float | None
     rounding: float
+    written: str = ""
 
 
 @dataclass(frozen=True)

@@ -1,35 +1,46 @@
-"""One series written several values a line, as Fortran and OpenSees do, told from a table of several components."""
+"""One series written several values a line, alone or in pairs of time and value, told from a table of components."""
 
 import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.motion.rows import Rows
+from slipwise.motion.time_column import rises_evenly
 
+Array = NDArray[np.float64]
 #: In reading order a wrapped series is at least this much smoother than down its columns [1].
 _SMOOTHER = 0.8
+#: A single line with fewer numbers is no record.
+_SHORTEST = 8
 
 
-def wrapped_series(rows: Rows) -> NDArray[np.float64] | None:
+def wrapped_series(rows: Rows) -> Array | None:
     """Give the series (n,) in reading order, None where the rows are no wrapped series.
 
-    A short last line is a sign of it; without one, neighbours in a line must be closer than neighbours in a column.
+    A single line or a short last line is a sign of it; without one, neighbours in a line must be closer than neighbours
+    in a column.
     """
     count, width = len(rows.values), len(rows.values[0])
-    if rows.names or count < 2 or width < 3 or any(len(row) != width for row in rows.values[:-1]):
+    if width < 3 or any(len(row) != width for row in rows.values[:-1]):
         return None
     series, last = rows.series(), len(rows.values[-1])
+    if count == 1:
+        return series if width >= _SHORTEST else None
     if last > width or rises_evenly(np.array([row[0] for row in rows.values])):
         return None
-    above = rows.values[:-1]
-    columns = above if isinstance(above, np.ndarray) else np.stack(above)
     if last < width:
         return series
+    columns = series.reshape(count, width)[:-1]
     along = np.abs(np.diff(series)).mean()
     down = np.abs(np.diff(columns, axis=0)).mean() if len(columns) > 1 else 0.0
     return series if along < _SMOOTHER * down else None
 
 
-def rises_evenly(first: NDArray[np.float64]) -> bool:
-    """Tell whether a column (n,) may be one of times: it rises by nearly the same step at every row."""
-    steps = np.diff(first)
-    return bool(len(steps) > 2 and (steps > 0).all() and steps.max() < 1.5 * np.median(steps))
+def wrapped_pairs(rows: Rows) -> Array | None:
+    """Give pairs of time and value (n, 2) that stand several to a line, as functions of finite-element programs do.
+
+    None where every other number does not rise evenly in reading order.
+    """
+    width, series = len(rows.values[0]), rows.series()
+    if width < 4 or width % 2 or series.size % 2 or not rises_evenly(series[::2]):
+        return None
+    return series.reshape(-1, 2)

@@ -61,13 +61,16 @@ def white_level(values: Array) -> float:
 
 def quantum(values: Array) -> float:
     """Give the step of a quantised channel; 0 where values are as good as continuous."""
-    steps = np.diff(np.unique(values[np.isfinite(values)][:20000]))
+    levels, counts = np.unique(values[np.isfinite(values)][:20000], return_counts=True)
+    steps = np.diff(levels)
     steps = steps[steps > 0.0]
     if len(steps) < 3:
         return 0.0
     # the smallest steps of text rounding or binary fractions scatter by rounding: take the median of the small ones
     smallest = float(np.median(steps[steps < 1.5 * steps.min()]))
     multiples = steps / smallest
+    if counts.max() == 1 and multiples.max() < 1.5:
+        return 0.0  # it rises evenly, as the slip of a pin on a disc: the steps are those of the motion
     share = np.mean(np.abs(multiples - np.round(multiples)) < 0.05)
     return smallest if share > 0.95 else 0.0
 

@@ -88,3 +88,16 @@ def test_a_folder_without_data_says_which_files_are_data(tmp_path):
         draft_campaign(tmp_path)
     with pytest.raises(InputError, match="no such folder"):
         draft_campaign(tmp_path / "nowhere")
+
+
+def test_a_file_with_other_columns_than_the_rest_is_told(tmp_path):
+    draft = drafted(
+        tmp_path, a=text(slider(1), "t [s],x [mm],N [kN],F [kN]"), b=text(slider(2), "t [s],u [mm],N [kN],F [kN]")
+    )
+    assert "# note: b.csv has no column 'x [mm]': name its columns as in the other files" in draft
+
+
+def test_a_folder_whose_files_cannot_be_read_says_why(tmp_path):
+    (tmp_path / "run.mat").write_bytes(b"MATLAB 5.0 MAT-file")
+    with pytest.raises(InputError, match=r"no data file in it can be read: run\.mat \(not a readable MATLAB file"):
+        draft_campaign(tmp_path)

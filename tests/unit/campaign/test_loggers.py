@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from slipwise.campaign import load_campaign
-from slipwise.campaign.table import open_table
+from slipwise.data_files.table import open_table
 from slipwise.errors import InputError, SlipwiseError
 
 N = 60
@@ -75,7 +75,7 @@ def test_the_step_that_a_preamble_states_is_understood(tmp_path, words, step):
 
 
 def test_two_rates_that_contradict_each_other_are_refused_naming_both(tmp_path):
-    with pytest.raises(InputError, match=r"contradict each other: .*100 Hz.*0\.02 s"):
+    with pytest.raises(InputError, match=r"contradicts itself: .*100 Hz.*0\.02 s"):
         read(tmp_path, "Sample rate: 100 Hz\nSample interval: 0.02 s\n\nSlip [mm]\tForce [kN]\n" + rows(SLIP, FORCE))
 
 

@@ -10,8 +10,8 @@ import pytest
 from scipy.io import savemat
 
 from slipwise.campaign import load_campaign
-from slipwise.campaign.matlab_file import matlab_variables
-from slipwise.campaign.table import open_table
+from slipwise.data_files.matlab_file import read_matlab
+from slipwise.data_files.table import open_table
 from slipwise.errors import InputError
 
 TIME = 0.01 * np.arange(50)
@@ -21,7 +21,7 @@ SLIP = np.sin(TIME)
 def test_vectors_matrices_and_structures_of_matlab_become_columns(tmp_path):
     path = tmp_path / "run.mat"
     savemat(path, {"t": TIME[:, None], "data": np.stack([SLIP, 2 * SLIP], axis=1), "rig": {"force": SLIP}, "n": 3.0})
-    columns = matlab_variables(path)
+    columns = read_matlab(path).columns
     assert set(columns) == {"t", "data(:,1)", "data(:,2)", "rig.force"}
     assert columns["data(:,2)"] == pytest.approx(2 * SLIP)
 
@@ -56,7 +56,7 @@ def test_version_7_3_without_its_extra_names_the_extra(tmp_path, monkeypatch):
 
     monkeypatch.setattr(builtins, "__import__", without)
     with pytest.raises(InputError, match=r"pip install 'slipwise\[matlab73\]'"):
-        matlab_variables(tmp_path / "run.mat")
+        read_matlab(tmp_path / "run.mat")
 
 
 def test_version_7_3_is_read_with_its_extra(tmp_path):
@@ -69,7 +69,7 @@ def test_version_7_3_is_read_with_its_extra(tmp_path):
     version_7_3(header)
     with path.open("r+b") as stream:
         stream.write(header.read_bytes()[:128])
-    assert matlab_variables(path)["rig.force"] == pytest.approx(SLIP)
+    assert read_matlab(path).columns["rig.force"] == pytest.approx(SLIP)
 
 
 @pytest.mark.parametrize(
@@ -81,7 +81,7 @@ def test_a_matlab_file_without_numbers_is_refused(tmp_path, content, message):
     if content is not None:
         savemat(path, content)
     with pytest.raises(InputError, match=message):
-        matlab_variables(path)
+        read_matlab(path)
 
 
 def test_parquet_keeps_its_unit_beside_the_column(tmp_path):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.io import savemat
 
-from slipwise.campaign.table import open_table
+from slipwise.data_files.table import open_table
 from slipwise.errors import InputError
 
 TIME = 0.01 * np.arange(300)

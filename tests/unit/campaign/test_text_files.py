@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from slipwise.campaign.table import open_table
-from slipwise.campaign.text_file import inspect_text, read_text_columns
+from slipwise.data_files.table import open_table
+from slipwise.data_files.text_file import inspect_text, read_text_columns
 from slipwise.errors import InputError
 
 HEADERS = ("time [s]", "slip_x [mm]", "pad_A_Fx [kN]")

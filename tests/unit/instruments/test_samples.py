@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from slipwise.campaign import Campaign, Logger, Run
+from slipwise.campaign import Campaign, Logger, Run, load_campaign
+from slipwise.instruments.audit import audit
 from slipwise.instruments.repairs import for_balances, for_fits
 from slipwise.instruments.sample_faults import SampleFault, sample_faults
 from slipwise.instruments.suspects import effect_of
@@ -119,3 +120,18 @@ def test_what_a_clipped_accelerometer_does_to_the_velocity_is_left_out_widely() 
     _, invalid = for_fits(campaign, faults)
     rail = np.abs(campaign.runs[0].record["girder_ax"]) == 1.5
     assert invalid["only"]["girder_ax"][np.convolve(rail, np.ones(61), mode="same") > 0.5].all()
+
+
+def test_a_slip_that_is_integrated_from_its_speed_is_never_called_rounded(tmp_path):
+    time = 0.02 * np.arange(240)
+    speed = 75.0 + 0.05 * np.random.default_rng(1).standard_normal(240)
+    rows = "".join(f"{t:.2f},{v:.4f},1.44,9\n" for t, v in zip(time, speed, strict=True))
+    (tmp_path / "run.csv").write_text("time [s],slip_vx [mm/s],pad_A_Fx [N],pad_A_N [N]\n" + rows)
+    (tmp_path / "campaign.toml").write_text('rig = "pad"\n[[run]]\nfile = "run.csv"\nrole = "fit"\n')
+    report = audit(load_campaign(tmp_path))
+    assert not [note for note in report.notes if note.startswith("slip_x is rounded")]
+    steps = [(f"{t:.2f}", round(20.0 * np.sin(9.0 * t) + 0.2 * v)) for t, v in zip(time, speed - 75.0, strict=True)]
+    rows = "".join(f"{t},{x},1.44,9\n" for t, x in steps)
+    (tmp_path / "run.csv").write_text("time [s],slip_x [mm],pad_A_Fx [N],pad_A_N [N]\n" + rows)
+    report = audit(load_campaign(tmp_path))
+    assert [note for note in report.notes if note.startswith("slip_x is rounded")]

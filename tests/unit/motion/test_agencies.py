@@ -10,6 +10,7 @@ from slipwise.motion import load_motion
 from slipwise.motion.detect import detect
 from slipwise.motion.source_file import source_of
 from slipwise.motion.stated import Given
+from slipwise.motion.stated_peak import check_stated_peak
 from unit.motion import agency_samples as agencies
 from unit.motion.samples import csmip, wave
 
@@ -67,7 +68,7 @@ def test_a_truncated_record_is_refused(kind, share):
 
 
 @pytest.mark.parametrize("kind", [k for k in FILES if k not in ("CWB/TSMIP", "UNAM ASA")])
-def test_a_component_of_another_size_than_the_stated_peak_is_refused(kind):
+def test_a_component_of_another_size_than_the_stated_peak_is_refused_if_it_is_used_and_else_named(kind):
     written = f"{VALUES[:, 0][np.abs(VALUES[:, 0]).argmax()]:13.6f}".encode()
     old, new = {
         "ESM": (b"PGA_CM/S^2: 1", b"PGA_CM/S^2: 7"),
@@ -78,8 +79,11 @@ def test_a_component_of_another_size_than_the_stated_peak_is_refused(kind):
     }[kind]
     data = FILES[kind].replace(old, new)
     assert data != FILES[kind]
+    trace = read(data)[0]
     with pytest.raises(InputError, match=r"states a peak of"):
-        read(data)
+        check_stated_peak(trace, None, used=True)
+    with pytest.warns(SlipwiseWarning, match=r"states a peak of .* it is not used"):
+        check_stated_peak(trace, None, used=False)
 
 
 def test_velocity_and_displacement_beside_acceleration_are_left_out_and_alone_refused():

@@ -13,8 +13,16 @@ from slipwise.motion.detect import detect
 from slipwise.motion.source_file import source_of
 from slipwise.motion.stated import Given, acceleration_factor
 from unit.motion import samples
+from unit.motion.agency_samples import unam
 
-FILES = samples.every_format()
+FILES = samples.every_format() | {
+    "UNAM ASA": unam(np.stack([samples.wave()] * 3, axis=1)),
+    "MIDAS": b"*SGSw\n*X-AXIS, Time(sec)\n*Y-AXIS, Accel (g)\n*DATA\n"
+    + b"".join(b"%.2f, %.5f\n" % (0.02 * i, v / 1000) for i, v in enumerate(samples.wave())),
+    "Abaqus": b"** acceleration in g\n*Amplitude, name=EQ\n"
+    + b"".join(b"%.2f, %.5f\n" % (0.02 * i, v / 1000) for i, v in enumerate(samples.wave())),
+    "one line": b"dt = 0.01 s, acceleration in g\n" + b" ".join(b"%.5f" % v for v in samples.wave()),
+}
 BYTES = st.one_of(
     st.sampled_from(
         [b"", b"-", b".", b"9", b"0", b" ", b"\n", b"\r", b",", b"E", b"nan", b"\x00", b"\xff", b"(", b"]"]

@@ -92,7 +92,7 @@ def test_starts_less_than_a_second_apart_are_warned_of(tmp_path):
     [
         ("HNE", "east-west"), ("BHZ", "up"), ("HN1", "horizontal"), ("EW2", "east-west"), ("UD2", "up"),
         ("FN", "horizontal"), ("FP", "horizontal"), ("090 (STATION)", "east-west"), ("Radial", "horizontal"),
-        ("Transverse", "horizontal"), ("acc_NS", "horizontal"), ("Acc X", "horizontal"), ("a_z", "up"),
+        ("Transverse", "horizontal"), ("acc_NS", "horizontal"), ("Acc X", "table x"), ("a_z", "up"),
         ("North-South", "horizontal"), ("N00E", "horizontal"), ("Up/Down", "up"), ("one", "unknown"),
         ("Northridge", "unknown"), ("girder", "unknown"), ("Long", "horizontal"), ("Tran", "horizontal"),
     ],

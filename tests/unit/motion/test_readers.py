@@ -10,6 +10,7 @@ from slipwise.motion.source_file import source_of
 from slipwise.motion.stated import Given, acceleration_factor
 from slipwise.record import Record, write_record
 from unit.motion import samples
+from unit.motion.samples import wave
 
 G = 9.80665
 
@@ -220,3 +221,55 @@ def test_every_trace_says_in_words_how_it_was_read():
         for trace in read(data):
             words = " ".join(trace.treatment)
             assert "read as" in words and "unit" in words and "step" in words, kind
+
+
+@pytest.fixture
+def load(tmp_path):
+    def write_and_load(data: bytes, name: str, **settings):
+        (tmp_path / name).write_bytes(data)
+        return read_motion([tmp_path / name], **settings)
+
+    return write_and_load
+
+
+AT2 = "{title}\nINVENTED EQ 01/02/33 0405, NOWHERE, 090\n{unit}\n{line}\n"
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "NPTS=   40, DT=   .0100 SEC", "NPTS=   40, DT=   .0100 SEC,", "NPTS=40,DT=.01", "NPTS= 40, DT= .01 sec",
+        "NPTS: 40, DT: 0.01", "DT= .0100 SEC, NPTS= 40", "NPTS= 40\nDT= .0100 SEC", "DT= .0100 SEC\nNPTS= 40",
+        "  40   0.0100   NPTS, DT", "  40   .0100  NPTS, DT (SEC)", "npts = 40, dt = 0.01 s", "NPTS= 40, DT= 10 ms",
+        "NPTS=    40, DT= .01000 SEC   ", "NPTS = 40 , DT = 1.0E-2 SEC", "NPTS 40 DT 0.01",
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("body", ["five", "eight", "touching", "one", "commas"])
+def test_at2_headers_and_bodies_in_all_their_kinds(load, line, body):
+    values = wave() / 1000
+    each = {"five": 5, "eight": 8, "touching": 5, "one": 1, "commas": 4}[body]
+    width = "{:15.7E}" if body != "touching" else "{:+.7E}"
+    joint = "," if body == "commas" else ""
+    rows = [joint.join(width.format(v) for v in values[i : i + each]) for i in range(0, 40, each)]
+    head = AT2.format(title="PEER STRONG MOTION DATABASE RECORD", unit="ACCELERATION IN UNITS OF G", line=line)
+    motion = load((head + "\n".join(rows) + "\n").encode(), name="record.AT2")
+    assert (motion.dt, motion.components[0]) == (pytest.approx(0.01), "090")
+    np.testing.assert_allclose(motion.acceleration[:, 0], values * 9.80665, rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("line", "rows", "words"),
+    [
+        ("NPTS= 41, DT= .01 SEC", 40, "promises 41 values, 40 are there; .* --allow-short"),
+        ("NPTS= 20, DT= .01 SEC", 40, "promises 20 values, but 40 are there"),
+        ("NPTS= 40, DT= .01 SEC, DT= .02 SEC", 40, "contradicts itself"),
+        ("NPTS= 40", 40, "the number of points and the step cannot be read"),
+        ("NPTS= many, DT= .01 SEC", 40, "the number of points and the step cannot be read"),
+        ("NPTS= 40, DT= .01 SEC, UNITS= CM/S/S", 40, "contradicts itself"),
+    ],
+)
+def test_damaged_at2_headers_are_refused_in_one_sentence(load, line, rows, words):
+    head = AT2.format(title="PEER", unit="ACCELERATION IN UNITS OF G", line=line)
+    body = "\n".join(f"{v:15.7E}" for v in wave()[:rows] / 1000)
+    with pytest.raises(SlipwiseError, match=words):
+        load((head + body + "\n").encode(), name="record.AT2")

@@ -4,15 +4,18 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from slipwise.motion.formats import (
+    abaqus_amplitude,
     columns,
     cosmos,
     csmip_v1,
     csmip_v2,
     csmnc,
     cwb,
+    data_file,
     geonet_v2a,
     jma_csv,
     knet,
+    midas_sgs,
     peer_at2,
     seismology,
     slipwise_csv,
@@ -52,6 +55,13 @@ FORMATS: tuple[Format, ...] = (
         seismology.read,
         binary=True,
     ),
+    Format(
+        "workbooks, MATLAB, Parquet and LabVIEW files",
+        "tables as in campaigns (.xlsx, .mat, .parquet, .tdms), with the extras that read them",
+        data_file.recognise,
+        data_file.read,
+        binary=True,
+    ),
     Format("COSMOS", "V1 and V2; velocity and displacement are left out", cosmos.recognise, cosmos.read),
     Format("GeoNet V2A", "three components a file; V1A, uncorrected, too", geonet_v2a.recognise, geonet_v2a.read),
     Format(
@@ -74,6 +84,8 @@ FORMATS: tuple[Format, ...] = (
     Format("K-NET and KiK-net ASCII", "one component a file; the mean is removed", knet.recognise, knet.read),
     Format("USGS SMC", "one component a file", usgs_smc.recognise, usgs_smc.read),
     Format("Slipwise CSV", "the table's channels of a motion or a run", slipwise_csv.recognise, slipwise_csv.read),
+    Format("MIDAS time function", "keywords name both axes", midas_sgs.recognise, midas_sgs.read),
+    Format("Abaqus amplitude", "each is a component; give --unit", abaqus_amplitude.recognise, abaqus_amplitude.read),
     Format("PEER AT2", "one component a file", peer_at2.recognise, peer_at2.read),
     Format(
         "text columns",

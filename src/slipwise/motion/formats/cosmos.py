@@ -15,7 +15,7 @@ from slipwise.motion.origin import Origin, time_in
 from slipwise.motion.source_file import SourceFile, header_field, number, positive
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
-from slipwise.motion.trace import Trace, check_header_peak, half_last_digit
+from slipwise.motion.trace import Trace, half_last_digit
 
 _START = re.compile(
     r"^\s*(?P<level>raw|uncorrected|corrected)\s+(?P<what>\w+)\b.*\(format v[\d.]+ with +(\d+) text", re.I
@@ -85,8 +85,6 @@ def _record(source: SourceFile, given: Given, start: int, end: int, text_lines: 
         raise InputError(f"{source.name}: the header does not state the channel's direction ('Sta Cha: 1: 340 deg')")
     peak = _peak(reals, text, factor)
     name = channel["name"]
-    if peak is not None:
-        check_header_peak(values, dt, peak, source, name)
     return Trace(
         source=source,
         name=name,

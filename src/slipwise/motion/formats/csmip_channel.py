@@ -10,7 +10,7 @@ from slipwise.motion.origin import Origin, time_in
 from slipwise.motion.source_file import SourceFile, header_field, number
 from slipwise.motion.stated import Given, acceleration_factor, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
-from slipwise.motion.trace import Trace, check_header_peak, half_last_digit
+from slipwise.motion.trace import Trace, half_last_digit
 
 _CHANNEL = re.compile(r"^\s*chan\s*(?P<number>\d+):\s*(?P<name>.*?)\s*(?:\(.*|\s{2,}.*|location:.*)?$", re.IGNORECASE)
 _PLACE = re.compile(r"location:\s*(.*?)\s*$", re.IGNORECASE)
@@ -119,8 +119,6 @@ def channel_trace(
     factor, unit_words = settle_unit(values.unit, given, source)
     read = fixed_width(source, values.at + 1, values.count, values.per_line, values.width)
     acceleration = np.array(read) * factor
-    if peak is not None:
-        check_header_peak(acceleration, dt, peak, source, channel.name)
     where = f" at {channel.place}" if channel.place else ""
     return Trace(
         source=source,

@@ -8,12 +8,12 @@ import re
 import numpy as np
 
 from slipwise.errors import InputError
+from slipwise.motion.number_rows import table_of_numbers
 from slipwise.motion.origin import Origin, time_in
 from slipwise.motion.source_file import SourceFile, check_count, header_field, number, positive
-from slipwise.motion.spaced_table import spaced_table
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
-from slipwise.motion.trace import Trace, check_header_peak, half_last_digit
+from slipwise.motion.trace import Trace, half_last_digit
 
 _LOOK_AT = 60
 
@@ -45,9 +45,9 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
         raise InputError(f"{place}: the sequence {sequence[1]!r} cannot be read; 'Time U(+); N(+); E(+)' is")
     length, place = field(r"RecordLength\(sec\)", r"([\d.]+)")
     count = round(number(length[1], place) * per_second)
-    table = spaced_table(source, _rows(source), len(names) + 1)
-    check_count(len(table), count, source, "the header's record length")
-    if np.abs(table[:, 0] - table[0, 0] - np.arange(count) * dt).max() > 0.5 * dt:
+    table = table_of_numbers(source, _rows(source), len(names) + 1)
+    check_count(len(table), count, source, "the header's record length", given.allow_short)
+    if np.abs(table[:, 0] - table[0, 0] - np.arange(len(table)) * dt).max() > 0.5 * dt:
         raise InputError(
             f"{source.name}: the times do not advance by {dt:g} s, as the header's rate says; fetch it again"
         )
@@ -61,8 +61,6 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
     for column, (name, sign) in enumerate(names, 1):
         values = table[:, column] * (factor if sign == "+" else -factor)
         peak = _peak(source, name, factor)
-        if peak is not None:
-            check_header_peak(values, dt, peak, source, name)
         traces.append(
             Trace(
                 source=source,

@@ -17,7 +17,7 @@ from slipwise.motion.origin import Origin, time_in
 from slipwise.motion.source_file import SourceFile, header_field, is_number, number, positive
 from slipwise.motion.stated import Given, acceleration_factor, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
-from slipwise.motion.trace import Trace, check_header_peak, half_last_digit
+from slipwise.motion.trace import Trace, half_last_digit
 
 _TEXT, _INTEGERS, _NUMBERS = 16, 4, 6
 _PER_LINE, _WIDTH = 10, 8
@@ -81,7 +81,6 @@ def _component(source: SourceFile, given: Given, start: int) -> tuple[Trace, int
         number(peak[3], source.at(i)) + prepended,
         half_last_digit(peak[1]) * factor,
     )
-    check_header_peak(values, dt, stated, source, name)
     site, event = (source.lines[start + k].strip() for k in (2, 7))
     trace = Trace(
         source=source,

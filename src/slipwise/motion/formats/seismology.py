@@ -1,5 +1,7 @@
 """SAC and miniSEED, read by obspy: one component a trace; neither states the unit of an acceleration.
 
+Whole numbers are counts of a digitizer: only the acceleration of one count makes a motion of them.
+
 obspy is an extra (`seismology`), imported only here and only when such a file is read.
 """
 
@@ -10,6 +12,7 @@ from datetime import datetime
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from slipwise.errors import InputError, UnitError
 from slipwise.motion.origin import Origin
@@ -17,6 +20,7 @@ from slipwise.motion.source_file import SourceFile
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.trace import Trace
 
+Array = NDArray[np.float64]
 _MINISEED = re.compile(rb"\d{6}[DRQM][ \x00]|MS\x03")
 #: The header of SAC: word 77 is its version, at this place; 6 and 7 are in use.
 _SAC_VERSION_AT, _SAC_VERSIONS = 304, (6, 7)
@@ -50,10 +54,10 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
         if kind:
             raise UnitError(f"{source.name}: the header says that this is a {kind}; a table needs acceleration")
         dt, dt_words = settle_step(float(stats.delta), given, source)
-        factor, unit_words = settle_unit(None, given, source)
         values = np.asarray(found.data, dtype=float)
         if not np.isfinite(values).all():
             raise InputError(f"{source.name}: channel {found.id} holds values that are no numbers; fetch it again")
+        factor, unit_words = _unit(values, given, source, found.id)
         name = stats.channel or source.stem
         traces.append(
             Trace(
@@ -68,12 +72,28 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
                     station=f"{stats.network}.{stats.station}".strip("."),
                     sensor=stats.location,
                     start=_start(stats),
+                    exact_start=True,
                 ),
             )
         )
     if not traces:
         raise InputError(f"{source.name}: no trace is in this file; fetch it again")
     return traces
+
+
+def _unit(values: Array, given: Given, source: SourceFile, channel: str) -> tuple[float, str]:
+    """Give the factor to m/s^2 and the words for the record.
+
+    Raises:
+        UnitError: nobody says the unit, or a unit without a number is given where the values are counts.
+    """
+    given.factor(source)
+    if given.unit is not None and not given.has_number and values.any() and (values == np.round(values)).all():
+        raise UnitError(
+            f"{source.name}: channel {channel} holds whole numbers, counts of a digitizer; give the acceleration of "
+            f"one count, for example --count '2.4e-6 m/s^2' (--unit '1 {given.unit}' if the values are in {given.unit})"
+        )
+    return settle_unit(None, given, source)
 
 
 def _stream(source: SourceFile) -> Any:

@@ -1,21 +1,17 @@
 """Our own CSV: "time [s],table_ax [m/s^2],..."; of a measured run, the table's channels are the motion."""
 
 import re
+from dataclasses import replace
 from difflib import get_close_matches
 
 from slipwise.channels import CHANNELS
 from slipwise.errors import InputError
-from slipwise.motion.displacement import acceleration_of
-from slipwise.motion.rows import read_rows
+from slipwise.motion.column_kind import TABLE_ACCELERATIONS, TABLE_DISPLACEMENTS
+from slipwise.motion.column_traces import column_traces
+from slipwise.motion.named_table import text_table
 from slipwise.motion.source_file import SourceFile
-from slipwise.motion.stated import Given, settle_step, settle_unit
-from slipwise.motion.time_column import column_step
+from slipwise.motion.stated import Given
 from slipwise.motion.trace import Trace
-from slipwise.units import parse_unit
-
-_TABLE = ("table_ax", "table_ay", "table_az")
-#: Taken where a file has no acceleration of the table: the command of most tables is a displacement.
-_PLACES = {"table_dx": "table_ax", "table_dy": "table_ay", "table_dz": "table_az"}
 
 
 def recognise(head: bytes) -> bool:
@@ -32,42 +28,20 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
         InputError: none of the table's channels is there, the rows are damaged, or the times do not rise evenly.
         UnitError: a unit is missing, unknown or of the wrong dimension.
     """
-    rows = read_rows(source)
-    if not all(rows.units) or not rows.units:
+    table = text_table(source)
+    if table is None or not all(table.units):
         raise InputError(f"{source.at(0)}: each column must be named with its unit, as in 'table_ax [m/s^2]'")
-    for name in rows.names:
-        near = get_close_matches(name, _TABLE, n=1, cutoff=0.8)
+    for name in table.names:
+        near = get_close_matches(name, TABLE_ACCELERATIONS, n=1, cutoff=0.8)
         if near and name not in CHANNELS:
             raise InputError(f"{source.name}: no channel is called {name!r}; did you mean {near[0]}?")
-    present = [name for name in _TABLE if name in rows.names] or [name for name in _PLACES if name in rows.names]
+    possible = (*TABLE_ACCELERATIONS, *TABLE_DISPLACEMENTS)
+    present = [name for name in table.names if name in possible]
     if not present:
         raise InputError(
-            f"{source.name}: this record holds none of {', '.join((*_TABLE, *_PLACES))}; it has {', '.join(rows.names)}"
+            f"{source.name}: this record holds none of {', '.join(possible)}; it has {', '.join(table.names)}"
         )
-    doubled = [name for name in present if rows.names.count(name) > 1]
+    doubled = sorted({name for name in present if present.count(name) > 1})
     if doubled:
         raise InputError(f"{source.name}: {', '.join(doubled)} stands there more than once; leave one of them")
-    values = rows.table(source)
-    dt, dt_words = settle_step(column_step(rows, values, rows.units[0], source), given, source)
-    traces = []
-    for name in present:
-        k = rows.names.index(name)
-        if name in _PLACES:
-            metres = values[:, k] * parse_unit(rows.units[k], "m", f"column {name!r} of {source.name}")
-            acceleration, made = acceleration_of(metres, dt, source, name)
-            unit_words = f"unit m/s^2, as it is made: {made}"
-        else:
-            factor, unit_words = settle_unit(rows.units[k], given, source)
-            acceleration = values[:, k] * factor
-        traces.append(
-            Trace(
-                source=source,
-                name=_PLACES.get(name, name),
-                title=source.stem,
-                dt=dt,
-                acceleration=acceleration,
-                baseline="none",
-                treatment=(f"read as Slipwise CSV: {source.name}, {name}", f"{unit_words}; {dt_words}"),
-            )
-        )
-    return traces
+    return column_traces(replace(table, read_as="Slipwise CSV"), source, given)

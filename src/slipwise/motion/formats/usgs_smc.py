@@ -17,7 +17,7 @@ from slipwise.motion.origin import Origin
 from slipwise.motion.source_file import SourceFile, header_field, number, positive
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
-from slipwise.motion.trace import Trace, check_header_peak
+from slipwise.motion.trace import Trace
 
 _TEXT, _INTEGER_LINES, _NUMBER_LINES = 11, 6, 10
 _KIND = re.compile(rb"^\s*\d\s+[A-Z][A-Z ]*?\s*\r*\n\*", re.IGNORECASE)
@@ -58,8 +58,6 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
     if any(line.strip() for line in source.lines[data + -(-count // 8) :]):
         raise InputError(f"{source.name}: more values follow than the {count} that the header states")
     stated = _peak(numbers, factor)
-    if stated:
-        check_header_peak(values, dt, stated, source, name)
     return [
         Trace(
             source=source,

@@ -10,9 +10,8 @@ from zipfile import ZipFile
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.campaign.header_rows import MISSING, Header, find_header
-from slipwise.campaign.stated_rate import stated_step
-from slipwise.campaign.time_stamps import seconds_of_stamps
+from slipwise.data_files.header_rows import MISSING, Header, find_header
+from slipwise.data_files.time_stamps import seconds_of_stamps
 from slipwise.errors import InputError
 
 Array = NDArray[np.float64]
@@ -28,14 +27,14 @@ class Sheet:
     Attributes:
         name: of the sheet.
         headers: of its columns.
-        step: what the rows above state [s], None if they state none.
+        above: the rows above, each as one text.
         header: where it begins.
         others: sheets that hold tables too.
     """
 
     name: str
     headers: tuple[str, ...]
-    step: float | None
+    above: tuple[str, ...]
     header: Header
     others: tuple[str, ...]
 
@@ -66,29 +65,33 @@ def inspect_sheet(path: Path, wanted: str | None) -> Sheet:
     if not found:
         raise InputError(f"{path}: no sheet holds a line of column names above rows of numbers")
     name, header, rows = found[0]
-    above = [" ".join(cell for cell in row if cell) for row in rows[: header.line]]
-    return Sheet(name, header.columns, stated_step(above, path.name), header, tuple(other for other, _, _ in found[1:]))
+    above = tuple("\t".join(cell for cell in row if cell) for row in rows[: header.line])
+    return Sheet(name, header.columns(path.name), above, header, tuple(other for other, _, _ in found[1:]))
 
 
 def read_sheet(path: Path, sheet: Sheet, wanted: Sequence[int]) -> list[Array]:
-    """Read columns by number, each (n,), down to the first empty row.
+    """Read columns by number, each (n,), down to the first empty row or to the sums below the table.
 
     Raises:
         InputError: a cell that is no number.
     """
-    columns: list[list[str]] = [[] for _ in wanted]
+    rows: list[list[str]] = []
     for number, row in enumerate(_rows(_workbook(path)[sheet.name], path)):
         if number < sheet.header.first:
             continue
         if not any(row):
             break
-        for column, k in zip(columns, wanted, strict=True):
-            column.append(row[k] if k < len(row) else "")
+        rows.append(row)
+    while len(rows) > 1 and not sheet.header.is_row(rows[-1]):
+        rows.pop()
+    part = sheet.header.part
+    columns = [[row[k] if k < len(row) else "" for row in rows] for k in wanted]
     out = []
     for column, k in zip(columns, wanted, strict=True):
         what = f"{path.name}, sheet {sheet.name}, column {sheet.headers[k]!r}"
         if k in sheet.header.stamps:
-            out.append(seconds_of_stamps(column, what))
+            seconds = seconds_of_stamps(column, what)
+            out.append(seconds if part is None else seconds + [part[1] * float(row[part[0]]) for row in rows])
             continue
         try:
             out.append(np.array([np.nan if cell in MISSING else float(cell.replace(",", ".")) for cell in column]))

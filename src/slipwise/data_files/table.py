@@ -9,18 +9,32 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from slipwise.campaign.labview_file import read_tdms
-from slipwise.campaign.matlab_file import matlab_variables
-from slipwise.campaign.spreadsheet import inspect_sheet, read_sheet
-from slipwise.campaign.text_blocks import Block
-from slipwise.campaign.text_file import inspect_text, read_text_columns
+from slipwise.data_files.catman_file import read_catman
+from slipwise.data_files.dewesoft_file import read_dewesoft
+from slipwise.data_files.diadem_file import read_tdm
+from slipwise.data_files.labview_file import read_tdms
+from slipwise.data_files.matlab_file import read_matlab
+from slipwise.data_files.mdf_file import read_mdf
+from slipwise.data_files.named_columns import NamedColumns
+from slipwise.data_files.spreadsheet import inspect_sheet, read_sheet
+from slipwise.data_files.statements import read_statements
+from slipwise.data_files.text_blocks import Block
+from slipwise.data_files.text_file import inspect_text, read_text_columns
+from slipwise.data_files.uff_file import read_uff
 from slipwise.errors import InputError
 
 Array = NDArray[np.float64]
 #: Columns that take more memory than this are no record of a rig [bytes].
 _LARGEST = 800_000_000
 TEXT_SUFFIXES: tuple[str, ...] = (".csv", ".tsv", ".txt", ".dat", ".asc", ".lvm")
-SUFFIXES: tuple[str, ...] = (*TEXT_SUFFIXES, ".mat", ".parquet", ".tdms", ".xlsx")
+#: Files that are read whole, channel by channel.
+_CHANNEL_FILES: dict[str, Callable[[Path], NamedColumns]] = {
+    ".mat": read_matlab, ".tdms": read_tdms, ".mf4": read_mdf, ".mdf": read_mdf, ".uff": read_uff, ".unv": read_uff,
+    ".tdm": read_tdm, ".bin": read_catman, ".dxd": read_dewesoft, ".d7d": read_dewesoft,
+}  # fmt: skip
+SUFFIXES: tuple[str, ...] = (*TEXT_SUFFIXES, ".parquet", ".xlsx", *_CHANNEL_FILES)
+#: Files that belong to one of another suffix: the numbers of a .tdm.
+COMPANIONS: tuple[str, ...] = (".tdx", ".tdms_index")
 
 
 @dataclass(frozen=True)
@@ -41,6 +55,7 @@ class Table:
         columns: function of column numbers that reads these columns.
         step: what the file states beside its columns [s], None if it states none.
         notes: what a user should know of the file.
+        above: the lines above the names of the columns.
     """
 
     path: Path
@@ -48,6 +63,7 @@ class Table:
     columns: Callable[[Sequence[int]], Columns]
     step: float | None = None
     notes: tuple[str, ...] = ()
+    above: tuple[str, ...] = ()
 
 
 def open_table(path: Path) -> Table:
@@ -75,26 +91,29 @@ def open_table(path: Path) -> Table:
             path,
             layout.headers,
             lambda wanted: Columns(*read_text_columns(path, layout, wanted, table)),
-            layout.step,
+            read_statements(layout.above, path.name, ("step",)).step,
+            layout.notes,
+            layout.above,
         )
-    if suffix == ".mat":
-        return _of_columns(path, matlab_variables(path))
-    if suffix == ".tdms":
-        tdms = read_tdms(path)
-        return _of_columns(path, tdms.columns, tdms.step)
+    if suffix in _CHANNEL_FILES:
+        return _of_columns(path, _CHANNEL_FILES[suffix](path))
     if suffix == ".xlsx":
         sheet = inspect_sheet(path, part)
         others = (
             f"sheets {', '.join(sheet.others)} of {path.name} hold tables too and are not read" if sheet.others else ""
         )
         notes = (others,) if others else ()
-        return Table(path, sheet.headers, lambda wanted: Columns(read_sheet(path, sheet, wanted)), sheet.step, notes)
+        step = read_statements(sheet.above, path.name, ("step",)).step
+        return Table(
+            path, sheet.headers, lambda wanted: Columns(read_sheet(path, sheet, wanted)), step, notes, sheet.above
+        )
     if suffix == ".parquet":
         return _parquet(path)
     raise InputError(f"{path}: {suffix or 'no suffix'} is no format of a data file; possible: {', '.join(SUFFIXES)}")
 
 
-def _of_columns(path: Path, columns: dict[str, Array], step: float | None = None) -> Table:
+def _of_columns(path: Path, read: NamedColumns) -> Table:
+    columns = read.columns
     names = tuple(columns)
 
     def chosen(wanted: Sequence[int]) -> Columns:
@@ -105,7 +124,7 @@ def _of_columns(path: Path, columns: dict[str, Array], step: float | None = None
             raise InputError(f"{path.name}: the columns that are used differ in length: {counted}; cut the longer ones")
         return Columns(values)
 
-    return Table(path, names, chosen, step)
+    return Table(path, names, chosen, read.step, read.notes)
 
 
 def _parquet(path: Path) -> Table:

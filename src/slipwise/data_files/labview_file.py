@@ -3,13 +3,13 @@
 import logging
 import struct
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.data_files.named_columns import NamedColumns
 from slipwise.errors import InputError
 
 Array = NDArray[np.float64]
@@ -41,15 +41,7 @@ def lvm_headers(names: Sequence[str], preamble: Sequence[str]) -> tuple[str, ...
     return tuple(out)
 
 
-@dataclass(frozen=True)
-class Tdms:
-    """A .tdms file: columns by name, and the step that its channels state [s]."""
-
-    columns: dict[str, Array]
-    step: float | None
-
-
-def read_tdms(path: Path) -> Tdms:
+def read_tdms(path: Path) -> NamedColumns:
     """Read every channel of numbers.
 
     Raises:
@@ -94,7 +86,7 @@ def read_tdms(path: Path) -> Tdms:
             f"{path}: its channels are sampled at different steps, {', '.join(f'{s:g} s' for s in sorted(steps))}; "
             "export those of one step to a file of their own"
         )
-    return Tdms(columns, next(iter(steps), None))
+    return NamedColumns(columns, next(iter(steps), None))
 
 
 def _check_whole(path: Path) -> None:

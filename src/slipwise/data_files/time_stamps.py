@@ -1,4 +1,4 @@
-"""Columns of time stamps: "2031-02-03 10:15:00.01", "03.02.2031 10:15:00", "10:15:00.010"; read as seconds."""
+"""Columns of time stamps, read as seconds: "2031-02-03 10:15:00.01", "03.02.2031 10:15:00", "10:15:00", "15:00.0"."""
 
 import re
 from collections.abc import Sequence
@@ -9,12 +9,16 @@ from numpy.typing import NDArray
 from slipwise.errors import InputError
 
 Array = NDArray[np.float64]
-_CLOCK = r"(?P<hour>\d{1,2}):(?P<minute>\d{2}):(?P<second>\d{2}(?:[.,]\d+)?)\s*(?P<half>[AaPp][Mm])?"
+_CLOCK = (
+    r"(?:(?P<hour>\d{1,2}):(?P<minute>\d{2}):(?P<second>\d{2}(?:[.,:]\d+)?)\s*(?P<half>[AaPp][Mm])?|"
+    # a spreadsheet shows minutes and seconds where seconds have fractions
+    r"(?P<minutes>\d{1,2}):(?P<seconds>\d{2}[.,]\d+))"
+)
 _STAMP = re.compile(
     r"^\"?\s*(?:(?:(?P<year>\d{4})[-/.](?P<month>\d{1,2})[-/.](?P<day>\d{1,2})|"
     r"(?P<one>\d{1,2})(?P<sign>[-/.])(?P<two>\d{1,2})[-/.](?P<long>\d{4}))[T\s]+)?" + _CLOCK + r"\s*Z?\"?$"
 )
-_DAY = 86400.0
+_DAY, _HOUR = 86400.0, 3600.0
 
 
 def is_time_stamp(text: str) -> bool:
@@ -42,17 +46,21 @@ def seconds_of_stamps(texts: Sequence[str], what: str) -> Array:
     seconds = np.array([_clock(match) for match in stamps])
     days = _days(stamps, what)
     if days is None:
-        # Without a date midnight shows as a jump back by most of a day.
-        days = np.cumsum(np.concatenate([[0.0], np.diff(seconds) < -0.5 * _DAY]))
-    seconds = seconds + _DAY * (days - days[0])
+        # Without a date midnight, or a full hour, shows as a jump back by most of a day, or of an hour.
+        turn = _DAY if stamps[0]["hour"] else _HOUR
+        seconds = seconds + turn * np.cumsum(np.concatenate([[0.0], np.diff(seconds) < -0.5 * turn]))
+    else:
+        seconds = seconds + _DAY * (days - days[0])
     return seconds - seconds[0]
 
 
 def _clock(match: re.Match[str]) -> float:
+    if match["seconds"]:
+        return 60.0 * int(match["minutes"]) + float(match["seconds"].replace(",", "."))
     hour = int(match["hour"])
     if match["half"]:
         hour = hour % 12 + (12 if match["half"].lower() == "pm" else 0)
-    return 3600.0 * hour + 60.0 * int(match["minute"]) + float(match["second"].replace(",", "."))
+    return 3600.0 * hour + 60.0 * int(match["minute"]) + float(re.sub("[,:]", ".", match["second"]))
 
 
 def _days(stamps: Sequence[re.Match[str]], what: str) -> Array | None:

@@ -7,10 +7,8 @@ import io
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
-from pathlib import Path
 
 from slipwise.errors import InputError
-from slipwise.text_encoding import decoded
 
 _ROW = re.compile(r"^\s*\"?[-+.,\d]")
 #: Lines of words below the table that are no table of their own.
@@ -32,11 +30,12 @@ class Block:
     text: bytes
 
 
-def read_blocks(path: Path, names: str, delimiter: str, width: int, skip: int) -> list[Block]:
+def read_blocks(name: str, text: str, names: str, delimiter: str, width: int, skip: int) -> list[Block]:
     """Cut a file at its repeated headers.
 
     Args:
-        path: the file.
+        name: of the file, for messages.
+        text: of the file.
         names: its line of column names, as it stands there.
         delimiter: between columns.
         width: number of columns.
@@ -45,7 +44,6 @@ def read_blocks(path: Path, names: str, delimiter: str, width: int, skip: int) -
     Raises:
         InputError: a line that is neither a row nor part of a header, or a second table with other columns.
     """
-    text = decoded(path.read_bytes())
     text = text.replace("\r\n", "\n").replace("\r", "\n")
     blocks: list[Block] = []
     strange: list[tuple[int, str]] = []
@@ -60,21 +58,28 @@ def read_blocks(path: Path, names: str, delimiter: str, width: int, skip: int) -
     for number, line in enumerate(io.StringIO(text), 1):
         if number <= skip or not line.strip(f"{delimiter} \t\n\x00\x1a"):
             continue
-        if not _ROW.match(line) or line.rstrip("\n").count(delimiter) != width - 1:
+        if not _ROW.match(line) or _columns(line, delimiter) != width:
             strange.append((number, line.rstrip("\n")))
             continue
         if strange:
-            _check_header(path, strange, names, delimiter)
+            _check_header(name, strange, names, delimiter)
             closed()
             strange, first = [], number
         out.write(line.encode())
         rows += 1
     closed()
-    _check_footer(path, strange, delimiter, width)
+    _check_footer(name, strange, delimiter, width)
     return blocks
 
 
-def _check_header(path: Path, lines: Iterable[tuple[int, str]], names: str, delimiter: str) -> None:
+def _columns(line: str, delimiter: str) -> int:
+    """Count the columns of a line; in quotes the delimiter may be a decimal comma."""
+    if '"' in line:
+        line = re.sub(r'"[^"]*"', "", line)
+    return line.rstrip("\r\n").count(delimiter) + 1
+
+
+def _check_header(name: str, lines: Iterable[tuple[int, str]], names: str, delimiter: str) -> None:
     """Refuse lines between two rows that do not repeat the header."""
     listed = list(lines)
     if any(line.strip() == names.strip() for _, line in listed):
@@ -83,22 +88,22 @@ def _check_header(path: Path, lines: Iterable[tuple[int, str]], names: str, deli
     if len(listed) == 1 and any(character.isdigit() for character in line):
         found = line.count(delimiter) + 1
         raise InputError(
-            f"{path.name}, line {number}: a row with {found} columns where the header has "
+            f"{name}, line {number}: a row with {found} columns where the header has "
             f"{names.count(delimiter) + 1}: {line[:80]!r}"
         )
     raise InputError(
-        f"{path.name}, line {number}: another table begins here, {line[:60]!r}; only tables with the same header are "
+        f"{name}, line {number}: another table begins here, {line[:60]!r}; only tables with the same header are "
         "read from one file: cut the file there"
     )
 
 
-def _check_footer(path: Path, lines: list[tuple[int, str]], delimiter: str, width: int) -> None:
+def _check_footer(name: str, lines: list[tuple[int, str]], delimiter: str, width: int) -> None:
     """Refuse lines below the last row that may be rows: a footer has words."""
     for number, line in lines:
         if _ROW.match(line):
             raise InputError(
-                f"{path.name}, line {number}: a row with {line.count(delimiter) + 1} columns where the header has "
+                f"{name}, line {number}: a row with {line.count(delimiter) + 1} columns where the header has "
                 f"{width}: {line[:80]!r}"
             )
     if len(lines) > _FOOTER:
-        raise InputError(f"{path.name}, line {lines[0][0]}: {len(lines)} lines of words below the table; cut them off")
+        raise InputError(f"{name}, line {lines[0][0]}: {len(lines)} lines of words below the table; cut them off")

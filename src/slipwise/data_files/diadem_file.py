@@ -1,0 +1,59 @@
+"""DIAdem files: .tdm describes the channels, .tdx beside it holds their numbers; read by tdm-loader."""
+
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+
+from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges
+from slipwise.errors import InputError
+
+
+def read_tdm(path: Path) -> NamedColumns:
+    """Read every channel of numbers with its unit, and the step that its waveforms state.
+
+    Raises:
+        InputError: tdm-loader is not installed, the .tdx is missing or short, or the file is damaged.
+    """
+    try:
+        import tdm_loader  # type: ignore[import-not-found]
+    except ModuleNotFoundError:
+        raise InputError(
+            f"{path}: DIAdem files are read by tdm-loader; install it with `pip install 'slipwise[diadem]'`, or export "
+            "the file as .tdms or CSV"
+        ) from None
+    gauges = []
+    try:
+        steps = _steps(path)
+        file = tdm_loader.OpenFile(str(path))
+        for group in range(len(file)):
+            for k in range(file.no_channels(group)):
+                values = np.asarray(file.channel(group, k))
+                unit = file.channel_unit(group, k) or ""
+                if values.dtype.kind == "M":
+                    values, unit = (values - values[0]) / np.timedelta64(1, "s"), "s"
+                if values.dtype.kind in "fiu":
+                    name = file.channel_name(group, k) or f"channel {k + 1}"
+                    gauges.append(Gauge(name, unit, values.astype(float)))
+    except FileNotFoundError as error:
+        raise InputError(
+            f"{path}: its numbers are in {Path(str(error.filename)).name}, which is missing; copy it beside the .tdm"
+        ) from None
+    except Exception as error:  # tdm-loader lets errors of XML, of memory maps and of missing keys through
+        first = (str(error).splitlines() or [""])[0][:120] or type(error).__name__
+        first = "the .tdx is shorter than the .tdm says" if first.startswith("mmap") else first
+        raise InputError(f"{path}: not a readable DIAdem file ({first}); export .tdm and .tdx again") from None
+    if steps and max(steps) > 1.000001 * min(steps):
+        raise InputError(
+            f"{path}: its channels are sampled at different steps, {', '.join(f'{s:g} s' for s in sorted(steps))}; "
+            "export those of one step to a file of their own"
+        )
+    read = of_gauges(path, gauges, "DIAdem")
+    return NamedColumns(read.columns, next(iter(steps), None), read.notes)
+
+
+def _steps(path: Path) -> set[float]:
+    """Give the steps that waveforms state in the attribute wf_increment [s]."""
+    found = (e for e in ElementTree.parse(path).iter() if e.attrib.get("name") == "wf_increment")
+    values = (float("".join(element.itertext()).strip()) for element in found)
+    return {value for value in values if value > 0.0}
