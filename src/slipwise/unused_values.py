@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from slipwise.effects import Effect
 from slipwise.errors import SettingError
 from slipwise.rig import Specimen
+from slipwise.rig.known import SPECIMEN_UNITS
 
 
 def unused_values(built: Specimen, effects: Mapping[str, Effect]) -> dict[str, str]:
@@ -23,7 +24,7 @@ def unused_values(built: Specimen, effects: Mapping[str, Effect]) -> dict[str, s
     if built.bending_mass == 0.0:
         why |= dict.fromkeys(("bending_frequency", "bending_damping"), "no bending_mass is given")
     if not built.buffers:
-        why |= dict.fromkeys(("buffer_stiffness", "buffer_height"), "the rig has no buffers")
+        why |= dict.fromkeys((n for n in SPECIMEN_UNITS if n.startswith("buffer_")), "the rig has no buffers")
     return why
 
 
