@@ -50,12 +50,25 @@ class Gauge:
         return float(np.sqrt(self.colour)) * self.level
 
 
-def noise_of_gauges(records: Sequence[Record]) -> dict[str, Gauge]:
-    """Give the noise of every channel of a campaign's runs."""
+def noise_of_gauges(records: Sequence[Record], invalid: Sequence[Mapping[str, Mask]] | None = None) -> dict[str, Gauge]:
+    """Give the noise of every channel of a campaign's runs.
+
+    Args:
+        records: of the runs.
+        invalid: of each run, channel -> samples (n,) at which it is no measurement.
+    """
     quiet = [before_motion(r) for r in records]
     channels = dict.fromkeys(c for r in records for c in r.channels)
-    found = {c: _gauge([(r[c], q) for r, q in zip(records, quiet, strict=True) if c in r]) for c in channels}
+    bad = invalid or [{} for _ in records]
+    found = {
+        c: _gauge([(r[c], _less(q, b.get(c))) for r, q, b in zip(records, quiet, bad, strict=True) if c in r])
+        for c in channels
+    }
     return {c: _with_contact(g, records, c) if all(q is None for q in quiet) else g for c, g in found.items()}
+
+
+def _less(quiet: Mask | None, bad: Mask | None) -> Mask | None:
+    return quiet if quiet is None or bad is None else quiet & ~bad
 
 
 def _with_contact(gauge: Gauge, records: Sequence[Record], channel: str) -> Gauge:

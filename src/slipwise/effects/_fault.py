@@ -8,6 +8,7 @@ from slipwise.channels import channel
 
 #: Faults that the samples show by themselves.
 SAMPLE_FAULTS: tuple[str, ...] = (
+    "wild",
     "dead",
     "upper rail",
     "lower rail",

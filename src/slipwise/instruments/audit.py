@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from slipwise.campaign import Campaign
+from slipwise.campaign import Campaign, as_campaign
+from slipwise.campaign.wild_samples import sentences as wild_samples
 from slipwise.campaign.zero_state import ShiftedZero
 from slipwise.channels import channel
 from slipwise.effects import Effect, catalogue
@@ -39,6 +40,7 @@ def audit(campaign: Campaign, own: Iterable[Effect] = ()) -> AuditReport:
         campaign: whose logger may be unknown: then its filter is estimated too.
         own: effects beside those of the catalogue: faults of gauges (`fault`) and physical explanations (`disturb`).
     """
+    campaign = as_campaign(campaign)
     samples = sample_faults(campaign)
     records, left_out = for_balances(campaign, samples)
     clean = campaign.with_records(records, "wrong signs turned back, bad samples left out") if samples else campaign
@@ -47,7 +49,7 @@ def audit(campaign: Campaign, own: Iterable[Effect] = ()) -> AuditReport:
     noise = noise_of_runs(runs, noise_of_channels(clean, runs, band), band)
     mass_error = KNOWN_MASS if "mass" in campaign.known else RATED_MASS
     logger = None if campaign.logger.known else estimate_logger(clean)
-    findings, notes = [_of_samples(fault) for fault in samples], _rounded(campaign)
+    findings, notes = [_of_samples(fault) for fault in samples], [*wild_samples(campaign.runs), *_rounded(campaign)]
     plain = AuditReport(campaign.name, tuple(findings), (), (), {}, logger, tuple(cannot), tuple(notes))
     if not any(relation.accuses and relation.rows in ("moving", "inner") for relation in allowed):
         return plain
@@ -108,6 +110,7 @@ def _of_samples(fault: SampleFault) -> Finding:
     unit = channel(fault.channels[0]).unit if fault.kind in (*RAILS, "shifted") else "1"
     unit = "s" if fault.kind == "late" else unit
     words = {
+        "wild": f"{place} is faulty: {fault.size:.1%} of its samples are wild",
         "dead": f"{place} is dead in {', '.join(fault.runs)}",
         "lost": f"{place} has lost samples: what follows them came early, and the end repeats one value",
         "shifted": ShiftedZero(fault.channels, fault.size).words,

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign import Campaign, Run
+from slipwise.campaign.wild_samples import FAULTY, faulty_share
 from slipwise.channels import pads_in
 from slipwise.instruments.lags import in_step_campaign
 from slipwise.instruments.late_cells import late_cells
@@ -49,7 +50,7 @@ class SampleFault:
     """Bad samples of one channel, or of several at the same instants.
 
     Attributes:
-        kind: "late", "turned", "shifted", "dead", "upper rail", "lower rail", "held", "lost" or "gap".
+        kind: "late", "turned", "shifted", "wild", "dead", "upper rail", "lower rail", "held", "lost" or "gap".
         channels: that show it.
         size: rail or shift in the channel's unit; delay [s]; -1 for a wrong sign; else share of all samples [1].
         bad: run -> samples that are no measurement (n,); none of a wrong sign or zero, which is put right.
@@ -80,7 +81,7 @@ def sample_faults(campaign: Campaign) -> list[SampleFault]:
     cut = {run.name: min(_tail(values) for values in run.record.channels.values()) for run in campaign.runs}
     for name in names:
         runs = [run for run in campaign.runs if name in run.record]
-        fault = _dead(name, runs, campaign.specimen)
+        fault = _wild(name, runs) or _dead(name, runs, campaign.specimen)
         if fault is not None:
             found.append(fault)
             continue
@@ -102,6 +103,16 @@ def _turned(campaign: Campaign) -> list[SampleFault]:
 def _shifted(campaign: Campaign) -> list[SampleFault]:
     every = tuple(run.name for run in campaign.runs)
     return [SampleFault("shifted", zero.channels, zero.size, {}, every) for zero in zeros_of(campaign)]
+
+
+def _wild(name: str, runs: Sequence[Run]) -> SampleFault | None:
+    """A channel that writes more than single wild samples is no gauge any more; single ones are only left out."""
+    share = faulty_share(runs, name)
+    if share <= FAULTY:
+        return None
+    shown = {run.name for run in runs if any(one.channel == name for one in run.wild)}
+    bad = {run.name: np.ones(len(run.record), dtype=bool) for run in runs if run.name in shown}
+    return SampleFault("wild", (name,), share, bad, tuple(bad))
 
 
 def _dead(name: str, runs: Sequence[Run], specimen: Specimen) -> SampleFault | None:
