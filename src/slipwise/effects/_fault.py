@@ -16,6 +16,7 @@ SAMPLE_FAULTS: tuple[str, ...] = (
     "lost",
     "gap",
     "turned",
+    "scaled",
     "shifted",
     "late",
 )

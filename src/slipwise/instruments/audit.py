@@ -24,6 +24,7 @@ from slipwise.instruments.rows import noise_of_channels, noise_of_runs, prepare_
 from slipwise.instruments.sample_faults import RAILS, SampleFault, sample_faults
 from slipwise.instruments.sentences import as_sentence, confusable, how_to_settle, nearest, sentence
 from slipwise.instruments.suspects import Suspect, effect_of
+from slipwise.instruments.wrong_units import WrongUnit
 from slipwise.instruments.zeros import values_of_zero, with_refined_zeros
 from slipwise.signals.noise import quantum, white_level
 
@@ -109,14 +110,16 @@ def _of_samples(fault: SampleFault) -> Finding:
     place = _place(fault.channels)
     unit = channel(fault.channels[0]).unit if fault.kind in (*RAILS, "shifted") else "1"
     unit = "s" if fault.kind == "late" else unit
+    size = fault.size - 1.0 if fault.kind == "scaled" else fault.size  # a gain is what is too much
     words = {
         "wild": f"{place} is faulty: {fault.size:.1%} of its samples are wild",
+        "scaled": WrongUnit(fault.channels, fault.size).words(place) if fault.kind == "scaled" else "",
         "dead": f"{place} is dead in {', '.join(fault.runs)}",
         "lost": f"{place} has lost samples: what follows them came early, and the end repeats one value",
         "shifted": ShiftedZero(fault.channels, fault.size).words,
         "late": f"the cells of the pads come {fault.size:.3f} s late: their logger was started later",
         "gap": f"the logger has lost {fault.size:.2%} of all samples",
-    }.get(fault.kind, sentence(effect, place, fault.size, unit))
+    }.get(fault.kind, sentence(effect, place, size, unit))
     if fault.kind in RAILS:
         upper = fault.kind == RAILS[0]
         place_of_rail = effect.parameters[0 if upper else 1].name
@@ -124,13 +127,13 @@ def _of_samples(fault: SampleFault) -> Finding:
     elif fault.kind == "shifted":
         values = values_of_zero(ShiftedZero(fault.channels, fault.size))
     else:
-        values = {effect.parameters[0].name: fault.size}
+        values = {effect.parameters[0].name: size}
     return Finding(
         effect=effect,
         channel=place,
-        size=fault.size,
-        low=fault.size,
-        high=fault.size,
+        size=size,
+        low=size,
+        high=size,
         unit=unit,
         probability=_SUREST,
         mistaken_for=confusable(effect),

@@ -1,6 +1,6 @@
 """Records without the harm that bad samples do: balances leave rows out, fits leave samples out.
 
-A wrong sign is reversed and a zero that is far off is put right in both. A balance looks at all channels at one
+Wrong signs, units and zeros that are far off are put right in both. A balance looks at all channels at one
 instant, so that one bad sample costs a row; a fit judges channel by channel.
 """
 
@@ -34,12 +34,13 @@ _AROUND = 0.03
 def for_balances(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[dict[str, Record], dict[str, Mask]]:
     """Give records in which bad samples do no harm to the balances, and the samples to leave out, by run.
 
-    Wrong signs are reversed, zeros put right, repeated samples bridged; around rails, gaps and wild samples rows are
-    left out; a channel that is dead or wild throughout, or has lost samples and so its place in time, is taken out.
+    Wrong signs are reversed, units and zeros put right, repeated samples bridged; around rails, gaps and wild samples
+    rows are left out; a channel that is dead or wild throughout, or has lost samples and so its place in time, is
+    taken out.
     """
     records, out = {}, {}
     for run in campaign.runs:
-        channels = dict(_with_signs(_in_step(run.record, faults), faults).channels)
+        channels = dict(_put_right(_in_step(run.record, faults), faults).channels)
         leave = _without_partner(run.record, faults)
         for one in _wild_in_step(run, faults):
             leave |= one.bad
@@ -73,7 +74,7 @@ def for_fits(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[Campaig
     invalid: dict[str, dict[str, Mask]] = {}
     for run in campaign.runs:
         aligned, found = _in_step(run.record, faults), dict[str, Mask]()
-        record = _with_signs(aligned, faults)
+        record = _put_right(aligned, faults)
         unpaired = _without_partner(record, faults)
         for name in dict.fromkeys(name for fault in faults for name in fault.channels if name in record):
             values = aligned[name]
@@ -137,7 +138,9 @@ def _without_partner(record: Record, faults: Sequence[SampleFault]) -> Mask:
     return np.any([np.zeros(len(record), dtype=bool), *late], axis=0)
 
 
-def _with_signs(record: Record, faults: Sequence[SampleFault]) -> Record:
+def _put_right(record: Record, faults: Sequence[SampleFault]) -> Record:
+    factors = {n: fault.size for fault in faults if fault.kind == "scaled" for n in fault.channels if n in record}
+    record = record.replaced(**{name: record[name] / factor for name, factor in factors.items()})
     shift = {n: fault.size for fault in faults if fault.kind == "shifted" for n in fault.channels if n in record}
     level = record.replaced(**{name: record[name] - size for name, size in shift.items()})
     wrong = [name for fault in faults if fault.kind == "turned" for name in fault.channels if name in record]
