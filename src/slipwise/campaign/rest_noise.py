@@ -13,7 +13,7 @@ from scipy.signal import detrend
 
 from slipwise.campaign.steady_noise import steady_level
 from slipwise.record import Record
-from slipwise.signals.noise import noise, quantum
+from slipwise.signals.noise import noise, ordinary, quantum
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -99,7 +99,7 @@ def _gauge(parts: list[tuple[Array, Mask | None]]) -> Gauge:
     """
     truest = _TRUEST * float(np.sqrt(np.mean([np.var(values) for values, _ in parts])))
     rests = [_before_onset(v[q]) for v, q in parts if q is not None and np.count_nonzero(q) >= _LEAST]
-    still = [detrend(r) for r in rests if len(r) >= _LEAST]
+    still = [_detrended(r) for r in rests if len(r) >= _LEAST]
     freedom = sum(len(s) - 2 for s in still)
     if freedom < _ENOUGH:
         return Gauge(max(float(np.median([noise(values).level for values, _ in parts])), truest))
@@ -107,6 +107,12 @@ def _gauge(parts: list[tuple[Array, Mask | None]]) -> Gauge:
     resolution = float(np.median([quantum(values) for values, _ in parts])) / np.sqrt(12.0)
     # a coarse gauge may not even flicker at rest
     return Gauge(max(level, resolution, truest), _colour(still), rested=True)
+
+
+def _detrended(rest: Array) -> Array:
+    """Give what a rest (n,) leaves about its line, without samples that are none of its noise, (m,)."""
+    usual = ordinary(detrend(rest))
+    return detrend(rest[usual] if np.count_nonzero(usual) >= _LEAST else rest)
 
 
 def _before_onset(rest: Array) -> Array:

@@ -2,7 +2,8 @@
 
 A gauge that follows a motion shows the way up to a peak and down from it, and a channel that reaches a peak once comes
 near it at other times. A glitch of a logger does neither: it is there from one sample to the next, gone as suddenly,
-and the rest of the channel knows nothing like it.
+and the rest of the channel knows nothing like it. Two scales tell it, both of all other samples: their range for
+bursts of up to 20, and for one or two samples the largest by which any others stand out of their neighbours.
 """
 
 import numpy as np
@@ -22,6 +23,12 @@ _HEIGHT, _STEP = 1.2, 0.8
 #: The steepest step up and the steepest step down are at least this share of the burst's height [1]: a half wave that
 #: was sampled has several steps.
 _ABRUPT = 0.2
+#: A spike has at most so many samples, and stands out by that many times more than any other spike of the channel [1].
+#: The largest spike of measured and simulated channels is at most 3 times the next.
+_SPIKE, _ALONE = 2, 4.0
+#: Spikes are those of noise where the largest ordinary one is at most so many times the usual one [1]: a channel
+#: without noise may show a single cusp of its motion.
+_NOISY = 100.0
 
 
 def short_bursts(values: Array) -> Mask:
@@ -37,15 +44,28 @@ def short_bursts(values: Array) -> Mask:
     found = np.zeros(len(values), dtype=bool)
     if np.count_nonzero(there) < _LEAST:
         return found
-    found[there] = _bursts(values[there])
+    known = values[there]
+    burst = _bursts(known)
+    for _ in range(_SPIKE + 1):  # beside a spike a sample on a slope seems to stand out too: the largest goes first
+        spike = _spikes(_across(known, burst))
+        if not spike.any():
+            break
+        burst |= spike
+    found[there] = burst
     return found
+
+
+def _across(values: Array, bad: Mask) -> Array:
+    """Give the values with straight lines across bad samples, (n,)."""
+    place = np.arange(len(values))
+    return np.interp(place, place[~bad], values[~bad])
 
 
 def _bursts(values: Array) -> Mask:
     beyond = 2 * LONGEST + 1
     ends = (float(np.median(values[:beyond])), float(np.median(values[-beyond:])))
     longer = np.pad(values, beyond, constant_values=(ends,))  # so that a burst at an end stands out too
-    height = _height(longer)[beyond:-beyond]
+    height = _height(longer, LONGEST)[beyond:-beyond]
     low, high = (float(q) for q in np.quantile(values, (0.5 - 0.5 * _INNER, 0.5 + 0.5 * _INNER)))
     span = -1.0
     while high - low > span:  # the range grows by all that stands no higher than it allows, until nothing is added
@@ -62,11 +82,28 @@ def _bursts(values: Array) -> Mask:
     return kept
 
 
-def _height(values: Array) -> Array:
-    """Give how far each sample stands above or below all that lasts longer than a burst, (n,): its two top-hats."""
-    size = LONGEST + 1
-    opened = maximum_filter1d(minimum_filter1d(values, size), size)
-    closed = minimum_filter1d(maximum_filter1d(values, size), size)
+def _spikes(values: Array) -> Mask:
+    """Find samples that stand out of their neighbours far more than noise lets any other do, of a pair the larger."""
+    height = _height(np.pad(values, LONGEST, mode="edge"), _SPIKE)[LONGEST:-LONGEST]
+    usual = largest = float(np.quantile(height, _INNER))
+    before = -1.0
+    while largest > before:
+        before = largest
+        largest = float(height[height <= _ALONE * largest].max(initial=largest))
+    if not 0.0 < largest <= _NOISY * usual:
+        return np.zeros(len(values), dtype=bool)
+    spikes = np.zeros(len(values), dtype=bool)
+    for start, end in stretches(height > _ALONE * largest):
+        spikes[start + int(np.argmax(height[start:end]))] = True
+    return spikes
+
+
+def _height(values: Array, longest: int) -> Array:
+    """Give how far each sample stands above or below all that lasts longer than so many, (n,): its two top-hats."""
+    size = longest + 1
+    back = -1 if size % 2 == 0 else 0  # a window of even length is not centred: the second one makes up for the first
+    opened = maximum_filter1d(minimum_filter1d(values, size), size, origin=back)
+    closed = minimum_filter1d(maximum_filter1d(values, size), size, origin=back)
     return np.maximum(values - opened, closed - values)
 
 
