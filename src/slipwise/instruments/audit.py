@@ -32,6 +32,11 @@ from slipwise.signals.noise import quantum, white_level
 _SUREST = 0.99
 #: A rounding step above this many standard deviations of noise is worth a word [1].
 _COARSE = 2.0
+#: What cannot be tested where a campaign has no channel at all.
+NOTHING_MAPPED = (
+    "no column of the files is a channel; name them in [columns] of campaign.toml, as `slipwise init` does "
+    "(`slipwise channels` lists the names)"
+)
 
 
 def audit(campaign: Campaign, own: Iterable[Effect] = ()) -> AuditReport:
@@ -42,6 +47,8 @@ def audit(campaign: Campaign, own: Iterable[Effect] = ()) -> AuditReport:
         own: effects beside those of the catalogue: faults of gauges (`fault`) and physical explanations (`disturb`).
     """
     campaign = as_campaign(campaign)
+    if not any(run.record.channels for run in campaign.runs):
+        return AuditReport(campaign.name, (), (), (), {}, None, (NOTHING_MAPPED,))
     samples = sample_faults(campaign)
     records, left_out = for_balances(campaign, samples)
     clean = campaign.with_records(records, "wrong signs turned back, bad samples left out") if samples else campaign

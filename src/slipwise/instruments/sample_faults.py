@@ -84,7 +84,9 @@ def sample_faults(campaign: Campaign) -> list[SampleFault]:
     found += [SampleFault("late", one.channels, one.delay, {}, every) for one in (*late, *cells)]
     names = list(dict.fromkeys(name for run in campaign.runs for name in run.record.channels))
     # what every channel repeats at its end is a record that was cut, no gauge's loss
-    cut = {run.name: min(_tail(values) for values in run.record.channels.values()) for run in campaign.runs}
+    cut = {
+        run.name: min((_tail(values) for values in run.record.channels.values()), default=0) for run in campaign.runs
+    }
     for name in names:
         runs = [run for run in campaign.runs if name in run.record]
         fault = _wild(name, runs) or _dead(name, runs, campaign.specimen)

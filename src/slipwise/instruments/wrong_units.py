@@ -71,7 +71,7 @@ def wrong_units(campaign: Campaign) -> list[WrongUnit]:
     usable, _ = relations(runs[0].record, campaign.specimen)
     usable = [r for r in usable if r.accuses and r.rows in ("moving", "inner")]
     found: list[WrongUnit] = []
-    for _ in range(_MOST):
+    for _ in range(_MOST if usable else 0):
         wrong = _clearest(runs, usable, campaign.specimen)
         if wrong is None:
             break

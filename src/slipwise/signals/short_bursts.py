@@ -20,15 +20,14 @@ _INNER = 0.9
 #: a step of at least so many [1]. Sampled impacts, peaks of earthquakes and bending girders reach 1.25 with steps of
 #: less than 0.6.
 _HEIGHT, _STEP = 1.2, 0.8
-#: The steepest step up and the steepest step down are at least this share of the burst's height [1]: a half wave that
-#: was sampled has several steps.
-_ABRUPT = 0.2
+#: The largest step is at least this share of the burst's height [1]: a pulse of a motion takes several samples.
+_ABRUPT = 0.4
 #: A spike has at most so many samples, and stands out by that many times more than any other spike of the channel [1].
 #: The largest spike of measured and simulated channels is at most 3 times the next.
 _SPIKE, _ALONE = 2, 4.0
-#: Spikes are those of noise where the largest ordinary one is at most so many times the usual one [1]: a channel
-#: without noise may show a single cusp of its motion.
-_NOISY = 100.0
+#: Neighbouring second differences of noise have opposite signs more often than this [1]; a smooth motion without noise
+#: may show a single cusp.
+_NOISE = 0.5
 
 
 def short_bursts(values: Array) -> Mask:
@@ -85,16 +84,22 @@ def _bursts(values: Array) -> Mask:
 def _spikes(values: Array) -> Mask:
     """Find samples that stand out of their neighbours far more than noise lets any other do, of a pair the larger."""
     height = _height(np.pad(values, LONGEST, mode="edge"), _SPIKE)[LONGEST:-LONGEST]
-    usual = largest = float(np.quantile(height, _INNER))
+    bend = np.convolve(values, (-0.5, 1.0, -0.5), mode="valid")
+    if np.mean(bend[1:] * bend[:-1] < 0.0) <= _NOISE:
+        return np.zeros(len(values), dtype=bool)
+    # on a slope nothing stands out: there second differences show the noise
+    largest = max(float(np.quantile(height, _INNER)), float(np.quantile(np.abs(bend), _INNER)))
     before = -1.0
     while largest > before:
         before = largest
         largest = float(height[height <= _ALONE * largest].max(initial=largest))
-    if not 0.0 < largest <= _NOISY * usual:
-        return np.zeros(len(values), dtype=bool)
     spikes = np.zeros(len(values), dtype=bool)
+    steps = np.pad(np.abs(np.diff(values)), 2)  # from sample i - 2 to the next at i
     for start, end in stretches(height > _ALONE * largest):
-        spikes[start + int(np.argmax(height[start:end]))] = True
+        # a pulse is as steep beside its top, and a motion that turns back at once beside its corner
+        beside = max(steps[start], steps[end + 2])
+        top = start + int(np.argmax(height[start:end]))
+        spikes[top] = height[top] > _ALONE * beside
     return spikes
 
 
@@ -110,8 +115,7 @@ def _height(values: Array, longest: int) -> Array:
 def _is_abrupt(values: Array, step: float) -> bool:
     """Tell whether a burst, with the sample before and after it (k,), begins and ends with such a step, as no wave."""
     steps = np.diff(values)
-    steepest = min(float(steps.max()), float(-steps.min()))
-    return bool(min(abs(steps[0]), abs(steps[-1])) >= step and steepest >= _ABRUPT * float(np.ptp(values)))
+    return bool(min(abs(steps[0]), abs(steps[-1])) >= step and np.abs(steps).max() >= _ABRUPT * np.ptp(values))
 
 
 def stretches(mask: Mask) -> list[tuple[int, int]]:
