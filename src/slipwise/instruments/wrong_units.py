@@ -28,11 +28,13 @@ _OTHER: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 #: Factors between units of any kind: g, pound and inch; powers of ten have names of their own.
 _FACTORS = (9.80665, 4.448222, 25.4)
-#: Largest power of ten that is looked for, and how far a factor may be from that of units [1].
-_LARGEST, _NEAR = 9, 0.06
+#: Largest power of ten that is looked for; how far a factor may be from that of units, and a sure one [1].
+_LARGEST, _NEAR, _SURE = 9, 0.25, 0.03
 #: A card of cells is off by more than any girder could weigh or push; one cell differs from at least two others of its
 #: kind by its factor, within what pads differ by [1].
 _OF_CARD, _LIKE_IT, _ALIKE = 50.0, 2, 1.8
+#: One cell moves like the others of its kind, by this correlation, and by more than so many times more or less [1].
+_TOGETHER, _UNLIKE = 0.9, 4.0
 #: Relations must hold that many times better with the channel put right, on their geometric mean [1].
 _BETTER = 3.0
 #: Columns that are looked for, one after the other.
@@ -106,7 +108,29 @@ def _clearest(runs: list[PreparedRun], usable: Sequence[Relation], specimen: Spe
         # of two channels that mend one relation, the one that mends the others too
         if factor and _is_possible(factor, names, runs) and (best is None or left < best[0]):
             best = left, WrongUnit(names, factor)
-    return None if best is None else best[1]
+    return _unlike_its_card(runs) if best is None else best[1]
+
+
+def _unlike_its_card(runs: Sequence[PreparedRun]) -> WrongUnit | None:
+    """Give the cell that moves like the others of its kind, but by a factor of units more or less.
+
+    Where a balance fails for other reasons it cannot tell; pads that stand unevenly differ by less than such a factor.
+    """
+    for place, card in gauge_groups(runs[0].record).items():
+        if "*" not in place or len(card) <= _LIKE_IT:
+            continue
+        values = {n: np.concatenate([r.record[n] - np.mean(r.record[n]) for r in runs]) for n in card}
+        size = {n: float(np.std(v)) for n, v in values.items()}
+        for name in card:
+            others = [values[n] / size[n] for n in card if n != name and size[n] > 0.0]
+            if size[name] == 0.0 or len(others) < _LIKE_IT:
+                continue
+            ratio = size[name] / float(np.median([size[n] for n in card if n != name]))
+            together = float(np.corrcoef(values[name], np.mean(others, axis=0))[0, 1])
+            factor = _of_units(name, ratio, np.log(_ALIKE))
+            if together > _TOGETHER and factor and max(ratio, 1.0 / ratio) > _UNLIKE:
+                return WrongUnit((name,), factor)
+    return None
 
 
 def _helps(untouched: ChannelScale, found: ChannelScale) -> bool:
@@ -143,13 +167,17 @@ def _is_possible(factor: float, names: Sequence[str], runs: Sequence[PreparedRun
     return abs(np.log(max(moved[names[0]], 1e-300) / max(others, 1e-300) / factor)) < np.log(_ALIKE)
 
 
-def _of_units(name: str, factor: float) -> float:
-    """Give the factor of units that is nearest to a fitted one; 0 where none is near, or it is 1."""
-    known = np.array(
-        [*(_ratio(name, *pair) for pair in _pairs(name)), *_powers(), *_FACTORS, *(1.0 / f for f in _FACTORS)]
-    )
-    away = np.abs(np.log(known / factor))
-    return float(known[np.argmin(away)]) if away.min() < _NEAR else 0.0
+def _of_units(name: str, factor: float, near: float = _NEAR) -> float:
+    """Give the factor of units that is nearest to a fitted one; 0 where none is near, or it is 1.
+
+    Where the fit is too rough to tell units apart, a power of ten is the likelier one.
+    """
+    known = [*(_ratio(name, *pair) for pair in _pairs(name)), *_powers(), *_FACTORS, *(1.0 / f for f in _FACTORS)]
+    for factors, reach in ((known, _SURE), (_powers(), near), (known, near)):
+        away = np.abs(np.log(np.array(factors) / factor))
+        if away.min() < reach:
+            return factors[int(np.argmin(away))]
+    return 0.0
 
 
 def _powers() -> list[float]:

@@ -74,7 +74,8 @@ def _bursts(values: Array) -> Mask:
     kept = np.zeros(len(values), dtype=bool)
     if span == 0.0:
         return kept
-    for start, end in stretches(height > _HEIGHT * span):
+    outside = (values < low) | (values > high)  # what lies between two bursts seems to stand out the other way
+    for start, end in stretches((height > _HEIGHT * span) & outside):
         with_neighbours = longer[start + beyond - 1 : end + beyond + 1]
         if end - start <= LONGEST and _is_abrupt(with_neighbours, _STEP * span):
             kept[start:end] = True

@@ -35,6 +35,13 @@ def test_a_small_and_a_huge_burst_of_one_channel_are_both_found():
     assert np.flatnonzero(short_bursts(values)).tolist() == [700, *range(2000, 2010)]
 
 
+def test_what_lies_between_two_bursts_is_kept():
+    values = force(np.random.default_rng(5))
+    values[700:705] += 3.0 * np.ptp(values)
+    values[712:714] += 1e9
+    assert np.flatnonzero(short_bursts(values)).tolist() == [*range(700, 705), 712, 713]
+
+
 def test_a_single_sample_within_the_range_is_found_by_what_noise_does_elsewhere():
     values = force(np.random.default_rng(6))
     values[300] += 1500.0
