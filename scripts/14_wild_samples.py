@@ -4,10 +4,9 @@
 
 Campaigns of the second simulator of `tests/bench` are audited as they are, and again with one burst of 1 to 20 samples
 in one channel, 3 to 10^9 times its range. A planting counts as right where exactly these samples are marked, the
-findings are those of the sound campaign, the noise of every gauge stays within 5 % and what the balances leave
-within 10 %. Then single columns
-are multiplied by powers of ten, 9.81, 4.448, 25.4 or their inverses: right is a finding that names channel and factor,
-and accuses nobody else.
+findings are those of the sound campaign, the noise of every gauge stays within 5 % and what the balances leave within
+10 %. Then single columns are multiplied by powers of ten, 9.81, 4.448, 25.4 or their inverses: right is a finding that
+names channel and factor, and accuses nobody else.
 """
 
 import argparse
