@@ -37,7 +37,7 @@ ARROWS: dict[str, str] = {
     "model_file": "effects errors model model_entry params record rig units unused_values",
     "simulation": "cache channels effects errors model model_file motion one_at_a_time record rig shown whole_file",
     "campaign": "channels data_files errors record rig shown signals text_encoding units",
-    "instruments": "campaign channels effects errors parallel record rig shown signals statistics",
+    "instruments": "campaign channels effects errors parallel record rig shown signals statistics units",
     "estimation": (
         "campaign channels effects errors instruments model parallel params record rig signals statistics simulation"
     ),

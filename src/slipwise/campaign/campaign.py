@@ -1,14 +1,18 @@
 """What a campaign is: runs of one specimen, with what is known of the logger."""
 
 import fnmatch
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from slipwise.campaign.materiality import Materiality
 from slipwise.campaign.rest_noise import Gauge, noise_of_gauges
+from slipwise.campaign.wild_samples import WildSamples
 from slipwise.errors import SettingError
 from slipwise.record import Record
 from slipwise.rig import Specimen
@@ -81,6 +85,7 @@ class Run:
         window: (start, end) in the file's time [s]; None for the whole file.
         file: as campaign.toml names it.
         sha256: of the file.
+        wild: samples that no gauge can have read; they are bridged in the record.
     """
 
     name: str
@@ -90,6 +95,12 @@ class Run:
     window: tuple[float, float] | None
     file: str
     sha256: str
+    wild: tuple[WildSamples, ...] = ()
+
+    @property
+    def invalid(self) -> dict[str, NDArray[np.bool_]]:
+        """Give the samples at which a channel is no measurement: channel -> (n,)."""
+        return {one.channel: one.bad for one in self.wild}
 
 
 @dataclass(frozen=True, repr=False)
@@ -121,8 +132,8 @@ class Campaign(Drawn, Tabular):
     @cached_property
     def gauges(self) -> Mapping[str, Gauge]:
         """Noise of every channel, from the rests of the runs that are not held out, unless only those have it."""
-        seen = noise_of_gauges([run.record for run in self.runs if run.role != "holdout"])
-        return {**noise_of_gauges([run.record for run in self.runs]), **seen}
+        fitted = [run for run in self.runs if run.role != "holdout"]
+        return {**_noise_in(self.runs), **_noise_in(fitted)}
 
     def with_role(self, *roles: str) -> tuple[Run, ...]:
         """Give the runs that have one of these roles."""
@@ -160,3 +171,7 @@ class Campaign(Drawn, Tabular):
             }
             for run in self.runs
         ]
+
+
+def _noise_in(runs: Sequence[Run]) -> dict[str, Gauge]:
+    return noise_of_gauges([run.record for run in runs], [run.invalid for run in runs])

@@ -52,7 +52,7 @@ def decimated(
         run: {name: _any_of(mask, every[run])[: len(records[run])] for name, mask in of.items()}
         for run, of in invalid.items()
     }
-    runs = tuple(replace(run, record=records[run.name]) for run in campaign.runs)
+    runs = tuple(_thinned_run(run, records[run.name], every[run.name]) for run in campaign.runs)
     rate = 1.0 / next(iter(records.values())).dt
     logger = replace(campaign.logger, thinning=Thinning(_filter(rate), campaign.runs[0].record.dt))
     note = f"logged at {1.0 / campaign.runs[0].record.dt:.4g} Hz; fits use {rate:.4g} Hz, low-pass filtered before"
@@ -73,6 +73,11 @@ def _thinned(record: Record, every: int) -> Record:
         for name, values in record.channels.items()
     }
     return Record(record.time[::every], channels, record.provenance)
+
+
+def _thinned_run(run: Run, record: Record, every: int) -> Run:
+    wild = tuple(replace(one, bad=_any_of(one.bad, every)[: len(record)]) for one in run.wild)
+    return replace(run, record=record, wild=wild)
 
 
 def _any_of(mask: Mask, every: int) -> Mask:

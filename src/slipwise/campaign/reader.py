@@ -18,6 +18,7 @@ from slipwise.campaign.held_out_check import check_untouched
 from slipwise.campaign.same_specimen import check_same_specimen
 from slipwise.campaign.settings import ColumnMap, RunSettings, Settings, read_settings
 from slipwise.campaign.time_axis import check_time, time_of_file
+from slipwise.campaign.wild_samples import WildSamples, inherited, marked, warned, without_wild_samples
 from slipwise.channels import CHANNELS, channel, is_channel, part_of
 from slipwise.data_files.table import Table, open_table
 from slipwise.errors import InputError, UnitError, unknown_name
@@ -41,6 +42,7 @@ class _File:
     channels: Mapping[str, Array]
     sha256: str
     notes: tuple[str, ...]
+    wild: tuple[WildSamples, ...]
     made: tuple[str, ...] = ()
     computed: tuple[str, ...] = ()
 
@@ -81,7 +83,7 @@ def load_campaign(folder: Path | str) -> Campaign:
         known={name: value for name, value in settings.specimen.items() if isinstance(value, float)},
         materiality=settings.materiality,
     )
-    return replace(campaign, notes=(*notes, *check_same_specimen(campaign)))
+    return replace(campaign, notes=(*notes, *warned(runs), *check_same_specimen(campaign)))
 
 
 def _outside(folder: Path, settings: Settings) -> list[str]:
@@ -94,13 +96,13 @@ def _outside(folder: Path, settings: Settings) -> list[str]:
 
 
 def as_campaign(given: Campaign | Path | str) -> Campaign:
-    """Give the campaign that a user means: itself, or that of a folder.
+    """Give the campaign that a user means: itself, or that of a folder, without wild samples.
 
     Raises:
         InputError: something else, or a folder that cannot be read.
     """
     if isinstance(given, Campaign):
-        return given
+        return marked(given)
     if not isinstance(given, Path | str):
         raise InputError(
             f"a campaign is a folder with campaign.toml or what load_campaign gives; got {type(given).__name__}"
@@ -129,6 +131,7 @@ def _read_file(path: Path, settings: Settings, specimen: Specimen) -> _File:
             channels[mapped.channel] = converted
     time, words = time_of_file(path.name, time, channels, table, settings.sample_rate)
     check_time(path.name, time, read.tables)
+    channels, wild = without_wild_samples(time, channels, specimen)
     for name, value in settings.constants.items():
         if name in channels:
             raise InputError(f"{path.name}: {name} is both a column and one of [constants]; remove one of them")
@@ -137,14 +140,20 @@ def _read_file(path: Path, settings: Settings, specimen: Specimen) -> _File:
         if name in channels:
             raise InputError(f"{path.name}: {name} is both recorded and one of [derived]; remove one of them")
         channels[name] = evaluate(expression, {"time": time, **channels}, name, f"[derived] {name} ({path.name})")
+        wild += inherited(wild, name, re.findall(r"\w+", expression))
     areas = dict(zip(specimen.pads, specimen.pad_areas, strict=True))
-    channels |= forces_of(coefficients, channels, areas, path.name)
+    forces, wild_forces = without_wild_samples(time, forces_of(coefficients, channels, areas, path.name), specimen)
+    channels |= forces
     _check_temperatures(path.name, channels)
     measured = set(channels)
     channels, added = completed(time, channels)
     computed = tuple(name for name in channels if name not in measured)
+    wild += wild_forces
+    for axis in "xyz":
+        for name, source in ((f"slip_{axis}", f"slip_v{axis}"), (f"table_a{axis}", f"table_d{axis}")):
+            wild += inherited(wild, name, [source]) if any(word.startswith(f"{name} is") for word in added) else ()
     made = tuple(f"{path.name}: {word}" for word in added)
-    return _File(time, channels, _sha256(table.path), (*table.notes, *words, *made, *notes), made, computed)
+    return _File(time, channels, _sha256(table.path), (*table.notes, *words, *made, *notes), wild, made, computed)
 
 
 def _check_temperatures(name: str, channels: Mapping[str, Array]) -> None:
@@ -277,7 +286,8 @@ def _run(run: RunSettings, file: _File, settings: Settings) -> Run:
             )
     made = {"made": list(file.made), "computed": list(file.computed)} if file.made else {}
     record = Record(time[inside], channels, {"file": run.file, "sha256": file.sha256, **made})
-    return Run(name, run.role, record, run.rest_before, run.window, run.file, file.sha256)
+    wild = tuple(one.within(inside, record.time) for one in file.wild if one.bad[inside].any())
+    return Run(name, run.role, record, run.rest_before, run.window, run.file, file.sha256, wild)
 
 
 def _sha256(path: Path) -> str:

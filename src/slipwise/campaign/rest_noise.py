@@ -13,7 +13,7 @@ from scipy.signal import detrend
 
 from slipwise.campaign.steady_noise import steady_level
 from slipwise.record import Record
-from slipwise.signals.noise import noise, quantum
+from slipwise.signals.noise import noise, ordinary, quantum
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -50,12 +50,25 @@ class Gauge:
         return float(np.sqrt(self.colour)) * self.level
 
 
-def noise_of_gauges(records: Sequence[Record]) -> dict[str, Gauge]:
-    """Give the noise of every channel of a campaign's runs."""
+def noise_of_gauges(records: Sequence[Record], invalid: Sequence[Mapping[str, Mask]] | None = None) -> dict[str, Gauge]:
+    """Give the noise of every channel of a campaign's runs.
+
+    Args:
+        records: of the runs.
+        invalid: of each run, channel -> samples (n,) at which it is no measurement.
+    """
     quiet = [before_motion(r) for r in records]
     channels = dict.fromkeys(c for r in records for c in r.channels)
-    found = {c: _gauge([(r[c], q) for r, q in zip(records, quiet, strict=True) if c in r]) for c in channels}
+    bad = invalid or [{} for _ in records]
+    found = {
+        c: _gauge([(r[c], _less(q, b.get(c))) for r, q, b in zip(records, quiet, bad, strict=True) if c in r])
+        for c in channels
+    }
     return {c: _with_contact(g, records, c) if all(q is None for q in quiet) else g for c, g in found.items()}
+
+
+def _less(quiet: Mask | None, bad: Mask | None) -> Mask | None:
+    return quiet if quiet is None or bad is None else quiet & ~bad
 
 
 def _with_contact(gauge: Gauge, records: Sequence[Record], channel: str) -> Gauge:
@@ -86,7 +99,7 @@ def _gauge(parts: list[tuple[Array, Mask | None]]) -> Gauge:
     """
     truest = _TRUEST * float(np.sqrt(np.mean([np.var(values) for values, _ in parts])))
     rests = [_before_onset(v[q]) for v, q in parts if q is not None and np.count_nonzero(q) >= _LEAST]
-    still = [detrend(r) for r in rests if len(r) >= _LEAST]
+    still = [_detrended(r) for r in rests if len(r) >= _LEAST]
     freedom = sum(len(s) - 2 for s in still)
     if freedom < _ENOUGH:
         return Gauge(max(float(np.median([noise(values).level for values, _ in parts])), truest))
@@ -94,6 +107,12 @@ def _gauge(parts: list[tuple[Array, Mask | None]]) -> Gauge:
     resolution = float(np.median([quantum(values) for values, _ in parts])) / np.sqrt(12.0)
     # a coarse gauge may not even flicker at rest
     return Gauge(max(level, resolution, truest), _colour(still), rested=True)
+
+
+def _detrended(rest: Array) -> Array:
+    """Give what a rest (n,) leaves about its line, without samples that are none of its noise, (m,)."""
+    usual = ordinary(detrend(rest))
+    return detrend(rest[usual] if np.count_nonzero(usual) >= _LEAST else rest)
 
 
 def _before_onset(rest: Array) -> Array:

@@ -66,7 +66,9 @@ def _stretch(run: Run, longest: int) -> slice:
 def _within(run: Run, kept: slice) -> Run:
     record = run.record
     channels = {name: values[kept] for name, values in record.channels.items()}
-    return replace(run, record=Record(record.time[kept], channels, record.provenance))
+    time = record.time[kept]
+    wild = tuple(one.within(kept, time) for one in run.wild)
+    return replace(run, record=Record(time, channels, record.provenance), wild=wild)
 
 
 def _note(cut: Mapping[str, slice], campaign: Campaign) -> str:

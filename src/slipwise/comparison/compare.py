@@ -24,7 +24,7 @@ from slipwise.estimation.intervals import intervals
 from slipwise.estimation.prediction_interval import predicted_friction
 from slipwise.evidence.floor import noise_floor
 from slipwise.instruments.checks import Checks, check_instruments
-from slipwise.instruments.corrections import is_tared
+from slipwise.instruments.corrections import is_tared, is_wrong_unit
 from slipwise.instruments.suspects import effect_of
 from slipwise.model import Model
 from slipwise.model_file import as_model
@@ -55,7 +55,8 @@ def compare(
         progress: called with what is being done and the fraction done.
 
     Raises:
-        InputError: the campaign lacks what every comparison needs, or its loads are turned round or tared.
+        InputError: the campaign lacks what every comparison needs, its loads are turned round or tared, or a channel
+            was read in another unit than it was written in.
     """
     began = time.perf_counter()
     tell = progress or (lambda words, done: None)
@@ -64,7 +65,7 @@ def compare(
     start = None if model is None else as_model(model)
     tell("auditing the instruments", 0.05)
     checks = checks or check_instruments(campaign)
-    _refuse_wrong_loads(checks, campaign)
+    _refuse_wrong_channels(checks, campaign)
     tell("fitting base parameters", 0.25)
     base = fit_finely(campaign, start)
     tell("locating errors", 0.5)
@@ -121,23 +122,26 @@ def compare(
     )
 
 
-def _refuse_wrong_loads(checks: Checks, campaign: Campaign) -> None:
-    """Refuse loads with which no law of friction can be held against anything.
+def _refuse_wrong_channels(checks: Checks, campaign: Campaign) -> None:
+    """Refuse channels with which no law of friction can be held against anything.
 
     Raises:
-        InputError: a load cell counts compression negative, or does not show the girder's weight.
+        InputError: a load cell counts compression negative, or does not show the girder's weight; a channel is off by
+            a factor of units.
     """
     turned = effect_of("turned").name
     loads = [f for f in checks.report.findings if f.channel.startswith("pad_") and f.channel.endswith("_N")]
     wrong = [finding for finding in loads if finding.what == turned or is_tared(finding, campaign)]
-    if wrong:
-        names = " ".join(f"--correct '{finding.name}'" for finding in wrong)
-        signs = any(finding.what == turned for finding in wrong)
-        mapped = ", or write sign = -1 in [columns] of campaign.toml" if signs else ""
-        raise InputError(
-            f"{'; '.join(finding.words for finding in wrong)}: loads are positive in compression and hold the girder's "
-            f"weight here; {names} puts the records right{mapped}"
-        )
+    scaled = [finding for finding in checks.report.findings if is_wrong_unit(finding)]
+    if not wrong and not scaled:
+        return
+    names = " ".join(f"--correct '{finding.name}'" for finding in (*wrong, *scaled))
+    signs = any(finding.what == turned for finding in wrong)
+    mapped = ", or write sign = -1 in [columns] of campaign.toml" if signs else ""
+    mapped += ", or write its unit in [columns] of campaign.toml" if scaled else ""
+    rule = "loads are positive in compression and hold the girder's weight here; " if wrong else ""
+    told = "; ".join(finding.words for finding in (*wrong, *scaled))
+    raise InputError(f"{told}: {rule}{names} puts the records right{mapped}")
 
 
 def _cannot(base: BaseFit) -> list[str]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.starting_grid import REFERENCES
-from slipwise.estimation.intervals import Interval
+from slipwise.estimation.intervals import Interval, bound_of
 
 #: Factor, and share of the size: of 161 sizes that the bench planted 92.5 % lay inside such intervals, without it 78 %.
 _WIDER, _FORM = 1.5, 0.02
@@ -32,7 +32,7 @@ def named_sizes(found: Hypothesis, sizes: Sequence[Interval]) -> dict[str, Inter
                 out[f.key] = _widened_for_model_error(entries[f.key], f.low, f.high)
             else:
                 value = found.solution.values[f.key]
-                out[f.key] = Interval(f.key, value, float("nan"), float("nan"), f.start, f.unit, "")
+                out[f.key] = Interval(f.key, value, float("nan"), float("nan"), f.start, f.unit, bound_of(f, value))
     for term in found.terms:
         for p in (p for p in term.effect.parameters if p.name in REFERENCES):
             key = f"{term.label}.{p.name}"

@@ -19,7 +19,7 @@ from slipwise.model import Model
 from slipwise.rig.known import better_known
 
 #: Faults of samples that a gauge has; a gap is the clock's.
-_OF_GAUGES = ("late", "turned", "shifted", "dead", *RAILS, "held", "lost")
+_OF_GAUGES = ("late", "turned", "scaled", "shifted", "wild", "dead", *RAILS, "held", "lost")
 
 
 @dataclass(frozen=True)

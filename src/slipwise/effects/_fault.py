@@ -8,6 +8,7 @@ from slipwise.channels import channel
 
 #: Faults that the samples show by themselves.
 SAMPLE_FAULTS: tuple[str, ...] = (
+    "wild",
     "dead",
     "upper rail",
     "lower rail",
@@ -15,6 +16,7 @@ SAMPLE_FAULTS: tuple[str, ...] = (
     "lost",
     "gap",
     "turned",
+    "scaled",
     "shifted",
     "late",
 )

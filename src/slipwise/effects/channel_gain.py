@@ -38,7 +38,7 @@ EFFECT = Effect(
         least={"*": 0.008},
         step=0.01,
         scales=True,
-        samples=("dead",),
+        samples=("dead", "scaled"),
     ),
     moves=("*",),
     signature="odd and flat in everything; breaks the balances in proportion to the channel",

@@ -44,7 +44,7 @@ EFFECT = Effect(
     fault=GaugeFault(
         says="repeats or misses {size} of its samples",
         settled_by="the logger's own counter of samples",
-        samples=("held", "lost", "gap"),
+        samples=("held", "lost", "gap", "wild"),
     ),
     moves=("*",),
     signature="runs of equal values; spikes in the rate",

@@ -188,7 +188,7 @@ def of_fit(
         shared: (q, m) what q kinds of nuisances of unit size would do to the residuals, and (m,) which nuisance of each
             kind a row belongs to.
     """
-    ends = [_bound(f, values[f.key]) for f in free]
+    ends = [bound_of(f, values[f.key]) for f in free]
     inside = [j for j, end in enumerate(ends) if not end and np.any(jacobian[:, j])]
     scale = np.array([free[j].scale for j in inside])
     _, robust, freedom = _variances(jacobian, inside, residual, block, shared)
@@ -236,7 +236,8 @@ def _sums(jacobian: Array, inside: Sequence[int], values: Array, label: NDArray[
     return out
 
 
-def _bound(free: Free, value: float) -> str:
+def bound_of(free: Free, value: float) -> str:
+    """Give the bound on which a fitted number has ended: "lower", "upper" or ""."""
     if value - free.low < 1e-6 * free.scale:
         return "lower"
     return "upper" if free.high - value < 1e-6 * free.scale else ""

@@ -13,7 +13,7 @@ from slipwise.campaign.scales import Scales
 from slipwise.campaign.states import States, measured_states
 from slipwise.errors import InputError
 from slipwise.estimation.judged_samples import judged_and_ringing
-from slipwise.instruments.repairs import InvalidSamples
+from slipwise.instruments.repairs import InvalidSamples, with_wild
 from slipwise.record import Record
 from slipwise.signals.ends import in_frequency
 from slipwise.signals.filters import LowPass, lowpass
@@ -203,12 +203,12 @@ def fit_runs(campaign: Campaign, invalid: InvalidSamples | None = None) -> list[
 
     Args:
         campaign: the runs.
-        invalid: run -> channel -> samples (n,) at which it is no measurement.
+        invalid: run -> channel -> samples (n,) at which it is no measurement, besides the wild ones of the runs.
 
     Raises:
         InputError: a run lacks slip, or a pad's friction.
     """
-    runs = [_fit_run(run, campaign, (invalid or {}).get(run.name, {})) for run in campaign.runs]
+    runs = [_fit_run(run, campaign, with_wild(run, (invalid or {}).get(run.name, {}))) for run in campaign.runs]
     levels = {channel: gauge.level for channel, gauge in campaign.gauges.items()}
     return [replace(r, noise=levels) for r in runs]
 

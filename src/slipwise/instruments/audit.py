@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from slipwise.campaign import Campaign
+from slipwise.campaign import Campaign, as_campaign
+from slipwise.campaign.wild_samples import sentences as wild_samples
 from slipwise.campaign.zero_state import ShiftedZero
 from slipwise.channels import channel
 from slipwise.effects import Effect, catalogue
@@ -23,6 +24,7 @@ from slipwise.instruments.rows import noise_of_channels, noise_of_runs, prepare_
 from slipwise.instruments.sample_faults import RAILS, SampleFault, sample_faults
 from slipwise.instruments.sentences import as_sentence, confusable, how_to_settle, nearest, sentence
 from slipwise.instruments.suspects import Suspect, effect_of
+from slipwise.instruments.wrong_units import WrongUnit
 from slipwise.instruments.zeros import values_of_zero, with_refined_zeros
 from slipwise.signals.noise import quantum, white_level
 
@@ -32,6 +34,11 @@ _SUREST = 0.99
 _COARSE = 2.0
 #: Samples of a coarsely rounded channel differ by fewer steps of its rounding than this.
 _FEW_STEPS = 20.0
+#: What cannot be tested where a campaign has no channel at all.
+NOTHING_MAPPED = (
+    "no column of the files is a channel; name them in [columns] of campaign.toml, as `slipwise init` does "
+    "(`slipwise channels` lists the names)"
+)
 
 
 def audit(campaign: Campaign, own: Iterable[Effect] = ()) -> AuditReport:
@@ -41,6 +48,9 @@ def audit(campaign: Campaign, own: Iterable[Effect] = ()) -> AuditReport:
         campaign: whose logger may be unknown: then its filter is estimated too.
         own: effects beside those of the catalogue: faults of gauges (`fault`) and physical explanations (`disturb`).
     """
+    campaign = as_campaign(campaign)
+    if not any(run.record.channels for run in campaign.runs):
+        return AuditReport(campaign.name, (), (), (), {}, None, (NOTHING_MAPPED,))
     samples = sample_faults(campaign)
     records, left_out = for_balances(campaign, samples)
     clean = campaign.with_records(records, "wrong signs turned back, bad samples left out") if samples else campaign
@@ -49,7 +59,7 @@ def audit(campaign: Campaign, own: Iterable[Effect] = ()) -> AuditReport:
     noise = noise_of_runs(runs, noise_of_channels(clean, runs, band), band)
     mass_error = KNOWN_MASS if "mass" in campaign.known else RATED_MASS
     logger = None if campaign.logger.known else estimate_logger(clean)
-    findings, notes = [_of_samples(fault) for fault in samples], _rounded(campaign)
+    findings, notes = [_of_samples(fault) for fault in samples], [*wild_samples(campaign.runs), *_rounded(campaign)]
     plain = AuditReport(campaign.name, tuple(findings), (), (), {}, logger, tuple(cannot), tuple(notes))
     if not any(relation.accuses and relation.rows in ("moving", "inner") for relation in allowed):
         return plain
@@ -109,13 +119,16 @@ def _of_samples(fault: SampleFault) -> Finding:
     place = _place(fault.channels)
     unit = channel(fault.channels[0]).unit if fault.kind in (*RAILS, "shifted") else "1"
     unit = "s" if fault.kind == "late" else unit
+    size = fault.size - 1.0 if fault.kind == "scaled" else fault.size  # a gain is what is too much
     words = {
+        "wild": f"{place} is faulty: {fault.size:.1%} of its samples are wild",
+        "scaled": WrongUnit(fault.channels, fault.size).words(place) if fault.kind == "scaled" else "",
         "dead": f"{place} is dead in {', '.join(fault.runs)}",
         "lost": f"{place} has lost samples: what follows them came early, and the end repeats one value",
         "shifted": ShiftedZero(fault.channels, fault.size).words,
         "late": f"the cells of the pads come {fault.size:.3f} s late: their logger was started later",
         "gap": f"the logger has lost {fault.size:.2%} of all samples",
-    }.get(fault.kind, sentence(effect, place, fault.size, unit))
+    }.get(fault.kind, sentence(effect, place, size, unit))
     if fault.kind in RAILS:
         upper = fault.kind == RAILS[0]
         place_of_rail = effect.parameters[0 if upper else 1].name
@@ -123,13 +136,13 @@ def _of_samples(fault: SampleFault) -> Finding:
     elif fault.kind == "shifted":
         values = values_of_zero(ShiftedZero(fault.channels, fault.size))
     else:
-        values = {effect.parameters[0].name: fault.size}
+        values = {effect.parameters[0].name: size}
     return Finding(
         effect=effect,
         channel=place,
-        size=fault.size,
-        low=fault.size,
-        high=fault.size,
+        size=size,
+        low=size,
+        high=size,
         unit=unit,
         probability=_SUREST,
         mistaken_for=confusable(effect),

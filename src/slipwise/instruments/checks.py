@@ -11,7 +11,7 @@ from typing import Any
 
 from slipwise.campaign import Campaign, as_campaign
 from slipwise.effects import Effect
-from slipwise.instruments.audit import audit
+from slipwise.instruments.audit import NOTHING_MAPPED, audit
 from slipwise.instruments.corrections import correct
 from slipwise.instruments.report import AuditReport, Finding, LoggerEstimate
 from slipwise.instruments.sentences import shown
@@ -90,6 +90,8 @@ def check_instruments(campaign: Campaign | Path | str, *, own: Iterable[Effect] 
         words = f"No: {'; '.join(f.words for f in report.findings)}. No law of friction was needed to see it."
     elif tested:
         words = f"Yes: {len(tested)} balances and kinematic relations agree, no gauge is accused."
+    elif NOTHING_MAPPED in report.cannot:
+        words = f"Not known: {NOTHING_MAPPED}."
     else:
         words = "Not known: these channels allow no balance, so no gauge can be held against another."
     return Checks(words, report, time.perf_counter() - began)

@@ -70,6 +70,13 @@ def is_tared(finding: Finding, campaign: Campaign) -> bool:
     return finding.what == effect_of("shifted").name and bool(cells) and finding.channel in (*cells, "pad_*_N")
 
 
+def is_wrong_unit(finding: Finding) -> bool:
+    """Tell whether a finding is a channel off by a factor of units: more than a gain that a gauge can have."""
+    gain = effect_of("scaled").parameters[0]
+    dead = finding.size <= -1.0
+    return finding.what == effect_of("scaled").name and not dead and not gain.low <= finding.size <= gain.high
+
+
 def _corrected(record: Record, finding: Finding, campaign: Campaign, run: str) -> Record:
     hooks = finding.effect.hooks
     if declared(finding.effect).scales and finding.size <= -1.0:

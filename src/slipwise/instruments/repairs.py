@@ -1,6 +1,6 @@
 """Records without the harm that bad samples do: balances leave rows out, fits leave samples out.
 
-A wrong sign is reversed and a zero that is far off is put right in both. A balance looks at all channels at one
+Wrong signs, units and zeros that are far off are put right in both. A balance looks at all channels at one
 instant, so that one bad sample costs a row; a fit judges channel by channel.
 """
 
@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from slipwise.campaign import Campaign
+from slipwise.campaign import Campaign, Run
 from slipwise.campaign.aligned import spread
+from slipwise.campaign.wild_samples import WildSamples
 from slipwise.channels import VELOCITY_CHANNELS
 from slipwise.instruments.lags import in_step, without_partner
 from slipwise.instruments.sample_faults import RAILS, SampleFault
@@ -23,7 +24,7 @@ Mask = NDArray[np.bool_]
 #: run -> channel -> samples (n,) at which the channel is no measurement.
 InvalidSamples = Mapping[str, Mapping[str, Mask]]
 #: Faults whose samples are no measurement.
-_INVALID = (*RAILS, "held", "lost", "dead")
+_INVALID = (*RAILS, "held", "lost", "dead", "wild")
 #: Invalid before and after a bad sample; more where the velocity is made of the channel [samples].
 _REACH, _REACH_OF_MOTION = 6, 40
 #: Rows left out before and after a rail or a gap [s].
@@ -33,13 +34,16 @@ _AROUND = 0.03
 def for_balances(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[dict[str, Record], dict[str, Mask]]:
     """Give records in which bad samples do no harm to the balances, and the samples to leave out, by run.
 
-    Wrong signs are reversed, zeros put right, repeated samples bridged; around rails and gaps rows are left out; a
-    channel that is dead, or has lost samples and so its place in time, is taken out.
+    Wrong signs are reversed, units and zeros put right, repeated samples bridged; around rails, gaps and wild samples
+    rows are left out; a channel that is dead or wild throughout, or has lost samples and so its place in time, is
+    taken out.
     """
     records, out = {}, {}
     for run in campaign.runs:
-        channels = dict(_with_signs(_in_step(run.record, faults), faults).channels)
+        channels = dict(_put_right(_in_step(run.record, faults), faults).channels)
         leave = _without_partner(run.record, faults)
+        for one in _wild_in_step(run, faults):
+            leave |= one.bad
         for fault in faults:
             bad = fault.bad.get(run.name)
             if bad is None:
@@ -50,7 +54,7 @@ def for_balances(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[dic
                 if fault.kind == "held" and name in channels:
                     channels[name] = bridged(channels[name], bad)
         for fault in faults:
-            if fault.kind in ("lost", "dead"):
+            if fault.kind in ("lost", "dead", "wild"):
                 for name in fault.channels:
                     channels.pop(name, None)
         reach = max(int(_AROUND / run.record.dt), 1)
@@ -70,7 +74,7 @@ def for_fits(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[Campaig
     invalid: dict[str, dict[str, Mask]] = {}
     for run in campaign.runs:
         aligned, found = _in_step(run.record, faults), dict[str, Mask]()
-        record = _with_signs(aligned, faults)
+        record = _put_right(aligned, faults)
         unpaired = _without_partner(record, faults)
         for name in dict.fromkeys(name for fault in faults for name in fault.channels if name in record):
             values = aligned[name]
@@ -83,11 +87,43 @@ def for_fits(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[Campaig
             if all(fault.kind not in RAILS for fault in own) and not bad.all():
                 between = np.interp(record.time, record.time[~bad], record[name][~bad])
                 record = record.replaced(**{name: between})
-            reach = _REACH_OF_MOTION if name in VELOCITY_CHANNELS else _REACH
-            found[name] = unpaired | (np.convolve(bad, np.ones(2 * reach + 1), mode="same") > 0.5)
+            found[name] = unpaired | _around(name, bad)
         records[run.name] = record
         invalid[run.name] = found
-    return replace(campaign, runs=tuple(replace(r, record=records[r.name]) for r in campaign.runs)), invalid
+    runs = (replace(r, record=records[r.name], wild=_wild_in_step(r, faults)) for r in campaign.runs)
+    return replace(campaign, runs=tuple(runs)), invalid
+
+
+def with_wild(run: Run, invalid: Mapping[str, Mask]) -> dict[str, Mask]:
+    """Give the samples that a fit must not judge: those given, and those around a run's wild samples.
+
+    Args:
+        run: with its wild samples.
+        invalid: channel -> samples (n,) at which it is no measurement.
+    """
+    out = dict(invalid)
+    for name, bad in run.invalid.items():
+        out[name] = out.get(name, np.zeros(len(bad), dtype=bool)) | _around(name, bad)
+    return out
+
+
+def _around(name: str, bad: Mask) -> Mask:
+    """Give the samples (n,) that bad ones of a channel make unsure."""
+    reach = _REACH_OF_MOTION if name in VELOCITY_CHANNELS else _REACH
+    return spread(bad, reach, reach)
+
+
+def _wild_in_step(run: Run, faults: Sequence[SampleFault]) -> tuple[WildSamples, ...]:
+    """Give the wild samples of a run where they are once its late channels were brought forward."""
+    late = {name: fault.size for fault in faults if fault.kind == "late" for name in fault.channels}
+    moved = []
+    for one in run.wild:
+        steps = round(late.get(one.channel, 0.0) / run.record.dt)
+        at = np.flatnonzero(one.bad) - steps
+        bad = np.zeros(len(one.bad), dtype=bool)
+        bad[at[(at >= 0) & (at < len(bad))]] = True
+        moved.append(replace(one, bad=spread(bad, 1, 1) if steps else bad))
+    return tuple(moved)
 
 
 def _in_step(record: Record, faults: Sequence[SampleFault]) -> Record:
@@ -102,7 +138,9 @@ def _without_partner(record: Record, faults: Sequence[SampleFault]) -> Mask:
     return np.any([np.zeros(len(record), dtype=bool), *late], axis=0)
 
 
-def _with_signs(record: Record, faults: Sequence[SampleFault]) -> Record:
+def _put_right(record: Record, faults: Sequence[SampleFault]) -> Record:
+    factors = {n: fault.size for fault in faults if fault.kind == "scaled" for n in fault.channels if n in record}
+    record = record.replaced(**{name: record[name] / factor for name, factor in factors.items()})
     shift = {n: fault.size for fault in faults if fault.kind == "shifted" for n in fault.channels if n in record}
     level = record.replaced(**{name: record[name] - size for name, size in shift.items()})
     wrong = [name for fault in faults if fault.kind == "turned" for name in fault.channels if name in record]

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.campaign import Campaign
+from slipwise.campaign import Campaign, Run
 from slipwise.campaign.aligned import AlignedRun, aligned_run, spread
 from slipwise.channels import pads_in
 from slipwise.instruments.balances import Relation
@@ -70,24 +70,22 @@ def prepare_runs(campaign: Campaign, left_out: Mapping[str, Mask] | None = None)
     filters = [by.frequency for run in aligned for by in run.lowpass.values() if by is not None]
     rate = min(1.0 / run.record.dt for run in aligned)
     band = min(_BAND, _OF_RATE * rate, *(_OF_FILTER * f for f in filters))
-    out = left_out or {}
     prepared = [
-        _prepared(run.name, one, band, out.get(run.name)) for run, one in zip(campaign.runs, aligned, strict=True)
+        _prepared(run, one, band, (left_out or {}).get(run.name, np.zeros(len(run.record), dtype=bool)))
+        for run, one in zip(campaign.runs, aligned, strict=True)
     ]
     # what only some runs have cannot be compared in all of them
     common = [name for name in prepared[0].record.channels if all(name in run.record for run in prepared)]
     return with_records(prepared, lambda r: Record(r.time, {n: r[n] for n in common}, r.provenance)), band
 
 
-def _prepared(name: str, run: AlignedRun, band: float, left_out: Mask | None) -> PreparedRun:
-    full = run.record
+def _prepared(run: Run, aligned: AlignedRun, band: float, left_out: Mask) -> PreparedRun:
+    full = aligned.record
     by = LowPass(band, 6, "aligned")
     every = slice(None, None, max(1, int(1.0 / (_KEPT * band * full.dt))))
     channels = {n: lowpass(v, full.dt, by)[every] for n, v in full.channels.items()}
     record = Record(full.time[every], channels, full.provenance)
-    good, quiet = run.measured[every].copy(), run.quiet[every]
-    if left_out is not None and len(left_out) == len(full):
-        good &= ~left_out[every]
+    good, quiet = aligned.measured[every] & ~_on(full.time, run.record.time, left_out)[every], aligned.quiet[every]
     pads = pads_in(record.channels)
     loads = [n for n in (f"pad_{pad}_N" for pad in pads) if n in record]
     if len(loads) == len(pads) >= _FEWEST:
@@ -97,12 +95,25 @@ def _prepared(name: str, run: AlignedRun, band: float, left_out: Mask | None) ->
     thin[:: max(1, int(1.0 / (_ROWS * band * record.dt)))] = True
     numbers = np.arange(len(record))
     from_end = np.minimum(numbers, len(record) - 1 - numbers) * record.dt
-    masks = {"moving": good & (from_end >= _END), "inner": good & (from_end >= _INNER_END)}
+    # a bridge in an acceleration is felt as long as an end is, once it is integrated twice
+    moved = np.any([np.zeros(len(run.record), dtype=bool), *(w.bad for w in run.wild if _moves(w.channel))], axis=0)
+    reach = int(_INNER_END / full.dt)
+    known = ~spread(_on(full.time, run.record.time, moved), reach, reach)[every]
+    masks = {"moving": good & (from_end >= _END), "inner": good & known & (from_end >= _INNER_END)}
     masks["quiet"] = masks["wander"] = masks["moving"] & quiet
     picked = {kind: np.flatnonzero(mask & thin) for kind, mask in masks.items()}
     starts = np.cumsum(np.diff(np.concatenate([[0], quiet.astype(int)])) == 1)
     stretch = np.unique(starts[picked["wander"]], return_inverse=True)[1]
-    return PreparedRun(name, record, picked, np.asarray(stretch))
+    return PreparedRun(run.name, record, picked, np.asarray(stretch))
+
+
+def _moves(channel: str) -> bool:
+    return channel.startswith(("slip_", "girder_a", "table_a"))
+
+
+def _on(time: Array, recorded: Array, mask: Mask) -> Mask:
+    """Give the samples (m,) of a uniform axis beside which one of the recorded samples (n,) is marked."""
+    return np.interp(time, recorded, mask.astype(float)) > 0.0 if mask.any() else np.zeros(len(time), dtype=bool)
 
 
 def with_records(runs: Sequence[PreparedRun], change: Callable[[Record], Record]) -> list[PreparedRun]:

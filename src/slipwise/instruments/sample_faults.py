@@ -8,12 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign import Campaign, Run
+from slipwise.campaign.wild_samples import FAULTY, faulty_share
 from slipwise.channels import pads_in
 from slipwise.instruments.lags import in_step_campaign
 from slipwise.instruments.late_cells import late_cells
 from slipwise.instruments.late_motion import late_motion
 from slipwise.instruments.rounding import NEAR, chance_of_equal, coarse
-from slipwise.instruments.signs import wrong_signs
+from slipwise.instruments.signs import with_signs, wrong_signs
+from slipwise.instruments.wrong_units import in_right_units, wrong_units
 from slipwise.instruments.zeros import tared_cells, zeros_of
 from slipwise.rig import Specimen
 from slipwise.rig.load_basis import basis_of
@@ -49,10 +51,12 @@ class SampleFault:
     """Bad samples of one channel, or of several at the same instants.
 
     Attributes:
-        kind: "late", "turned", "shifted", "dead", "upper rail", "lower rail", "held", "lost" or "gap".
+        kind: "late", "turned", "scaled", "shifted", "wild", "dead", "upper rail", "lower rail", "held", "lost" or
+            "gap".
         channels: that show it.
-        size: rail or shift in the channel's unit; delay [s]; -1 for a wrong sign; else share of all samples [1].
-        bad: run -> samples that are no measurement (n,); none of a wrong sign or zero, which is put right.
+        size: rail or shift in the channel's unit; delay [s]; -1 for a wrong sign; factor by which a channel is too
+            large [1]; else share of all samples [1].
+        bad: run -> samples that are no measurement (n,); none of a wrong sign, unit or zero, which is put right.
         runs: names of the runs that show it.
     """
 
@@ -64,7 +68,7 @@ class SampleFault:
 
 
 def sample_faults(campaign: Campaign) -> list[SampleFault]:
-    """Look for late loggers, wrong signs, zeros that are far off and bad samples in every channel of every run.
+    """Look for late loggers, wrong signs and units, zeros that are far off and bad samples in every channel and run.
 
     Cells are looked at with the gauges of the motion in step, and all else with the cells in step too.
     """
@@ -73,14 +77,19 @@ def sample_faults(campaign: Campaign) -> list[SampleFault]:
     cells = [one for one in (late_cells(campaign),) if one is not None]
     campaign = in_step_campaign(campaign, cells)
     every = tuple(run.name for run in campaign.runs)
+    units = wrong_units(with_signs(campaign, wrong_signs(campaign, tared_cells(campaign))))
+    campaign = in_right_units(campaign, units)
     found = [*_turned(campaign), *_shifted(campaign)]
+    found += [SampleFault("scaled", one.channels, one.factor, {}, every) for one in units]
     found += [SampleFault("late", one.channels, one.delay, {}, every) for one in (*late, *cells)]
     names = list(dict.fromkeys(name for run in campaign.runs for name in run.record.channels))
     # what every channel repeats at its end is a record that was cut, no gauge's loss
-    cut = {run.name: min(_tail(values) for values in run.record.channels.values()) for run in campaign.runs}
+    cut = {
+        run.name: min((_tail(values) for values in run.record.channels.values()), default=0) for run in campaign.runs
+    }
     for name in names:
         runs = [run for run in campaign.runs if name in run.record]
-        fault = _dead(name, runs, campaign.specimen)
+        fault = _wild(name, runs) or _dead(name, runs, campaign.specimen)
         if fault is not None:
             found.append(fault)
             continue
@@ -102,6 +111,16 @@ def _turned(campaign: Campaign) -> list[SampleFault]:
 def _shifted(campaign: Campaign) -> list[SampleFault]:
     every = tuple(run.name for run in campaign.runs)
     return [SampleFault("shifted", zero.channels, zero.size, {}, every) for zero in zeros_of(campaign)]
+
+
+def _wild(name: str, runs: Sequence[Run]) -> SampleFault | None:
+    """A channel that writes more than single wild samples is no gauge any more; single ones are only left out."""
+    share = faulty_share(runs, name)
+    if share <= FAULTY:
+        return None
+    shown = {run.name for run in runs if any(one.channel == name for one in run.wild)}
+    bad = {run.name: np.ones(len(run.record), dtype=bool) for run in runs if run.name in shown}
+    return SampleFault("wild", (name,), share, bad, tuple(bad))
 
 
 def _dead(name: str, runs: Sequence[Run], specimen: Specimen) -> SampleFault | None:

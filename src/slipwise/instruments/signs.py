@@ -61,6 +61,15 @@ def wrong_signs(campaign: Campaign, tared: Collection[str] = ()) -> list[str]:
     return [*found, *(name for name in _against(rest) if name not in tared)]
 
 
+def with_signs(campaign: Campaign, turned: Collection[str]) -> Campaign:
+    """Give a campaign with these channels turned back."""
+    records = {
+        run.name: run.record.replaced(**{name: -run.record[name] for name in turned if name in run.record})
+        for run in campaign.runs
+    }
+    return campaign.with_records(records, f"turned back: {', '.join(turned)}") if turned else campaign
+
+
 def _loads(campaign: Campaign) -> list[str]:
     every = set.intersection(*(set(run.record.channels) for run in campaign.runs))
     return [name for name in (f"pad_{pad}_N" for pad in campaign.specimen.pads) if name in every]

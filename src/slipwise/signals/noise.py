@@ -15,6 +15,8 @@ from slipwise.signals.ends import Array
 
 #: Part of the band below half the sampling rate that is taken as signal-free [1].
 _TOP = (0.8, 0.98)
+#: Standard deviations beyond which a value is none of the noise [1].
+_ORDINARY = 6.0
 #: Fewer quiet samples than this are no basis for a level.
 _ENOUGH = 50
 
@@ -59,6 +61,16 @@ def white_level(values: Array) -> float:
     return float(np.sqrt(np.median(top) / np.log(2.0)))
 
 
+def ordinary(values: Array) -> NDArray[np.bool_]:
+    """Tell which values (n,) scatter as most do: within six standard deviations that follow from the median deviation.
+
+    Noise hardly ever goes beyond; where more than half of all values are equal, every one counts.
+    """
+    away = np.abs(values - np.median(values))
+    usual = float(np.median(away)) / 0.6745
+    return away <= _ORDINARY * usual if usual > 0.0 else np.ones(len(values), dtype=bool)
+
+
 def quantum(values: Array) -> float:
     """Give the step of a quantised channel; 0 where values are as good as continuous."""
     levels, counts = np.unique(values[np.isfinite(values)][:20000], return_counts=True)
@@ -91,7 +103,12 @@ def noise(values: Array, quiet: NDArray[np.bool_] | None = None) -> Noise:
         return Noise(top, None, 0.0, step, basis)
     still = values[quiet]
     place = np.arange(len(still))
-    still = still - np.polynomial.Polynomial.fit(place, still, 1)(place)
+    line = np.polynomial.Polynomial.fit(place, still, 1)
+    usual = ordinary(still - line(place))
+    if not usual.all():
+        still, place = still[usual], place[usual]
+        line = np.polynomial.Polynomial.fit(place, still, 1)
+    still = still - line(place)
     level = float(still.std(ddof=2))
     correlation = float(np.dot(still[1:], still[:-1]) / np.dot(still, still)) if level > 0.0 else 0.0
     white = bool(level < 1.3 * top) if top > 0.0 else level == 0.0

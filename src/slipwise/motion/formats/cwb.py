@@ -32,10 +32,10 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
     """
 
     def field(key: str, pattern: str) -> tuple[re.Match[str], str]:
-        match, i = header_field(source, rf"^\s*#\s*{key}\s*:?\s*{pattern}", 0, _LOOK_AT, repr(key))
+        match, i = header_field(source, rf"^\s*#\s*{re.escape(key)}\s*:?\s*{pattern}", 0, _LOOK_AT, repr(key))
         return match, source.at(i)
 
-    rate, place = field(r"SampleRate\(Hz\)", r"([\d.]+)")
+    rate, place = field("SampleRate(Hz)", r"([\d.]+)")
     per_second = positive(number(rate[1], place), place, "the sampling rate")
     dt, dt_words = settle_step(1.0 / per_second, given, source)
     factor, unit_words = settle_unit(field("AmplitudeUnit", r"([^\s.]+)")[0][1], given, source)
@@ -43,7 +43,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
     names = re.findall(r"([A-Z])\(([+-])\)", sequence[1])
     if not re.match(r"\s*time\b", sequence[1], re.IGNORECASE) or len(names) < 1:
         raise InputError(f"{place}: the sequence {sequence[1]!r} cannot be read; 'Time U(+); N(+); E(+)' is")
-    length, place = field(r"RecordLength\(sec\)", r"([\d.]+)")
+    length, place = field("RecordLength(sec)", r"([\d.]+)")
     count = round(number(length[1], place) * per_second)
     table = table_of_numbers(source, _rows(source), len(names) + 1)
     check_count(len(table), count, source, "the header's record length", given.allow_short)

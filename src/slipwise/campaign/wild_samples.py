@@ -1,0 +1,186 @@
+"""Wild samples: what a logger has written and no gauge can have read, found, bridged and named before all else.
+
+A sample is wild where a burst of at most 20 stands out of its channel by more than the range of everything else there
+(`slipwise.signals.short_bursts`), unless a balance of forces says that the girder has moved like that: a pad that lands
+shows in the loads and in the vertical acceleration at the same time, a glitch in one of them alone.
+"""
+
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.channels import channel
+from slipwise.errors import SlipwiseWarning
+from slipwise.rig import Specimen
+from slipwise.signals.short_bursts import short_bursts, stretches
+from slipwise.units import convert
+
+if TYPE_CHECKING:
+    from slipwise.campaign.campaign import Campaign, Run
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+#: A channel of which more than this share is wild is faulty as a whole [1].
+FAULTY = 0.02
+#: A burst is motion where the rest of a balance leaves less than this share of it unexplained [1].
+_UNEXPLAINED = 0.5
+#: Bursts of a channel that are named one by one; good samples to either side that a bridge is fitted to.
+_NAMED, _BESIDE = 3, 12
+
+
+@dataclass(frozen=True)
+class WildSamples:
+    """Wild samples of one channel of one run.
+
+    Attributes:
+        channel: that shows them.
+        bad: (n,) where in the run's record they were; they are bridged there.
+        times: (k,) of each [s].
+        values: (k,) of each as it was written, in the channel's unit.
+    """
+
+    channel: str
+    bad: Mask
+    times: Array
+    values: Array
+
+    def within(self, kept: slice, time: Array) -> "WildSamples":
+        """Give those within a part of the record, whose time is (m,) [s]."""
+        inside = (self.times >= time[0]) & (self.times <= time[-1])
+        return WildSamples(self.channel, self.bad[kept], self.times[inside], self.values[inside])
+
+    @property
+    def words(self) -> str:
+        """Count, times and values, such as "2 wild samples (103.2 kN at 1.4 s, -88 kN at 2.5 s)"."""
+        known = channel(self.channel)
+        unit = known.unit if known.shown_in == "degC" else known.shown_in
+        bursts = np.split(np.arange(len(self.times)), np.flatnonzero(np.diff(np.flatnonzero(self.bad)) > 1) + 1)
+        if len(self.times) != np.count_nonzero(self.bad):  # thinned out since
+            bursts = [np.arange(len(self.times))]
+        told = []
+        for burst in bursts[:_NAMED]:
+            worst = burst[np.argmax(np.abs(self.values[burst]))]
+            size = f"{convert(float(self.values[worst]), known.unit, unit):.4g} {unit}".rstrip(" 1")
+            first, last = float(self.times[burst[0]]), float(self.times[burst[-1]])
+            told.append(f"{size} at {first:.6g} s" if first == last else f"{size} from {first:.6g} to {last:.6g} s")
+        more = f" and {len(bursts) - _NAMED} bursts more" if len(bursts) > _NAMED else ""
+        count = len(self.times)
+        return f"{count} wild sample{'s' if count > 1 else ''} ({', '.join(told)}{more})"
+
+
+def without_wild_samples(
+    time: Array, channels: Mapping[str, Array], specimen: Specimen
+) -> tuple[dict[str, Array], tuple[WildSamples, ...]]:
+    """Give channels with their wild samples bridged, and what was found.
+
+    Args:
+        time: (n,) [s].
+        channels: of one record, each (n,), SI; values that are missing stay so.
+        specimen: whose girder ties the channels together.
+    """
+    out, wild = dict(channels), []
+    for name, values in channels.items():
+        bad = short_bursts(values)
+        for start, end in stretches(bad):
+            if _is_motion(name, slice(start, end), channels, specimen):
+                bad[start:end] = False
+        if bad.any():
+            out[name] = bridged(values, bad)
+            wild.append(WildSamples(name, bad, time[bad], values[bad]))
+    return out, tuple(wild)
+
+
+def inherited(wild: Sequence[WildSamples], name: str, sources: Sequence[str]) -> tuple[WildSamples, ...]:
+    """Give the samples at which a channel that was computed from others has taken theirs, which are not told again."""
+    bad = [one.bad for one in wild if one.channel in sources]
+    return (WildSamples(name, np.any(bad, axis=0), np.empty(0), np.empty(0)),) if bad else ()
+
+
+def marked(campaign: "Campaign") -> "Campaign":
+    """Give a campaign without the wild samples of its runs, in which they are marked; a warning and a note name them.
+
+    A campaign without any, such as one that was read from its folder, is given as it is.
+    """
+    runs: list[Run] = []
+    fresh: list[Run] = []
+    for run in campaign.runs:
+        channels, wild = without_wild_samples(run.record.time, run.record.channels, campaign.specimen)
+        if wild:
+            record = run.record.replaced(**{one.channel: channels[one.channel] for one in wild})
+            fresh.append(replace(run, wild=wild))
+            run = replace(run, record=record, wild=(*run.wild, *wild))
+        runs.append(run)
+    if not fresh:
+        return campaign
+    return replace(campaign, runs=tuple(runs), notes=(*campaign.notes, *warned(fresh)))
+
+
+def warned(runs: "Sequence[Run]") -> tuple[str, ...]:
+    """Warn of the wild samples of runs, and give the sentences."""
+    told = sentences(runs)
+    for words in told:
+        warnings.warn(words, SlipwiseWarning, stacklevel=4)
+    return told
+
+
+def sentences(runs: "Sequence[Run]") -> tuple[str, ...]:
+    """Name the wild samples of runs, a sentence a channel."""
+    found = [(run.name, one) for run in runs for one in run.wild if len(one.times)]
+    told: dict[str, list[str]] = {}
+    for run, one in found:
+        told.setdefault(one.channel, []).append(f"{run}: {one.words}")
+    return tuple(f"{name} holds what no gauge can have read, left out: {'; '.join(by)}" for name, by in told.items())
+
+
+def faulty_share(runs: "Sequence[Run]", name: str) -> float:
+    """Give the share of wild samples in a channel over the runs that have it [1]."""
+    count = sum(len(run.record) for run in runs if name in run.record)
+    return sum(len(one.times) for run in runs for one in run.wild if one.channel == name) / max(count, 1)
+
+
+def bridged(values: Array, bad: Mask) -> Array:
+    """Give the values (n,) with each bad stretch on the cubic that fits its neighbours; at an end on the next one."""
+    good = np.flatnonzero(~bad)
+    out = np.where(bad, np.interp(np.arange(len(values)), good, values[good]), values)
+    for start, end in stretches(bad):
+        at = int(np.searchsorted(good, start))
+        before, after = good[max(at - _BESIDE, 0) : at], good[at : at + _BESIDE]
+        if min(len(before), len(after)) < _BESIDE:
+            continue
+        beside = np.concatenate([before, after])
+        middle = 0.5 * (start + end - 1)
+        cubic = np.polynomial.polynomial.polyfit(beside - middle, values[beside], 3)
+        out[start:end] = np.polynomial.polynomial.polyval(np.arange(start, end) - middle, cubic)
+    return out
+
+
+def _is_motion(name: str, burst: slice, channels: Mapping[str, Array], specimen: Specimen) -> bool:
+    """Tell whether the rest of a balance shows the burst of a channel too."""
+    for balance in _balances(specimen):
+        if name not in balance or any(other not in channels for other in balance):
+            continue
+        out = {n: factor * _beyond_line(channels[n], burst) for n, factor in balance.items()}
+        left = float(np.abs(np.sum(list(out.values()), axis=0)).max())
+        if left < _UNEXPLAINED * float(np.abs(out[name]).max()):
+            return True
+    return False
+
+
+def _beyond_line(values: Array, burst: slice) -> Array:
+    """Give by how much a burst leaves the line from the sample before it to the one after it, (k,)."""
+    before, after = max(burst.start - 1, 0), min(burst.stop, len(values) - 1)
+    line = np.interp(np.arange(burst.start, burst.stop), [before, after], [values[before], values[after]])
+    return values[burst] - line
+
+
+def _balances(specimen: Specimen) -> Iterator[dict[str, float]]:
+    """Give what adds up to nothing in a moment: channel -> factor [N per unit]; slip and its buffers are slower."""
+    if not specimen.free:
+        return
+    yield {**{f"pad_{pad}_N": 1.0 for pad in specimen.pads}, "girder_az": -specimen.carried_mass}
+    for axis in "xy":
+        yield {**{f"pad_{pad}_F{axis}": 1.0 for pad in specimen.pads}, f"girder_a{axis}": specimen.mass}
