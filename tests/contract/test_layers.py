@@ -12,10 +12,11 @@ PACKAGE = Path(__file__).parents[2] / "src" / "slipwise"
 ARROWS: dict[str, str] = {
     "errors": "",
     "text_encoding": "",
-    "cache": "",
+    "cache": "errors",
     "one_at_a_time": "",
     "whole_file": "errors",
-    "units": "cache errors",
+    "machine_code": "cache one_at_a_time whole_file",
+    "units": "cache errors whole_file",
     "params": "errors units",
     "channels": "errors",
     "interruption": "",
@@ -24,20 +25,21 @@ ARROWS: dict[str, str] = {
     "finished_jobs": "errors",
     "executors": "errors finished_jobs worker_processes",
     "shown": "errors",
-    "signals": "errors",
+    "signals": "errors machine_code",
     "statistics": "",
     "record": "channels errors shown units whole_file",
     "motion": "channels errors shown signals text_encoding units",
     "rig": "channels errors record units",
-    "effects": "channels errors params record rig shown signals",
+    "effects": "channels errors machine_code params record rig shown signals",
     "model": "channels effects errors params rig shown",
     "model_entry": "effects errors model params units",
     "model_file": "effects errors model model_entry params record rig units",
-    "simulation": "cache channels effects errors model model_file motion one_at_a_time record rig shown whole_file",
+    "simulation": "channels effects errors machine_code model model_file motion record rig shown whole_file",
     "campaign": "channels errors record rig shown signals text_encoding units",
     "instruments": "campaign channels effects errors parallel record rig shown signals statistics",
     "estimation": (
-        "campaign channels effects errors instruments model parallel params record rig signals statistics simulation"
+        "campaign channels effects errors instruments machine_code model parallel params record rig signals statistics"
+        " simulation"
     ),
     "evidence": "campaign channels errors estimation record rig signals statistics",
     "comparison": (
