@@ -19,7 +19,8 @@ ARROWS: dict[str, str] = {
     "units": "cache errors whole_file",
     "params": "errors units",
     "channels": "errors",
-    "interruption": "",
+    "child_processes": "",
+    "interruption": "child_processes",
     "parallel": "errors interruption",
     "worker_processes": "errors interruption parallel",
     "finished_jobs": "errors",
@@ -67,8 +68,8 @@ ARROWS: dict[str, str] = {
         " parallel record rig shown simulation units"
     ),
     "view": (
-        "channels comparison diagnosis discovery effects errors estimation evidence experiment instruments parallel"
-        " params record rig signals studies units whole_file"
+        "channels child_processes comparison diagnosis discovery effects errors estimation evidence experiment"
+        " instruments parallel params record rig signals studies units whole_file"
     ),
     "workbench": (
         "campaign channels comparison diagnosis discovery effects errors estimation experiment instruments"

@@ -4,6 +4,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from slipwise.child_processes import on_a_safe_path
 from slipwise.errors import InputError, SlipwiseError
 
 #: The viewer's own default is every interface of the machine.
@@ -43,10 +44,15 @@ def open_viewer(place: Path) -> None:
         SlipwiseError: the viewer could not run, for example without a display.
     """
     recording = find_recording(place)
+    with on_a_safe_path():
+        viewer = subprocess.Popen(viewer_command(recording))
     try:
-        code = subprocess.call(viewer_command(recording))
+        code = viewer.wait()
     except KeyboardInterrupt:
         return
+    except BaseException:
+        viewer.kill()
+        raise
     if code != 0:
         raise SlipwiseError(
             f"the rerun viewer ended with code {code}; it needs a display. On a machine without one, copy {recording} "
