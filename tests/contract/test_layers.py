@@ -14,6 +14,7 @@ ARROWS: dict[str, str] = {
     "text_encoding": "",
     "cache": "errors",
     "one_at_a_time": "",
+    "input_file": "errors",
     "whole_file": "errors",
     "machine_code": "cache one_at_a_time whole_file",
     "units": "cache errors whole_file",
@@ -21,22 +22,23 @@ ARROWS: dict[str, str] = {
     "channels": "errors",
     "child_processes": "",
     "interruption": "child_processes",
+    "standard_streams": "",
     "parallel": "errors interruption",
     "worker_processes": "errors interruption parallel",
-    "finished_jobs": "errors",
+    "finished_jobs": "errors input_file whole_file",
     "executors": "errors finished_jobs worker_processes",
     "shown": "errors",
     "signals": "errors machine_code",
     "statistics": "",
-    "record": "channels errors shown units whole_file",
-    "motion": "channels errors shown signals text_encoding units",
-    "rig": "channels errors record units",
-    "effects": "channels errors machine_code params record rig shown signals",
+    "record": "channels errors input_file shown units whole_file",
+    "motion": "channels errors input_file shown signals text_encoding units",
+    "rig": "channels errors input_file record units",
+    "effects": "channels errors input_file machine_code params record rig shown signals",
     "model": "channels effects errors params rig shown",
     "model_entry": "effects errors model params units",
-    "model_file": "effects errors model model_entry params record rig units",
+    "model_file": "effects errors input_file model model_entry params record rig units",
     "simulation": "channels effects errors machine_code model model_file motion record rig shown whole_file",
-    "campaign": "channels errors record rig shown signals text_encoding units",
+    "campaign": "channels errors input_file record rig shown signals text_encoding units",
     "instruments": "campaign channels effects errors parallel record rig shown signals statistics",
     "estimation": (
         "campaign channels effects errors instruments machine_code model parallel params record rig signals statistics"
@@ -68,7 +70,7 @@ ARROWS: dict[str, str] = {
         " parallel record rig shown simulation units"
     ),
     "view": (
-        "channels child_processes comparison diagnosis discovery effects errors estimation evidence experiment"
+        "cache channels child_processes comparison diagnosis discovery effects errors estimation evidence experiment"
         " instruments parallel params record rig signals studies units whole_file"
     ),
     "workbench": (
@@ -76,7 +78,7 @@ ARROWS: dict[str, str] = {
         " interruption model parallel session units view whole_file"
     ),
     "cli": "errors interruption view",
-    "__main__": "cli interruption",
+    "__main__": "cli interruption standard_streams",
 }
 #: Results draw themselves when they are asked to: the only way from numbers to pictures, and never at import.
 MAY_DRAW = frozenset({"__init__.py", "shown.py"})

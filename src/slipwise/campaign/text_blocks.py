@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from slipwise.errors import InputError
+from slipwise.input_file import read_input
 from slipwise.text_encoding import decoded
 
 _ROW = re.compile(r"^\s*\"?[-+.,\d]")
@@ -45,7 +46,7 @@ def read_blocks(path: Path, names: str, delimiter: str, width: int, skip: int) -
     Raises:
         InputError: a line that is neither a row nor part of a header, or a second table with other columns.
     """
-    text = decoded(path.read_bytes())
+    text = decoded(read_input(path))
     text = text.replace("\r\n", "\n").replace("\r", "\n")
     blocks: list[Block] = []
     strange: list[tuple[int, str]] = []

@@ -9,6 +9,8 @@ from slipwise.errors import InputError, SlipwiseError
 
 #: The viewer's own default is every interface of the machine.
 _LOOPBACK = "127.0.0.1"
+#: `python -m rerun_cli` ends with 0 whatever the viewer ends with.
+_VIEWER = "import sys; from rerun_cli.__main__ import main; sys.exit(main())"
 
 
 def find_recording(place: Path) -> Path:
@@ -30,7 +32,7 @@ def find_recording(place: Path) -> Path:
 
 def viewer_command(recording: Path) -> list[str]:
     """Give the command that opens a recording in the viewer of the installed rerun, bound to the loopback address."""
-    return [sys.executable, "-m", "rerun_cli", "--bind", _LOOPBACK, str(recording)]
+    return [sys.executable, "-c", _VIEWER, "--bind", _LOOPBACK, str(recording)]
 
 
 def open_viewer(place: Path) -> None:

@@ -24,8 +24,8 @@ MOTION = "sine:2Hz,0.3g,cycles=9"
 STARTING = (f"ensemble {MOTION} --members 2 --workers 2 --out e", "view .", "workbench . --no-show")
 OTHERS = (
     "--version", "rigs", "channels", "motions", "effects", "effects heating --picture a.png", "effects --new mine",
-    "init drafted", f"replay {MOTION} --out o", "audit .", "compare . --out c", "diagnose . --out d",
-    "ladder . --out l", "discover . --out f", "add run_in", "remove run_in", "next . --seconds 60 --out n",
+    "init drafted --yes", f"replay {MOTION} --out o", "audit .", "compare . --out c", "diagnose . --out d",
+    "ladder . --out l", "discover . --out f", "add run_in", "remove run_in", "next . --out n",
     "bench . --workers 2 --out b", "paper --quick --workers 2 --out p", "demo --out q",
 )  # fmt: skip
 
@@ -40,6 +40,7 @@ def folder(tmp_path: Path) -> Path:
     (tmp_path / "campaign" / "truth.json").write_text('{"missing": ["run_in"]}')
     (tmp_path / "campaign" / "a.rrd").write_bytes(b"no recording")
     (tmp_path / "campaign" / "drafted").mkdir()
+    shutil.copy(tmp_path / "campaign" / "quake_h.parquet", tmp_path / "campaign" / "drafted")
     for name in TWINS:
         (tmp_path / "campaign" / f"{name}.py").write_text(TWIN)
     # what matplotlib reads from the current folder must not choose a program or a module
@@ -71,7 +72,9 @@ def run(words: str, folder: Path) -> tuple[int, str]:
 
 
 def children(number: int) -> list[str]:
-    return Path(f"/proc/{number}/task/{number}/children").read_text().split()
+    return [
+        child for task in Path(f"/proc/{number}/task").iterdir() for child in (task / "children").read_text().split()
+    ]
 
 
 def were_run(folder: Path) -> list[str]:
@@ -91,7 +94,7 @@ def test_a_command_that_starts_processes_runs_no_module_of_the_current_folder(fo
     assert "Traceback" not in said and code == {"ens": 0, "vie": 2, "wor": 143}[words[:3]], said
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_no_command_runs_a_module_of_the_current_folder(folder: Path) -> None:
     ended = {words: run(words, folder) for words in OTHERS}
     assert were_run(folder) == []
