@@ -6,7 +6,6 @@ else are words; they may hold the name of a campaign or a path, so whatever coul
 
 import keyword
 import sys
-import sysconfig
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib.machinery import PathFinder
@@ -170,7 +169,8 @@ def _is_module(name: str) -> bool:
     """Tell whether Python, or a package that is installed, has a module of this name, or Python looks for it."""
     if name in sys.stdlib_module_names or name in ("sitecustomize", "usercustomize"):
         return True
-    return PathFinder.find_spec(name, [sysconfig.get_path(kind) for kind in ("purelib", "platlib")]) is not None
+    installed = [place for place in sys.path if Path(place).name in ("site-packages", "dist-packages")]
+    return PathFinder.find_spec(name, installed) is not None
 
 
 def _is_name(text: str) -> bool:
