@@ -21,11 +21,12 @@ _CODE = "code"
 #: Where temporary files are when nobody says otherwise. Python's last choice is the current folder: a stranger's folder
 #: can hold one of the name that is made here.
 _TEMPORARY = ("/tmp", "/var/tmp", "/usr/tmp")
+_MEMORY = "/dev/shm"
 
 
 def cache_folder() -> Path:
     """Give the folder of this user's caches; SLIPWISE_CACHE overrides it. It may not exist, or not be writable."""
-    return next(_bases(), Path(tempfile.gettempdir()))
+    return next(_bases(), Path(_MEMORY) / _own_name())
 
 
 def code_folders() -> list[Path]:
@@ -102,11 +103,23 @@ def _bases() -> Iterator[Path]:
             home = Path.home()
             if home.is_absolute():
                 yield home / ".cache" / "slipwise"
-    with suppress(FileNotFoundError):  # no folder for temporary files can be written to
+    yield from (folder / _own_name() for folder in _temporary())
+
+
+def _temporary() -> Iterator[Path]:
+    """Give the folder for temporary files, or the memory that is one where no disk can be written to."""
+    with suppress(FileNotFoundError):  # none can be
         temporary = tempfile.gettempdir()
         given = [os.environ.get(name) for name in ("TMPDIR", "TEMP", "TMP")]
         if Path(temporary) != Path.cwd() or temporary in (*_TEMPORARY, *given):
-            yield Path(temporary) / (f"slipwise-{os.getuid()}" if hasattr(os, "getuid") else "slipwise-cache")
+            yield Path(temporary)
+            return
+    if os.access(_MEMORY, os.W_OK):
+        yield Path(_MEMORY)
+
+
+def _own_name() -> str:
+    return f"slipwise-{os.getuid()}" if hasattr(os, "getuid") else "slipwise-cache"
 
 
 def _why_not(folder: Path) -> str:
