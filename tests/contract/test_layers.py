@@ -1,6 +1,7 @@
 """A file imports only what stands before it: between packages, between the files of a package, and from no pictures."""
 
 import ast
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -167,3 +168,18 @@ def test_numerics_pull_in_neither_matplotlib_nor_rerun():
     code += "\nimport sys\nprint([m for m in ('matplotlib', 'rerun', 'typer') if m in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+def test_processes_are_started_by_no_file_that_does_not_keep_the_current_folder_off_their_path():
+    starts = re.compile(r"\b(subprocess\.\w+|ProcessPoolExecutor|\.Process|os\.(spawn|exec|popen|system)\w*)\(")
+    safe = ("on_a_safe_path", "unheard_by_children")
+    texts = {path: path.read_text(encoding="utf-8") for path in FILES}
+    starting = {path for path, text in texts.items() if starts.search(text)}
+    assert starting
+    assert not [path for path in starting if not any(f"with {name}()" in texts[path] for name in safe)]
+
+
+def test_compiled_code_is_kept_by_one_file_only():
+    texts = {path: path.read_text(encoding="utf-8") for path in FILES}
+    assert not [path for path, text in texts.items() if "cache=True" in text]
+    assert [path.name for path, text in texts.items() if "pickle.loads" in text] == ["machine_code.py", "parallel.py"]
