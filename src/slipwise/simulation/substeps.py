@@ -158,4 +158,4 @@ def _between(control: Array, first: int, count: int, parts: int) -> Array:
 def _warning(counts: Array) -> str:
     """Say of what MuJoCo has warned; a kind of a later version by its own name."""
     kinds = [mujoco.mjtWarning(number) for number, count in enumerate(counts) if count]
-    return "MuJoCo warned that " + " and ".join(_MEANING.get(kind, kind.name) for kind in kinds)
+    return "MuJoCo warned that " + " and ".join(_MEANING.get(kind, str(kind.name)) for kind in kinds)

@@ -93,7 +93,8 @@ def styled(night: bool = False) -> Iterator[None]:
 
     It begins from matplotlib's own defaults: a matplotlibrc of the current folder could start LaTeX, for one.
     """
-    with mpl.rc_context({**_defaults(), **(_RC_NIGHT if night else _RC)}):
+    settings: dict[Any, Any] = {**_defaults(), **(_RC_NIGHT if night else _RC)}
+    with mpl.rc_context(settings):
         yield
 
 
