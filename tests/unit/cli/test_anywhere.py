@@ -15,7 +15,7 @@ COMMANDS = (
     "effects heating --picture {out}/a.png",
     "audit {campaign}",
     "replay sine:2Hz,0.3g,cycles=9 --no-recording --out {out}/replay",
-    "ensemble sine:2Hz,0.3g,cycles=9 --members 2 --workers 2 --out {out}/ensemble",
+    "ensemble sine:2Hz,0.3g,cycles=9 --vary rig.mass=9..11t --members 2 --workers 2 --out {out}/ensemble",
 )
 #: A home that is not there, one that cannot be written to, none at all.
 HOMES = ({"HOME": "/nonexistent"}, {"HOME": "/proc"}, {"HOME": ""}, {})

@@ -21,7 +21,11 @@ TWIN = "open(__file__ + '.was_run', 'w').close()\nraise ImportError('a twin was 
 SLIPWISE = Path(sys.executable).with_name("slipwise")
 MOTION = "sine:2Hz,0.3g,cycles=9"
 #: Commands that start processes; and all others that do something.
-STARTING = (f"ensemble {MOTION} --members 2 --workers 2 --out e", "view .", "workbench . --no-show")
+STARTING = (
+    f"ensemble {MOTION} --vary rig.mass=9..11t --members 2 --workers 2 --out e",
+    "view .",
+    "workbench . --no-show",
+)
 OTHERS = (
     "--version", "rigs", "channels", "motions", "effects", "effects heating --picture a.png", "effects --new mine",
     "init drafted --yes", f"replay {MOTION} --out o", "audit .", "compare . --out c", "diagnose . --out d",
