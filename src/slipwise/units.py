@@ -50,9 +50,10 @@ def _as_kept() -> pint.UnitRegistry | None:
 
 
 def _checksum(folder: Path) -> bytes:
-    """Give a hash of the files of a folder; of none where it is not there."""
-    files = sorted(folder.iterdir()) if folder.is_dir() else []
-    return sha256(b"".join(path.name.encode() + sha256(path.read_bytes()).digest() for path in files)).digest()
+    """Give a hash of what is in a folder; of nothing where it is not there."""
+    found = sorted(folder.iterdir()) if folder.is_dir() else []
+    contents = [path.name.encode() + (path.read_bytes() if path.is_file() else b"") for path in found]
+    return sha256(b"".join(sha256(content).digest() for content in contents)).digest()
 
 
 #: Units as laboratories and agencies write them -> as pint reads them.

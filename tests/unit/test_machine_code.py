@@ -285,3 +285,21 @@ def test_what_is_said_is_a_warning_of_its_own_kind() -> None:
     tell_once.cache_clear()
     with pytest.warns(CacheWarning, match="once"):
         tell_once("said once")
+
+
+@pytest.mark.parametrize("damage", [cut, emptied, one_bit_turned, garbled, made_a_folder])
+def test_a_damaged_list_of_units_is_made_again_without_a_word(cache: Path, damage: Callable) -> None:
+    environment = {**os.environ, "SLIPWISE_CACHE": str(cache)}
+    command = [sys.executable, "-c", "from slipwise.units import parse_unit; print(parse_unit('kN', 'N', 'force'))"]
+
+    def run() -> tuple[bytes, bytes]:
+        done = subprocess.run(command, env=environment, capture_output=True, check=True)
+        return done.stdout, done.stderr
+
+    assert run() == (b"1000.0\n", b"")
+    kept = {path.name: path for path in files(cache)}
+    assert any(name.endswith(".pickle") for name in kept)
+    for path in kept.values():
+        damage(path)
+        assert run() == (b"1000.0\n", b"")
+        assert path.is_file()
