@@ -3,10 +3,12 @@
 import sys
 
 from slipwise.interruption import Stopped, stoppable
+from slipwise.standard_streams import open_standard_streams
 
 
 def main() -> None:
     """Run the command line."""
+    open_standard_streams()
     try:
         with stoppable():
             from slipwise.cli import main as command_line

@@ -1,18 +1,25 @@
 """What is finished of many jobs: one line of a file each, all of it on the disk or nothing, read back one by one.
 
-After a kill or on a full disk the lines that are whole count, and a torn last line is cut off.
+After a kill, on a full or on a failing disk the lines that are whole count; the others are taken out.
 """
 
+import hashlib
 import json
 import os
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any
 
-from slipwise.errors import InputError, cannot_write
+from slipwise.errors import InputError, SlipwiseWarning, cannot_write
+from slipwise.input_file import check_input
+from slipwise.whole_file import atomic
 
 Numbers = dict[str, Any]
+#: How a line begins.
+_MARK = b'{"key": '
 
 
 @dataclass(frozen=True)
@@ -48,7 +55,7 @@ def add_line(stream: IO[bytes], key: str, numbers: Numbers) -> int:
     Raises:
         OutputError: it cannot be written.
     """
-    line = json.dumps({"key": key, "numbers": numbers}, allow_nan=False).encode() + b"\n"
+    line = json.dumps({"key": key, "numbers": numbers, "sum": _sum(key, numbers)}, allow_nan=False).encode() + b"\n"
     begin = stream.seek(0, os.SEEK_END)
     try:
         try:
@@ -64,30 +71,67 @@ def add_line(stream: IO[bytes], key: str, numbers: Numbers) -> int:
 
 
 def read_places(path: Path, lasting: Callable[[Numbers], bool] | None = None) -> dict[str, int]:
-    """Read where each finished job stands; cut off a last line that a kill has torn.
+    """Read where each finished job stands; lines that a disk has damaged or a kill has torn are taken out.
 
     Args:
         path: of the file; it may be absent.
         lasting: tells whether numbers count as finished; all do when not given.
 
     Raises:
-        InputError: the file was not written by such a run.
+        InputError: it is no file, or was not written by such a run.
+        OutputError: it cannot be mended.
     """
+    if path.is_dir():
+        raise InputError(f"{path} is a folder, and finished jobs are kept in a file of this name; choose another --out")
     if not path.exists():
         return {}
     places: dict[str, int] = {}
-    begin = 0
-    with path.open("r+b") as stream:
+    begin = damaged = torn = 0
+    with check_input(path).open("rb") as stream:
         for line in stream:
-            if not line.endswith(b"\n"):
-                break
             try:
-                entry = json.loads(line)
-                key, numbers = entry["key"], entry["numbers"]
-            except (ValueError, KeyError, TypeError):
-                raise InputError(f"{path}: this is no file of an ensemble; remove it or choose another --out") from None
+                key, numbers = _read_line(line)
+            except ValueError:
+                is_torn = not line.endswith(b"\n") and line[: len(_MARK)] == _MARK[: len(line)]
+                damaged, torn = damaged + (not is_torn), torn + is_torn
+                continue
             if lasting is None or lasting(numbers):
                 places[key] = begin
             begin += len(line)
-        stream.truncate(begin)
+    if damaged and not begin:
+        raise InputError(f"{path}: this is no file of finished jobs; remove it or choose another --out")
+    if damaged or torn:
+        _take_out_damaged(path)
+    if damaged:
+        words = f"{path}: {damaged} of its lines were damaged; the jobs that they held are run again"
+        warnings.warn(words, SlipwiseWarning, stacklevel=2)
     return places
+
+
+def _take_out_damaged(path: Path) -> None:
+    with path.open("rb") as stream, atomic(path) as mended:
+        for line in stream:
+            with suppress(ValueError):
+                _read_line(line)
+                mended.write(line)
+
+
+def _read_line(line: bytes) -> tuple[str, Numbers]:
+    """Give key and numbers of a line.
+
+    Raises:
+        ValueError: it is not as it was written.
+    """
+    try:
+        entry = json.loads(line)
+        key, numbers = entry["key"], entry["numbers"]
+        if line.endswith(b"\n") and entry["sum"] == _sum(key, numbers):
+            return key, numbers
+    except (KeyError, TypeError, RecursionError) as error:
+        raise ValueError("this is no line of a finished job") from error
+    raise ValueError("the line does not agree with its checksum")
+
+
+def _sum(key: str, numbers: Numbers) -> str:
+    """Give a checksum: a disk can turn a number into another one."""
+    return hashlib.sha256(json.dumps([key, numbers]).encode()).hexdigest()[:16]

@@ -11,6 +11,8 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
+from slipwise.child_processes import on_a_safe_path
+
 #: Ctrl-C, `kill` and a terminal that is closed; not every system has all of them.
 _ASKING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 #: A signal that follows another one so soon [s] is the same: it must not disturb the tidying up.
@@ -90,7 +92,16 @@ def _send_again(number: signal.Signals, handler: Callable[[int, FrameType | None
 
 @contextmanager
 def unheard_by_children() -> Iterator[None]:
-    """Start processes on which no signal breaks in before they are ready; each then calls `let_parent_hear`."""
+    """Start processes on which no signal breaks in before they are ready; each then calls `let_parent_hear`.
+
+    They are on a safe path, as `child_processes` has it.
+    """
+    with on_a_safe_path(), _without_signals():
+        yield
+
+
+@contextmanager
+def _without_signals() -> Iterator[None]:
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return

@@ -33,6 +33,7 @@ from tomlkit.items import AoT, Table
 
 from slipwise.effects import Effect, Trust, base_effects, catalogue, find_effect
 from slipwise.errors import InputError, SettingError, unknown_name
+from slipwise.input_file import read_input
 from slipwise.model import EffectUse, Model, base_model, use
 from slipwise.model_entry import entry_use, label_of, made, new_entry, write_values
 from slipwise.params import same_number
@@ -189,7 +190,7 @@ def _read(path: Path) -> tomlkit.TOMLDocument:
     if not path.is_file():
         raise InputError(f"{path}: no such file; `slipwise init {path.parent}` drafts one")
     try:
-        document = tomlkit.parse(path.read_text(encoding="utf-8-sig"))
+        document = tomlkit.parse(read_input(path).decode("utf-8-sig"))
     except (TOMLKitError, UnicodeDecodeError, RecursionError) as error:
         raise InputError(f"{path}: not valid TOML: {error}") from None
     for key in document:

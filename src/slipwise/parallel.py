@@ -13,6 +13,7 @@ import sys
 import tempfile
 import threading
 import traceback
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
@@ -26,7 +27,7 @@ import numpy.linalg  # noqa: F401  of a library that is not loaded yet no thread
 import scipy.linalg  # noqa: F401
 from threadpoolctl import ThreadpoolController, threadpool_limits
 
-from slipwise.errors import SlipwiseError
+from slipwise.errors import CacheWarning, SlipwiseError
 from slipwise.interruption import let_parent_hear, unheard_by_children
 
 Answer = TypeVar("Answer")
@@ -229,6 +230,7 @@ def begin_worker(*, own_cores: bool = False) -> None:
         own_cores: share work out on every core after all, for the parent does none.
     """
     let_parent_hear()
+    warnings.simplefilter("ignore", CacheWarning)  # the parent says it
     threadpool_limits(1)
     (_OWN_CORES.set if own_cores else _OWN_CORES.clear)()
     parent = multiprocessing.parent_process()

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from slipwise.channels import PADS, channel, pads_in, part_of
 from slipwise.errors import InputError, SettingError
+from slipwise.input_file import check_input
 from slipwise.shown import Drawn, frame
 from slipwise.units import parse_unit
 from slipwise.whole_file import atomic
@@ -190,7 +191,7 @@ def read_record(path: Path | str) -> Record:
     if not path.is_file():
         raise InputError(f"{path}: no such file; `slipwise replay MOTION --out DIR` writes a record.parquet")
     try:
-        table = pq.read_table(path)
+        table = pq.read_table(check_input(path))
     except (pa.ArrowInvalid, OSError) as error:
         raise InputError(f"{path}: not a readable parquet file ({error})") from None
     about = table.schema.metadata or {}

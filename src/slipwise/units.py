@@ -4,31 +4,56 @@ Inside Slipwise everything is SI (m, s, kg, N, Pa, rad, K); this file is the onl
 """
 
 import re
-import shutil
+import sys
 from functools import cache
+from hashlib import sha256
 from math import isfinite
+from pathlib import Path
 
 import pint
 
-from slipwise.cache import cache_folder
+from slipwise.cache import code_folders, own_file, remove
 from slipwise.errors import UnitError
+from slipwise.whole_file import written_beside
 
 
 @cache
 def _registry() -> pint.UnitRegistry:
-    # Reading pint's own list of units takes half a second; kept on disk, a twentieth.
-    kept = cache_folder() / "units"
-    try:
-        registry = pint.UnitRegistry(autoconvert_offset_to_baseunit=True, cache_folder=kept)
-    except Exception:  # it cannot be written, or what lies there is cut off: a damaged pickle raises nearly anything
-        shutil.rmtree(kept, ignore_errors=True)
-        registry = pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
+    registry = _as_kept() or pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
     registry.define("gal = cm/s^2 = Gal")
     # "g" of an engineer at a shaking table is never a gram.
     registry.define("gee = 9.80665 m/s^2")
     registry.define("ton_metric = 1000 kg")
     registry.define("tonf_metric = 1000 kgf")
     return registry
+
+
+def _as_kept() -> pint.UnitRegistry | None:
+    """Let pint keep its own list of units as it has read it: that takes half a second, reading it back a twentieth.
+
+    Pint trusts its files, which are code: their folder is private, and its content must agree with a checksum.
+    """
+    name = f"units-{pint.__version__}-{sys.implementation.cache_tag}"
+    for folder in code_folders():
+        files, total = folder / name, folder / f"{name}.sum"
+        try:
+            if own_file(total) != _checksum(files):
+                remove(files)
+            registry = pint.UnitRegistry(autoconvert_offset_to_baseunit=True, cache_folder=files)
+            if own_file(total) != (found := _checksum(files)):
+                with written_beside(total) as stream:
+                    stream.write(found)
+        except Exception:  # of the disk; or another process writes there, and half a pickle raises nearly anything
+            continue
+        return registry
+    return None
+
+
+def _checksum(folder: Path) -> bytes:
+    """Give a hash of what is in a folder; of nothing where it is not there."""
+    found = sorted(folder.iterdir()) if folder.is_dir() else []
+    contents = [path.name.encode() + (path.read_bytes() if path.is_file() else b"") for path in found]
+    return sha256(b"".join(sha256(content).digest() for content in contents)).digest()
 
 
 #: Units as laboratories and agencies write them -> as pint reads them.
@@ -177,5 +202,4 @@ def convert(value: float, unit: str, to: str) -> float:
 @cache
 def powers_of(unit: str) -> dict[str, float]:
     """Give the units of which an SI unit is a product, in full, with their powers: {"newton": 1, "meter": -1}."""
-    powers = dict(_registry().parse_units(_clean(unit))._units)
-    return {str(name): float(str(power)) for name, power in powers.items()}
+    return {name: float(str(power)) for name, power in _registry().Quantity(1.0, _clean(unit)).unit_items()}

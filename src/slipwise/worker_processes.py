@@ -86,7 +86,8 @@ def _pool(workers: int) -> Iterator[ProcessPoolExecutor]:
     """Make processes that end with this block, at once if it fails, and with their parent, even if that is killed."""
     others = set(multiprocessing.active_children())
     context = multiprocessing.get_context("spawn")
-    resource_tracker.ensure_running()  # the first process would start it, and it lets all signals through again
+    with unheard_by_children():  # the first process would start it, and it lets all signals through again
+        resource_tracker.ensure_running()
     pool = ProcessPoolExecutor(workers, mp_context=context, initializer=begin_worker)
     try:
         yield pool

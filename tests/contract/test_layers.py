@@ -1,6 +1,7 @@
 """A file imports only what stands before it: between packages, between the files of a package, and from no pictures."""
 
 import ast
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -12,34 +13,39 @@ PACKAGE = Path(__file__).parents[2] / "src" / "slipwise"
 ARROWS: dict[str, str] = {
     "errors": "",
     "text_encoding": "",
-    "cache": "",
+    "cache": "errors",
     "one_at_a_time": "",
+    "input_file": "errors",
     "whole_file": "errors",
-    "units": "cache errors",
+    "machine_code": "cache one_at_a_time whole_file",
+    "units": "cache errors whole_file",
     "params": "errors units",
     "channels": "errors",
-    "interruption": "",
+    "child_processes": "",
+    "interruption": "child_processes",
+    "standard_streams": "",
     "parallel": "errors interruption",
     "worker_processes": "errors interruption parallel",
-    "finished_jobs": "errors",
+    "finished_jobs": "errors input_file whole_file",
     "executors": "errors finished_jobs worker_processes",
     "shown": "errors",
-    "signals": "errors",
+    "signals": "errors machine_code",
     "statistics": "",
-    "record": "channels errors shown units whole_file",
-    "data_files": "channels errors text_encoding units",
-    "motion": "channels data_files errors shown signals text_encoding units",
-    "rig": "channels errors record units",
-    "effects": "channels errors params record rig shown signals",
+    "record": "channels errors input_file shown units whole_file",
+    "data_files": "channels errors input_file text_encoding units",
+    "motion": "channels data_files errors input_file shown signals text_encoding units",
+    "rig": "channels errors input_file record units",
+    "effects": "channels errors input_file machine_code params record rig shown signals",
     "unused_values": "effects errors rig",
     "model": "channels effects errors params rig shown unused_values",
     "model_entry": "effects errors model params units",
-    "model_file": "effects errors model model_entry params record rig units unused_values",
-    "simulation": "cache channels effects errors model model_file motion one_at_a_time record rig shown whole_file",
-    "campaign": "channels data_files errors record rig shown signals text_encoding units",
+    "model_file": "effects errors input_file model model_entry params record rig units unused_values",
+    "simulation": "channels effects errors machine_code model model_file motion record rig shown whole_file",
+    "campaign": "channels data_files errors input_file record rig shown signals text_encoding units",
     "instruments": "campaign channels effects errors parallel record rig shown signals statistics units",
     "estimation": (
-        "campaign channels effects errors instruments model parallel params record rig signals statistics simulation"
+        "campaign channels effects errors instruments machine_code model parallel params record rig signals statistics"
+        " simulation"
     ),
     "evidence": "campaign channels errors estimation record rig signals statistics",
     "comparison": (
@@ -67,15 +73,15 @@ ARROWS: dict[str, str] = {
         " parallel record rig shown simulation units whole_file"
     ),
     "view": (
-        "channels comparison diagnosis discovery effects errors estimation evidence experiment instruments parallel"
-        " params record rig signals studies units whole_file"
+        "cache channels child_processes comparison diagnosis discovery effects errors estimation evidence experiment"
+        " instruments parallel params record rig signals studies units whole_file"
     ),
     "workbench": (
         "campaign channels comparison diagnosis discovery effects errors estimation experiment instruments"
         " interruption model parallel session units view whole_file"
     ),
     "cli": "errors interruption view",
-    "__main__": "cli interruption",
+    "__main__": "cli interruption standard_streams",
 }
 #: Results draw themselves when they are asked to: the only way from numbers to pictures, and never at import.
 MAY_DRAW = frozenset({"__init__.py", "shown.py"})
@@ -164,3 +170,18 @@ def test_numerics_pull_in_neither_matplotlib_nor_rerun():
     code += "\nimport sys\nprint([m for m in ('matplotlib', 'rerun', 'typer') if m in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+def test_processes_are_started_by_no_file_that_does_not_keep_the_current_folder_off_their_path():
+    starts = re.compile(r"\b(subprocess\.\w+|ProcessPoolExecutor|\.Process|os\.(spawn|exec|popen|system)\w*)\(")
+    safe = ("on_a_safe_path", "unheard_by_children")
+    texts = {path: path.read_text(encoding="utf-8") for path in FILES}
+    starting = {path for path, text in texts.items() if starts.search(text)}
+    assert starting
+    assert not [path for path in starting if not any(f"with {name}()" in texts[path] for name in safe)]
+
+
+def test_compiled_code_is_kept_by_one_file_only():
+    texts = {path: path.read_text(encoding="utf-8") for path in FILES}
+    assert not [path for path, text in texts.items() if "cache=True" in text]
+    assert [path.name for path, text in texts.items() if "pickle.loads" in text] == ["machine_code.py", "parallel.py"]

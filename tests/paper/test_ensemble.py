@@ -132,7 +132,7 @@ def test_progress_ends_at_one_and_never_goes_back(tmp_path):
 
 def test_a_file_that_is_no_ensembles_is_refused(tmp_path):
     (tmp_path / "members.jsonl").write_text("my notes\n")
-    with pytest.raises(InputError, match="no file of an ensemble"):
+    with pytest.raises(InputError, match="no file of finished jobs"):
         run_ensemble(MEMBERS[:1], tmp_path, executor=Counting())
 
 

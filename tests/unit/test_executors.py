@@ -135,7 +135,7 @@ def test_an_error_of_a_job_is_raised_and_what_was_finished_stays(tmp_path):
 def test_a_file_of_something_else_is_refused_and_kept(tmp_path):
     path = tmp_path / "jobs.jsonl"
     path.write_text("my notes\n")
-    with pytest.raises(InputError, match="no file of an ensemble"):
+    with pytest.raises(InputError, match="no file of finished jobs"):
         run([1], tmp_path)
     assert path.read_text() == "my notes\n"
 

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from slipwise.errors import OutputError, SlipwiseError
+from slipwise.errors import InputError, OutputError, SlipwiseError, SlipwiseWarning
 from slipwise.executors import run_all
-from slipwise.finished_jobs import add_line
+from slipwise.finished_jobs import add_line, read_places
 from slipwise.worker_processes import finished
 
 
@@ -97,4 +97,28 @@ def test_a_line_for_which_there_is_no_room_is_not_begun(tmp_path: Path) -> None:
                 add_line(stream, "second" * 100, {})
         finally:
             resource.setrlimit(resource.RLIMIT_FSIZE, before)
-    assert path.read_text() == '{"key": "first", "numbers": {}}\n'
+    assert path.read_text().count("\n") == 1 and list(read_places(path)) == ["first"]
+
+
+def test_a_line_that_a_disk_has_damaged_is_told_and_its_job_is_run_again_and_no_other(tmp_path: Path) -> None:
+    asked = jobs(tmp_path, {})
+    keys, path = list(asked), tmp_path / "jobs.jsonl"
+
+    def run() -> tuple[int, list[int]]:
+        done = run_all(numbers, keys, lambda i: asked[keys[i]], path, workers=1)
+        return done.run, [entry["number"] for entry in done.numbers(keys)]
+
+    answers = [number**2 for number in range(8)]
+    assert run() == (8, answers)
+    whole = path.read_bytes()
+    for damage in (b'"number": NaN', b'"number": 10', b'"number": [9]', b"\x00\xff", b"[" * 30_000):
+        path.write_bytes(whole.replace(b'"number": 9', damage))
+        with pytest.warns(SlipwiseWarning, match="jobs.jsonl: 1 of its lines were damaged; the jobs .* run again"):
+            assert run() == (1, answers)
+        assert run() == (0, answers)
+
+
+def test_a_folder_of_the_name_of_the_file_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "jobs.jsonl").mkdir()
+    with pytest.raises(InputError, match="jobs.jsonl is a folder.*choose another --out"):
+        run_all(numbers, ["a"], lambda i: Job(1, tmp_path), tmp_path / "jobs.jsonl", workers=1)

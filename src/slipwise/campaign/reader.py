@@ -30,6 +30,8 @@ from slipwise.units import affine, parse_unit
 Array = NDArray[np.float64]
 #: Our own headers: "pad_A_N [kN]".
 HEADER = re.compile(r"^(?P<name>[A-Za-z]\w*)\s*(?:\[(?P<unit>[^\]]*)\])?$")
+#: Samples of a run: fewer show neither a velocity nor what is noise.
+_FEWEST = 16
 #: Temperatures of a sliding face: from liquid air to molten steel [K].
 _TEMPERATURES = (70.0, 2000.0)
 
@@ -271,10 +273,10 @@ def _run(run: RunSettings, file: _File, settings: Settings) -> Run:
             )
         inside = slice(int(np.searchsorted(time, start)), int(np.searchsorted(time, end, side="right")))
         name = f"{name} {start:g}-{end:g} s" if shared else name
-    if len(time[inside]) < 2:
+    if len(time[inside]) < _FEWEST:
         raise InputError(
-            f"{run.file}: the window holds {len(time[inside])} samples, at least 2 are needed; the step is "
-            f"{np.median(np.diff(time)):.4g} s"
+            f"{run.file}: {'it' if run.window is None else 'the window'} holds {len(time[inside])} samples, at least "
+            f"{_FEWEST} are needed; the step is {np.median(np.diff(time)):.4g} s"
         )
     channels = {key: values[inside] for key, values in file.channels.items()}
     for key, values in channels.items():

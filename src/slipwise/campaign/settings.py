@@ -10,6 +10,7 @@ from slipwise.campaign.campaign import ROLES, Logger
 from slipwise.campaign.materiality import Materiality
 from slipwise.channels import CHANNELS, channel, is_channel
 from slipwise.errors import InputError, SettingError, unknown_name
+from slipwise.input_file import read_input
 from slipwise.rig.known import SPECIMEN_UNITS, SPECIMEN_WORDS
 from slipwise.signals.filters import LowPass
 from slipwise.units import quantity
@@ -77,7 +78,7 @@ def read_settings(path: Path) -> Settings:
     if not path.is_file():
         raise InputError(f"{path.parent} has no campaign.toml; `slipwise init {path.parent}` drafts one from its files")
     try:
-        content = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        content = tomllib.loads(read_input(path).decode("utf-8-sig"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise InputError(f"{path}: not valid TOML: {error}") from None
     _keys(content, _TOP, f"{path.name}")

@@ -23,6 +23,7 @@ from slipwise.cli import (
     workbench,
 )
 from slipwise.cli.endings import run_to_its_end
+from slipwise.view.matplotlib_folder import give_matplotlib_a_folder
 
 app = typer.Typer(
     name="slipwise",
@@ -65,4 +66,9 @@ def _options(
 
 def main() -> None:
     """Run the command line, and exit with what `endings.py` makes of its end."""
-    sys.exit(run_to_its_end(lambda: app(standalone_mode=False)))
+    sys.exit(run_to_its_end(_command))
+
+
+def _command() -> object:
+    give_matplotlib_a_folder()
+    return app(standalone_mode=False)

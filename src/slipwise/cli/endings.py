@@ -1,19 +1,21 @@
 """How a command ends: one line on what went wrong, and an exit code that a shell understands.
 
-0 done, also where nobody reads the output any more (`| head`); 2 something that a user can mend; 128 + n ended by the
-signal n: 130 by Ctrl-C, 143 by `kill`.
+0 done, also where nobody reads the output any more (`| head`); 2 something that a user can mend, with `--json` also as
+an object that holds `error`; 128 + n ended by the signal n: 130 by Ctrl-C, 143 by `kill`.
 """
 
+import json
 import sys
 import warnings
 from collections.abc import Callable
+from contextlib import suppress
 from errno import EACCES, EIO, EMFILE, ENOMEM, EPERM, EROFS
 
 import typer
 
 from slipwise.errors import FULL, SlipwiseError, SlipwiseWarning, cannot_write, visible
 from slipwise.interruption import Stopped, end_children, stoppable
-from slipwise.view.patient_console import to_nobody
+from slipwise.view.patient_console import to_nobody, write_out
 
 #: What the system says and a user can mend; any other error of the system is one of ours.
 _OF_THE_MACHINE = FULL | {EACCES, EIO, EMFILE, ENOMEM, EPERM, EROFS}
@@ -43,9 +45,9 @@ def _said(command: Callable[[], object]) -> int:
         sys.stdout.flush()
     except typer.TyperException as error:
         words = getattr(error, "format_message", error.__str__)()
-        _say(f"error: {words.rstrip('.')}; `slipwise --help` shows what is possible")
+        return _refused(f"{words.rstrip('.')}; `slipwise --help` shows what is possible")
     except SlipwiseError as error:
-        _say(f"error: {error}")
+        return _refused(str(error))
     except typer.Abort:
         _say("interrupted: nothing was changed")
         return 130
@@ -58,14 +60,21 @@ def _said(command: Callable[[], object]) -> int:
         to_nobody(sys.stdout)  # typer's console leaves so where nobody reads its help
         return 0
     except MemoryError:
-        _say("error: out of memory; close other programs, or keep to one core with `taskset -c 0 slipwise ...`")
+        return _refused("out of memory; close other programs, or keep to one core with `taskset -c 0 slipwise ...`")
     except OSError as error:
         if error.errno not in _OF_THE_MACHINE:
             raise
         to_nobody(sys.stdout)  # it may be what cannot be written, and is written again at the exit
-        _say(f"error: {cannot_write(error.filename or 'the output', error)}")
-    else:
-        return code if isinstance(code, int) else 0
+        return _refused(str(cannot_write(error.filename or "the output", error)))
+    return code if isinstance(code, int) else 0
+
+
+def _refused(words: str) -> int:
+    """Say why a command cannot do what was asked, as JSON too where JSON was asked for; gives its exit code."""
+    if "--json" in sys.argv:
+        with suppress(OSError):
+            write_out(json.dumps({"error": words}) + "\n")
+    _say(f"error: {words}")
     return 2
 
 

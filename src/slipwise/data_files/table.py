@@ -22,6 +22,7 @@ from slipwise.data_files.text_blocks import Block
 from slipwise.data_files.text_file import inspect_text, read_text_columns
 from slipwise.data_files.uff_file import read_uff
 from slipwise.errors import InputError
+from slipwise.input_file import check_input
 
 Array = NDArray[np.float64]
 #: Columns that take more memory than this are no record of a rig [bytes].
@@ -78,10 +79,10 @@ def open_table(path: Path) -> Table:
     part = None
     if not path.is_file() and "#" in path.name:
         path, part = path.with_name(path.name.rpartition("#")[0]), path.name.rpartition("#")[2]
-    if not path.is_file():
+    if not path.exists():
         near = sorted(p.name for p in path.parent.glob("*") if p.suffix.lower() in SUFFIXES)
         raise InputError(f"{path}: no such file; data files in that folder: {', '.join(near) or 'none'}")
-    suffix = path.suffix.lower()
+    suffix = check_input(path).suffix.lower()
     if part is not None and (suffix not in (*TEXT_SUFFIXES, ".xlsx") or (suffix != ".xlsx" and not part.isdigit())):
         raise InputError(f"{path}#{part}: only text files (by number) and workbooks (by sheet) hold several tables")
     if suffix in TEXT_SUFFIXES:

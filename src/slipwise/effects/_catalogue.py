@@ -7,6 +7,7 @@ import pkgutil
 import sys
 from collections.abc import Collection
 from functools import cache
+from importlib.machinery import SourceFileLoader
 from importlib.metadata import entry_points
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from slipwise.effects._effect import Effect
 from slipwise.effects._read import read_effect
 from slipwise.effects._tried import line_of
 from slipwise.errors import InputError, SettingError, SlipwiseError, unknown_name
+from slipwise.input_file import read_input
 
 #: Packages offer effects by an entry point of this group whose value is a module.
 ENTRY_POINT_GROUP = "slipwise.effects"
@@ -81,7 +83,7 @@ def load_effect(path: Path | str) -> Effect:
         UnknownNameError: it names something that does not exist, such as a port or another effect.
     """
     path = Path(path)
-    if not path.is_file():
+    if not path.exists():
         raise InputError(f"{path}: no such effect file")
     place = hashlib.sha256(str(path.resolve()).encode()).hexdigest()[:8]
     name = f"slipwise_user_effect_{path.stem}_{place}"
@@ -91,7 +93,8 @@ def load_effect(path: Path | str) -> Effect:
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
     try:
-        spec.loader.exec_module(module)
+        # Not `exec_module`: that runs what lies in a __pycache__ beside the file, which nobody can look at first.
+        exec(SourceFileLoader(name, str(path)).source_to_code(read_input(path), str(path)), vars(module))
     except SlipwiseError as error:
         del sys.modules[name]
         raise type(error)(f"{path.name}: {error}") from None

@@ -1,15 +1,16 @@
 """Prandtl's element: a spring that slips at its limit, driven by a sampled rate."""
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from slipwise.machine_code import kept
 
 Array = NDArray[np.float64]
 #: Steps per sample: the way between two samples may be longer than the spring's.
 _STEPS = 4
 
 
-@njit(cache=True)
+@kept()
 def _followed(rate, dt, share):  # pragma: no cover - compiled
     """Follow dz/dt = rate, |z| <= 1, along straight lines between samples."""
     z = 0.0

@@ -5,8 +5,10 @@ else are words; they may hold the name of a campaign or a path, so whatever coul
 """
 
 import keyword
+import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from importlib.machinery import PathFinder
 from math import isfinite
 from pathlib import Path
 
@@ -147,15 +149,28 @@ def check_name(name: str) -> None:
     """Refuse what cannot be the name of a user's effect.
 
     Raises:
-        SettingError: it is no name in Python, or one of the catalogue.
+        SettingError: it is no name in Python, that of a module, or one of the catalogue.
     """
     if not _is_name(name) or not name.isascii() or name.startswith("_"):
         raise SettingError(
             f"{name!r} cannot be the name of an effect, which is one in Python too: use letters a to z, digits and _, "
             "and begin with a letter, for example my_effect"
         )
+    if _is_module(name):
+        raise SettingError(
+            f"{name!r} is the name of a module: in its folder {name}.py would be taken for it; give another name, for "
+            f"example my_{name}"
+        )
     if name in catalogue():
         raise SettingError(f"an effect called {name!r} exists already; give yours another name, for example my_{name}")
+
+
+def _is_module(name: str) -> bool:
+    """Tell whether Python, or a package that is installed, has a module of this name, or Python looks for it."""
+    if name in sys.stdlib_module_names or name in ("sitecustomize", "usercustomize"):
+        return True
+    installed = [place for place in sys.path if Path(place).name in ("site-packages", "dist-packages")]
+    return PathFinder.find_spec(name, installed) is not None
 
 
 def _is_name(text: str) -> bool:

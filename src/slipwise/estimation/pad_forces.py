@@ -4,13 +4,13 @@ from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 
 from slipwise.campaign.rig_motion import rig_motion
 from slipwise.estimation.instants import Instants
 from slipwise.estimation.run_data import FitRun, refined
+from slipwise.machine_code import kept
 from slipwise.model import Model
 from slipwise.signals.filters import LowPass, folded, response
 from slipwise.simulation.predict import PadForces, predictor
@@ -24,7 +24,7 @@ _BEYOND = 64
 _STICK_STEPS = 6
 
 
-@njit(cache=True)
+@kept()
 def _stick(along, step, length, lag, parts, share):  # pragma: no cover - compiled
     """Follow an elastic-plastic stick of some micrometres; fills the mean of its share around each instant."""
     count, pads = along.shape
@@ -50,7 +50,7 @@ def _stick(along, step, length, lag, parts, share):  # pragma: no cover - compil
             share[i, pad] = total / (parts * length)
 
 
-@njit(cache=True)
+@kept()
 def _smoothed_reversal(force, bound, velocity, share, out):  # pragma: no cover - compiled
     """Put the share of a stick in the place of the sharp reversal of a bound that acts along the motion."""
     for i in range(bound.shape[0]):

@@ -5,7 +5,6 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from slipwise.campaign import Campaign, Run
@@ -14,6 +13,7 @@ from slipwise.campaign.states import States, measured_states
 from slipwise.errors import InputError
 from slipwise.estimation.judged_samples import judged_and_ringing
 from slipwise.instruments.repairs import InvalidSamples, with_wild
+from slipwise.machine_code import kept
 from slipwise.record import Record
 from slipwise.signals.ends import in_frequency
 from slipwise.signals.filters import LowPass, lowpass
@@ -272,7 +272,7 @@ def refined(values: Array, fine: int) -> Array:
     return out
 
 
-@njit(cache=True)
+@kept()
 def _cubics(values, fine, out):  # pragma: no cover - compiled
     """Fill the instants between samples; at the ends the last sample stands for the one that is not there."""
     count, width = values.shape

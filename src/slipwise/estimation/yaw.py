@@ -10,10 +10,10 @@ noisier: use it only where it improves the fit.
 """
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from slipwise.estimation.run_data import FitRun
+from slipwise.machine_code import kept
 from slipwise.rig import Specimen
 
 Array = NDArray[np.float64]
@@ -23,7 +23,7 @@ _SLOW = 1e-4
 _STEPS = 4
 
 
-@njit(cache=True)
+@kept()
 def _integrate(torque, bound, velocity, places, slow, stiffness, inertia, held, dt, angle, rate):  # pragma: no cover
     """Step the yaw by the implicit rule, which no damping can upset, between samples along straight lines."""
     psi = 0.0

@@ -20,7 +20,7 @@ from slipwise.instruments.logger_spectrum import estimate_logger
 from slipwise.instruments.repairs import for_balances
 from slipwise.instruments.report import AuditReport, Balance, Finding
 from slipwise.instruments.rounding import coarse
-from slipwise.instruments.rows import noise_of_channels, noise_of_runs, prepare_runs
+from slipwise.instruments.rows import constants_of, noise_of_channels, noise_of_runs, prepare_runs, stack
 from slipwise.instruments.sample_faults import RAILS, SampleFault, sample_faults
 from slipwise.instruments.sentences import as_sentence, confusable, how_to_settle, nearest, sentence
 from slipwise.instruments.suspects import Suspect, effect_of
@@ -63,6 +63,9 @@ def audit(campaign: Campaign, own: Iterable[Effect] = ()) -> AuditReport:
     plain = AuditReport(campaign.name, tuple(findings), (), (), {}, logger, tuple(cannot), tuple(notes))
     if not any(relation.accuses and relation.rows in ("moving", "inner") for relation in allowed):
         return plain
+    if not stack(runs, allowed, campaign.specimen, dict.fromkeys(constants_of(allowed), 0.0)).residual:
+        why = "balances: no run has a sample at which they hold; the runs are too short, or the rig is at rest in them"
+        return replace(plain, cannot=(*plain.cannot, why))
     likeliest = campaign.logger if logger is None else logger.likeliest
     highest = passed(likeliest.every if likeliest else None, clean.runs[0].record.dt)
     effects = {**catalogue(), **{e.name: e for e in own}}

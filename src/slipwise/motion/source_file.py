@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from slipwise.errors import InputError, SlipwiseWarning
+from slipwise.input_file import read_input
 from slipwise.text_encoding import decoded
 
 #: How much of a file the recognition of its format sees.
@@ -57,7 +58,7 @@ def open_source(path: Path) -> SourceFile:
     if path.is_dir():
         raise InputError(f"{path}: this is a folder; name the motion's files one by one")
     try:
-        data = path.read_bytes()
+        data = read_input(path, pipe=True)
     except FileNotFoundError:
         raise InputError(f"{path}: no such file; give the path of a motion file or `sine:2Hz,0.3g`") from None
     except (OSError, ValueError) as error:

@@ -10,6 +10,7 @@ from pathlib import Path
 from xml.parsers import expat
 
 from slipwise.errors import InputError, visible
+from slipwise.input_file import read_input
 
 #: Elements that write others: their names and lines are nowhere in the file, and one can stand for a million.
 _MACROS = ("replicate", "composite", "flexcomp", "attach")
@@ -82,7 +83,7 @@ def _read(path: Path, folder: Path, place: str, found: list[Element], seen: set[
         raise InputError(f"{place}: {path.name} is included twice; include it once")
     seen.add(path.resolve())
     try:
-        content = path.read_bytes()
+        content = read_input(path)
     except OSError as error:
         raise InputError(f"{place or path.name}: {path.name} cannot be read ({error.strerror})") from None
     parser = expat.ParserCreate()

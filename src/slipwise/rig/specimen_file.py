@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 
 from slipwise.errors import InputError, SettingError, unknown_name
+from slipwise.input_file import read_input
 from slipwise.rig.known import SPECIMEN_UNITS, SPECIMEN_WORDS
 from slipwise.rig.places import Buffer, Place
 from slipwise.rig.specimen import Specimen
@@ -61,7 +62,7 @@ def read_specimen(path: Path) -> Specimen:
         UnknownNameError: a key that is not known.
     """
     try:
-        content = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        content = tomllib.loads(read_input(path).decode("utf-8-sig"))
     except (OSError, tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise InputError(f"{path.name} cannot be read: {error}") from None
     try:

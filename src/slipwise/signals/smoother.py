@@ -3,11 +3,12 @@
 Source: Rauch, Tung, Striebel (1965), AIAA Journal 3:1445-1450.
 """
 
-import numba
 import numpy as np
 
+from slipwise.machine_code import kept
 
-@numba.njit(cache=True)
+
+@kept()
 def _predict(x, p, dt, ramp, half, drive, walk):  # pragma: no cover
     """Carry state and covariance over one step, in place."""
     x[0] += dt * x[1] - 0.5 * dt * dt * x[2] + half
@@ -33,7 +34,7 @@ def _predict(x, p, dt, ramp, half, drive, walk):  # pragma: no cover
     p[2, 2] += walk * dt
 
 
-@numba.njit(cache=True)
+@kept()
 def _correct(x, p, row, measured, variance):  # pragma: no cover
     """Take one measurement of state `row` in, in place; give its minus twice log likelihood."""
     if np.isnan(measured):
@@ -49,7 +50,7 @@ def _correct(x, p, row, measured, variance):  # pragma: no cover
     return np.log(expected) + surprise * surprise / expected
 
 
-@numba.njit(cache=True)
+@kept()
 def unlikelihood(steps, ramp, half, place, gauge, speed, drive, walk, first, jumps):  # pragma: no cover
     """Give minus log likelihood of the measurements."""
     x = np.zeros(3)
@@ -66,7 +67,7 @@ def unlikelihood(steps, ramp, half, place, gauge, speed, drive, walk, first, jum
     return 0.5 * total
 
 
-@numba.njit(cache=True)
+@kept()
 def smooth(steps, ramp, half, place, gauge, speed, drive, walk, first, jumps):  # pragma: no cover
     """Filter forward and smooth backward; give the states (n, 3) and the variance of the velocity (n,)."""
     n = place.shape[0]

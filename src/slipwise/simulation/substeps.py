@@ -26,6 +26,17 @@ CHUNK = 0.5
 FINE = 5e-5
 #: A pad is about to lift where its load falls below this share of its load at rest [1].
 NEAR_LIFTING = 0.3
+_GREW = "grew beyond all bounds"
+#: What MuJoCo's warnings mean.
+_MEANING = {
+    mujoco.mjtWarning.mjWARN_INERTIA: "the rig's masses cannot be inverted",
+    mujoco.mjtWarning.mjWARN_CONTACTFULL: "there are too many contacts",
+    mujoco.mjtWarning.mjWARN_CNSTRFULL: "there are too many contacts and limits",
+    mujoco.mjtWarning.mjWARN_BADQPOS: f"a position {_GREW}",
+    mujoco.mjtWarning.mjWARN_BADQVEL: f"a velocity {_GREW}",
+    mujoco.mjtWarning.mjWARN_BADQACC: f"an acceleration {_GREW}",
+    mujoco.mjtWarning.mjWARN_BADCTRL: f"the table's command {_GREW}",
+}
 
 
 class _Simulation(Protocol):
@@ -55,7 +66,7 @@ class _Compiled:
         return self._batch.rollout(len(control), control[None], record=("sensordata",))["sensordata"][0]
 
     def warnings(self) -> Array:
-        return self._batch.warning.reshape(-1)
+        return self._batch.warning[0, :, 1]  # beside the place of the last one
 
 
 class _Python:
@@ -145,5 +156,6 @@ def _between(control: Array, first: int, count: int, parts: int) -> Array:
 
 
 def _warning(counts: Array) -> str:
-    names = [w.name.removeprefix("mjWARN_").lower() for w in mujoco.mjtWarning.__members__.values()]
-    return "MuJoCo warned: " + ", ".join(name for name, count in zip(names, counts, strict=False) if count)
+    """Say of what MuJoCo has warned; a kind of a later version by its own name."""
+    kinds = [mujoco.mjtWarning(number) for number, count in enumerate(counts) if count]
+    return "MuJoCo warned that " + " and ".join(_MEANING.get(kind, str(kind.name)) for kind in kinds)

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
 from typing import Any
 
 import matplotlib as mpl
@@ -88,9 +89,18 @@ _SHOWN_AS = {"m/s^2": "m/s²", "degC": "°C"}
 
 @contextmanager
 def styled(night: bool = False) -> Iterator[None]:
-    """Draw with the house's style inside, by night on a dark ground, leaving matplotlib's settings as they were."""
-    with mpl.rc_context(_RC_NIGHT if night else _RC):
+    """Draw with the house's style inside, by night on a dark ground, leaving matplotlib's settings as they were.
+
+    It begins from matplotlib's own defaults: a matplotlibrc of the current folder could start LaTeX, for one.
+    """
+    settings: dict[Any, Any] = {**_defaults(), **(_RC_NIGHT if night else _RC)}
+    with mpl.rc_context(settings):
         yield
+
+
+@cache
+def _defaults() -> dict[str, Any]:
+    return {key: value for key, value in mpl.rcParamsDefault.items() if key != "backend"}
 
 
 def mixed(colour: str, ground: str, share: float) -> str:

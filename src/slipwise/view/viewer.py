@@ -4,10 +4,13 @@ import subprocess
 import sys
 from pathlib import Path
 
+from slipwise.child_processes import on_a_safe_path
 from slipwise.errors import InputError, SlipwiseError
 
 #: The viewer's own default is every interface of the machine.
 _LOOPBACK = "127.0.0.1"
+#: `python -m rerun_cli` ends with 0 whatever the viewer ends with.
+_VIEWER = "import sys; from rerun_cli.__main__ import main; sys.exit(main())"
 
 
 def find_recording(place: Path) -> Path:
@@ -29,7 +32,7 @@ def find_recording(place: Path) -> Path:
 
 def viewer_command(recording: Path) -> list[str]:
     """Give the command that opens a recording in the viewer of the installed rerun, bound to the loopback address."""
-    return [sys.executable, "-m", "rerun_cli", "--bind", _LOOPBACK, str(recording)]
+    return [sys.executable, "-c", _VIEWER, "--bind", _LOOPBACK, str(recording)]
 
 
 def open_viewer(place: Path) -> None:
@@ -43,10 +46,15 @@ def open_viewer(place: Path) -> None:
         SlipwiseError: the viewer could not run, for example without a display.
     """
     recording = find_recording(place)
+    with on_a_safe_path():
+        viewer = subprocess.Popen(viewer_command(recording))
     try:
-        code = subprocess.call(viewer_command(recording))
+        code = viewer.wait()
     except KeyboardInterrupt:
         return
+    except BaseException:
+        viewer.kill()
+        raise
     if code != 0:
         raise SlipwiseError(
             f"the rerun viewer ended with code {code}; it needs a display. On a machine without one, copy {recording} "

@@ -300,7 +300,7 @@ def test_hostile_tables_are_refused_in_words(tmp_path, text, words):
 
 def test_a_window_between_two_samples_is_refused(tmp_path):
     run = '[[run]]\nfile = "a.dat"\nrole = "fit"\nwindow = ["0.101 s", "0.102 s"]\n'
-    with pytest.raises(InputError, match=r"the window holds 0 samples, at least 2 are needed; the step is 0\.01 s"):
+    with pytest.raises(InputError, match=r"the window holds 0 samples, at least 16 are needed; the step is 0\.01 s"):
         campaign(tmp_path, MAPPED + run, a=mts())
 
 

@@ -1,5 +1,6 @@
 """A command that cannot go on says so in one line, with the exit code that a shell expects, and leaves no rubbish."""
 
+import json
 import os
 import re
 import signal
@@ -72,6 +73,31 @@ def test_where_nobody_reads_the_output_the_files_are_written_all_the_same(tmp_pa
     os.close(writing)
     assert (error_of(process), process.returncode) == ([], 0)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["record.parquet", "summary.json"]
+
+
+@pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize(
+    ("words", "code"), [("channels", 0), ("effects nosuch --json", 2), ("init .", 2), ("--help", 0)]
+)
+def test_a_stream_that_the_shell_has_closed_is_no_fault(words: str, code: int, closed: str, tmp_path: Path) -> None:
+    command = f"{sys.executable} -m slipwise {words} {closed}"
+    ended = subprocess.run(["sh", "-c", command], capture_output=True, text=True, cwd=tmp_path)
+    assert ended.returncode == code and "Traceback" not in ended.stdout + ended.stderr
+    assert not list(tmp_path.iterdir())
+
+
+def test_an_encoding_without_the_characters_is_no_fault(tmp_path: Path) -> None:
+    process = begin("motions", stdout=subprocess.PIPE, env={**os.environ, "PYTHONIOENCODING": "ascii"})
+    out, err = process.communicate(timeout=LONG)
+    assert (process.returncode, err) == (0, "") and out.isascii()
+
+
+@pytest.mark.parametrize("words", ["effects nosuch --json", "audit nowhere --json", "compare . --nosuch --json"])
+def test_an_error_is_json_too_where_json_was_asked_for(words: str, tmp_path: Path) -> None:
+    process = begin(*words.split(), stdout=subprocess.PIPE, cwd=tmp_path)
+    out, err = process.communicate(timeout=LONG)
+    assert process.returncode == 2
+    assert err == f"error: {json.loads(out)['error']}\n"
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")

@@ -44,7 +44,7 @@ def command(*words: object, cwd: Path | None = None) -> tuple[int, str]:
     ("name", "words"),
     [
         ("unit_power_tower", "'mm**9**9**9/mm' is no unit"),
-        ("window_empty", "the window holds 0 samples, at least 2 are needed; the step is 0.002 s"),
+        ("window_empty", "the window holds 0 samples, at least 16 are needed; the step is 0.002 s"),
         ("dt_1e-15", "its times advance by 1e-15 s; is the unit of the time right?"),
         ("wide", "a line has more than 4096 columns"),
         ("parquet", "of 100 rows cannot be read (Couldn't deserialize thrift"),

@@ -56,6 +56,9 @@ def test_a_file_that_exists_is_left_alone(slipwise, here: Path) -> None:
     [
         (("--new", "run_in"), "an effect called 'run_in' exists already; give yours another name"),
         (("--new", "my-idea"), "use letters a to z, digits and _"),
+        (("--new", "os"), "'os' is the name of a module: in its folder os.py would be taken for it; give another name"),
+        (("--new", "numpy"), "'numpy' is the name of a module"),
+        (("--new", "sitecustomize"), "'sitecustomize' is the name of a module"),
         (("--new", "mine", "--port", "sheer"), "did you mean shear"),
         (("--new", "mine", "--json"), "--new writes a file"),
         (("heating", "--new", "mine"), "--new writes a file"),

@@ -42,6 +42,6 @@ def test_the_installed_viewer_knows_the_option_that_binds_it(tmp_path):
 
 def test_a_viewer_that_cannot_run_says_how_to_look_elsewhere(tmp_path, monkeypatch):
     (tmp_path / "a.rrd").touch()
-    monkeypatch.setattr(viewer.subprocess, "call", lambda command: 1)
+    monkeypatch.setattr(viewer, "viewer_command", lambda recording: ["false"])
     with pytest.raises(SlipwiseError, match=r"display.*a\.rrd.*--bind 127\.0\.0\.1"):
         open_viewer(tmp_path)

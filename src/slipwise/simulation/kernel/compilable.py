@@ -7,7 +7,9 @@ from numba.extending import register_jitable
 
 F = TypeVar("F", bound=Callable[..., Any])
 #: No wrappers for Python and C, which take a fifth of the time of compiling: only compiled code calls these functions.
-INNER = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+#: A division by zero gives infinity or NaN, which ends the simulation with a reason: MuJoCo, which calls them, knows no
+#: exceptions, and Python would print a traceback and go on.
+INNER = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, "error_model": "numpy"}
 
 
 def compilable(function: F) -> F:

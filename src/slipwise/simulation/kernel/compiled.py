@@ -35,9 +35,9 @@ import sys
 
 from numba import njit, types
 
+from slipwise.machine_code import kept, kept_callback
 from slipwise.simulation.kernel import curved_face, derived_states, girder, loading_train, pads, pointers, records, step
 from slipwise.simulation.kernel.compilable import INNER
-from slipwise.simulation.kernel.machine_code import kept, kept_callback
 from slipwise.simulation.kernel.pointers import Fields
 
 {chr(10).join(hooks)}

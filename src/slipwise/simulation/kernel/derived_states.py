@@ -10,10 +10,10 @@ stroke had: below that it is noise of a pad that sticks. A pause or another run 
 from math import exp, sqrt
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from slipwise.effects import DERIVED
+from slipwise.machine_code import kept
 from slipwise.simulation.kernel.compilable import compilable
 
 Array = NDArray[np.float64]
@@ -102,12 +102,11 @@ def _follow_stroke(memory: Array, velocity_x: float, velocity_y: float, speed: f
         memory[_X], memory[_Y], memory[_PEAK] = velocity_x / speed, velocity_y / speed, speed
 
 
-@njit(cache=True)
+@kept()
 def observe_record(time, load, friction, velocity, slip, area, lag, memory, out):  # pragma: no cover - compiled
     """Let every pad's states follow a record; fills `out` (n, p, states).
 
-    Load and friction are (n, p), velocity and slip (n, p, 2), memory is (p, SIZE); the rest as in `observe`. It stands
-    here because numba keeps machine code by the file it is in.
+    Load and friction are (n, p), velocity and slip (n, p, 2), memory is (p, SIZE); the rest as in `observe`.
     """
     count = out.shape[2]
     for pad in range(load.shape[1]):

@@ -1,7 +1,7 @@
 """The law in its two engines: compiled, and plain Python to step through with a debugger.
 
-All effects live in one kernel that is compiled once and kept on disk (`machine_code.py`): which of them act is data. It
-is named by a hash of everything it was made from, so that no stale code is ever run.
+All effects live in one kernel that is compiled once and kept on disk (`slipwise.machine_code`): which of them act is
+data. It is named by a hash of everything it was made from, so that no stale code is ever run.
 """
 
 import hashlib
@@ -22,6 +22,7 @@ import numpy as np
 from slipwise import effects
 from slipwise.effects import Effect, catalogue
 from slipwise.errors import SettingError, SlipwiseWarning
+from slipwise.machine_code import content_key
 from slipwise.simulation.kernel import derived_states
 from slipwise.simulation.kernel.compiled import module_text
 from slipwise.simulation.kernel.curved_face import set_faces
@@ -146,8 +147,8 @@ def _compiled(layout: Layout) -> Kernel:
     deciding = [*Path(__file__).parent.glob("*.py"), *Path(effects.__file__).parent.glob("*.py")]
     deciding += [effect.path for effect in layout.effects]
     sources = "".join(path.read_text(encoding="utf-8") for path in sorted(set(deciding)))
-    about = f"{mujoco.__version__} {sys.version} {_numba_version()}"
-    digest = hashlib.sha256((text + sources + about).encode()).hexdigest()[:16]
+    hooks = "".join(content_key(hook) for effect in layout.effects for hook in effect.instant_hooks.values())
+    digest = hashlib.sha256((text + sources + hooks + mujoco.__version__).encode()).hexdigest()[:16]
     module = _module(f"slipwise_kernel_{digest}", text)
     functions = {f.__name__: getattr(module, f.__name__) for f in _FUNCTIONS}
     return Kernel(layout, "compiled", functions, module.callback_addresses)
@@ -185,12 +186,6 @@ def _compile_hooks(law: Kernel) -> None:
             f"the law cannot be compiled ({type(error).__name__}: {str(error).strip().splitlines()[0]}); "
             "a hook of one instant may use arithmetic, math and memory[...] only. --engine python runs it as it is"
         ) from error
-
-
-def _numba_version() -> str:
-    from importlib.metadata import version
-
-    return version("numba")
 
 
 def _module(name: str, text: str) -> ModuleType:

@@ -1,19 +1,23 @@
-"""Keeps the law's machine code on disk, and lets no fault of that disk reach a result.
+"""Keeps compiled functions on disk, and lets no fault of that disk, and nobody else, reach a result.
 
-numba's own cache trusts its files: one that is cut off, or a disk that is full, stopped every command. Here each
-function is one file that begins with its checksum. What does not agree with it is thrown away and compiled again; what
-the cache cannot take goes to a spare folder; of processes that lack the same function one compiles it.
+numba's own cache trusts its files: one that is cut off, a disk that is full or a folder that cannot be written stopped
+every command. Here each function is one file that begins with its checksum, in a folder of this user's alone; it is
+named by all that decides its content. What does not agree is thrown away and compiled again; what the cache cannot take
+goes to a spare folder, or is compiled by each process; of processes that lack the same function one compiles it.
 """
 
 import hashlib
 import pickle
-import warnings
-from collections.abc import Callable
+import sys
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, suppress
 from functools import cache
+from importlib.metadata import version
 from pathlib import Path
+from types import FunctionType
 from typing import Any
 
+import numpy as np
 from numba import njit
 from numba.core.caching import NullCache
 from numba.core.ccallback import CFunc
@@ -21,8 +25,7 @@ from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
 from numba.core.sigutils import normalize_signature
 
-from slipwise.cache import cache_folder, spare_folder
-from slipwise.errors import CacheWarning
+from slipwise.cache import code_folders, own_file, tell_once
 from slipwise.one_at_a_time import one_at_a_time
 from slipwise.whole_file import written_beside
 
@@ -61,7 +64,8 @@ class _MachineCode(NullCache):
     """What numba asks for the machine code of one function."""
 
     def __init__(self, function: Callable[..., Any]) -> None:
-        self._name = f"{function.__module__}/{function.__name__}"
+        self._name = f"{function.__module__}.{function.__name__}"
+        self._function = function
         self._alone = ExitStack()
 
     def by_one_process(self, compile: Callable[..., Any]) -> Callable[..., Any]:
@@ -79,7 +83,7 @@ class _MachineCode(NullCache):
         name = self._file(sig, target_context.codegen())
         found = _read(name, target_context)
         if found is None:
-            locks = [folder / f"{name}.lock" for folder in _folders()]
+            locks = [folder / f"{name}.lock" for folder in code_folders()]
             self._alone.enter_context(one_at_a_time(locks, _PATIENCE, _tell_of_waiting))
             found = _read(name, target_context)
         return found
@@ -90,64 +94,93 @@ class _MachineCode(NullCache):
             return
         code = dumps(data._reduce())
         name = self._file(sig, data.codegen)
-        folders = _folders()
+        folders = code_folders()
         for place, folder in enumerate(folders):
-            path = folder / name
             try:
-                _remove_torn(path)
-                with written_beside(path) as stream:
+                with written_beside(folder / name) as stream:
                     stream.write(hashlib.sha256(code).digest())
                     stream.write(code)
             except OSError as error:
                 elsewhere = folders[place + 1 :]
                 kept = f"it is kept in {elsewhere[0]} instead" if elsewhere else "every command compiles it again"
-                _tell(f"{folder}: the compiled law cannot be kept there ({error.strerror}); {kept}")
+                tell_once(f"{folder}: compiled code cannot be kept there ({error.strerror}); {kept}")
             else:
                 return
 
     def _file(self, sig: Any, codegen: Any) -> str:
-        """Name the file by all that decides its content and is not in the module's name: types and processor."""
-        decides = f"{sig} {codegen.magic_tuple()}"
-        return f"{self._name}-{hashlib.sha256(decides.encode()).hexdigest()[:16]}.code"
+        """Name the file by all that decides its content: the text, the types, the versions and the processor."""
+        decides = f"{sig} {codegen.magic_tuple()} {_versions()} {content_key(self._function)}"
+        return f"{self._name}-{hashlib.sha256(decides.encode()).hexdigest()[:24]}.code"
 
 
-def _folders() -> list[Path]:
-    """Give the folders in which machine code may be, the first one first."""
-    spare = spare_folder()
-    return [cache_folder(), *([spare] if spare is not None else [])]
+def content_key(function: Callable[..., Any]) -> str:
+    """Give a hash of what is compiled into a function: the files of all functions that it calls, and constants.
+
+    A function without a file is known by the name of its module, whose writer has put a hash of its text there.
+    """
+    files: set[str] = set()
+    constants: list[str] = []
+    for name, value in sorted(_compiled_in(function), key=lambda found: found[0]):
+        if isinstance(value, FunctionType):
+            files.add(value.__code__.co_filename)
+        else:
+            constants.append(f"{name} {value.tobytes() if isinstance(value, np.ndarray) else value!r}")
+    texts = [_hash_of(name) for name in sorted(files)]
+    return hashlib.sha256("\n".join([*texts, *constants]).encode()).hexdigest()
+
+
+def _compiled_in(function: Callable[..., Any]) -> Iterator[tuple[str, Any]]:
+    """Give a function, the functions that it calls and theirs, and the constants that they use, each with its name."""
+    seen: set[FunctionType] = set()
+    left: list[Any] = [function]
+    while left:
+        one = left.pop()
+        one = getattr(one, "py_func", one)
+        if not isinstance(one, FunctionType) or one in seen:
+            continue
+        seen.add(one)
+        yield f"{one.__module__}.{one.__qualname__}", one
+        codes = [one.__code__]
+        while codes:
+            code = codes.pop()
+            codes += [const for const in code.co_consts if isinstance(const, type(code))]
+            for name in code.co_names:
+                value = one.__globals__.get(name)
+                if isinstance(value, bool | int | float | complex | str | tuple | np.ndarray):
+                    yield f"{one.__module__}.{name}", value
+                else:
+                    left.append(value)
+
+
+@cache
+def _hash_of(file: str) -> str:
+    path = Path(file)
+    return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else file
+
+
+@cache
+def _versions() -> str:
+    return " ".join([sys.version, *(version(name) for name in ("numba", "llvmlite", "numpy"))])
 
 
 def _read(name: str, target_context: Any) -> Any:
     """Give the machine code of a file, or None; a file that is damaged is thrown away."""
-    for folder in _folders():
+    for folder in code_folders():
         path = folder / name
         try:
-            content = path.read_bytes()
-        except (FileNotFoundError, NotADirectoryError):
-            continue
+            content = own_file(path)
         except OSError as error:
-            _tell(f"{folder}: the compiled law cannot be read there ({error.strerror}) and is compiled again")
+            tell_once(f"{folder}: compiled code cannot be read there ({error.strerror}) and is compiled again")
+            continue
+        if content is None:
             continue
         code = content[_SUM:]
         if hashlib.sha256(code).digest() == content[:_SUM]:
             return CompileResult._rebuild(target_context, *pickle.loads(code))
-        _tell(f"{folder}: the compiled law was damaged there and is compiled again")
         with suppress(OSError):
             path.unlink()
     return None
 
 
-def _remove_torn(path: Path) -> None:
-    """Remove what a process that was killed has left of this file."""
-    for torn in path.parent.glob(f".{path.name}.*"):
-        torn.unlink(missing_ok=True)
-
-
-@cache
-def _tell(words: str) -> None:
-    """Say something once in a process."""
-    warnings.warn(words, CacheWarning, stacklevel=2)
-
-
 def _tell_of_waiting() -> None:
-    _tell("another process compiles the law: waiting for it, so that the work is not done twice")
+    tell_once("another process compiles the law: waiting for it, so that the work is not done twice")

@@ -1,0 +1,62 @@
+"""Commands work for a user without a home, a name or a folder to write to, whatever the shell's settings."""
+
+import os
+import shutil
+import subprocess
+import sys
+from importlib import resources
+from pathlib import Path
+
+import pytest
+
+#: Commands that compile, draw, start processes and read a campaign.
+COMMANDS = (
+    "channels",
+    "effects heating --picture {out}/a.png",
+    "audit {campaign}",
+    "replay sine:2Hz,0.3g,cycles=9 --no-recording --out {out}/replay",
+    "ensemble sine:2Hz,0.3g,cycles=9 --vary rig.mass=9..11t --members 2 --workers 2 --out {out}/ensemble",
+)
+#: A home that is not there, one that cannot be written to, none at all.
+HOMES = ({"HOME": "/nonexistent"}, {"HOME": "/proc"}, {"HOME": ""}, {})
+
+
+@pytest.fixture(scope="module")
+def campaign(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Lend a campaign that cannot be written to."""
+    folder = tmp_path_factory.mktemp("share") / "campaign"
+    with resources.as_file(resources.files("slipwise") / "demo_data") as data:
+        shutil.copytree(data, folder)
+    for path in (*folder.iterdir(), folder):
+        path.chmod(0o555 if path.is_dir() else 0o444)
+    return folder
+
+
+def run(words: str, campaign: Path, out: Path, home: dict[str, str]) -> subprocess.CompletedProcess[str]:
+    """Run a command with hardly any surroundings; temporary files are in a folder of the test."""
+    (out / "temporary").mkdir(exist_ok=True)
+    kept = {name: value for name, value in os.environ.items() if name in ("PATH", "PYTHONPATH")}
+    surroundings = {**kept, "LANG": "C", "TMPDIR": str(out / "temporary"), **home}
+    command = [sys.executable, "-m", "slipwise", *words.format(campaign=campaign, out=out).split()]
+    return subprocess.run(command, env=surroundings, cwd=out, capture_output=True, text=True, umask=0o077)
+
+
+@pytest.mark.parametrize("home", HOMES, ids=str)
+def test_a_command_without_a_home_works_and_writes_nothing_where_it_is_run(
+    home: dict[str, str], campaign: Path, tmp_path: Path
+) -> None:
+    done = run("effects heating --picture {out}/a.png", campaign, tmp_path, home)
+    assert done.returncode == 0, done.stderr
+    assert done.stderr.count("\n") <= 1 and "Traceback" not in done.stderr
+    assert {path.name for path in tmp_path.iterdir()} == {"a.png", "temporary"}
+
+
+@pytest.mark.slow
+def test_all_that_compiles_works_without_a_home_and_says_at_most_one_line_of_the_cache(
+    campaign: Path, tmp_path: Path
+) -> None:
+    for words in COMMANDS:
+        done = run(words, campaign, tmp_path, HOMES[0])
+        assert done.returncode == 0, done.stderr
+        assert done.stderr.count("compiled code") <= 1 and "Traceback" not in done.stderr
+    assert {path.name for path in tmp_path.iterdir()} == {"a.png", "replay", "ensemble", "temporary"}
