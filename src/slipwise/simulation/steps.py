@@ -35,7 +35,7 @@ def numbers_for(law: Kernel, rig: Rig, model: Model, dt: float) -> Array:
         numbers[places.GIRDER_DOF] = -1.0
     numbers[places.RATE_AGE] = dt
     numbers[places.TABLE_DOF], numbers[places.TABLE_VELOCITY] = _dof(rig.model, "table_x"), np.nan
-    numbers[places.TABLE_ARMATURE] = rig.model.dof_armature[_dof(rig.model, "table_pitch")]
+    numbers[places.TABLE_ARMATURE] = rig.model.dof_armature[_dof(rig.model, "table_x")]
     tendons = np.array(rig.tendons).reshape(-1, 2)
     jacobian = np.zeros((len(tendons), 2, MAX_DOFS))
     jacobian[:, :, :arms] = rig.jacobian.reshape(-1, 2, dofs)[:, :, :arms]
