@@ -88,7 +88,7 @@ def turn_friction(
         return
     turns, near = False, False
     for row in range(2 * int(u[N_PADS])):
-        z = effects.first_pad + row // 2 * effects.pad_block + row % 2
+        z = _place(effects, row)
         bound, force = u[z + ROW_BOUND], -friction_force[int(u[z + FRICTION_ROW])]
         sense = u[z + SENSE]
         if sense != 0.0:
@@ -112,12 +112,18 @@ def turn_friction(
 
 
 @compilable
+def _place(effects: Dispatch, row: int) -> int:
+    """Give the place in `u` of a row: of its pad's block, plus its axis."""
+    return effects.first_pad + row // 2 * effects.pad_block + row % 2
+
+
+@compilable
 def _start_changes(effects: Dispatch, u: Array, ten_velocity: Array, friction_force: Array, qacc: Array) -> None:
     """Find each row's rate at the step's end as solved, and what its friction lacks to all that it may carry."""
     for pad in range(int(u[N_PADS])):
         learn_rate_dependence(u, effects.first_pad + pad * effects.pad_block)
     for row in range(2 * int(u[N_PADS])):
-        z = effects.first_pad + row // 2 * effects.pad_block + row % 2
+        z = _place(effects, row)
         j = z - row % 2 + PAD_JACOBIAN + row % 2 * MAX_DOFS
         acceleration = 0.0
         for dof in range(int(u[N_ARMS])):
@@ -144,12 +150,12 @@ def _turn_round(effects: Dispatch, u: Array, ten_velocity: Array) -> None:
     """
     dt, n_rows = u[DT], 2 * int(u[N_PADS])
     for row in range(n_rows):
-        z = effects.first_pad + row // 2 * effects.pad_block + row % 2
+        z = _place(effects, row)
         u[z + EXCESS] = np.nan
         if u[z + SENSE] == 0.0:
             u[z + CHANGE] = 0.0
     for row in range(n_rows):  # as if friction kept its sense to the end of the step
-        z = effects.first_pad + row // 2 * effects.pad_block + row % 2
+        z = _place(effects, row)
         sense = u[z + SENSE]
         end = sense * (u[z + END_RATE] + dt * _response(effects, u, row, CHANGE))
         if end < 0.0:
@@ -161,17 +167,17 @@ def _turn_round(effects: Dispatch, u: Array, ten_velocity: Array) -> None:
         2
     ):  # and as if it had the other sense from the event on: at a rate that is found by the second round
         for row in range(n_rows):
-            z = effects.first_pad + row // 2 * effects.pad_block + row % 2
+            z = _place(effects, row)
             if not isnan(u[z + LATE]):
                 before = _carried(u, z, row % 2, 0.5 * u[z + SENSE] * ten_velocity[int(u[z + PAD_TENDON])])
                 after = _carried(u, z, row % 2, max(-0.5 * u[z + END_RATE], 0.0))
                 u[z + TRIAL] = -u[z + SENSE] * (before + after) * (0.5 - u[z + LATE] / dt)
         for row in range(n_rows):
-            z = effects.first_pad + row // 2 * effects.pad_block + row % 2
+            z = _place(effects, row)
             if not isnan(u[z + LATE]):
                 u[z + END_RATE] = u[z + EXCESS] + dt * u[z + SENSE] * _response(effects, u, row, TRIAL)
     for row in range(n_rows):
-        z = effects.first_pad + row // 2 * effects.pad_block + row % 2
+        z = _place(effects, row)
         late, sense, most = u[z + LATE], u[z + SENSE], 2.0 * u[z + ROW_BOUND]
         if isnan(late):
             continue
@@ -207,14 +213,14 @@ def _give_way(effects: Dispatch, u: Array, ten_velocity: Array, friction_force: 
     """
     dt, n_rows = u[DT], 2 * int(u[N_PADS])
     for row in range(n_rows):
-        z = effects.first_pad + row // 2 * effects.pad_block + row % 2
+        z = _place(effects, row)
         if u[z + SENSE] == 0.0 and u[z + ROW_BOUND] > _LEAST * u[z - row % 2 + BOUND]:
             force = -friction_force[int(u[z + FRICTION_ROW])]
             u[z + TRIAL] = u[z + ROW_BOUND] if force > 0.0 else -u[z + ROW_BOUND]
         else:
             u[z + CHANGE] = 0.0
     for row in range(n_rows):
-        z = effects.first_pad + row // 2 * effects.pad_block + row % 2
+        z = _place(effects, row)
         if u[z + TRIAL] == 0.0:
             continue
         sense = 1.0 if u[z + TRIAL] > 0.0 else -1.0
@@ -230,7 +236,7 @@ def _give_way(effects: Dispatch, u: Array, ten_velocity: Array, friction_force: 
         elif abs(u[z + CHANGE]) <= (1.0 - _ALL) * u[z + ROW_BOUND]:
             u[z + LATE] = 0.0
     for row in range(n_rows):
-        z = effects.first_pad + row // 2 * effects.pad_block + row % 2
+        z = _place(effects, row)
         if not isnan(u[z + LATE]):
             u[z + CHANGE] = u[z + LATE] * u[z + TRIAL]
             u[z + SENSE] = 1.0 if u[z + TRIAL] > 0.0 else -1.0
@@ -247,7 +253,7 @@ def _response(effects: Dispatch, u: Array, row: int, forces: int) -> float:
     at = int(u[RESPONSES]) + n_dofs + row
     acceleration = 0.0
     for other in range(n_rows):
-        z = effects.first_pad + other // 2 * effects.pad_block + other % 2
+        z = _place(effects, other)
         acceleration += u[at + other * size] * u[z + forces]
     return acceleration
 
@@ -261,7 +267,7 @@ def _apply_changes(
     n_rows, n_dofs, n_readings = 2 * int(u[N_PADS]), int(u[N_DOFS]), int(u[N_ACCELERATIONS])
     first = int(u[ACCELERATIONS])
     for row in range(n_rows):
-        z = effects.first_pad + row // 2 * effects.pad_block + row % 2
+        z = _place(effects, row)
         change, bend = u[z + CHANGE], u[z + BEND]
         if change == 0.0 and bend == 0.0:
             continue
