@@ -3,7 +3,7 @@
 import csv
 import io
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from slipwise.data_files.header_rows import MISSING, NUMBER, Header, find_header, looks_numeric
 from slipwise.data_files.labview_file import is_lvm, lvm_headers
-from slipwise.data_files.table_end import find_end
-from slipwise.data_files.text_blocks import Block, read_blocks
+from slipwise.data_files.table_rows import Block, find_end, read_blocks
 from slipwise.data_files.time_stamps import seconds_of_stamps
 from slipwise.errors import InputError
 from slipwise.text_encoding import decoded, encoding_of
@@ -168,7 +167,7 @@ def read_text_columns(
     """
     if layout.end is not None or layout.delimiter == BLANKS:
         return columns_of_text(decoded(path.read_bytes()[: layout.end]), path.name, layout, wanted, table)
-    return _columns(path, lambda: decoded(path.read_bytes()), path.name, layout, wanted, table)
+    return _columns(path, path.name, layout, wanted, table)
 
 
 def columns_of_text(
@@ -177,32 +176,27 @@ def columns_of_text(
     """Read columns of a text that ends with the last row; the rest as in `read_text_columns`."""
     if layout.delimiter == BLANKS:
         text = "\n".join(map(_tabbed, re.split(r"\r\n|\n|\r", text))) + "\n"
-    return _columns(text, lambda: text, name, layout, wanted, table)
+    return _columns(text, name, layout, wanted, table)
 
 
 def _columns(
-    source: Path | str,
-    whole: Callable[[], str],
-    name: str,
-    layout: TextLayout,
-    wanted: Sequence[int],
-    table: int | None,
+    source: Path | str, name: str, layout: TextLayout, wanted: Sequence[int], table: int | None
 ) -> tuple[list[Array], tuple[Block, ...]]:
+    plain: InputError | None = None
+    if table is None:
+        try:
+            return _parsed(source, layout, wanted, layout.header.first, name), ()
+        except InputError as error:
+            plain = error
+    text = source if isinstance(source, str) else decoded(source.read_bytes())
     names = _tabbed(layout.names, names=True) if layout.delimiter == BLANKS else layout.names
-    skip = layout.header.first
-    try:
-        if table is None:
-            return _parsed(source, layout, wanted, skip, name), ()
-    except InputError as plain:
-        blocks = read_blocks(name, whole(), names, layout.separator, len(layout.headers), skip)
-        if not blocks or (len(blocks) == 1 and _unchanged(plain)):
-            raise
-    else:
-        blocks = read_blocks(name, whole(), names, layout.separator, len(layout.headers), skip)
+    blocks = read_blocks(name, text, names, layout.separator, len(layout.headers), layout.header.first)
+    if plain is not None and (not blocks or (len(blocks) == 1 and _unchanged(plain))):
+        raise plain
     if table is not None and not 1 <= table <= len(blocks):
         raise InputError(f"{name}#{table}: the file holds {len(blocks)} tables; the first is {name}#1")
     chosen = blocks if table is None else [blocks[table - 1]]
-    rows = b"".join(block.text for block in chosen).decode()
+    rows = "".join(block.text for block in chosen)
     return _parsed(rows, layout, wanted, 0, name), tuple(blocks) if len(chosen) > 1 else ()
 
 

@@ -76,6 +76,7 @@ def file_table(source: SourceFile) -> ColumnTable:
         stated = read_statements([*table.above, f"time step = {table.step!r} s"], source.name)
     if all(map(_UNNAMED.fullmatch, headers)):
         names, units = (), ()
+    words = (f"left out, for they are shorter or hold no numbers: {', '.join(left)}",) if left else ()
     return ColumnTable(
         names,
         units,
@@ -84,7 +85,7 @@ def file_table(source: SourceFile) -> ColumnTable:
         at=lambda row: f"{source.name}, row {row + 1}",
         title=table.above[0].strip() if table.above else "",
         read_as="a table of a campaign",
-        words=(f"left out, for they are shorter or hold no numbers: {', '.join(left)}",) if left else (),
+        words=(*table.notes, *words),
     )
 
 
