@@ -14,7 +14,7 @@ from slipwise.data_files.text_file import TextLayout, columns_of_text, layout_of
 from slipwise.errors import InputError
 from slipwise.motion.column_kind import is_column_word, is_time_word
 from slipwise.motion.column_traces import ColumnTable
-from slipwise.motion.rows import COMMENT_SIGNS
+from slipwise.motion.number_rows import COMMENT_SIGNS
 from slipwise.motion.source_file import SourceFile
 from slipwise.motion.time_column import last_digit
 
