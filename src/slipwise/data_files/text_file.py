@@ -24,8 +24,9 @@ Array = NDArray[np.float64]
 _HEAD, _LONG_HEAD = 1 << 16, 1 << 24
 #: Bytes that pyarrow reads at once where lines are long: one must fit.
 _WIDE_BLOCK = 1 << 25
-#: Columns that stand between any number of blanks.
+#: Columns that stand between any number of blanks; these also stand within names, and are tried last.
 BLANKS = " "
+DELIMITERS = ("\t", ";", ",", BLANKS)
 #: A rig has fewer channels than this.
 _WIDEST = 4096
 
@@ -97,7 +98,7 @@ def layout_of(lines: Sequence[str], name: str) -> TextLayout | None:
     Raises:
         InputError: a name and the row of units state different units.
     """
-    found = [(header, delimiter) for delimiter in ("\t", ";", ",") if (header := _header(lines, delimiter))]
+    found = [(header, delimiter) for delimiter in DELIMITERS[:-1] if (header := _header(lines, delimiter))]
     if not found and (header := _header(lines, BLANKS)):
         found = [(header, BLANKS)]
     if not found:
@@ -141,7 +142,7 @@ def _header(lines: Sequence[str], delimiter: str) -> Header | None:
     above = next((i for i in reversed(range(first)) if lines[i].strip()), None)
     if header is None and above is not None:
         # Names with units may be separated in another way than the numbers.
-        for other in ("\t", ";", ",", BLANKS):
+        for other in DELIMITERS:
             cells = split_line(lines[above], other)
             if len(cells) == len(rows[first]) and all(re.search(r"[\[(].*[\])]", cell) for cell in cells):
                 return find_header([*rows[:above], cells, *rows[above + 1 :]])

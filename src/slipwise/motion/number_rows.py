@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.data_files.text_file import BLANKS, split_line
+from slipwise.data_files.text_file import BLANKS, DELIMITERS, split_line
 from slipwise.errors import InputError
 from slipwise.motion.source_file import FORTRAN, LARGEST, SourceFile, is_number, number
 
@@ -147,7 +147,7 @@ def numbers_of(line: str) -> list[str]:
 
 def _delimiter(line: str) -> str | None:
     """Tell what separates the numbers of a line; None where it holds anything else."""
-    for delimiter in ("\t", ";", ",", BLANKS):
+    for delimiter in DELIMITERS:
         fields = _fields(line, delimiter) if delimiter in line.strip() or delimiter == BLANKS else []
         if fields and all(is_number(field) or _DECIMAL_COMMA.fullmatch(field) for field in fields):
             return delimiter
