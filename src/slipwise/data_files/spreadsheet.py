@@ -72,6 +72,7 @@ def inspect_sheet(path: Path, wanted: str | None) -> Sheet:
     name, header, rows, cells = found[0]
     above = tuple("\t".join(cell for cell in row if cell) for row in rows[: header.line])
     rows = [*rows[header.first :], *cells]
+    book.close()
     end = next((i for i, row in enumerate(rows) if not any(row)), len(rows))
     while end > 1 and not header.is_row(rows[end - 1]):
         end -= 1

@@ -166,23 +166,17 @@ def read_text_columns(
     Raises:
         InputError: a row with another number of columns, or a cell that is no number; the message says where.
     """
-    if layout.end is not None or layout.delimiter == BLANKS:
-        return columns_of_text(decoded(path.read_bytes()[: layout.end]), path.name, layout, wanted, table)
-    return _columns(path, path.name, layout, wanted, table)
+    as_it_stands = layout.end is None and layout.delimiter != BLANKS
+    source = path if as_it_stands else decoded(path.read_bytes()[: layout.end])
+    return columns_of_text(source, path.name, layout, wanted, table)
 
 
 def columns_of_text(
-    text: str, name: str, layout: TextLayout, wanted: Sequence[int], table: int | None = None
+    source: Path | str, name: str, layout: TextLayout, wanted: Sequence[int], table: int | None = None
 ) -> tuple[list[Array], tuple[Block, ...]]:
-    """Read columns of a text that ends with the last row; the rest as in `read_text_columns`."""
-    if layout.delimiter == BLANKS:
-        text = "\n".join(map(_tabbed, re.split(r"\r\n|\n|\r", text))) + "\n"
-    return _columns(text, name, layout, wanted, table)
-
-
-def _columns(
-    source: Path | str, name: str, layout: TextLayout, wanted: Sequence[int], table: int | None
-) -> tuple[list[Array], tuple[Block, ...]]:
+    """Read columns of a text, or of a file, that ends with the last row; the rest as in `read_text_columns`."""
+    if layout.delimiter == BLANKS and isinstance(source, str):
+        source = "\n".join(map(_tabbed, re.split(r"\r\n|\n|\r", source))) + "\n"
     plain: InputError | None = None
     if table is None:
         try:
