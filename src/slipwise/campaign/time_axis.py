@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.data_files.table import Table
-from slipwise.data_files.text_blocks import Block
+from slipwise.data_files.table_rows import Block
 from slipwise.errors import InputError
 
 Array = NDArray[np.float64]

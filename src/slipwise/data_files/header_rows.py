@@ -75,15 +75,16 @@ class Header:
         for k, name in enumerate(self.names):
             unit = self.units[k].strip().strip("[]()").strip() if self.units else ""
             unit = "" if unit in _NO_UNITS else unit
-            own = re.search(r"[\[(]([^\])]*)[\])]\s*$", name)
+            found = re.search(r"[\[(]([^\])]*)[\])]\s*$", name)
+            own = found[1].strip() if found and _is_unit(found[1].strip()) else ""
             if k in self.stamps and "[" not in name:
                 unit = "s"  # time stamps are read as seconds since the first one
-            elif own and unit and unit != own[1].strip() and _is_unit(unit) and _is_unit(own[1].strip()):
+            elif own and unit != own and _is_unit(unit):
                 raise InputError(
                     f"{what}: the column {name!r} states its unit in its name, and the row of units says {unit!r}; "
                     "correct the wrong one"
                 )
-            elif own and unit and _is_unit(own[1].strip()):
+            elif own:
                 unit = ""
             out.append(f"{name} [{unit}]" if unit and "[" not in name else name)
         return tuple(out)
@@ -108,20 +109,21 @@ def find_header(rows: Sequence[Sequence[str]]) -> Header | None:
             continue
         following = [row for row in rows[first : first + _LOOK_AT] if len(row) == width]
         labels = _labels(rows, above)
-        found = _labelled(above, labels) if labels else _unlabelled(rows, above, width)
+        found = _labelled(above, labels) if labels else _unlabelled(rows, above)
         if found is None:
             continue
-        line, units_at, labelled = found
-        names = tuple(cell.lstrip("#% ").strip() if k == 0 else cell.strip() for k, cell in enumerate(rows[line]))
+        line, units_at = found
+        names = [rows[line][0].lstrip("#% "), *rows[line][1:]]
         if len(names) < width or not any(names):
             continue
-        names = (("time" if _rises([row[0] for row in following]) else ""), *names[1:]) if labelled else names
-        units = () if units_at is None else tuple(rows[units_at][:width])
-        if labelled and units:
-            units = ("", *units[1:])
+        units = [] if units_at is None else list(rows[units_at][:width])
+        if labels:  # the first cells say what the lines hold
+            names[0] = "time" if _rises([row[0] for row in following]) else ""
+            units[:1] = [""] if units else []
         stamps = tuple(k for k, cell in enumerate(rows[first]) if is_time_stamp(cell))
         leading = next((k for k in range(width) if all(_is_value(row[k]) for row in following[:_SURE])), 0)
-        return Header(names[:width], units, line, first, stamps, leading, _part(names, units, stamps, following))
+        part = _part(names, units, stamps, following)
+        return Header(tuple(names[:width]), tuple(units), line, first, stamps, leading, part)
     return None
 
 
@@ -186,15 +188,14 @@ def _labels(rows: Sequence[Sequence[str]], above: Sequence[int]) -> list[str]:
     return said if sum(map(bool, said)) >= (2 if "names" in said else 3) else []
 
 
-def _labelled(above: Sequence[int], labels: Sequence[str]) -> tuple[int, int | None, bool] | None:
+def _labelled(above: Sequence[int], labels: Sequence[str]) -> tuple[int, int | None] | None:
     """Give the lines of names and units where the first cell of each line says what it holds."""
     if "names" not in labels:
         return None
-    units = above[labels.index("units")] if "units" in labels else None
-    return above[labels.index("names")], units, True
+    return above[labels.index("names")], above[labels.index("units")] if "units" in labels else None
 
 
-def _unlabelled(rows: Sequence[Sequence[str]], above: Sequence[int], width: int) -> tuple[int, int | None, bool] | None:
+def _unlabelled(rows: Sequence[Sequence[str]], above: Sequence[int]) -> tuple[int, int | None] | None:
     """Give the lines of names and units: the names stand above the units, whatever stands between them."""
     units_at = next((i for i in above if _is_unit_row(rows[i])), None)
     if units_at is not None:
@@ -204,7 +205,7 @@ def _unlabelled(rows: Sequence[Sequence[str]], above: Sequence[int], width: int)
             units_at = None
         above = over or above
     names = next((i for i in above if not _is_number_row(rows, i) and not _is_range_row(rows[i])), None)
-    return None if names is None or looks_numeric(rows[names]) else (names, units_at, False)
+    return None if names is None or looks_numeric(rows[names]) else (names, units_at)
 
 
 def _is_range_row(cells: Sequence[str]) -> bool:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from datetime import date, datetime, time
+from itertools import islice
 from pathlib import Path
 from typing import Any
 from zipfile import ZipFile
@@ -11,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.data_files.header_rows import MISSING, Header, find_header
+from slipwise.data_files.table_rows import left_out_below
 from slipwise.data_files.time_stamps import seconds_of_stamps
 from slipwise.errors import InputError
 
@@ -29,14 +31,16 @@ class Sheet:
         headers: of its columns.
         above: the rows above, each as one text.
         header: where it begins.
-        others: sheets that hold tables too.
+        rows: down to the first empty row, or to the sums below the table.
+        notes: what is left out below, and other sheets that hold tables, in words.
     """
 
     name: str
     headers: tuple[str, ...]
     above: tuple[str, ...]
     header: Header
-    others: tuple[str, ...]
+    rows: tuple[list[str], ...]
+    notes: tuple[str, ...]
 
 
 def inspect_sheet(path: Path, wanted: str | None) -> Sheet:
@@ -55,43 +59,44 @@ def inspect_sheet(path: Path, wanted: str | None) -> Sheet:
         wanted = names[int(wanted) - 1]
     if wanted is not None and wanted not in names:
         raise InputError(f"{path}: no sheet is called {wanted!r}; it has {', '.join(names)}")
-    found: list[tuple[str, Header, list[list[str]]]] = []
+    found: list[tuple[str, Header, list[list[str]], Iterator[list[str]]]] = []
     for name in names if wanted is None else [wanted]:
-        rows = [row for _, row in zip(range(_LOOK_AT), _rows(book[name], path), strict=False)]
+        cells = _rows(book[name], path)
+        rows = list(islice(cells, _LOOK_AT))
         width = max((len(row) for row in rows), default=0)
         header = find_header([_without_tail(row) for row in rows]) if width > 1 else None
         if header:
-            found.append((name, header, rows))
+            found.append((name, header, rows, cells))
     if not found:
         raise InputError(f"{path}: no sheet holds a line of column names above rows of numbers")
-    name, header, rows = found[0]
+    name, header, rows, cells = found[0]
     above = tuple("\t".join(cell for cell in row if cell) for row in rows[: header.line])
-    return Sheet(name, header.columns(path.name), above, header, tuple(other for other, _, _ in found[1:]))
+    rows = [*rows[header.first :], *cells]
+    book.close()
+    end = next((i for i, row in enumerate(rows) if not any(row)), len(rows))
+    while end > 1 and not header.is_row(rows[end - 1]):
+        end -= 1
+    notes = left_out_below(f"{path.name}, sheet {name}", rows[end:])
+    if len(found) > 1:
+        others = ", ".join(other for other, *_ in found[1:])
+        notes = (*notes, f"sheets {others} of {path.name} hold tables too and are not read")
+    return Sheet(name, header.columns(path.name), above, header, tuple(rows[:end]), notes)
 
 
-def read_sheet(path: Path, sheet: Sheet, wanted: Sequence[int]) -> list[Array]:
-    """Read columns by number, each (n,), down to the first empty row or to the sums below the table.
+def read_sheet(file: str, sheet: Sheet, wanted: Sequence[int]) -> list[Array]:
+    """Read columns by number, each (n,).
 
     Raises:
         InputError: a cell that is no number.
     """
-    rows: list[list[str]] = []
-    for number, row in enumerate(_rows(_workbook(path)[sheet.name], path)):
-        if number < sheet.header.first:
-            continue
-        if not any(row):
-            break
-        rows.append(row)
-    while len(rows) > 1 and not sheet.header.is_row(rows[-1]):
-        rows.pop()
     part = sheet.header.part
-    columns = [[row[k] if k < len(row) else "" for row in rows] for k in wanted]
+    columns = [[row[k] if k < len(row) else "" for row in sheet.rows] for k in wanted]
     out = []
     for column, k in zip(columns, wanted, strict=True):
-        what = f"{path.name}, sheet {sheet.name}, column {sheet.headers[k]!r}"
+        what = f"{file}, sheet {sheet.name}, column {sheet.headers[k]!r}"
         if k in sheet.header.stamps:
             seconds = seconds_of_stamps(column, what)
-            out.append(seconds if part is None else seconds + [part[1] * float(row[part[0]]) for row in rows])
+            out.append(seconds if part is None else seconds + [part[1] * float(row[part[0]]) for row in sheet.rows])
             continue
         try:
             out.append(np.array([np.nan if cell in MISSING else float(cell.replace(",", ".")) for cell in column]))

@@ -18,7 +18,7 @@ from slipwise.data_files.mdf_file import read_mdf
 from slipwise.data_files.named_columns import NamedColumns
 from slipwise.data_files.spreadsheet import inspect_sheet, read_sheet
 from slipwise.data_files.statements import read_statements
-from slipwise.data_files.text_blocks import Block
+from slipwise.data_files.table_rows import Block
 from slipwise.data_files.text_file import inspect_text, read_text_columns
 from slipwise.data_files.uff_file import read_uff
 from slipwise.errors import InputError
@@ -100,13 +100,13 @@ def open_table(path: Path) -> Table:
         return _of_columns(path, _CHANNEL_FILES[suffix](path))
     if suffix == ".xlsx":
         sheet = inspect_sheet(path, part)
-        others = (
-            f"sheets {', '.join(sheet.others)} of {path.name} hold tables too and are not read" if sheet.others else ""
-        )
-        notes = (others,) if others else ()
-        step = read_statements(sheet.above, path.name, ("step",)).step
         return Table(
-            path, sheet.headers, lambda wanted: Columns(read_sheet(path, sheet, wanted)), step, notes, sheet.above
+            path,
+            sheet.headers,
+            lambda wanted: Columns(read_sheet(path.name, sheet, wanted)),
+            read_statements(sheet.above, path.name, ("step",)).step,
+            sheet.notes,
+            sheet.above,
         )
     if suffix == ".parquet":
         return _parquet(path)

@@ -3,7 +3,7 @@
 import csv
 import io
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from slipwise.data_files.header_rows import MISSING, NUMBER, Header, find_header, looks_numeric
 from slipwise.data_files.labview_file import is_lvm, lvm_headers
-from slipwise.data_files.table_end import find_end
-from slipwise.data_files.text_blocks import Block, read_blocks
+from slipwise.data_files.table_rows import Block, find_end, read_blocks
 from slipwise.data_files.time_stamps import seconds_of_stamps
 from slipwise.errors import InputError
 from slipwise.text_encoding import decoded, encoding_of
@@ -25,8 +24,9 @@ Array = NDArray[np.float64]
 _HEAD, _LONG_HEAD = 1 << 16, 1 << 24
 #: Bytes that pyarrow reads at once where lines are long: one must fit.
 _WIDE_BLOCK = 1 << 25
-#: Columns that stand between any number of blanks.
+#: Columns that stand between any number of blanks; these also stand within names, and are tried last.
 BLANKS = " "
+DELIMITERS = ("\t", ";", ",", BLANKS)
 #: A rig has fewer channels than this.
 _WIDEST = 4096
 
@@ -98,7 +98,7 @@ def layout_of(lines: Sequence[str], name: str) -> TextLayout | None:
     Raises:
         InputError: a name and the row of units state different units.
     """
-    found = [(header, delimiter) for delimiter in ("\t", ";", ",") if (header := _header(lines, delimiter))]
+    found = [(header, delimiter) for delimiter in DELIMITERS[:-1] if (header := _header(lines, delimiter))]
     if not found and (header := _header(lines, BLANKS)):
         found = [(header, BLANKS)]
     if not found:
@@ -142,7 +142,7 @@ def _header(lines: Sequence[str], delimiter: str) -> Header | None:
     above = next((i for i in reversed(range(first)) if lines[i].strip()), None)
     if header is None and above is not None:
         # Names with units may be separated in another way than the numbers.
-        for other in ("\t", ";", ",", BLANKS):
+        for other in DELIMITERS:
             cells = split_line(lines[above], other)
             if len(cells) == len(rows[first]) and all(re.search(r"[\[(].*[\])]", cell) for cell in cells):
                 return find_header([*rows[:above], cells, *rows[above + 1 :]])
@@ -166,43 +166,32 @@ def read_text_columns(
     Raises:
         InputError: a row with another number of columns, or a cell that is no number; the message says where.
     """
-    if layout.end is not None or layout.delimiter == BLANKS:
-        return columns_of_text(decoded(path.read_bytes()[: layout.end]), path.name, layout, wanted, table)
-    return _columns(path, lambda: decoded(path.read_bytes()), path.name, layout, wanted, table)
+    as_it_stands = layout.end is None and layout.delimiter != BLANKS
+    source = path if as_it_stands else decoded(path.read_bytes()[: layout.end])
+    return columns_of_text(source, path.name, layout, wanted, table)
 
 
 def columns_of_text(
-    text: str, name: str, layout: TextLayout, wanted: Sequence[int], table: int | None = None
+    source: Path | str, name: str, layout: TextLayout, wanted: Sequence[int], table: int | None = None
 ) -> tuple[list[Array], tuple[Block, ...]]:
-    """Read columns of a text that ends with the last row; the rest as in `read_text_columns`."""
-    if layout.delimiter == BLANKS:
-        text = "\n".join(map(_tabbed, re.split(r"\r\n|\n|\r", text))) + "\n"
-    return _columns(text, lambda: text, name, layout, wanted, table)
-
-
-def _columns(
-    source: Path | str,
-    whole: Callable[[], str],
-    name: str,
-    layout: TextLayout,
-    wanted: Sequence[int],
-    table: int | None,
-) -> tuple[list[Array], tuple[Block, ...]]:
+    """Read columns of a text, or of a file, that ends with the last row; the rest as in `read_text_columns`."""
+    if layout.delimiter == BLANKS and isinstance(source, str):
+        source = "\n".join(map(_tabbed, re.split(r"\r\n|\n|\r", source))) + "\n"
+    plain: InputError | None = None
+    if table is None:
+        try:
+            return _parsed(source, layout, wanted, layout.header.first, name), ()
+        except InputError as error:
+            plain = error
+    text = source if isinstance(source, str) else decoded(source.read_bytes())
     names = _tabbed(layout.names, names=True) if layout.delimiter == BLANKS else layout.names
-    skip = layout.header.first
-    try:
-        if table is None:
-            return _parsed(source, layout, wanted, skip, name), ()
-    except InputError as plain:
-        blocks = read_blocks(name, whole(), names, layout.separator, len(layout.headers), skip)
-        if not blocks or (len(blocks) == 1 and _unchanged(plain)):
-            raise
-    else:
-        blocks = read_blocks(name, whole(), names, layout.separator, len(layout.headers), skip)
+    blocks = read_blocks(name, text, names, layout.separator, len(layout.headers), layout.header.first)
+    if plain is not None and (not blocks or (len(blocks) == 1 and _unchanged(plain))):
+        raise plain
     if table is not None and not 1 <= table <= len(blocks):
         raise InputError(f"{name}#{table}: the file holds {len(blocks)} tables; the first is {name}#1")
     chosen = blocks if table is None else [blocks[table - 1]]
-    rows = b"".join(block.text for block in chosen).decode()
+    rows = "".join(block.text for block in chosen)
     return _parsed(rows, layout, wanted, 0, name), tuple(blocks) if len(chosen) > 1 else ()
 
 

@@ -195,24 +195,24 @@ def _timed(table: ColumnTable, kinds: list[Kind], source: SourceFile, given: Giv
             table = replace(table, words=(*table.words, f"column {name!r} has no unit: taken in seconds"))
     else:
         # A headless column of times has no unit: the step must be given all the same.
-        if table.stated.step is None and given.dt is None:
+        known = given.dt if given.dt is not None else table.stated.step
+        if known is None:
             raise InputError(
                 f"{source.name}: the file does not state its time step; give it, for example --motion-dt '{step:g} s': "
                 f"the first column advances by {step:g} a row, and nothing says in what unit"
             )
         settle_step(table.stated.step, given, source, table.stated.lines.get("step", ""))
-        step = _headless_step(step, given.dt if given.dt is not None else table.stated.step, source)
+        step = _headless_step(step, known, source)
     return table, agreed_step(table.stated.step, step, "its time column", source)
 
 
-def _headless_step(step: float, stated: float | None, source: SourceFile) -> float:
+def _headless_step(step: float, stated: float, source: SourceFile) -> float:
     """Hold a headless time column against the step that was given or stated."""
     for seconds in _SECONDS_PER.values():
-        if stated is not None and abs(step * seconds - stated) <= 1e-4 * stated:
+        if abs(step * seconds - stated) <= 1e-4 * stated:
             return step * seconds
-    given_words = f"{stated:g} s" if stated is not None else "nothing"
     raise InputError(
-        f"{source.name}: the first column advances by {step:g} a row, {given_words} was given as the step; neither in "
+        f"{source.name}: the first column advances by {step:g} a row, {stated:g} s was given as the step; neither in "
         f"{' nor in '.join(_SECONDS_PER)} do they agree"
     )
 
@@ -226,15 +226,15 @@ def _of_displacement(table: ColumnTable, k: int, dt: float, dt_words: str, sourc
         raise UnitError(f"{source.name}: {name!r} is a displacement in {unit}; leave --unit {given.unit} out")
     metres = table.values[:, k] * parse_unit(unit, "m", f"column {name!r} of {source.name}")
     acceleration, words = acceleration_of(metres, dt, source, name)
-    name = name.replace("table_d", "table_a")
     si = replace(
         table,
-        units=tuple("m/s^2" for _ in table.units),
+        names=(name.replace("table_d", "table_a"),),
+        units=("m/s^2",),
         values=acceleration[:, None],
         stated=replace(table.stated, unit=None),
         words=(*table.words, words),
     )
-    return _trace(replace(si, names=(name,)), 0, None, None, True, dt, dt_words, source, given)
+    return _trace(si, 0, None, None, True, dt, dt_words, source, given)
 
 
 def _trace(

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from slipwise.errors import InputError
-from slipwise.motion.rows import Rows
+from slipwise.motion.number_rows import Rows
 from slipwise.motion.source_file import SourceFile
 
 #: Steps of samples that agencies use [s].

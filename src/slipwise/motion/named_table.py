@@ -10,11 +10,12 @@ from slipwise.data_files.acceleration_unit import is_acceleration
 from slipwise.data_files.column_names import name_and_unit
 from slipwise.data_files.statements import read_statements
 from slipwise.data_files.table import Table, open_table
+from slipwise.data_files.table_rows import left_out_below
 from slipwise.data_files.text_file import TextLayout, columns_of_text, layout_of
 from slipwise.errors import InputError
 from slipwise.motion.column_kind import is_column_word, is_time_word
 from slipwise.motion.column_traces import ColumnTable
-from slipwise.motion.rows import COMMENT_SIGNS
+from slipwise.motion.number_rows import COMMENT_SIGNS
 from slipwise.motion.source_file import SourceFile
 from slipwise.motion.time_column import last_digit
 
@@ -40,7 +41,8 @@ def text_table(source: SourceFile) -> ColumnTable | None:
     half = len(names) // 2
     if not named or (half > 1 and names == names[:2] * half):
         return None
-    last = _last_row(source, layout)
+    # Words, totals and empty lines may stand below.
+    last = next(i for i in reversed(range(len(source.lines))) if layout.header.is_row(layout.cells(source.lines[i])))
     text = "\n".join(source.lines[: last + 1])
     if re.search(r"\d[dD][+-]\d", source.lines[layout.header.first]):
         text = re.sub(r"(?<=[\d.])[dD](?=[+-]?\d)", "e", text)  # Fortran's double precision
@@ -54,6 +56,7 @@ def text_table(source: SourceFile) -> ColumnTable | None:
         at=lambda row: _place(source, layout, row),
         rounding=lambda k: last_digit(layout.cells(source.lines[last])[k]),
         title=above[0] if above else "",
+        words=left_out_below(source.name, [layout.cells(line) for line in source.lines[last + 1 :]]),
     )
 
 
@@ -71,20 +74,19 @@ def file_table(source: SourceFile) -> ColumnTable:
     # "rec.time", "rec.ax": the structure that holds all of them tells nothing.
     within = {header.rpartition(".")[0] for header in headers}
     names, units = names_and_units([h.rpartition(".")[2] for h in headers] if len(within) == 1 else headers)
-    stated = read_statements(table.above, source.name)
-    if table.step is not None:
-        stated = read_statements([*table.above, f"time step = {table.step!r} s"], source.name)
+    beside = () if table.step is None else (f"time step = {table.step!r} s",)
     if all(map(_UNNAMED.fullmatch, headers)):
         names, units = (), ()
+    words = (f"left out, for they are shorter or hold no numbers: {', '.join(left)}",) if left else ()
     return ColumnTable(
         names,
         units,
         np.stack(list(columns.values()), axis=1),
-        stated,
+        read_statements([*table.above, *beside], source.name),
         at=lambda row: f"{source.name}, row {row + 1}",
         title=table.above[0].strip() if table.above else "",
         read_as="a table of a campaign",
-        words=(f"left out, for they are shorter or hold no numbers: {', '.join(left)}",) if left else (),
+        words=(*table.notes, *words),
     )
 
 
@@ -121,12 +123,6 @@ def _name_and_unit(header: str) -> tuple[str, str]:
     if found.kind in ("time", "acceleration") and found.unit not in ("?", "") and found.name != header.strip():
         return found.name, found.unit
     return header.strip(), "" if not is_acceleration(header) or len(header.strip()) < 2 else header.strip()
-
-
-def _last_row(source: SourceFile, layout: TextLayout) -> int:
-    """Give the index of the last row: words, totals and empty lines may stand below it."""
-    lines = source.lines
-    return next(i for i in reversed(range(len(lines))) if layout.header.is_row(layout.cells(lines[i])))
 
 
 def _place(source: SourceFile, layout: TextLayout, row: int) -> str:

@@ -1,32 +1,155 @@
-"""Lines of numbers without names: cut at their separators, decimal commas or points."""
+"""Text files whose lines are rows of numbers without names, below a header of any kind; decimal commas or points."""
 
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.data_files.text_file import BLANKS, split_line
+from slipwise.data_files.text_file import BLANKS, DELIMITERS, split_line
 from slipwise.errors import InputError
 from slipwise.motion.source_file import FORTRAN, LARGEST, SourceFile, is_number, number
 
 Array = NDArray[np.float64]
-DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+(?:[eEdD][+-]?\d+)?")
+#: A header may hold rows of numbers of its own, no more than these, within so many lines.
+_OWN_ROWS, _HEADER_LINES = 12, 200
+#: Lines below the numbers that may mark the end: words, no digits.
+_END_MARKS = 3
+#: What may stand before the words of a header.
+COMMENT_SIGNS = "#%/!*$ "
+_DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+(?:[eEdD][+-]?\d+)?")
 #: Lines that are read at once: their texts take much more memory than their numbers.
 _BLOCK = 20_000
 
 
+@dataclass(frozen=True)
+class Rows:
+    """Rows of numbers as they stand in a file.
+
+    Attributes:
+        header: the lines above the numbers that are not empty, without comment signs.
+        values: (n, columns), or the rows one by one where not all are of one length.
+        places: index of the line of each row.
+    """
+
+    header: tuple[str, ...]
+    values: Array | tuple[Array, ...]
+    places: Sequence[int]
+
+    def table(self, source: SourceFile) -> Array:
+        """Give the values as a table (n, columns).
+
+        Raises:
+            InputError: rows of different lengths.
+        """
+        if isinstance(self.values, np.ndarray):
+            return self.values
+        return table_of_numbers(source, self.places, len(self.values[0]))
+
+    def series(self) -> Array:
+        """Give all numbers in reading order."""
+        return self.values.ravel() if isinstance(self.values, np.ndarray) else np.concatenate(self.values)
+
+    def below(self, lines: int) -> "Rows":
+        """Give the rows below the first ones."""
+        return replace(self, values=self.values[lines:], places=self.places[lines:])
+
+
+def find_first_row(lines: Sequence[str]) -> int | None:
+    """Give the index of the first line that holds nothing but numbers, None if there is none."""
+    return next((i for i, line in enumerate(lines) if numbers_of(line)), None)
+
+
+def read_rows(source: SourceFile) -> Rows:
+    """Read the rows of numbers below a header.
+
+    Raises:
+        InputError: no numbers, a field that is no number, or a last number that is cut off.
+    """
+    start = find_first_row(source.lines)
+    if start is None:
+        raise InputError(f"{source.name}: no line of numbers is in this file; see `slipwise motions` for what is read")
+    start = _after_the_headers_own(source.lines, start)
+    end = _before_end_marks(source.lines, start)
+    places: Sequence[int] = range(start, end)
+    if not all(map(str.strip, source.lines[start:end])):
+        places = [i for i in places if source.lines[i].strip()]
+    header = [line.strip().lstrip(COMMENT_SIGNS).rstrip(" ,;") for line in source.lines[:start]]
+    # "0,0123" in every line: the comma separates nothing.
+    single = all(_DECIMAL_COMMA.fullmatch(source.lines[i].strip()) for i in places) and any(
+        source.lines[i].lstrip().startswith("-") for i in places
+    )
+    columns = 1 if single else len(numbers_of(source.lines[start]))
+    _refuse_damaged_first_row(source, start, columns)
+    if len(places) > 5 and places[-1] == len(source.lines) - 1:
+        _refuse_cut_number(source, places)
+    return Rows(tuple(line for line in header if line), rows_of_numbers(source, places, single), places)
+
+
+def _after_the_headers_own(lines: Sequence[str], start: int) -> int:
+    """Skip rows of numbers that belong to the header, since words follow them."""
+    own = 0
+    for i in range(start, min(len(lines), _HEADER_LINES)):
+        if not lines[i].strip():
+            continue
+        if numbers_of(lines[i]):
+            own += 1
+        elif own > _OWN_ROWS or any(map(is_number, re.split(r"[\s,;]+", lines[i]))):
+            # A line that is half numbers is a damaged row, not a header.
+            break
+        else:
+            following = find_first_row(lines[i:])
+            if following is None:
+                break
+            start, own = i + following, 0
+    return start
+
+
+def _before_end_marks(lines: Sequence[str], start: int) -> int:
+    """Give the index after the last row: below it may stand a few lines of words, such as END."""
+    end = len(lines)
+    for _ in range(_END_MARKS + 1):
+        while end > start + 1 and not lines[end - 1].strip():
+            end -= 1
+        if end <= start + 1 or re.search(r"\d|nan|inf", lines[end - 1], re.IGNORECASE):
+            return end
+        end -= 1
+    return len(lines)
+
+
+def _refuse_damaged_first_row(source: SourceFile, start: int, columns: int) -> None:
+    """Refuse a line of data that passes for a header because one of its fields is damaged."""
+    if start == 0:
+        return
+    delimiter = _delimiter(source.lines[start])
+    fields = source.lines[start - 1].strip().split(None if delimiter == BLANKS else delimiter)
+    numeric = [is_number(field.strip()) for field in fields]
+    if len(fields) == columns and any(numeric) and not all(numeric):
+        number(fields[numeric.index(False)], source.at(start - 1))
+
+
+def _refuse_cut_number(source: SourceFile, places: Sequence[int]) -> None:
+    """Refuse a file that ends within a number: no line end, and fewer decimals than every number above has."""
+    rows = (numbers_of(source.lines[i]) for i in places[-50:])
+    decimals = [len(row[-1].partition(".")[2]) for row in rows if row]
+    if len(set(decimals[:-1])) == 1 and decimals[-1] < decimals[0]:
+        raise InputError(
+            f"{source.at(places[-1])}: the last number is cut off; the record is truncated, fetch it again"
+        )
+
+
 def numbers_of(line: str) -> list[str]:
     """Give the fields of a line that holds nothing but numbers, with decimal points; none for another line."""
-    delimiter = delimiter_of(line)
+    delimiter = _delimiter(line)
     return [] if delimiter is None else [field.replace(",", ".") for field in _fields(line, delimiter)]
 
 
-def delimiter_of(line: str) -> str | None:
+def _delimiter(line: str) -> str | None:
     """Tell what separates the numbers of a line; None where it holds anything else."""
-    for delimiter in ("\t", ";", ",", BLANKS):
+    for delimiter in DELIMITERS:
         fields = _fields(line, delimiter) if delimiter in line.strip() or delimiter == BLANKS else []
-        if fields and all(is_number(field) or DECIMAL_COMMA.fullmatch(field) for field in fields):
+        if fields and all(is_number(field) or _DECIMAL_COMMA.fullmatch(field) for field in fields):
             return delimiter
     return None
 
@@ -51,7 +174,7 @@ def rows_of_numbers(source: SourceFile, places: Sequence[int], single: bool = Fa
     Raises:
         InputError: a field that is no number; the message says where.
     """
-    delimiter = BLANKS if single else delimiter_of(source.lines[places[0]]) or BLANKS
+    delimiter = BLANKS if single else _delimiter(source.lines[places[0]]) or BLANKS
     comma = "," if delimiter == "," else "."
     blocks: list[Array] = []
     lengths: list[int] = []

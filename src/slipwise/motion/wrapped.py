@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.motion.rows import Rows
+from slipwise.motion.number_rows import Rows
 from slipwise.motion.time_column import rises_evenly
 
 Array = NDArray[np.float64]

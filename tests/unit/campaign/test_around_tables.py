@@ -117,12 +117,12 @@ def test_what_stands_below_a_table_is_in_no_column(tmp_path, below, wanted):
     assert [len(values) for values in table.columns(wanted).values] == [N] * len(wanted)
     words = below.strip("\n,; ")
     assert bool(table.notes) == bool(words)
-    assert not words or "below the table left out" in table.notes[0]
+    assert not words or "left out, beginning" in table.notes[0]
 
 
 def test_a_campaign_says_what_it_left_out_below_a_table(tmp_path):
     found = run(tmp_path, "Time [s],Slip [mm],Friction [N]\n" + rows(TIME, SLIP, FORCE) + "Max,5,60\n")
-    assert "run.csv: 1 line below the table left out, beginning 'Max 5 60'" in found.notes
+    assert "run.csv: 1 line below the table is left out, beginning 'Max 5 60'" in found.notes
 
 
 def test_rows_after_an_empty_line_that_go_on_are_rows(tmp_path):

@@ -247,6 +247,25 @@ def test_a_workbook_gives_the_first_sheet_with_a_table_and_names_the_others(tmp_
         open_table(tmp_path / "run.xlsx#Run 3")
 
 
+@pytest.mark.parametrize(
+    ("below", "words"),
+    [
+        ([["Max", 5, 60]], "1 line below the table is left out, beginning 'Max 5 60'"),
+        ([[], ["Repaired", "by", "hand"], [9, 9, 9]], "2 lines below the table are left out, beginning 'Repaired by"),
+        ([[], []], ""),
+    ],
+)
+def test_a_workbook_says_which_rows_below_its_table_are_left_out(tmp_path, below, words):
+    book = pytest.importorskip("openpyxl").Workbook()
+    for line in (["Time [s]", "Slip [mm]", "Force [kN]"], *DATA.tolist(), *below):
+        book.active.append(line)
+    book.save(tmp_path / "run.xlsx")
+    table = open_table(tmp_path / "run.xlsx")
+    np.testing.assert_allclose(values(table), DATA)
+    assert len(table.notes) == bool(words)
+    assert not words or table.notes[0].startswith(f"run.xlsx, sheet Sheet: {words}")
+
+
 @pytest.mark.parametrize(("module", "file"), [("nptdms", "run.tdms"), ("openpyxl", "run.xlsx")])
 def test_a_missing_extra_is_named_with_the_command_that_installs_it(tmp_path, monkeypatch, module, file):
     (tmp_path / file).write_bytes(b"x")

@@ -42,6 +42,13 @@ def test_a_workbook_is_a_motion(tmp_path, head):
     np.testing.assert_allclose(motion.acceleration, THREE, rtol=1e-12)
 
 
+def test_a_motion_tells_which_rows_below_the_table_of_its_workbook_are_left_out(tmp_path):
+    rows = [["time (s)", "EW (g)"], *[r[:2] for r in ROWS], [], ["Peak", 0.1]]
+    motion = load_motion(workbook(tmp_path / "m.xlsx", rows))
+    assert len(motion) == len(ROWS)
+    assert any("1 line below the table is left out, beginning 'Peak 0.1'" in words for words in motion.treatment)
+
+
 def test_what_a_workbook_states_binds(tmp_path):
     path = workbook(tmp_path / "m.xlsx", [["Sampling rate: 50 Hz"], ["time (s)", "EW (g)"], *[r[:2] for r in ROWS]])
     with pytest.raises(InputError, match=r"the header states a step of 0\.02 s, its time column 0\.01 s"):

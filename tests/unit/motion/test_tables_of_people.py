@@ -189,3 +189,11 @@ def test_whole_numbers_are_counts_until_the_acceleration_of_one_is_given(tmp_pat
         load_motion(path, unit="gal", count="2.4e-6 m/s^2")
     with pytest.raises(UnitError, match="dimension"):
         load_motion(path, count="2.4e-6 m/s")
+
+
+@pytest.mark.parametrize("below", ["Max,1,2,3\n", "\nEnd of record\n", "\nPeaks\nx,1\n"])
+def test_a_motion_tells_which_lines_below_its_table_are_left_out(load, below):
+    motion = load(table("time [s],ax [m/s2],ay [m/s2],az [m/s2]\n", [TIME, *THREE.T]) + below)
+    assert len(motion) == len(TIME)
+    said = [words for words in motion.treatment if "below the table" in words]
+    assert said and all("left out, beginning" in words for words in said)

@@ -15,8 +15,7 @@ from slipwise.errors import InputError
 from slipwise.motion.column_traces import ColumnTable, column_traces
 from slipwise.motion.first_lines import read_first_lines
 from slipwise.motion.named_table import names_and_units, text_table
-from slipwise.motion.number_rows import numbers_of
-from slipwise.motion.rows import Rows, find_first_row, read_rows
+from slipwise.motion.number_rows import Rows, find_first_row, numbers_of, read_rows
 from slipwise.motion.source_file import HEAD_BYTES, SourceFile
 from slipwise.motion.stated import Given, agreed_step
 from slipwise.motion.time_column import last_digit
