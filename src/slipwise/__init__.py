@@ -15,9 +15,14 @@ Names are loaded when they are first used, so that the import itself costs nothi
 """
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+
+#: As type checkers know it. `typing` is not imported here: it takes `re` and others, which may be those of the current
+#: folder until `python -m slipwise` has left that out.
+TYPE_CHECKING = False
 
 if TYPE_CHECKING:
+    from typing import Any
+
     from slipwise import channels, effects, executors, motion, rig, workbench
     from slipwise.campaign import Campaign, load_campaign
     from slipwise.campaign.draft import init_campaign
@@ -157,7 +162,7 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> "Any":
     """Load a name where it lives (PEP 562); nothing is kept here, so that a patch at its home is seen here too."""
     if name == "__version__":
         from importlib.metadata import version

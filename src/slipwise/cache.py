@@ -1,4 +1,4 @@
-"""The folders of what is kept to save time: compiled code and the list of units. Their content is run as code.
+"""The folders of what is kept for a user: compiled code and the list of units, which are run as code, and sessions.
 
 So nothing is read from a folder before it is known to be this user's alone: made by this user, closed to everybody
 else, and in a place where nobody else can put another folder under its name.
@@ -9,24 +9,36 @@ import shutil
 import stat
 import tempfile
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
-from slipwise.errors import CacheWarning
+from slipwise.errors import CacheWarning, OutputError
 
-#: Within the folder that `cache_folder` gives, and within that of the temporary files.
-_CODE = "code"
+#: Within the folder of this user's caches, and within that of the temporary files.
+_CODE, _SESSIONS = "code", "sessions"
+#: On Windows homes and temporary files are each user's own.
+_HAS_OWNERS = hasattr(os, "getuid")
 #: Where temporary files are when nobody says otherwise. Python's last choice is the current folder: a stranger's folder
 #: can hold one of the name that is made here.
 _TEMPORARY = ("/tmp", "/var/tmp", "/usr/tmp")
 _MEMORY = "/dev/shm"
 
 
-def cache_folder() -> Path:
-    """Give the folder of this user's caches; SLIPWISE_CACHE overrides it. It may not exist, or not be writable."""
-    return next(_bases(), Path(_MEMORY) / _own_name())
+def sessions_folder() -> Path:
+    """Make the folder for sessions of campaigns that cannot be written to; SLIPWISE_CACHE overrides it.
+
+    Raises:
+        OutputError: no place is this user's alone.
+    """
+    places = [base / _SESSIONS for base in _bases()]
+    reasons = [_why_not(place, lambda folder: folder.chmod(0o700)) if _HAS_OWNERS else "" for place in places]
+    usable = [place for place, reason in zip(places, reasons, strict=True) if not reason]
+    if usable:
+        return usable[0]
+    why = f"{places[0]}: no session is kept there, for {reasons[0]}" if places else "there is no place for a session"
+    raise OutputError(f"{why}; SLIPWISE_CACHE=FOLDER names another place")
 
 
 def code_folders() -> list[Path]:
@@ -36,11 +48,11 @@ def code_folders() -> list[Path]:
         Those that are this user's alone; none where there is no such place. A `CacheWarning` says once what cannot be
         used.
     """
-    if not hasattr(os, "getuid"):  # Windows: homes and temporary files are each user's own
+    if not _HAS_OWNERS:
         return [base / _CODE for base in _bases()]
     usable, refused = [], []
     for base in _bases():
-        reason = _why_not(base / _CODE)
+        reason = _why_not(base / _CODE, _make_anew)
         if reason:
             refused.append(f"{base / _CODE}: compiled code is not kept there, for {reason}")
         else:
@@ -119,16 +131,20 @@ def _temporary() -> Iterator[Path]:
 
 
 def _own_name() -> str:
-    return f"slipwise-{os.getuid()}" if hasattr(os, "getuid") else "slipwise-cache"
+    return f"slipwise-{os.getuid()}" if _HAS_OWNERS else "slipwise-cache"
 
 
-def _why_not(folder: Path) -> str:
-    """Make a folder that is this user's alone; say why code in it would not be safe, or nothing."""
+def _why_not(folder: Path, close: Callable[[Path], None]) -> str:
+    """Make a folder that is this user's alone; say why what is in it would not be safe, or nothing.
+
+    Args:
+        folder: to be made.
+        close: takes the folder from others, where they had access to it.
+    """
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         if not folder.is_symlink() and not _is_foreign(folder.lstat()) and folder.lstat().st_mode & 0o077:
-            remove(folder)  # others may have put something there
-            folder.mkdir(mode=0o700)
+            close(folder)
         found = folder.lstat()
         if not stat.S_ISDIR(found.st_mode) or _is_foreign(found):
             return "it is somebody else's, or a link"
@@ -137,6 +153,12 @@ def _why_not(folder: Path) -> str:
         return next(filter(None, map(_why_not_within, {*folder.parents, *folder.resolve().parents})), "")
     except OSError as error:
         return f"it cannot be made there ({error.strerror})"
+
+
+def _make_anew(folder: Path) -> None:
+    """Make a folder again without what is in it: others may have put it there."""
+    remove(folder)
+    folder.mkdir(mode=0o700)
 
 
 def _why_not_within(folder: Path) -> str:
@@ -151,7 +173,7 @@ def _why_not_within(folder: Path) -> str:
 
 
 def _is_foreign(found: os.stat_result) -> bool:
-    return hasattr(os, "getuid") and found.st_uid != os.getuid()
+    return _HAS_OWNERS and found.st_uid != os.getuid()
 
 
 @cache

@@ -117,7 +117,7 @@ def _take_out_damaged(path: Path) -> None:
 
 
 def _read_line(line: bytes) -> tuple[str, Numbers]:
-    """Give key and numbers of a line.
+    """Give key and numbers of a line; one without a checksum, as earlier versions wrote it, is taken as it is.
 
     Raises:
         ValueError: it is not as it was written.
@@ -125,13 +125,19 @@ def _read_line(line: bytes) -> tuple[str, Numbers]:
     try:
         entry = json.loads(line)
         key, numbers = entry["key"], entry["numbers"]
-        if line.endswith(b"\n") and entry["sum"] == _sum(key, numbers):
+        of_earlier_version = entry.keys() == {"key", "numbers"} and isinstance(key, str) and isinstance(numbers, dict)
+        checksum = _sum(key, numbers)
+        if line.endswith(b"\n") and (of_earlier_version or entry["sum"] == checksum):
             return key, numbers
-    except (KeyError, TypeError, RecursionError) as error:
+    except (AttributeError, KeyError, TypeError, RecursionError) as error:
         raise ValueError("this is no line of a finished job") from error
     raise ValueError("the line does not agree with its checksum")
 
 
 def _sum(key: str, numbers: Numbers) -> str:
-    """Give a checksum: a disk can turn a number into another one."""
-    return hashlib.sha256(json.dumps([key, numbers]).encode()).hexdigest()[:16]
+    """Give a checksum: a disk can turn a number into another one.
+
+    Raises:
+        ValueError: a number is not finite.
+    """
+    return hashlib.sha256(json.dumps([key, numbers], allow_nan=False).encode()).hexdigest()[:16]

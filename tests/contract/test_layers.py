@@ -32,7 +32,7 @@ ARROWS: dict[str, str] = {
     "signals": "errors machine_code",
     "statistics": "",
     "record": "channels errors input_file shown units whole_file",
-    "data_files": "channels errors input_file text_encoding units",
+    "data_files": "channels child_processes errors input_file text_encoding units",
     "motion": "channels data_files errors input_file shown signals text_encoding units",
     "rig": "channels errors input_file record units",
     "effects": "channels errors input_file machine_code params record rig shown signals",

@@ -122,3 +122,30 @@ def test_a_folder_of_the_name_of_the_file_is_refused(tmp_path: Path) -> None:
     (tmp_path / "jobs.jsonl").mkdir()
     with pytest.raises(InputError, match="jobs.jsonl is a folder.*choose another --out"):
         run_all(numbers, ["a"], lambda i: Job(1, tmp_path), tmp_path / "jobs.jsonl", workers=1)
+
+
+def test_finished_jobs_of_an_earlier_version_have_no_checksum_and_are_taken_as_they_are(tmp_path: Path) -> None:
+    path = tmp_path / "jobs.jsonl"
+    path.write_text('{"key": "first", "numbers": {"slip": 0.1}}\n{"key": "second", "numbers": {}}\n')
+    before = path.read_bytes()
+    assert list(read_places(path)) == ["first", "second"] and path.read_bytes() == before
+    with path.open("ab", buffering=0) as stream:
+        add_line(stream, "third", {"slip": 0.2})
+    assert list(read_places(path)) == ["first", "second", "third"]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        '{"key": "second", "numbers": {"slip": NaN}}',
+        '{"key": "second", "numbers": {"slip": 1e999}}',
+        '{"key": "second", "numbers": [1]}',
+        '{"key": 2, "numbers": {}}',
+        '{"key": "second", "numbers": {}, "tum": "0123456789abcdef"}',
+    ],
+)
+def test_a_line_without_a_checksum_that_no_version_has_written_is_taken_out(tmp_path: Path, line: str) -> None:
+    path = tmp_path / "jobs.jsonl"
+    path.write_text('{"key": "first", "numbers": {}}\n' + line + "\n")
+    with pytest.warns(SlipwiseWarning, match="1 of its lines were damaged"):
+        assert list(read_places(path)) == ["first"]

@@ -23,7 +23,7 @@ from slipwise.cli import (
     workbench,
 )
 from slipwise.cli.endings import run_to_its_end
-from slipwise.view.matplotlib_folder import give_matplotlib_a_folder
+from slipwise.view.matplotlib_folder import give_matplotlib_a_folder, pass_over_a_matplotlibrc_here
 
 app = typer.Typer(
     name="slipwise",
@@ -71,4 +71,5 @@ def main() -> None:
 
 def _command() -> object:
     give_matplotlib_a_folder()
+    pass_over_a_matplotlibrc_here()
     return app(standalone_mode=False)

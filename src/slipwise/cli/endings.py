@@ -5,7 +5,9 @@ an object that holds `error`; 128 + n ended by the signal n: 130 by Ctrl-C, 143 
 """
 
 import json
+import os
 import sys
+import tempfile
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
@@ -19,6 +21,7 @@ from slipwise.view.patient_console import to_nobody, write_out
 
 #: What the system says and a user can mend; any other error of the system is one of ours.
 _OF_THE_MACHINE = FULL | {EACCES, EIO, EMFILE, ENOMEM, EPERM, EROFS}
+_MEMORY = "/dev/shm"
 
 
 def run_to_its_end(command: Callable[[], object]) -> int:
@@ -62,11 +65,24 @@ def _said(command: Callable[[], object]) -> int:
     except MemoryError:
         return _refused("out of memory; close other programs, or keep to one core with `taskset -c 0 slipwise ...`")
     except OSError as error:
+        if error.filename is None and (lacking := _lacking_folder()):
+            return _refused(lacking)
         if error.errno not in _OF_THE_MACHINE:
             raise
         to_nobody(sys.stdout)  # it may be what cannot be written, and is written again at the exit
         return _refused(str(cannot_write(error.filename or "the output", error)))
     return code if isinstance(code, int) else 0
+
+
+def _lacking_folder() -> str:
+    """Say which folder this program and its libraries need and cannot write to, or nothing."""
+    try:
+        tempfile.gettempdir()
+    except FileNotFoundError:
+        return "there is no folder for temporary files, which are needed for this; TMPDIR=FOLDER names one"
+    if sys.platform == "linux" and not os.access(_MEMORY, os.W_OK):
+        return f"{_MEMORY}, through which processes share memory, cannot be written to; take one process (--workers 1)"
+    return ""
 
 
 def _refused(words: str) -> int:

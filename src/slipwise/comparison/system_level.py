@@ -20,6 +20,7 @@ from slipwise.campaign import States
 from slipwise.channels import channels_like
 from slipwise.comparison.measured_replay import SystemRun, replay_runs
 from slipwise.effects import base_effects
+from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.run_data import FitRun
 from slipwise.model import Model, use
@@ -178,7 +179,7 @@ def system_level(
         progress: called with the fraction done.
 
     Raises:
-        InputError: table_ax was not recorded.
+        InputError: table_ax was not recorded, or no channel was measured where a replay can be judged.
     """
     tell = progress or (lambda _: None)
     model, notes = replayed_model(base)
@@ -208,6 +209,8 @@ def system_level(
                     rms / max(size, 1e-300),
                 )
             )  # fmt: skip
+    if not errors:
+        raise InputError("the runs are too short: no sample of a replay can be held against what was measured")
     return SystemLevel(model, tuple(main), tuple(errors), DT, notes)
 
 

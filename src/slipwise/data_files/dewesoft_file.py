@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from slipwise.child_processes import on_a_safe_path
 from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges
 from slipwise.errors import InputError
 
@@ -29,9 +30,9 @@ def read_dewesoft(path: Path) -> NamedColumns:
         )
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder)
-        # -P: nothing that lies in the folder of the campaign is imported
-        command = [sys.executable, "-P", "-m", "slipwise.data_files.dewesoft_channels", str(path.resolve()), folder]
-        ended = subprocess.run(command, capture_output=True, text=True)
+        command = [sys.executable, "-m", "slipwise.data_files.dewesoft_channels", str(path.resolve()), folder]
+        with on_a_safe_path():
+            ended = subprocess.run(command, capture_output=True, text=True)
         if ended.returncode > 0:
             last = (ended.stderr.strip().splitlines() or ["no reason given"])[-1][:160]
             raise InputError(

@@ -1,6 +1,6 @@
 """The base fit: the user's model with its own parameters and the rig's numbers, nothing missing added."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -8,6 +8,7 @@ import numpy as np
 from slipwise.campaign import Campaign, Logger
 from slipwise.campaign.scales import Scales, scales_of
 from slipwise.effects import catalogue, holding, scaled
+from slipwise.errors import InputError
 from slipwise.estimation.gauge_zero import free_zero
 from slipwise.estimation.least_squares import Solution, jacobian, slopes_of, solve
 from slipwise.estimation.parameters import (
@@ -22,7 +23,7 @@ from slipwise.estimation.parameters import (
     terms_of,
 )
 from slipwise.estimation.problem import Problem
-from slipwise.estimation.run_data import fit_runs
+from slipwise.estimation.run_data import FitRun, fit_runs
 from slipwise.instruments.logger_spectrum import estimate_logger
 from slipwise.instruments.repairs import InvalidSamples
 from slipwise.model import Model, base_model, use_of
@@ -81,12 +82,37 @@ def fit_base(
         watch: called before every evaluation; what it raises ends the fit.
 
     Raises:
-        InputError: a run lacks what every fit needs.
+        InputError: a run lacks what every fit needs, or the runs are too short for one.
     """
     model = scaled_model(model or base_model(campaign.specimen), scales_of(campaign), typical=model is None)
     campaign, start = with_logger(campaign, model, invalid)
     problem = Problem(fit_runs(campaign, invalid), model.specimen, terms_of(model), watch=watch)
+    _refuse_too_short(problem, free_numbers(campaign, model, problem))
     return _fitted(campaign, model, problem, start)
+
+
+def _refuse_too_short(problem: Problem, free: Sequence[Free]) -> None:
+    """Refuse runs that do not hold as many samples as there are numbers to fit, and those of which none counts.
+
+    Raises:
+        InputError: there are too few samples by which a law can be judged.
+    """
+    reason = "samples near the ends of a run, in a gap and where a pad lifts do not count"
+    for run in problem.runs:
+        if not run.states.usable.any():
+            raise InputError(f"{run.name}: a law can be judged by no sample of it: {reason}; leave this run out")
+    judged = sum(_judged_samples(problem, problem.runs[i]) for i in problem.fitted)
+    if judged < len(free):
+        raise InputError(
+            f"{len(free)} numbers are to be fitted, and a law can be judged by {judged} samples of the runs that are "
+            f"not held out: {reason}; give longer runs"
+        )
+
+
+def _judged_samples(problem: Problem, run: FitRun) -> int:
+    """Count the samples of a run by which at least one relation is judged."""
+    masks = [run.judged[relation].reshape(len(run.time), -1).any(axis=1) for relation in problem.relations]
+    return int(np.count_nonzero(np.any(masks, axis=0)))
 
 
 def with_logger(

@@ -4,7 +4,7 @@ import os
 from hashlib import sha256
 from pathlib import Path
 
-from slipwise.cache import cache_folder
+from slipwise.cache import sessions_folder
 
 #: Folder of a session beside the files of its campaign.
 BESIDE = ".slipwise"
@@ -15,12 +15,15 @@ def session_folder(campaign: Path) -> Path:
 
     Args:
         campaign: folder of the campaign.
+
+    Raises:
+        OutputError: neither is a place for it.
     """
     folder = campaign.resolve()
     beside = folder / BESIDE
     if os.access(folder, os.W_OK) and not is_foreign(beside):
         return beside
-    return cache_folder() / "sessions" / f"{folder.name}-{sha256(str(folder).encode()).hexdigest()[:12]}"
+    return sessions_folder() / f"{folder.name}-{sha256(str(folder).encode()).hexdigest()[:12]}"
 
 
 def snapshot_file(campaign: Path) -> Path:

@@ -1,7 +1,9 @@
-"""The folder in which matplotlib keeps its list of fonts, where it has none of its own."""
+"""Where matplotlib reads and keeps files: not in the current folder, and where it can write."""
 
 import os
 import sys
+from contextlib import chdir
+from importlib import import_module
 from pathlib import Path
 
 from slipwise.cache import code_folders
@@ -18,6 +20,16 @@ def give_matplotlib_a_folder() -> None:
         return
     for folder in code_folders()[:1]:
         os.environ["MPLCONFIGDIR"] = str(folder / "matplotlib")
+
+
+def pass_over_a_matplotlibrc_here() -> None:
+    """Keep matplotlib from reading a matplotlibrc of the current folder, which no setting of its own prevents.
+
+    It may come from a stranger, and where it is damaged nothing can be drawn. To be called before it is imported.
+    """
+    if os.path.lexists("matplotlibrc"):
+        with chdir(Path(__file__).parent):
+            import_module("matplotlib")
 
 
 def _can_be_written(place: tuple[str, str]) -> bool:

@@ -60,3 +60,26 @@ def test_all_that_compiles_works_without_a_home_and_says_at_most_one_line_of_the
         assert done.returncode == 0, done.stderr
         assert done.stderr.count("compiled code") <= 1 and "Traceback" not in done.stderr
     assert {path.name for path in tmp_path.iterdir()} == {"a.png", "replay", "ensemble", "temporary"}
+
+
+@pytest.mark.parametrize("settings", [b"figure.dpi: 20\ntext.usetex: True\n", b"figure.dpi: 20 # \xe9\xff\n"])
+def test_a_matplotlibrc_of_the_current_folder_is_not_read(settings: bytes, campaign: Path, tmp_path: Path) -> None:
+    picture = tmp_path / "a.png"
+    assert run("effects heating --picture {out}/a.png", campaign, tmp_path, {}).returncode == 0
+    without = picture.read_bytes()
+    picture.unlink()
+    (tmp_path / "matplotlibrc").write_bytes(settings)
+    done = run("effects heating --picture {out}/a.png", campaign, tmp_path, {})
+    assert done.returncode == 0, done.stderr
+    assert picture.read_bytes() == without and "matplotlibrc" not in done.stderr
+
+
+@pytest.mark.skipif(not hasattr(os, "getuid") or os.getuid() != 0, reason="only root mounts a disk of its own")
+def test_a_picture_without_any_folder_for_temporary_files_is_refused_with_what_to_do(tmp_path: Path) -> None:
+    mounts = "for place in /tmp /var/tmp /dev/shm; do mount -t tmpfs -o ro tmpfs $place || exit 99; done; cd /proc; "
+    program = f"{mounts} exec {sys.executable} -P -m slipwise effects heating --picture /proc/a.png"
+    bare = {"PATH": os.environ["PATH"], "HOME": "/proc", "LANG": "C"}
+    done = subprocess.run(["unshare", "-m", "sh", "-c", program], env=bare, capture_output=True, text=True)
+    if done.returncode == 99 or "unshare" in done.stderr:
+        pytest.skip(f"a namespace cannot be made here: {done.stderr.strip()[-200:]}")
+    assert done.returncode == 2 and "TMPDIR=FOLDER names one" in done.stderr and "Traceback" not in done.stderr

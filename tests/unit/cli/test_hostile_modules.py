@@ -98,6 +98,16 @@ def test_a_command_that_starts_processes_runs_no_module_of_the_current_folder(fo
     assert "Traceback" not in said and code == {"ens": 0, "vie": 2, "wor": 143}[words[:3]], said
 
 
+def test_python_m_runs_no_module_of_the_current_folder_beside_those_that_start_it(folder: Path) -> None:
+    # without -P Python looks here for slipwise itself, and for warnings and contextlib, before anything of ours is run
+    (folder / "slipwise.py").unlink()
+    (folder / "typing.py").write_text(TWIN)
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONSAFEPATH"}
+    command = [sys.executable, "-m", "slipwise", "channels"]
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
+    assert were_run(folder) == [] and done.returncode == 0, done.stderr
+
+
 @pytest.mark.long
 def test_no_command_runs_a_module_of_the_current_folder(folder: Path) -> None:
     ended = {words: run(words, folder) for words in OTHERS}

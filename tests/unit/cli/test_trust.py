@@ -1,7 +1,9 @@
 """Code beside a campaign is run only where the command says so; names from files cannot steer a terminal or a page."""
 
+import py_compile
 import re
 import shutil
+from importlib.util import cache_from_source
 from pathlib import Path
 
 import pytest
@@ -52,6 +54,19 @@ def test_the_flags_that_the_refusal_names_let_it_run(slipwise, folder, tmp_path,
     assert named
     code, _, _ = slipwise(*plain, *(("--trust",) if flag == "--trust" else ("--effect", named[1])))
     assert code == 0 and (folder / "CODE_RAN").exists()
+
+
+def test_what_lies_in_a_pycache_beside_an_effect_file_is_not_run(folder):
+    marked, plain = folder / "marked.py", folder / "mine.py"
+    shutil.copy(plain, marked)
+    plain.write_text(plain.read_text().removesuffix(f"\n{RAN}"))
+    # Python's own import takes such a file without a look at the one that a person reads
+    unchecked = py_compile.PycInvalidationMode.UNCHECKED_HASH
+    py_compile.compile(str(marked), cache_from_source(plain), str(plain), invalidation_mode=unchecked)
+    load_model(folder / "model.toml", trust=[plain])
+    assert not (folder / "CODE_RAN").exists()
+    load_model(folder / "model.toml", trust=[shutil.move(marked, plain)])
+    assert (folder / "CODE_RAN").exists()
 
 
 def test_trust_in_one_file_is_none_in_another(folder):

@@ -204,7 +204,7 @@ def test_what_stands_in_the_folder_s_place_is_refused_with_its_name(folder, kind
 
 
 def test_a_session_of_another_user_is_left_alone_and_a_new_one_kept_elsewhere(kept, monkeypatch, tmp_path, whole):
-    monkeypatch.setenv("SLIPWISE_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr("slipwise.session.place.sessions_folder", lambda: tmp_path / "cache")
     monkeypatch.setattr(os, "getuid", lambda: kept.stat().st_uid + 1)
     monkeypatch.setattr("slipwise.session.own_files.is_foreign", lambda path: False)  # of what is made here
     monkeypatch.setattr("slipwise.session.own_files._check", lambda path, found: None)

@@ -3,13 +3,14 @@
 import json
 import os
 import signal
+import stat
 import subprocess
 import sys
 
 import pytest
 
 from session_campaign import MISSING
-from slipwise.errors import InputError, SlipwiseWarning
+from slipwise.errors import InputError, OutputError, SlipwiseWarning
 from slipwise.session.session import Session
 
 
@@ -119,6 +120,33 @@ def test_a_folder_that_may_not_be_written_has_its_session_in_the_cache(folder, m
     session = Session(folder)
     assert session.store.folder.is_relative_to(tmp_path / "cache") and not (folder / ".slipwise").exists()
     session.close()
+    assert {stat.S_IMODE(p.stat().st_mode) for p in (session.store.folder, session.store.folder.parent)} == {0o700}
+
+
+def test_sessions_that_stood_open_in_the_cache_are_closed_to_others_and_kept(folder, monkeypatch, tmp_path):
+    monkeypatch.setenv("SLIPWISE_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr(os, "access", lambda path, mode: False)
+    (tmp_path / "cache" / "sessions").mkdir(parents=True)
+    (tmp_path / "cache" / "sessions" / "kept").write_text("of another campaign")
+    (tmp_path / "cache" / "sessions").chmod(0o755)
+    Session(folder).close()
+    assert stat.S_IMODE((tmp_path / "cache" / "sessions").stat().st_mode) == 0o700
+    assert (tmp_path / "cache" / "sessions" / "kept").exists()
+
+
+@pytest.mark.skipif(not hasattr(os, "getuid") or os.getuid() != 0, reason="only root gives files away")
+def test_a_cache_of_another_user_holds_no_session(folder, monkeypatch, tmp_path):
+    monkeypatch.setenv("SLIPWISE_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    monkeypatch.setattr(os, "access", lambda path, mode: False)
+    (tmp_path / "cache").mkdir(mode=0o700)
+    os.chown(tmp_path / "cache", 12345, -1)
+    session = Session(folder)
+    assert session.store.folder.is_relative_to(tmp_path / f"slipwise-{os.getuid()}")
+    session.close()
+    os.chown(tmp_path / f"slipwise-{os.getuid()}" / "sessions", 12345, -1)
+    with pytest.raises(OutputError, match="no session is kept there, for .*cache is somebody else's; SLIPWISE_CACHE="):
+        Session(folder)
 
 
 def test_a_folder_that_is_not_there_is_no_campaign_and_is_not_made(folder):

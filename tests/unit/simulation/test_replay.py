@@ -1,6 +1,7 @@
 """The replay as a user meets it: settings, provenance, summary, and what it refuses."""
 
 import json
+from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -109,3 +110,9 @@ def test_progress_goes_from_nothing_to_all():
     assert seen == sorted(seen)
     assert seen[-1] == 1.0
     assert len(seen) > 2
+
+
+def test_buffers_too_stiff_for_any_step_end_the_replay_with_a_reason():
+    specimen = base_model("bridge1").specimen.changed(buffer_stiffness=1e15)  # 1e9 kN/mm
+    with pytest.raises(SimulationDiverged, match="MuJoCo warned that .* grew beyond all bounds"):
+        replay(replace(base_model("bridge1"), specimen=specimen), load_motion("sine:2Hz,0.3g,cycles=9"))
