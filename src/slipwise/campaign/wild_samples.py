@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from slipwise.channels import channel
 from slipwise.errors import SlipwiseWarning
 from slipwise.rig import Specimen
-from slipwise.signals.short_bursts import short_bursts, stretches
+from slipwise.signals.short_bursts import bridged, short_bursts, stretches
 from slipwise.units import convert
 
 if TYPE_CHECKING:
@@ -28,8 +28,8 @@ Mask = NDArray[np.bool_]
 FAULTY = 0.02
 #: A burst is motion where the rest of a balance leaves less than this share of it unexplained [1].
 _UNEXPLAINED = 0.5
-#: Bursts of a channel that are named one by one; good samples to either side that a bridge is fitted to.
-_NAMED, _BESIDE = 3, 12
+#: Bursts of a channel that are named one by one.
+_NAMED = 3
 
 
 @dataclass(frozen=True)
@@ -82,16 +82,29 @@ def without_wild_samples(
         channels: of one record, each (n,), SI; values that are missing stay so.
         specimen: whose girder ties the channels together.
     """
-    out, wild = dict(channels), []
-    for name, values in channels.items():
-        bad = short_bursts(values)
-        for start, end in stretches(bad):
+    bad = not_motion({name: short_bursts(values) for name, values in channels.items()}, channels, specimen)
+    bridges = {name: bridged(channels[name], marks) for name, marks in bad.items()}
+    wild = (WildSamples(name, marks, time[marks], channels[name][marks]) for name, marks in bad.items())
+    return {**channels, **bridges}, tuple(wild)
+
+
+def not_motion(bursts: Mapping[str, Mask], channels: Mapping[str, Array], specimen: Specimen) -> dict[str, Mask]:
+    """Give the bursts that no balance confirms as a motion of the girder; channels without any are left out.
+
+    Args:
+        bursts: channel -> its samples (n,) that stand out.
+        channels: of one record, each (n,), SI.
+        specimen: whose girder ties the channels together.
+    """
+    out = {}
+    for name, found in bursts.items():
+        bad = found.copy()
+        for start, end in stretches(found):
             if _is_motion(name, slice(start, end), channels, specimen):
                 bad[start:end] = False
         if bad.any():
-            out[name] = bridged(values, bad)
-            wild.append(WildSamples(name, bad, time[bad], values[bad]))
-    return out, tuple(wild)
+            out[name] = bad
+    return out
 
 
 def inherited(wild: Sequence[WildSamples], name: str, sources: Sequence[str]) -> tuple[WildSamples, ...]:
@@ -140,22 +153,6 @@ def faulty_share(runs: "Sequence[Run]", name: str) -> float:
     """Give the share of wild samples in a channel over the runs that have it [1]."""
     count = sum(len(run.record) for run in runs if name in run.record)
     return sum(len(one.times) for run in runs for one in run.wild if one.channel == name) / max(count, 1)
-
-
-def bridged(values: Array, bad: Mask) -> Array:
-    """Give the values (n,) with each bad stretch on the cubic that fits its neighbours; at an end on the next one."""
-    good = np.flatnonzero(~bad)
-    out = np.where(bad, np.interp(np.arange(len(values)), good, values[good]), values)
-    for start, end in stretches(bad):
-        at = int(np.searchsorted(good, start))
-        before, after = good[max(at - _BESIDE, 0) : at], good[at : at + _BESIDE]
-        if min(len(before), len(after)) < _BESIDE:
-            continue
-        beside = np.concatenate([before, after])
-        middle = 0.5 * (start + end - 1)
-        cubic = np.polynomial.polynomial.polyfit(beside - middle, values[beside], 3)
-        out[start:end] = np.polynomial.polynomial.polyval(np.arange(start, end) - middle, cubic)
-    return out
 
 
 def _is_motion(name: str, burst: slice, channels: Mapping[str, Array], specimen: Specimen) -> bool:

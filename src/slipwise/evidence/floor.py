@@ -23,6 +23,7 @@ from slipwise.errors import SettingError
 from slipwise.record import Record
 from slipwise.signals.derivative import derivative
 from slipwise.signals.noise import quantum, white_level
+from slipwise.signals.outliers import outliers
 from slipwise.statistics.effective_samples import correlation_sum
 
 Array = NDArray[np.float64]
@@ -225,6 +226,8 @@ def _pure_error(name: str, pairs: Sequence[tuple[States, States]], changes: dict
         count = min(len(one.time), len(other.time))
         first, second = one.record[name][:count], other.record[name][:count]
         usable = one.usable[:count] & other.usable[:count]
+        for states in (one, other):
+            usable &= ~outliers(states.record[name])[:count]
         mean = 0.5 * (first + second)
         columns = np.stack([mean, derivative(mean, one.dt), np.ones(count)], axis=1)
         difference = second - first

@@ -53,7 +53,7 @@ def audit(campaign: Campaign, own: Iterable[Effect] = ()) -> AuditReport:
         return AuditReport(campaign.name, (), (), (), {}, None, (NOTHING_MAPPED,))
     samples = sample_faults(campaign)
     records, left_out = for_balances(campaign, samples)
-    clean = campaign.with_records(records, "wrong signs turned back, bad samples left out") if samples else campaign
+    clean = campaign.with_records(records, "wrong signs turned back, bad samples and outliers left out")
     runs, band = prepare_runs(clean, left_out)
     allowed, cannot = relations(runs[0].record, campaign.specimen)
     noise = noise_of_runs(runs, noise_of_channels(clean, runs, band), band)

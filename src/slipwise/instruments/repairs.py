@@ -16,6 +16,7 @@ from slipwise.campaign.aligned import spread
 from slipwise.campaign.wild_samples import WildSamples
 from slipwise.channels import VELOCITY_CHANNELS
 from slipwise.instruments.lags import in_step, without_partner
+from slipwise.instruments.outliers import without_outliers
 from slipwise.instruments.sample_faults import RAILS, SampleFault
 from slipwise.record import Record
 
@@ -35,8 +36,8 @@ def for_balances(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[dic
     """Give records in which bad samples do no harm to the balances, and the samples to leave out, by run.
 
     Wrong signs are reversed, units and zeros put right, repeated samples bridged; around rails, gaps and wild samples
-    rows are left out; a channel that is dead or wild throughout, or has lost samples and so its place in time, is
-    taken out.
+    rows are left out; outliers are bridged; a channel that is dead or wild throughout, or has lost samples and so its
+    place in time, is taken out.
     """
     records, out = {}, {}
     for run in campaign.runs:
@@ -58,7 +59,8 @@ def for_balances(campaign: Campaign, faults: Sequence[SampleFault]) -> tuple[dic
                 for name in fault.channels:
                     channels.pop(name, None)
         reach = max(int(_AROUND / run.record.dt), 1)
-        records[run.name] = Record(run.record.time, channels, run.record.provenance)
+        record = Record(run.record.time, channels, run.record.provenance)
+        records[run.name] = without_outliers(record, campaign.specimen)
         out[run.name] = spread(leave, reach, reach) if leave.any() else leave
     return records, out
 

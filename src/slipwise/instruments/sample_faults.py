@@ -13,6 +13,7 @@ from slipwise.channels import pads_in
 from slipwise.instruments.lags import in_step_campaign
 from slipwise.instruments.late_cells import late_cells
 from slipwise.instruments.late_motion import late_motion
+from slipwise.instruments.outliers import campaign_without_outliers
 from slipwise.instruments.rounding import NEAR, chance_of_equal, coarse
 from slipwise.instruments.signs import with_signs, wrong_signs
 from slipwise.instruments.wrong_units import in_right_units, wrong_units
@@ -70,16 +71,19 @@ class SampleFault:
 def sample_faults(campaign: Campaign) -> list[SampleFault]:
     """Look for late loggers, wrong signs and units, zeros that are far off and bad samples in every channel and run.
 
-    Cells are looked at with the gauges of the motion in step, and all else with the cells in step too.
+    Cells are looked at with the gauges of the motion in step, and all else with the cells in step too. Lags, signs,
+    units and zeros are told from records without outliers.
     """
-    late = [one for one in (late_motion(campaign),) if one is not None]
-    campaign = in_step_campaign(campaign, late)
-    cells = [one for one in (late_cells(campaign),) if one is not None]
-    campaign = in_step_campaign(campaign, cells)
+    steady = campaign_without_outliers(campaign)
+    late = [one for one in (late_motion(steady),) if one is not None]
+    steady = in_step_campaign(steady, late)
+    cells = [one for one in (late_cells(steady),) if one is not None]
+    steady = in_step_campaign(steady, cells)
     every = tuple(run.name for run in campaign.runs)
-    units = wrong_units(with_signs(campaign, wrong_signs(campaign, tared_cells(campaign))))
-    campaign = in_right_units(campaign, units)
-    found = [*_turned(campaign), *_shifted(campaign)]
+    units = wrong_units(with_signs(steady, wrong_signs(steady, tared_cells(steady))))
+    steady = in_right_units(steady, units)
+    campaign = in_right_units(in_step_campaign(campaign, (*late, *cells)), units)
+    found = [*_turned(steady), *_shifted(steady)]
     found += [SampleFault("scaled", one.channels, one.factor, {}, every) for one in units]
     found += [SampleFault("late", one.channels, one.delay, {}, every) for one in (*late, *cells)]
     names = list(dict.fromkeys(name for run in campaign.runs for name in run.record.channels))

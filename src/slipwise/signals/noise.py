@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy.signal import periodogram
 
 from slipwise.signals.ends import Array
+from slipwise.signals.outliers import without_outliers
 
 #: Part of the band below half the sampling rate that is taken as signal-free [1].
 _TOP = (0.8, 0.98)
@@ -44,7 +45,8 @@ class Noise:
 def white_level(values: Array) -> float:
     """Give the standard deviation of white noise (one sample) from the top of the spectrum.
 
-    The median of the periodogram over 0.8 to 0.98 of half the sampling rate, so that hum lines do not count.
+    The median of the periodogram over 0.8 to 0.98 of half the sampling rate, so that hum lines do not count; a single
+    glitch is as strong at every frequency, and is bridged before.
 
     Args:
         values: (n,), n >= 32; fewer samples fall back to third differences.
@@ -55,7 +57,7 @@ def white_level(values: Array) -> float:
     if len(finite) < 128:
         # third differences: sum of squared binomials 1, 3, 3, 1 is 20 (Rice 1984, Gasser, Sroka, Jennen-Steinmetz 1986)
         return float(np.sqrt(np.mean(np.diff(finite, 3) ** 2) / 20.0))
-    frequency, power = periodogram(finite, fs=2.0, window="hann", detrend="linear")
+    frequency, power = periodogram(without_outliers(finite), fs=2.0, window="hann", detrend="linear")
     top = power[(frequency > _TOP[0]) & (frequency < _TOP[1])]
     # one-sided density over a band of width 1; the median of an exponential variable is ln 2 times its mean
     return float(np.sqrt(np.median(top) / np.log(2.0)))

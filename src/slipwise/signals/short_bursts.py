@@ -13,7 +13,7 @@ from scipy.ndimage import maximum_filter1d, minimum_filter1d
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 #: A burst has at most so many samples, and a record to be searched at least so many.
-LONGEST, _LEAST = 20, 64
+LONGEST, LEAST = 20, 64
 #: The range that is grown from holds this share of the samples [1]: bursts are fewer than what is left out.
 _INNER = 0.9
 #: A burst stands out of its surroundings by more than this many ranges of all other samples, and begins and ends with
@@ -25,6 +25,8 @@ _ABRUPT = 0.4
 #: A spike has at most so many samples, and stands out by that many times more than any other spike of the channel [1].
 #: The largest spike of measured and simulated channels is at most 3 times the next.
 _SPIKE, _ALONE = 2, 4.0
+#: Good samples to either side of a burst that its bridge is fitted to.
+_BESIDE = 12
 #: Neighbouring second differences of noise have opposite signs more often than this [1]; a smooth motion without noise
 #: may show a single cusp.
 _NOISE = 0.5
@@ -41,7 +43,7 @@ def short_bursts(values: Array) -> Mask:
     """
     there = np.isfinite(values)
     found = np.zeros(len(values), dtype=bool)
-    if np.count_nonzero(there) < _LEAST:
+    if np.count_nonzero(there) < LEAST:
         return found
     known = values[there]
     burst = _bursts(known)
@@ -64,18 +66,18 @@ def _bursts(values: Array) -> Mask:
     beyond = 2 * LONGEST + 1
     ends = (float(np.median(values[:beyond])), float(np.median(values[-beyond:])))
     longer = np.pad(values, beyond, constant_values=(ends,))  # so that a burst at an end stands out too
-    height = _height(longer, LONGEST)[beyond:-beyond]
+    above = height(longer, LONGEST)[beyond:-beyond]
     low, high = (float(q) for q in np.quantile(values, (0.5 - 0.5 * _INNER, 0.5 + 0.5 * _INNER)))
     span = -1.0
     while high - low > span:  # the range grows by all that stands no higher than it allows, until nothing is added
         span = high - low
-        ordinary = values[height <= _HEIGHT * span]
+        ordinary = values[above <= _HEIGHT * span]
         low, high = min(low, float(ordinary.min(initial=low))), max(high, float(ordinary.max(initial=high)))
     kept = np.zeros(len(values), dtype=bool)
     if span == 0.0:
         return kept
     outside = (values < low) | (values > high)  # what lies between two bursts seems to stand out the other way
-    for start, end in stretches((height > _HEIGHT * span) & outside):
+    for start, end in stretches((above > _HEIGHT * span) & outside):
         with_neighbours = longer[start + beyond - 1 : end + beyond + 1]
         if end - start <= LONGEST and _is_abrupt(with_neighbours, _STEP * span):
             kept[start:end] = True
@@ -84,27 +86,27 @@ def _bursts(values: Array) -> Mask:
 
 def _spikes(values: Array) -> Mask:
     """Find samples that stand out of their neighbours far more than noise lets any other do, of a pair the larger."""
-    height = _height(np.pad(values, LONGEST, mode="edge"), _SPIKE)[LONGEST:-LONGEST]
+    above = height(np.pad(values, LONGEST, mode="edge"), _SPIKE)[LONGEST:-LONGEST]
     bend = np.convolve(values, (-0.5, 1.0, -0.5), mode="valid")
     if np.mean(bend[1:] * bend[:-1] < 0.0) <= _NOISE:
         return np.zeros(len(values), dtype=bool)
     # on a slope nothing stands out: there second differences show the noise
-    largest = max(float(np.quantile(height, _INNER)), float(np.quantile(np.abs(bend), _INNER)))
+    largest = max(float(np.quantile(above, _INNER)), float(np.quantile(np.abs(bend), _INNER)))
     before = -1.0
     while largest > before:
         before = largest
-        largest = float(height[height <= _ALONE * largest].max(initial=largest))
+        largest = float(above[above <= _ALONE * largest].max(initial=largest))
     spikes = np.zeros(len(values), dtype=bool)
     steps = np.pad(np.abs(np.diff(values)), 2)  # from sample i - 2 to the next at i
-    for start, end in stretches(height > _ALONE * largest):
+    for start, end in stretches(above > _ALONE * largest):
         # a pulse is as steep beside its top, and a motion that turns back at once beside its corner
         beside = max(steps[start], steps[end + 2])
-        top = start + int(np.argmax(height[start:end]))
-        spikes[top] = height[top] > _ALONE * beside
+        top = start + int(np.argmax(above[start:end]))
+        spikes[top] = above[top] > _ALONE * beside
     return spikes
 
 
-def _height(values: Array, longest: int) -> Array:
+def height(values: Array, longest: int) -> Array:
     """Give how far each sample stands above or below all that lasts longer than so many, (n,): its two top-hats."""
     size = longest + 1
     back = -1 if size % 2 == 0 else 0  # a window of even length is not centred: the second one makes up for the first
@@ -123,3 +125,19 @@ def stretches(mask: Mask) -> list[tuple[int, int]]:
     """Give first sample and the one after the last of every stretch of true samples."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(int)))
     return [(int(start), int(end)) for start, end in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def bridged(values: Array, bad: Mask) -> Array:
+    """Give the values (n,) with each bad stretch on the cubic that fits its neighbours; at an end on the next one."""
+    good = np.flatnonzero(~bad & np.isfinite(values))
+    out = np.where(bad, np.interp(np.arange(len(values)), good, values[good]), values)
+    for start, end in stretches(bad):
+        at = int(np.searchsorted(good, start))
+        before, after = good[max(at - _BESIDE, 0) : at], good[at : at + _BESIDE]
+        if min(len(before), len(after)) < _BESIDE:
+            continue
+        beside = np.concatenate([before, after])
+        middle = 0.5 * (start + end - 1)
+        cubic = np.polynomial.polynomial.polyfit(beside - middle, values[beside], 3)
+        out[start:end] = np.polynomial.polynomial.polyval(np.arange(start, end) - middle, cubic)
+    return out
