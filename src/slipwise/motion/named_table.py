@@ -10,12 +10,13 @@ from slipwise.data_files.acceleration_unit import is_acceleration
 from slipwise.data_files.column_names import name_and_unit
 from slipwise.data_files.statements import read_statements
 from slipwise.data_files.table import Table, open_table
-from slipwise.data_files.text_file import TextLayout, columns_of_text, layout_of
+from slipwise.data_files.text_file import BLANKS, TextLayout, columns_of_text, layout_of
+from slipwise.data_files.words import folded, words
 from slipwise.errors import InputError
 from slipwise.motion.column_kind import is_column_word, is_time_word
 from slipwise.motion.column_traces import ColumnTable
 from slipwise.motion.rows import COMMENT_SIGNS
-from slipwise.motion.source_file import SourceFile
+from slipwise.motion.source_file import SourceFile, is_number
 from slipwise.motion.time_column import last_digit
 
 #: Lines in which the names of the columns must stand.
@@ -38,7 +39,7 @@ def text_table(source: SourceFile) -> ColumnTable | None:
     # Two words above two columns may as well be a title: names without units must be known ones.
     named = any(units) or all(map(is_column_word, names)) or is_time_word(names[0])
     half = len(names) // 2
-    if not named or (half > 1 and names == names[:2] * half):
+    if not named or (half > 1 and names == names[:2] * half) or _is_prose(layout, names, units):
         return None
     last = _last_row(source, layout)
     text = "\n".join(source.lines[: last + 1])
@@ -121,6 +122,20 @@ def _name_and_unit(header: str) -> tuple[str, str]:
     if found.kind in ("time", "acceleration") and found.unit not in ("?", "") and found.name != header.strip():
         return found.name, found.unit
     return header.strip(), "" if not is_acceleration(header) or len(header.strip()) < 2 else header.strip()
+
+
+def _is_prose(layout: TextLayout, names: Sequence[str], units: Sequence[str]) -> bool:
+    """Tell a sentence that happens to have as many words as there are columns from names that blanks separate."""
+    if layout.delimiter != BLANKS:
+        return False
+    links = re.compile(words().links, re.IGNORECASE)
+    in_sentences = any(
+        name.endswith((",", ";", ":", "=")) or is_number(name) or (len(name) > 1 and links.fullmatch(folded(name)))
+        for name in names
+    )
+    # Among names a unit stands in brackets, or every column has one.
+    loose = not all(units) and any(unit and unit == name for name, unit in zip(names, units, strict=True))
+    return in_sentences or loose
 
 
 def _last_row(source: SourceFile, layout: TextLayout) -> int:

@@ -121,7 +121,8 @@ def _refuse_damaged_first_row(source: SourceFile, start: int, columns: int) -> N
     delimiter = delimiter_of(source.lines[start])
     fields = source.lines[start - 1].strip().split(None if delimiter == " " else delimiter)
     numeric = [is_number(field.strip()) for field in fields]
-    if len(fields) == columns and any(numeric) and not all(numeric):
+    # A sentence may have as many words, and a year among them.
+    if len(fields) == columns and 2 * sum(numeric) >= columns and not all(numeric):
         number(fields[numeric.index(False)], source.at(start - 1))
 
 

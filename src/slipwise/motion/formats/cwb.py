@@ -54,8 +54,8 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
     station = field("StationCode", r"(\S+)")[0][1]
     origin = Origin(
         station=station,
-        event=field(r"Origin Time\(GMT\+08\)", r"(.*\S)")[0][1],
-        start=time_in(field(r"StartTime\(GMT\+08\)", r"(.*\S)")[0][1]),
+        event=field("Origin Time(GMT+08)", r"(.*\S)")[0][1],
+        start=time_in(field("StartTime(GMT+08)", r"(.*\S)")[0][1]),
     )
     traces = []
     for column, (name, sign) in enumerate(names, 1):
