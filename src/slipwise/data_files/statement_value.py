@@ -19,6 +19,8 @@ _INNER = re.compile(
     r"(?:_(?P<tail>[A-Za-z][\w/^]*))?\"?(?:[.\s]*[(\[](?P<inner>[^)\]]*)[)\]]|\s+(?:in|en|em)\s+(?P<said>[^\s:=]+)(?=\s*[:=]))?"
 )
 _SIGN = re.compile(r"\"?\s*(?:[:=]+|\t|;|->|\|)[\s\"'=]*")
+#: A line of key and value in a table of commas: "fs,50", "Interval;20;ms".
+_ALONE = re.compile(rf"\"?\s*[,;]\s*\"?(?={NUMBER}\"?\s*(?:[,;][^,;\d]*)?[,;\s]*$)")
 _WHOLE = re.compile(r"\d{1,3}(?:[,']\d{3})+(?![\d.])|\d+(?:\.0*)?(?![\d.])")
 _UNIT = re.compile(r"\s*[(\[]?\s*([^\s,;:()\[\]=\"\d][^\s,;:()\[\]=\"]*)")
 #: "Acceleration in g", "Ground Accel. (g)", "acceleration m/s2", "ivme g cinsinden": the unit of the values below.
@@ -72,7 +74,7 @@ class StatementValue:
         between = re.compile(rf"(?:[\s,\"']|\.(?!\d))*(?:(?:{words().links})[\s,\"']*){{0,4}}", re.IGNORECASE)
         linked = between.match(text, at)
         self.start = linked.end() if linked else at
-        sign = _SIGN.match(text, at) or _SIGN.match(text, self.start)
+        sign = _SIGN.match(text, at) or _SIGN.match(text, self.start) or _ALONE.match(text, at)
         self.signed = sign is not None
         if sign:
             linked = between.match(text, sign.end())
