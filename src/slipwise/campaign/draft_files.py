@@ -61,7 +61,7 @@ def open_data_files(folder: Path) -> tuple[list[DataFile], list[str]]:
         try:
             files.append(_opened(path))
         except InputError as error:
-            words = str(error).removeprefix(f"{path}: ").removeprefix(f"{path.name}: ")
+            words = str(error).removeprefix(f"{path}: ").removeprefix(f"{path.name}: ").removeprefix(f"{path.name}, ")
             passed.append(f"{path.name} ({one_line(words)})")
     return files, passed
 

@@ -15,7 +15,7 @@ from slipwise.data_files.words import folded, words
 from slipwise.errors import InputError
 from slipwise.motion.column_kind import is_column_word, is_time_word
 from slipwise.motion.column_traces import ColumnTable
-from slipwise.motion.rows import COMMENT_SIGNS
+from slipwise.motion.rows import COMMENT_SIGNS, refuse_cut_number
 from slipwise.motion.source_file import SourceFile, is_number
 from slipwise.motion.time_column import last_digit
 
@@ -30,7 +30,7 @@ def text_table(source: SourceFile) -> ColumnTable | None:
     """Read a text table whose columns are named, None where none is.
 
     Raises:
-        InputError: a row that is damaged.
+        InputError: a row that is damaged, a last number that is cut off, or several tables that no times join.
     """
     layout = layout_of(source.lines[:_LOOK_AT], source.name)
     if layout is None:
@@ -42,10 +42,17 @@ def text_table(source: SourceFile) -> ColumnTable | None:
     if not named or (half > 1 and names == names[:2] * half) or _is_prose(layout, names, units):
         return None
     last = _last_row(source, layout)
+    refuse_cut_number(source, range(layout.header.first, last + 1))
     text = "\n".join(source.lines[: last + 1])
     if re.search(r"\d[dD][+-]\d", source.lines[layout.header.first]):
         text = re.sub(r"(?<=[\d.])[dD](?=[+-]?\d)", "e", text)  # Fortran's double precision
-    columns, _ = columns_of_text(text, source.name, layout, range(len(names)))
+    columns, blocks = columns_of_text(text, source.name, layout, range(len(names)))
+    if blocks and not any(map(is_time_word, names)):
+        raise InputError(
+            f"{source.name}: {len(blocks)} tables stand one below the other, from lines "
+            f"{', '.join(str(block.line) for block in blocks)} on, and no column of times says that they are one "
+            "record; cut the file there"
+        )
     above = [line.strip().lstrip(COMMENT_SIGNS) for line in layout.above if line.strip()]
     return ColumnTable(
         names,

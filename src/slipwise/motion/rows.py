@@ -78,8 +78,7 @@ def read_rows(source: SourceFile) -> Rows:
     )
     columns = 1 if single else len(numbers_of(source.lines[start]))
     _refuse_damaged_first_row(source, start, columns)
-    if len(places) > 5 and places[-1] == len(source.lines) - 1:
-        _refuse_cut_number(source, places)
+    refuse_cut_number(source, places)
     return Rows(tuple(line for line in header if line), rows_of_numbers(source, places, single), places)
 
 
@@ -126,8 +125,18 @@ def _refuse_damaged_first_row(source: SourceFile, start: int, columns: int) -> N
         number(fields[numeric.index(False)], source.at(start - 1))
 
 
-def _refuse_cut_number(source: SourceFile, places: Sequence[int]) -> None:
-    """Refuse a file that ends within a number: no line end, and fewer decimals than every number above has."""
+def refuse_cut_number(source: SourceFile, places: Sequence[int]) -> None:
+    """Refuse a file that ends within a number: no line end, and fewer decimals than every number above has.
+
+    Args:
+        source: the file.
+        places: of its rows.
+
+    Raises:
+        InputError: it does.
+    """
+    if len(places) <= 5 or places[-1] != len(source.lines) - 1:
+        return
     decimals = [
         len(numbers_of(source.lines[i])[-1:][0].partition(".")[2]) for i in places[-50:] if numbers_of(source.lines[i])
     ]

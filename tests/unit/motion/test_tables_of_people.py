@@ -189,3 +189,22 @@ def test_whole_numbers_are_counts_until_the_acceleration_of_one_is_given(tmp_pat
         load_motion(path, unit="gal", count="2.4e-6 m/s^2")
     with pytest.raises(UnitError, match="dimension"):
         load_motion(path, count="2.4e-6 m/s")
+
+
+@pytest.mark.parametrize(
+    "head", ["时间(s),东西向(gal),南北向(gal),竖向(gal)\n", "Tiempo(s),Ace_EO(gal),Ace_NS(gal),Ace_V(gal)\n"]
+)
+def test_directions_in_chinese_and_behind_a_spanish_prefix_are_told(load, head):
+    motion = load(table(head, [TIME, *(100 * THREE.T)]))
+    np.testing.assert_allclose(motion.acceleration, THREE, atol=1e-5)
+
+
+def test_two_tables_without_times_are_no_record_of_twice_the_length(load):
+    text = "sampling rate (Hz): 100\nEW (gal),NS (gal),UD (gal)\n" + "".join(
+        f"{a:.4f},{b:.4f},{c:.4f}\n" for a, b, c in 100 * THREE
+    )
+    assert len(load(text)) == 60
+    with pytest.raises(InputError, match="2 tables stand one below the other, from lines 3, 65 on"):
+        load(text + text)
+    with pytest.raises(InputError, match="line 62: the last number is cut off"):
+        load(text[:-3])
