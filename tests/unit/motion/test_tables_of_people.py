@@ -175,6 +175,23 @@ def test_channels_that_share_no_time_are_of_two_records(tmp_path):
         load_motion(tmp_path / "two.mseed", unit="m/s^2")
 
 
+def test_a_channel_that_ends_sooner_than_the_others_is_warned_of(tmp_path):
+    stream = stream_of((0, 0.4, 0.7))
+    stream[1].data = stream[1].data[:300]
+    stream.write(str(tmp_path / "cut.mseed"), format="MSEED")
+    with pytest.warns(SlipwiseWarning, match="components of unequal length"):
+        load_motion(tmp_path / "cut.mseed", unit="m/s^2")
+
+
+@pytest.mark.parametrize("damage", [lambda b: b[: len(b) - 100], lambda b: b[:512] + b"\xff" * 300 + b[812:]])
+def test_a_damaged_record_of_miniseed_is_refused(tmp_path, damage):
+    path = tmp_path / "cut.mseed"
+    stream_of((0, 0.4, 0.7)).write(str(path), format="MSEED", reclen=512)
+    path.write_bytes(damage(path.read_bytes()))
+    with pytest.raises(InputError, match="cut.mseed: a record of the file is cut off or damaged; fetch it again"):
+        load_motion(path, unit="m/s^2")
+
+
 def test_whole_numbers_are_counts_until_the_acceleration_of_one_is_given(tmp_path):
     obspy = pytest.importorskip("obspy")
     counts = (wave(100) * 1000).astype(np.int32)
