@@ -137,7 +137,10 @@ class StatementValue:
 
     def _step(self, fact: str) -> Iterator[tuple[float, float]]:
         known = words()
-        match = re.match(rf"({NUMBER})(?![\d.]|[:/-]\d)\s*[(\[]?\s*({known.unit})?", self.text, re.IGNORECASE)
+        number = rf"({NUMBER})(?![\d.]|[:/-]\d)"
+        # "Interval;20;ms": the unit has a cell of its own
+        cell = re.match(rf'{number}"?[,;\t]"?({known.unit})"?\s*(?:[,;\t]|$)', self.text, re.IGNORECASE)
+        match = cell or re.match(rf"{number}\s*[(\[]?\s*({known.unit})?", self.text, re.IGNORECASE)
         if match is None:
             return
         unit = match[2] or self.unit
