@@ -61,7 +61,7 @@ def open_data_files(folder: Path) -> tuple[list[DataFile], list[str]]:
         try:
             files.append(_opened(path))
         except InputError as error:
-            words = str(error).removeprefix(f"{path}: ").removeprefix(f"{path.name}: ")
+            words = str(error).removeprefix(f"{path}: ").removeprefix(f"{path.name}: ").removeprefix(f"{path.name}, ")
             passed.append(f"{path.name} ({one_line(words)})")
     return files, passed
 
@@ -72,7 +72,11 @@ def one_line(text: str) -> str:
 
 
 def _opened(path: Path) -> DataFile:
-    """Read all columns of a file that hold numbers."""
+    """Read all columns of a file that hold numbers.
+
+    Raises:
+        InputError: no column can be read.
+    """
     table = open_table(path)
     known: dict[str, Array] = {}
     columns: list[Column] = []
@@ -101,12 +105,19 @@ def _opened(path: Path) -> DataFile:
 
 
 def _read(table: Table) -> list[Array | None]:
-    """Read all columns of a table (n,) each, None for those that are words."""
+    """Read all columns of a table (n,) each, None for those that are words.
+
+    Raises:
+        InputError: no column can be read.
+    """
     every = range(len(table.headers))
     try:
         return list(table.columns(every).values)
     except InputError:
-        return [_alone(table, i) for i in every]
+        columns = [_alone(table, i) for i in every]
+        if all(column is None for column in columns):
+            raise
+        return columns
 
 
 def _alone(table: Table, i: int) -> Array | None:

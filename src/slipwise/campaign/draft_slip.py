@@ -33,9 +33,11 @@ def map_slips(
     upright = any("up" not in c.meanings for c in lengths if c not in path)
     # the actuator of a machine for one slider moves the slider, that of a shaking table the table
     shaken = len(lengths) > 1 or any("_a" in name for name in channels)
+    # the one displacement beside frictions along x only is theirs, whatever letter the machine has for it
+    turned = not shaken and bool(frictions) and not any("across" in c.meanings for c in frictions)
     ranked = sorted(columns, key=lambda c: (c.kind != "length", "table" not in c.meanings, -float(np.ptp(c.values))))
     for column in ranked:
-        axis = "y" if "across" in column.meanings else "x"
+        axis = "y" if "across" in column.meanings and not turned else "x"
         if column.kind == "length" and "table" in column.meanings and shaken:
             yield column, Mapped(f"table_d{axis}", column.unit, 1, "its name says table", "likely")
             continue

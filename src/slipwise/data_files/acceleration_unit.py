@@ -6,7 +6,7 @@ from slipwise.errors import UnitError
 from slipwise.units import parse_unit
 
 #: What other languages write for gal and second.
-_SPELLINGS = {"伽": "gal", "ガル": "gal", "秒": "s"}
+_SPELLINGS = {"伽": "gal", "ガル": "gal", "秒": "s", "gales": "gal", "milli-g": "mg"}
 
 
 def acceleration_factor(unit: str, what: str) -> float:

@@ -14,13 +14,18 @@ NUMBER = r"[+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eEdD][+-]?\d+)?"
 _LARGEST = 1e30
 #: A step of few digits may be off by its rounding, but by no more than this [1].
 _COARSEST = 0.01
-_INNER = re.compile(r"(?:_(?P<tail>[A-Za-z][\w/^]*))?\"?(?:[.\s]*[(\[](?P<inner>[^)\]]*)[)\]])?")
+#: "dt_ms", "time step (ms)", "time step in ms:".
+_INNER = re.compile(
+    r"(?:_(?P<tail>[A-Za-z][\w/^]*))?\"?(?:[.\s]*[(\[](?P<inner>[^)\]]*)[)\]]|\s+(?:in|en|em)\s+(?P<said>[^\s:=]+)(?=\s*[:=]))?"
+)
 _SIGN = re.compile(r"\"?\s*(?:[:=]+|\t|;|->|\|)[\s\"'=]*")
+#: A line of key and value in a table of commas: "fs,50", "Interval;20;ms".
+_ALONE = re.compile(rf"\"?\s*[,;]\s*\"?(?={NUMBER}\"?\s*(?:[,;][^,;\d]*)?[,;\s]*$)")
 _WHOLE = re.compile(r"\d{1,3}(?:[,']\d{3})+(?![\d.])|\d+(?:\.0*)?(?![\d.])")
 _UNIT = re.compile(r"\s*[(\[]?\s*([^\s,;:()\[\]=\"\d][^\s,;:()\[\]=\"]*)")
 #: "Acceleration in g", "Ground Accel. (g)", "acceleration m/s2", "ivme g cinsinden": the unit of the values below.
 _MEASURED_IN = (
-    re.compile(r"[^:=\d(\[]{0,30}?(?:\b(?:in|en)\s+|[(\[,:=]\s*)([^\s,;()\[\]]+)", re.IGNORECASE),
+    re.compile(r"[^:=\d(\[]{0,30}?(?:\b(?:in|en|em)\s+|[(\[,:=]\s*)([^\s,;()\[\]]+)", re.IGNORECASE),
     re.compile(r"\s+([^\s,;()\[\]]+/s\S*)", re.IGNORECASE),
     re.compile(r"[^:=\d(\[]{0,30}?\s(\S+)\s+cinsinden", re.IGNORECASE),
 )
@@ -63,13 +68,13 @@ class StatementValue:
         self.behind_key = text
         self.room = room
         inner = _INNER.match(text)
-        self.unit = ((inner["inner"] or inner["tail"] or "") if inner else "").strip()
+        self.unit = ((inner["inner"] or inner["said"] or inner["tail"] or "") if inner else "").strip()
         at = inner.end() if inner else 0
         # "between samples: ", "est de ", "of data = "
         between = re.compile(rf"(?:[\s,\"']|\.(?!\d))*(?:(?:{words().links})[\s,\"']*){{0,4}}", re.IGNORECASE)
         linked = between.match(text, at)
         self.start = linked.end() if linked else at
-        sign = _SIGN.match(text, at) or _SIGN.match(text, self.start)
+        sign = _SIGN.match(text, at) or _SIGN.match(text, self.start) or _ALONE.match(text, at)
         self.signed = sign is not None
         if sign:
             linked = between.match(text, sign.end())
@@ -89,8 +94,12 @@ class StatementValue:
         if fact == "peak":
             yield from ((peak, 0.0) for peak in self._peaks(label))
             return
-        # "単位(gal)" needs no sign, and "passo 0.01 s" none for its unit.
-        if self.how == "signed" and not self.signed and not (fact == "unit" and self.unit):
+        # "単位(gal)" and "Einheit g" need no sign, and "passo 0.01 s" none for its unit.
+        if (
+            self.how == "signed"
+            and not self.signed
+            and not (fact == "unit" and (self.unit or self._begins_with_unit()))
+        ):
             return
         if fact == "unit":
             yield from self._unit()
@@ -109,6 +118,10 @@ class StatementValue:
                 self.used = self.start + len(self.text)
                 yield (depth[0] if fact == "sensor" and depth else value), 0.0
 
+    def _begins_with_unit(self) -> bool:
+        word = _UNIT.match(self.text)
+        return word is not None and is_acceleration(word[1].rstrip("."))
+
     def _unit(self) -> Iterator[tuple[str, float]]:
         """Give the first unit of acceleration, else one of velocity or, with a sign, the first word."""
         inner = self.unit if is_acceleration(self.unit) else ""
@@ -124,14 +137,17 @@ class StatementValue:
 
     def _step(self, fact: str) -> Iterator[tuple[float, float]]:
         known = words()
-        match = re.match(rf"({NUMBER})(?![\d.]|[:/-]\d)\s*[(\[]?\s*({known.unit})?", self.text, re.IGNORECASE)
+        number = rf"({NUMBER})(?![\d.]|[:/-]\d)"
+        # "Interval;20;ms": the unit has a cell of its own
+        cell = re.match(rf'{number}"?[,;\t]"?({known.unit})"?\s*(?:[,;\t]|$)', self.text, re.IGNORECASE)
+        match = cell or re.match(rf"{number}\s*[(\[]?\s*({known.unit})?", self.text, re.IGNORECASE)
         if match is None:
             return
         unit = match[2] or self.unit
         if not match[2] and (other := _UNIT.match(self.text[: self.room - self.start], match.end(1))) and not self.unit:
             unit = other[1].rstrip(".")
-        if self.how == "with_unit" and not unit:
-            return
+        if self.how == "with_unit" and folded(unit).lower() not in known.units:
+            return  # "Step 3 of 5", "every 10 stations"
         for _, content, rounding in step_of(match[1], unit, fact):
             self.used = self.start + match.end()
             yield content, rounding

@@ -8,6 +8,7 @@ import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from slipwise.data_files.acceleration_unit import acceleration_factor, is_acceleration
 from slipwise.data_files.statement_value import EACH, NUMBER, Peak, StatementValue, step_of
 from slipwise.data_files.words import folded, words
 from slipwise.errors import InputError
@@ -131,4 +132,8 @@ def _agree(before: tuple[object, float, str], content: object, rounding: float) 
     one = before[0]
     if isinstance(one, float) and isinstance(content, float):
         return abs(one - content) <= max(1e-4, before[1] + rounding) * abs(one)
-    return str(one).lower() == str(content).lower()
+    texts = str(one), str(content)
+    if all(map(is_acceleration, texts)):  # gal is cm/s^2
+        first, second = (acceleration_factor(text, "") for text in texts)
+        return abs(first - second) <= 1e-4 * second
+    return texts[0].lower() == texts[1].lower()

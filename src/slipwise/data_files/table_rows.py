@@ -87,11 +87,16 @@ def left_out_below(name: str, below: Sequence[Sequence[str]]) -> tuple[str, ...]
 
 
 def _before_summary(lines: Sequence[Sequence[str]], last: int, is_row: IsRow) -> int:
-    """Give the last row before a few numbers behind an empty line that do not go on where the table ended: sums."""
+    """Give the last row before a few numbers behind an empty line that do not go on where the table ended: sums.
+
+    They begin with another number than the next row would, or stand below words in another number of columns.
+    """
     blank = next((i for i in range(last, max(-1, last - _SUMMARY - 1), -1) if not any(lines[i])), None)
     if blank is None:
         return last
     before = [i for i in range(blank) if is_row(lines[i])][-_BEFORE:]
+    if before and not is_row(lines[blank + 1]) and len(lines[last]) != len(lines[before[-1]]):
+        return before[-1]
     values = [_first_number(lines[i]) for i in [*before, blank + 1]]
     numbers = [value for value in values if value is not None]
     if len(before) < _BEFORE or len(numbers) < len(values):

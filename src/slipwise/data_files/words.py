@@ -10,6 +10,7 @@ from importlib.resources import files
 #: What may stand between the words of a phrase.
 _BETWEEN = r"[\s_.'’-]*"
 _LETTER = "[A-Za-z]"  # lines are folded
+_PLAIN = str.maketrans({"ı": "i", "ß": "ss", "Δ": "delta ", "、": ", ", "。": ". "})
 
 
 @dataclass(frozen=True)
@@ -40,7 +41,7 @@ class Words:
 
 def folded(text: str) -> str:
     """Give a text without accents and with plain digits and signs; the case stays, for mg and Mg differ."""
-    marks = unicodedata.normalize("NFKD", text.replace("ı", "i").replace("ß", "ss").replace("Δ", "delta "))
+    marks = unicodedata.normalize("NFKD", text.translate(_PLAIN))
     return "".join(c for c in marks if not unicodedata.combining(c))
 
 

@@ -214,7 +214,8 @@ def _assemble(chosen: dict[str, tuple[Trace, int] | None], baseline: Baseline | 
         names.append(name)
         peaks.append(trace.header_peak)
         treatment += [f"{axis}: {words}" for words in (*trace.treatment, words, f"{name} drives the table in {axis}")]
-    if max(lengths.values()) > length and not any(skipped.values()):
+    # Channels that begin late end late; one that ends sooner than that is cut off.
+    if max(lengths.values()) - length > max(skipped.values()):
         counts = ", ".join(f"{axis} {count}" for axis, count in lengths.items())
         words = f"components of unequal length ({counts} samples): the first {length} of each are used"
         warnings.warn(f"{first.title}: {words}", SlipwiseWarning, stacklevel=4)

@@ -11,12 +11,13 @@ from slipwise.data_files.column_names import name_and_unit
 from slipwise.data_files.statements import read_statements
 from slipwise.data_files.table import Table, open_table
 from slipwise.data_files.table_rows import left_out_below
-from slipwise.data_files.text_file import TextLayout, columns_of_text, layout_of
+from slipwise.data_files.text_file import BLANKS, TextLayout, columns_of_text, layout_of
+from slipwise.data_files.words import folded, words
 from slipwise.errors import InputError
 from slipwise.motion.column_kind import is_column_word, is_time_word
 from slipwise.motion.column_traces import ColumnTable
-from slipwise.motion.number_rows import COMMENT_SIGNS
-from slipwise.motion.source_file import SourceFile
+from slipwise.motion.number_rows import COMMENT_SIGNS, refuse_cut_number
+from slipwise.motion.source_file import SourceFile, is_number
 from slipwise.motion.time_column import last_digit
 
 #: Lines in which the names of the columns must stand.
@@ -30,7 +31,7 @@ def text_table(source: SourceFile) -> ColumnTable | None:
     """Read a text table whose columns are named, None where none is.
 
     Raises:
-        InputError: a row that is damaged.
+        InputError: a row that is damaged, a last number that is cut off, or several tables that no times join.
     """
     layout = layout_of(source.lines[:_LOOK_AT], source.name)
     if layout is None:
@@ -39,14 +40,21 @@ def text_table(source: SourceFile) -> ColumnTable | None:
     # Two words above two columns may as well be a title: names without units must be known ones.
     named = any(units) or all(map(is_column_word, names)) or is_time_word(names[0])
     half = len(names) // 2
-    if not named or (half > 1 and names == names[:2] * half):
+    if not named or (half > 1 and names == names[:2] * half) or _is_prose(layout, names, units):
         return None
     # Words, totals and empty lines may stand below.
     last = next(i for i in reversed(range(len(source.lines))) if layout.header.is_row(layout.cells(source.lines[i])))
+    refuse_cut_number(source, range(layout.header.first, last + 1))
     text = "\n".join(source.lines[: last + 1])
     if re.search(r"\d[dD][+-]\d", source.lines[layout.header.first]):
         text = re.sub(r"(?<=[\d.])[dD](?=[+-]?\d)", "e", text)  # Fortran's double precision
-    columns, _ = columns_of_text(text, source.name, layout, range(len(names)))
+    columns, blocks = columns_of_text(text, source.name, layout, range(len(names)))
+    if blocks and not any(map(is_time_word, names)):
+        raise InputError(
+            f"{source.name}: {len(blocks)} tables stand one below the other, from lines "
+            f"{', '.join(str(block.line) for block in blocks)} on, and no column of times says that they are one "
+            "record; cut the file there"
+        )
     above = [line.strip().lstrip(COMMENT_SIGNS) for line in layout.above if line.strip()]
     return ColumnTable(
         names,
@@ -123,6 +131,20 @@ def _name_and_unit(header: str) -> tuple[str, str]:
     if found.kind in ("time", "acceleration") and found.unit not in ("?", "") and found.name != header.strip():
         return found.name, found.unit
     return header.strip(), "" if not is_acceleration(header) or len(header.strip()) < 2 else header.strip()
+
+
+def _is_prose(layout: TextLayout, names: Sequence[str], units: Sequence[str]) -> bool:
+    """Tell a sentence that happens to have as many words as there are columns from names that blanks separate."""
+    if layout.delimiter != BLANKS:
+        return False
+    links = re.compile(words().links, re.IGNORECASE)
+    in_sentences = any(
+        name.endswith((",", ";", ":", "=")) or is_number(name) or (len(name) > 1 and links.fullmatch(folded(name)))
+        for name in names
+    )
+    # Among names a unit stands in brackets, or every column has one.
+    loose = not all(units) and any(unit and unit == name for name, unit in zip(names, units, strict=True))
+    return in_sentences or loose
 
 
 def _place(source: SourceFile, layout: TextLayout, row: int) -> str:

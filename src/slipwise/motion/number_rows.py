@@ -82,8 +82,7 @@ def read_rows(source: SourceFile) -> Rows:
     )
     columns = 1 if single else len(numbers_of(source.lines[start]))
     _refuse_damaged_first_row(source, start, columns)
-    if len(places) > 5 and places[-1] == len(source.lines) - 1:
-        _refuse_cut_number(source, places)
+    refuse_cut_number(source, places)
     return Rows(tuple(line for line in header if line), rows_of_numbers(source, places, single), places)
 
 
@@ -125,12 +124,23 @@ def _refuse_damaged_first_row(source: SourceFile, start: int, columns: int) -> N
     delimiter = _delimiter(source.lines[start])
     fields = source.lines[start - 1].strip().split(None if delimiter == BLANKS else delimiter)
     numeric = [is_number(field.strip()) for field in fields]
-    if len(fields) == columns and any(numeric) and not all(numeric):
+    # A sentence may have as many words, and a year among them.
+    if len(fields) == columns and 2 * sum(numeric) >= columns and not all(numeric):
         number(fields[numeric.index(False)], source.at(start - 1))
 
 
-def _refuse_cut_number(source: SourceFile, places: Sequence[int]) -> None:
-    """Refuse a file that ends within a number: no line end, and fewer decimals than every number above has."""
+def refuse_cut_number(source: SourceFile, places: Sequence[int]) -> None:
+    """Refuse a file that ends within a number: no line end, and fewer decimals than every number above has.
+
+    Args:
+        source: the file.
+        places: of its rows.
+
+    Raises:
+        InputError: it does.
+    """
+    if len(places) <= 5 or places[-1] != len(source.lines) - 1:
+        return
     rows = (numbers_of(source.lines[i]) for i in places[-50:])
     decimals = [len(row[-1].partition(".")[2]) for row in rows if row]
     if len(set(decimals[:-1])) == 1 and decimals[-1] < decimals[0]:

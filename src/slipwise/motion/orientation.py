@@ -9,18 +9,18 @@ Orientation = Literal["table x", "table y", "table z", "east-west", "horizontal"
 
 _UP = {
     "UP", "U", "UD", "V", "VER", "VERT", "VERTICAL", "Z", "+Z", "+V", "+UP", "ZUP", "UPDOWN", "UP/DOWN", "U/D", "VT",
-    "VRT", "DUSEY", "DÜŞEY", "上下", "竖向", "垂直",
+    "VRT", "DUSEY", "DÜŞEY", "上下", "上下向", "竖向", "竖直向", "垂直", "垂直向",
 }  # fmt: skip
 _DOWN = {"DWN", "DOWN", "DN", "D"}
 #: Also este-oeste, est-ouest, Ost-West, Turkish dogu-bati and Japanese.
 _EAST_WEST = {
     "EW", "E", "W", "WE", "EAST", "WEST", "EASTWEST", "E/W", "EO", "E/O", "OE", "O", "ESTE", "OESTE", "ESTEOESTE",
-    "EST", "OUEST", "OVEST", "OW", "OST", "DB", "DOGUBATI", "東西", "东西",
+    "EST", "OUEST", "OVEST", "OW", "OST", "DB", "DOGUBATI", "東西", "东西", "東西向", "东西向",
 }  # fmt: skip
 _HORIZONTAL = {
     "NS", "N", "S", "SN", "NORTH", "SOUTH", "NORTHSOUTH", "N/S", "L", "T", "LONG", "LONGITUDINAL", "TRAN", "TRANS",
     "TRANSVERSE", "TRANSVERSAL", "TRV", "LAT", "LATERAL", "RADIAL", "RADL", "RAD", "R", "TANG", "TANGENTIAL", "H1",
-    "H2", "NORTE", "SUR", "NORTESUR", "NORD", "SUD", "KG", "KUZEYGUNEY", "南北", "FN", "FP", "FAULTNORMAL",
+    "H2", "NORTE", "SUR", "NORTESUR", "NORD", "SUD", "KG", "KUZEYGUNEY", "南北", "南北向", "FN", "FP", "FAULTNORMAL",
     "FAULTPARALLEL",
 }  # fmt: skip
 _TABLE: dict[str, Orientation] = {
@@ -32,7 +32,7 @@ _KIKNET = re.compile(r"(EW|NS|UD)([12])")
 _SEED = re.compile(r"[FGDCESHBMLVU][HLGNM]([ENZ123RTUVW])")
 #: "acc_NS", "ax", "Linear Acceleration x", "gFx": what is measured stands before the direction.
 _MEASURED = re.compile(
-    r"^(?:LINEAR[\s_])?(?:ACC|ACCEL|ACCELERATION|ACCELEROMETER|ACELERACION|BESCHLEUNIGUNG|IVME|ACCELERAZIONE|USERACCELERATION"
+    r"^(?:LINEAR[\s_])?(?:ACC|ACE|ACEL|ACCEL|ACCELERATION|ACCELEROMETER|ACELERACION|BESCHLEUNIGUNG|IVME|ACCELERAZIONE|USERACCELERATION"
     r"|A|CH|COMP|COMPONENT)(?:[\s_.:-]+(?=\S)|(?=[XYZ]$))|^GF(?=[XYZ]$)"
 )
 

@@ -297,4 +297,10 @@ def newest_tables() -> list[Written]:
         plain("directions in letters", "Zeit,Weg,Kraft h,Kraft v\ns,mm,kN,kN", TWO, T, X, FK, NK),
         plain("numbered gauges", "t(s),D1(mm),F1(kN),F2(kN)", TWO, T, X, FK, NK),
         plain("a hash before the names", "# time[s],slip[mm],friction[N],normal[N]", TWO, T, X, F, N),
-    ]
+        plain("rate as key and value", "Slip_mm,Friction_N,Load_N", TWO, X, F, N, above="fs,50\n"),
+        plain("French rate", "Déplacement (mm);Frottement (N);Charge (N)", TWO, X, F, N,
+              above="Fréquence d'acquisition : 50 Hz\n"),
+        plain("a drive along the machine's Y", "T (sec)\tFx (N)\tFz (N)\tY (mm)", TWO, T, F, N, X),
+        plain("statistics in fewer columns", "Time (s),Slip (mm),Friction (N),Load (N)", TWO, T, X, F, N,
+              below="\n\nStatistics\nMin,Max,Mean\n-5,5,0\n"),
+    ]  # fmt: skip

@@ -101,3 +101,10 @@ def test_a_folder_whose_files_cannot_be_read_says_why(tmp_path):
     (tmp_path / "run.mat").write_bytes(b"MATLAB 5.0 MAT-file")
     with pytest.raises(InputError, match=r"no data file in it can be read: run\.mat \(not a readable MATLAB file"):
         draft_campaign(tmp_path)
+
+
+def test_a_table_with_a_broken_row_is_not_drafted_as_one_without_numbers(tmp_path):
+    rows = "".join(f"{0.1 * k:.1f},{k % 7},{k % 5}\n" for k in range(50))
+    (tmp_path / "run.csv").write_text("Time [s],Slip [mm],Friction [N]\n" + rows.replace("2.0,6,0", "2.0,60"))
+    with pytest.raises(InputError, match=r"run\.csv \(line 22: a row with 2 columns where the header has 3"):
+        draft_campaign(tmp_path)

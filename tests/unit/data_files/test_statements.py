@@ -28,7 +28,17 @@ PHRASES = [
     ("Time interval between samples: 0.02 s", 0.02, None, None),
     ("Sampling interval of data = 0.005 sec, accelerations in gals", 0.005, GAL, None),
     ("200 Hz data, acceleration m/s2", 0.005, SI, None),
+    ("Timestep in ms: 10; engineering units: m/s^2", 0.01, SI, None),
+    ("One value every 0.01 s; accelerations in cm/s2", 0.01, GAL, None),
+    ("Time increment between points = 0.010 seconds, units g", 0.01, G, None),
+    ('"Units","m/s²"', None, SI, None),
+    ("sampled at 100 Hz, acceleration expressed in milli-g", 0.01, G / 1000, None),
+    ("Sampling interval;20;ms", 0.02, None, None),
+    ('"Sample period","5","ms"', 0.005, None, None),
+    ("dt\t20\tms", 0.02, None, None),
+    ("fs,50", 0.02, None, None),
     # Spanish
+    ("Aceleración en gales, un dato cada 0.01 s", 0.01, GAL, None),
     ("Los datos están en gal, con un paso de 0,02 s", 0.02, GAL, None),
     ("El intervalo de tiempo entre muestras es de 0.01 segundos", 0.01, None, None),
     ("Frecuencia de muestreo: 50 Hz", 0.02, None, None),
@@ -41,6 +51,7 @@ PHRASES = [
     ("Anzahl der Messwerte: 4000, Abtastfrequenz 100 Hz", 0.01, None, 4000),
     ("Schrittweite 5 ms", 0.005, None, None),
     ("Abtastung mit 200 Hz, Werte in m/s²", 0.005, SI, None),
+    ("Akzelerogramm, Δt=0,01 s, Einheit g", 0.01, G, None),
     # Turkish
     ("İvme değerleri cm/s² cinsinden, örnekleme 100 Hz", 0.01, GAL, None),
     ("Örnekleme aralığı: 0.01 sn, Birim: gal", 0.01, GAL, None),
@@ -53,6 +64,7 @@ PHRASES = [
     ("時間刻み 0.005 秒、 加速度の単位 : m/s²", 0.005, SI, None),
     ("単位(gal) サンプリング周波数(Hz) 100", 0.01, GAL, None),
     ("サンプリング周期 10ms 加速度 cm/s2", 0.01, GAL, None),
+    ("時間刻み=0.01秒、単位=gal、データ数=200", 0.01, GAL, 200),
     # Chinese
     ("采样频率为200Hz，单位为gal", 0.005, GAL, None),
     ("采样频率：200Hz 单位：cm/s²", 0.005, GAL, None),
@@ -68,6 +80,10 @@ PHRASES = [
     ("Le pas de temps est de 0,01 s ; unités : m/s2", 0.01, SI, None),
     ("Échantillonnage : 100 Hz, accélérations en g", 0.01, G, None),
     ("Fréquence d'échantillonnage : 100 Hz ; Unité : m/s2", 0.01, SI, None),
+    ("Pas d'échantillonnage 0.01 s, unités en g", 0.01, G, None),
+    # Portuguese
+    ("Intervalo de amostragem: 0,01 s; unidade: cm/s2", 0.01, GAL, None),
+    ("Taxa de amostragem: 100 Hz, aceleração em g", 0.01, G, None),
     ("Pas de temps: 10 ms, nombre de points: 4000, accélération en g", 0.01, G, 4000),
 ]
 
@@ -119,6 +135,10 @@ def test_peaks_of_one_or_several_components_are_found(line, peaks):
         "Accelerogram of A. B. City, 1999",
         "Peak ground acceleration of the 1940 El Centro earthquake",
         "Step: 3",
+        "Step 3 of 5",
+        "one station every 10 km, checked every 2 years",
+        "every 20 s a photo was taken",
+        "Power unit G of the plant, basement",
         "Anti-alias filter rate: 50 Hz",
         "Number of samples lost: 0",
         "Low-pass 25 Hz, high-pass 0.1 Hz",
@@ -147,3 +167,7 @@ def test_statements_that_contradict_each_other_are_refused_quoting_both(one, two
 
 def test_a_rate_that_is_rounded_agrees_with_its_step():
     assert read_statements(["rate: 119.9 Hz", "dt = 0.00834 s"], "f").step == pytest.approx(1 / 119.9, rel=2e-3)
+
+
+def test_two_spellings_of_one_unit_do_not_contradict_each_other():
+    assert read_statements(["units: gal", "acceleration in cm/s2"], "f").unit == "gal"

@@ -232,3 +232,21 @@ def test_a_peak_beyond_5_g_and_a_travel_beyond_2_m_are_warned_of(load):
     with warnings.catch_warnings():
         warnings.simplefilter("error", SlipwiseWarning)
         warn_of_travel(load(samples.one_column(GAL / 100), dt=0.01, unit="m/s^2"))
+
+
+@pytest.mark.parametrize(
+    "head",
+    [
+        "Nombre de points: 40, dt=0.01, accélérations en cm/s/s\n",
+        "Equally spaced at 0.01 s, 40 values, cm/sec**2\n",
+        "dt: 0.01 s\nHorizontal component of the motion, values in cm/s2\n",
+        "dt: 0.01 s, units: gal\nLoma Prieta 1989 Gilroy array #3 acceleration cm/s2\n",
+    ],
+)
+def test_a_sentence_with_as_many_words_as_there_are_values_a_line_names_no_columns(load, head):
+    values = 100.0 * np.sin(0.3 * np.arange(40))
+    numbers = column(values).split("\n")[:-1]
+    assert len(head.splitlines()[-1].split()) == 8
+    motion = load(head + "".join("  ".join(numbers[i : i + 8]) + "\n" for i in range(0, 40, 8)))
+    assert motion.dt == 0.01
+    np.testing.assert_allclose(motion.acceleration[:, 0], values / 100, atol=1e-7)

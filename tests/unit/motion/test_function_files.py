@@ -91,6 +91,10 @@ def test_an_abaqus_amplitude_at_equal_spaces_states_its_interval(load):
         (amplitude("EQ", VALUES) + "0.96\n", "holds 97 numbers; pairs of time and value"),
         (amplitude("EQ", VALUES).replace("0.20,", "0.10,"), "repeats|runs backwards|not evenly spaced"),
         ("** dt = 0.01 s\n" + amplitude("EQ", VALUES), r"the header states a step of 0\.01 s, its time column"),
+        (
+            "*Amplitude, name=S, definition=EQUALLY SPACED, fixed interval=0.02\n1., 2., 3.\n2.\n1., 0., 1.\n",
+            "line 3: 1 values stand where 3 were expected",
+        ),
         ("*Amplitude, name=P, definition=PERIODIC\n1, 6.28, 0, 1\n", "of the kind periodic holds no values"),
     ],
 )
@@ -138,3 +142,9 @@ def test_midas_names_both_axes_in_lines_of_their_own(load, head, factor, end):
 def test_damaged_or_contradicted_midas_functions_are_refused(load, text, error, words, settings):
     with pytest.raises(error, match=words):
         load(text, name="quake.sgs", **settings)
+
+
+def test_two_midas_functions_in_one_file_are_refused(load):
+    function = "*SGSw\n*X-AXIS, Time(sec)\n*Y-AXIS, Ground Accel. (g)\n*DATA\n" + ROWS
+    with pytest.raises(InputError, match="2 time functions are in this file"):
+        load(function + function, name="quake.sgs", unit="g")

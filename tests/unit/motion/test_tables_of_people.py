@@ -175,6 +175,23 @@ def test_channels_that_share_no_time_are_of_two_records(tmp_path):
         load_motion(tmp_path / "two.mseed", unit="m/s^2")
 
 
+def test_a_channel_that_ends_sooner_than_the_others_is_warned_of(tmp_path):
+    stream = stream_of((0, 0.4, 0.7))
+    stream[1].data = stream[1].data[:300]
+    stream.write(str(tmp_path / "cut.mseed"), format="MSEED")
+    with pytest.warns(SlipwiseWarning, match="components of unequal length"):
+        load_motion(tmp_path / "cut.mseed", unit="m/s^2")
+
+
+@pytest.mark.parametrize("damage", [lambda b: b[: len(b) - 100], lambda b: b[:512] + b"\xff" * 300 + b[812:]])
+def test_a_damaged_record_of_miniseed_is_refused(tmp_path, damage):
+    path = tmp_path / "cut.mseed"
+    stream_of((0, 0.4, 0.7)).write(str(path), format="MSEED", reclen=512)
+    path.write_bytes(damage(path.read_bytes()))
+    with pytest.raises(InputError, match="cut.mseed: a record of the file is cut off or damaged; fetch it again"):
+        load_motion(path, unit="m/s^2")
+
+
 def test_whole_numbers_are_counts_until_the_acceleration_of_one_is_given(tmp_path):
     obspy = pytest.importorskip("obspy")
     counts = (wave(100) * 1000).astype(np.int32)
@@ -197,3 +214,22 @@ def test_a_motion_tells_which_lines_below_its_table_are_left_out(load, below):
     assert len(motion) == len(TIME)
     said = [words for words in motion.treatment if "below the table" in words]
     assert said and all("left out, beginning" in words for words in said)
+
+
+@pytest.mark.parametrize(
+    "head", ["时间(s),东西向(gal),南北向(gal),竖向(gal)\n", "Tiempo(s),Ace_EO(gal),Ace_NS(gal),Ace_V(gal)\n"]
+)
+def test_directions_in_chinese_and_behind_a_spanish_prefix_are_told(load, head):
+    motion = load(table(head, [TIME, *(100 * THREE.T)]))
+    np.testing.assert_allclose(motion.acceleration, THREE, atol=1e-5)
+
+
+def test_two_tables_without_times_are_no_record_of_twice_the_length(load):
+    text = "sampling rate (Hz): 100\nEW (gal),NS (gal),UD (gal)\n" + "".join(
+        f"{a:.4f},{b:.4f},{c:.4f}\n" for a, b, c in 100 * THREE
+    )
+    assert len(load(text)) == 60
+    with pytest.raises(InputError, match="2 tables stand one below the other, from lines 3, 65 on"):
+        load(text + text)
+    with pytest.raises(InputError, match="line 62: the last number is cut off"):
+        load(text[:-3])

@@ -5,7 +5,9 @@ Source: Abaqus Analysis User's Guide, "Amplitude curves".
 """
 
 import re
+from collections import Counter
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -30,7 +32,8 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
     """Read every tabular or equally spaced amplitude of a file.
 
     Raises:
-        InputError: another kind of amplitude, an odd count of numbers, a field that is no number, or no values.
+        InputError: another kind of amplitude, an odd count of numbers, values that are missing, a field that is no
+            number, or no values.
         UnitError: nothing states the unit, or it is none of acceleration.
     """
     starts = [i for i, line in enumerate(source.lines) if _KEYWORD.match(line)]
@@ -61,6 +64,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
                 )
             names, units, columns = ("time", name), ("s", ""), values.reshape(-1, 2)
         else:
+            _refuse_short_line(source, [i for i, _ in fields])
             step = options.get("fixed interval", "")
             stated = read_statements([*comments, f"time step = {step}"], source.name)
             names, units, columns = (name,), ("",), values[:, None]
@@ -76,6 +80,22 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
         )
         traces += [replace(trace, name=name, letter_of_file=False) for trace in column_traces(table, source, given)]
     return traces
+
+
+def _refuse_short_line(source: SourceFile, places: list[int]) -> None:
+    """Refuse values that are missing within a series; only its last line may be shorter than the others.
+
+    Raises:
+        InputError: a line with fewer values than the one before it; the message names it.
+    """
+    counts = Counter(places)
+    *lines, _ = counts
+    for before, line in pairwise(lines):
+        if counts[line] < counts[before]:
+            raise InputError(
+                f"{source.at(line)}: {counts[line]} values stand where {counts[before]} were expected; "
+                "the amplitude is damaged, write it again"
+            )
 
 
 def _options(line: str) -> dict[str, str]:

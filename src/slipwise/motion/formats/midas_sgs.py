@@ -29,7 +29,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
     """Read the function of a file.
 
     Raises:
-        InputError: no values, or times that do not rise evenly.
+        InputError: no values, several functions, or times that do not rise evenly.
         UnitError: the function is none of acceleration, or its unit is missing or contradicted.
     """
     facts: dict[str, list[str]] = {}
@@ -37,9 +37,12 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
         if line.strip().startswith("*"):
             key, _, value = line.strip().lstrip("*").partition(",")
             facts.setdefault(key.strip().upper(), []).append(value.strip())
-    start = next((i + 1 for i, line in enumerate(source.lines) if line.strip().upper() == "*DATA"), None)
-    if start is None:
+    starts = [i + 1 for i, line in enumerate(source.lines) if line.strip().upper() == "*DATA"]
+    if not starts:
         raise InputError(f"{source.name}: a time function of MIDAS holds its values below *DATA, which is not there")
+    if len(starts) > 1:
+        raise InputError(f"{source.name}: {len(starts)} time functions are in this file; give each a file of its own")
+    start = starts[0]
     end = next((i for i in range(start, len(source.lines)) if source.lines[i].strip().startswith("*")), None)
     places = [i for i in range(start, end or len(source.lines)) if source.lines[i].strip()]
     if not places:

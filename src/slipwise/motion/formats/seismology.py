@@ -8,6 +8,7 @@ obspy is an extra (`seismology`), imported only here and only when such a file i
 import io
 import re
 import struct
+import warnings
 from datetime import datetime
 from typing import Any
 
@@ -22,6 +23,9 @@ from slipwise.motion.trace import Trace
 
 Array = NDArray[np.float64]
 _MINISEED = re.compile(rb"\d{6}[DRQM][ \x00]|MS\x03")
+#: Records of miniSEED 2 are as long as a power of two, and no shorter than this [bytes].
+_SHORTEST_RECORD = 128
+_DAMAGED = "a record of the file is cut off or damaged; fetch it again"
 #: The header of SAC: word 77 is its version, at this place; 6 and 7 are in use.
 _SAC_VERSION_AT, _SAC_VERSIONS = 304, (6, 7)
 #: SAC's idep: what the samples are.
@@ -104,17 +108,25 @@ def _stream(source: SourceFile) -> Any:
     """
     try:
         from obspy import read as read_stream
+        from obspy.io.mseed import InternalMSEEDWarning
     except ModuleNotFoundError:
         raise InputError(
             f"{source.name}: SAC and miniSEED are read by obspy; install it with `pip install 'slipwise[seismology]'`, "
             "or export the motion as text"
         ) from None
+    if source.data[:6].isdigit() and len(source.data) % _SHORTEST_RECORD:
+        raise InputError(f"{source.name}: {_DAMAGED}")
     try:
-        stream = read_stream(io.BytesIO(source.data), format="MSEED" if _MINISEED.match(source.data) else "SAC")
+        with warnings.catch_warnings():
+            # obspy passes over what is cut off or damaged with a warning
+            warnings.simplefilter("error", InternalMSEEDWarning)
+            stream = read_stream(io.BytesIO(source.data), format="MSEED" if _MINISEED.match(source.data) else "SAC")
         # before they are joined: a gap of years would be filled with gigabytes
         broken = [gap[:4] for gap in stream.get_gaps(min_gap=0.0)]
         if not broken:
             stream.merge(method=0)
+    except InternalMSEEDWarning:
+        raise InputError(f"{source.name}: {_DAMAGED}") from None
     except Exception as error:  # obspy lets struct, value and its own errors of C code through
         raise InputError(f"{source.name}: not a readable SAC or miniSEED file ({error}); fetch it again") from None
     broken += [(*found.id.split("."),) for found in stream if np.ma.isMaskedArray(found.data)]
