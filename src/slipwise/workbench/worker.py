@@ -15,6 +15,7 @@ from slipwise.effects import Trust
 from slipwise.errors import SlipwiseError
 from slipwise.interruption import unheard_by_children
 from slipwise.parallel import begin_worker
+from slipwise.view.matplotlib_folder import pass_over_a_matplotlibrc_here
 
 #: A piece of work that goes on so long after it was called off is ended with its process, where somebody waits for that
 #: and where nobody does [s].
@@ -135,6 +136,7 @@ def _work(pipe: Connection, called_off: Any, campaign: str, trust: Trust, aside:
     if aside and hasattr(os, "nice"):
         os.nice(_COURTESY)
     begin_worker(own_cores=True)
+    pass_over_a_matplotlibrc_here()
     from slipwise.session.session import Session
     from slipwise.workbench.jobs import JOBS, Task
 
