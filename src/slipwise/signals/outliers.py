@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 #: Share of a channel's samples whose height is usual [1].
 _USUAL = 0.99
-#: Longest burst that is looked for [samples], and how many times higher than usual it is. Of sound channels of ten
+#: Longest burst that is looked for [samples], and how many times higher than usual it is. Of sound channels of four
 #: simulated campaigns the first two take up to 16 samples in ten thousand, of friction alone, the last none.
 _FORMS = ((2, 4.0), (5, 8.0), (LONGEST, 6.0))
 
