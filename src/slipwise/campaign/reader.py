@@ -131,7 +131,7 @@ def _read_file(path: Path, settings: Settings, specimen: Specimen) -> _File:
             time = converted
         else:
             channels[mapped.channel] = converted
-    time, words = time_of_file(path.name, time, channels, table, settings.sample_rate)
+    time, words = time_of_file(path.name, time, channels, table, read.tables, settings.sample_rate)
     check_time(path.name, time, read.tables)
     channels, wild = without_wild_samples(time, channels, specimen)
     for name, value in settings.constants.items():

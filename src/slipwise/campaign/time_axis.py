@@ -17,7 +17,12 @@ _STEP_RANGE = (1e-6, 10.0)
 
 
 def time_of_file(
-    name: str, column: Array | None, channels: Mapping[str, Array], table: Table, rate: float | None
+    name: str,
+    column: Array | None,
+    channels: Mapping[str, Array],
+    table: Table,
+    tables: tuple[Block, ...],
+    rate: float | None,
 ) -> tuple[Array, tuple[str, ...]]:
     """Give the times of a file.
 
@@ -26,6 +31,7 @@ def time_of_file(
         column: its column of times (n,) [s], None if no column holds them.
         channels: what else was read, each (n,).
         table: the file.
+        tables: of the file, where it holds more than one.
         rate: what campaign.toml says of it [Hz], None if it says nothing.
 
     Returns:
@@ -37,6 +43,12 @@ def time_of_file(
     stated = table.step
     if column is not None:
         return column, _checked(name, column, stated, rate)
+    if tables:
+        raise InputError(
+            f"{name}: it holds {len(tables)} tables, from lines {', '.join(str(block.line) for block in tables)} on, "
+            "and no column of times tells whether they are one record; give each a run of its own: "
+            f'file = "{name}#1", file = "{name}#2"'
+        )
     if rate is not None and stated is not None and abs(rate * stated - 1.0) > _CLOCK:
         raise InputError(
             f"{name}: the file states a sample rate of {1.0 / stated:g} Hz, campaign.toml {rate:g} Hz; correct one of "

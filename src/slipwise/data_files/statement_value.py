@@ -29,7 +29,8 @@ _MEASURED_IN = (
     re.compile(r"\s+([^\s,;()\[\]]+/s\S*)", re.IGNORECASE),
     re.compile(r"[^:=\d(\[]{0,30}?\s(\S+)\s+cinsinden", re.IGNORECASE),
 )
-_LABEL = r"[(\[]?(?P<{}>[A-Za-z+][\w+.-]{{0,11}}|\d{{3}}(?=\s*[):=\]]))[)\]]?"
+_DIRECTION = "(?:[东東]西|南北|上下|竖直?|垂直)向?"
+_LABEL = rf"[(\[]?(?P<{{}}>[A-Za-z+][\w+.-]{{{{0,11}}}}|{_DIRECTION}|\d{{{{3}}}}(?=\s*[):=\]]))[)\]]?"
 _PEAK = re.compile(
     rf"\s*[,;/|]?\s*(?:{_LABEL.format('label')}\s*[:=]?\s*)?(?P<number>{NUMBER})(?![\d.])(?P<rest>.*)", re.DOTALL
 )
@@ -155,8 +156,12 @@ class StatementValue:
     def _peaks(self, label: str) -> Iterator[Peak]:
         """Give one peak, or those of several components: "(N-S) 12.2 (E-W) 8.2", "NS=12.2, EW=8.2", "12.2/8.2/2.9"."""
         bracket = bool(self.unit) and self.behind_key.lstrip().startswith(("(", "["))
-        named = re.match(rf"\s*{_LABEL.format('label')}\s*[:=]", self.behind_key)
-        text = self.behind_key if named and not (self.signed or bracket) else self.text
+        # "PGA (NS/EW/UD): 12.2/8.2/2.9 gal"
+        listed = [] if is_acceleration(self.unit) else re.split(r"[\s,;/]+", self.unit)
+        self.unit = "" if listed else self.unit
+        behind_key = self.behind_key.lstrip(". ")
+        named = re.match(rf"{_LABEL.format('label')}\s*[:=]", behind_key)
+        text = behind_key if named and not (self.signed or bracket) else self.text
         # Without a sign a number is a peak only if a unit of acceleration stands behind it.
         direct = re.match(rf"{NUMBER}\s*([^\s,;]+)", text)
         if not (self.signed or bracket or named or (direct and is_acceleration(direct[1].rstrip(".")))):
@@ -182,6 +187,8 @@ class StatementValue:
             text, self.used = rest, len(self.behind_key) - len(rest)
         # "12.2 / 8.2 / 2.9 gal": the unit of the last is that of all.
         last = peaks[-1].unit if peaks else ""
+        if len(listed) == len(peaks) > 1 and not any(peak.label for peak in peaks):
+            peaks = [replace(peak, label=name) for peak, name in zip(peaks, listed, strict=True)]
         yield from (replace(peak, unit=peak.unit or last) for peak in peaks)
 
 

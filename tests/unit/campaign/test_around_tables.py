@@ -209,3 +209,10 @@ def test_a_unit_that_was_left_open_is_asked_for_by_column(tmp_path):
         text = COLUMNS.replace("{time}", TIMED).replace('"pad_A_Fx", unit = "N"', '"pad_A_Fx", unit = "?"')
         (tmp_path / "campaign.toml").write_text(text)
         load_campaign(tmp_path)
+
+
+def test_two_tables_without_times_are_no_run_of_twice_the_length(tmp_path):
+    text = "Sample rate: 50 Hz\n\nSlip [mm],Friction [N]\n" + rows(SLIP, FORCE)
+    assert len(run(tmp_path, text, time="").runs[0].record.time) == N
+    with pytest.raises(InputError, match=r"it holds 2 tables, from lines .* no column of times tells .*run\.csv#1"):
+        run(tmp_path, text + text, time="")
