@@ -70,7 +70,7 @@ def test_numbers_some_percent_off_are_recovered_from_the_replay(fitted: BaseFit)
 
 
 def test_a_number_of_the_specimen_may_differ_from_copy_to_copy(fitted: BaseFit) -> None:
-    found = refine(off(fitted, **{"rig.mass": 1.04}), ("rig.mass",), rounds=2)
+    found = refine(off(fitted, **{"rig.mass": 1.04}), ("rig.mass",), rounds=4)
     assert found.entries[0].value == pytest.approx(1e4, rel=2e-3)
 
 
