@@ -5,9 +5,9 @@ import threading
 from pathlib import Path
 
 import pytest
-from slipwise.campaign.table import open_table
 
 from slipwise import input_file
+from slipwise.data_files.table import open_table
 from slipwise.effects import load_effect
 from slipwise.errors import InputError
 from slipwise.input_file import check_input, free_memory, read_input

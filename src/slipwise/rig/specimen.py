@@ -64,7 +64,7 @@ class Specimen:
     bending_frequency: float = 15.0
     bending_damping: float = 0.02
     sources: dict[str, str] = field(default_factory=dict)
-    stated: tuple[str, ...] = ()
+    stated: tuple[str, ...] = field(default=(), compare=False)
 
     def __post_init__(self) -> None:
         """Refuse values that no rig can have, and values that do not belong together."""

@@ -76,6 +76,8 @@ def test_a_matplotlibrc_of_the_current_folder_is_not_read(settings: bytes, campa
 
 @pytest.mark.skipif(not hasattr(os, "getuid") or os.getuid() != 0, reason="only root mounts a disk of its own")
 def test_a_picture_without_any_folder_for_temporary_files_is_refused_with_what_to_do(tmp_path: Path) -> None:
+    if sys.executable.startswith(("/tmp/", "/var/tmp/", "/dev/shm/")):
+        pytest.skip(f"{sys.executable} stands in a folder that this test hides")
     mounts = "for place in /tmp /var/tmp /dev/shm; do mount -t tmpfs -o ro tmpfs $place || exit 99; done; cd /proc; "
     program = f"{mounts} exec {sys.executable} -P -m slipwise effects heating --picture /proc/a.png"
     bare = {"PATH": os.environ["PATH"], "HOME": "/proc", "LANG": "C"}
