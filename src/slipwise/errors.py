@@ -90,6 +90,24 @@ def cannot_write(path: Path | str, error: OSError) -> OutputError:
     return OutputError(f"cannot write {path}: {reason[:1].lower()}{reason[1:]}; {todo}. What was finished is kept")
 
 
+def missing_library(place: object, what: str, library: str, extra: str, instead: str) -> InputError:
+    """Make the error for a file whose format is read by a library that is not installed.
+
+    Args:
+        place: the file, as messages name it.
+        what: the files of that format, e.g. "MDF files".
+        library: that reads them.
+        extra: of slipwise, that brings the library.
+        instead: what can be done without it, e.g. "export the file as CSV".
+
+    Returns:
+        The error, to be raised by the caller.
+    """
+    return InputError(
+        f"{place}: {what} are read by {library}; install it with `pip install 'slipwise[{extra}]'`, or {instead}"
+    )
+
+
 def visible(text: str) -> str:
     """Give a text whose control characters are written as escapes: names from files must not steer a terminal."""
     return _UNSEEN.sub(lambda found: found[0].encode("unicode_escape").decode("ascii"), text)

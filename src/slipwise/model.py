@@ -11,7 +11,7 @@ from slipwise.errors import SettingError, unknown_name
 from slipwise.params import Parameter
 from slipwise.rig import Specimen, load_specimen
 from slipwise.shown import Tabular
-from slipwise.unused_values import refuse_unused
+from slipwise.unused_values import refuse_stated, unused_values
 
 
 @dataclass(frozen=True, repr=False)
@@ -233,9 +233,9 @@ class Model(Tabular):
         return replace(self, uses=tuple(new if u is old else u for u in self.uses))
 
     @property
-    def effects_by_label(self) -> dict[str, Effect]:
-        """Give the effects by the labels of their uses."""
-        return {u.label: u.effect for u in self.uses}
+    def unused_values(self) -> dict[str, str]:
+        """Give the values of the specimen that the model does not use, name -> why."""
+        return unused_values(self.built_specimen(), {u.label: u.effect for u in self.uses})
 
     def built_specimen(self) -> Specimen:
         """Give the specimen as the effects on ports `rig` and `girder` leave it."""
@@ -275,5 +275,5 @@ def base_model(rig: str | Path | Specimen, effects: Sequence[str | Effect | Effe
     chosen = base_effects("law") if effects is None else effects
     specimen = rig if isinstance(rig, Specimen) else load_specimen(rig)
     model = Model(specimen, tuple(e if isinstance(e, EffectUse) else use(e) for e in chosen))
-    refuse_unused(model.specimen, model.built_specimen(), model.effects_by_label)
+    refuse_stated(model.specimen, model.unused_values)
     return model

@@ -41,7 +41,7 @@ from slipwise.record import write_text
 from slipwise.rig import RIGS, Specimen, load_specimen
 from slipwise.rig.known import SPECIMEN_UNITS, better_known, known_better, read_known
 from slipwise.units import quantity
-from slipwise.unused_values import refuse_unused, unused_values
+from slipwise.unused_values import refuse_stated
 
 _TOP = ("rig", "specimen", "effect")
 _HEAD = """# A model: the rig and the effects that act on it. `slipwise add` and `slipwise remove` edit this file too,
@@ -108,7 +108,7 @@ def save_model(model: Model, path: Path | str) -> None:
     rated = load_specimen(str(document["rig"]), path.parent)
     if rated.path != model.specimen.path:
         raise SettingError(f"{path} is a model of {document['rig']!r}, not of {rig!r}; write to another file")
-    unused = unused_values(model.built_specimen(), model.effects_by_label)
+    unused = model.unused_values
     known = {n: value for n, value in known_better(model.specimen, rated).items() if n not in unused}
     _write_specimen(document, known)
     labels = [u.label for u in model.uses]
@@ -213,7 +213,7 @@ def _model(document: tomlkit.TOMLDocument, path: Path, trust: Trust) -> Model:
     known = read_known(part, f"[specimen] of {path.name}")
     uses = tuple(entry_use(entry, path, trust, slider=not specimen.free) for entry in _entries(document))
     model = Model(better_known(specimen, known, path.name), uses)
-    refuse_unused(model.specimen, model.built_specimen(), model.effects_by_label)
+    refuse_stated(model.specimen, model.unused_values)
     return model
 
 

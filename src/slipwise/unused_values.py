@@ -28,18 +28,16 @@ def unused_values(built: Specimen, effects: Mapping[str, Effect]) -> dict[str, s
     return why
 
 
-def refuse_unused(specimen: Specimen, built: Specimen, effects: Mapping[str, Effect]) -> None:
+def refuse_stated(specimen: Specimen, unused: Mapping[str, str]) -> None:
     """Refuse a specimen with a value that a person stated and nothing uses.
 
     Args:
         specimen: as stated.
-        built: as the effects leave it.
-        effects: of the model, by their labels.
+        unused: values that a model does not use, name -> why.
 
     Raises:
         SettingError: there is one; the message says what stands in its place.
     """
-    unused = unused_values(built, effects)
     for name in specimen.stated:
         if name in unused:
             of_law = "stands" in unused[name]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges
-from slipwise.errors import InputError
+from slipwise.errors import InputError, missing_library
 
 #: What a catman file begins with, in its versions: a whole number of two bytes.
 _MARKS = range(5009, 5100)
@@ -23,10 +23,7 @@ def read_catman(path: Path) -> NamedColumns:
     try:
         from apread import APReader  # type: ignore[import-not-found]
     except ModuleNotFoundError:
-        raise InputError(
-            f"{path}: catman's .bin files are read by apread; install it with `pip install 'slipwise[catman]'`, or "
-            "export the file as text"
-        ) from None
+        raise missing_library(path, "catman's .bin files", "apread", "catman", "export the file as text") from None
     with path.open("rb") as stream:
         if int.from_bytes(stream.read(2), "little") not in _MARKS:
             raise InputError(f"{path}: this .bin file is none of catman's; export the measurement as text or .tdms")

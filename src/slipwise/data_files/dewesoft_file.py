@@ -11,7 +11,7 @@ import numpy as np
 
 from slipwise.child_processes import on_a_safe_path
 from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges
-from slipwise.errors import InputError
+from slipwise.errors import InputError, missing_library
 
 #: Channels that cannot be read, of which a note gives the names.
 _LISTED = 6
@@ -24,10 +24,7 @@ def read_dewesoft(path: Path) -> NamedColumns:
         InputError: DWDataReader is not installed or does not run here, or the file is damaged.
     """
     if sys.modules.get("dwdatareader", sys) is None or importlib.util.find_spec("dwdatareader") is None:
-        raise InputError(
-            f"{path}: Dewesoft files are read by DWDataReader; install it with `pip install 'slipwise[dewesoft]'`, or "
-            "export the file as text or .mat"
-        )
+        raise missing_library(path, "Dewesoft files", "DWDataReader", "dewesoft", "export the file as text or .mat")
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder)
         command = [sys.executable, "-m", "slipwise.data_files.dewesoft_channels", str(path.resolve()), folder]

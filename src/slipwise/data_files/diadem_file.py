@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges
-from slipwise.errors import InputError
+from slipwise.errors import InputError, missing_library
 
 
 def read_tdm(path: Path) -> NamedColumns:
@@ -18,10 +18,7 @@ def read_tdm(path: Path) -> NamedColumns:
     try:
         import tdm_loader  # type: ignore[import-not-found]
     except ModuleNotFoundError:
-        raise InputError(
-            f"{path}: DIAdem files are read by tdm-loader; install it with `pip install 'slipwise[diadem]'`, or export "
-            "the file as .tdms or CSV"
-        ) from None
+        raise missing_library(path, "DIAdem files", "tdm-loader", "diadem", "export the file as .tdms or CSV") from None
     gauges = []
     try:
         steps = _steps(path)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.data_files.named_columns import NamedColumns
-from slipwise.errors import InputError
+from slipwise.errors import InputError, missing_library
 
 Array = NDArray[np.float64]
 #: A segment of a .tdms file begins with its mark, a mask of flags, a version, and where the next segment begins.
@@ -51,10 +51,7 @@ def read_tdms(path: Path) -> NamedColumns:
         from nptdms import TdmsFile  # type: ignore[import-not-found]
         from nptdms.log import log_manager  # type: ignore[import-not-found]
     except ModuleNotFoundError:
-        raise InputError(
-            f"{path}: .tdms files are read by npTDMS; install it with `pip install 'slipwise[labview]'`, or export the "
-            "file as .lvm or text"
-        ) from None
+        raise missing_library(path, ".tdms files", "npTDMS", "labview", "export the file as .lvm or text") from None
     _check_whole(path)
     log_manager.set_level(logging.ERROR)  # what it would warn of is refused
     columns: dict[str, Array] = {}

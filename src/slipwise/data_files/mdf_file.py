@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges
-from slipwise.errors import InputError
+from slipwise.errors import InputError, missing_library
 
 #: What a file begins with: one that was closed, and one that was not.
 _MARKS = (b"MDF     ", b"UnFinMF ")
@@ -24,10 +24,7 @@ def read_mdf(path: Path) -> NamedColumns:
     try:
         from asammdf import MDF  # type: ignore[import-not-found]
     except ModuleNotFoundError:
-        raise InputError(
-            f"{path}: MDF files are read by asammdf; install it with `pip install 'slipwise[mdf]'`, or export the file "
-            "as CSV"
-        ) from None
+        raise missing_library(path, "MDF files", "asammdf", "mdf", "export the file as CSV") from None
     _check_whole(path)
     gauges = []
     try:

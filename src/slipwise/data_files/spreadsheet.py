@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from slipwise.data_files.header_rows import MISSING, Header, find_header
 from slipwise.data_files.table_rows import left_out_below
 from slipwise.data_files.time_stamps import seconds_of_stamps
-from slipwise.errors import InputError
+from slipwise.errors import InputError, missing_library
 
 Array = NDArray[np.float64]
 _LOOK_AT = 500
@@ -109,10 +109,7 @@ def _workbook(path: Path) -> Any:
     try:
         from openpyxl import load_workbook  # type: ignore[import-untyped]
     except ModuleNotFoundError:
-        raise InputError(
-            f"{path}: .xlsx files are read by openpyxl; install it with `pip install 'slipwise[excel]'`, or save the "
-            "sheet as CSV"
-        ) from None
+        raise missing_library(path, ".xlsx files", "openpyxl", "excel", "save the sheet as CSV") from None
     try:
         with ZipFile(path) as packed:
             unpacked = sum(part.file_size for part in packed.infolist())

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges
-from slipwise.errors import InputError
+from slipwise.errors import InputError, missing_library
 
 #: Type of a function that is a time response; 0 is not told, and has times if its abscissa is one of time.
 _TIME_RESPONSE, _NOT_TOLD = 1, 0
@@ -28,10 +28,7 @@ def read_uff(path: Path) -> NamedColumns:
     try:
         import pyuff  # type: ignore[import-not-found]
     except ModuleNotFoundError:
-        raise InputError(
-            f"{path}: universal files are read by pyuff; install it with `pip install 'slipwise[uff]'`, or export the "
-            "time responses as CSV"
-        ) from None
+        raise missing_library(path, "universal files", "pyuff", "uff", "export the time responses as CSV") from None
     _check_whole(path)
     try:
         file = pyuff.UFF(str(path))

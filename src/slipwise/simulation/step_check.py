@@ -17,7 +17,7 @@ import numpy as np
 
 from slipwise.errors import SlipwiseWarning
 from slipwise.model import Model
-from slipwise.simulation.kernel import engine_for, fill, kernel
+from slipwise.simulation.kernel import ENGINES, fill, kernel
 from slipwise.simulation.kernel.pads import STICK_SPEED
 from slipwise.simulation.predict import user_effects
 from slipwise.simulation.result import Replay
@@ -69,8 +69,7 @@ def _step_of_law(model: Model, answer: Replay) -> float | None:
 
 def _left_out(model: Model, change: float) -> float:
     """Give the deceleration [m/s^2] that straight lines over a change of slip rate [m/s] may be wrong by."""
-    own = user_effects(model)
-    law = kernel(engine_for(own), own)
+    law = kernel(ENGINES[1], user_effects(model))  # three calls are not worth compiling the law by itself
     numbers, specimen = fill(law.layout, model, 1.0), model.built_specimen()
     z, load = law.layout.first_pad, specimen.weight / len(specimen.pads)
     low = 2.0 * STICK_SPEED  # below it a pad may count as sticking

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.errors import InputError, UnitError
+from slipwise.errors import InputError, UnitError, missing_library
 from slipwise.motion.origin import Origin
 from slipwise.motion.source_file import SourceFile
 from slipwise.motion.stated import Given, settle_step, settle_unit
@@ -110,9 +110,8 @@ def _stream(source: SourceFile) -> Any:
         from obspy import read as read_stream
         from obspy.io.mseed import InternalMSEEDWarning
     except ModuleNotFoundError:
-        raise InputError(
-            f"{source.name}: SAC and miniSEED are read by obspy; install it with `pip install 'slipwise[seismology]'`, "
-            "or export the motion as text"
+        raise missing_library(
+            source.name, "SAC and miniSEED", "obspy", "seismology", "export the motion as text"
         ) from None
     if source.data[:6].isdigit() and len(source.data) % _SHORTEST_RECORD:
         raise InputError(f"{source.name}: {_DAMAGED}")
