@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import suppress
 from importlib import resources
 from pathlib import Path
 
@@ -43,14 +44,30 @@ def error_of(process: subprocess.Popen[str]) -> list[str]:
 
 
 def nobody_is_left(process: subprocess.Popen[str]) -> bool:
-    """Tell whether no child of the command lives; one that has ended may take a moment to be gone."""
+    """Tell whether no child of the command lives; one that is asked to end may take a moment."""
     for _ in range(20):
-        try:
-            os.killpg(process.pid, 0)
-        except ProcessLookupError:
+        if not lives(process.pid):
             return True
         time.sleep(0.1)
     return False
+
+
+def lives(group: int) -> bool:
+    """Tell whether a process of this group runs.
+
+    One that has ended and that the system's first process has not collected yet counts as gone; some of those collect
+    every few seconds only.
+    """
+    try:
+        os.killpg(group, 0)
+    except ProcessLookupError:
+        return False
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        with suppress(OSError):  # it is gone by now
+            state, _, of = stat.read_text().rpartition(")")[2].split()[:3]
+            if int(of) == group and state != "Z":
+                return True
+    return not Path("/proc").is_dir()
 
 
 def rubbish(folder: Path) -> list[Path]:
