@@ -25,7 +25,7 @@ from slipwise.record import Record, write_json
 from slipwise.simulation.predict import predictor
 from slipwise.simulation.replay import replay
 from slipwise.simulation.simulator import Replay
-from slipwise.view.terminal import print_table
+from slipwise.view.words.terminal import print_table
 
 MOTION = "quake:seed=12,peak=0.7g,f=4Hz,strong=4s,vertical=0.25g"
 LEVEL = MOTION.removesuffix(",vertical=0.25g")

@@ -18,7 +18,7 @@ from slipwise.record import write_json
 from slipwise.rig import build
 from slipwise.simulation.predict import predictor
 from slipwise.simulation.simulator import simulate
-from slipwise.view.canvas import new_figure, save_figure
+from slipwise.view.figures.canvas import new_figure, save_figure
 
 G = 9.80665
 

@@ -19,13 +19,13 @@ import numpy as np
 from slipwise.effects import load_effect
 from slipwise.errors import SettingError
 from slipwise.model import base_model, use
-from slipwise.model_file import add_effect, draft_model, load_model
+from slipwise.model.file import add_effect, draft_model, load_model
 from slipwise.simulation.kernel import engine_for
 from slipwise.simulation.predict import predictor
 from slipwise.simulation.simulator import simulate
-from slipwise.view.canvas import save_figure
-from slipwise.view.effects import effect_picture, print_effect
-from slipwise.view.style import styled
+from slipwise.view.figures.canvas import save_figure
+from slipwise.view.figures.style import styled
+from slipwise.view.words.effects import effect_picture, print_effect
 
 # 1. The file. A docstring that a reader learns from, hooks whose arguments say what they need, and EFFECT. What hooks
 # cannot say is declared: without a changing load this effect is one with the base law, so a diagnosis must not try it.

@@ -19,10 +19,10 @@ from slipwise.comparison.refinement import refine  # noqa: E402
 from slipwise.comparison.tables import as_json  # noqa: E402
 from slipwise.instruments.checks import check_instruments  # noqa: E402
 from slipwise.record import write_json, write_text  # noqa: E402
-from slipwise.view.compare_answers import one_minute  # noqa: E402
-from slipwise.view.compare_page import compare_page  # noqa: E402
-from slipwise.view.compare_recording import write_compare_recording  # noqa: E402
-from slipwise.view.terminal import print_table  # noqa: E402
+from slipwise.view.pages.compare_page import compare_page  # noqa: E402
+from slipwise.view.recordings.compare_recording import write_compare_recording  # noqa: E402
+from slipwise.view.words.compare_answers import one_minute  # noqa: E402
+from slipwise.view.words.terminal import print_table  # noqa: E402
 
 
 def main() -> None:

@@ -14,7 +14,7 @@ from slipwise.record import write_json
 from slipwise.studies.paper import PaperSettings, as_json, change, reenact
 from slipwise.studies.paper.law import mu
 from slipwise.studies.paper.settings import paper_model
-from slipwise.view.paper_page import write_page
+from slipwise.view.pages.paper_page import write_page
 
 
 def main() -> None:

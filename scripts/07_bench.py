@@ -85,7 +85,7 @@ def diagnosed(folder: Path) -> dict[str, Any]:
 
 def _begin() -> None:
     """Be a worker that ends at once, without a word, at a Ctrl-C (Python would print a traceback of each)."""
-    from slipwise.parallel import begin_worker
+    from slipwise.jobs.parallel import begin_worker
 
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     begin_worker()
@@ -136,8 +136,8 @@ def show(out: Path, results: list[dict[str, Any]], planned: int) -> None:
     from bench.score import calibration, confusion, rates  # pyright: ignore[reportMissingImports]
     from bench.sizes import sizes  # pyright: ignore[reportMissingImports]
     from slipwise.record import write_json, write_text
-    from slipwise.view.canvas import save_figure
-    from slipwise.view.style import styled
+    from slipwise.view.figures.canvas import save_figure
+    from slipwise.view.figures.style import styled
 
     scored = rates(results)
     for name, (good, total) in scored["exactly right"].items():

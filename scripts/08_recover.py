@@ -20,16 +20,16 @@ import numpy as np
 
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.diagnosis.candidates import candidates
+from slipwise.diagnosis.initial_grid import strengths
 from slipwise.diagnosis.screening import screen
-from slipwise.diagnosis.starting_grid import strengths
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit, fit_base, fit_finely
 from slipwise.estimation.intervals import Intervals, intervals
-from slipwise.estimation.parameters import Term
 from slipwise.evidence.residual_summary import summarised
 from slipwise.model import EffectUse, Model, base_model
 from slipwise.motion import load_motion
 from slipwise.record import Record, write_json
+from slipwise.relations.parameters import Term
 from slipwise.signals.filters import LowPass, lowpass
 from slipwise.simulation.replay import replay
 

@@ -25,8 +25,8 @@ import numpy as np
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.comparison.compare import compare
 from slipwise.diagnosis.diagnose import diagnose
+from slipwise.jobs.parallel import begin_worker
 from slipwise.model import base_model, use
-from slipwise.parallel import begin_worker
 from slipwise.record import Record, write_json
 from slipwise.signals.filters import LowPass, lowpass
 from slipwise.simulation.replay import replay

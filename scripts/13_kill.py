@@ -23,7 +23,7 @@ from pathlib import Path
 
 import pyarrow.parquet as parquet
 
-from slipwise.model_file import load_model
+from slipwise.model.file import load_model
 
 DEMO = Path(__file__).resolve().parents[1] / "src" / "slipwise" / "demo_data"
 QUAKES = ("quake:seed=1,peak=0.5g,strong=2s", "quake:seed=2,peak=0.5g,strong=2s")

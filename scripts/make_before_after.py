@@ -9,9 +9,9 @@ from PIL import Image
 
 from slipwise.campaign import load_campaign
 from slipwise.diagnosis.diagnose import diagnose
-from slipwise.view.canvas import save_figure
-from slipwise.view.diagnosis_figures import loops_figure
-from slipwise.view.style import styled
+from slipwise.view.figures.canvas import save_figure
+from slipwise.view.figures.diagnosis_figures import loops_figure
+from slipwise.view.figures.style import styled
 
 ROOT = Path(__file__).parents[1]
 _COLOURS = 128

@@ -25,7 +25,7 @@ from matplotlib.image import imread
 from rerun.chunk import RrdReader
 
 from slipwise.channels import pads_in
-from slipwise.view.style import pad_colour, rgb
+from slipwise.view.figures.style import pad_colour, rgb
 
 VIEWER = [
     sys.executable,

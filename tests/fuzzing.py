@@ -15,7 +15,7 @@ from slipwise.campaign import load_campaign
 from slipwise.campaign.draft import draft_campaign
 from slipwise.data_files.table import open_table
 from slipwise.errors import SlipwiseError
-from slipwise.model_file import load_model
+from slipwise.model.file import load_model
 from slipwise.motion.load import load_motion
 from slipwise.record import Record, write_record
 from slipwise.rig import load_specimen

@@ -19,14 +19,14 @@ from slipwise.diagnosis.verdict import Verdict, confirmed, decide_verdict
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import Solution
-from slipwise.estimation.parameters import Free, Term, base_free, terms_of
-from slipwise.estimation.problem import Problem
-from slipwise.estimation.residuals import Residuals
-from slipwise.estimation.run_data import FitRun, fit_runs
+from slipwise.estimation.objective import Problem
 from slipwise.evidence.residual_summary import error_of, summarised
 from slipwise.evidence.score import lead, score
 from slipwise.model import base_model
 from slipwise.record import Record
+from slipwise.relations.parameters import Free, Term, base_free, terms_of
+from slipwise.relations.run_data import FitRun, fit_runs
+from slipwise.relations.table import Residuals
 from slipwise.signals.filters import LowPass
 
 Array = NDArray[np.float64]

@@ -23,11 +23,13 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
-    from slipwise import channels, effects, executors, motion, rig, workbench
+    from slipwise import channels, effects, motion, rig, workbench
     from slipwise.campaign import Campaign, load_campaign
     from slipwise.campaign.draft import init_campaign
     from slipwise.comparison.compare import compare
     from slipwise.comparison.result import Comparison
+    from slipwise.design.motions import Limits
+    from slipwise.design.next_test import NextTest, next_test
     from slipwise.diagnosis.ladder import Ladder, ladder
     from slipwise.diagnosis.result import Diagnosis
     from slipwise.discovery.discover import diagnose_with_law as diagnose
@@ -35,13 +37,12 @@ if TYPE_CHECKING:
     from slipwise.discovery.law import Discovery
     from slipwise.effects import Effect
     from slipwise.errors import SlipwiseError
-    from slipwise.experiment.motions import Limits
-    from slipwise.experiment.next_test import NextTest, next_test
     from slipwise.instruments.checks import Checks, corrected_campaign
     from slipwise.instruments.checks import check_instruments as audit
     from slipwise.instruments.report import AuditReport
+    from slipwise.jobs import executors
     from slipwise.model import Model, base_model, use
-    from slipwise.model_file import load_model, save_model
+    from slipwise.model.file import load_model, save_model
     from slipwise.motion import TableMotion, load_motion
     from slipwise.params import Parameter
     from slipwise.record import Record, read_record, write_record
@@ -60,8 +61,8 @@ _PLACES: dict[str, tuple[str, str]] = {
     "Model": ("model", "Model"),
     "base_model": ("model", "base_model"),
     "use": ("model", "use"),
-    "load_model": ("model_file", "load_model"),
-    "save_model": ("model_file", "save_model"),
+    "load_model": ("model.file", "load_model"),
+    "save_model": ("model.file", "save_model"),
     "load_motion": ("motion", "load_motion"),
     "pier_top": ("simulation.pier", "pier_top"),
     "replay": ("simulation.replay", "replay"),
@@ -75,7 +76,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "ladder": ("diagnosis.ladder", "ladder"),
     "add": ("session.model_change", "add"),
     "remove": ("session.model_change", "remove"),
-    "next_test": ("experiment.next_test", "next_test"),
+    "next_test": ("design.next_test", "next_test"),
     "read_record": ("record", "read_record"),
     "write_record": ("record", "write_record"),
     "quantity": ("units", "quantity"),
@@ -87,9 +88,9 @@ _PLACES: dict[str, tuple[str, str]] = {
     "Discovery": ("discovery.law", "Discovery"),
     "Effect": ("effects", "Effect"),
     "Ladder": ("diagnosis.ladder", "Ladder"),
-    "Limits": ("experiment.motions", "Limits"),
+    "Limits": ("design.motions", "Limits"),
     "ModelChange": ("session.model_change", "ModelChange"),
-    "NextTest": ("experiment.next_test", "NextTest"),
+    "NextTest": ("design.next_test", "NextTest"),
     "Parameter": ("params", "Parameter"),
     "Record": ("record", "Record"),
     "Replay": ("simulation.simulator", "Replay"),
@@ -101,7 +102,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "channels": ("channels", ""),
     "effects": ("effects", ""),
     "ensemble": ("studies.ensemble", ""),
-    "executors": ("executors", ""),
+    "executors": ("jobs.executors", ""),
     "motion": ("motion", ""),
     "paper": ("studies.paper", ""),
     "rig": ("rig", ""),
@@ -176,5 +177,5 @@ def __getattr__(name: str) -> "Any":
 
 
 def __dir__() -> list[str]:
-    """Give the names, for completion in a notebook."""
+    """Return the names, for completion in a notebook."""
     return sorted(__all__)

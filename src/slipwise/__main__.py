@@ -6,7 +6,7 @@ if __name__ == "__main__" and not sys.flags.safe_path:
     # `python -m` looks for modules in the current folder first: a stranger's folder may hold a numpy.py
     del sys.path[0]
 
-from slipwise.interruption import Stopped, stoppable  # noqa: E402
+from slipwise.jobs.interruption import Stopped, stoppable  # noqa: E402
 from slipwise.standard_streams import open_standard_streams  # noqa: E402
 
 

@@ -82,7 +82,7 @@ def _of_buffer(buffer: str) -> tuple[Channel, ...]:
 
 
 def channels_of(pads: Iterable[str], buffers: Iterable[str]) -> dict[str, Channel]:
-    """Give every channel that a rig with these pads and buffers can have, by name."""
+    """Return every channel that a rig with these pads and buffers can have, by name."""
     named = [*(c for pad in pads for c in _of_pad(pad)), *(c for buffer in buffers for c in _of_buffer(buffer))]
     return _table() | {c.name: c for c in named}
 
@@ -110,7 +110,7 @@ def _known(name: str) -> Channel | None:
 
 
 def is_channel(name: str) -> bool:
-    """Tell whether the grammar knows a name; "pad_A_Fx_raw" too."""
+    """Return whether the grammar knows a name; "pad_A_Fx_raw" too."""
     match = _RAW.match(name)
     return _known(match["name"] if match else name) is not None
 
@@ -129,19 +129,19 @@ def channel(name: str) -> Channel:
 
 
 def part_of(name: str) -> tuple[str, str]:
-    """Give what a channel belongs to: ("pad", "A") of "pad_A_N", ("buffer", "1") of "buffer_1_Fx", else ("", "")."""
+    """Return what a channel belongs to: ("pad", "A") of "pad_A_N", ("buffer", "1") of "buffer_1_Fx", else ("", "")."""
     match = _PART.match(name)
     return (match["part"], match["name"]) if match else ("", "")
 
 
 def pads_in(names: Iterable[str]) -> tuple[str, ...]:
-    """Give the pads that channels with these names belong to: shorter names first, then by the alphabet."""
+    """Return the pads that channels with these names belong to: shorter names first, then by the alphabet."""
     found = {part_of(name)[1] for name in names if part_of(name)[0] == "pad"}
     return tuple(sorted(found, key=lambda pad: (len(pad), pad)))
 
 
 def channels_like(pattern: str, among: Iterable[str]) -> tuple[str, ...]:
-    """Give those of the channels that a pattern such as "pad_*_N" means, in their order; "all" means every channel."""
+    """Return the channels that a pattern such as "pad_*_N" means, in their order; "all" means every channel."""
     return tuple(n for n in among if pattern == "all" or fnmatch.fnmatchcase(n, pattern))
 
 

@@ -109,5 +109,5 @@ def missing_library(place: object, what: str, library: str, extra: str, instead:
 
 
 def visible(text: str) -> str:
-    """Give a text whose control characters are written as escapes: names from files must not steer a terminal."""
+    """Return a text whose control characters are written as escapes: names from files must not steer a terminal."""
     return _UNSEEN.sub(lambda found: found[0].encode("unicode_escape").decode("ascii"), text)

@@ -55,7 +55,7 @@ def check_input(path: Path) -> Path:
 
 
 def free_memory() -> float:
-    """Give the memory that this process may still take [bytes]: of the machine, of its container, of its own limit."""
+    """Return memory that this process may still take [bytes]: of the machine, of its container, of its own limit."""
     free = [math.inf]
     for line in _lines("/proc/meminfo"):
         if line.startswith("MemAvailable:"):

@@ -110,11 +110,11 @@ class Parameter:
             ) from None
 
     def of_pad(self, pad: str) -> "Parameter":
-        """Give the parameter that one pad has of its own, e.g. strength[A]."""
+        """Return the parameter that one pad has of its own, e.g. strength[A]."""
         return replace(self, name=f"{self.name}[{pad}]", meaning=f"{self.meaning}; of pad {pad}")
 
     def row(self) -> dict[str, str | float | None]:
-        """Give what a table says of it, SI."""
+        """Return what a table says of it, SI."""
         numbers = {"typical": self.typical, "low": self.low, "high": self.high, "neutral": self.neutral}
         return {"parameter": self.name, **numbers, "unit": self.unit, "meaning": self.meaning}
 
@@ -142,11 +142,11 @@ class Parameter:
         return f"{in_unit:.{digits}g}{'' if unit == '1' else ' ' + unit}"
 
     def written(self, value: float) -> str | float:
-        """Give a value [SI] as a file has it: a pure number bare, anything else with its unit."""
+        """Return a value [SI] as a file has it: a pure number bare, anything else with its unit."""
         text = self.shown(value)
         return text if " " in text else float(text)
 
 
 def same_number(value: float, other: float) -> bool:
-    """Tell whether two numbers differ by no more than conversions of units do."""
+    """Return whether two numbers differ by no more than conversions of units do."""
     return abs(value - other) <= 1e-13 * abs(other)

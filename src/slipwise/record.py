@@ -17,11 +17,11 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from slipwise.channels import PADS, channel, pads_in, part_of
+from slipwise.display import Drawn, frame
 from slipwise.errors import InputError, SettingError
 from slipwise.input_file import check_input
-from slipwise.shown import Drawn, frame
+from slipwise.jobs.atomic_write import atomic
 from slipwise.units import parse_unit
-from slipwise.whole_file import atomic
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -51,7 +51,7 @@ class Record(Drawn):
                 raise SettingError(f"channel {name!r} has {values.shape} values, time has {self.time.shape}")
 
     def __getitem__(self, name: str) -> Array:
-        """Give one channel (n,).
+        """Return one channel (n,).
 
         Raises:
             InputError: the record does not hold it; the message lists what it holds.
@@ -74,7 +74,7 @@ class Record(Drawn):
         return float(np.median(np.diff(self.time)))
 
     def stacked(self, pattern: str, pads: Sequence[str] | None = None) -> Array:
-        """Give the pads' channels as (n, n_pads), e.g. `stacked("pad_{}_N")`.
+        """Return the pads' channels as (n, n_pads), e.g. `stacked("pad_{}_N")`.
 
         Args:
             pattern: of their names.
@@ -87,20 +87,20 @@ class Record(Drawn):
         return np.stack([self[pattern.format(pad)] for pad in named or PADS], axis=1)
 
     def has_all(self, *names: str) -> bool:
-        """Tell whether every one of these channels is there."""
+        """Return whether every one of these channels is there."""
         return all(name in self.channels for name in names)
 
     def replaced(self, **channels: Array) -> "Record":
-        """Give a record with these channels added or replaced."""
+        """Return a record with these channels added or replaced."""
         return Record(self.time, {**self.channels, **channels}, self.provenance)
 
     def between(self, start: float, end: float) -> "Record":
-        """Give the part with start <= time <= end [s]."""
+        """Return the part with start <= time <= end [s]."""
         inside = (self.time >= start) & (self.time <= end)
         return Record(self.time[inside], {n: v[inside] for n, v in self.channels.items()}, self.provenance)
 
     def to_pandas(self) -> "DataFrame":
-        """Give time and channels as the columns of a pandas frame, SI.
+        """Return time and channels as the columns of a pandas frame, SI.
 
         Raises:
             InputError: pandas is not installed.

@@ -15,7 +15,7 @@ _JAPANESE = re.compile("[\u3040-\u9fff]{2}")
 
 
 def encoding_of(head: bytes) -> str:
-    """Give Python's name of the encoding of a text.
+    """Return Python's name of the encoding of a text.
 
     Args:
         head: its first bytes; the last character may be cut.

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pint
 
-from slipwise.cache import code_folders, own_file, remove
 from slipwise.errors import UnitError
-from slipwise.whole_file import written_beside
+from slipwise.jobs.atomic_write import written_beside
+from slipwise.jobs.cache import code_folders, own_file, remove
 
 
 @cache
@@ -50,7 +50,7 @@ def _as_kept() -> pint.UnitRegistry | None:
 
 
 def _checksum(folder: Path) -> bytes:
-    """Give a hash of what is in a folder; of nothing where it is not there."""
+    """Return a hash of what is in a folder; of nothing where it is not there."""
     found = sorted(folder.iterdir()) if folder.is_dir() else []
     contents = [path.name.encode() + (path.read_bytes() if path.is_file() else b"") for path in found]
     return sha256(b"".join(sha256(content).digest() for content in contents)).digest()
@@ -95,7 +95,7 @@ def _clean(text: str) -> str:
 
 
 def parse_unit(unit: str, dimension_of: str, what: str) -> float:
-    """Give the factor from a unit to SI.
+    """Return the factor from a unit to SI.
 
     Args:
         unit: as written, e.g. "kN", "cm/s^2", "g" (standard gravity).
@@ -112,7 +112,7 @@ def parse_unit(unit: str, dimension_of: str, what: str) -> float:
 
 
 def affine(unit: str, dimension_of: str, what: str) -> tuple[float, float]:
-    """Give (factor, offset) from a unit to SI: value [SI] = factor * value [unit] + offset.
+    """Return (factor, offset) from a unit to SI: value [SI] = factor * value [unit] + offset.
 
     Raises:
         UnitError: unknown unit or another dimension.
@@ -184,7 +184,7 @@ def quantity(text: str | float | int, dimension_of: str, what: str, *, plain_uni
 
 
 def _exponent(text: str, i: int) -> bool:
-    """Tell whether the letter at i is the e of 1e-3."""
+    """Return whether the letter at i is the e of 1e-3."""
     return (
         text[i] in "eE"
         and i > 0
@@ -201,5 +201,5 @@ def convert(value: float, unit: str, to: str) -> float:
 
 @cache
 def powers_of(unit: str) -> dict[str, float]:
-    """Give the units of which an SI unit is a product, in full, with their powers: {"newton": 1, "meter": -1}."""
+    """Return the units of which an SI unit is a product, in full, with their powers: {"newton": 1, "meter": -1}."""
     return {name: float(str(power)) for name, power in _registry().Quantity(1.0, _clean(unit)).unit_items()}

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from bench.pictures import Result, calibration_figure, confusion_figure, error_figure, hidden_name, named, said_name
 from bench.score import DOWN, rates, right
 from bench.sizes import sizes
-from slipwise.view.html import Html, Section, figure, page, paragraph, table, verdict
+from slipwise.view.pages.html import Html, Section, figure, page, paragraph, table, verdict
 
 #: A verdict that says so much should be right nine times in ten.
 SURE = 0.9

@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from bench.score import BASE, DOWN, calibration, kind, right
-from slipwise.view.canvas import new_figure
-from slipwise.view.style import EXPECTED, INK, MODEL_COLOURS, MUTED, UPLIFT, mixed
+from slipwise.view.figures.canvas import new_figure
+from slipwise.view.figures.style import EXPECTED, INK, MODEL_COLOURS, MUTED, UPLIFT, mixed
 
 Result = Mapping[str, Any]
 #: Order in which kinds of hidden things are shown.

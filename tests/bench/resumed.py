@@ -8,7 +8,7 @@ from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import Any
 
-from slipwise.parallel import begin_worker
+from slipwise.jobs.parallel import begin_worker
 
 Result = dict[str, Any]
 

@@ -7,7 +7,7 @@ import pytest
 from bench.page import _GROUPS, bench_page, pictures
 from bench.pictures import confusion_figure, hidden_name, said_name
 from bench.score import rates
-from slipwise.view.style import styled
+from slipwise.view.figures.style import styled
 
 
 def _result(name: str, missing: tuple[str, ...], verdict: str, *effects: str, size: float = 5.0) -> dict[str, Any]:

@@ -17,7 +17,7 @@ from slipwise.campaign.settings import read_settings
 from slipwise.cli import app
 from slipwise.diagnosis.importance import RESPONSES
 from slipwise.effects import DERIVED, HOOKS, LAGGING, PORTS, RIG_MOTION, load_effect
-from slipwise.model_file import load_model
+from slipwise.model.file import load_model
 from slipwise.rig.known import SPECIMEN_UNITS, SPECIMEN_WORDS
 
 ROOT = Path(__file__).parents[2]
@@ -41,18 +41,18 @@ WRITTEN_BY = {
             "written",
             "_surface",
         ),
-        "diagnosis/first_things.py": ("as_json",),
+        "diagnosis/data_corrections.py": ("as_json",),
     },
     "ladder.json": {"diagnosis/ladder.py": ("as_json", "table")},
-    "next.json": {"experiment/result.py": ("as_json", "_rows")},
+    "next.json": {"design/result.py": ("as_json", "_rows")},
     "Several campaigns as JSON": {
-        "view/campaign_tables.py": ("summary_json",),
+        "view/words/campaign_tables.py": ("summary_json",),
         "studies/campaigns/outcome.py": ("numbers_of",),
-        "cli/many.py": ("diagnose_folder",),
+        "cli/batch.py": ("diagnose_folder",),
     },
     "bench.json": {"cli/bench.py": ("bench",)},
     "ensemble.json": {
-        "view/ensemble_tables.py": ("ensemble_json", "exceedance_rows", "_row"),
+        "view/words/ensemble_tables.py": ("ensemble_json", "exceedance_rows", "_row"),
         "studies/ensemble/member.py": ("_numbers",),
     },
     "paper.json": {"studies/paper/reenact.py": ("as_json", "assumptions")},

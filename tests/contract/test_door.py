@@ -13,7 +13,7 @@ COMMANDS = sorted((Path(__file__).parents[2] / "src" / "slipwise" / "cli").glob(
 HEAVY = ("mujoco", "numba", "matplotlib", "scipy", "numpy", "pint", "pyarrow", "rerun")
 #: What a command may use: the door, pictures and pages of finished results, errors, what a signal does, and other files
 #: of the package.
-OPEN = ("slipwise.view", "slipwise.errors", "slipwise.interruption", "slipwise.cli")
+OPEN = ("slipwise.view", "slipwise.errors", "slipwise.jobs.interruption", "slipwise.cli")
 
 
 def loaded_by(code: str) -> list[str]:

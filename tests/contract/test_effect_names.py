@@ -15,13 +15,13 @@ NAMES = re.compile(rf"(?<!\w)({'|'.join(catalogue())})(?!\w)")
 ALLOWED = {
     ("channels.py", "table_pitch"),  # a channel
     ("simulation/sensor_channels.py", "table_pitch"),  # the channel
-    ("view/scene.py", "table_pitch"),  # the channel
-    ("view/series.py", "table_pitch"),  # the channel
+    ("view/recordings/scene.py", "table_pitch"),  # the channel
+    ("view/recordings/series.py", "table_pitch"),  # the channel
     ("rig/build.py", "table_pitch"),  # a joint of the rig
     ("rig/known.py", "buffer_height"),  # a number of the rig
     *((f"rig/{part}.py", "buffer_height") for part in ("bounds", "changed_parts", "places", "specimen_file")),
     ("rig/mjcf_writer.py", "table_pitch"),  # a joint of the rig
-    ("view/paper_page.py", "buffer_height"),  # the same, in an example of a command
+    ("view/pages/paper_page.py", "buffer_height"),  # the same, in an example of a command
     ("comparison/motion_states.py", "breakaway"),  # a state of motion
     ("cli/effects.py", "heating"),  # an example of a command
     ("cli/bench.py", "run_in"),  # an example of an answer
@@ -29,8 +29,10 @@ ALLOWED = {
     ("rig/mjcf_parts.py", "table_pitch"),  # a joint of the rig
     # what a user takes in the place of what an MJCF may not hold
     *(("rig/mjcf_attributes.py", n) for n in ("buffer_damping", "guide_drag", "key_clearance", "key_friction")),
-    ("model_entry.py", "heating"),  # an example of an entry
-    *((f, "superstructure") for f in ("data_files/column_words.py", "view/paper_rig_pictures.py")),  # of a bridge
+    ("model/entry.py", "heating"),  # an example of an entry
+    *(
+        (f, "superstructure") for f in ("data_files/column_words.py", "view/figures/paper_rig_pictures.py")
+    ),  # of a bridge
 }
 
 

@@ -18,11 +18,11 @@ from shaking import shaken, sine
 from slipwise.effects import catalogue, find_effect, load_effect
 from slipwise.errors import InputError, SettingError, SlipwiseWarning, UnknownNameError
 from slipwise.model import base_model, use
-from slipwise.model_file import add_effect, draft_model, load_model
+from slipwise.model.file import add_effect, draft_model, load_model
 from slipwise.simulation.kernel import engine_for
 from slipwise.simulation.predict import predictor
 from slipwise.simulation.windows import Windows, simulate_windows
-from slipwise.view.effects import effect_rows
+from slipwise.view.words.effects import effect_rows
 
 MINE = '''
 """Washboard: friction that goes up and down along the plate.

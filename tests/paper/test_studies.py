@@ -130,7 +130,7 @@ def test_paper_json_holds_everything_and_no_nan(result):
 def test_the_page_shows_every_finding_picture_and_assumption(result, tmp_path):
     from html import escape
 
-    from slipwise.view.paper_page import PICTURES, write_page
+    from slipwise.view.pages.paper_page import PICTURES, write_page
 
     page = write_page(result, tmp_path / "paper.html").read_text()
     for study in result.studies:
@@ -144,7 +144,7 @@ def test_the_page_shows_every_finding_picture_and_assumption(result, tmp_path):
 
 
 def test_a_claim_that_breaks_is_in_the_headline(result):
-    from slipwise.view.paper_page import paper_page
+    from slipwise.view.pages.paper_page import paper_page
 
     assert "Rocking cancels and vertical motion matters little" in paper_page(result)
     broken = [

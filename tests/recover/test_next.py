@@ -8,13 +8,13 @@ from typing import Any, cast
 
 import pytest
 
+from slipwise.design.motions import Limits
+from slipwise.design.next_test import next_test, rivals
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.ladder import ladder_of
 from slipwise.errors import SimulationError
-from slipwise.experiment.motions import Limits
-from slipwise.experiment.next_test import next_test, rivals
 from slipwise.simulation.simulator import SimulationDiverged
-from slipwise.view.diagnosis_page import diagnosis_page
+from slipwise.view.pages.diagnosis_page import diagnosis_page
 
 pytestmark = pytest.mark.long
 
@@ -61,7 +61,7 @@ def test_a_simulation_that_fails_is_no_motion_that_tells_nothing(found, monkeypa
             "the simulation was stopped at 1 s: the slip grew beyond 5 m. Try less", cast(Any, None)
         )
 
-    monkeypatch.setattr("slipwise.experiment.next_test.replay", diverged)
+    monkeypatch.setattr("slipwise.design.next_test.replay", diverged)
     with pytest.raises(SimulationError, match="stopped at 1 s: the slip grew beyond 5 m"):
         next_test(found)
 

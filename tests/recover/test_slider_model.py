@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from slipwise.model_file import load_model, save_model
+from slipwise.model.file import load_model, save_model
 from slipwise.session.model_change import add, remove
 from unit.campaign.slider import HEADER, RUNS
 

@@ -8,10 +8,10 @@ import pytest
 import slipwise as sw
 from recover.own_replay import campaign_of
 from slipwise.estimation.base_fit import fit_base
-from slipwise.estimation.parameters import base_free, terms_of
-from slipwise.estimation.problem import Problem
-from slipwise.estimation.run_data import fit_runs
+from slipwise.estimation.objective import Problem
 from slipwise.model import EffectUse, Model, base_model, use
+from slipwise.relations.parameters import base_free, terms_of
+from slipwise.relations.run_data import fit_runs
 
 HIGH = "pad_E_N"
 HEIGHT = 0.02e-3

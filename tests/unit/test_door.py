@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import slipwise as sw
+from slipwise.design.result import Proposal
 from slipwise.diagnosis.ladder import LadderStep
 from slipwise.errors import InputError, SettingError, UnitError
-from slipwise.experiment.result import Proposal
 from slipwise.instruments.report import Balance
 
 RECORD = sw.Record(np.arange(5) * 0.01, {"slip_x": np.linspace(0.0, 0.02, 5), "table_ax": np.ones(5)})

@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.materiality import Materiality
-from slipwise.campaign.rest_noise import Gauge, noise_of_gauges
 from slipwise.campaign.wild_samples import WildSamples
+from slipwise.display import Drawn, Tabular
 from slipwise.errors import SettingError
+from slipwise.noise.gauges import Gauge, noise_of_gauges
 from slipwise.record import Record
 from slipwise.rig import Specimen
-from slipwise.shown import Drawn, Tabular
 from slipwise.signals.filters import LowPass
 
 ROLES: tuple[str, ...] = ("fit", "repeat", "holdout")
@@ -52,14 +52,14 @@ class Logger:
     thinning: Thinning | None = None
 
     def of(self, channel: str) -> LowPass | None:
-        """Give the filter of one channel: of the logger's own and that of thinning out the lower one."""
+        """Return the filter of one channel: of the logger's own and that of thinning out the lower one."""
         found = self._of(channel)
         if not self.known or self.thinning is None:
             return found
         return self.thinning.by if found is None or found.frequency > self.thinning.by.frequency else found
 
     def unseen(self, channel: str) -> float:
-        """Give the time within which a channel may have jumped at any instant before it was thinned out [s], or 0."""
+        """Return the time within which a channel may have jumped at any instant before it was thinned out [s], or 0."""
         if not self.known or self.thinning is None or self._of(channel) is not None:
             return 0.0
         return self.thinning.step
@@ -99,7 +99,7 @@ class Run:
 
     @property
     def invalid(self) -> dict[str, NDArray[np.bool_]]:
-        """Give the samples at which a channel is no measurement: channel -> (n,)."""
+        """Return the samples at which a channel is no measurement: channel -> (n,)."""
         return {one.channel: one.bad for one in self.wild}
 
 
@@ -136,11 +136,11 @@ class Campaign(Drawn, Tabular):
         return {**_noise_in(self.runs), **_noise_in(fitted)}
 
     def with_role(self, *roles: str) -> tuple[Run, ...]:
-        """Give the runs that have one of these roles."""
+        """Return the runs that have one of these roles."""
         return tuple(run for run in self.runs if run.role in roles)
 
     def run(self, name: str) -> Run:
-        """Give a run by name.
+        """Return a run by name.
 
         Raises:
             SettingError: no run has it.
@@ -151,7 +151,7 @@ class Campaign(Drawn, Tabular):
         raise SettingError(f"campaign {self.name} has no run {name!r}; it has: {', '.join(r.name for r in self.runs)}")
 
     def with_records(self, records: Mapping[str, Record], note: str) -> "Campaign":
-        """Give a campaign with other records for some runs, and say so in its notes."""
+        """Return a campaign with other records for some runs, and say so in its notes."""
         runs = tuple(replace(run, record=records.get(run.name, run.record)) for run in self.runs)
         return replace(self, runs=runs, notes=(*self.notes, note))
 

@@ -134,7 +134,7 @@ def _liveliness(file: DataFile) -> tuple[bool, float]:
 
 
 def _channels(file: DataFile, mapped: Mapping[str, Mapped]) -> dict[str, Array]:
-    """Give the channels of a file that are known, its times from the stated step where no column holds them."""
+    """Return the channels of a file that are known, its times from the stated step where no column holds them."""
     chosen = ((c, mapped[c.header]) for c in file.columns if c.header in mapped)
     channels = {**file.known, **{m.channel: m.sign * c.values for c, m in chosen}}
     if "time" not in channels and file.step is not None and file.columns:

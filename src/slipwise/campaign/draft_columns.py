@@ -27,7 +27,7 @@ _APART = 0.01
 
 
 def map_columns(columns: Sequence[Column], known: Mapping[str, Array], step: float | None = None) -> dict[str, Mapped]:
-    """Give header -> channel for the columns whose names or numbers show what they are.
+    """Return header -> channel for the columns whose names or numbers show what they are.
 
     Args:
         columns: of one run with strong motion.
@@ -117,7 +117,7 @@ def _place(column: Column, group: Sequence[Column], causes: Sequence[Array]) -> 
 
 
 def _explained(values: Array, causes: Sequence[Array]) -> float:
-    """Give the share of a signal's variance that a sum of others explains."""
+    """Return the share of a signal's variance that a sum of others explains."""
     columns = np.stack([*causes, np.ones(len(values))], axis=1)
     scaled = columns / np.maximum(np.abs(columns).max(axis=0), 1e-300)
     left = values - scaled @ np.linalg.lstsq(scaled, values, rcond=None)[0]
@@ -172,7 +172,7 @@ def _load(column: Column, pad: str, why: str, sure: str) -> Mapped:
 
 
 def _places(loads: Sequence[Column], channels: Mapping[str, Array]) -> dict[str, tuple[str, str, str]]:
-    """Give header -> pad, why and how sure: pads at +x unload while the girder is pushed to +x; +y likewise.
+    """Return header -> pad, why and how sure: pads at +x unload while the girder is pushed to +x; +y likewise.
 
     Of four; where others stand is for a specimen.toml to say, and they are counted.
     """

@@ -44,7 +44,7 @@ class DataFile:
 
 
 def is_ours(header: str) -> bool:
-    """Tell whether a header names a channel as we do, with its unit."""
+    """Return whether a header names a channel as we do, with its unit."""
     match = _OURS.match(header)
     return bool(match and is_channel(match["name"]))
 
@@ -67,7 +67,7 @@ def open_data_files(folder: Path) -> tuple[list[DataFile], list[str]]:
 
 
 def one_line(text: str) -> str:
-    """Give a text that fits in a comment."""
+    """Return a text that fits in a comment."""
     return " ".join(text.split())[:160]
 
 

@@ -20,7 +20,7 @@ _ENDS, _BOTH_SIDES = 0.05, 0.2
 def split_forces(
     columns: Sequence[Column], loaded: bool
 ) -> tuple[list[Column], list[Column], dict[str, tuple[str, str]]]:
-    """Give loads, frictions, and why each is one with how sure that is, by header.
+    """Return loads, frictions, and why each is one with how sure that is, by header.
 
     Args:
         columns: of kind "force".
@@ -88,6 +88,6 @@ def _stands(column: Column) -> bool:
 
 
 def _turns(column: Column) -> bool:
-    """Tell whether a force lies on both sides of zero."""
+    """Return whether a force lies on both sides of zero."""
     low, high = (float(v) for v in np.quantile(column.values, [_ENDS, 1.0 - _ENDS]))
     return low < 0.0 < high and min(-low, high) > _BOTH_SIDES * max(-low, high)

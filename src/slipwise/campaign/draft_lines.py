@@ -34,7 +34,7 @@ _ACROSS = "a displacement across the sliding plane"
 
 
 def column_lines(files: Sequence[DataFile], ours: Sequence[str], mapped: Mapping[str, Mapped]) -> list[str]:
-    """Give [columns]: lines for what was recognised, or whose words and unit fit a channel, comments for the rest."""
+    """Return [columns]: lines for what was recognised, or whose words and unit fit a channel, comments for the rest."""
     headers = list(dict.fromkeys(h for file in files for h in file.headers if not is_ours(h) and h))
     if not headers:
         return []
@@ -74,7 +74,7 @@ def column_lines(files: Sequence[DataFile], ours: Sequence[str], mapped: Mapping
 
 
 def _guess(column: Column) -> str:
-    """Give the channel that a header's words and unit both fit; "" where none does."""
+    """Return the channel that a header's words and unit both fit; "" where none does."""
     if column.no_channel or column.meanings & {"across", "path"}:
         return ""
     for meaning, wanted in _BY_NAME:
@@ -106,6 +106,6 @@ def _why_not(column: Column, guess: str, taken: Mapping[str, str]) -> str:
 
 
 def quoted(text: str) -> str:
-    """Give a text of TOML."""
+    """Return a text of TOML."""
     plain = text.replace("\\", "\\\\").replace('"', '\\"')
     return '"' + re.sub(r"[\x00-\x1f\x7f]", " ", plain) + '"'

@@ -21,7 +21,7 @@ _SOME_MASS = 10e3
 
 
 def rig_for(records: Sequence[Record], pads: tuple[str, ...], folder: Path) -> tuple[str, str, str]:
-    """Give the rig of a campaign, why, and the text of a specimen.toml that must be written for it, or "".
+    """Return the rig of a campaign, why, and the text of a specimen.toml that must be written for it, or "".
 
     Args:
         records: of its files, as far as their channels are known.
@@ -48,7 +48,7 @@ def rig_for(records: Sequence[Record], pads: tuple[str, ...], folder: Path) -> t
 
 
 def loads_at_rest(records: Sequence[Record], pads: Sequence[str]) -> tuple[float, ...] | None:
-    """Give what each pad usually carries [N]; None where no file has the loads of all."""
+    """Return what each pad usually carries [N]; None where no file has the loads of all."""
     weighing = [record for record in records if record.has_all(*(f"pad_{pad}_N" for pad in pads))]
     if not weighing:
         return None

@@ -19,7 +19,7 @@ _COUNTS = 0.05
 
 
 def roles_of(records: Mapping[str, Record | None]) -> dict[str, tuple[str, str]]:
-    """Give file -> role and why.
+    """Return file -> role and why.
 
     Args:
         records: by file, in the order of the files; None where the file's channels are not known.
@@ -53,7 +53,7 @@ def roles_of(records: Mapping[str, Record | None]) -> dict[str, tuple[str, str]]
 
 
 def rig_of(records: Sequence[Record]) -> tuple[str, str]:
-    """Give the rig of the package that these runs are nearest to, and why."""
+    """Return the rig of the package that these runs are nearest to, and why."""
     four = [record for record in records if record.has_all(*(f"pad_{pad}_N" for pad in "ABCD"))]
     if not four:
         return "pad", "not four pads"
@@ -72,7 +72,7 @@ def rig_of(records: Sequence[Record]) -> tuple[str, str]:
 
 
 def _restored(records: Sequence[Record]) -> bool:
-    """Tell whether a force in proportion to the slip acts beside friction: buffers."""
+    """Return whether a force in proportion to the slip acts beside friction: buffers."""
     for record in records:
         if record.has_all("girder_ax", "slip_x", *(f"pad_{pad}_Fx" for pad in "ABCD")):
             mass = float(np.median(np.sum([record[f"pad_{pad}_N"] for pad in "ABCD"], axis=0))) / 9.80665
@@ -82,7 +82,7 @@ def _restored(records: Sequence[Record]) -> bool:
 
 
 def _motion(record: Record | None) -> Array | None:
-    """Give the table's motion (n, 2), x and z, or the slip's where no table is recorded."""
+    """Return the table's motion (n, 2), x and z, or the slip's where no table is recorded."""
     if record is None:
         return None
     for along, up in (("table_ax", "table_az"), ("slip_x", "")):
@@ -103,7 +103,7 @@ def is_sine(values: Array) -> bool:
 
 
 def _same(one: Array, other: Array) -> bool:
-    """Tell whether two motions (n, k) are one, each direction by itself."""
+    """Return whether two motions (n, k) are one, each direction by itself."""
     length = min(len(one), len(other))
     if length < 0.8 * max(len(one), len(other)):
         return False

@@ -17,7 +17,7 @@ _EVEN = 0.2
 def map_slips(
     columns: Sequence[Column], channels: Mapping[str, Array], frictions: Sequence[Column], step: float
 ) -> Iterator[tuple[Column, Mapped]]:
-    """Give displacements and speeds, with the sign that girder minus table gives.
+    """Yield displacements and speeds, with the sign that girder minus table gives.
 
     Args:
         columns: of kind "length" or "speed".
@@ -68,7 +68,7 @@ def map_slips(
 
 
 def slip_rate(channels: Mapping[str, Array], step: float) -> Array | None:
-    """Give the rate of the slip along x (n,), None where neither slip nor its rate is known."""
+    """Return the rate of the slip along x (n,), None where neither slip nor its rate is known."""
     if "slip_vx" in channels:
         return channels["slip_vx"]
     return np.gradient(smooth(channels["slip_x"]), step) if "slip_x" in channels else None
@@ -97,7 +97,7 @@ def _differences(values: Array, times: int, step: float) -> Array:
 
 
 def alike(one: Array, other: Array) -> float:
-    """Give the correlation of two signals (n,), 0 where one of them stands [1]."""
+    """Return the correlation of two signals (n,), 0 where one of them stands [1]."""
     if np.ptp(one) == 0.0 or np.ptp(other) == 0.0:
         return 0.0
     return float(np.corrcoef(one, other)[0, 1])

@@ -17,7 +17,7 @@ _UNITS = (("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9))
 
 
 def time_column(columns: Sequence[Column], step: float | None) -> tuple[str, Mapped] | None:
-    """Give the header of the column of times and how it is mapped; None where no column can be one.
+    """Return the header of the column of times and how it is mapped; None where no column can be one.
 
     Args:
         columns: of the file.
@@ -55,7 +55,7 @@ def no_time(columns: Sequence[Column]) -> str:
 
 
 def rises_evenly(values: Array) -> bool:
-    """Tell whether values (n,) rise by one step, as far as their rounding shows it."""
+    """Return whether values (n,) rise by one step, as far as their rounding shows it."""
     if len(values) < 3:
         return False
     step = float(values[-1] - values[0]) / (len(values) - 1)
@@ -67,7 +67,7 @@ def _counts(values: Array) -> bool:
 
 
 def _unit_of(values: Array, step: float | None) -> tuple[str, str, str]:
-    """Give the unit of a column of times, why, and how sure that is."""
+    """Return the unit of a column of times, why, and how sure that is."""
     usual, first = float(np.median(np.diff(values))), float(values[0])
     if step is not None:
         for unit, size in _UNITS:

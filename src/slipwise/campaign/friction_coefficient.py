@@ -13,7 +13,7 @@ Array = NDArray[np.float64]
 
 
 def is_coefficient(channel: str, unit: str) -> bool:
-    """Tell whether a column is a coefficient of friction: a pad's friction whose unit is a plain number."""
+    """Return whether a column is a coefficient of friction: a pad's friction whose unit is a plain number."""
     if part_of(channel)[0] != "pad" or not channel.endswith(("_Fx", "_Fy")):
         return False
     try:

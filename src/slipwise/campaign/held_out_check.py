@@ -39,7 +39,7 @@ def check_untouched(runs: Sequence[Run]) -> None:
 
 
 def _marks(record: Record) -> NDArray[np.uint64]:
-    """Give one number for each different sample, from the values of all channels that move."""
+    """Return one number for each different sample, from the values of all channels that move."""
     mark = np.zeros(len(record), dtype=np.uint64)
     # odd constants of a multiplicative hash (Knuth): different channels must not cancel
     step = np.uint64(0x9E3779B97F4A7C15)

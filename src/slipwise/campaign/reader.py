@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.campaign import Campaign, Run
-from slipwise.campaign.completed import completed
 from slipwise.campaign.derived import evaluate
+from slipwise.campaign.derived_kinematics import completed
 from slipwise.campaign.friction_coefficient import forces_of, is_coefficient
 from slipwise.campaign.held_out_check import check_untouched
 from slipwise.campaign.same_specimen import check_same_specimen
@@ -98,7 +98,7 @@ def _outside(folder: Path, settings: Settings) -> list[str]:
 
 
 def as_campaign(given: Campaign | Path | str) -> Campaign:
-    """Give the campaign that a user means: itself, or that of a folder, without wild samples.
+    """Return the campaign that a user means: itself, or that of a folder, without wild samples.
 
     Raises:
         InputError: something else, or a folder that cannot be read.

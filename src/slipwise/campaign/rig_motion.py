@@ -17,7 +17,7 @@ _HIGHEST = 100.0
 
 
 def shortening_rate(force: Array, dt: float, stiffness: float, lag: float) -> Array:
-    """Give the rate at which a spring beside a damper gives way under a force.
+    """Return the rate at which a spring beside a damper gives way under a force.
 
     Args:
         force: (n,) [N].
@@ -30,7 +30,7 @@ def shortening_rate(force: Array, dt: float, stiffness: float, lag: float) -> Ar
 
 
 def rig_motion(states: States) -> Array:
-    """Give what laws may know of the rig's motion (n, 3), in the order of `effects.RIG_MOTION`.
+    """Return what laws may know of the rig's motion (n, 3), in the order of `effects.RIG_MOTION`.
 
     The rocking rate [rad/s] of the girder over the table, positive where the pads at +x give way; velocity [m/s] and
     acceleration [m/s^2] of the table along x. What was not measured is zero.

@@ -70,7 +70,7 @@ def check_same_specimen(campaign: Campaign) -> tuple[str, ...]:
 
 
 def _weighs(record: Record, loads: Sequence[str]) -> bool:
-    """Tell whether all load cells are there and none is dead beside the others: a dead one is no other rig."""
+    """Return whether all load cells are there and none is dead beside the others: a dead one is no other rig."""
     if not record.has_all(*loads):
         return False
     scatter = np.stack([record[name] for name in loads], axis=1).std(axis=0)
@@ -107,7 +107,7 @@ def _different_channels(runs: Sequence[Run]) -> list[str]:
 
 
 def _pressing(record: Record, pads: Sequence[str]) -> NDArray[np.float64]:
-    """Give the loads (n, n_pads), those of cells that count compression negative turned round."""
+    """Return the loads (n, n_pads), those of cells that count compression negative turned round."""
     loads = record.stacked("pad_{}_N", pads)
     return loads * np.where(np.median(loads, axis=0) < 0.0, -1.0, 1.0)
 
@@ -148,7 +148,7 @@ def lever_of(record: Record, specimen: Specimen) -> float | None:
 
 
 def _clipped(values: NDArray[np.float64]) -> bool:
-    """Tell whether a channel (n,) stands at a rail; rounding alone seldom repeats an extreme so often."""
+    """Return whether a channel (n,) stands at a rail; rounding alone seldom repeats an extreme so often."""
     often = max(np.count_nonzero(values == values.max()), np.count_nonzero(values == values.min()))
     return bool(often > _AT_RAIL * len(values))
 

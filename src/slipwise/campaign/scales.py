@@ -50,7 +50,7 @@ class Scales:
         return self.length / self.speed
 
     def of(self, unit: str) -> float:
-        """Give the scale of a quantity by its SI unit, such as "m/N" or "s/m"; 1 for pure numbers [1]."""
+        """Return the scale of a quantity by its SI unit, such as "m/N" or "s/m"; 1 for pure numbers [1]."""
         mass = self.load * self.time**2 / self.length
         known = {"meter": self.length, "second": self.time, "newton": self.load, "pascal": self.pressure}
         known |= {"kilogram": mass, "hertz": 1.0 / self.time}
@@ -58,7 +58,7 @@ class Scales:
 
 
 def scales_of(campaign: Campaign) -> Scales:
-    """Give the scales of a campaign: of a free girder from its weight, of one slider from its fitted runs.
+    """Return the scales of a campaign: of a free girder from its weight, of one slider from its fitted runs.
 
     They are 1 where a slider's slip or load was not recorded.
     """
@@ -84,12 +84,12 @@ def scales_of(campaign: Campaign) -> Scales:
 
 
 def pad_load_scale(specimen: Specimen) -> float:
-    """Give what a pad of a free girder carries at rest, their mean, over that of the reference rig; else 1 [1]."""
+    """Return what a pad of a free girder carries at rest, their mean, over that of the reference rig; else 1 [1]."""
     return specimen.weight / len(specimen.pads) / _REST_LOAD if specimen.free else 1.0
 
 
 def _path(slip: NDArray[np.float64]) -> float:
-    """Give the length of the path of a slip (n,), its noise averaged out [m]."""
+    """Return the length of the path of a slip (n,), its noise averaged out [m]."""
     edges = np.linspace(0, len(slip), max(2, min(_PARTS, len(slip) // _SAMPLES)) + 1).astype(int)
     means = [float(np.mean(slip[a:b])) for a, b in zip(edges[:-1], edges[1:], strict=True) if b > a]
     return float(np.sum(np.abs(np.diff(means))))

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from slipwise.campaign.aligned import aligned_run
 from slipwise.campaign.campaign import Campaign, Run
-from slipwise.campaign.phases import is_at_rest, is_inside, is_lifted, is_slow, is_stuck
-from slipwise.campaign.rest_noise import Gauge, noise_of_slip
+from slipwise.campaign.motion_phases import is_at_rest, is_inside, is_lifted, is_slow, is_stuck
 from slipwise.campaign.scales import Scales, scales_of
 from slipwise.errors import InputError
+from slipwise.noise.gauges import Gauge, noise_of_slip
 from slipwise.record import Record
 from slipwise.rig import Specimen
 from slipwise.rig.load_basis import basis_of
@@ -241,7 +241,7 @@ def _accelerations(record: Record, body: str) -> Array:
 
 
 def girder_pitch(record: Record, specimen: Specimen) -> Array | None:
-    """Give the girder's pitch on its pads (n,) [rad], from their loads; None where a load is missing.
+    """Return the girder's pitch on its pads (n,) [rad], from their loads; None where a load is missing.
 
     Positive with the +x pads shortened: then the centre of gravity stands h t further to +x than the sliding plane.
     """

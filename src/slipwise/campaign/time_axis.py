@@ -24,7 +24,7 @@ def time_of_file(
     tables: tuple[Block, ...],
     rate: float | None,
 ) -> tuple[Array, tuple[str, ...]]:
-    """Give the times of a file.
+    """Return the times of a file.
 
     Args:
         name: of the file, for messages.

@@ -49,7 +49,7 @@ class WildSamples:
     values: Array
 
     def within(self, kept: slice, time: Array) -> "WildSamples":
-        """Give those within a part of the record, whose time is (m,) [s]."""
+        """Return those within a part of the record, whose time is (m,) [s]."""
         inside = (self.times >= time[0]) & (self.times <= time[-1])
         return WildSamples(self.channel, self.bad[kept], self.times[inside], self.values[inside])
 
@@ -75,7 +75,7 @@ class WildSamples:
 def without_wild_samples(
     time: Array, channels: Mapping[str, Array], specimen: Specimen
 ) -> tuple[dict[str, Array], tuple[WildSamples, ...]]:
-    """Give channels with their wild samples bridged, and what was found.
+    """Return channels with their wild samples bridged, and what was found.
 
     Args:
         time: (n,) [s].
@@ -89,7 +89,7 @@ def without_wild_samples(
 
 
 def not_motion(bursts: Mapping[str, Mask], channels: Mapping[str, Array], specimen: Specimen) -> dict[str, Mask]:
-    """Give the bursts that no balance confirms as a motion of the girder; channels without any are left out.
+    """Return the bursts that no balance confirms as a motion of the girder; channels without any are left out.
 
     Args:
         bursts: channel -> its samples (n,) that stand out.
@@ -108,13 +108,13 @@ def not_motion(bursts: Mapping[str, Mask], channels: Mapping[str, Array], specim
 
 
 def inherited(wild: Sequence[WildSamples], name: str, sources: Sequence[str]) -> tuple[WildSamples, ...]:
-    """Give the samples at which a channel that was computed from others has taken theirs, which are not told again."""
+    """Return samples at which a channel that was computed from others has taken theirs, which are not told again."""
     bad = [one.bad for one in wild if one.channel in sources]
     return (WildSamples(name, np.any(bad, axis=0), np.empty(0), np.empty(0)),) if bad else ()
 
 
 def marked(campaign: "Campaign") -> "Campaign":
-    """Give a campaign without the wild samples of its runs, in which they are marked; a warning and a note name them.
+    """Return a campaign without the wild samples of its runs, in which they are marked; a warning and a note name them.
 
     A campaign without any, such as one that was read from its folder, is given as it is.
     """
@@ -150,13 +150,13 @@ def sentences(runs: "Sequence[Run]") -> tuple[str, ...]:
 
 
 def faulty_share(runs: "Sequence[Run]", name: str) -> float:
-    """Give the share of wild samples in a channel over the runs that have it [1]."""
+    """Return the share of wild samples in a channel over the runs that have it [1]."""
     count = sum(len(run.record) for run in runs if name in run.record)
     return sum(len(one.times) for run in runs for one in run.wild if one.channel == name) / max(count, 1)
 
 
 def _is_motion(name: str, burst: slice, channels: Mapping[str, Array], specimen: Specimen) -> bool:
-    """Tell whether the rest of a balance shows the burst of a channel too."""
+    """Return whether the rest of a balance shows the burst of a channel too."""
     for balance in _balances(specimen):
         if name not in balance or any(other not in channels for other in balance):
             continue
@@ -168,14 +168,14 @@ def _is_motion(name: str, burst: slice, channels: Mapping[str, Array], specimen:
 
 
 def _beyond_line(values: Array, burst: slice) -> Array:
-    """Give by how much a burst leaves the line from the sample before it to the one after it, (k,)."""
+    """Return by how much a burst leaves the line from the sample before it to the one after it, (k,)."""
     before, after = max(burst.start - 1, 0), min(burst.stop, len(values) - 1)
     line = np.interp(np.arange(burst.start, burst.stop), [before, after], [values[before], values[after]])
     return values[burst] - line
 
 
 def _balances(specimen: Specimen) -> Iterator[dict[str, float]]:
-    """Give what adds up to nothing in a moment: channel -> factor [N per unit]; slip and its buffers are slower."""
+    """Yield what adds up to nothing in a moment: channel -> factor [N per unit]; slip and its buffers are slower."""
     if not specimen.free:
         return
     yield {**{f"pad_{pad}_N": 1.0 for pad in specimen.pads}, "girder_az": -specimen.carried_mass}

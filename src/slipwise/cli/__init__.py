@@ -9,21 +9,21 @@ import slipwise as sw
 from slipwise.cli import (
     bench,
     campaign,
+    catalogue,
     demo,
     diagnose,
     discover,
-    edit,
     effects,
     ensemble,
-    lists,
+    model_edit,
     next_test,
     paper,
     replay,
     view,
     workbench,
 )
-from slipwise.cli.endings import run_to_its_end
-from slipwise.view.matplotlib_folder import give_matplotlib_a_folder, pass_over_a_matplotlibrc_here
+from slipwise.cli.exit_codes import run_to_its_end
+from slipwise.view.figures.matplotlib_folder import give_matplotlib_a_folder, pass_over_a_matplotlibrc_here
 
 app = typer.Typer(
     name="slipwise",
@@ -39,13 +39,13 @@ campaign.register(app)
 diagnose.register(app)
 discover.register(app)
 workbench.register(app)
-edit.register(app)
+model_edit.register(app)
 next_test.register(app)
 ensemble.register(app)
 bench.register(app)
 paper.register(app)
 view.register(app)
-lists.register(app)
+catalogue.register(app)
 effects.register(app)
 
 

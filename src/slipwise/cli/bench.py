@@ -6,8 +6,8 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
+from slipwise.cli.batch import Wanted, end, run_campaigns, write_together
 from slipwise.cli.console import out_folder, print_json, say
-from slipwise.cli.many import Wanted, end, run_campaigns, write_together
 from slipwise.cli.workers import Cluster, Workers
 
 
@@ -30,9 +30,9 @@ def bench(
 
     Example: `slipwise bench practice --out out/practice`
     """
-    from slipwise.view.campaign_tables import failure_sentences, rate_rows, score_rows, title
     from slipwise.view.files import save_json
-    from slipwise.view.terminal import print_table
+    from slipwise.view.words.campaign_tables import failure_sentences, rate_rows, score_rows, title
+    from slipwise.view.words.terminal import print_table
 
     campaigns = sw.campaigns.with_truth(folder)
     truths = [sw.campaigns.read_truth(campaign) for campaign in campaigns]

@@ -57,7 +57,7 @@ def audit(campaign: CampaignFolder, effect: Own = None, correct: Correct = None,
 
     Example: `slipwise audit campaigns/march`
     """
-    from slipwise.view.terminal import print_table
+    from slipwise.view.words.terminal import print_table
 
     measured, own = sw.load_campaign(campaign), own_effects(effect)
     with steps() as tell:
@@ -100,9 +100,9 @@ def compare(
 
     Example: `slipwise compare campaigns/march --out out/march`
     """
-    from slipwise.view.compare_page import compare_page
-    from slipwise.view.figure_files import figures_into
+    from slipwise.view.figures.figure_files import figures_into
     from slipwise.view.files import save_json, save_page
+    from slipwise.view.pages.compare_page import compare_page
 
     measured = sw.load_campaign(campaign)
     start = start_model(campaign, model, trust, effect)
@@ -117,15 +117,15 @@ def compare(
             page = save_page(compare_page(found), folder / "report.html")
         files = [save_json(content, folder / "compare.json"), page, *drawn]
         if recording:
-            from slipwise.view.compare_recording import write_compare_recording
+            from slipwise.view.recordings.compare_recording import write_compare_recording
 
             files.append(write_compare_recording(found, folder / "compare.rrd"))
     if json:
         print_json(content)
         return
-    from slipwise.view.compare_answers import error_rows, one_minute
-    from slipwise.view.floor_rows import floor_rows
-    from slipwise.view.terminal import print_table
+    from slipwise.view.words.compare_answers import error_rows, one_minute
+    from slipwise.view.words.floor_rows import floor_rows
+    from slipwise.view.words.terminal import print_table
 
     for question, answer in one_minute(found):
         say(f"{question} {answer}")

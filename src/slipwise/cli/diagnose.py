@@ -39,7 +39,7 @@ Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON for
 def start_model(
     campaign: Path, given: Path | None, trust: bool = False, allowed: list[str] | None = None
 ) -> "sw.Model | None":
-    """Give the user's model: the file named, or model.toml beside campaign.toml, or nothing.
+    """Return the user's model: the file named, or model.toml beside campaign.toml, or nothing.
 
     Args:
         campaign: its folder.
@@ -53,7 +53,7 @@ def start_model(
 
 
 def own_effects(given: list[str] | None, start: "sw.Model | None" = None) -> "tuple[sw.Effect, ...]":
-    """Give the effects of a user's own files, but for those that the model to start from holds already."""
+    """Return the effects of a user's own files, but for those that the model to start from holds already."""
     held = {use.effect.path for use in start.uses} if start is not None else set()
     return tuple(effect for path in given or [] if (effect := sw.effects.find_effect(path)).path not in held)
 
@@ -94,7 +94,7 @@ def diagnose(
     if len(campaign) > 1:
         if accept:
             raise InputError("--accept writes the model.toml of one campaign; give one")
-        from slipwise.cli.many import Wanted, diagnose_many
+        from slipwise.cli.batch import Wanted, diagnose_many
 
         own = tuple(str(Path(name).resolve()) if name.endswith(".py") else name for name in effect or [])
         wanted = Wanted(model.resolve() if model else None, own, trust, system, recording)
@@ -133,7 +133,7 @@ def _diagnose_one(
 
 def _accept(found: "sw.Diagnosis", session: "sw.Session", console: Console) -> None:
     """Put what a diagnosis names into model.toml, fitted, as the workbench does."""
-    from slipwise.cli.edit import tell_change
+    from slipwise.cli.model_edit import tell_change
 
     if not found.verdict.effects:
         say("nothing is named that could be put into the model; model.toml is as it was", console)
@@ -158,9 +158,9 @@ def _show(found: "sw.Diagnosis", folder: Path, recording: bool, figures: bool, j
 
 def write_diagnosis(found: "sw.Diagnosis", folder: Path, recording: bool, figures: bool = False) -> list[Path]:
     """Write the diagnosis, its page and, if asked for, its recording and figures; gives the files."""
-    from slipwise.view.diagnosis_page import diagnosis_page
-    from slipwise.view.figure_files import figures_into
+    from slipwise.view.figures.figure_files import figures_into
     from slipwise.view.files import save_json, save_page
+    from slipwise.view.pages.diagnosis_page import diagnosis_page
 
     files = [save_json(found.as_json(), folder / "diagnosis.json")]
     with figures_into(folder / "figures" if figures else None) as drawn:
@@ -170,8 +170,8 @@ def write_diagnosis(found: "sw.Diagnosis", folder: Path, recording: bool, figure
 
 def _tell(found: "sw.Diagnosis") -> None:
     """Print the verdict, what each effect changes, its rivals and what it rests on."""
-    from slipwise.view.diagnosis_words import cannot_tell_words, error_name, floors, four_answers
-    from slipwise.view.terminal import print_table
+    from slipwise.view.words.diagnosis_words import cannot_tell_words, error_name, floors, four_answers
+    from slipwise.view.words.terminal import print_table
 
     for question, answer in four_answers(found):
         say(f"{question} {answer}")
@@ -195,9 +195,9 @@ def _tell(found: "sw.Diagnosis") -> None:
 
 def print_effects(found: "sw.Diagnosis") -> None:
     """Print whether held-out runs confirm a diagnosis, and what leaving each effect out changes."""
-    from slipwise.view.diagnosis_words import confirmed_words
-    from slipwise.view.importance_rows import importance_rows, replayed_run
-    from slipwise.view.terminal import print_table
+    from slipwise.view.words.diagnosis_words import confirmed_words
+    from slipwise.view.words.importance_rows import importance_rows, replayed_run
+    from slipwise.view.words.terminal import print_table
 
     if words := confirmed_words(found):
         say(words)
@@ -206,8 +206,8 @@ def print_effects(found: "sw.Diagnosis") -> None:
 
 
 def _record(found: "sw.Diagnosis", folder: Path) -> list[Path]:
-    from slipwise.view.comparison import write_comparison
-    from slipwise.view.geometry import geometry_of
+    from slipwise.view.recordings.comparison import write_comparison
+    from slipwise.view.recordings.geometry import geometry_of
 
     try:
         measured, simulated = found.replays()
@@ -232,10 +232,10 @@ def ladder(
 
     Example: `slipwise ladder campaigns/march --out out/march`
     """
-    from slipwise.view.canvas import save_figure
-    from slipwise.view.diagnosis_figures import ladder_figure
+    from slipwise.view.figures.canvas import save_figure
+    from slipwise.view.figures.diagnosis_figures import ladder_figure
+    from slipwise.view.figures.style import styled
     from slipwise.view.files import save_json
-    from slipwise.view.style import styled
 
     measured = sw.load_campaign(campaign)
     folder = out_folder(out)
@@ -256,9 +256,9 @@ def ladder(
 
 def print_rungs(found: "sw.Ladder") -> None:
     """Print the errors of every step; nothing where there is none."""
-    from slipwise.view.diagnosis_figures import step_errors
-    from slipwise.view.diagnosis_words import floors
-    from slipwise.view.terminal import print_table
+    from slipwise.view.figures.diagnosis_figures import step_errors
+    from slipwise.view.words.diagnosis_words import floors
+    from slipwise.view.words.terminal import print_table
 
     errors = step_errors(found)
     rows = [

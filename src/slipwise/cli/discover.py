@@ -32,10 +32,10 @@ def discover(
 
     Example: `slipwise discover campaigns/march --out out/march`
     """
-    from slipwise.view.discovery_page import discovery_page
-    from slipwise.view.discovery_recording import write_discovery_recording
-    from slipwise.view.figure_files import figures_into
+    from slipwise.view.figures.figure_files import figures_into
     from slipwise.view.files import save_json, save_page
+    from slipwise.view.pages.discovery_page import discovery_page
+    from slipwise.view.recordings.discovery_recording import write_discovery_recording
 
     sw.effects.check_name(name)  # not after minutes of search
     measured = sw.load_campaign(campaign)
@@ -72,7 +72,7 @@ def discover(
 
 
 def _added(campaign: Path, beside: Sequence[str], files: Sequence[Path]) -> list[str]:
-    """Give the commands that add effects, one after another: a file that is in the model by then is trusted anew."""
+    """Return the commands that add effects, one after another: a file that is in the model by then is trusted anew."""
     out = [f"slipwise add {effect} --campaign {campaign}" for effect in beside]
     for number, file in enumerate(files):
         trusted = "".join(f" --effect {earlier}" for earlier in files[:number])

@@ -27,7 +27,7 @@ def effects(
     Example: `slipwise effects heating --picture heating.png`, or `slipwise effects --new my_effect`
     """
     from slipwise.errors import SettingError
-    from slipwise.view.effects import effect_rows, print_effect, print_effects
+    from slipwise.view.words.effects import effect_rows, print_effect, print_effects
 
     if new:
         if name or source or picture or json:
@@ -54,9 +54,9 @@ def effects(
         for words in _asks(effect):
             say(words)
     if picture:
-        from slipwise.view.canvas import save_figure
-        from slipwise.view.effects import effect_picture
-        from slipwise.view.style import styled
+        from slipwise.view.figures.canvas import save_figure
+        from slipwise.view.figures.style import styled
+        from slipwise.view.words.effects import effect_picture
 
         if picture.suffix != ".png":
             raise SettingError(f"--picture {picture}: pictures are written as .png")

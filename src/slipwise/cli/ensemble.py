@@ -52,8 +52,8 @@ def ensemble(
 
     Example: `slipwise ensemble quake:seed=1,peak=0.4g quake:seed=2,peak=0.4g --scale 0.5:3:0.5 --vary rig.mass=9..11t`
     """
-    from slipwise.view.ensemble_tables import ensemble_json, exceedance_rows, printed_tables, quantile_rows
     from slipwise.view.files import save_json, save_rows
+    from slipwise.view.words.ensemble_tables import ensemble_json, exceedance_rows, printed_tables, quantile_rows
 
     folder = out_folder(out)
     with chosen_executor(cluster) as executor, counting("replays") as tell:
@@ -75,7 +75,7 @@ def ensemble(
 
 
 def _tell(found: "sw.ensemble.Ensemble", tables: list) -> None:
-    from slipwise.view.terminal import print_table
+    from slipwise.view.words.terminal import print_table
 
     for title, rows in tables:
         print_table(title, rows)

@@ -54,7 +54,7 @@ def next_motion(
 
 def _tell(ranked: "sw.NextTest") -> None:
     """Print the verdict, what is held against what, and the motions; those that cannot be made or judged apart."""
-    from slipwise.view.terminal import print_table
+    from slipwise.view.words.terminal import print_table
 
     each = zip(ranked.rivals, ranked.chances, strict=True)
     told = " against ".join(f"{' + '.join(names) or 'the base model'} ({100 * c:.0f} %)" for names, c in each)

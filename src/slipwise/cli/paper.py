@@ -55,8 +55,8 @@ def paper(
         )
     # Pictures take a second to load: only when there is something to draw.
     from slipwise.view.files import save_json
-    from slipwise.view.paper_page import write_page
-    from slipwise.view.terminal import print_table
+    from slipwise.view.pages.paper_page import write_page
+    from slipwise.view.words.terminal import print_table
 
     content = sw.paper.as_json(result)
     save_json(content, folder / "paper.json")

@@ -159,7 +159,7 @@ def _write_record(answer: "sw.Replay", folder: Path, csv: bool) -> Path:
 def _draw(
     answer: "sw.Replay", model: "sw.Model", folder: Path, title: str, pictures: bool, recording: bool
 ) -> list[Path]:
-    from slipwise.view.geometry import geometry_of
+    from slipwise.view.recordings.geometry import geometry_of
     from slipwise.view.replay_files import draw_replay
 
     geometry = geometry_of(model.built_specimen())
@@ -167,7 +167,7 @@ def _draw(
 
 
 def _tell(numbers: dict, motion: "sw.TableMotion", files: list[Path]) -> None:
-    from slipwise.view.terminal import print_summary
+    from slipwise.view.words.terminal import print_summary
 
     print_summary(numbers)
     for words in motion.treatment:

@@ -11,7 +11,7 @@ def view(folder: Annotated[Path, typer.Argument(help="A folder that a command wr
 
     Example: `slipwise view out/replay`
     """
-    from slipwise.view.viewer import open_viewer
+    from slipwise.view.recordings.viewer import open_viewer
 
     open_viewer(folder)
 

@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from slipwise.comparison.motion_states import STATES, MotionStates
-from slipwise.estimation.run_data import FitRun
-from slipwise.statistics.effective_samples import correlation_sum
+from slipwise.noise.effective_samples import correlation_sum
+from slipwise.relations.run_data import FitRun
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -192,7 +192,7 @@ def _tested(
 
 
 def edges_of(kind: str, values: Array) -> Array:
-    """Give the edges of a kind's ranges: round numbers for the way since a reversal, equal counts for the rest."""
+    """Return the edges of a kind's ranges: round numbers for the way since a reversal, equal counts for the rest."""
     if len(values) == 0:
         return np.zeros(0)
     if kind == "since reversal":
@@ -216,7 +216,7 @@ def _round(value: float) -> float:
 
 
 def _spread(parts: Sequence[Array]) -> float:
-    """Give the number of samples for one independent one: memory of the squared residual, and likeness of pads."""
+    """Return the number of samples for one independent one: memory of the squared residual, and likeness of pads."""
     centred, likeness = [], []
     for part in parts:
         wide = part if part.ndim == 2 else part[:, None]
@@ -235,7 +235,7 @@ def _spread(parts: Sequence[Array]) -> float:
 
 
 def _spectrum(parts: Sequence[Array], steps: Sequence[float]) -> tuple[Array, Array]:
-    """Give the squared error over frequency: 1 where the residual is white noise at the floor."""
+    """Return the squared error over frequency: 1 where the residual is white noise at the floor."""
     frequencies, powers = [], []
     for part, dt in zip(parts, steps, strict=True):
         wide = part if part.ndim == 2 else part[:, None]

@@ -7,28 +7,28 @@ from pathlib import Path
 import numpy as np
 
 from slipwise.campaign import Campaign, as_campaign
-from slipwise.campaign.stretches import stretched
 from slipwise.comparison.cells import cells_of, corrected, gather
 from slipwise.comparison.component_level import component_errors, repeat_errors
 from slipwise.comparison.friction_surface import surface
 from slipwise.comparison.motion_states import motion_states
-from slipwise.comparison.parity import parity
+from slipwise.comparison.odd_even import parity
 from slipwise.comparison.patterns import patterns_of
 from slipwise.comparison.result import Comparison
 from slipwise.comparison.sentences import places
 from slipwise.comparison.system_level import SystemLevel, system_level
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit, fit_finely
-from slipwise.estimation.girder_balances import balances_of
 from slipwise.estimation.intervals import intervals
 from slipwise.estimation.prediction_interval import predicted_friction
 from slipwise.evidence.floor import noise_floor
 from slipwise.instruments.checks import Checks, check_instruments
 from slipwise.instruments.corrections import is_tared, is_wrong_unit
 from slipwise.instruments.suspects import effect_of
+from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
-from slipwise.model_file import as_model
-from slipwise.parallel import one_thread_algebra
+from slipwise.model.file import as_model
+from slipwise.preparation.excerpts import stretched
+from slipwise.relations.girder import balances_of
 
 #: Noise that the replay is fed with is the same in every comparison, so that two of them can be compared.
 _SEED = 1

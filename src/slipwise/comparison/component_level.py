@@ -51,7 +51,7 @@ class ComponentError:
 
 
 def component_errors(base: BaseFit) -> tuple[ComponentError, ...]:
-    """Give the error of every relation in every run."""
+    """Return the error of every relation in every run."""
     out = []
     for relation in base.problem.relations:
         parts = zip(base.problem.runs, base.solution.residuals.parts[relation], strict=True)
@@ -94,7 +94,7 @@ def _measured(relation: str, run, judged: NDArray[np.bool_]) -> Array | None:
 
 
 def pooled(errors: Sequence[ComponentError], relation: str, *, held_out: bool) -> float | None:
-    """Give the error of a relation over all fitted, or all held-out, runs; None where there is none."""
+    """Return the error of a relation over all fitted, or all held-out, runs; None where there is none."""
     chosen = [e for e in errors if e.relation == relation and (e.role == "holdout") == held_out]
     count = sum(e.samples for e in chosen)
     if count == 0:

@@ -8,7 +8,7 @@ from slipwise.campaign import Campaign
 from slipwise.comparison.cells import Cell
 from slipwise.comparison.component_level import ComponentError, pooled
 from slipwise.comparison.friction_surface import Surface
-from slipwise.comparison.parity import Parity
+from slipwise.comparison.odd_even import Parity
 from slipwise.comparison.patterns import Pattern
 from slipwise.comparison.sentences import Place
 from slipwise.comparison.system_level import SystemLevel, held_out_channels
@@ -72,7 +72,7 @@ class ComparisonData:
         return tuple(self.residuals)
 
     def error(self, relation: str, *, held_out: bool) -> float | None:
-        """Give the error of a relation over all fitted, or all held-out, runs [floors]; None without such runs."""
+        """Return the error of a relation over all fitted, or all held-out, runs [floors]; None without such runs."""
         return pooled(self.components, relation, held_out=held_out)
 
     @property

@@ -36,7 +36,7 @@ class Surface:
 
 
 def surface(base: BaseFit, found: Intervals) -> Surface | None:
-    """Give the surface over the pressures and speeds that the campaign has seen; None where no load is known."""
+    """Return the surface over the pressures and speeds that the campaign has seen; None where no load is known."""
     runs = base.problem.runs
     area = base.problem.specimen.pad_area
     loads = np.concatenate([r.load[r.sliding].ravel() for r in runs])

@@ -51,7 +51,7 @@ class SystemRun:
 
 
 def measured_motion(states: States) -> TableMotion:
-    """Give the table's measured motion of a run.
+    """Return the table's measured motion of a run.
 
     Raises:
         InputError: table_ax was not recorded.
@@ -63,7 +63,7 @@ def measured_motion(states: States) -> TableMotion:
 
 
 def simulation_step(sampling: float) -> float:
-    """Give the step of a simulation, the usual one at most, of which the step of a record is a multiple, both [s]."""
+    """Return the step of a simulation, the usual one at most, of which the step of a record is a multiple, both [s]."""
     # a step that was read from a file's times is off by rounding
     return sampling / float(np.ceil(sampling / DT * (1.0 - 1e-9)))
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.estimation.run_data import FitRun
+from slipwise.relations.run_data import FitRun
 
 Array = NDArray[np.float64]
 STATES: tuple[str, ...] = ("stick", "breakaway", "low speed", "reversal", "steady +", "steady −", "uplift")
@@ -73,7 +73,7 @@ def _held(values: Array) -> Array:
 
 
 def _turns(direction: NDArray[np.int64], velocity: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Give the samples at which motion turns round, and those at which the new direction is clear.
+    """Return the samples at which motion turns round, and those at which the new direction is clear.
 
     It turns where velocity last changed sign before the new direction.
     """
@@ -87,7 +87,7 @@ def _turns(direction: NDArray[np.int64], velocity: Array) -> tuple[NDArray[np.in
 
 
 def _since(path: Array, events: NDArray[np.int64]) -> Array:
-    """Give the way since the last event; NaN before the first."""
+    """Return the way since the last event; NaN before the first."""
     if len(events) == 0:
         return np.full(len(path), np.nan)
     last = np.searchsorted(events, np.arange(len(path)), side="right") - 1

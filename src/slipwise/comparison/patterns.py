@@ -62,7 +62,7 @@ class Pattern:
         return 0.5 * (self.plus + self.minus)
 
     def strongest(self) -> tuple[slice, bool]:
-        """Give the neighbouring bins that carry most of the pattern with one sign, and whether it is odd."""
+        """Return the neighbouring bins that carry most of the pattern with one sign, and whether it is odd."""
         odd, even = (np.nan_to_num(v) for v in (self.odd, self.even))
         is_odd = bool(np.sum(self.samples * odd**2) >= np.sum(self.samples * even**2))
         part = odd if is_odd else even
@@ -94,7 +94,7 @@ class Pattern:
 
 
 def patterns_of(samples: Samples) -> list[Pattern]:
-    """Give the patterns of a relation over every state that it has."""
+    """Return the patterns of a relation over every state that it has."""
     direction = samples.values["direction"] - 1.0
     total = float(samples.squared.sum())
     out = []
@@ -118,7 +118,7 @@ def patterns_of(samples: Samples) -> list[Pattern]:
 
 
 def _means(samples: Samples, place: NDArray[np.int64], used: NDArray[np.bool_], count: int) -> Sequence[Array]:
-    """Give mean, standard error and number of samples of each bin, and means that say little, (count,) each."""
+    """Return mean, standard error and number of samples of each bin, and means that say little, (count,) each."""
     number = np.bincount(place[used], minlength=count).astype(float)
     first = np.bincount(place[used], weights=samples.residual[used], minlength=count)
     second = np.bincount(place[used], weights=samples.squared[used], minlength=count)

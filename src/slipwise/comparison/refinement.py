@@ -22,9 +22,9 @@ from slipwise.comparison.system_level import replayed_model
 from slipwise.errors import InputError, SettingError, unknown_name
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import BLOCK, Interval, of_fit
-from slipwise.estimation.parameters import Free, fitted_model
 from slipwise.model import Model
-from slipwise.statistics.least_squares import Bounds, Move, gauss_newton, shortened_step
+from slipwise.regression.least_squares import Bounds, Move, gauss_newton, shortened_step
+from slipwise.relations.parameters import Free, fitted_model
 
 Array = NDArray[np.float64]
 #: Numbers of the rig that a replay has; all others belong to the measurement, or to the springs that are fitted apart.
@@ -150,7 +150,7 @@ def _possible(known: Mapping[str, Free]) -> list[str]:
 
 
 def _model(base: BaseFit, replayed: Model, free: Sequence[Free], numbers: Array) -> Model:
-    """Give the replayed model with other numbers; its springs, inertia and stick stay as they were found."""
+    """Return the replayed model with other numbers; its springs, inertia and stick stay as they were found."""
     values = {f.key: float(v) for f, v in zip(free, numbers, strict=True)}
     model = fitted_model(base.problem.specimen, base.problem.terms, {**base.solution.values, **values})
     kept = replayed.specimen
@@ -168,7 +168,7 @@ def _replay(base: BaseFit, models: Sequence[Model], threads: int) -> list[list[S
 def _judged(
     base: BaseFit, answer: Sequence[SystemRun], which: Sequence[int]
 ) -> list[tuple[str, Array, NDArray[np.bool_]]]:
-    """Give channel, simulated minus measured (n,), and which samples count (n,), of every channel of these runs."""
+    """Return channel, simulated minus measured (n,), and which samples count (n,), of every channel of these runs."""
     out = []
     for i in which:
         usable = base.problem.runs[i].states.usable

@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 from slipwise.comparison.data import ComparisonData
 from slipwise.comparison.tables import TABLES, as_json, rows_of
+from slipwise.display import Drawn, frame
 from slipwise.errors import unknown_name
-from slipwise.shown import Drawn, frame
 
 if TYPE_CHECKING:
     import pandas
@@ -17,7 +17,7 @@ class Comparison(ComparisonData, Drawn):
     """A model held against a campaign; attributes as `ComparisonData`."""
 
     def rows(self, table: str = "components") -> list[dict[str, Any]]:
-        """Give one of the tables as rows, SI.
+        """Return one of the tables as rows, SI.
 
         Args:
             table: audit, components, system, parameters, correlations, cells, places, parity, floor (by relation),
@@ -31,7 +31,7 @@ class Comparison(ComparisonData, Drawn):
         return rows_of(self, table)
 
     def to_pandas(self, table: str = "components") -> "pandas.DataFrame":
-        """Give one of the tables as a pandas frame.
+        """Return one of the tables as a pandas frame.
 
         Raises:
             UnknownNameError: no such table.
@@ -40,7 +40,7 @@ class Comparison(ComparisonData, Drawn):
         return frame(self.rows(table))
 
     def as_json(self) -> dict[str, Any]:
-        """Give what compare.json holds."""
+        """Return what compare.json holds."""
         return as_json(self)
 
     def _headline(self) -> str:

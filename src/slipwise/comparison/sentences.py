@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from slipwise.comparison.cells import ALLOWANCE, Cell
 from slipwise.comparison.component_level import NAMES
-from slipwise.comparison.parity import Parity
+from slipwise.comparison.odd_even import Parity
 from slipwise.comparison.patterns import Pattern
 
 #: Both directions count as equal within this ratio of their errors, and with this part of even residual [1].
@@ -150,7 +150,7 @@ def _patterned(relation: str, cells: Sequence[Cell], pattern: Pattern) -> Place:
 
 
 def _concentrated(cells: Sequence[Cell], *, ordered: bool) -> list[Cell]:
-    """Give the cells that hold much more of the excess than of the samples: neighbours where cells have an order."""
+    """Return the cells that hold much more of the excess than of the samples: neighbours where cells have an order."""
     samples, excess = sum(c.samples for c in cells), sum(c.excess for c in cells)
     if len(cells) < 2 or excess <= 0.0:
         return []

@@ -22,8 +22,8 @@ from slipwise.comparison.measured_replay import SystemRun, replay_runs
 from slipwise.effects import base_effects
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.run_data import FitRun
 from slipwise.model import Model, use
+from slipwise.relations.run_data import FitRun
 from slipwise.signals.ends import in_frequency
 from slipwise.simulation.simulator import DT
 
@@ -85,7 +85,7 @@ class SystemLevel:
 
 
 def replayed_model(base: BaseFit) -> tuple[Model, tuple[str, ...]]:
-    """Give the fitted model as a replay needs it, and in words what was added to it."""
+    """Return the fitted model as a replay needs it, and in words what was added to it."""
     values = base.solution.values
     model = base.problem.model(values)
     notes = []
@@ -112,14 +112,14 @@ def replayed_model(base: BaseFit) -> tuple[Model, tuple[str, ...]]:
 
 
 def _of_a_body(rated: tuple[float, float, float], pitch: float) -> tuple[float, float, float]:
-    """Give roll, pitch and yaw inertia with this pitch: no one of a body's three exceeds the sum of the others."""
+    """Return roll, pitch and yaw inertia with this pitch: no one of a body's three exceeds the sum of the others."""
     roll, _, yaw = rated
     yaw = min(max(yaw, pitch - roll), pitch + roll)
     return roll, pitch, max(yaw, roll - pitch)
 
 
 def _pitch_inertia(model: Model, frequency: float) -> float:
-    """Give the inertia [kg m^2] of a girder that pitches on its pads at a frequency: (2 pi f)^2 J = p k b^2."""
+    """Return the inertia [kg m^2] of a girder that pitches on its pads at a frequency: (2 pi f)^2 J = p k b^2."""
     specimen = model.built_specimen()
     spring = specimen.pitch_stiffness
     return spring / (2.0 * np.pi * frequency) ** 2
@@ -215,7 +215,7 @@ def system_level(
 
 
 def pooled_system(errors: tuple[SystemError, ...], channel: str, *, held_out: bool) -> float | None:
-    """Give the error of a channel over all fitted, or all held-out, runs; `channel` may end in a wildcard's part.
+    """Return the error of a channel over all fitted, or all held-out, runs; `channel` may end in a wildcard's part.
 
     Args:
         errors: of all runs.
@@ -253,7 +253,7 @@ def _noisier(run: FitRun, rng: np.random.Generator) -> States:
 
 
 def held_out_channels(level: SystemLevel) -> Mapping[str, float]:
-    """Give channel -> error over all held-out runs [floors]; fitted runs where none is held out."""
+    """Return channel -> error over all held-out runs [floors]; fitted runs where none is held out."""
     names = list(dict.fromkeys(e.channel for e in level.errors))
     held = any(e.role == "holdout" for e in level.errors)
     found = {n: pooled_system(level.errors, n, held_out=held) for n in names}

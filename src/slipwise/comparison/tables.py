@@ -16,7 +16,7 @@ TABLES: tuple[str, ...] = (
 
 
 def rows_of(found: ComparisonData, table: str) -> list[dict[str, Any]]:
-    """Give a table as rows of plain values, SI."""
+    """Return a table as rows of plain values, SI."""
     return _MAKERS[table](found)
 
 
@@ -110,7 +110,7 @@ _MAKERS = {
 
 
 def as_json(found: ComparisonData) -> dict[str, Any]:
-    """Give a comparison as compare.json holds it: SI, errors in multiples of the floor, null where unknown.
+    """Return a comparison as compare.json holds it: SI, errors in multiples of the floor, null where unknown.
 
     schema: 1
     campaign, rig: names
@@ -175,7 +175,7 @@ def as_json(found: ComparisonData) -> dict[str, Any]:
 
 
 def _plain(value: Any) -> Any:
-    """Give what JSON can hold: NaN and infinity become null."""
+    """Return what JSON can hold: NaN and infinity become null."""
     if isinstance(value, dict):
         return {k: _plain(v) for k, v in value.items()}
     if isinstance(value, list | tuple):

@@ -10,7 +10,7 @@ _SPELLINGS = {"伽": "gal", "ガル": "gal", "秒": "s", "gales": "gal", "milli-
 
 
 def acceleration_factor(unit: str, what: str) -> float:
-    """Give the factor from a unit of acceleration, in any of the agencies' spellings, to m/s^2.
+    """Return the factor from a unit of acceleration, in any of the agencies' spellings, to m/s^2.
 
     Args:
         unit: as written.
@@ -41,7 +41,7 @@ def acceleration_factor(unit: str, what: str) -> float:
 
 
 def is_acceleration(unit: str) -> bool:
-    """Tell whether a text is a unit of acceleration."""
+    """Return whether a text is a unit of acceleration."""
     try:
         acceleration_factor(unit, "")
     except UnitError:
@@ -50,7 +50,7 @@ def is_acceleration(unit: str) -> bool:
 
 
 def is_velocity_or_displacement(unit: str) -> bool:
-    """Tell whether a text is a unit of what an acceleration may be taken for."""
+    """Return whether a text is a unit of what an acceleration may be taken for."""
     for si in ("m/s", "m"):
         try:
             parse_unit(re.sub(r"\bsec\b", "s", unit.lower()), si, "")

@@ -74,7 +74,7 @@ def name_and_unit(header: str) -> ColumnName:
 
 
 def _candidates(header: str) -> Iterator[tuple[str, str]]:
-    """Give name and unit for each way to write them, the surest first."""
+    """Yield name and unit for each way to write them, the surest first."""
     if found := _BETWEEN.match(header):
         yield found["name"], found["unit"]
     if found := _LAST_TWO.match(header):
@@ -91,7 +91,7 @@ def _is_symbol(header: str) -> bool:
 
 
 def _readable(text: str) -> str | None:
-    """Give a unit as `units` reads it, None where the text is none."""
+    """Return a unit as `units` reads it, None where the text is none."""
     text = text.strip().strip("()")
     for spelling in (_SPELLED.get(text.lower(), text), text.lower()):
         if spelling in ("", "-"):
@@ -107,7 +107,7 @@ def _readable(text: str) -> str | None:
 
 
 def kind_of(unit: str) -> str | None:
-    """Give the kind of quantity of a unit, None for others such as volts."""
+    """Return the kind of quantity of a unit, None for others such as volts."""
     if unit in ("", "1", "-", "%"):
         return "coefficient"  # an angle has no dimension either
     for kind, si in KINDS:
@@ -120,7 +120,7 @@ def kind_of(unit: str) -> str | None:
 
 
 def _kind_of_words(header: str) -> str:
-    """Give the kind of quantity that the words of a name mean, "" where they mean none or several."""
+    """Return the kind of quantity that the words of a name mean, "" where they mean none or several."""
     words = words_of(header)
     symbol = _SYMBOLS.get(words[0]) if len(words) == 2 and words[1] in ("x", "y", "z") else None
     if symbol is not None:  # v_x, a_x

@@ -61,19 +61,19 @@ _CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=\d)(?=[A-Za-z])|(?<=[A-Za-z])(?=\d
 
 
 def words_of(name: str) -> tuple[str, ...]:
-    """Give the words of a name in lower case, without accents: "AccDeckX" and "acc_deck_x" are acc, deck and x."""
+    """Return the words of a name in lower case, without accents: "AccDeckX" and "acc_deck_x" are acc, deck and x."""
     plain = "".join(map(_plain, name))
     return tuple(word for word in re.split(r"[\W_]+", _CAMEL.sub(" ", plain).casefold()) if word)
 
 
 def _plain(character: str) -> str:
-    """Give a Latin letter without its accent; what other scripts put beside their letters is part of them."""
+    """Return a Latin letter without its accent; what other scripts put beside their letters is part of them."""
     taken_apart = unicodedata.normalize("NFKD", character)
     return {"ı": "i", "ß": "ss"}.get(character, taken_apart[0] if taken_apart[:1].isascii() else character)
 
 
 def meanings_of(words: Iterable[str]) -> frozenset[str]:
-    """Give what words mean: "friction", "force", "time", "table", "up" and so on."""
+    """Return what words mean: "friction", "force", "time", "table", "up" and so on."""
     found = [word for word in words if not word.isdigit()]
     return frozenset(meaning for meaning in _MEANINGS if any(_means(word, meaning) for word in found))
 

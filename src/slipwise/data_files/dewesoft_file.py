@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from slipwise.child_processes import on_a_safe_path
 from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges
 from slipwise.errors import InputError, missing_library
+from slipwise.jobs.child_processes import on_a_safe_path
 
 #: Channels that cannot be read, of which a note gives the names.
 _LISTED = 6
@@ -44,7 +44,7 @@ def read_dewesoft(path: Path) -> NamedColumns:
 
 
 def kept_columns(path: Path, folder: Path) -> NamedColumns:
-    """Give the columns of the channels that `dewesoft_channels` kept in a folder.
+    """Return the columns of the channels that `dewesoft_channels` kept in a folder.
 
     Raises:
         InputError: the file is damaged, or holds no numbers.

@@ -50,7 +50,7 @@ def read_tdm(path: Path) -> NamedColumns:
 
 
 def _steps(path: Path) -> set[float]:
-    """Give the steps that waveforms state in the attribute wf_increment [s]."""
+    """Return the steps that waveforms state in the attribute wf_increment [s]."""
     found = (e for e in ElementTree.parse(path).iter() if e.attrib.get("name") == "wf_increment")
     values = (float("".join(element.itertext()).strip()) for element in found)
     return {value for value in values if value > 0.0}

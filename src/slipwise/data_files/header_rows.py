@@ -63,7 +63,7 @@ class Header:
     part: tuple[int, float] | None = None
 
     def columns(self, what: str) -> tuple[str, ...]:
-        """Give names with their units in brackets, "Force [kN]".
+        """Return names with their units in brackets, "Force [kN]".
 
         Args:
             what: the file, for messages.
@@ -90,7 +90,7 @@ class Header:
         return tuple(out)
 
     def is_row(self, cells: Sequence[str]) -> bool:
-        """Tell whether a line is meant as a row of the table: totals and words below it do not begin with a number."""
+        """Return whether a line is a row of the table: totals and words below it do not begin with a number."""
         return len(cells) > self.leading and _is_value(cells[self.leading])
 
 
@@ -128,7 +128,7 @@ def find_header(rows: Sequence[Sequence[str]]) -> Header | None:
 
 
 def looks_numeric(cells: Sequence[str]) -> bool:
-    """Tell whether a line holds data: most cells are numbers, time stamps or empty, and it is no "key, number"."""
+    """Return whether a line holds data: most cells are numbers, time stamps or empty, and it is no "key, number"."""
     numbers = sum(map(_is_value, cells))
     most = numbers > 0 and numbers + sum(cell in MISSING for cell in cells) >= 0.5 * len(cells)
     begins = bool(cells) and (_is_value(cells[0]) or cells[0] in MISSING)
@@ -140,7 +140,7 @@ def _is_value(cell: str) -> bool:
 
 
 def _goes_on(rows: Sequence[Sequence[str]], first: int) -> bool:
-    """Tell whether the lines that follow are rows of the same width."""
+    """Return whether the lines that follow are rows of the same width."""
     following = [row for row in rows[first + 1 : first + 1 + 3 * _SURE] if any(row)][: _SURE - 1]
     return all(len(row) == len(rows[first]) and looks_numeric(row) for row in following)
 
@@ -167,7 +167,7 @@ def _is_number_row(rows: Sequence[Sequence[str]], i: int) -> bool:
 
 
 def _lines_above(rows: Sequence[Sequence[str]], first: int) -> list[int]:
-    """Give the lines of the same width above the first row, the nearest first; an empty one may stand between."""
+    """Return the lines of the same width above the first row, the nearest first; an empty one may stand between."""
     width, found = len(rows[first]), []
     for i in range(first - 1, max(-1, first - 2 * _HEADER_LINES), -1):
         if not any(rows[i]):
@@ -183,20 +183,20 @@ def _lines_above(rows: Sequence[Sequence[str]], first: int) -> list[int]:
 
 
 def _labels(rows: Sequence[Sequence[str]], above: Sequence[int]) -> list[str]:
-    """Give what the first cell of each line says that the line holds; nothing where lines do not begin so."""
+    """Return what the first cell of each line says that the line holds; nothing where lines do not begin so."""
     said = [next((what for what, label in _ROW_LABELS.items() if label.search(rows[i][0])), "") for i in above]
     return said if sum(map(bool, said)) >= (2 if "names" in said else 3) else []
 
 
 def _labelled(above: Sequence[int], labels: Sequence[str]) -> tuple[int, int | None] | None:
-    """Give the lines of names and units where the first cell of each line says what it holds."""
+    """Return the lines of names and units where the first cell of each line says what it holds."""
     if "names" not in labels:
         return None
     return above[labels.index("names")], above[labels.index("units")] if "units" in labels else None
 
 
 def _unlabelled(rows: Sequence[Sequence[str]], above: Sequence[int]) -> tuple[int, int | None] | None:
-    """Give the lines of names and units: the names stand above the units, whatever stands between them."""
+    """Return the lines of names and units: the names stand above the units, whatever stands between them."""
     units_at = next((i for i in above if _is_unit_row(rows[i])), None)
     if units_at is not None:
         over = [i for i in above if i < units_at]
@@ -215,7 +215,7 @@ def _is_range_row(cells: Sequence[str]) -> bool:
 
 
 def _is_unit_row(cells: Sequence[str]) -> bool:
-    """Tell whether most of a line's texts are units."""
+    """Return whether most of a line's texts are units."""
     texts = [cell.strip().strip("[]()").strip() for cell in cells if cell.strip()]
     known = sum(_is_unit(text) for text in texts)
     return bool(texts) and known >= 0.5 * len(texts)
@@ -234,7 +234,7 @@ def _is_unit(text: str) -> bool:
 
 
 def _rises(cells: Sequence[str]) -> bool:
-    """Tell whether numbers rise in even steps."""
+    """Return whether numbers rise in even steps."""
     if len(cells) < 2 or not all(NUMBER.match(cell) for cell in cells):
         return False
     values = [float(cell.replace(",", ".")) for cell in cells]

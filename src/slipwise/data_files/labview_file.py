@@ -18,12 +18,12 @@ _MARK, _LEAD, _BIG_ENDIAN = b"TDSm", 28, 1 << 6
 
 
 def is_lvm(lines: Sequence[str]) -> bool:
-    """Tell whether the first lines of a text are those of a LabVIEW measurement file."""
+    """Return whether the first lines of a text are those of a LabVIEW measurement file."""
     return bool(lines) and lines[0].lstrip("\ufeff").startswith("LabVIEW Measurement")
 
 
 def lvm_headers(names: Sequence[str], preamble: Sequence[str]) -> tuple[str, ...]:
-    """Give the columns of an .lvm file with their units, which its header holds by channel.
+    """Return the columns of an .lvm file with their units, which its header holds by channel.
 
     Args:
         names: of the columns, "X_Value" first, once or once for each channel.

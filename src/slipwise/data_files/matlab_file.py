@@ -105,7 +105,7 @@ def _checked(path: Path) -> dict[str, str]:
 
 
 def _variable(head: bytes, order: str) -> str:
-    """Give name and shape of a variable, from the beginning of its unpacked element."""
+    """Return name and shape of a variable, from the beginning of its unpacked element."""
     try:
         # tag 8, array flags 16, then dimensions and name, each behind a tag and filled up to 8 bytes
         count = struct.unpack_from(f"{order}I", head, 28)[0]

@@ -15,7 +15,7 @@ _CLASS = "MATLAB_class"
 
 
 def read_hdf5(path: Path) -> tuple[dict[str, Any], dict[str, str]]:
-    """Give the variables of a file, and the objects in it that are left out.
+    """Return the variables of a file, and the objects in it that are left out.
 
     Returns:
         Name -> value, structures as dicts, cells and arrays of structures as lists; and name -> class of the objects.

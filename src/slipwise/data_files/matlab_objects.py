@@ -20,7 +20,7 @@ _FLAGS, _NAME = 16, 24
 
 
 def object_of(head: bytes, order: str) -> tuple[str, str] | None:
-    """Give name and class of the object that an element of a version 5 file holds, None where it holds something else.
+    """Return name and class of the object that an element of a version 5 file holds, else None.
 
     Args:
         head: the beginning of the element, unpacked.

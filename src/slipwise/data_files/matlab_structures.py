@@ -35,7 +35,7 @@ class ToldChannel:
 
 
 def told_channel(structure: Mapping[str, Any]) -> ToldChannel | None:
-    """Give the channel of a structure that names it, None where it names none."""
+    """Return the channel of a structure that names it, None where it names none."""
     name, unit = _text(structure, _NAMES), _text(structure, _UNITS)
     for path in _DATA:
         values = _vector(field(structure, path))
@@ -46,7 +46,7 @@ def told_channel(structure: Mapping[str, Any]) -> ToldChannel | None:
 
 
 def told_matrix(structure: Mapping[str, Any]) -> tuple[str, tuple[str, ...]] | None:
-    """Give the field that holds a matrix (n, k) and its k headers, where a list of k names stands beside it."""
+    """Return the field that holds a matrix (n, k) and its k headers, where a list of k names stands beside it."""
     lists = {name: texts for name, value in structure.items() if (texts := _texts(value))}
     for name, value in structure.items():
         if not _is_matrix(value):
@@ -60,7 +60,7 @@ def told_matrix(structure: Mapping[str, Any]) -> tuple[str, tuple[str, ...]] | N
 
 
 def stated_steps(structure: Mapping[str, Any]) -> Iterator[float]:
-    """Give the step [s] that a structure states, if it states one: x_values.increment, dt, fs."""
+    """Yield the step [s] that a structure states, if it states one: x_values.increment, dt, fs."""
     unit = field(structure, "x_values.quantity.label")
     for paths, rate in ((_STEPS, False), (_RATES, True)):
         for path in paths:
@@ -91,7 +91,7 @@ def joined_headers(content: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def field(structure: Any, path: str) -> Any:
-    """Give what stands at a path of fields such as "y_values.quantity.label", in any case; None where nothing does."""
+    """Return what stands at a path of fields such as "y_values.quantity.label", in any case; else None."""
     for key in path.split("."):
         if not isinstance(structure, Mapping):
             return None
@@ -108,7 +108,7 @@ def _text(structure: Mapping[str, Any], paths: tuple[str, ...]) -> str:
 
 
 def _texts(value: Any) -> tuple[str, ...]:
-    """Give a list of texts, empty for anything else."""
+    """Return a list of texts, empty for anything else."""
     items = value.ravel().tolist() if isinstance(value, np.ndarray) and value.dtype.kind in "OU" else value
     if isinstance(items, list) and items and all(isinstance(item, str) for item in items):
         return tuple(item.strip() for item in items)
@@ -127,7 +127,7 @@ def _is_matrix(value: Any) -> bool:
 
 
 def _header(name: str, unit: str) -> str:
-    """Give a header; of a path through a model, "Model Root/slip", the last part names the signal."""
+    """Return a header; of a path through a model, "Model Root/slip", the last part names the signal."""
     short = name.replace('"', "").rpartition("/")[2].strip() or name
     short = name if re.search(r"[\[(]", name) else short
     return f"{short} [{unit}]" if unit and "[" not in short else short

@@ -126,7 +126,7 @@ def _workbook(path: Path) -> Any:
 
 
 def _rows(sheet: Any, path: Path) -> Iterator[list[str]]:
-    """Give the rows of a sheet as texts.
+    """Yield the rows of a sheet as texts.
 
     Raises:
         InputError: the sheet is damaged.
@@ -151,7 +151,7 @@ def _text(cell: Any) -> str:
 
 
 def _without_tail(row: Sequence[str]) -> list[str]:
-    """Give the cells without the empty ones at the end, which a sheet's widest row adds to all others."""
+    """Return the cells without the empty ones at the end, which a sheet's widest row adds to all others."""
     cells = list(row)
     while cells and not cells[-1]:
         cells.pop()

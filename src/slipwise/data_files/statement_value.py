@@ -83,7 +83,7 @@ class StatementValue:
         self.text = text[self.start :]
 
     def contents(self, fact: str, label: str) -> Iterator[tuple[object, float]]:
-        """Give what the value states of a fact."""
+        """Yield what the value states of a fact."""
         if fact == "acceleration":
             for pattern in _MEASURED_IN:
                 match = pattern.match(self.behind_key)
@@ -124,7 +124,7 @@ class StatementValue:
         return word is not None and is_acceleration(word[1].rstrip("."))
 
     def _unit(self) -> Iterator[tuple[str, float]]:
-        """Give the first unit of acceleration, else one of velocity or, with a sign, the first word."""
+        """Yield the first unit of acceleration, else one of velocity or, with a sign, the first word."""
         inner = self.unit if is_acceleration(self.unit) else ""
         value = inner or self.text[: max(0, self.room - self.start)] or self.text
         listed = [part.strip("().[]\"'") for part in re.split(r"[\s,;]+", value)]
@@ -154,7 +154,7 @@ class StatementValue:
             yield content, rounding
 
     def _peaks(self, label: str) -> Iterator[Peak]:
-        """Give one peak, or those of several components: "(N-S) 12.2 (E-W) 8.2", "NS=12.2, EW=8.2", "12.2/8.2/2.9"."""
+        """Yield one peak, or those of several components: "(N-S) 12.2 (E-W) 8.2", "NS=12.2, EW=8.2", "12.2/8.2/2.9"."""
         bracket = bool(self.unit) and self.behind_key.lstrip().startswith(("(", "["))
         # "PGA (NS/EW/UD): 12.2/8.2/2.9 gal"
         listed = [] if is_acceleration(self.unit) else re.split(r"[\s,;/]+", self.unit)
@@ -193,7 +193,7 @@ class StatementValue:
 
 
 def step_of(number: str, unit: str, fact: str) -> Iterator[tuple[str, float, float]]:
-    """Give ("step", step [s], relative rounding); the unit says whether it is a step or a rate, if there is one."""
+    """Yield ("step", step [s], relative rounding); the unit says whether it is a step or a rate, if there is one."""
     text = number.replace(",", ".").lower().replace("d", "e")
     value = float(text)
     if not 0.0 < abs(value) < _LARGEST:

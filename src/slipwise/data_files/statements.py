@@ -41,7 +41,7 @@ class Statements:
     lines: Mapping[str, str] = field(default_factory=dict)
 
     def quoted(self, fact: str) -> str:
-        """Give the line that states a fact, in quotes, for a message; "" if none does."""
+        """Return the line that states a fact, in quotes, for a message; "" if none does."""
         return repr(self.lines[fact][:70]) if fact in self.lines else ""
 
 
@@ -91,7 +91,7 @@ def read_statements(lines: Sequence[str], what: str, binding: Collection[str] = 
 
 
 def _facts(line: str, original: str) -> Iterator[tuple[str, object, float]]:
-    """Give every (fact, content, relative rounding of its digits) of a folded line."""
+    """Yield every (fact, content, relative rounding of its digits) of a folded line."""
     known = words()
     keys = [match for match in known.key.finditer(line)]
     end = 0

@@ -87,7 +87,7 @@ def left_out_below(name: str, below: Sequence[Sequence[str]]) -> tuple[str, ...]
 
 
 def _before_summary(lines: Sequence[Sequence[str]], last: int, is_row: IsRow) -> int:
-    """Give the last row before a few numbers behind an empty line that do not go on where the table ended: sums.
+    """Return the last row before a few numbers behind an empty line that do not go on where the table ended: sums.
 
     They begin with another number than the next row would, or stand below words in another number of columns.
     """

@@ -63,7 +63,7 @@ class TextLayout:
         return "\t" if self.delimiter == BLANKS else self.delimiter
 
     def cells(self, line: str) -> list[str]:
-        """Give the cells of a line."""
+        """Return the cells of a line."""
         return split_line(line, self.delimiter)
 
 
@@ -112,7 +112,7 @@ def layout_of(lines: Sequence[str], name: str) -> TextLayout | None:
 
 
 def _first_lines(path: Path) -> tuple[bytes, list[str]]:
-    """Give the head of a file and its lines.
+    """Return the head of a file and its lines.
 
     Raises:
         InputError: an empty file, or lines that are too long for a table of channels.
@@ -196,7 +196,7 @@ def columns_of_text(
 
 
 def _unchanged(error: InputError) -> bool:
-    """Tell whether a cell, and not a line, is wrong: cutting the file into tables does not help."""
+    """Return whether a cell, and not a line, is wrong: cutting the file into tables does not help."""
     return "column '" in str(error) and "\u2212" not in str(error)
 
 
@@ -253,7 +253,7 @@ def _cell_error(message: str, layout: TextLayout) -> str:
 
 
 def split_line(line: str, delimiter: str) -> list[str]:
-    """Give the cells of a line."""
+    """Return the cells of a line."""
     if delimiter == BLANKS:
         line, delimiter = _tabbed(line, names=not looks_numeric(line.split())), "\t"
     try:

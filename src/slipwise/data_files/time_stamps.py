@@ -22,12 +22,12 @@ _DAY, _HOUR = 86400.0, 3600.0
 
 
 def is_time_stamp(text: str) -> bool:
-    """Tell whether a cell is a time stamp."""
+    """Return whether a cell is a time stamp."""
     return ":" in text and bool(_STAMP.match(text.strip()))
 
 
 def seconds_of_stamps(texts: Sequence[str], what: str) -> Array:
-    """Give the seconds since the first stamp (n,).
+    """Return the seconds since the first stamp (n,).
 
     Args:
         texts: the cells.
@@ -64,7 +64,7 @@ def _clock(match: re.Match[str]) -> float:
 
 
 def _days(stamps: Sequence[re.Match[str]], what: str) -> Array | None:
-    """Give the day of each stamp, None where there are no dates.
+    """Return the day of each stamp, None where there are no dates.
 
     "03.02.2031" has the day first; "2/3/2031" is the day or the month first, and matters only if the date changes.
     """

@@ -80,7 +80,7 @@ def _gauge(path: Path, one: Mapping[str, Any]) -> Gauge:
 
 
 def _name(one: Mapping[str, Any]) -> str:
-    """Give what the function is called, or the entity, node and direction of its response."""
+    """Return what the function is called, or the entity, node and direction of its response."""
     told = _label(one, "id1") or _label(one, "rsp_ent_name")
     direction = _DIRECTIONS.get(int(one.get("rsp_dir") or 0), "")
     return told or f"node {int(one.get('rsp_node') or 0)} {direction}".strip()

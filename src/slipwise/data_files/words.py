@@ -34,20 +34,20 @@ class Words:
     unit: str
 
     def is_acceleration(self, word: str) -> bool:
-        """Tell whether a folded word is one for acceleration."""
+        """Return whether a folded word is one for acceleration."""
         match = self.key.fullmatch(word)
         return match is not None and str(match.lastgroup).startswith("acceleration")
 
 
 def folded(text: str) -> str:
-    """Give a text without accents and with plain digits and signs; the case stays, for mg and Mg differ."""
+    """Return a text without accents and with plain digits and signs; the case stays, for mg and Mg differ."""
     marks = unicodedata.normalize("NFKD", text.translate(_PLAIN))
     return "".join(c for c in marks if not unicodedata.combining(c))
 
 
 @cache
 def words() -> Words:
-    """Give the patterns."""
+    """Return the patterns."""
     table = tomllib.loads(files("slipwise.data_files").joinpath("words.toml").read_text(encoding="utf-8"))
     keys: list[tuple[str, str]] = []
     behind: list[tuple[str, str]] = []
@@ -75,7 +75,7 @@ def words() -> Words:
 
 
 def _alternatives(phrases: list[tuple[str, str]]) -> str:
-    """Give one pattern with a named group a kind; longer phrases are tried before shorter ones."""
+    """Return one pattern with a named group a kind; longer phrases are tried before shorter ones."""
     # A group can only be named once: the phrases of a kind follow one another within each length.
     ordered = sorted(phrases, key=lambda pair: -len(folded(pair[0])))
     return "|".join(f"(?P<{group}__{k}>{_phrase(text)})" for k, (text, group) in enumerate(ordered))

@@ -2,16 +2,16 @@
 
 from dataclasses import replace
 
-from slipwise.diagnosis.choice import has_delay_for_filter
+from slipwise.diagnosis.ablation import without
 from slipwise.diagnosis.hypothesis import Hypothesis, final_refit_of
 from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects
 from slipwise.diagnosis.plainer import plainest
-from slipwise.diagnosis.removal import without
+from slipwise.diagnosis.ranking import has_delay_for_filter
 from slipwise.diagnosis.search_state import Search, left_with, tried_before, try_one
-from slipwise.estimation.parameters import Term
 from slipwise.evidence.acceptance import is_kept, least_drop
 from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.evidence.score import score
+from slipwise.relations.parameters import Term
 
 #: Share by which a delay may lie behind a filter that takes nothing: true delays lay 0.0024 behind, filters 0.015 [1].
 _NO_FILTER = 0.004
@@ -29,7 +29,7 @@ def pruned(state: Search) -> Search:
 
 
 def _least_needed(state: Search, whole: Hypothesis, origin: ResidualSummary) -> Term | None:
-    """Give the effect whose loss costs least, where a hypothesis is as good without it."""
+    """Return the effect whose loss costs least, where a hypothesis is as good without it."""
     losses: list[tuple[float, Term]] = []
     for term in whole.terms:
         fewer = without(whole, [term], lambda rest: left_with(state, rest, whole))
@@ -86,7 +86,7 @@ def _simplified(state: Search) -> Search:
 
 
 def _with_delays(state: Search, found: Hypothesis) -> list[Hypothesis]:
-    """Give a hypothesis with delays in the place of its filters, fitted if it was not before."""
+    """Return a hypothesis with delays in the place of its filters, fitted if it was not before."""
     offered = {(t.effect.name, t.group): t for t in state.terms}
     delays = {t.label: d for t in found.terms if (d := offered.get((t.effect.plainer, t.group)))}
     if not delays:

@@ -5,12 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from slipwise.diagnosis.screened_rows import on_screen
+from slipwise.diagnosis.initial_grid import strengths
+from slipwise.diagnosis.row_subset import on_screen
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.sensitivities import residual_with
-from slipwise.diagnosis.starting_grid import strengths
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.parallel import on_every_core
+from slipwise.jobs.parallel import on_every_core
 
 #: Parts of the way that are gone, and the share of what a straight line promises there that is enough [1].
 _PARTS, _ENOUGH = (1.0, 0.25), 0.1
@@ -55,7 +55,7 @@ def keeps_its_gain(base: BaseFit, found: Screened) -> bool:
 
 
 def with_bounds_checked(base: BaseFit, found: Sequence[Screened], least: float) -> list[Screened]:
-    """Give candidates, best first, those of the leading ones that keep nothing of their promise without a gain.
+    """Return candidates, best first, those of the leading ones that keep nothing of their promise without a gain.
 
     Args:
         base: the base fit.

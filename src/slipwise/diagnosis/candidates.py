@@ -8,9 +8,9 @@ import numpy as np
 
 from slipwise.effects import Effect, catalogue, for_pads, scaled
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.parameters import Term
-from slipwise.estimation.problem import Problem
-from slipwise.instruments.gauge_groups import places_of
+from slipwise.estimation.objective import Problem
+from slipwise.preparation.gauge_groups import places_of
+from slipwise.relations.parameters import Term
 from slipwise.rig.load_basis import WARPS, has_corners
 
 #: Loads are steady in each run when they differ between runs by this many times more than within one [1].
@@ -24,7 +24,7 @@ _SAME_SPEED = 0.15
 
 
 def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], dict[str, str]]:
-    """Give the candidates, and the effects that this campaign cannot test with the reason.
+    """Return the candidates, and the effects that this campaign cannot test with the reason.
 
     Args:
         base: the base fit.
@@ -90,13 +90,13 @@ def _sees_buffers(problem: Problem) -> bool:
 
 
 def _one_way(problem: Problem) -> bool:
-    """Tell whether all runs that are fitted slide the same way: one there and one back are both directions."""
+    """Return whether all runs that are fitted slide the same way: one there and one back are both directions."""
     forth = np.concatenate([r.velocity[r.sliding] > 0.0 for r in (problem.runs[i] for i in problem.fitted)])
     return bool(forth.size) and min(float(np.mean(forth)), 1.0 - float(np.mean(forth))) < _RARELY
 
 
 def _load_varies(problem: Problem) -> bool:
-    """Tell whether the load changes within a run that is fitted, or from one of them to another."""
+    """Return whether the load changes within a run that is fitted, or from one of them to another."""
     loads = [problem.runs[i].load for i in problem.fitted]
     means = np.array([float(np.mean(load)) for load in loads])
     within = any(float(np.std(load)) > _STEADY_LOAD * mean for load, mean in zip(loads, means, strict=True))
@@ -123,7 +123,7 @@ HAS: dict[str, Callable[[Problem], bool]] = {
 
 
 def _aimed(effect: Effect, problem: Problem) -> Iterator[Term]:
-    """Give a gauge's fault on every channel or card on which it means something to the relations of a fit."""
+    """Yield a gauge's fault on every channel or card on which it means something to the relations of a fit."""
     places = places_of(effect, problem.runs[0].record)
     for place in sorted(places, key=lambda name: "*" not in name):
         targets = places[place]
@@ -144,12 +144,12 @@ def _unaimed(effect: Effect, problem: Problem) -> str:
 
 
 def _on_single_pads(effect: Effect, problem: Problem) -> Iterator[Term]:
-    """Give an effect on each pad alone, where loads tell which: those of three or four pads warp one way or not."""
+    """Yield an effect on each pad alone, where loads tell which: those of three or four pads warp one way or not."""
     if effect.single and WARPS[1] in problem.relations:
         for pad in problem.specimen.pads:
             yield Term(effect, (f"pad_{pad}_N",), f"pad_{pad}_N")
 
 
 def _alone(effect: Effect, targets: Iterable[str]) -> bool:
-    """Tell whether a fault shows without the balances of a girder: a gain of one slider's gauges is its friction."""
+    """Return whether a fault shows without the balances of a girder: a gain of one slider's gauges is its friction."""
     return not any(fnmatchcase(t, pattern) for t in targets for pattern in effect.gauges.balance_only)

@@ -5,14 +5,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.diagnosis.screened_rows import rows_of
+from slipwise.diagnosis.initial_grid import strengths
+from slipwise.diagnosis.row_subset import rows_of
 from slipwise.diagnosis.screening import Screened
-from slipwise.diagnosis.starting_grid import strengths
 from slipwise.evidence.acceptance import least_drop
 
 
 def least_sizes(screened: Sequence[Screened], base: Hypothesis) -> dict[str, tuple[float, str]]:
-    """Give for every effect the smallest size that would have been material, by its column: size and unit.
+    """Return for every effect the smallest size that would have been material, by its column: size and unit.
 
     Args:
         screened: candidates; of an effect on many gauges the smallest counts.

@@ -7,15 +7,15 @@ from pathlib import Path
 import numpy as np
 
 from slipwise.campaign import Campaign, as_campaign
-from slipwise.diagnosis.all_samples import errors_on_all_samples
-from slipwise.diagnosis.cannot_tell import cannot_tell
+from slipwise.diagnosis.data_corrections import first_things
 from slipwise.diagnosis.detectable_size import least_sizes
 from slipwise.diagnosis.findings import findings
-from slipwise.diagnosis.first_things import first_things
+from slipwise.diagnosis.full_length_errors import errors_on_all_samples
 from slipwise.diagnosis.hypothesis import Hypothesis, final_refit_of
 from slipwise.diagnosis.importance import importance_of_effects
 from slipwise.diagnosis.indistinguishable import alike_pairs
-from slipwise.diagnosis.kept_slopes import whole
+from slipwise.diagnosis.jacobian_memory import whole
+from slipwise.diagnosis.limitations import cannot_tell
 from slipwise.diagnosis.replays import replayed_errors
 from slipwise.diagnosis.reported_sizes import named_sizes
 from slipwise.diagnosis.result import Candidate, Diagnosis
@@ -31,9 +31,9 @@ from slipwise.estimation.prediction_interval import PredictedFriction, predicted
 from slipwise.evidence.residual_summary import ResidualSummary, error_of
 from slipwise.evidence.score import largest_drop, score
 from slipwise.instruments.suspects import effect_of
+from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
-from slipwise.model_file import as_model
-from slipwise.parallel import one_thread_algebra
+from slipwise.model.file import as_model
 
 #: Hypotheses that are listed.
 _LISTED = 6
@@ -116,14 +116,14 @@ def diagnose(
 
 
 def _predicted_friction(final: BaseFit) -> tuple[PredictedFriction, ...]:
-    """Give what is predicted of one slider's held-out runs; a girder's balances judge those sample by sample."""
+    """Return what is predicted of one slider's held-out runs; a girder's balances judge those sample by sample."""
     if final.problem.balanced:
         return ()
     return tuple(found for found in predicted_friction(final) if found.inside is not None)
 
 
 def as_fit(base: BaseFit, found: Hypothesis, *, with_slopes: bool = True) -> BaseFit:
-    """Give a hypothesis as a fit of its own, with its own Jacobian, for intervals, locating and replays.
+    """Return a hypothesis as a fit of its own, with its own Jacobian, for intervals, locating and replays.
 
     Args:
         base: the base fit.
@@ -152,7 +152,7 @@ def _component(state: Search, verdict: Verdict) -> str:
 def _listed(
     selected: SelectionResult, before: ResidualSummary, decided: Verdict, verdict: Verdict, sizes: Sequence[Interval]
 ) -> tuple[Candidate, ...]:
-    """Give hypotheses, and faults of samples: before them where they alone are what is missing."""
+    """Return hypotheses, and faults of samples: before them where they alone are what is missing."""
     hypotheses = _candidates(selected.search, before, decided, sizes)
     recorded, kept = selected.uncorrected or before, before
     where = max(recorded.fitted, key=lambda relation: error_of(recorded, relation))
@@ -195,7 +195,7 @@ def _candidates(
 
 
 def _shares(state: Search, verdict: Verdict, listed: list[Hypothesis]) -> list[float]:
-    """Give each listed hypothesis its chance: those that tie share that of the verdict, the others what is left."""
+    """Return each listed hypothesis its chance: those that tie share that of the verdict, the others what is left."""
     named = verdict.kind in ("named", "instrument", "ambiguous")
     if not listed:
         return []

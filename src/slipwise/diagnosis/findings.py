@@ -5,16 +5,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from slipwise.campaign.materiality import Materiality
-from slipwise.diagnosis.choice import has_delay_for_filter
+from slipwise.diagnosis.ablation import without
+from slipwise.diagnosis.gauge_error_shrinkage import shares_that_stay
 from slipwise.diagnosis.hypothesis import Hypothesis, at_limit, parameters_at_bound
 from slipwise.diagnosis.importance import Importance
 from slipwise.diagnosis.plainer import holds_as_limit
-from slipwise.diagnosis.removal import without
+from slipwise.diagnosis.ranking import has_delay_for_filter
 from slipwise.diagnosis.search_state import Search, left_with
-from slipwise.diagnosis.small_faults import shares_that_stay
-from slipwise.estimation.parameters import Term
 from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.evidence.score import lead, score
+from slipwise.relations.parameters import Term
 
 #: Nothing is surer than this many standard errors.
 _SUREST = 30.0
@@ -70,7 +70,7 @@ class Finding:
 
 
 def findings(state: Search, importances: dict[str, Importance], limits: Materiality) -> list[Finding]:
-    """Give the evidence for every effect of a search's final model, most important first.
+    """Return the evidence for every effect of a search's final model, most important first.
 
     Args:
         state: of the finished search.
@@ -106,7 +106,7 @@ def findings(state: Search, importances: dict[str, Importance], limits: Material
 
 
 def above_noise(summary: ResidualSummary, best: ResidualSummary) -> float:
-    """Give the squared residual that stands above the noise, over all relations.
+    """Return the squared residual that stands above the noise, over all relations.
 
     Args:
         summary: of a hypothesis.
@@ -116,7 +116,7 @@ def above_noise(summary: ResidualSummary, best: ResidualSummary) -> float:
 
 
 def _rivals(state: Search, parts: dict[str, tuple[Term, ...]]) -> dict[str, Rival]:
-    """Give for every effect the best of what was fitted in its place."""
+    """Return for every effect the best of what was fitted in its place."""
     best = state.best
     ends = len(parameters_at_bound(best))  # what has run against a bound, a patch wider than the stroke, is no rival
     out: dict[str, Rival] = {}

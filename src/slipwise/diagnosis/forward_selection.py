@@ -9,17 +9,17 @@ from numpy.typing import NDArray
 from slipwise.diagnosis.backward_elimination import pruned, with_final_refit
 from slipwise.diagnosis.bound_check import with_bounds_checked
 from slipwise.diagnosis.candidates import candidates
-from slipwise.diagnosis.choice import best_of, kept_alone, limit_per_effect
 from slipwise.diagnosis.hypothesis import Hypothesis, at_limit, base_hypothesis, strength_at_bound
-from slipwise.diagnosis.kept_slopes import lighten, whole
+from slipwise.diagnosis.initial_grid import places
+from slipwise.diagnosis.initial_guesses import longer_stick, starting_points, starts_of
+from slipwise.diagnosis.jacobian_memory import lighten, whole
 from slipwise.diagnosis.pairs import leading_pair
 from slipwise.diagnosis.plainer import plainest, with_plainer
+from slipwise.diagnosis.ranking import best_of, kept_alone, limit_per_effect
 from slipwise.diagnosis.rescreening import rescreen, worth_refitting
-from slipwise.diagnosis.screened_rows import thinning
+from slipwise.diagnosis.row_subset import thinning
 from slipwise.diagnosis.screening import screen, screen_shapes
 from slipwise.diagnosis.search_state import Search, as_base, left_with, tried_before, try_all, try_one
-from slipwise.diagnosis.starting_grid import places
-from slipwise.diagnosis.starting_values import longer_stick, starting_points, starts_of
 from slipwise.diagnosis.substitutes import substitutes
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit, at_rated
@@ -210,7 +210,7 @@ def _further(state: Search) -> Search | None:
 
 
 def _been_there(state: Search, found: Hypothesis) -> bool:
-    """Tell whether a search has stood at these effects before."""
+    """Return whether a search has stood at these effects before."""
     return any({t.label for t in h.terms} == {t.label for t in found.terms} for h in state.path)
 
 
@@ -219,14 +219,14 @@ def _new_at_bound(found: Hypothesis, before: Hypothesis) -> bool:
 
 
 def _is_kept(origin: Hypothesis, before: Hypothesis, found: Hypothesis, share: float = 1.0) -> bool:
-    """Tell whether the terms that a hypothesis has beside one before are worth being kept, or nearly so."""
+    """Return whether the terms that a hypothesis has beside one before are worth being kept, or nearly so."""
     labels = {t.label for t in before.terms}
     least = share * least_drop(t for t in found.terms if t.label not in labels)
     return is_kept(origin.summary, before.summary, found.summary, least)
 
 
 def _least_refitted(before: Hypothesis) -> float:
-    """Give the gain from which on a candidate is refitted [noise variance]."""
+    """Return the gain from which on a candidate is refitted [noise variance]."""
     return _MIN_REFIT_SHARE * LEAST.law * min(n for n, _ in before.summary.counts.values())
 
 
@@ -252,7 +252,7 @@ def _exchanged(state: Search) -> Search | None:
 
 
 def _accuses_for_little(best: Hypothesis, found: Hypothesis) -> bool:
-    """Tell whether a hypothesis blames more gauges than another, and is hardly better for it."""
+    """Return whether a hypothesis blames more gauges than another, and is hardly better for it."""
     more = _gauges(found) > _gauges(best)
     return more and lead(found.summary, best.summary) < _SURE_ENOUGH
 

@@ -8,8 +8,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from slipwise.estimation.problem import Problem
-from slipwise.estimation.run_data import FitRun
+from slipwise.estimation.objective import Problem
+from slipwise.relations.run_data import FitRun
 
 #: A held-out run may go beyond the fitted ones by this factor [1]: laws are smooth, and no test repeats another.
 _BEYOND = 1.5
@@ -24,7 +24,7 @@ _REGIMES: dict[str, tuple[Callable[[FitRun], float], str, float]] = {
 
 
 def not_testable(problem: Problem) -> dict[int, str]:
-    """Give the held-out runs that no fitted run covers: place of the run -> why, in words."""
+    """Return the held-out runs that no fitted run covers: place of the run -> why, in words."""
     out: dict[int, str] = {}
     for i in problem.held_out:
         reasons = []

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.diagnosis.starting_grid import REFERENCES, strengths
+from slipwise.diagnosis.initial_grid import REFERENCES, strengths
 from slipwise.effects import Limit
 from slipwise.estimation.base_fit import BaseFit, final_refit
 from slipwise.estimation.least_squares import Solution, slopes_of, solve
-from slipwise.estimation.parameters import ZERO, Free, Term, inertia_free, numbers_replaced
-from slipwise.estimation.problem import Problem
+from slipwise.estimation.objective import Problem
 from slipwise.evidence.residual_summary import ResidualSummary, mean_square, summarised
+from slipwise.relations.parameters import ZERO, Free, Term, inertia_free, numbers_replaced
 
 Array = NDArray[np.float64]
 #: A fit is over when a step lowers the squared residual by less than this, and by less than this share of what is left
@@ -46,20 +46,20 @@ class Hypothesis:
         return tuple(dict.fromkeys(t.effect.name for t in self.terms))
 
     def without(self, term: Term) -> list[Term]:
-        """Give the terms but for one."""
+        """Return the terms but for one."""
         return [t for t in self.terms if t.label != term.label]
 
     def values_of(self, term: Term) -> dict[str, float]:
-        """Give the fitted parameters of one effect."""
+        """Return the fitted parameters of one effect."""
         return {n: self.solution.values[f"{term.label}.{n}"] for n in term.effect.parameter_names}
 
     def level_of(self, relation: str, runs: Sequence[int]) -> float:
-        """Give the mean squared residual of a relation over some runs [noise variance]."""
+        """Return the mean squared residual of a relation over some runs [noise variance]."""
         return mean_square(self.problem, self.solution, relation, runs)
 
 
 def base_hypothesis(base: BaseFit) -> Hypothesis:
-    """Give the base model as a hypothesis without effects."""
+    """Return the base model as a hypothesis without effects."""
     return _hypothesis((), base.problem, base.solution)
 
 
@@ -135,7 +135,7 @@ def polished(found: Hypothesis) -> Hypothesis:
 
 
 def weighed_as(found: Hypothesis, other: Problem) -> Hypothesis:
-    """Give a hypothesis with the noise of another problem, fitted on with that: only so their residuals compare."""
+    """Return a hypothesis with the noise of another problem, fitted on with that: only so their residuals compare."""
     if found.problem.sigmas is other.sigmas:
         return found
     problem = other.having(found.problem.terms)
@@ -197,17 +197,17 @@ def _inside(term: Term, start: Mapping[str, float]) -> dict[str, float]:
 
 
 def strength_at_bound(found: Hypothesis) -> bool:
-    """Tell whether a strength has run against a bound that is not its absence: a law asked for more than it can be."""
+    """Return whether a strength has run against a bound other than its absence: a law asked for more than it can be."""
     return any(p.name in _ends(found, t) for t in found.terms for p in strengths(t.effect))
 
 
 def parameters_at_bound(found: Hypothesis) -> list[tuple[str, str]]:
-    """Give label and name of every constant of its laws that has run against a bound other than its absence."""
+    """Return label and name of every constant of its laws that has run against a bound other than its absence."""
     return [(t.label, name) for t in found.terms for name in sorted(_ends(found, t))]
 
 
 def at_limit(found: Hypothesis) -> list[str]:
-    """Give the labels of effects that ended where their files say that they are another effect, or nothing."""
+    """Return the labels of effects that ended where their files say that they are another effect, or nothing."""
     return [t.label for t in found.terms if any(_reached(found, t, limit) for limit in t.effect.limits)]
 
 
@@ -218,7 +218,7 @@ def _reached(found: Hypothesis, term: Term, limit: Limit) -> bool:
 
 
 def _ends(found: Hypothesis, term: Term) -> set[str]:
-    """Give the parameters of a term that ended on a bound other than their absence; whole numbers are not fitted."""
+    """Return the parameters of a term that ended on a bound other than their absence; whole numbers are not fitted."""
     ends, values = set(found.solution.at_bounds), found.values_of(term)
     fitted = [p for p in term.effect.parameters if not p.whole]
     return {p.name for p in fitted if f"{term.label}.{p.name}" in ends and values[p.name] != p.neutral}

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import intervals
-from slipwise.estimation.parameters import Free
+from slipwise.relations.parameters import Free
 from slipwise.units import convert
 
 Array = NDArray[np.float64]
@@ -50,7 +50,7 @@ class Identified:
 
 
 def unidentified(final: BaseFit, base: BaseFit) -> list[tuple[str, str]]:
-    """Give the base model's numbers that a campaign does not tell, each with the reason.
+    """Return the base model's numbers that a campaign does not tell, each with the reason.
 
     Args:
         final: the fit that is reported.
@@ -86,7 +86,7 @@ def unidentified(final: BaseFit, base: BaseFit) -> list[tuple[str, str]]:
 
 
 def _inside(final: BaseFit) -> BaseFit:
-    """Give a fit of the numbers inside their bounds, bounds away: what a strength is at most would take a profile."""
+    """Return a fit of the numbers inside their bounds, bounds away: what a strength is at most would take a profile."""
     solution = final.solution
     kept = [f for f in solution.free if f.key not in solution.at_bounds]
     free = tuple(replace(f, low=-np.inf, high=np.inf) for f in kept)
@@ -111,7 +111,7 @@ def how_identified(fit: BaseFit) -> dict[str, Identified]:
 
 
 def alone(normal: Array) -> tuple[Array, Array]:
-    """Give the length (k,) of what no other slope could do of each, and the correlations (k, k).
+    """Return the length (k,) of what no other slope could do of each, and the correlations (k, k).
 
     Args:
         normal: (k, k) product of the slopes with themselves.
@@ -149,7 +149,7 @@ class _Number:
 
 
 def _named(base: BaseFit, free: Free) -> _Number | None:
-    """Give a number as people read it; None for one that only a fit needs."""
+    """Return a number as people read it; None for one that only a fit needs."""
     began = abs(free.start) if free.low <= 0.0 else 0.0
     if free.key in _OF_RIG:
         return _Number(free.key, free.unit, free.unit, began, False, None)

@@ -19,10 +19,10 @@ from slipwise.comparison.system_level import replayed_model
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Interval
-from slipwise.estimation.parameters import Term
-from slipwise.estimation.run_data import FitRun
+from slipwise.jobs.parallel import on_every_core
 from slipwise.model import Model
-from slipwise.parallel import on_every_core
+from slipwise.relations.parameters import Term
+from slipwise.relations.run_data import FitRun
 from slipwise.simulation.kernel.layout import buffer_memories, pad_memories
 from slipwise.simulation.predict import predictor
 from slipwise.simulation.replay import replay
@@ -59,7 +59,7 @@ class Importance:
     gauge: bool
 
     def share_of_limit(self, limits: Materiality) -> float:
-        """Give the largest change as a share of what matters: 1 and more is material."""
+        """Return the largest change as a share of what matters: 1 and more is material."""
         of_channel = limits.gauge if self.gauge else limits.channel
         shares = [value / of_channel for value in self.channels.values()]
         if not self.gauge:
@@ -68,7 +68,7 @@ class Importance:
 
 
 def importance_of_effects(final: BaseFit, terms: Sequence[Term], sizes: Sequence[Interval]) -> dict[str, Importance]:
-    """Give the importance of every effect that was added to a model.
+    """Return the importance of every effect that was added to a model.
 
     Args:
         final: the fitted model.
@@ -113,14 +113,14 @@ class _Answer:
 
 
 def _models(final: BaseFit, added: Mapping[str, Sequence[Term]]) -> dict[str, Model]:
-    """Give the final model by "", and by the name of each effect the model without it."""
+    """Return the final model by "", and by the name of each effect the model without it."""
     values = final.solution.values
     whole = replayed_model(final)[0] if final.problem.specimen.free else final.problem.model(values)
     return {"": whole} | {n: whole.without(*(u.label for t in of for u in t.uses(values))) for n, of in added.items()}
 
 
 def _where_most(final: BaseFit, terms: Sequence[Term]) -> int:
-    """Give the place of the run whose balances change most when an effect is set to its absence."""
+    """Return the place of the run whose balances change most when an effect is set to its absence."""
     problem, solution = final.problem, final.solution
     absent = {f"{t.label}.{p.name}": p.neutral for t in terms for p in t.effect.parameters if p.neutral is not None}
     try:
@@ -153,7 +153,7 @@ def _replayed(model: Model, final: BaseFit, place: int) -> _Answer:
 
 
 def memory_before(model: Model, runs: Sequence[FitRun]) -> Memory:
-    """Give what pads and buffers remember after the runs before, their laws driven with what was measured."""
+    """Return what pads and buffers remember after the runs before, their laws driven with what was measured."""
     law = predictor(model)
     layout = law.law.layout
     for before in runs:
@@ -184,7 +184,7 @@ def _driven(model: Model, final: BaseFit, place: int) -> _Answer:
 
 
 def share_of_channel(change: Array, measured: Array) -> float:
-    """Give the rms of a change (n,) over the rms of the measured channel (n,) about its mean [1]; 0 if it stands."""
+    """Return the rms of a change (n,) over the rms of the measured channel (n,) about its mean [1]; 0 if it stands."""
     size = float(np.std(measured))
     return float(np.sqrt(np.mean(change**2)) / size) if size > 0.0 else 0.0
 
@@ -195,7 +195,7 @@ def _change(value: float, spread: float) -> Change:
 
 
 def _spread(labels: list[str], sizes: Sequence[Interval]) -> float:
-    """Give the half width of the interval of an effect's best known number, as a share of it [1]."""
+    """Return the half width of the interval of an effect's best known number, as a share of it [1]."""
     found = [
         0.5 * (i.high - i.low) / abs(i.value)
         for i in sizes

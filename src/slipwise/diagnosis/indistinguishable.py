@@ -4,23 +4,23 @@ from collections.abc import Iterable
 
 from slipwise.diagnosis.search_state import Search
 from slipwise.effects import Effect, catalogue
-from slipwise.estimation.problem import Problem
+from slipwise.estimation.objective import Problem
 
 Pairs = dict[frozenset[str], tuple[str, ...]]
 
 
 def known_effects(state: Search) -> dict[str, Effect]:
-    """Give the catalogue and a user's own effects that were looked at, by name."""
+    """Return the catalogue and a user's own effects that were looked at, by name."""
     return {**catalogue(), **{t.effect.name: t.effect for t in state.terms}}
 
 
 def alike_pairs(known: Iterable[Effect]) -> Pairs:
-    """Give the names of each two effects that may be one thing, with what tells them apart; one file may say so."""
+    """Return the names of each two effects that may be one thing, with what tells them apart; one file may say so."""
     return {frozenset({e.name, other}): unless for e in known for other, unless in e.same_unless.items()}
 
 
 def distinguishable(problem: Problem, unless: Iterable[str]) -> bool:
-    """Tell whether two effects that may be one thing are distinguishable in a campaign.
+    """Return whether two effects that may be one thing are distinguishable in a campaign.
 
     Args:
         problem: of the campaign.

@@ -20,14 +20,14 @@ from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.screening import Screened, screen
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.selection import prepared, select_effects
+from slipwise.display import Drawn, Tabular
 from slipwise.effects import Effect, find_effect
 from slipwise.errors import InputError, SettingError
 from slipwise.estimation.base_fit import BaseFit, fit_base
 from slipwise.evidence.residual_summary import ResidualSummary, error_of
+from slipwise.jobs.parallel import on_every_core, one_thread_algebra
 from slipwise.model import Model
-from slipwise.model_file import as_model
-from slipwise.parallel import on_every_core, one_thread_algebra
-from slipwise.shown import Drawn, Tabular
+from slipwise.model.file import as_model
 
 #: An error below this has reached the noise floor [floors].
 FLOOR_REACHED = 1.15
@@ -75,7 +75,7 @@ class Ladder(Drawn, Tabular):
     seconds: float
 
     def as_json(self) -> list[dict[str, Any]]:
-        """Give the contract of ladder.json: the steps; the last one says why no further one was climbed."""
+        """Return the contract of ladder.json: the steps; the last one says why no further one was climbed."""
         screened, refitted = self.tried
         last = len(self.steps) - 1
         return [
@@ -84,7 +84,7 @@ class Ladder(Drawn, Tabular):
         ]
 
     def table(self) -> list[dict[str, Any]]:
-        """Give the errors of every step; none where there is none."""
+        """Return the errors of every step; none where there is none."""
         return [
             {
                 "effects": list(r.effects),
@@ -155,7 +155,7 @@ def ladder(
 
 
 def ladder_of(found: Diagnosis) -> Ladder:
-    """Give the ladder that a diagnosis has climbed already, with the replays that it knows.
+    """Return the ladder that a diagnosis has climbed already, with the replays that it knows.
 
     Where nothing is named the base model was replayed, and not what the search had come to.
     """
@@ -181,7 +181,7 @@ def left_over(found: Diagnosis) -> str:
 
 
 def _hypothesis_path(state: Search) -> list[Hypothesis]:
-    """Give the hypotheses of a search step by step, each once, fitted as all that is reported is."""
+    """Return the hypotheses of a search step by step, each once, fitted as all that is reported is."""
     last = {frozenset(t.label for t in h.terms): h for h in state.path[:-1]}
     last.pop(frozenset(t.label for t in state.best.terms), None)
     before = list(last.values())

@@ -6,13 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
-from slipwise.diagnosis.screened_rows import thinning
+from slipwise.diagnosis.initial_grid import strengths
+from slipwise.diagnosis.row_subset import thinning
 from slipwise.diagnosis.sensitivities import residual_with, typical
-from slipwise.diagnosis.starting_grid import strengths
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.parameters import Term
 from slipwise.params import Parameter
+from slipwise.relations.parameters import Term
 
 Array = NDArray[np.float64]
 #: Mean squared residual from which on every candidate is tried at full size, and from which on only those are of which
@@ -76,7 +76,7 @@ def at_full_size(
 
 
 def _nonlinear_strengths(effect: Effect, shape: Mapping[str, float], adds_yaw: bool) -> list[Parameter]:
-    """Give the strengths whose effect on the residual is far from a straight line."""
+    """Return the strengths whose effect on the residual is far from a straight line."""
     if effect.port == "gauge":
         return [p for p in strengths(effect) if p.unit == "s"]
     return strengths(effect) if adds_yaw and not shape else []

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.diagnosis.screened_rows import on_screen
+from slipwise.diagnosis.row_subset import on_screen
 from slipwise.diagnosis.screening import Screened, projector
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.parameters import Term
+from slipwise.relations.parameters import Term
 
 #: A pair that screens this much better than the best single's best partner is tried too.
 _PAIR_LEAD = 1.15
@@ -18,7 +18,7 @@ _PAIR_POOL = 24
 def leading_pair(
     base: BaseFit, screened: Sequence[Screened], best: Hypothesis | None, least: float
 ) -> tuple[Screened, Screened] | None:
-    """Give the pair that screens best, if the best single is not part of it or there is none.
+    """Return the pair that screens best, if the best single is not part of it or there is none.
 
     Args:
         base: the base fit.
@@ -60,7 +60,7 @@ def leading_pair(
 
 
 def at_odds(a: Term, b: Term) -> bool:
-    """Tell whether two terms cannot be in one hypothesis: one sticks beside a stick or train, or one on a channel."""
+    """Return whether two terms cannot be in one hypothesis: one sticks beside a stick or train, or one on a channel."""
     if a.effect.reverses and b.effect.reverses and ("stick" in a.effect.hooks or "stick" in b.effect.hooks):
         return True
     return a.effect.name == b.effect.name and bool(set(a.targets) & set(b.targets))

@@ -8,10 +8,10 @@ one leaves. At the end itself it is nothing but the plainer one, and is not chos
 from collections.abc import Sequence
 
 from slipwise.diagnosis.hypothesis import Hypothesis, at_limit
+from slipwise.diagnosis.initial_guesses import Start
 from slipwise.diagnosis.search_state import Search, tried_before, try_one
-from slipwise.diagnosis.starting_values import Start
-from slipwise.estimation.parameters import Term
 from slipwise.evidence.acceptance import is_kept, least_drop
+from slipwise.relations.parameters import Term
 
 
 def with_plainer(state: Search, asked: Sequence[Start]) -> list[Start]:
@@ -36,7 +36,7 @@ def with_plainer(state: Search, asked: Sequence[Start]) -> list[Start]:
 
 
 def plainest(state: Search, found: Hypothesis) -> Hypothesis:
-    """Give a hypothesis with plainer effects in the place of those that explain no more; fitted if they were not.
+    """Return a hypothesis with plainer effects in the place of those that explain no more; fitted if they were not.
 
     Args:
         state: of a search.
@@ -54,14 +54,14 @@ def plainest(state: Search, found: Hypothesis) -> Hypothesis:
 
 
 def holds_as_limit(found: Hypothesis, plain: Hypothesis) -> bool:
-    """Tell whether a hypothesis is another with an effect in the place of the plainer one that it becomes."""
+    """Return whether a hypothesis is another with an effect in the place of the plainer one that it becomes."""
     own, others = ({t.effect.name: t.effect for t in h.terms} for h in (found, plain))
     gone = others.keys() - own.keys()
     return any(limit.becomes in gone for name in own.keys() - others.keys() for limit in own[name].limits)
 
 
 def _plainer(state: Search, term: Term, beside: Sequence[Term]) -> list[Term]:
-    """Give the candidates that an effect becomes at an end of its bounds, but those that are there already."""
+    """Return the candidates that an effect becomes at an end of its bounds, but those that are there already."""
     becomes = {limit.becomes for limit in term.effect.limits} - {t.effect.name for t in beside}
     return [t for t in state.terms if t.effect.name in becomes and not t.group]
 

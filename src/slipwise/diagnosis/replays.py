@@ -9,8 +9,8 @@ from slipwise.comparison.measured_replay import measured_motion, simulation_step
 from slipwise.comparison.system_level import replayed_model, system_level
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.estimation.base_fit import BaseFit
+from slipwise.jobs.parallel import on_every_core
 from slipwise.model import Model
-from slipwise.parallel import on_every_core
 from slipwise.record import Record
 from slipwise.simulation.replay import replay
 
@@ -45,7 +45,7 @@ def replays(found: Diagnosis) -> tuple[Record, list[tuple[str, Record]]]:
 def replayed_errors(
     fits: Sequence[BaseFit], roles: Collection[str], progress: Callable[[float], None] | None = None
 ) -> list[float]:
-    """Give the error of the replay of every fit over slip and pad forces, in floors; NaN without a run of these roles.
+    """Return error of the replay of every fit over slip and pad forces, in floors; NaN without a run of these roles.
 
     Args:
         fits: whose models are replayed.

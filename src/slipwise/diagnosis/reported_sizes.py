@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.diagnosis.starting_grid import REFERENCES
+from slipwise.diagnosis.initial_grid import REFERENCES
 from slipwise.estimation.intervals import Interval, bound_of
 
 #: Factor, and share of the size: of 161 sizes that the bench planted 92.5 % lay inside such intervals, without it 78 %.
@@ -18,7 +18,7 @@ _WIDER, _FORM = 1.5, 0.02
 
 
 def named_sizes(found: Hypothesis, sizes: Sequence[Interval]) -> dict[str, Interval]:
-    """Give the parameters of a hypothesis' effects, by key; a reference, which no fit changes, has no interval.
+    """Return the parameters of a hypothesis' effects, by key; a reference, which no fit changes, has no interval.
 
     Args:
         found: the hypothesis.

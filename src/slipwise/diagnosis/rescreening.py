@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.diagnosis.initial_grid import strengths, two_sided
 from slipwise.diagnosis.pairs import at_odds
-from slipwise.diagnosis.screened_rows import on_screen, rows_of
+from slipwise.diagnosis.row_subset import on_screen, rows_of
 from slipwise.diagnosis.screening import Screened, away_from, basis_of
-from slipwise.diagnosis.starting_grid import strengths, two_sided
 from slipwise.evidence.acceptance import least_drop
 from slipwise.evidence.score import FLOOR
 
@@ -23,7 +23,7 @@ _PROMISED = 0.5
 
 
 def row_weights(found: Hypothesis) -> Array:
-    """Give the weight (q,) of every screened row: one over the level that is left in its relation."""
+    """Return the weight (q,) of every screened row: one over the level that is left in its relation."""
     levels = {r: max(found.summary.fitted_level(r), FLOOR) for r in found.problem.relations}
     return np.concatenate([np.full(rows, levels[r] ** -0.5) for r, rows in rows_of(found.problem).items()])
 
@@ -52,7 +52,7 @@ def rescreen(screened: Sequence[Screened], before: Hypothesis) -> list[Screened]
 
 
 def worth_refitting(found: Sequence[Screened], before: Hypothesis, most: int, *, together: bool) -> list[Screened]:
-    """Give the leading candidates that promise enough of a relation for a refit.
+    """Return the leading candidates that promise enough of a relation for a refit.
 
     Args:
         found: of `rescreen`, best first.
@@ -86,7 +86,7 @@ def worth_refitting(found: Sequence[Screened], before: Hypothesis, most: int, *,
 
 
 def _beside(before: Hypothesis, weights: Array) -> tuple[Array, Array]:
-    """Give a basis of what a hypothesis' numbers can do, and what is left beside it, both weighed."""
+    """Return a basis of what a hypothesis' numbers can do, and what is left beside it, both weighed."""
     solution, problem = before.solution, before.problem
     basis = basis_of(on_screen(problem, solution.inside) * weights[:, None])
     left = on_screen(problem, solution.residuals.stacked(problem.fitted, problem.relations))
@@ -94,14 +94,14 @@ def _beside(before: Hypothesis, weights: Array) -> tuple[Array, Array]:
 
 
 def _relations(before: Hypothesis) -> tuple[NDArray[np.int64], Array]:
-    """Give where each relation begins among the screened rows, and how many samples of it are judged."""
+    """Return where each relation begins among the screened rows, and how many samples of it are judged."""
     rows = rows_of(before.problem)
     begins = np.concatenate([[0], np.cumsum([*rows.values()])[:-1]])
     return begins, np.array([before.summary.counts[r][0] for r in rows])
 
 
 def _scaled(found: Screened, amount: float, gain: float) -> Screened:
-    """Give a candidate with the strength that fits the residual at hand."""
+    """Return a candidate with the strength that fits the residual at hand."""
     ratio = amount / found.length if found.length else 0.0
     values = dict(found.values)
     for p in strengths(found.term.effect):

@@ -6,19 +6,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from slipwise.diagnosis.first_things import FirstThing
+from slipwise.diagnosis.alternatives import discriminating_tests, explanations, nearest_family
+from slipwise.diagnosis.data_corrections import FirstThing
 from slipwise.diagnosis.importance import Importance
-from slipwise.diagnosis.rivals import discriminating_tests, explanations, nearest_family
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import Surface
 from slipwise.diagnosis.verdict import Verdict
+from slipwise.display import Drawn, Tabular
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Interval
 from slipwise.estimation.prediction_interval import PredictedFriction
 from slipwise.model import Model
 from slipwise.record import Record
-from slipwise.shown import Drawn, Tabular
 
 if TYPE_CHECKING:
     from slipwise.diagnosis.ladder import Ladder
@@ -118,7 +118,7 @@ class Diagnosis(Drawn, Tabular):
         return discriminating_tests(self.verdict, self.search)
 
     def ladder(self) -> "Ladder":
-        """Give the ladder that the diagnosis has climbed already."""
+        """Return the ladder that the diagnosis has climbed already."""
         from slipwise.diagnosis.ladder import ladder_of
 
         return ladder_of(self)
@@ -182,7 +182,7 @@ class Diagnosis(Drawn, Tabular):
         return f"; on its bound: {', '.join(ends)}" if ends else ""
 
     def as_json(self) -> dict[str, Any]:
-        """Give the contract of diagnosis.json."""
+        """Return the contract of diagnosis.json."""
         verdict = self.verdict
         return {
             "schema": SCHEMA,

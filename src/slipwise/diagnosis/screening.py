@@ -12,14 +12,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.diagnosis.initial_grid import shapes, strengths, two_sided
 from slipwise.diagnosis.nonlinear_screening import MIN_GAIN, at_full_size
-from slipwise.diagnosis.screened_rows import on_screen
+from slipwise.diagnosis.row_subset import on_screen
 from slipwise.diagnosis.sensitivities import column_of, residual_with, small
-from slipwise.diagnosis.starting_grid import shapes, strengths, two_sided
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.parameters import Term
-from slipwise.parallel import on_every_core
+from slipwise.jobs.parallel import on_every_core
 from slipwise.params import Parameter
+from slipwise.relations.parameters import Term
 
 Array = NDArray[np.float64]
 #: A column is taken anew where the strength that was found is this many times the one at which it was taken, so often,
@@ -72,19 +72,19 @@ def screen(base: BaseFit, terms: Sequence[Term], progress: Callable[[float], Non
 
 
 def _screened_base(base: BaseFit) -> tuple[Array, Callable[[Array], Array]]:
-    """Give the screened residual (q,) of a base fit, and the projection away from what its numbers can do."""
+    """Return the screened residual (q,) of a base fit, and the projection away from what its numbers can do."""
     problem, solution = base.problem, base.solution
     left = on_screen(problem, solution.residuals.stacked(problem.fitted, problem.relations))
     return left, projector(on_screen(problem, solution.inside))
 
 
 def _numbers(found: Screened | None) -> dict[str, Any] | None:
-    """Give a candidate's column without its term, whose functions cannot be sent from one process to another."""
+    """Return a candidate's column without its term, whose functions cannot be sent from one process to another."""
     return None if found is None else {k: v for k, v in vars(found).items() if k != "term"}
 
 
 def basis_of(jacobian: Array) -> Array:
-    """Give an orthonormal basis (m, <= k) of what the columns (m, k) of a Jacobian can do."""
+    """Return an orthonormal basis (m, <= k) of what the columns (m, k) of a Jacobian can do."""
     scale = np.sqrt(np.einsum("ij,ij->j", jacobian, jacobian))
     kept = jacobian[:, scale > 0.0] / scale[scale > 0.0]
     basis, triangle = np.linalg.qr(kept)
@@ -97,7 +97,7 @@ def away_from(basis: Array, vector: Array) -> Array:
 
 
 def projector(jacobian: Array) -> Callable[[Array], Array]:
-    """Give the projection away from the columns (m, k) of a Jacobian."""
+    """Return the projection away from the columns (m, k) of a Jacobian."""
     basis = basis_of(jacobian)
     return lambda v: away_from(basis, v)
 
@@ -130,7 +130,7 @@ def _at_shapes(
     base: BaseFit, term: Term, grid: list[dict[str, float]], left: Array | None, residual: Array,
     project: Callable[[Array], Array],
 ) -> list[Screened]:  # fmt: skip
-    """Give what a candidate could explain at every point of a grid where it can be evaluated."""
+    """Return what a candidate could explain at every point of a grid where it can be evaluated."""
     problem = base.problem
     adds_yaw = problem.adding(term).kinematics.makes_yaw != problem.kinematics.makes_yaw
     if adds_yaw:  # yaw that is made from measured forces is noise as well
@@ -158,12 +158,12 @@ def _at_shapes(
 
 
 def _better(*found: Screened | None) -> Screened | None:
-    """Give what explains most of these."""
+    """Return what explains most of these."""
     return max((f for f in found if f is not None), key=lambda f: f.gain, default=None)
 
 
 def _is_far(p: Parameter, start: Mapping[str, float], values: Mapping[str, float]) -> bool:
-    """Tell whether a strength that was found lies far beyond the one at which its column was taken."""
+    """Return whether a strength that was found lies far beyond the one at which its column was taken."""
     off = float(p.neutral or 0.0)
     return abs(values[p.name] - off) > _FAR_BEYOND * abs(start[p.name] - off)
 
@@ -209,7 +209,7 @@ def _replacing(
 
 
 def _absorbed(whole: Array, clean: Array) -> float:
-    """Give the part of a candidate's step that base parameters can mimic: what is not left of it without them [1]."""
+    """Return the part of a candidate's step that base parameters can mimic: what is not left of it without them [1]."""
     return 1.0 - float(clean @ clean) / max(float(whole @ whole), 1e-30)
 
 

@@ -4,14 +4,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from slipwise.diagnosis.hypothesis import Hypothesis, polished, refit
-from slipwise.diagnosis.kept_slopes import ROOM, light, lighten, size_of, whole
+from slipwise.diagnosis.jacobian_memory import ROOM, light, lighten, size_of, whole
 from slipwise.diagnosis.screening import Screened
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import Solution
-from slipwise.estimation.parameters import Term
 from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.evidence.score import score
-from slipwise.parallel import on_every_core
+from slipwise.jobs.parallel import on_every_core
+from slipwise.relations.parameters import Term
 
 #: Hypotheses of one kind that are fitted to the end.
 _POLISHED = 2
@@ -58,12 +58,12 @@ class Search:
         return self.path[-1]
 
     def stepped_to(self, found: Hypothesis) -> "Search":
-        """Give the state after a step to another hypothesis, which has its slopes then."""
+        """Return the state after a step to another hypothesis, which has its slopes then."""
         return replace(self, path=(*_as_tried(self), whole(found)))
 
 
 def _as_tried(state: Search) -> list[Hypothesis]:
-    """Give a search's path, all but its beginning with what is still kept of them."""
+    """Return a search's path, all but its beginning with what is still kept of them."""
     kept = {id(h.summary): h for h in state.tried}
     return [state.path[0], *(kept.get(id(h.summary), h) for h in state.path[1:])]
 
@@ -109,22 +109,22 @@ def try_all(
 
 
 def _fit(found: Hypothesis, *, keep: bool = True) -> tuple[Solution, ResidualSummary]:
-    """Give a hypothesis without its terms, whose functions cannot be sent from one process to another."""
+    """Return a hypothesis without its terms, whose functions cannot be sent from one process to another."""
     return found.solution if keep else light(found.solution), found.summary
 
 
 def left_with(state: Search, rest: Sequence[Term], whole: Hypothesis) -> Hypothesis:
-    """Give the hypothesis of the rest of a whole: as it was fitted before, or from where the whole ended."""
+    """Return the hypothesis of the rest of a whole: as it was fitted before, or from where the whole ended."""
     return (tried_before(state, rest) or [try_one(state, rest, {}, whole)])[0]
 
 
 def tried_before(state: Search, terms: Sequence[Term]) -> list[Hypothesis]:
-    """Give the hypotheses of these terms that were fitted."""
+    """Return the hypotheses of these terms that were fitted."""
     labels = {t.label for t in terms}
     return [h for h in state.tried if {t.label for t in h.terms} == labels]
 
 
 def as_base(state: Search, found: Hypothesis) -> BaseFit:
-    """Give a hypothesis as the base of what is to be added to it."""
+    """Return a hypothesis as the base of what is to be added to it."""
     found = whole(found)
     return replace(state.base, problem=found.problem, free=found.solution.free, solution=found.solution)

@@ -4,18 +4,18 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 from slipwise.campaign import Campaign
-from slipwise.campaign.decimation import decimated
-from slipwise.campaign.stretches import stretched
-from slipwise.diagnosis.declared_rig import HELD_AGAINST, WrongRig, wrong_rig
 from slipwise.diagnosis.forward_selection import search
 from slipwise.diagnosis.hypothesis import base_hypothesis, final_refit_of
 from slipwise.diagnosis.search_state import Search
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit, fit_base, restarted
 from slipwise.evidence.residual_summary import ResidualSummary
-from slipwise.instruments.repairs import InvalidSamples, for_fits
-from slipwise.instruments.sample_faults import RAILS, SampleFault, sample_faults
 from slipwise.model import Model
+from slipwise.preparation.decimation import decimated
+from slipwise.preparation.excerpts import stretched
+from slipwise.preparation.repairs import InvalidSamples, for_fits
+from slipwise.preparation.rig_check import HELD_AGAINST, WrongRig, wrong_rig
+from slipwise.preparation.sample_faults import RAILS, SampleFault, sample_faults
 from slipwise.rig.known import better_known
 
 #: Faults of samples that a gauge has; a gap is the clock's.
@@ -45,7 +45,7 @@ class SelectionResult:
 
 
 def prepared(campaign: Campaign) -> tuple[Campaign, InvalidSamples, tuple[SampleFault, ...]]:
-    """Give a campaign with wrong signs reversed, the samples that must not be judged, and the faults found."""
+    """Return a campaign with wrong signs reversed, the samples that must not be judged, and the faults found."""
     uncut, invalid, faults = _corrected(campaign)
     return (*stretched(uncut, invalid), faults)
 

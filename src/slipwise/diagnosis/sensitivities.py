@@ -5,14 +5,14 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.diagnosis.screened_rows import on_screen
-from slipwise.diagnosis.starting_grid import strengths
+from slipwise.diagnosis.initial_grid import strengths
+from slipwise.diagnosis.row_subset import on_screen
 from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.measurement_model import shifts
-from slipwise.estimation.parameters import Term
 from slipwise.params import Parameter
+from slipwise.relations.measurement import shifts
+from slipwise.relations.parameters import Term
 
 Array = NDArray[np.float64]
 #: Size at which a column is taken, as a share of the typical size.
@@ -20,7 +20,7 @@ _SMALL = 0.3
 
 
 def small(effect: Effect, shape: Mapping[str, float], moved: Parameter) -> dict[str, float]:
-    """Give an effect's values with one strength at a small size, the others absent."""
+    """Return an effect's values with one strength at a small size, the others absent."""
     values = {**effect.neutral(), **shape}
     off = float(moved.neutral or 0.0)
     values[moved.name] = float(np.clip(off + _SMALL * (typical(effect, moved) - off), moved.low, moved.high))
@@ -28,7 +28,7 @@ def small(effect: Effect, shape: Mapping[str, float], moved: Parameter) -> dict[
 
 
 def typical(effect: Effect, moved: Parameter) -> float:
-    """Give a typical size for a strength; for one that is usually absent that of its siblings of the same unit."""
+    """Return a typical size for a strength; for one that is usually absent that of its siblings of the same unit."""
     if moved.typical != float(moved.neutral or 0.0):
         return moved.typical
     for p in strengths(effect):
@@ -38,7 +38,7 @@ def typical(effect: Effect, moved: Parameter) -> float:
 
 
 def column_of(base: BaseFit, term: Term, moved: Parameter, values: dict[str, float], left: Array) -> Array | None:
-    """Give the change of the residual.
+    """Return the change of the residual.
 
     Undoing a lag moves noise in time, and half way between moved and unmoved noise there is less of it, as there is of
     noise that drives a table and is whitened: a column that looked one way only would find a false gain. Both ways
@@ -58,7 +58,7 @@ def column_of(base: BaseFit, term: Term, moved: Parameter, values: dict[str, flo
 def residual_with(
     base: BaseFit, term: Term, values: Mapping[str, float], moved: Mapping[str, float] | None = None
 ) -> Array | None:
-    """Give the screened residual of the fitted runs with a candidate; None where it cannot be evaluated.
+    """Return the screened residual of the fitted runs with a candidate; None where it cannot be evaluated.
 
     Args:
         base: the base fit.

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.diagnosis.initial_grid import strengths
 from slipwise.diagnosis.rescreening import row_weights
-from slipwise.diagnosis.screened_rows import on_screen
+from slipwise.diagnosis.row_subset import on_screen
 from slipwise.diagnosis.screening import Screened, away_from, basis_of
-from slipwise.diagnosis.starting_grid import strengths
 
 Array = NDArray[np.float64]
 #: A substitute that a straight line sees explain this share of what an effect explains is worth a fit [1].
@@ -17,7 +17,7 @@ _NEARLY = 0.6
 
 
 def substitutes(whole: Hypothesis, name: str, screened: Sequence[Screened]) -> list[Screened]:
-    """Give candidates that nearly explain what an effect explains, beside all others of a hypothesis; best first.
+    """Return candidates that nearly explain what an effect explains, beside all others of a hypothesis; best first.
 
     Args:
         whole: the hypothesis.

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.estimation.run_data import FitRun
 from slipwise.evidence.left_out import motions
 from slipwise.evidence.residual_summary import BLOCK
+from slipwise.relations.run_data import FitRun
 
 Array = NDArray[np.float64]
 #: Bins of a curve and of each side of a surface.
@@ -80,7 +80,7 @@ class Surface:
 
 
 def leftover(found: Hypothesis, relations: tuple[str, ...] | None = None) -> Surface | None:
-    """Give the surface that predicts most of what a hypothesis leaves of left-out motions; None where none does.
+    """Return the surface that predicts most of what a hypothesis leaves of left-out motions; None where none does.
 
     Args:
         found: a fitted hypothesis.
@@ -98,7 +98,7 @@ def leftover(found: Hypothesis, relations: tuple[str, ...] | None = None) -> Sur
 
 
 def above_noise(found: Hypothesis) -> dict[str, float]:
-    """Give what a hypothesis leaves above the noise of each balance, over the rms of what the balance is made of [1].
+    """Return what a hypothesis leaves above the noise of each balance, over the rms of what the balance is made of [1].
 
     The noise is what the residuals of a repeated motion do not have in common, and at least `_NOISE`. The worst tenth
     of the time is left out: a pad that lands leaves much for a moment, a law that is missing leaves it throughout.
@@ -113,7 +113,7 @@ def above_noise(found: Hypothesis) -> dict[str, float]:
 
 
 def _usual_level(found: Hypothesis, relation: str) -> float:
-    """Give the mean squared residual of the blocks of time without the worst tenth [noise variance]."""
+    """Return the mean squared residual of the blocks of time without the worst tenth [noise variance]."""
     blocks: list[tuple[float, int]] = []
     for i in found.problem.fitted:
         run, part = found.problem.runs[i], found.solution.residuals.parts[relation][i]
@@ -127,7 +127,7 @@ def _usual_level(found: Hypothesis, relation: str) -> float:
 
 
 def pure_error(found: Hypothesis, relation: str) -> float:
-    """Give the mean square of what the residuals of a motion and its repeat do not share [noise variance]; 0 without.
+    """Return the mean square of what the residuals of a motion and its repeat do not share [noise variance]; 0 without.
 
     Source: Draper, Smith (1998), Applied Regression Analysis, section 2.1 (pure error).
     """
@@ -143,12 +143,12 @@ def pure_error(found: Hypothesis, relation: str) -> float:
 
 
 def structured(surface: Surface | None) -> bool:
-    """Tell whether a surface is more than chance."""
+    """Return whether a surface is more than chance."""
     return surface is not None and surface.explained > SHARE and surface.level > LEVEL
 
 
 def _samples(found: Hypothesis, relation: str, place: int) -> dict[str, Array]:
-    """Give residual, noise and states of one run's samples, each (m,)."""
+    """Return residual, noise and states of one run's samples, each (m,)."""
     run = found.problem.runs[place]
     part = found.solution.residuals.parts[relation][place]
     sigma = np.broadcast_to(found.problem.sigmas[relation][place], part.shape)
@@ -162,7 +162,7 @@ def _samples(found: Hypothesis, relation: str, place: int) -> dict[str, Array]:
 
 
 def states_of(run: FitRun) -> Mapping[str, Array]:
-    """Give the states over which residuals are looked at, (n,) or (n, p)."""
+    """Return the states over which residuals are looked at, (n,) or (n, p)."""
     smooth = np.gradient(run.velocity, run.dt)
     states: dict[str, Array] = {
         "velocity": run.velocity,
@@ -195,7 +195,7 @@ def _surfaces(found: Hypothesis, relation: str, folds: list[dict[str, Array]]) -
 
 
 def _size(found: Hypothesis, relation: str) -> float:
-    """Give the rms about its mean of what a balance is made of: friction, load, or acceleration of the girder [SI]."""
+    """Return rms about its mean of what a balance is made of: friction, load, or acceleration of the girder [SI]."""
     parts = [_made_of(found.problem.runs[i], relation) for i in found.problem.fitted]
     return float(np.sqrt(np.mean(np.concatenate([((p - p.mean(axis=0)) ** 2).ravel() for p in parts]))))
 
@@ -207,7 +207,7 @@ def _made_of(run: FitRun, relation: str) -> Array:
 
 
 def _folds(found: Hypothesis, relation: str) -> list[dict[str, Array]]:
-    """Give the samples of each motion; those of every other eighth of the time where there is one motion only."""
+    """Return the samples of each motion; those of every other eighth of the time where there is one motion only."""
     problem = found.problem
     groups = [_joined([_samples(found, relation, i) for i in group]) for group in motions(problem)]
     if len(groups) > 1:
@@ -282,7 +282,7 @@ def _surface(relation: str, states: tuple[str, ...], folds: list[dict[str, Array
 
 
 def _edges(values: Array, bins: int, *, signed: bool) -> Array:
-    """Give edges with equal counts between them; a signed state also has one at zero."""
+    """Return edges with equal counts between them; a signed state also has one at zero."""
     edges = np.quantile(values, np.linspace(0.0, 1.0, bins + 1))
     if signed and edges[0] < 0.0 < edges[-1]:
         edges = np.sort(np.append(edges, 0.0))

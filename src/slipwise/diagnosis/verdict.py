@@ -13,14 +13,14 @@ from slipwise.diagnosis.indistinguishable import alike_pairs, distinguishable, k
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import Surface, leftover, structured
 from slipwise.diagnosis.unknown_surface import above_noise as left_above_noise
-from slipwise.estimation.parameters import Term
-from slipwise.estimation.problem import Problem
+from slipwise.estimation.objective import Problem
 from slipwise.evidence.acceptance import LEAST
 from slipwise.evidence.calibration import calibration
 from slipwise.evidence.decision import EVEN_ODDS, decide, remains
 from slipwise.evidence.score import relative_drop
-from slipwise.instruments.sample_faults import SampleFault
 from slipwise.instruments.suspects import effect_of
+from slipwise.preparation.sample_faults import SampleFault
+from slipwise.relations.parameters import Term
 
 #: Share of a probability that is left where no run is held out, which could have confirmed it [1].
 _UNCONFIRMED = 0.9
@@ -60,7 +60,7 @@ class Verdict:
 
 
 def explained_share(origin: Hypothesis, found: Hypothesis, relation: str = "") -> float:
-    """Give the share of what the base left above the noise that a hypothesis takes away, in one balance or all [1]."""
+    """Return share of what the base left above the noise that a hypothesis takes away, in one balance or all [1]."""
     before, after = origin.summary, found.summary
     if not relation:
         return 1.0 - above_noise(after, after) / max(above_noise(before, after), 1e-12)
@@ -70,7 +70,7 @@ def explained_share(origin: Hypothesis, found: Hypothesis, relation: str = "") -
 
 
 def decide_verdict(state: Search, found: Sequence[Finding], limits: Materiality) -> Verdict:
-    """Give the verdict of a search.
+    """Return the verdict of a search.
 
     Args:
         state: of the finished search.
@@ -116,12 +116,12 @@ def decide_verdict(state: Search, found: Sequence[Finding], limits: Materiality)
 
 
 def _in_place(state: Search, finding: Finding) -> list[str]:
-    """Give the names that a rival has and the final model has not."""
+    """Return the names that a rival has and the final model has not."""
     return [] if finding.rival is None else [n for n in finding.rival.hypothesis.names if n not in state.best.names]
 
 
 def evidence_of(finding: Finding) -> dict[str, float]:
-    """Give the numbers on which the probability of an effect rests."""
+    """Return the numbers on which the probability of an effect rests."""
     behind = finding.rival.behind if finding.rival is not None else 10.0
     return {
         "lead": float(np.log(max(finding.lead, 0.1))),
@@ -136,7 +136,7 @@ def evidence_of(finding: Finding) -> dict[str, float]:
 
 
 def evidence_of_rest(origin: Hypothesis, final: Hypothesis, surface: Surface | None) -> dict[str, float]:
-    """Give the numbers on which rests whether the effects that were found are the right ones, whatever they leave.
+    """Return the numbers on which rests whether the effects that were found are the right ones, whatever they leave.
 
     Args:
         origin: the base model.
@@ -153,7 +153,7 @@ def evidence_of_rest(origin: Hypothesis, final: Hypothesis, surface: Surface | N
 
 
 def _confirmed(state: Search, probability: float, rest: Mapping[str, float]) -> float:
-    """Give the probability of a verdict, less where the model leaves much or no held-out run has confirmed it."""
+    """Return the probability of a verdict, less where the model leaves much or no held-out run has confirmed it."""
     problem = state.final.problem
     judged = _testable(problem) or problem.fitted
     if state.final.terms and leaves_much(*_worst_errors(state, judged)):
@@ -162,7 +162,7 @@ def _confirmed(state: Search, probability: float, rest: Mapping[str, float]) -> 
 
 
 def leaves_much(before: float, after: float) -> bool:
-    """Tell whether a model leaves so much that it is not confirmed, however much it explains.
+    """Return whether a model leaves so much that it is not confirmed, however much it explains.
 
     Args:
         before: error of the base model [noise floors].
@@ -172,20 +172,20 @@ def leaves_much(before: float, after: float) -> bool:
 
 
 def _worst_errors(state: Search, runs: Sequence[int]) -> tuple[float, float]:
-    """Give the error over some runs of the base model and of the final one, each where it is worst [noise floors]."""
+    """Return the error over some runs of the base model and of the final one, each where it is worst [noise floors]."""
     relations = state.path[0].summary.fitted
     before, after = (max(h.level_of(r, runs) for r in relations) for h in (state.path[0], state.final))
     return float(np.sqrt(before)), float(np.sqrt(after))
 
 
 def _testable(problem: Problem) -> list[int]:
-    """Give the places of the held-out runs that are not beyond what was fitted."""
+    """Return the places of the held-out runs that are not beyond what was fitted."""
     beyond = not_testable(problem)
     return [i for i in problem.held_out if i not in beyond]
 
 
 def confirmed(state: Search) -> bool | None:
-    """Tell whether the held-out runs agree with what was found; None where none can tell or nothing was found.
+    """Return whether the held-out runs agree with what was found; None where none can tell or nothing was found.
 
     They agree where every balance that the effects improve has lost half of its excess over the noise there as well,
     or is left as well as the motions that were left out, and the model does not leave much. Runs beyond what was

@@ -17,17 +17,17 @@ from slipwise.diagnosis.result import Diagnosis
 from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.law import Discovery, Law
 from slipwise.discovery.law_problem import FittedLaw, LawProblem
+from slipwise.discovery.law_summary import told_law
 from slipwise.discovery.levels import excess, held_out_level, level
 from slipwise.discovery.search import LEVEL, Found, different, find_law
 from slipwise.discovery.states import WORDS, pad_instants, pad_states, rig_states
-from slipwise.discovery.told_law import told_law
 from slipwise.effects import RIG_MOTION, Effect
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import intervals
 from slipwise.estimation.least_squares import Solution, slopes_of, solve, with_slopes
-from slipwise.estimation.problem import Problem
+from slipwise.estimation.objective import Problem
+from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
-from slipwise.parallel import one_thread_algebra
 
 #: Shares of the error above noise at which a law, a state, an organising state may be said [1].
 LAW, STATE, ORGANISED = 0.95, 0.9, 0.5
@@ -172,7 +172,7 @@ def _from(name: str, base: BaseFit) -> Discovery:
 
 
 def _looked_at(candidates: Sequence[Candidate]) -> tuple[Candidate, ...]:
-    """Give the best of each state and port, whichever gate, lag and start, best first."""
+    """Return the best of each state and port, whichever gate, lag and start, best first."""
     kept: dict[tuple[tuple[str, ...], str], Candidate] = {}
     for c in candidates:
         kept.setdefault((tuple(s.name for s in c.states), c.port.name), c)
@@ -198,7 +198,7 @@ def _evidence(
 
 
 def _earned(leader: FittedLaw, before: Solution, whole: float, *, first: bool) -> bool:
-    """Tell whether a law explains enough, and motions left out confirm it; a further one, a part of its gain."""
+    """Return whether a law explains enough, and motions left out confirm it; a further one, a part of its gain."""
     gain = before.cost - leader.solution.cost
     confirmed = leader.law.match.candidate.share
     if first:
@@ -226,7 +226,7 @@ def _without_needless(leaders: list[_Leader], whole: float) -> list[_Leader]:
 
 
 def _leader(found: Found, problem: Problem, whole: float) -> tuple[FittedLaw | None, list[FittedLaw]]:
-    """Give the law of fewest constants among those that tie, and the others of them."""
+    """Return the law of fewest constants among those that tie, and the others of them."""
     fitted = different(found.fitted)
     if not fitted:
         return None, []

@@ -52,7 +52,7 @@ def write_discovered(found: Discovery, folder: Path, name: str, date: str) -> Di
 
 
 def can_be_written(law: Law) -> bool:
-    """Tell whether an effect can be a law: a force that lifts the girder knows its speed and place only."""
+    """Return whether an effect can be a law: a force that lifts the girder knows its speed and place only."""
     return law.port != "load" or set(law.states) <= _OF_GIRDER
 
 
@@ -74,7 +74,7 @@ def write_law(law: Law, found: Discovery, folder: Path, name: str, date: str, *,
 
 
 def written_law(law: Law, found: Discovery, name: str, date: str) -> WrittenEffect:
-    """Give a law as an effect to be written; arguments as `write_law`."""
+    """Return a law as an effect to be written; arguments as `write_law`."""
     before, after = found.relations.get(found.worst, (float("nan"),) * 2)
     ranges = ", ".join(f"{s} {low:.3g} to {high:.3g} {UNITS.get(s, 'm')}" for s, (low, high) in law.valid.items())
     rivals = [f"form {f}" for f in law.tied] + list(law.rivals)
@@ -126,7 +126,7 @@ def _parameter(c: LawConstant, law: Law) -> Parameter:
 
 
 def _rated(law: Law) -> tuple[Parameter, ...]:
-    """Give the mean load where a force goes with it, which is stated and not fitted."""
+    """Return the mean load where a force goes with it, which is stated and not fitted."""
     if law.port != "adds to friction":
         return ()
     load = law.fitted.rated_load
@@ -134,12 +134,12 @@ def _rated(law: Law) -> tuple[Parameter, ...]:
 
 
 def _at_centre(law: Law) -> bool:
-    """Tell whether a law is a force at the girder's centre that an effect of the girder can be."""
+    """Return whether a law is a force at the girder's centre that an effect of the girder can be."""
     return law.port in ("girder", "girder by place") and not law.at_buffers and set(law.states) <= _OF_GIRDER
 
 
 def _hooks(law: Law) -> tuple[str, str, tuple[WrittenHook, ...]]:
-    """Give port, component and hooks of a law."""
+    """Return port, component and hooks of a law."""
     own = [c.name for c in law.constants if c.name != TIME_CONSTANT or set(law.states) & LAGGING]
     if law.port == "load" or _at_centre(law):
         return _on_girder(law, own)
@@ -165,7 +165,7 @@ def _hooks(law: Law) -> tuple[str, str, tuple[WrittenHook, ...]]:
 
 
 def _at_buffers(law: Law, own: Sequence[str]) -> WrittenHook:
-    """Give the hook of a force on the girder at its buffers, which share it."""
+    """Return the hook of a force on the girder at its buffers, which share it."""
     lines, arguments = _form_lines(law, _OF_BUFFERS)
     if law.port == "multiplies buffers":
         more, last = ["stiffness", "deflection"], "return force + strength * form * stiffness * deflection"
@@ -178,7 +178,7 @@ def _at_buffers(law: Law, own: Sequence[str]) -> WrittenHook:
 
 
 def _on_girder(law: Law, own: Sequence[str]) -> tuple[str, str, tuple[WrittenHook, ...]]:
-    """Give port, component and hooks of a force at the middle of the girder: in a simulation, and in the balances."""
+    """Return port, component and hooks of a force at the middle of the girder: in a simulation, and in the balances."""
     speed, speeds = "sqrt(velocity_x * velocity_x + velocity_y * velocity_y)", "np.hypot(*states.velocity.T)"
     scalar, _ = _form_lines(law, {"speed": speed, "slip": "slip_x"})
     arrays, _ = _form_lines(law, {"speed": speeds, "slip": "states.slip[:, 0]"}, arrays=True)
@@ -206,7 +206,7 @@ def _on_girder(law: Law, own: Sequence[str]) -> tuple[str, str, tuple[WrittenHoo
 
 
 def _form_lines(law: Law, names: Mapping[str, str], *, arrays: bool = False) -> tuple[list[str], list[str]]:
-    """Give the lines that make `form`, and the arguments that they need.
+    """Return the lines that make `form`, and the arguments that they need.
 
     Args:
         law: whose form.
@@ -231,7 +231,7 @@ def _of_array(word: str) -> str:
 
 
 def _gate_lines(law: Law, unchanged: str) -> tuple[list[str], list[str]]:
-    """Give the lines by which a hook leaves other pads, or the other way, as they are, and what they ask for."""
+    """Return the lines by which a hook leaves other pads, or the other way, as they are, and what they ask for."""
     gate = law.fitted.law.match.candidate.gate
     lines, names = [], []
     for name, sign in (("side_x", gate.side_x), ("side_y", gate.side_y), ("velocity_x", gate.way)):

@@ -97,7 +97,7 @@ class Form:
 
 @cache
 def forms() -> dict[str, Form]:
-    """Give the forms of the folder `forms` by name, fewest constants first."""
+    """Return the forms of the folder `forms` by name, fewest constants first."""
     read = [read_form(path) for path in sorted((Path(__file__).parent / "forms").glob("[a-z]*.py"))]
     return {form.name: form for form in sorted(read, key=lambda f: (len(f.constants), f.name))}
 

@@ -12,8 +12,8 @@ from slipwise.discovery.form import FUNCTIONS, Form
 from slipwise.discovery.law_problem import FittedLaw
 from slipwise.discovery.matching import name_of
 from slipwise.discovery.states import WORDS
+from slipwise.display import Drawn, Tabular
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.shown import Drawn, Tabular
 
 
 @dataclass(frozen=True)
@@ -193,7 +193,7 @@ class Discovery(Drawn, Tabular):
         }
 
     def as_json(self) -> dict[str, Any]:
-        """Give the answer for a program to read."""
+        """Return the answer for a program to read."""
         before, after = self.relations.get(self.worst, (float("nan"),) * 2)
         return {
             "campaign": self.campaign,
@@ -244,5 +244,5 @@ class Discovery(Drawn, Tabular):
 
 
 def _known(value: float) -> float | None:
-    """Give a number for JSON, which has none that is not known."""
+    """Return a number for JSON, which has none that is not known."""
     return value if isfinite(value) else None

@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 
 from slipwise.discovery.matching import Match, constants_of, limits, place_of, product_at
 from slipwise.discovery.states import PadInstants, State, derived
-from slipwise.estimation.girder_balances import through_pitch
 from slipwise.estimation.least_squares import Solution, slopes_of, solve
-from slipwise.estimation.noise_model import whitened
-from slipwise.estimation.pad_forces import as_logged
-from slipwise.estimation.parameters import Free
-from slipwise.estimation.problem import Problem
-from slipwise.estimation.recent_results import Recent
-from slipwise.estimation.residuals import Residuals
+from slipwise.estimation.objective import Problem
+from slipwise.relations.girder import through_pitch
+from slipwise.relations.memo import Recent
+from slipwise.relations.pad_law import as_logged
+from slipwise.relations.pad_noise import whitened
+from slipwise.relations.parameters import Free
+from slipwise.relations.table import Residuals
 from slipwise.signals.filters import LowPass
 
 Array = NDArray[np.float64]
@@ -57,7 +57,7 @@ class PlacedLaw:
         return max(s.time_constant for s in self.match.candidate.states)
 
     def free(self, strength: float) -> list[Free]:
-        """Give its numbers as free ones, strength first."""
+        """Return its numbers as free ones, strength first."""
         port, states = self.match.candidate.port, self.match.candidate.states
         most = _STRONGEST * abs(strength)
         out = [Free(f"{self.label}.{STRENGTH}", strength, -most, most, 0.3 * abs(strength), port.unit)]
@@ -109,7 +109,7 @@ class LawProblem:
         return self.plain.balanced
 
     def near(self, values: Mapping[str, float]) -> "LawProblem":
-        """Give the problem of which slopes at these values are to be taken."""
+        """Return the problem of which slopes at these values are to be taken."""
         return replace(self, plain=self.plain.near(values))
 
     def residuals(self, values: Mapping[str, float], *, fitted_only: bool = False) -> Residuals:
@@ -123,11 +123,11 @@ class LawProblem:
         return Residuals(parts, found.pad_forces)
 
     def without_results(self) -> "LawProblem":
-        """Give the problem without the results that it keeps at hand: each is as long as all the runs."""
+        """Return the problem without the results that it keeps at hand: each is as long as all the runs."""
         return replace(self, _recent=Recent())
 
     def _columns(self, law: PlacedLaw, values: Mapping[str, float]) -> dict[str, list[Array]]:
-        """Give what a law adds to the predictions, relation -> of every run, in noise, shaped as its residual."""
+        """Return what a law adds to the predictions, relation -> of every run, in noise, shaped as its residual."""
         own = {k.removeprefix(f"{law.label}."): v for k, v in values.items() if k.startswith(f"{law.label}.")}
         key = (*(own[k] for k in sorted(own)), *(values.get(k, 0.0) for k in _RECORDING))
         return self._recent.get(law.label, key, lambda: self._made(law, own, values))
@@ -144,13 +144,13 @@ class LawProblem:
         return out
 
     def _tipping(self, place: int, acceleration: Array, lever: float, values: Mapping[str, float]) -> Array:
-        """Give the pitch load (n,) [N] of a force that accelerates the girder so [m/s^2], as `girder_balances`."""
+        """Return the pitch load (n,) [N] of a force that accelerates the girder so [m/s^2], as `girder_balances`."""
         specimen, run = self.plain.specimen, self.plain.runs[place]
         load = -values.get("rig.mass", specimen.mass) * acceleration * lever / specimen.half_spacing[0]
         return through_pitch(load, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
 
     def _seen(self, relation: str, place: int, column: Array) -> Array:
-        """Give what is added to a prediction as its residual shows it: whitened alike, in noise."""
+        """Return what is added to a prediction as its residual shows it: whitened alike, in noise."""
         problem, run = self.plain, self.plain.runs[place]
         sigma = problem.sigmas[relation][place]
         if relation in problem.ringing:
@@ -160,7 +160,7 @@ class LawProblem:
     def force(
         self, place: int, law: PlacedLaw, states: Sequence[State], own: Mapping[str, float], values: Mapping[str, float]
     ) -> Array:
-        """Give what a law adds to the prediction of one run at its samples, in its relation's unit and shape.
+        """Return what a law adds to the prediction of one run at its samples, in its relation's unit and shape.
 
         Args:
             place: of the run.
@@ -179,7 +179,7 @@ class LawProblem:
         return as_logged(force, run, by, averaged=not self.plain.has_stick, delay=delay)
 
     def driving(self, law: PlacedLaw, own: Mapping[str, float]) -> list[State]:
-        """Give the states that drive a law, with the lag of its own numbers."""
+        """Return the states that drive a law, with the lag of its own numbers."""
         states, now = law.match.candidate.states, own.get(TIME_CONSTANT, law.lag)
         if now == law.lag:
             return list(states)

@@ -57,22 +57,22 @@ class Match:
 
 
 def constants_of(forms: Sequence[Form]) -> dict[str, Constant]:
-    """Give the constants of one form, or of the factors of a product, by the names that they have together."""
+    """Return the constants of one form, or of the factors of a product, by the names that they have together."""
     return {name_of(c.name, place): c for place, form in enumerate(forms) for c in form.constants}
 
 
 def name_of(constant: str, place: int) -> str:
-    """Give the name that a constant of a form has as the factor at a place."""
+    """Return the name that a constant of a form has as the factor at a place."""
     return constant if place == 0 else f"{_SECOND}{constant}"
 
 
 def place_of(name: str) -> int:
-    """Give the place of the factor, and of its state, to which a name of `name_of` belongs."""
+    """Return the place of the factor, and of its state, to which a name of `name_of` belongs."""
     return int(name.startswith(_SECOND))
 
 
 def own(constants: Mapping[str, float], place: int, form: Form) -> dict[str, float]:
-    """Give a factor's constants under its own names."""
+    """Return a factor's constants under its own names."""
     return {c.name: constants[name_of(c.name, place)] for c in form.constants}
 
 
@@ -85,7 +85,7 @@ def product_at(forms: Sequence[Form], states: Sequence[Array], constants: Mappin
 
 
 def matched(candidate: Candidate, known: Mapping[str, Form]) -> list[Match]:
-    """Give every form that makes sense for a candidate, with constants that fit its curve; best first."""
+    """Return every form that makes sense for a candidate, with constants that fit its curve; best first."""
     if len(candidate.states) == 1:
         choices = [(f,) for f in known.values() if _makes_sense(f, candidate.states[0])]
     else:
@@ -103,7 +103,7 @@ def _makes_sense(form: Form, state: State) -> bool:
 
 
 def limits(constant: Constant, state: State) -> tuple[float, float]:
-    """Give the limits between which a constant makes sense, in the unit of the state."""
+    """Return the limits between which a constant makes sense, in the unit of the state."""
     low, high = _range(state)
     if constant.kind == "place":
         return low, high
@@ -165,7 +165,7 @@ def _match(candidate: Candidate, forms: tuple[Form, ...]) -> Match | None:
 
 
 def heights(candidate: Candidate, forms: Sequence[Form], constants: Mapping[str, float]) -> Array:
-    """Give what the curve would be at the knots (K,)."""
+    """Return what the curve would be at the knots (K,)."""
     knots = candidate.spline.knots
     if len(forms) == 1:
         out = forms[0].at(knots[0], own(constants, 0, forms[0]))

@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.discovery.states import PadInstants, State
-from slipwise.estimation.instants import Instants
-from slipwise.estimation.problem import Problem
+from slipwise.estimation.objective import Problem
+from slipwise.relations.evaluation_times import Instants
 
 Array = NDArray[np.float64]
 #: Speed [m/s] over which the sign of a girder's motion is smoothed.
@@ -61,7 +61,7 @@ class Gate:
     way: int = 0
 
     def open(self, places: Sequence[tuple[float, float]], velocity: Array) -> Array:
-        """Give 1 where it is open, (f, p), else 0.
+        """Return 1 where it is open, (f, p), else 0.
 
         Args:
             places: of the pads, from the middle [m].
@@ -78,7 +78,7 @@ EVERYWHERE = Gate("all")
 
 
 def gates(places: Sequence[tuple[float, float]], names: Sequence[str]) -> list[Gate]:
-    """Give the gates: directions, sides, single pads. A side with one pad on it is that pad."""
+    """Return the gates: directions, sides, single pads. A side with one pad on it is that pad."""
     out = [Gate("sliding forth", way=1), Gate("sliding back", way=-1)]
     sides_x = [(f"side x{'+' if s > 0 else '-'}", s, 0) for s in (1, -1)]
     sides_y = [(f"side y{'+' if s > 0 else '-'}", 0, s) for s in (1, -1)]
@@ -93,19 +93,19 @@ def gates(places: Sequence[tuple[float, float]], names: Sequence[str]) -> list[G
 
 
 def places_of(problem: Problem) -> list[tuple[float, float]]:
-    """Give the places of the measured pads, from the middle [m]."""
+    """Return the places of the measured pads, from the middle [m]."""
     specimen = problem.specimen
     places = [specimen.pad_places[specimen.pads.index(p)] for p in problem.runs[0].pads]
     return [(float(place[0]), float(place[1])) for place in places]
 
 
 def opened(gate: Gate, places: Sequence[tuple[float, float]], instants: Sequence[Instants]) -> list[Array]:
-    """Give 1 where a gate is open, per run (f, p), else 0."""
+    """Return 1 where a gate is open, per run (f, p), else 0."""
     return [gate.open(places, s.velocity[:, :, 0]) for s in instants]
 
 
 def pad_ports(here: PadInstants) -> list[Port]:
-    """Give the ports of the pads over the runs."""
+    """Return the ports of the pads over the runs."""
     along = [a / np.maximum(f.bound, 1e-9) for a, f in zip(here.along, here.forces, strict=True)]
     sense = [np.clip(s, -1.0, 1.0) for s in along]
     mean = float(np.mean(np.concatenate([s.load for s in here.states])))  # as `FittedLaw.rated_load`
@@ -119,7 +119,7 @@ def pad_ports(here: PadInstants) -> list[Port]:
 
 
 def girder_ports(problem: Problem, values: Mapping[str, float], here: PadInstants) -> list[Port]:
-    """Give the ports of the girder's balance, a force against its motion being an acceleration the other way."""
+    """Return the ports of the girder's balance, a force against its motion being an acceleration the other way."""
     mass = values.get("rig.mass", problem.specimen.mass)
     stiffness = values.get("rig.buffer_stiffness", sum(problem.specimen.buffer_stiffness))
     against = tuple(-np.tanh(s.velocity[:, :1, 0] / _SLOW) / mass for s in here.states)
@@ -133,11 +133,11 @@ def girder_ports(problem: Problem, values: Mapping[str, float], here: PadInstant
 
 
 def load_ports(here: PadInstants) -> list[Port]:
-    """Give the port of the heave balance: what lifts the girder is not on the pads."""
+    """Return the port of the heave balance: what lifts the girder is not on the pads."""
     return [Port("load", "heave", "even", "N", tuple(np.full((len(s.time), 1), -1.0) for s in here.states))]
 
 
 def girder_states(pads: Sequence[State]) -> list[State]:
-    """Give the states of the girder: those of its first pad that do not belong to a pad's load or place."""
+    """Return the states of the girder: those of its first pad that do not belong to a pad's load or place."""
     left_out = {"load", "lagged_load", "load_rate", "heat"}
     return [State(s.name, 0.0, tuple(v[:, :1] for v in s.values)) for s in pads if s.name not in left_out]

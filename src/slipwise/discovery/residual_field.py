@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from slipwise.diagnosis.screening import basis_of
 from slipwise.estimation.least_squares import Solution
-from slipwise.estimation.problem import Problem
+from slipwise.estimation.objective import Problem
 from slipwise.evidence.left_out import motions
 
 Array = NDArray[np.float64]
@@ -48,7 +48,7 @@ class ResidualField:
         return float(self.residual @ self.residual) - len(self.residual)
 
     def at_samples(self, values: Sequence[Array]) -> Array:
-        """Give what is known at the instants, per run of all (f, q), at the samples that are taken, (m,)."""
+        """Return what is known at the instants, per run of all (f, q), at the samples that are taken, (m,)."""
         return np.concatenate([values[i][:: self.fine][picked] for i, picked in self.picked.items()])
 
     def projected(self, columns: Array) -> Array:
@@ -91,7 +91,7 @@ def residual_field(problem: Problem, solution: Solution, relation: str, thinned:
 
 
 def _rows(problem: Problem, solution: Solution, relation: str) -> slice:
-    """Give where a relation stands in the stacked residual of the fitted runs."""
+    """Return where a relation stands in the stacked residual of the fitted runs."""
     first = 0
     for name in problem.relations:
         size = sum(solution.residuals.parts[name][i].size for i in problem.fitted)

@@ -14,7 +14,7 @@ from slipwise.discovery.ports import EVERYWHERE, Gate, Port, opened
 from slipwise.discovery.residual_field import ResidualField
 from slipwise.discovery.splines import spline
 from slipwise.discovery.states import State
-from slipwise.estimation.instants import Instants
+from slipwise.relations.evaluation_times import Instants
 
 Array = NDArray[np.float64]
 #: Knots over one state, over the slip (a plate may be grooved), and over each of two.
@@ -60,7 +60,7 @@ def screen_states(
 
 
 def weighed(found: Candidate) -> float:
-    """Give the share less what a gate and a second state must earn [1]."""
+    """Return the share less what a gate and a second state must earn [1]."""
     return found.share - _MORE * (len(found.states) - 1) - _MORE * (found.gate is not EVERYWHERE)
 
 
@@ -80,7 +80,7 @@ def _pairs(
 
 
 def _different(singles: Sequence[Candidate], count: int) -> list[Candidate]:
-    """Give the best of each state and port, whichever lag."""
+    """Return the best of each state and port, whichever lag."""
     kept: dict[tuple[str, str], Candidate] = {}
     for c in singles:
         kept.setdefault((c.states[0].name, c.port.name), c)

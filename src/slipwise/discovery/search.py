@@ -76,7 +76,7 @@ def find_law(before: LawProblem, solution: Solution, model: Model, label: str) -
 
 
 def _matches(screened: Sequence[Candidate]) -> list[Match]:
-    """Give the matches to be fitted: the best of the best candidates, and the best of one state each."""
+    """Return the matches to be fitted: the best of the best candidates, and the best of one state each."""
     chosen = [c for c in screened[:_CANDIDATES] if c.share > _LEAST]
     single = [c for c in screened if len(c.states) == 1 and c.share > _LEAST][:_SINGLE_CANDIDATES]
     every = {id(c): matched(c, forms())[:_FORMS] for c in (*chosen, *single)}
@@ -86,13 +86,13 @@ def _matches(screened: Sequence[Candidate]) -> list[Match]:
 
 
 def _without_slopes(found: FittedLaw) -> FittedLaw:
-    """Give a fit whose slopes nobody will ask for: they are as long as all the runs together."""
+    """Return a fit whose slopes nobody will ask for: they are as long as all the runs together."""
     slopes = np.empty((0, len(found.solution.free)))
     return replace(found, solution=replace(found.solution, jacobian=slopes))
 
 
 def _carried_by_its_fit(found: FittedLaw) -> FittedLaw:
-    """Give a fit whose law multiplies what the fit makes of the base law's friction, not what its start made of it."""
+    """Return a fit whose law multiplies what the fit makes of the base law's friction, not what its start made."""
     problem, values = found.problem, found.solution.values
     every = pad_instants(problem.plain, values)
     ports = [*pad_ports(every), *load_ports(every)]
@@ -107,7 +107,7 @@ def _carried_by_its_fit(found: FittedLaw) -> FittedLaw:
 
 
 def _where_it_acts(found: FittedLaw) -> FittedLaw:
-    """Give a force on the girder its place: at the centre, or at the buffers if those are nearer to its lever."""
+    """Return a force on the girder its place: at the centre, or at the buffers if those are nearer to its lever."""
     key = f"{found.law.label}.{LEVER}"
     if key not in found.solution.values:
         return found
@@ -162,7 +162,7 @@ def _screened(here: LawProblem, start: Solution) -> list[Candidate]:
 
 
 def _starts(before: LawProblem, solution: Solution, model: Model) -> list[Solution]:
-    """Give the fit, and the fit with the base law's own numbers as rated where they are others."""
+    """Return the fit, and the fit with the base law's own numbers as rated where they are others."""
     own = {f"{u.label}.{name}": value for u in model.uses for name, value in u.numbers.items()}
     rated = {k: v for k, v in own.items() if k in solution.values}
     if "rig.shear_strength" in solution.values:
@@ -177,7 +177,7 @@ def _starts(before: LawProblem, solution: Solution, model: Model) -> list[Soluti
 
 
 def different(fitted: Sequence[FittedLaw]) -> list[FittedLaw]:
-    """Give the best of each state, port, gate and form, whichever start it came from."""
+    """Return the best of each state, port, gate and form, whichever start it came from."""
     kept: dict[tuple[str, ...], FittedLaw] = {}
     for f in fitted:
         c = f.law.match.candidate

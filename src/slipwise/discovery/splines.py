@@ -57,7 +57,7 @@ class Spline:
         return out
 
     def gain_of(self, heights: Array) -> tuple[Array, Array]:
-        """Give gains (g,) and strengths (g,) of curves of given heights at the knots, (g, K)."""
+        """Return gains (g,) and strengths (g,) of curves of given heights at the knots, (g, K)."""
         normal, drive = self.normal.sum(axis=0), self.drive.sum(axis=0)
         along = heights @ drive
         size = np.einsum("gk,kl,gl->g", heights, normal, heights)
@@ -71,7 +71,7 @@ def _solved(normal: Array, drive: Array) -> Array:
 
 
 def knots_of(values: Array, count: int) -> Array:
-    """Give knots at equal shares of the samples and, by turns, of the range: (k,) rising, k at most `count`."""
+    """Return knots at equal shares of the samples and, by turns, of the range: (k,) rising, k at most `count`."""
     low, high = float(values.min()), float(values.max())  # what grows fast is largest where it is rare
     shares = np.quantile(values, np.linspace(0.0, 1.0, (count + 1) // 2))
     knots = np.unique(np.concatenate([shares, np.linspace(low, high, count - len(shares) + 2)]))
@@ -80,7 +80,7 @@ def knots_of(values: Array, count: int) -> Array:
 
 
 def hats(values: Array, knots: Array) -> Array:
-    """Give the hat functions (m, k) of values (m,); constant beyond the ends of the knots."""
+    """Return the hat functions (m, k) of values (m,); constant beyond the ends of the knots."""
     if len(knots) == 1:
         return np.ones((len(values), 1))
     inside = np.clip(values, knots[0], knots[-1])
@@ -94,7 +94,7 @@ def hats(values: Array, knots: Array) -> Array:
 
 
 def columns(states: Sequence[Array], knots: Sequence[Array]) -> Array:
-    """Give the hat functions (m, K) of states (m,) over one state, or over the plane of two."""
+    """Return the hat functions (m, K) of states (m,) over one state, or over the plane of two."""
     out = hats(states[0], knots[0])
     if len(states) == 1:
         return out

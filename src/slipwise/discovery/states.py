@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from slipwise.campaign.rig_motion import rig_motion
 from slipwise.effects import DERIVED, LAGGING, PAD_INPUTS, RIG_MOTION
-from slipwise.estimation.instants import Instants
-from slipwise.estimation.pad_forces import PadLaw
-from slipwise.estimation.problem import Problem
-from slipwise.estimation.run_data import FitRun, refined
+from slipwise.estimation.objective import Problem
+from slipwise.relations.evaluation_times import Instants
+from slipwise.relations.pad_law import PadLaw
+from slipwise.relations.run_data import FitRun, refined
 from slipwise.simulation.kernel import derived_states
 from slipwise.simulation.predict import PadForces
 
@@ -85,7 +85,7 @@ class PadInstants:
 
 
 def pad_instants(problem: Problem, values: Mapping[str, float]) -> PadInstants:
-    """Give all runs at the instants, as a fit's numbers have them."""
+    """Return all runs at the instants, as a fit's numbers have them."""
     runs, _ = problem.kinematics.corrected(values)
     states = problem.kinematics.states(values)
     forces = PadLaw(problem.model(values)).at_instants(runs, states)
@@ -94,7 +94,7 @@ def pad_instants(problem: Problem, values: Mapping[str, float]) -> PadInstants:
 
 
 def pad_states(every: PadInstants) -> list[State]:
-    """Give the states of the pads over all runs; those that hardly vary are left out.
+    """Return the states of the pads over all runs; those that hardly vary are left out.
 
     What lags is there once for each of the usual time constants.
     """
@@ -115,7 +115,7 @@ def pad_states(every: PadInstants) -> list[State]:
 
 
 def rig_states(every: PadInstants) -> list[State]:
-    """Give the states of the rig over all runs, alike for every pad; those that hardly vary are left out."""
+    """Return the states of the rig over all runs, alike for every pad; those that hardly vary are left out."""
     out = []
     for place, name in enumerate(RIG_MOTION):
         of_runs = (refined(rig_motion(run.states)[:, place : place + 1], run.fine) for run in every.runs)
@@ -125,7 +125,7 @@ def rig_states(every: PadInstants) -> list[State]:
 
 
 def derived(every: PadInstants, time_constant: float) -> dict[str, list[Array]]:
-    """Give the derived states of all runs, name -> per run (f, p), with this time constant [s]."""
+    """Return the derived states of all runs, name -> per run (f, p), with this time constant [s]."""
     memory = np.zeros((every.states[0].load.shape[1], derived_states.SIZE))
     out: dict[str, list[Array]] = {name: [] for name in DERIVED}
     for run, state, force in zip(every.runs, every.states, every.forces, strict=True):

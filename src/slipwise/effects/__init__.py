@@ -2,16 +2,16 @@
 
 from slipwise.effects._by_pad import for_pads
 from slipwise.effects._catalogue import base_effects, catalogue, find_effect, load_effect
-from slipwise.effects._declared import NEEDS, Gauges, Limit
 from slipwise.effects._effect import RESPONSE, Effect, moved_channels
 from slipwise.effects._fault import GaugeFault
+from slipwise.effects._fields import NEEDS, Gauges, Limit
 from slipwise.effects._hooks import COMPONENTS, DERIVED, HOOKS, LAGGING, PAD_HOOKS, PAD_INPUTS, PORTS, RIG_MOTION
 from slipwise.effects._read import read_effect
 from slipwise.effects._scaled import holding, scaled
 from slipwise.effects._skeleton import skeleton
 from slipwise.effects._states import BalanceStates
 from slipwise.effects._trust import Trust, check_trusted
-from slipwise.effects._written import WrittenEffect, check_name, effect_text, write_effect
+from slipwise.effects._writer import WrittenEffect, check_name, effect_text, write_effect
 from slipwise.effects._written_hook import WrittenHook
 
 __all__ = [

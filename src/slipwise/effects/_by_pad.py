@@ -8,7 +8,7 @@ from slipwise.params import Parameter
 
 
 def for_pads(effect: Effect, pads: Sequence[str], *, corners: bool) -> Effect:
-    """Give an effect with the strengths that this rig's pads can have; itself where none belongs to single pads.
+    """Return an effect with the strengths that this rig's pads can have; itself where none belongs to single pads.
 
     Args:
         effect: of the catalogue or a user's own.

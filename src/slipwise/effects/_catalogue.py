@@ -11,9 +11,9 @@ from importlib.machinery import SourceFileLoader
 from importlib.metadata import entry_points
 from pathlib import Path
 
+from slipwise.effects._contract_check import line_of
 from slipwise.effects._effect import Effect
 from slipwise.effects._read import read_effect
-from slipwise.effects._tried import line_of
 from slipwise.errors import InputError, SettingError, SlipwiseError, unknown_name
 from slipwise.input_file import read_input
 
@@ -67,7 +67,7 @@ def _check_others(effect: Effect, known: Collection[str]) -> None:
 
 
 def base_effects(role: str) -> tuple[Effect, ...]:
-    """Give the effects with a role in the base model: "law", "springs" or "stick"."""
+    """Return the effects with a role in the base model: "law", "springs" or "stick"."""
     return tuple(e for e in catalogue().values() if e.base == role)
 
 

@@ -22,28 +22,28 @@ Number = Mapping[str, Sequence[Array]]
 
 
 def axes(records: Sequence[Record]) -> tuple[str, ...]:
-    """Give the axes along which the girder's own balance is recorded."""
+    """Return the axes along which the girder's own balance is recorded."""
     return tuple(a for a in "xy" if recorded(records, f"slip_{a}", f"girder_a{a}"))
 
 
 def recorded(records: Sequence[Record], *names: str) -> bool:
-    """Tell whether every record has these channels."""
+    """Return whether every record has these channels."""
     return all(record.has_all(*names) for record in records)
 
 
 def channel(records: Sequence[Record], name: str) -> list[Array]:
-    """Give a channel of every record."""
+    """Return a channel of every record."""
     return [record[name] for record in records]
 
 
 def total_loads(records: Sequence[Record]) -> list[Array]:
-    """Give the sum of the pads' loads of every record; nothing where one of them was not recorded."""
+    """Return the sum of the pads' loads of every record; nothing where one of them was not recorded."""
     names = [f"pad_{pad}_N" for pad in pads_in(name for record in records for name in record.channels)]
     return [np.sum([r[n] for n in names], axis=0) for r in records] if names and recorded(records, *names) else []
 
 
 def paired(records: Sequence[Record], specimen: Specimen, axis: str) -> dict[str, tuple[list[Array], list[Array]]]:
-    """Give mean friction and mean load of the pads at each end, relation -> one of each for every record.
+    """Return mean friction and mean load of the pads at each end, relation -> one of each for every record.
 
     Args:
         records: of all runs.
@@ -62,7 +62,7 @@ def paired(records: Sequence[Record], specimen: Specimen, axis: str) -> dict[str
 
 
 def dahl_force(values: Array, length: float) -> Array:
-    """Give a force that reverses with the direction of motion over a length (Dahl), between -1 and 1, (n,) [1].
+    """Return a force that reverses with the direction of motion over a length (Dahl), between -1 and 1, (n,) [1].
 
     Args:
         values: (n,) of the coordinate that moves.
@@ -79,7 +79,7 @@ def dahl_force(values: Array, length: float) -> Array:
 
 
 def swing_of(base: Array, dt: float, frequency: float, damping: float) -> Array:
-    """Give the acceleration of an oscillator relative to its shaken base (n,).
+    """Return the acceleration of an oscillator relative to its shaken base (n,).
 
     q'' + 2 z w q' + w^2 q = -a; the displacement is the recursion of the sampled impulse response.
     """

@@ -49,12 +49,12 @@ from pathlib import Path
 from typing import Any
 
 from slipwise.channels import CHANNELS
-from slipwise.effects._declared import COMPONENT_NEEDS, NEEDS, Gauges, Limit
+from slipwise.display import Drawn, Tabular
 from slipwise.effects._fault import GaugeFault
+from slipwise.effects._fields import COMPONENT_NEEDS, NEEDS, Gauges, Limit
 from slipwise.effects._hooks import DERIVED, HOOKS, PAD_HOOKS
 from slipwise.errors import unknown_name
 from slipwise.params import Parameter
-from slipwise.shown import Drawn, Tabular
 
 #: Channels of girder, pads and buffers: what any change of the physics moves. The table follows its command.
 RESPONSE: tuple[str, ...] = (
@@ -216,5 +216,5 @@ class Effect(Drawn, Tabular):
 
 
 def moved_channels(effect: Effect, among: Iterable[str] = CHANNELS) -> frozenset[str]:
-    """Give the names of the channels that an effect may change, of those that a record has, or that are listed."""
+    """Return the names of the channels that an effect may change, of those that a record has, or that are listed."""
     return frozenset(c for c in among if any(fnmatch.fnmatchcase(c, pattern) for pattern in effect.moves))

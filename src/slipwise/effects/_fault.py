@@ -49,6 +49,6 @@ class GaugeFault:
     samples: tuple[str, ...] = ()
 
     def least_on(self, name: str) -> float:
-        """Give the least size that matters on a channel; the first word of `least` that fits it counts."""
+        """Return the least size that matters on a channel; the first word of `least` that fits it counts."""
         unit = channel(name).unit
         return next(size for word, size in self.least.items() if word == unit or fnmatchcase(name, word))

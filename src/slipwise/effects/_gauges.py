@@ -19,12 +19,12 @@ FRICTION_SPAN = 10e3
 
 
 def span(name: str) -> float:
-    """Give what a usual gauge of a channel reads at most [SI unit of the channel]: 100 mm, 2 g, 10 kN across a pad."""
+    """Return the largest reading of a usual gauge of a channel [SI]: 100 mm, 2 g, 10 kN across a pad."""
     return FRICTION_SPAN if channels_like("pad_*_F?", [name]) else SPANS[channel(name).unit]
 
 
 def aimed(record: Record, target: str) -> tuple[str, ...]:
-    """Give the channels of a record that a target means: "pad_A_N", "pad_*_N" or "all".
+    """Return the channels of a record that a target means: "pad_A_N", "pad_*_N" or "all".
 
     Raises:
         InputError: the record has none of them.
@@ -36,7 +36,7 @@ def aimed(record: Record, target: str) -> tuple[str, ...]:
 
 
 def changed(record: Record, target: str, change: Callable[[str, Array], Array]) -> Record:
-    """Give the record with `change(name, values (n,)) -> (n,)` done to the channels that are aimed at.
+    """Return the record with `change(name, values (n,)) -> (n,)` done to the channels that are aimed at.
 
     Raises:
         InputError: the record has none of them.

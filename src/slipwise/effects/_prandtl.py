@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.machine_code import kept
+from slipwise.jobs.machine_code import kept
 
 Array = NDArray[np.float64]
 #: Steps per sample: the way between two samples may be longer than the spring's.
@@ -22,7 +22,7 @@ def _followed(rate, dt, share):  # pragma: no cover - compiled
 
 
 def prandtl(rate: Array, dt: float) -> Array:
-    """Give the share z of the limit, (n,) within -1 to 1.
+    """Return the share z of the limit, (n,) within -1 to 1.
 
     Args:
         rate: (n,) of the way in lengths of the spring [1/s].

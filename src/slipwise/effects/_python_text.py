@@ -14,7 +14,7 @@ _ASSIGNED = re.compile(r"(?P<head>return|[^\s=]+(, [^\s=]+)* [-+*/]?=) (?P<value
 
 
 def words(text: str) -> str:
-    """Give a text as one line that no quotation can end and no reader mistake for a heading of an effect's docstring.
+    """Return a text as one line that no quotation can end and no reader mistake for a heading of an effect's docstring.
 
     Any white space becomes one blank, a backslash a slash, a double quotation mark a single one, and what cannot be
     seen a question mark: names and paths from elsewhere may hold all of these.
@@ -25,7 +25,7 @@ def words(text: str) -> str:
 
 
 def sentence(text: str, most: int) -> str:
-    """Give words as one sentence of at most so many columns: a capital at its begin, a full stop at its end."""
+    """Return words as one sentence of at most so many columns: a capital at its begin, a full stop at its end."""
     line = words(text)
     parts = list(pieces(line, most - 1))
     if len(parts) > 1:
@@ -34,7 +34,7 @@ def sentence(text: str, most: int) -> str:
 
 
 def pieces(text: str, most: int) -> Iterator[str]:
-    """Give a text in pieces of at most so many columns, cut behind blanks where there are some; joined they are it."""
+    """Yield a text in pieces of at most so many columns, cut behind blanks where there are some; joined they are it."""
     while (cut := _fitting(text, most)) < len(text):
         blank = text.rfind(" ", 0, cut + 1) + 1
         cut = min(blank, cut) if text[:blank].strip() else cut
@@ -44,12 +44,12 @@ def pieces(text: str, most: int) -> Iterator[str]:
 
 
 def block(text: str, indent: str = "") -> str:
-    """Give a paragraph as lines of the page."""
+    """Return a paragraph as lines of the page."""
     return "\n".join(f"{indent}{part.strip()}" for part in pieces(text, WIDTH - len(indent)))
 
 
 def entry(head: str, text: str) -> list[str]:
-    """Give the lines of an entry of a call or a dictionary: a string constant behind `head`, a comma behind it."""
+    """Return the lines of an entry of a call or a dictionary: a string constant behind `head`, a comma behind it."""
     if columns(f'{head}"{text}",') <= WIDTH:
         return [f'{head}"{text}",']
     indent = head[: len(head) - len(head.lstrip())]
@@ -57,12 +57,12 @@ def entry(head: str, text: str) -> list[str]:
 
 
 def quoted(text: str, indent: str) -> str:
-    """Give a string constant; one that fills more than a line of that indent goes on in the next."""
+    """Return a string constant; one that fills more than a line of that indent goes on in the next."""
     return '"{}"'.format(f'"\n{indent}"'.join(pieces(text, WIDTH - len(indent) - 3)))
 
 
 def packed(items: Iterable[str], indent: str) -> list[str]:
-    """Give items with a comma behind each, as many on a line as it holds."""
+    """Return items with a comma behind each, as many on a line as it holds."""
     lines: list[str] = []
     for item in items:
         if lines and columns(f"{lines[-1]} {item},") <= WIDTH:
@@ -73,7 +73,7 @@ def packed(items: Iterable[str], indent: str) -> list[str]:
 
 
 def statement(line: str) -> list[str]:
-    """Give a statement of a body, which stands four columns in; a value that is too long stands in brackets."""
+    """Return a statement of a body, which stands four columns in; a value that is too long stands in brackets."""
     indent, long = line[: len(line) - len(line.lstrip())], _ASSIGNED.fullmatch(line.strip())
     if columns(line) <= WIDTH - 4 or long is None:
         return [line]
@@ -83,12 +83,12 @@ def statement(line: str) -> list[str]:
 
 
 def columns(text: str) -> int:
-    """Give how many columns a line takes: Chinese and Japanese characters take two."""
+    """Return how many columns a line takes: Chinese and Japanese characters take two."""
     return sum(2 if east_asian_width(c) in "WF" else 1 for c in text)
 
 
 def _fitting(text: str, most: int) -> int:
-    """Give how many characters of a text fit into so many columns."""
+    """Return how many characters of a text fit into so many columns."""
     room = most
     for count, character in enumerate(text):
         room -= columns(character)

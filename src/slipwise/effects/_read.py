@@ -11,11 +11,11 @@ from types import ModuleType
 from typing import Any, cast
 
 from slipwise.channels import CHANNELS
-from slipwise.effects._declared import BASE_ROLES, ENDS, NEEDS, SITS, Limit
+from slipwise.effects._contract_check import check_answer, try_instant
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import SAMPLE_FAULTS
+from slipwise.effects._fields import BASE_ROLES, ENDS, NEEDS, SITS, Limit
 from slipwise.effects._hooks import COMPONENTS, HOOKS, LAGGING, PORTS, SIDES
-from slipwise.effects._tried import check_answer, try_instant
 from slipwise.errors import SettingError, unknown_name
 from slipwise.params import Parameter
 

@@ -7,7 +7,7 @@ from numba.extending import register_jitable
 
 @register_jitable
 def risen(x: float) -> float:
-    """Give 1 - exp(-x) [1], of x >= 0.
+    """Return 1 - exp(-x) [1], of x >= 0.
 
     Only a small x needs the digits of `expm1`, with which alone the paper's law took 52 ns a pad and instant, not 36.
     """

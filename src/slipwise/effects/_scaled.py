@@ -9,7 +9,7 @@ from slipwise.params import Parameter
 
 
 def scaled(effect: Effect, scale: Callable[[str], float], room: float) -> Effect:
-    """Give an effect whose typical values and bounds are scaled by their units; itself where nothing is.
+    """Return an effect whose typical values and bounds are scaled by their units; itself where nothing is.
 
     One that is not of the catalogue stays as it is: its user has given it the numbers of his own rig.
 
@@ -32,7 +32,7 @@ def _scaled(p: Parameter, factor: float, room: float) -> Parameter:
 
 
 def holding(effect: Effect, values: Mapping[str, float]) -> Effect:
-    """Give an effect whose bounds hold these values, pure numbers apart: what was stated of a slider is possible.
+    """Return an effect whose bounds hold these values, pure numbers apart: what was stated of a slider is possible.
 
     Args:
         effect: whose bounds.

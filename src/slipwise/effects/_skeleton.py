@@ -2,10 +2,10 @@
 
 from dataclasses import replace
 
-from slipwise.effects._first_laws import FIRST_LAWS
 from slipwise.effects._hooks import DERIVED, HOOKS, LAGGING, PORTS
 from slipwise.effects._python_text import block
-from slipwise.effects._written import WrittenEffect
+from slipwise.effects._templates import FIRST_LAWS
+from slipwise.effects._writer import WrittenEffect
 from slipwise.errors import unknown_name
 
 _ABOUT = (
@@ -20,7 +20,7 @@ _EFFECT = (
 
 
 def skeleton(name: str, port: str = "shear") -> WrittenEffect:
-    """Give an effect that works, for a port, with the words that lead on to one's own.
+    """Return an effect that works, for a port, with the words that lead on to one's own.
 
     Args:
         name: of the effect.
@@ -54,7 +54,7 @@ def skeleton(name: str, port: str = "shear") -> WrittenEffect:
 
 
 def _guide(hook: str, port: str) -> list[str]:
-    """Give the comment that says what a hook can ask for, and where numbers are declared."""
+    """Return the comment that says what a hook can ask for, and where numbers are declared."""
     can = HOOKS[hook].inputs
     lines = ["A hook asks for what it needs by the names of its arguments. This one can have:"]
     lines += [f"  {name:<24} {words}" for name, words in can.items() if name not in DERIVED]

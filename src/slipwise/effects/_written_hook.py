@@ -48,7 +48,7 @@ class WrittenHook:
 
 
 def head(hook: WrittenHook) -> str:
-    """Give the line, or lines, that begin the function."""
+    """Return the line, or lines, that begin the function."""
     arguments = [f"{name}: {_GIVEN.get(name, 'float')}" for name in hook.arguments]
     returned = _RETURNED.get(hook.name, "float")
     line = f"def {hook.name}({', '.join(arguments)}) -> {returned}:"
@@ -59,13 +59,13 @@ def head(hook: WrittenHook) -> str:
 
 
 def body(hook: WrittenHook) -> list[str]:
-    """Give docstring and statements, as they stand in the function."""
+    """Return docstring and statements, as they stand in the function."""
     lines = [f'"""{sentence(hook.words, WIDTH - 10)}"""', *(part for line in hook.lines for part in statement(line))]
     return [f"    {line}" for line in lines]
 
 
 def names_from_elsewhere(hook: WrittenHook) -> set[str]:
-    """Give the names of `HOMES` that body and types use.
+    """Return the names of `HOMES` that body and types use.
 
     Raises:
         SettingError: its lines are no body of a function.

@@ -41,7 +41,7 @@ def rest(memory: np.ndarray, seconds: float, relaxation: float) -> None:
 
 
 def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
-    """Give a force that is linear and square in the slip rate."""
+    """Yield a force that is linear and square in the slip rate."""
     for axis in axes(records):
         rates = [derivative(x, r.dt) for x, r in zip(channel(records, f"slip_{axis}"), records, strict=True)]
         yield [{f"girder_{axis}": rates}, {f"girder_{axis}": [v * np.abs(v) for v in rates]}]

@@ -25,7 +25,7 @@ def spring(force: float, deflection: float, gain: float, power: float) -> float:
 
 
 def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
-    """Give a force that is cubic, or of fifth power, in the slip."""
+    """Yield a force that is cubic, or of fifth power, in the slip."""
     for axis in axes(records):
         yield [{f"girder_{axis}": [x**p for x in channel(records, f"slip_{axis}")]} for p in (3, 5)]
 

@@ -17,7 +17,7 @@ from slipwise.rig import Specimen
 
 
 def rig(specimen: Specimen, height: float) -> Specimen:
-    """Give the specimen with its keys higher."""
+    """Return the specimen with its keys higher."""
     return specimen.changed(buffer_height=[z + height for z in specimen.buffer_heights])
 
 

@@ -50,7 +50,7 @@ def rest(memory: np.ndarray, seconds: float) -> None:
 
 
 def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
-    """Give a force that turns over a length."""
+    """Yield a force that turns over a length."""
     for axis in axes(records):
         for length in _TURNS:
             yield [{f"girder_{axis}": [dahl_force(x, length) for x in channel(records, f"slip_{axis}")]}]

@@ -31,7 +31,7 @@ def spring(force: float, deflection: float, memory: np.ndarray, rise: float, len
 
 
 def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
-    """Give what fresh buffers carry more, until they were stretched so far."""
+    """Yield what fresh buffers carry more, until they were stretched so far."""
     for axis in axes(records):
         for length in _LENGTHS:
             largest, softer = 0.0, []

@@ -11,9 +11,9 @@ Source: definition; size assumed.
 
 import numpy as np
 
-from slipwise.effects._declared import Gauges
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
+from slipwise.effects._fields import Gauges
 from slipwise.effects._gauges import changed, span
 from slipwise.params import Parameter
 from slipwise.record import Record

@@ -35,7 +35,7 @@ def gauge(record: Record, target: str, lag: float, order: float) -> Record:
 
 
 def corner(lag: float, order: float) -> float:
-    """Give the frequency f_c [Hz]: that of 1 Hz by its lag over T."""
+    """Return the frequency f_c [Hz]: that of 1 Hz by its lag over T."""
     return LowPass(1.0, round(order), "causal").lag / lag if lag > 0.0 else inf
 
 

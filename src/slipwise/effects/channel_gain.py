@@ -9,9 +9,9 @@ Valid: 1 to 5 % for a calibrated gauge.
 Source: definition; sizes assumed.
 """
 
-from slipwise.effects._declared import Gauges
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
+from slipwise.effects._fields import Gauges
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
 from slipwise.record import Record

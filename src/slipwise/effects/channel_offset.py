@@ -9,9 +9,9 @@ Valid: below a few per cent of the span.
 Source: definition; spans of usual gauges and size assumed.
 """
 
-from slipwise.effects._declared import Gauges
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
+from slipwise.effects._fields import Gauges
 from slipwise.effects._gauges import changed, span
 from slipwise.params import Parameter
 from slipwise.record import Record

@@ -39,12 +39,12 @@ _VERTICAL = ("table_az", "girder_az", "girder_az_1")
 
 
 def rig(specimen: Specimen, share: float, frequency: float, damping: float) -> Specimen:
-    """Give the specimen with a part of its mass in the mode."""
+    """Return the specimen with a part of its mass in the mode."""
     return replace(specimen, bending_mass=share * specimen.mass, bending_frequency=frequency, bending_damping=damping)
 
 
 def balance(states: BalanceStates, share: float, frequency: float, damping: float, midspan: float) -> dict[str, Array]:
-    """Give the inertia of the mode, m_e q'' (n,) [N], less what a gauge at midspan reads too much."""
+    """Return the inertia of the mode, m_e q'' (n,) [N], less what a gauge at midspan reads too much."""
     dt, mass = float(states.time[1] - states.time[0]), states.specimen.mass
     if midspan < 0.5 or share == 0.0:
         return {"heave": share * mass * oscillator(-states.girder_acceleration[:, 2], dt, frequency, damping, 2)}
@@ -59,7 +59,7 @@ def balance(states: BalanceStates, share: float, frequency: float, damping: floa
 
 
 def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
-    """Give the acceleration of a mode that vertical shaking excites."""
+    """Yield the acceleration of a mode that vertical shaking excites."""
     shakes = [next((r[n] for n in _VERTICAL if n in r), None) for r in records]
     for frequency in _FREQUENCIES:
         for damping in _DAMPINGS:

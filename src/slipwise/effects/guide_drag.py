@@ -22,13 +22,13 @@ REFERENCE = 0.2
 
 
 def drag(velocity_x: float, velocity_y: float, damping: float, exponent: float) -> tuple[float, float]:
-    """Give the force against the girder's motion (force_x, force_y) [N]."""
+    """Return the force against the girder's motion (force_x, force_y) [N]."""
     size = damping * (hypot(velocity_x, velocity_y) / REFERENCE) ** (exponent - 1.0)
     return size * velocity_x, size * velocity_y
 
 
 def balance(states: BalanceStates, damping: float, exponent: float) -> dict[str, NDArray[np.float64]]:
-    """Give the drag (n,) [N]."""
+    """Return the drag (n,) [N]."""
     speed = np.hypot(*states.velocity.T)
     return {"girder": damping * (speed / REFERENCE) ** (exponent - 1.0) * states.velocity[:, 0]}
 

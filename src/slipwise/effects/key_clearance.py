@@ -25,7 +25,7 @@ _CLEARANCES = (1e-4, 2e-4, 4e-4, 7e-4, 1.2e-3, 2e-3, 3e-3)
 
 
 def deflection(deflection: float, clearance: float) -> float:
-    """Give what is left of the deflection [m] beyond the gap."""
+    """Return what is left of the deflection [m] beyond the gap."""
     if deflection > clearance:
         return deflection - clearance
     if deflection < -clearance:
@@ -46,7 +46,7 @@ def spring(force: float, deflection: float, rate: float, impact: float, release:
 
 
 def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
-    """Give what buffers lack that take up clearance first."""
+    """Yield what buffers lack that take up clearance first."""
     for axis in axes(records):
         for gap in _CLEARANCES:
             yield [{f"girder_{axis}": [-np.clip(x, -gap, gap) for x in channel(records, f"slip_{axis}")]}]

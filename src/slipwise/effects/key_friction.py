@@ -33,14 +33,14 @@ def lift(
     force_x: float, force_y: float, velocity_z: float, dt: float, memory: np.ndarray,
     friction: float, slow: float, elastic: float,
 ) -> float:  # fmt: skip
-    """Give the vertical force of the keys on the girder [N]."""
+    """Return the vertical force of the keys on the girder [N]."""
     memory[0] = min(max(memory[0] + elastic * velocity_z * dt, -1.0), 1.0)
     share = min(max(memory[0] + tanh(velocity_z / slow), -1.0), 1.0)
     return -friction * hypot(force_x, force_y) * share
 
 
 def balance(states: BalanceStates, friction: float, slow: float, elastic: float) -> dict[str, NDArray[np.float64]]:
-    """Give what the pads carry more when the girder rises against the keys (n,) [N]; unlike keys tip it."""
+    """Return what the pads carry more when the girder rises against the keys (n,) [N]; unlike keys tip it."""
     share = np.tanh(states.heave_rate / slow)
     if elastic > 0.0:
         share = np.clip(share + prandtl(elastic * states.heave_rate, float(states.time[1] - states.time[0])), -1.0, 1.0)
@@ -51,7 +51,7 @@ def balance(states: BalanceStates, friction: float, slow: float, elastic: float)
 
 
 def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
-    """Give a vertical force in step with the buffers' that turns with the direction of heave."""
+    """Yield a vertical force in step with the buffers' that turns with the direction of heave."""
     loads = total_loads(records)
     if not loads or not recorded(records, "slip_x"):
         return

@@ -11,9 +11,9 @@ Valid: 0.5 to 2 %.
 Source: definition; sizes assumed.
 """
 
-from slipwise.effects._declared import Gauges
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
+from slipwise.effects._fields import Gauges
 from slipwise.effects._gauges import aimed
 from slipwise.params import Parameter
 from slipwise.record import Record

@@ -24,19 +24,19 @@ from slipwise.rig import Specimen
 
 
 def rig(specimen: Specimen, along: float, across: float) -> Specimen:
-    """Give the specimen with its centre of gravity moved."""
+    """Return the specimen with its centre of gravity moved."""
     return replace(specimen, centre_x=specimen.centre_x + along, centre_y=specimen.centre_y + across)
 
 
 def balance(states: BalanceStates, along: float, across: float) -> dict[str, NDArray[np.float64]]:
-    """Give what the nearer pads carry more (n,) [N]."""
+    """Return what the nearer pads carry more (n,) [N]."""
     weight = states.specimen.carried_mass * (states.specimen.gravity + states.girder_acceleration[:, 2])
     half_x, half_y = states.specimen.half_spacing
     return {"pitch": weight * along / half_x, "roll": weight * across / half_y}
 
 
 def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
-    """Give the share of all that the pads carry by which one end, or one side, carries more."""
+    """Yield the share of all that the pads carry by which one end, or one side, carries more."""
     if carried := total_loads(records):
         yield [{"pitch": carried}]
         yield [{"roll": carried}]

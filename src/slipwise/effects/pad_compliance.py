@@ -16,7 +16,7 @@ from slipwise.rig import Specimen
 
 
 def rig(specimen: Specimen, stiffness: float, damping: float) -> Specimen:
-    """Give the specimen with other springs."""
+    """Return the specimen with other springs."""
     return specimen.changed(pad_stiffness=stiffness, pad_damping=damping)
 
 

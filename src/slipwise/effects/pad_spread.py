@@ -28,7 +28,7 @@ def shear(
 
 
 def disturb(records: Sequence[Record], specimen: Specimen) -> Iterator[list[Number]]:
-    """Give the mean friction of the two pads at each end, of which one has more than the other."""
+    """Yield the mean friction of the two pads at each end, of which one has more than the other."""
     for axis in "xy":
         if pairs := paired(records, specimen, axis):
             yield [{name: forces} for name, (forces, _) in pairs.items()]

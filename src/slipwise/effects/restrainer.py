@@ -18,7 +18,7 @@ from slipwise.params import Parameter
 
 
 def pad(slip_x: float, slip_y: float, stiffness: float, limit: float) -> tuple[float, float]:
-    """Give the push of the rim (force_x, force_y) [N]."""
+    """Return the push of the rim (force_x, force_y) [N]."""
     away = sqrt(slip_x * slip_x + slip_y * slip_y)
     if away <= limit:
         return 0.0, 0.0

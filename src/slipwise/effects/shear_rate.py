@@ -23,7 +23,7 @@ def shear(speed: float, true_pressure: float, strength: float, rate: float, slow
 
 
 def flat(coefficient: float) -> dict[str, float]:
-    """Give the parameters at which speed adds nothing to a coefficient of friction."""
+    """Return the parameters at which speed adds nothing to a coefficient of friction."""
     return {"strength": 0.0, "slow": coefficient}
 
 

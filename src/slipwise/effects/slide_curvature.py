@@ -17,7 +17,7 @@ from slipwise.params import Parameter
 
 
 def face(face: float, curvature: float) -> float:
-    """Give the curvature of the sliding face [1/m]."""
+    """Return the curvature of the sliding face [1/m]."""
     return face + curvature
 
 

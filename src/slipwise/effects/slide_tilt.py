@@ -21,12 +21,12 @@ from slipwise.rig import Specimen
 
 
 def pad(load: float, tilt: float) -> tuple[float, float]:
-    """Give the load's share along the slope (force_x, force_y) [N]."""
+    """Return the load's share along the slope (force_x, force_y) [N]."""
     return load * tilt, 0.0
 
 
 def disturb(records: Sequence[Record], specimen: Specimen) -> Iterator[list[Number]]:
-    """Give the load and the size of friction at each end, of which unlike tilts make a difference of the pads."""
+    """Yield the load and the size of friction at each end, of which unlike tilts make a difference of the pads."""
     for axis in "xy":
         if pairs := paired(records, specimen, axis):
             yield [

@@ -20,7 +20,7 @@ from slipwise.rig import Specimen, fixed_base_frequencies
 
 
 def rig(specimen: Specimen, stiffness: float, damping: float) -> Specimen:
-    """Give the specimen with other columns."""
+    """Return the specimen with other columns."""
     if not specimen.storeys:
         return specimen
     more = [damping / (np.pi * float(fixed_base_frequencies(specimen.storeys, axis)[0])) for axis in "xy"]

@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 
 
 def _turning(angle: Array, dt: float, frequency: float, damping: float, derivative: int) -> Array:
-    """Give the table's pitch (n,), or its derivative, from the angle at which it would come to rest (n,) [rad]."""
+    """Return the table's pitch (n,), or its derivative, from the angle at which it would come to rest (n,) [rad]."""
     return oscillator((2.0 * np.pi * frequency) ** 2 * angle, dt, frequency, damping, derivative)
 
 
@@ -45,7 +45,7 @@ def table(
 def balance(
     states: BalanceStates, compliance: float, specimen: float, frequency: float, damping: float, gravity: float
 ) -> dict[str, Array]:
-    """Give gravity along the face and the moments of gravity and the girder's inertia (n,) [N], and what is no slip.
+    """Return gravity along the face and the moments of gravity and the girder's inertia (n,) [N], and what is no slip.
 
     The centre of gravity, h above the slide, goes to and fro with the table's turning by h theta'' [m/s^2].
     """
@@ -58,7 +58,7 @@ def balance(
 
 
 def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
-    """Give forces along and around the girder that follow the table."""
+    """Yield forces along and around the girder that follow the table."""
     if recorded(records, "table_ax", "slip_x", "girder_ax"):
         pushes = channel(records, "table_ax")
         yield [{"girder_x": pushes}, {"pitch": pushes}]

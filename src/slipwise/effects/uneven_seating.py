@@ -29,12 +29,12 @@ from slipwise.rig.load_basis import basis_of, by_warp, warps
 
 
 def rig(specimen: Specimen, target: str, warp: float) -> Specimen:
-    """Give the specimen with the pads on one diagonal higher, on the other lower; or with one pad higher."""
+    """Return the specimen with the pads on one diagonal higher, on the other lower; or with one pad higher."""
     return specimen.changed(seating=np.array(specimen.seating) + warp * _pattern(specimen, target))
 
 
 def _pattern(specimen: Specimen, target: str) -> NDArray[np.float64]:
-    """Give side_x side_y of each pad, or 1 of the one; three pads stand in one plane, whatever their heights."""
+    """Return side_x side_y of each pad, or 1 of the one; three pads stand in one plane, whatever their heights."""
     if len(specimen.pads) < 4:
         return np.zeros(len(specimen.pads))
     if target:
@@ -43,14 +43,14 @@ def _pattern(specimen: Specimen, target: str) -> NDArray[np.float64]:
 
 
 def balance(states: BalanceStates, target: str, warp: float) -> dict[str, NDArray[np.float64]]:
-    """Give what the higher pads carry more (n,) [N]; nothing on three pads."""
+    """Return what the higher pads carry more (n,) [N]; nothing on three pads."""
     rig = states.specimen
     shares = by_warp(rig, np.array(rig.springs) * _pattern(rig, target))
     return {name: np.full(len(states.time), share * warp) for name, share in shares.items()}
 
 
 def disturb(records: Sequence[Record], specimen: Specimen) -> Iterator[list[Number]]:
-    """Give loads that some pads carry more all the time."""
+    """Yield loads that some pads carry more all the time."""
     yield [{name: [np.ones(len(record)) for record in records]} for name in warps(specimen)]
 
 

@@ -9,9 +9,13 @@ from slipwise.campaign import Campaign, Logger
 from slipwise.campaign.scales import Scales, scales_of
 from slipwise.effects import catalogue, holding, scaled
 from slipwise.errors import InputError
-from slipwise.estimation.gauge_zero import free_zero
 from slipwise.estimation.least_squares import Solution, jacobian, slopes_of, solve
-from slipwise.estimation.parameters import (
+from slipwise.estimation.objective import Problem
+from slipwise.model import Model, base_model, use_of
+from slipwise.preparation.logger import estimate_logger
+from slipwise.preparation.repairs import InvalidSamples
+from slipwise.relations.force_offset import free_zero
+from slipwise.relations.parameters import (
     DAMPED_STICK,
     YAW_INERTIA,
     ZERO,
@@ -22,11 +26,7 @@ from slipwise.estimation.parameters import (
     stick_damping_free,
     terms_of,
 )
-from slipwise.estimation.problem import Problem
-from slipwise.estimation.run_data import FitRun, fit_runs
-from slipwise.instruments.logger_spectrum import estimate_logger
-from slipwise.instruments.repairs import InvalidSamples
-from slipwise.model import Model, base_model, use_of
+from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.signals.filters import LowPass
 
 #: Noise near reversals depends on the fit and the fit on the noise: each is made anew, and every fit ends where a step
@@ -118,7 +118,7 @@ def _judged_samples(problem: Problem, run: FitRun) -> int:
 def with_logger(
     campaign: Campaign, model: Model, invalid: InvalidSamples | None = None
 ) -> tuple[Campaign, Mapping[str, float]]:
-    """Give a campaign with the logger's filter as the fitted runs show it, and where a fit that found it ended.
+    """Return a campaign with the logger's filter as the fitted runs show it, and where a fit that found it ended.
 
     Args:
         campaign: itself where its logger is known, or its rig prescribes the slip.
@@ -138,7 +138,7 @@ def with_logger(
 
 
 def scaled_model(model: Model, scales: Scales, *, typical: bool) -> Model:
-    """Give a model whose effects may have the values that a record of these scales asks for.
+    """Return a model whose effects may have the values that a record of these scales asks for.
 
     Of the plastic pressure and the shear strength only the ratio counts, s/H: both go with the pressure.
 
@@ -166,7 +166,7 @@ def scaled_model(model: Model, scales: Scales, *, typical: bool) -> Model:
 
 
 def free_numbers(campaign: Campaign, model: Model, problem: Problem) -> list[Free]:
-    """Give what a fit of a model may change, with bounds that this campaign's strokes and gauges set."""
+    """Return what a fit of a model may change, with bounds that this campaign's strokes and gauges set."""
     free = base_free(
         model, balances=problem.balanced, logger_known=campaign.logger.known, length=problem.runs[0].scales.length
     )
@@ -212,7 +212,7 @@ def _fitted(campaign: Campaign, model: Model, problem: Problem, start: Mapping[s
 
 
 def _resonance_moved(weighed: Mapping[str, float], found: Mapping[str, float]) -> bool:
-    """Tell whether the girder's pitch was weighed with another resonance than was found: its noise is loud there."""
+    """Return whether the girder's pitch was weighed with another resonance than was found: its noise is loud there."""
     if "rig.pitch_frequency" not in found:
         return False
     frequency, damping = (found[k] / weighed[k] - 1.0 for k in ("rig.pitch_frequency", "rig.pitch_damping"))
@@ -263,7 +263,7 @@ def restarted(base: BaseFit, values: Mapping[str, float]) -> BaseFit | None:
 
 
 def at_rated(base: BaseFit) -> BaseFit:
-    """Give a base model that was not fitted: every number where its fit began.
+    """Return a base model that was not fitted: every number where its fit began.
 
     Args:
         base: the base fit, whose weights are kept.
@@ -282,7 +282,7 @@ def _cost(problem: Problem, values: Mapping[str, float]) -> float:
 
 
 def _yaw_improves_fit(problem: Problem, solution: Solution) -> bool:
-    """Tell whether yaw made from the measured forces improves the fit by more than its noise makes it worse."""
+    """Return whether yaw made from the measured forces improves the fit by more than its noise makes it worse."""
     if not problem.kinematics.yaw_is_computable:
         return False
     left = problem.with_yaw().residuals(solution.values, fitted_only=True).stacked(problem.fitted, ("pads",))

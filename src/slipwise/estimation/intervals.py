@@ -25,10 +25,10 @@ from numpy.typing import NDArray
 from scipy.stats import t as student
 
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.noise_model import TIMING
-from slipwise.estimation.parameters import Free
 from slipwise.estimation.profile_likelihood import is_strength, upper_limit
-from slipwise.parallel import on_every_core
+from slipwise.jobs.parallel import on_every_core
+from slipwise.relations.pad_noise import TIMING
+from slipwise.relations.parameters import Free
 
 Array = NDArray[np.float64]
 Shared = tuple[Array, NDArray[np.int64]]
@@ -92,14 +92,14 @@ class Intervals:
     blocks: int
 
     def strongest(self, count: int = 5) -> list[tuple[str, str, float]]:
-        """Give the pairs of numbers that the data tell apart worst: (key, key, correlation)."""
+        """Return the pairs of numbers that the data tell apart worst: (key, key, correlation)."""
         i, j = np.triu_indices(len(self.keys), 1)
         order = np.argsort(-np.abs(self.correlation[i, j]))[:count]
         return [(self.keys[i[o]], self.keys[j[o]], float(self.correlation[i[o], j[o]])) for o in order]
 
 
 def intervals(base: BaseFit) -> Intervals:
-    """Give the intervals of a base fit."""
+    """Return the intervals of a base fit."""
     solution, problem = base.solution, base.problem
     rows: list[NDArray[np.int64]] = []
     start = 0
@@ -132,7 +132,7 @@ def intervals(base: BaseFit) -> Intervals:
 
 
 def _shared(base: BaseFit, count: int) -> Shared:
-    """Give what a run's and pad's own timing of its reversals would do to the residuals; pads come first."""
+    """Return what a run's and pad's own timing of its reversals would do to the residuals; pads come first."""
     problem, forces = base.problem, base.solution.residuals.pad_forces
     moved, whose = np.zeros((2, count)), np.zeros(count, dtype=np.int64)
     start = 0
@@ -157,7 +157,7 @@ def _widened_by_card_delay(entry: Interval, lowest: float, highest: float) -> In
 def _limited(
     base: BaseFit, entries: Sequence[Interval], place: int, left: Array, block: NDArray[np.int64], shared: Shared
 ) -> Interval:
-    """Give the one-sided interval of a strength whose two-sided one would reach below what can be."""
+    """Return the one-sided interval of a strength whose two-sided one would reach below what can be."""
     free, slopes = base.solution.free[place], base.solution.jacobian
     inside = [k for k, e in enumerate(entries) if k == place or (not e.bound and np.any(slopes[:, k]))]
     here = inside.index(place)
@@ -177,7 +177,7 @@ def of_fit(
     block: NDArray[np.int64],
     shared: Shared | None = None,
 ) -> Intervals:
-    """Give the intervals of a least-squares fit.
+    """Return the intervals of a least-squares fit.
 
     Args:
         free: what was fitted, k numbers.
@@ -210,7 +210,7 @@ def of_fit(
 def _variances(
     jacobian: Array, inside: Sequence[int], residual: Array, block: NDArray[np.int64], shared: Shared | None
 ) -> tuple[Array, Array, int]:
-    """Give the covariance (k, k) under white noise of unit size, the sandwich, and the degrees of freedom.
+    """Return the covariance (k, k) under white noise of unit size, the sandwich, and the degrees of freedom.
 
     Only the numbers inside count. Their columns are not put into an array of their own, which would be as large again.
     """
@@ -237,7 +237,7 @@ def _sums(jacobian: Array, inside: Sequence[int], values: Array, label: NDArray[
 
 
 def bound_of(free: Free, value: float) -> str:
-    """Give the bound on which a fitted number has ended: "lower", "upper" or ""."""
+    """Return the bound on which a fitted number has ended: "lower", "upper" or ""."""
     if value - free.low < 1e-6 * free.scale:
         return "lower"
     return "upper" if free.high - value < 1e-6 * free.scale else ""

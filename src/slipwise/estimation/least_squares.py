@@ -8,10 +8,10 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.estimation.parameters import Free
-from slipwise.estimation.residuals import Residuals
-from slipwise.parallel import on_every_core
-from slipwise.statistics.least_squares import Bounds, LevenbergMarquardt, Move, Slopes, gauss_newton
+from slipwise.jobs.parallel import on_every_core
+from slipwise.regression.least_squares import Bounds, LevenbergMarquardt, Move, Slopes, gauss_newton
+from slipwise.relations.parameters import Free
+from slipwise.relations.table import Residuals
 
 Array = NDArray[np.float64]
 #: A fit is over when a step promises less than this much of the squared residual [1].
@@ -38,7 +38,7 @@ class Fittable(Protocol):
         ...
 
     def near(self, values: Mapping[str, float]) -> "Fittable":
-        """Give what slopes at these values are taken of."""
+        """Return what slopes at these values are taken of."""
         ...
 
     def residuals(self, values: Mapping[str, float], *, fitted_only: bool = False) -> Residuals:
@@ -102,13 +102,13 @@ class _Point:
 
 
 def with_slopes(problem: Fittable, solution: Solution) -> Solution:
-    """Give a solution with slopes taken at its own numbers."""
+    """Return a solution with slopes taken at its own numbers."""
     slopes = jacobian(problem, solution.values, solution.free, solution.residuals)
     return replace(solution, jacobian=slopes)
 
 
 def slopes_of(solution: Solution) -> dict[str, Array]:
-    """Give the columns of a solution's Jacobian by the keys of its free numbers; none where it was not kept."""
+    """Return the columns of a solution's Jacobian by the keys of its free numbers; none where it was not kept."""
     return {f.key: solution.jacobian[:, j] for j, f in enumerate(solution.free) if len(solution.jacobian)}
 
 
@@ -119,7 +119,7 @@ def jacobian(
     now: Residuals,
     known: Mapping[str, Array] | None = None,
 ) -> Array:
-    """Give d(residual)/d(value / scale) of the fitted runs, (m, k), by one-sided differences into the bounds."""
+    """Return d(residual)/d(value / scale) of the fitted runs, (m, k), by one-sided differences into the bounds."""
     which = problem.fitted
     base = now.stacked(which, problem.relations)
     nearby = problem.near(values)

@@ -22,7 +22,7 @@ from scipy.stats import t as student
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import COVERAGE
 from slipwise.estimation.least_squares import solve
-from slipwise.estimation.run_data import FitRun
+from slipwise.relations.run_data import FitRun
 
 Array = NDArray[np.float64]
 #: Fitted runs below which nothing is known of how runs differ.
@@ -70,7 +70,7 @@ class PredictedFriction:
 
 
 def predicted_friction(fit: BaseFit) -> tuple[PredictedFriction, ...]:
-    """Give measured and predicted mean friction of every run that slides.
+    """Return measured and predicted mean friction of every run that slides.
 
     Args:
         fit: of any model.
@@ -98,7 +98,7 @@ def predicted_friction(fit: BaseFit) -> tuple[PredictedFriction, ...]:
 
 
 def _predicted_without(fit: BaseFit, place: int) -> float:
-    """Give the mean friction of a run when the law is fitted to the others [N]."""
+    """Return the mean friction of a run when the law is fitted to the others [N]."""
     problem = copy(fit.problem)
     problem.runs = [replace(r, role="holdout") if i == place else r for i, r in enumerate(fit.problem.runs)]
     # from rated values: where all runs led, two of them may predict the third exactly (overfit)
@@ -108,6 +108,6 @@ def _predicted_without(fit: BaseFit, place: int) -> float:
 
 
 def _mean(run: FitRun, force: Array) -> float:
-    """Give the mean of one pad's friction (n, p) against the slip while it slides [N]; NaN where it never does."""
+    """Return the mean of one pad's friction (n, p) against the slip while it slides [N]; NaN where it never does."""
     kept = run.sliding & (run.velocity != 0.0)
     return float(np.mean(force[kept] * np.sign(run.velocity[kept])[:, None])) if kept.any() else float("nan")

@@ -14,14 +14,14 @@ import numpy as np
 
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import slopes_of, solve
-from slipwise.estimation.parameters import Free
+from slipwise.relations.parameters import Free
 
 #: The limit is found when its cost is this near to what was asked for, as a share [1], or after this many fits.
 _NEAR, _MOST = 0.03, 10
 
 
 def is_strength(base: BaseFit, free: Free) -> bool:
-    """Tell whether a free number is an effect's strength that is absent at its lower bound."""
+    """Return whether a free number is an effect's strength that is absent at its lower bound."""
     for term in base.problem.terms:
         if p := term.parameters.get(free.key):
             return p.neutral is not None and p.neutral == p.low
@@ -29,7 +29,7 @@ def is_strength(base: BaseFit, free: Free) -> bool:
 
 
 def upper_limit(base: BaseFit, free: Free, first: float, rise: float) -> float:
-    """Give the strength [SI] at which the profile has risen so far, or its upper bound.
+    """Return the strength [SI] at which the profile has risen so far, or its upper bound.
 
     Args:
         base: the fit; all other numbers are fitted again at each strength that is tried.

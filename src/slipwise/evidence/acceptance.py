@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from slipwise.estimation.parameters import Term
 from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.evidence.score import FLOOR, score
+from slipwise.relations.parameters import Term
 from slipwise.rig.load_basis import WARPS
 
 
@@ -42,12 +42,12 @@ _EVERYWHERE = ("gauge", "girder", "table")
 
 
 def least_drop(terms: Iterable[Term]) -> float:
-    """Give the share of a relation's mean squared residual that effects must take away to be kept [1]."""
+    """Return the share of a relation's mean squared residual that effects must take away to be kept [1]."""
     return LEAST.everywhere if any(t.effect.port in _EVERYWHERE for t in terms) else LEAST.law
 
 
 def is_kept(base: ResidualSummary, before: ResidualSummary, after: ResidualSummary, least: float) -> bool:
-    """Tell whether a step is worth being kept.
+    """Return whether a step is worth being kept.
 
     An effect that only repairs what the one before has spoilt explains nothing of the rig, and a relation that is left
     with less than its noise has nothing to explain: that noise was thought too large.
@@ -65,7 +65,7 @@ def is_kept(base: ResidualSummary, before: ResidualSummary, after: ResidualSumma
 
 
 def worsens(before: ResidualSummary, after: ResidualSummary) -> bool:
-    """Tell whether a step repairs some relation at the cost of another.
+    """Return whether a step repairs some relation at the cost of another.
 
     Where something else is still hidden in that relation a right effect may cost some, if the score gains far more. The
     warps are one relation here: of pads that stand unevenly one after the other is found, and each moves all of them.
@@ -80,7 +80,7 @@ def worsens(before: ResidualSummary, after: ResidualSummary) -> bool:
 
 
 def _levels(summary: ResidualSummary) -> dict[str, tuple[float, int]]:
-    """Give the mean squared residual of every relation [noise variance], and its samples; all warps as one."""
+    """Return the mean squared residual of every relation [noise variance], and its samples; all warps as one."""
     sums: dict[str, tuple[float, int]] = {}
     for relation in summary.fitted:
         name = WARPS[0] if relation in WARPS else relation
@@ -90,5 +90,5 @@ def _levels(summary: ResidualSummary) -> dict[str, tuple[float, int]]:
 
 
 def all_down(summary: ResidualSummary) -> bool:
-    """Tell whether nothing is left that could be worth a step."""
+    """Return whether nothing is left that could be worth a step."""
     return all(summary.left_out_level(r) < 1.0 + LEAST.law for r in summary.fitted)

@@ -25,7 +25,7 @@ class Logistic:
     weights: Mapping[str, float]
 
     def __call__(self, evidence: Mapping[str, float]) -> float:
-        """Give the probability; numbers that the model does not use are passed over."""
+        """Return the probability; numbers that the model does not use are passed over."""
         odds = self.constant + sum(weight * evidence[name] for name, weight in self.weights.items())
         return float(np.clip(1.0 / (1.0 + np.exp(-odds)), 0.01, 0.99))
 
@@ -49,27 +49,27 @@ class Calibration:
     all_right: Logistic
 
     def family(self, evidence: Mapping[str, float]) -> float:
-        """Give the chance that effects which leave something with structure are of the right family."""
+        """Return the chance that effects which leave something with structure are of the right family."""
         return self.right_family(evidence)
 
     def leads(self, errors: float) -> float:
-        """Give the chance that a hypothesis is right and not its nearest rival."""
+        """Return the chance that a hypothesis is right and not its nearest rival."""
         return self.leads_rival({"lead": errors})
 
     def whole(self, product: float) -> float:
-        """Give the chance that a verdict is right, by the product of the chances of its parts."""
+        """Return the chance that a verdict is right, by the product of the chances of its parts."""
         return self.all_right({"product": log_odds(product)})
 
 
 def log_odds(probability: float) -> float:
-    """Give the log-odds of a probability, finite also at 0 and 1."""
+    """Return the log-odds of a probability, finite also at 0 and 1."""
     kept = float(np.clip(probability, 1e-6, 1.0 - 1e-6))
     return float(np.log(kept / (1.0 - kept)))
 
 
 @cache
 def calibration() -> Calibration:
-    """Give what the package was calibrated with."""
+    """Return what the package was calibrated with."""
     content = json.loads(files("slipwise.evidence").joinpath("calibration.json").read_text(encoding="utf-8"))
     models = {name: Logistic(of["constant"], of["weights"]) for name, of in content["models"].items()}
     return Calibration(**models)

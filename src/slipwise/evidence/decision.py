@@ -39,7 +39,7 @@ class Decision:
 
 
 def remains(rest: Mapping[str, float], least: float) -> bool:
-    """Tell whether what is left matters; arguments as of `decide`."""
+    """Return whether what is left matters; arguments as of `decide`."""
     return bool(np.exp(rest["relative"]) >= least)
 
 

@@ -20,11 +20,11 @@ from slipwise.campaign import Campaign, States
 from slipwise.campaign.aligned import quiet_samples
 from slipwise.channels import channel
 from slipwise.errors import SettingError
+from slipwise.noise.effective_samples import correlation_sum
 from slipwise.record import Record
 from slipwise.signals.derivative import derivative
 from slipwise.signals.noise import quantum, white_level
 from slipwise.signals.outliers import outliers
-from slipwise.statistics.effective_samples import correlation_sum
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -82,7 +82,7 @@ class Floor:
     notes: tuple[str, ...]
 
     def of(self, name: str, state: str) -> float:
-        """Give the floor of a channel in a state [SI]; NaN when it is unknown.
+        """Return the floor of a channel in a state [SI]; NaN when it is unknown.
 
         Raises:
             SettingError: no such channel or state.
@@ -94,7 +94,7 @@ class Floor:
         return self.channels[name].by_state[state]
 
     def rows(self) -> list[dict[str, Any]]:
-        """Give the floors as rows of a table."""
+        """Return the floors as rows of a table."""
         return [
             {
                 "channel": f.channel,
@@ -209,7 +209,7 @@ def _unknown(name: str, why: str) -> ChannelFloor:
 
 
 def _stretches(values: Array, quiet: Mask) -> list[Array]:
-    """Give the quiet stretches of a channel, each without its slow curve."""
+    """Return the quiet stretches of a channel, each without its slow curve."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], quiet.astype(int), [0]])))
     found = []
     for start, end in zip(edges[::2], edges[1::2], strict=True):
@@ -220,7 +220,7 @@ def _stretches(values: Array, quiet: Mask) -> list[Array]:
 
 
 def _pure_error(name: str, pairs: Sequence[tuple[States, States]], changes: dict[str, list[float]]) -> dict[str, float]:
-    """Give the standard deviation of one sample from the difference of two runs of one motion, by state."""
+    """Return the standard deviation of one sample from the difference of two runs of one motion, by state."""
     squares: dict[str, list[float]] = {}
     for one, other in pairs:
         count = min(len(one.time), len(other.time))

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.estimation.least_squares import Solution
-from slipwise.estimation.problem import Problem
+from slipwise.estimation.objective import Problem
 
 Array = NDArray[np.float64]
 #: Stretches of time that are left out one by one where there is one motion only [1].
@@ -30,7 +30,7 @@ _REACH = 1.0
 
 
 def motions(problem: Problem) -> list[list[int]]:
-    """Give the places of the fitted runs by motion: a repeat belongs to the run before it that it resembles most."""
+    """Return the places of the fitted runs by motion: a repeat belongs to the run before it that it resembles most."""
     out: list[list[int]] = []
     for i in problem.fitted:
         run = problem.runs[i]
@@ -43,7 +43,7 @@ def motions(problem: Problem) -> list[list[int]]:
 
 
 def _parts(problem: Problem) -> tuple[list[tuple[slice, int]], int]:
-    """Give rows of the stacked residuals with the number of what is left out, and how many are left out."""
+    """Return rows of the stacked residuals with the number of what is left out, and how many are left out."""
     groups = motions(problem)
     group_of = {i: number for number, group in enumerate(groups) for i in group}
     out: list[tuple[slice, int]] = []
@@ -82,7 +82,7 @@ class LinearFit:
 
 
 def linear_fit(problem: Problem, solution: Solution) -> LinearFit:
-    """Give a solution as a linear fit."""
+    """Return a solution as a linear fit."""
     residual = solution.residuals.stacked(problem.fitted, problem.relations)
     ends = set(solution.at_bounds)
     free = [f for f in solution.free if f.key not in ends]
@@ -93,7 +93,7 @@ def linear_fit(problem: Problem, solution: Solution) -> LinearFit:
 
 
 def left_out(problem: Problem, fit: LinearFit) -> Array:
-    """Give what is left of every motion by a fit to the others, (m,) like the stacked residuals [noise].
+    """Return what is left of every motion by a fit to the others, (m,) like the stacked residuals [noise].
 
     Args:
         problem: relations and noise.

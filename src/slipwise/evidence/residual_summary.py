@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.estimation.least_squares import Solution
-from slipwise.estimation.problem import Problem
+from slipwise.estimation.objective import Problem
 from slipwise.evidence.left_out import LinearFit, left_out, linear_fit
 
 Array = NDArray[np.float64]
@@ -40,20 +40,20 @@ class ResidualSummary:
     blocks: dict[str, Array]
 
     def fitted_level(self, relation: str) -> float:
-        """Give the mean squared residual of a relation on the fitted runs in units of the noise's variance."""
+        """Return the mean squared residual of a relation on the fitted runs in units of the noise's variance."""
         return self.fitted[relation] / max(self.counts[relation][0], 1)
 
     def left_out_level(self, relation: str) -> float:
-        """Give the same where each motion is predicted by a fit to the others."""
+        """Return the same where each motion is predicted by a fit to the others."""
         return self.left_out[relation] / max(self.counts[relation][0], 1)
 
     def held_out_level(self, relation: str) -> float:
-        """Give the same on the held-out runs."""
+        """Return the same on the held-out runs."""
         return self.held_out[relation] / max(self.counts[relation][1], 1)
 
 
 def mean_square(problem: Problem, solution: Solution, relation: str, runs: Sequence[int]) -> float:
-    """Give the mean squared residual of a relation over some runs [noise variance]."""
+    """Return the mean squared residual of a relation over some runs [noise variance]."""
     left = sum(float(np.sum(solution.residuals.parts[relation][i] ** 2)) for i in runs)
     return left / max(sum(int(np.count_nonzero(problem.runs[i].judged[relation])) for i in runs), 1)
 
@@ -97,6 +97,6 @@ def _in_blocks(problem: Problem, residual: Array) -> dict[str, Array]:
 
 
 def error_of(summary: ResidualSummary, relation: str) -> float:
-    """Give the held-out error of a relation in floors; that of the fitted runs where none is held out."""
+    """Return the held-out error of a relation in floors; that of the fitted runs where none is held out."""
     held = summary.counts[relation][1] > 0
     return float(np.sqrt(summary.held_out_level(relation) if held else summary.fitted_level(relation)))

@@ -23,31 +23,31 @@ FLOOR = 0.5
 
 
 def log_score(summary: ResidualSummary) -> float:
-    """Give the score of a hypothesis [nats]."""
+    """Return the score of a hypothesis [nats]."""
     fit = sum(n * np.log(max(summary.left_out_level(r), FLOOR)) for r, (n, _) in summary.counts.items())
     samples = sum(n for n, _ in summary.counts.values())
     return -0.5 * float(fit + summary.constants * np.log(max(samples, 2)))
 
 
 def score(before: ResidualSummary, after: ResidualSummary) -> float:
-    """Give by how much a hypothesis is worth more than another [nats]."""
+    """Return by how much a hypothesis is worth more than another [nats]."""
     return log_score(after) - log_score(before)
 
 
 def relative_drop(before: ResidualSummary, after: ResidualSummary, relation: str) -> float:
-    """Give the share of a relation's mean squared residual that a step takes away, of left-out motions [1]."""
+    """Return the share of a relation's mean squared residual that a step takes away, of left-out motions [1]."""
     level = max(before.left_out_level(relation), FLOOR)
     return 1.0 - max(after.left_out_level(relation), FLOOR) / level
 
 
 def largest_drop(before: ResidualSummary, after: ResidualSummary) -> tuple[float, str]:
-    """Give the largest `relative_drop` of any relation, and the relation; (0, "") where none falls."""
+    """Return the largest `relative_drop` of any relation, and the relation; (0, "") where none falls."""
     best = max((relative_drop(before, after, r), r) for r in before.fitted)
     return best if best[0] > 0.0 else (0.0, "")
 
 
 def lead(best: ResidualSummary, other: ResidualSummary) -> float:
-    """Give by how many standard errors the score of one hypothesis leads that of another, block by block.
+    """Return by how many standard errors the score of one hypothesis leads that of another, block by block.
 
     Args:
         best: the one; its own levels are the variances.

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from slipwise.instruments.joint_fit import EVIDENCE, Case, Fit, predicted
 from slipwise.instruments.suspects import Suspect
-from slipwise.statistics.normal_equations import inverse, parts_of, weighed
+from slipwise.regression.normal_equations import inverse, parts_of, weighed
 
 Array = NDArray[np.float64]
 #: A fault explains at least this part of what its relations show above their floors, and of what they showed at first.
@@ -87,19 +87,19 @@ def weigh(case: Case, first: Fit, before: Fit, after: Fit, number: int) -> Evide
 
 
 def _error(power: float) -> float:
-    """Give the standard error of a size that has so much weighed power behind it."""
+    """Return the standard error of a size that has so much weighed power behind it."""
     return 1.0 / float(np.sqrt(max(EVIDENCE * power, 1e-300)))
 
 
 def _apart(size: float, sizes: Iterable[float], errors: Iterable[float]) -> bool:
-    """Tell whether single sizes differ from the whole by more than usual, and by more than their errors."""
+    """Return whether single sizes differ from the whole by more than usual, and by more than their errors."""
     return any(
         abs(one - size) > max(_AGREE * abs(size), _APART * error) for one, error in zip(sizes, errors, strict=True)
     )
 
 
 def _alone(after: Fit, number: int) -> dict[str, Array]:
-    """Give a signature without what constants and the other explanations could imitate, relation -> (n,)."""
+    """Return a signature without what constants and the other explanations could imitate, relation -> (n,)."""
     own = {n: columns[:, 0] for n, columns in after.columns[number].items()}
     others = [block for i, block in enumerate(after.columns) if i != number]
     whole = {n: own.get(n, np.zeros(len(left))) for n, left in after.left.items()}
@@ -110,7 +110,7 @@ def _alone(after: Fit, number: int) -> dict[str, Array]:
 
 
 def _shares(first: Fit, before: Fit, after: Fit, balances: Mapping[str, float]) -> tuple[float, float]:
-    """Give the part of the excess over the floors that the last explanation took: of what was left, and of all."""
+    """Return the part of the excess over the floors that the last explanation took: of what was left, and of all."""
     took = was = began = 0.0
     for name in balances:
         squares = [float(np.sum((f.left[name] / after.floor[name]) ** 2)) for f in (first, before, after)]
@@ -122,7 +122,7 @@ def _shares(first: Fit, before: Fit, after: Fit, balances: Mapping[str, float]) 
 
 
 def possible(evidence: Evidence) -> bool:
-    """Tell whether a size has a sign that the fault can have."""
+    """Return whether a size has a sign that the fault can have."""
     return evidence.size > 0.0 or not evidence.suspect.one_sided
 
 

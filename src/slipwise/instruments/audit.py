@@ -12,20 +12,20 @@ from slipwise.channels import channel
 from slipwise.effects import Effect, catalogue
 from slipwise.effects._gauges import span
 from slipwise.instruments.acceptance import Evidence
-from slipwise.instruments.balances import relations
 from slipwise.instruments.delay_or_filter import passed
 from slipwise.instruments.fault_selection import select_faults
 from slipwise.instruments.joint_fit import KNOWN_MASS, RATED_MASS, Case, Fit, start
-from slipwise.instruments.logger_spectrum import estimate_logger
-from slipwise.instruments.repairs import for_balances
 from slipwise.instruments.report import AuditReport, Balance, Finding
-from slipwise.instruments.rounding import coarse
-from slipwise.instruments.rows import constants_of, noise_of_channels, noise_of_runs, prepare_runs, stack
-from slipwise.instruments.sample_faults import RAILS, SampleFault, sample_faults
 from slipwise.instruments.sentences import as_sentence, confusable, how_to_settle, nearest, sentence
 from slipwise.instruments.suspects import Suspect, effect_of
-from slipwise.instruments.wrong_units import WrongUnit
 from slipwise.instruments.zeros import values_of_zero, with_refined_zeros
+from slipwise.preparation.logger import estimate_logger
+from slipwise.preparation.repairs import for_balances
+from slipwise.preparation.rounding import coarse
+from slipwise.preparation.sample_faults import RAILS, SampleFault, sample_faults
+from slipwise.preparation.wrong_units import WrongUnit
+from slipwise.relations.balance_rows import constants_of, noise_of_channels, noise_of_runs, prepare_runs, stack
+from slipwise.relations.rigid_balances import relations
 from slipwise.signals.noise import quantum, white_level
 
 #: Nobody is surer than this.

@@ -10,12 +10,12 @@ from pathlib import Path
 from typing import Any
 
 from slipwise.campaign import Campaign, as_campaign
+from slipwise.display import Drawn, Tabular
 from slipwise.effects import Effect
 from slipwise.instruments.audit import NOTHING_MAPPED, audit
 from slipwise.instruments.corrections import correct
 from slipwise.instruments.report import AuditReport, Finding, LoggerEstimate
 from slipwise.instruments.sentences import shown
-from slipwise.shown import Drawn, Tabular
 
 
 @dataclass(frozen=True, repr=False)
@@ -54,7 +54,7 @@ class Checks(Drawn, Tabular):
         return self.report.notes if logger is None else (_logger(logger), *self.report.notes)
 
     def as_json(self) -> dict[str, Any]:
-        """Give the findings as `slipwise audit --json` prints them."""
+        """Return the findings as `slipwise audit --json` prints them."""
         return {
             "schema": 1,
             "campaign": self.report.campaign,

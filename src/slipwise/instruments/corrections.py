@@ -6,11 +6,11 @@ import numpy as np
 
 from slipwise.campaign import Campaign
 from slipwise.errors import InputError, unknown_name
-from slipwise.instruments.repairs import bridged
 from slipwise.instruments.report import AuditReport, Finding
-from slipwise.instruments.sample_faults import sample_faults
 from slipwise.instruments.suspects import declared, effect_of
 from slipwise.instruments.zeros import tared_cells
+from slipwise.preparation.repairs import bridged
+from slipwise.preparation.sample_faults import sample_faults
 from slipwise.record import Record
 
 
@@ -65,13 +65,13 @@ def _check_known_weight(finding: Finding, campaign: Campaign) -> None:
 
 
 def is_tared(finding: Finding, campaign: Campaign) -> bool:
-    """Tell whether a finding is a load cell, or all four, that was set to zero under the girder."""
+    """Return whether a finding is a load cell, or all four, that was set to zero under the girder."""
     cells = tared_cells(campaign)
     return finding.what == effect_of("shifted").name and bool(cells) and finding.channel in (*cells, "pad_*_N")
 
 
 def is_wrong_unit(finding: Finding) -> bool:
-    """Tell whether a finding is a channel off by a factor of units: more than a gain that a gauge can have."""
+    """Return whether a finding is a channel off by a factor of units: more than a gain that a gauge can have."""
     gain = effect_of("scaled").parameters[0]
     dead = finding.size <= -1.0
     return finding.what == effect_of("scaled").name and not dead and not gain.low <= finding.size <= gain.high

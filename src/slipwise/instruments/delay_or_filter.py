@@ -11,10 +11,10 @@ from slipwise.signals.filters import LowPass
 
 
 def passed(lowpass: LowPass | None, dt: float) -> float:
-    """Give the highest frequency that reached the record [Hz]: the logger's corner, or half the sampling rate."""
+    """Return the highest frequency that reached the record [Hz]: the logger's corner, or half the sampling rate."""
     return lowpass.frequency if lowpass else 0.5 / dt
 
 
 def is_delay(effect: Effect, values: Mapping[str, float], highest: float) -> bool:
-    """Tell whether an effect is a filter that takes nothing of what is slower than the highest frequency [Hz]."""
+    """Return whether an effect is a filter that takes nothing of what is slower than the highest frequency [Hz]."""
     return "corner" in effect.hooks and effect.hooks["corner"](**values) > highest

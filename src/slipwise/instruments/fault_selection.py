@@ -7,12 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.instruments.acceptance import Evidence, possible, weigh
+from slipwise.instruments.candidate_gain import supports
 from slipwise.instruments.delay_or_filter import is_delay
+from slipwise.instruments.disturbances import Alternative, alternatives
 from slipwise.instruments.joint_fit import Case, Fit, fit, noise_with_itself, signature, start
-from slipwise.instruments.physical_alternatives import Alternative, alternatives
-from slipwise.instruments.rows import Block
-from slipwise.instruments.support import supports
 from slipwise.instruments.suspects import Suspect, suspects
+from slipwise.relations.balance_rows import Block
 
 Array = NDArray[np.float64]
 #: Explanations that are tried at most, refused ones included.
@@ -128,7 +128,7 @@ def _disturbed(
     itself: Sequence[Mapping[str, float]],
     one_sided: Sequence[bool],
 ) -> tuple[int, Fit | None]:
-    """Give the suspect that explains most of what a fit leaves, and the fit with it; none where none is worth it.
+    """Return the suspect that explains most of what a fit leaves, and the fit with it; none where none is worth it.
 
     Cards that are a tenth of a millisecond apart matter to nobody, but may bend what a balance says of another gauge.
     """
@@ -140,7 +140,7 @@ def _disturbed(
 
 
 def _as_fitted_last(evidence: Sequence[Evidence], last: Fit) -> tuple[Evidence, ...]:
-    """Give evidence with the sizes of the last joint fit: what was named later had disturbed the earlier ones."""
+    """Return evidence with the sizes of the last joint fit: what was named later had disturbed the earlier ones."""
     sizes = {who.key: (size, error) for (who, size), error in zip(last.model.sizes, last.errors, strict=True)}
     return tuple(replace(e, size=sizes[e.suspect.key][0], error=sizes[e.suspect.key][1]) for e in evidence)
 
@@ -165,7 +165,7 @@ def _plainer(
 
 
 def _is_fuller(who: Suspect | Alternative, other: Suspect | Alternative) -> bool:
-    """Tell whether a suspect is the fuller form of another on the same gauges: a filter of a delay."""
+    """Return whether a suspect is the fuller form of another on the same gauges: a filter of a delay."""
     if not isinstance(who, Suspect) or not isinstance(other, Suspect):
         return False
     return (who.effect.plainer, who.target) == (other.effect.name, other.target)
@@ -176,7 +176,7 @@ def _loss(rival: tuple[str, float]) -> float:
 
 
 def _to_try(found: Array) -> list[int]:
-    """Give the numbers of the candidates that are worth a fit of their own: the best few that are near the best."""
+    """Return the numbers of the candidates that are worth a fit of their own: the best few that are near the best."""
     if len(found) == 0:
         return []
     best = np.argsort(-found)[:_TRIED]

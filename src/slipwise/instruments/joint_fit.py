@@ -12,13 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.effects import Effect
-from slipwise.instruments.balances import Relation
-from slipwise.instruments.physical_alternatives import Alternative
-from slipwise.instruments.rows import PreparedRun, Stack, adding, change, constants_of, stack, with_records
+from slipwise.instruments.disturbances import Alternative
 from slipwise.instruments.suspects import Suspect
+from slipwise.regression.least_squares import Move, gauss_newton
+from slipwise.regression.normal_equations import Block, Part, inverse, left_of, parts_of, weighed
+from slipwise.relations.balance_rows import PreparedRun, Stack, adding, change, constants_of, stack, with_records
+from slipwise.relations.rigid_balances import Relation
 from slipwise.rig import Specimen
-from slipwise.statistics.least_squares import Move, gauss_newton
-from slipwise.statistics.normal_equations import Block, Part, inverse, left_of, parts_of, weighed
 
 Array = NDArray[np.float64]
 #: A rated mass is taken to be right within this, a mass that the campaign gives within that [1].
@@ -69,7 +69,7 @@ class Case:
     effects: tuple[Effect, ...]
 
     def corrected(self, model: Model, *, noisier: bool = False) -> list[PreparedRun]:
-        """Give the runs without the faults of a model; with more noise, where noise is to be followed."""
+        """Return the runs without the faults of a model; with more noise, where noise is to be followed."""
         runs = adding(self.runs, self.noise, self.runs[0].record.channels) if noisier else self.runs
         for suspect, size in reversed(model.sizes):
             runs = with_records(runs, lambda r, s=suspect, z=size: s.correct(r, z))
@@ -209,7 +209,7 @@ def off_rated(case: Case, constants: Mapping[str, float]) -> float:
 
 
 def predicted(columns: Sequence[Block], name: str, solution: Array, first: NDArray[np.int64]) -> Array | float:
-    """Give what a solution predicts for the rows of one relation."""
+    """Return what a solution predicts for the rows of one relation."""
     total: Array | float = 0.0
     for i, block in enumerate(columns):
         if name in block:
@@ -218,20 +218,20 @@ def predicted(columns: Sequence[Block], name: str, solution: Array, first: NDArr
 
 
 def _floor(case: Case, model: Model, here: Stack, constants: Mapping[str, float]) -> dict[str, float]:
-    """Give what noise alone leaves in each relation, corrected as the records are."""
+    """Return what noise alone leaves in each relation, corrected as the records are."""
     noisy = case.stacked(case.corrected(model, noisier=True), constants)
     return {n: max(rms(noisy.residual[n] - r), 1e-12) for n, r in here.residual.items()}
 
 
 def rms(values: Array) -> float:
-    """Give the root of the mean square; a constant that is left counts too."""
+    """Return the root of the mean square; a constant that is left counts too."""
     return float(np.sqrt(np.mean(np.square(values)))) if len(values) else 0.0
 
 
 def signature(
     case: Case, suspect: Suspect, runs: Sequence[PreparedRun], here: Stack, constants: Mapping[str, float]
 ) -> dict[str, Array]:
-    """Give the change of the residuals for a unit of a suspect's size, relation -> (n, 1)."""
+    """Return the change of the residuals for a unit of a suspect's size, relation -> (n, 1)."""
     distorted = with_records(runs, lambda record: suspect.distort(record, suspect.step))
     found = change(distorted, case.relations, case.specimen, constants, here, frozenset(suspect.channels))
     return {name: rows[:, None] / suspect.step for name, rows in found.items()}
@@ -240,7 +240,7 @@ def signature(
 def noise_with_itself(
     case: Case, suspect: Suspect, runs: Sequence[PreparedRun], here: Stack, constants: Mapping[str, float]
 ) -> dict[str, float]:
-    """Give the product of a gain's signature with the residual that comes from the channel's own noise alone.
+    """Return the product of a gain's signature with the residual that comes from the channel's own noise alone.
 
     The signature of a gain is the channel with its noise, so a gain would "explain" noise by shrinking it. What a
     delay or an offset makes of noise has nothing to do with the noise itself.

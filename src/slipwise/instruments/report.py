@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from slipwise.campaign import Logger
+from slipwise.display import Drawn, Tabular
 from slipwise.effects import Effect
-from slipwise.shown import Drawn, Tabular
 from slipwise.signals.filters import LowPass
 
 
@@ -118,7 +118,7 @@ class AuditReport(Drawn, Tabular):
     notes: tuple[str, ...] = field(default=())
 
     def rows(self) -> list[dict[str, Any]]:
-        """Give the findings as rows of a table."""
+        """Return the findings as rows of a table."""
         return [
             {
                 "what": f.what,

@@ -37,12 +37,12 @@ def sentence(effect: Effect, place: str, size: float, unit: str) -> str:
 
 
 def nearest(rivals: Sequence[tuple[str, float]], gain: float) -> tuple[str, ...]:
-    """Give the rivals that explain nearly as much, nearest first."""
+    """Return the rivals that explain nearly as much, nearest first."""
     return tuple(dict.fromkeys(name for name, loss in rivals if loss < max(_NEAR, _PART * gain)))
 
 
 def confusable(effect: Effect) -> tuple[str, ...]:
-    """Give the names of the effects that are easily confused with this one, as its file says."""
+    """Return the names of the effects that are easily confused with this one, as its file says."""
     return tuple(effect.confused_with)
 
 

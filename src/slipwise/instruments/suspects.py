@@ -12,7 +12,7 @@ from slipwise.channels import channel, pads_in, part_of
 from slipwise.effects import Effect, catalogue
 from slipwise.effects._fault import GaugeFault
 from slipwise.effects._gauges import span
-from slipwise.instruments.gauge_groups import places_of
+from slipwise.preparation.gauge_groups import places_of
 from slipwise.record import Record
 from slipwise.rig import Specimen
 
@@ -64,28 +64,28 @@ class Suspect:
         return self.effect.name, self.label
 
     def distort(self, record: Record, size: float) -> Record:
-        """Give the record with the fault."""
+        """Return the record with the fault."""
         return self.effect.hooks["gauge"](record, self.target, **self.values(size))
 
     def correct(self, record: Record, size: float) -> Record:
-        """Give the record without the fault; where it has no inverse, as far as noise allows."""
+        """Return the record without the fault; where it has no inverse, as far as noise allows."""
         hooks = self.effect.hooks
         return hooks["undo" if "undo" in hooks else "sharpen"](record, self.target, **self.values(size))
 
 
 def declared(effect: Effect) -> GaugeFault:
-    """Give what an effect declares of itself as a gauge's fault."""
+    """Return what an effect declares of itself as a gauge's fault."""
     assert effect.fault is not None, f"{effect.name} is no fault of a gauge"
     return effect.fault
 
 
 def effect_of(kind: str) -> Effect:
-    """Give the effect of the catalogue that a fault of samples is."""
+    """Return the effect of the catalogue that a fault of samples is."""
     return next(e for e in catalogue().values() if e.fault and kind in e.fault.samples)
 
 
 def suspects(record: Record, specimen: Specimen, effects: Iterable[Effect]) -> list[Suspect]:
-    """Give all suspects for the channels of a record.
+    """Return all suspects for the channels of a record.
 
     Args:
         record: whose channels count.
@@ -119,7 +119,7 @@ def _of_effect(effect: Effect, record: Record, load: float) -> Iterator[Suspect]
 
 
 def _forms(effect: Effect, target: str, words: str, channels: tuple[str, ...], load: float) -> Iterator[Suspect]:
-    """Give a fault in each of its forms on one place; `load` is that of a pad over the reference rig's [1]."""
+    """Yield a fault in each of its forms on one place; `load` is that of a pad over the reference rig's [1]."""
     fault = declared(effect)
     own = fault.unit.startswith("channel")
     per = span(channels[0]) if own else 1.0

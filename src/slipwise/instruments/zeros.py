@@ -11,19 +11,19 @@ from slipwise.instruments.suspects import effect_of
 
 
 def zeros_of(campaign: Campaign) -> tuple[ShiftedZero, ...]:
-    """Give the channels of a campaign whose zero is far off."""
+    """Return the channels of a campaign whose zero is far off."""
     rig = campaign.specimen
     loads = tuple(f"pad_{pad}_N" for pad in rig.pads) if rig.free else ()
     return shifted_zeros([run.record for run in campaign.runs], loads, rig.weight)
 
 
 def tared_cells(campaign: Campaign) -> tuple[str, ...]:
-    """Give the load cells that do not show the girder's weight."""
+    """Return the load cells that do not show the girder's weight."""
     return tuple(name for zero in zeros_of(campaign) if zero.tared for name in zero.channels)
 
 
 def values_of_zero(zero: ShiftedZero) -> dict[str, float]:
-    """Give the parameters of the effect that a shifted zero is."""
+    """Return the parameters of the effect that a shifted zero is."""
     return {effect_of("shifted").parameters[0].name: zero.size / span(zero.channels[0])}
 
 

@@ -32,12 +32,12 @@ _WORDS: dict[str, Kind] = {
 
 
 def is_time_word(name: str) -> bool:
-    """Tell whether a column's name is one of time."""
+    """Return whether a column's name is one of time."""
     return _bare(name) in _TIME
 
 
 def is_column_word(name: str) -> bool:
-    """Tell whether a word is one that columns of motions are called by."""
+    """Return whether a word is one that columns of motions are called by."""
     return is_time_word(name) or _bare(name) in _ROW_NUMBER or bool(_word(name)) or orientation(name) != "unknown"
 
 

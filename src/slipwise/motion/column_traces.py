@@ -165,7 +165,7 @@ def _kind(table: ColumnTable, k: int, source: SourceFile) -> Kind:
 
 
 def _timed(table: ColumnTable, kinds: list[Kind], source: SourceFile, given: Given) -> tuple[ColumnTable, float | None]:
-    """Give the step [s] that the table states; where its clock wavers the values are put on even times.
+    """Return the step [s] that the table states; where its clock wavers the values are put on even times.
 
     Raises:
         InputError: several columns of times, or times that are not even or contradict what is stated.

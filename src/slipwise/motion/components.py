@@ -100,7 +100,7 @@ def _letters_judged(read: dict[Path, list[Trace]]) -> dict[Path, list[Trace]]:
 
 
 def _file_of(text: str, read: dict[Path, list[Trace]]) -> Path | None:
-    """Give the file of this name or path, None if there is none."""
+    """Return the file of this name or path, None if there is none."""
     named = [file for file in read if file.name == text or file.resolve() == Path(text).resolve()]
     if len(named) == 1:
         return named[0]
@@ -115,7 +115,7 @@ def _sign_and_name(choice: str, read: dict[Path, list[Trace]], traces: list[Trac
 
 
 def _pick(axis: str, choice: str, traces: list[Trace], read: dict[Path, list[Trace]]) -> tuple[Trace, int]:
-    """Give the component that a user chose for an axis, and its sign."""
+    """Return the component that a user chose for an axis, and its sign."""
     sign, name = _sign_and_name(choice, read, traces)
     file = _file_of(name, read)
     candidates = read[file] if file else _called(name, traces)
@@ -133,14 +133,14 @@ def _pick(axis: str, choice: str, traces: list[Trace], read: dict[Path, list[Tra
 
 
 def _called(name: str, traces: list[Trace]) -> list[Trace]:
-    """Give the components of this name or, where none has it, of this number: "Long", "Chan 3", "3"."""
+    """Return the components of this name or, where none has it, of this number: "Long", "Chan 3", "3"."""
     named = [trace for trace in traces if trace.name == name]
     named = named or [trace for trace in traces if plain(trace.name) == plain(name)]
     return named or [trace for trace in traces if plain(name) in {plain(alias) for alias in trace.aliases}]
 
 
 def _fill_by_name(chosen: dict[str, tuple[Trace, int] | None], left: list[Trace]) -> None:
-    """Give the axes that the user left open what the components' names say."""
+    """Return the axes that the user left open what the components' names say."""
     where = {id(trace): orientation(trace.name) for trace in left}
     open_axes = [axis for axis in AXES if axis not in chosen]
     vertical = [trace for trace in left if where[id(trace)] in ("up", "down", "table z")]

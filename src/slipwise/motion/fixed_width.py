@@ -52,5 +52,5 @@ def check_format(per_line: int, width: int, place: str) -> None:
 
 
 def lines_of(count: int, per_line: int) -> int:
-    """Give the number of lines that hold so many numbers."""
+    """Return the number of lines that hold so many numbers."""
     return -(-count // per_line)

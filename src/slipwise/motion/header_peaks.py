@@ -19,7 +19,7 @@ _NEAR = 0.01
 
 
 def peak_of(peaks: Sequence[Peak], name: str, place: int, columns: int) -> Peak | None:
-    """Give the stated peak of a column, None if none is stated.
+    """Return the stated peak of a column, None if none is stated.
 
     Args:
         peaks: as the header states them.
@@ -43,7 +43,7 @@ def peak_of(peaks: Sequence[Peak], name: str, place: int, columns: int) -> Peak 
 def unit_of_peaks(
     columns: Sequence[NDArray[np.float64]], peaks: Sequence[Peak | None], source: SourceFile
 ) -> tuple[str, str] | None:
-    """Give the unit in which the data reach the stated peaks, and the words for the record.
+    """Return the unit in which the data reach the stated peaks, and the words for the record.
 
     Args:
         columns: the accelerations as they stand in the file, each (n,).
@@ -67,7 +67,7 @@ def unit_of_peaks(
 
 
 def header_peak(peak: Peak, factor: float, source: SourceFile) -> HeaderPeak:
-    """Give the stated peak in SI; its own unit where it has one, else that of the data."""
+    """Return the stated peak in SI; its own unit where it has one, else that of the data."""
     own = _factor(peak.unit, source) if peak.unit else factor
     written = f"{peak.text} {peak.unit}".strip()
     return HeaderPeak(float(peak.text) * own, peak.time, half_last_digit(peak.text) * own, written)

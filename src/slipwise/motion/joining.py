@@ -45,7 +45,7 @@ def check_one_record(traces: Sequence[Trace], anyway: bool) -> None:
 
 
 def common_starts(traces: Sequence[Trace]) -> list[int]:
-    """Give how many samples of each component lie before the time from which on all of them are there.
+    """Return how many samples of each component lie before the time from which on all of them are there.
 
     Starts that files state to the sample are trusted; other components start together.
     """
@@ -58,7 +58,7 @@ def common_starts(traces: Sequence[Trace]) -> list[int]:
 
 
 def _exact(one: Trace, two: Trace) -> bool:
-    """Tell whether both state the time of their first sample exactly, and share some of their time."""
+    """Return whether both state the time of their first sample exactly, and share some of their time."""
     return (
         one.origin.exact_start
         and two.origin.exact_start

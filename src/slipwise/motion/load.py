@@ -24,7 +24,7 @@ def load_motion(
     count: str | None = None,
     allow_short: bool = False,
 ) -> TableMotion:
-    """Give the table motion that a user names.
+    """Return the table motion that a user names.
 
     Args:
         specs: one synthetic motion ("sine:2Hz,0.3g"), or the files of a recorded one.
@@ -76,7 +76,7 @@ def load_motion(
 
 
 def as_motion(given: TableMotion | str | Path | Sequence[str | Path]) -> TableMotion:
-    """Give the table motion that a user means: itself, a description ("sine:2Hz,0.3g"), or files.
+    """Return the table motion that a user means: itself, a description ("sine:2Hz,0.3g"), or files.
 
     Raises:
         SettingError: something else.

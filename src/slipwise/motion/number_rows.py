@@ -38,7 +38,7 @@ class Rows:
     places: Sequence[int]
 
     def table(self, source: SourceFile) -> Array:
-        """Give the values as a table (n, columns).
+        """Return the values as a table (n, columns).
 
         Raises:
             InputError: rows of different lengths.
@@ -48,16 +48,16 @@ class Rows:
         return table_of_numbers(source, self.places, len(self.values[0]))
 
     def series(self) -> Array:
-        """Give all numbers in reading order."""
+        """Return all numbers in reading order."""
         return self.values.ravel() if isinstance(self.values, np.ndarray) else np.concatenate(self.values)
 
     def below(self, lines: int) -> "Rows":
-        """Give the rows below the first ones."""
+        """Return the rows below the first ones."""
         return replace(self, values=self.values[lines:], places=self.places[lines:])
 
 
 def find_first_row(lines: Sequence[str]) -> int | None:
-    """Give the index of the first line that holds nothing but numbers, None if there is none."""
+    """Return the index of the first line that holds nothing but numbers, None if there is none."""
     return next((i for i, line in enumerate(lines) if numbers_of(line)), None)
 
 
@@ -106,7 +106,7 @@ def _after_the_headers_own(lines: Sequence[str], start: int) -> int:
 
 
 def _before_end_marks(lines: Sequence[str], start: int) -> int:
-    """Give the index after the last row: below it may stand a few lines of words, such as END."""
+    """Return the index after the last row: below it may stand a few lines of words, such as END."""
     end = len(lines)
     for _ in range(_END_MARKS + 1):
         while end > start + 1 and not lines[end - 1].strip():
@@ -150,7 +150,7 @@ def refuse_cut_number(source: SourceFile, places: Sequence[int]) -> None:
 
 
 def numbers_of(line: str) -> list[str]:
-    """Give the fields of a line that holds nothing but numbers, with decimal points; none for another line."""
+    """Return the fields of a line that holds nothing but numbers, with decimal points; none for another line."""
     delimiter = _delimiter(line)
     return [] if delimiter is None else [field.replace(",", ".") for field in _fields(line, delimiter)]
 

@@ -38,7 +38,7 @@ _MEASURED = re.compile(
 
 
 def plain(name: str) -> str:
-    """Give a name without case, blanks, hyphens and "DEG": "E-W" is "EW", "90 Deg" is "90"."""
+    """Return a name without case, blanks, hyphens and "DEG": "E-W" is "EW", "90 Deg" is "90"."""
     text = re.sub(r"\([^()]*\)", "", name.strip().upper())
     text = re.sub(r"\s*\bDEG(REES?)?\b\.?", "", text.strip())
     return re.sub(r"[\s-]", "", text)
@@ -86,12 +86,12 @@ def sensor_of(name: str) -> str:
 
 
 def component_of(stated: Statements) -> str:
-    """Give the component that a header states, "" if it states none that is known."""
+    """Return the component that a header states, "" if it states none that is known."""
     return next((value for value in stated.texts.get("component", ()) if orientation(value) != "unknown"), "")
 
 
 def name_from_stem(stem: str) -> str:
-    """Give the component's name that a file name ends in, "" if it ends in none: "TCU065-E", "TAK-090", "ABBAR--L".
+    """Return the component's name that a file name ends in, "" if it ends in none: "TCU065-E", "TAK-090", "ABBAR--L".
 
     The format of a file is never taken from its name; the component is, when the file itself does not say it.
     """

@@ -31,7 +31,7 @@ class Origin:
 
 
 def origin_of(stated: Statements) -> Origin:
-    """Give what the header of a text file states of its origin."""
+    """Return what the header of a text file states of its origin."""
 
     def first(fact: str) -> str:
         return next(iter(stated.texts.get(fact, ())), "")
@@ -46,7 +46,7 @@ def origin_of(stated: Statements) -> Origin:
 
 
 def time_in(text: str) -> datetime | None:
-    """Give the time that stands in a text with the year first, None if there is none: "20190728_160919.870"."""
+    """Return the time that stands in a text with the year first, None if there is none: "20190728_160919.870"."""
     found = _TIME.search(text)
     if found is None:
         return None

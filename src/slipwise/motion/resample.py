@@ -31,7 +31,7 @@ _MOST_SAMPLES = 50_000_000
 
 
 def resample(motion: TableMotion, dt: float) -> TableMotion:
-    """Give the motion at another step.
+    """Return the motion at another step.
 
     Args:
         motion: the motion.
@@ -63,7 +63,7 @@ def resample(motion: TableMotion, dt: float) -> TableMotion:
 
 
 def _refined(values: NDArray[np.float64], old: float, new: float) -> tuple[NDArray[np.float64], int]:
-    """Give the values on a finer grid, without what the new step cannot carry; and how many times finer it is.
+    """Return the values on a finer grid, without what the new step cannot carry; and how many times finer it is.
 
     The grid reaches `_BEYOND` samples beyond either end of the record.
     """

@@ -45,7 +45,7 @@ class SourceFile:
     path: Path | None = None
 
     def at(self, index: int) -> str:
-        """Give "name, line 5" for the line with index 4."""
+        """Return "name, line 5" for the line with index 4."""
         return f"{self.name}, line {index + 1}"
 
 
@@ -85,7 +85,7 @@ def source_of(name: str, stem: str, data: bytes) -> SourceFile:
 
 
 def number(text: str, place: str) -> float:
-    """Give a number of a file.
+    """Return a number of a file.
 
     Args:
         text: as it stands in the file.
@@ -107,7 +107,7 @@ def number(text: str, place: str) -> float:
 
 
 def is_number(text: str) -> bool:
-    """Tell whether a field is meant as a number, be it NaN."""
+    """Return whether a field is meant as a number, be it NaN."""
     return bool(_NUMBER.fullmatch(text)) or text.lower().lstrip("+-") in ("nan", "inf", "infinity")
 
 
@@ -137,7 +137,7 @@ def _fields(line: str) -> list[str]:
 
 
 def _end_of_values(source: SourceFile, start: int) -> int:
-    """Give the index after the last line with a digit: a mark such as END or / may stand below."""
+    """Return the index after the last line with a digit: a mark such as END or / may stand below."""
     end = len(source.lines)
     while end > start and not re.search(r"\d|nan|inf", source.lines[end - 1], re.IGNORECASE):
         end -= 1

@@ -39,7 +39,7 @@ class Given:
             raise InputError(f"the step given, {self.dt!r} s, is not possible; give a positive one")
 
     def factor(self, source: SourceFile) -> tuple[float, str] | None:
-        """Give the factor from what the values are in to m/s^2 and what was given, None if nothing is.
+        """Return the factor from what the values are in to m/s^2 and what was given, None if nothing is.
 
         Raises:
             UnitError: it is none of acceleration, or a unit and a count are given.
@@ -61,7 +61,7 @@ class Given:
 
 
 def settle_unit(stated: str | None, given: Given, source: SourceFile, line: str = "") -> tuple[float, str]:
-    """Give the factor to m/s^2 and the words for the record.
+    """Return the factor to m/s^2 and the words for the record.
 
     Args:
         stated: the unit that the file states, None if it states none.
@@ -95,7 +95,7 @@ def _header_line(line: str) -> str:
 
 
 def settle_step(stated: float | None, given: Given, source: SourceFile, line: str = "") -> tuple[float, str]:
-    """Give the step [s] and the words for the record.
+    """Return the step [s] and the words for the record.
 
     Args:
         stated: what the file states [s], None if it states none.
@@ -128,7 +128,7 @@ def settle_step(stated: float | None, given: Given, source: SourceFile, line: st
 
 
 def agreed_step(stated: float | None, other: float | None, by: str, source: SourceFile) -> float | None:
-    """Give the step [s] that two places of a file state, None if neither does.
+    """Return the step [s] that two places of a file state, None if neither does.
 
     Args:
         stated: by the header.
@@ -147,7 +147,7 @@ def agreed_step(stated: float | None, other: float | None, by: str, source: Sour
 
 
 def agreed_unit(one: str | None, other: str | None, source: SourceFile) -> str | None:
-    """Give the unit of acceleration that a column and the header above it state, None if neither does.
+    """Return the unit of acceleration that a column and the header above it state, None if neither does.
 
     Raises:
         UnitError: they differ, or one is none of acceleration.

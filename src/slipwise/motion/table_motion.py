@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.display import Drawn, frame
 from slipwise.errors import InputError
-from slipwise.shown import Drawn, frame
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -110,7 +110,7 @@ class TableMotion(Drawn):
         return np.abs(self.acceleration).max(axis=0)
 
     def to_pandas(self) -> "DataFrame":
-        """Give time and acceleration as the columns of a pandas frame, SI.
+        """Return time and acceleration as the columns of a pandas frame, SI.
 
         Raises:
             InputError: pandas is not installed.

@@ -13,7 +13,7 @@ _WAVERS = 0.2
 
 
 def even_step(time: Array, rounding: float, at: Callable[[int], str]) -> tuple[float, bool]:
-    """Give the step of times that rise evenly, in their unit, and whether the clock wavers.
+    """Return the step of times that rise evenly, in their unit, and whether the clock wavers.
 
     Args:
         time: (n,).
@@ -45,17 +45,17 @@ def even_step(time: Array, rounding: float, at: Callable[[int], str]) -> tuple[f
 
 
 def last_digit(text: str) -> float:
-    """Give the worth of the last digit of a number as written: 0.01 for "12,30"."""
+    """Return the worth of the last digit of a number as written: 0.01 for "12,30"."""
     mantissa, _, exponent = text.lower().replace(",", ".").replace("d", "e").partition("e")
     return 10.0 ** (-len(mantissa.partition(".")[2]) + max(-300, min(300, int(exponent or 0))))
 
 
 def rises_evenly(first: Array) -> bool:
-    """Tell whether a column (n,) may be one of times: it rises by nearly the same step at every row."""
+    """Return whether a column (n,) may be one of times: it rises by nearly the same step at every row."""
     steps = np.diff(first)
     return bool(len(steps) > 2 and (steps > 0).all() and steps.max() < 1.5 * np.median(steps))
 
 
 def counts_rows(first: Array) -> bool:
-    """Tell whether a column (n,) numbers the rows: whole numbers that rise by one from 0 or 1."""
+    """Return whether a column (n,) numbers the rows: whole numbers that rise by one from 0 or 1."""
     return len(first) > 2 and first[0] in (0.0, 1.0) and bool((np.diff(first) == 1.0).all())

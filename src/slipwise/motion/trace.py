@@ -66,6 +66,6 @@ class Trace:
 
 
 def half_last_digit(text: str) -> float:
-    """Give half of the last digit of a number as written: 0.0005 for "22.962"."""
+    """Return half of the last digit of a number as written: 0.0005 for "22.962"."""
     decimals = text.strip().partition(".")[2]
     return 0.5 * 10.0 ** -len(decimals)

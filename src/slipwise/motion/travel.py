@@ -44,12 +44,12 @@ def table_displacement(motion: TableMotion, drift: Drift = "linear") -> Array:
 
 
 def velocity_peak(motion: TableMotion, drift: Drift = "linear") -> Array:
-    """Give the largest absolute velocity of x, y, z (3,) [m/s]; see `table_velocity`."""
+    """Return the largest absolute velocity of x, y, z (3,) [m/s]; see `table_velocity`."""
     return np.abs(table_velocity(motion, drift)).max(axis=0)
 
 
 def displacement_peak(motion: TableMotion, drift: Drift = "linear") -> Array:
-    """Give the largest absolute displacement of x, y, z (3,) [m]; see `table_displacement`."""
+    """Return the largest absolute displacement of x, y, z (3,) [m]; see `table_displacement`."""
     return np.abs(table_displacement(motion, drift)).max(axis=0)
 
 

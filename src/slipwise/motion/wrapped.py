@@ -14,7 +14,7 @@ _SHORTEST = 8
 
 
 def wrapped_series(rows: Rows) -> Array | None:
-    """Give the series (n,) in reading order, None where the rows are no wrapped series.
+    """Return the series (n,) in reading order, None where the rows are no wrapped series.
 
     A single line or a short last line is a sign of it; without one, neighbours in a line must be closer than neighbours
     in a column.
@@ -36,7 +36,7 @@ def wrapped_series(rows: Rows) -> Array | None:
 
 
 def wrapped_pairs(rows: Rows) -> Array | None:
-    """Give pairs of time and value (n, 2) that stand several to a line, as functions of finite-element programs do.
+    """Return pairs of time and value (n, 2) that stand several to a line, as functions of finite-element programs do.
 
     None where every other number does not rise evenly in reading order.
     """

@@ -58,7 +58,7 @@ class Rig:
 
 
 def pad_frequencies(specimen: Specimen) -> dict[str, float]:
-    """Give the frequencies of heave, pitch and roll on the pads [Hz], each by itself, the girder taken as rigid."""
+    """Return the frequencies of heave, pitch and roll on the pads [Hz], each by itself, the girder taken as rigid."""
     stiffness, mass = stiffness_at_rest(specimen), np.array([specimen.carried_mass, *specimen.inertia[:2]])
     values = np.sqrt(np.diag(stiffness) / mass) / (2.0 * np.pi)
     heave, roll, pitch = (float(value) for value in values)
@@ -66,14 +66,14 @@ def pad_frequencies(specimen: Specimen) -> dict[str, float]:
 
 
 def stiffness_at_rest(specimen: Specimen) -> NDArray[np.float64]:
-    """Give the stiffness of all pads against heave, roll and pitch of the girder (3, 3) [N/m, N, N m]."""
+    """Return the stiffness of all pads against heave, roll and pitch of the girder (3, 3) [N/m, N, N m]."""
     arms = np.array(specimen.pad_places) - [specimen.centre_x, specimen.centre_y]
     shape = np.stack([-np.ones(len(arms)), -arms[:, 1], arms[:, 0]], axis=1)
     return shape.T @ (np.array(specimen.springs)[:, None] * shape)
 
 
 def largest_step(specimen: Specimen) -> float:
-    """Give the largest time step [s] that the pads' stiffness allows: that of the stiffest mode, coupled as it is."""
+    """Return the largest time step [s] that the pads' stiffness allows: that of the stiffest mode, coupled as it is."""
     if not specimen.free:
         return _STABLE / (2.0 * np.pi * pad_frequencies(specimen)["heave"])
     scale = 1.0 / np.sqrt([specimen.mass, *specimen.inertia[:2]])

@@ -26,7 +26,7 @@ _SCALED = ("pad_radius", "pad_stiffness", "pad_damping", "buffer_stiffness")
 
 
 def changed_parts(rig: str, name: str, parts: Sequence[Part], given: Any) -> tuple[Part, ...]:
-    """Give pads or buffers with other values.
+    """Return pads or buffers with other values.
 
     Args:
         rig: its name, for the message.
@@ -58,6 +58,6 @@ def changed_parts(rig: str, name: str, parts: Sequence[Part], given: Any) -> tup
 
 
 def _fields(part: Place | Buffer, fields: Sequence[str], new: float, old: float) -> dict[str, float]:
-    """Give the new value of each field: those behind the first keep their ratio to it."""
+    """Return the new value of each field: those behind the first keep their ratio to it."""
     further = {f: getattr(part, f) / old * new if old else new for f in fields[1:]}
     return {fields[0]: new, **further}

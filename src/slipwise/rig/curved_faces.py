@@ -13,7 +13,7 @@ _SPHERE = 0.9
 
 
 def risen(slip: Array, specimen: Specimen) -> Array:
-    """Give how far a girder stands higher than in the middle, mean of its pads by their stiffness, (n,) [m].
+    """Return how far a girder stands higher than in the middle, mean of its pads by their stiffness, (n,) [m].
 
     Args:
         slip: (n, 2) of the girder over the table [m].
@@ -23,7 +23,7 @@ def risen(slip: Array, specimen: Specimen) -> Array:
 
 
 def rise_rate(slip: Array, velocity: Array, specimen: Specimen) -> Array:
-    """Give the rate of that rise, (n,) [m/s].
+    """Return the rate of that rise, (n,) [m/s].
 
     Args:
         slip: (n, 2) of the girder over the table [m].

@@ -14,13 +14,13 @@ SPECIMEN_FILE = "specimen.toml"
 
 
 def models_folder() -> Path:
-    """Give the folder of the MJCF files: inside the installed package, or beside `src` in a checkout."""
+    """Return the folder of the MJCF files: inside the installed package, or beside `src` in a checkout."""
     packed = Path(str(files("slipwise"))) / "models"
     return packed if packed.is_dir() else Path(__file__).parents[3] / "models"
 
 
 def shipped_file(free: bool) -> str:
-    """Give the name of the shipped file that a rig is held against: of a girder that is free, or of prescribed slip."""
+    """Return name of the shipped file that a rig is held against: of a girder that is free, or of prescribed slip."""
     return "bridge1.xml" if free else "pad.xml"
 
 

@@ -21,19 +21,19 @@ Array = NDArray[np.float64]
 
 
 def storey_channels(storeys: Sequence[Storey], axis: str = "x") -> tuple[str, ...]:
-    """Give the channels of the storeys' accelerations along an axis, from below."""
+    """Return the channels of the storeys' accelerations along an axis, from below."""
     return tuple(f"{name}_a{axis}" for name in storey_names(storeys))
 
 
 def frame_push(record: Record, specimen: Specimen, axis: str = "x") -> Array:
-    """Give the force of the storeys on the girder along an axis (n,) [N]; nothing where not all were measured."""
+    """Return the force of the storeys on the girder along an axis (n,) [N]; nothing where not all were measured."""
     return -np.sum([np.zeros(len(record)), *_inertia(record, specimen.storeys, axis)], axis=0)
 
 
 def frame_moment(
     record: Record, storeys: Sequence[Storey], felt: Array, axis: str = "x", about: float = 0.0
 ) -> Array:  # fmt: skip
-    """Give the moment of the storeys on the girder (n,) [N m], positive where it loads the pads at the + end.
+    """Return the moment of the storeys on the girder (n,) [N m], positive where it loads the pads at the + end.
 
     Nothing where not all storeys were measured.
 
@@ -53,7 +53,7 @@ def frame_moment(
 
 
 def floor_sway(record: Record, storeys: Sequence[Storey], axis: str = "x") -> list[Array]:
-    """Give how far each floor stands beside the girder along an axis, (n,) each [m]; none where one was not measured.
+    """Return how far each floor stands beside the girder along an axis, (n,) each [m]; none where one was not measured.
 
     Args:
         record: with the storeys' accelerations.
@@ -69,7 +69,7 @@ def floor_sway(record: Record, storeys: Sequence[Storey], axis: str = "x") -> li
 
 
 def frame_noise(specimen: Specimen, noise: Mapping[str, float]) -> tuple[float, float]:
-    """Give the noise of the storeys' push along x [N], and of its moment about the centre of gravity [N m]."""
+    """Return the noise of the storeys' push along x [N], and of its moment about the centre of gravity [N m]."""
     storeys = specimen.storeys
     levels = [noise.get(name, 0.0) * s.mass for name, s in zip(storey_channels(storeys), storeys, strict=True)]
     arms = [level * (s.z - specimen.centre_height) for level, s in zip(levels, storeys, strict=True)]

@@ -56,7 +56,7 @@ def read_known(part: Mapping[str, Any], where: str) -> dict[str, float | str]:
 
 
 def better_known(specimen: Specimen, known: Mapping[str, float | str], source: str) -> Specimen:
-    """Give a specimen with what is known better; a stiffness of buffers is that of each.
+    """Return a specimen with what is known better; a stiffness of buffers is that of each.
 
     Args:
         specimen: with its rated values.
@@ -71,7 +71,7 @@ def better_known(specimen: Specimen, known: Mapping[str, float | str], source: s
 
 
 def known_better(specimen: Specimen, rated: Specimen) -> dict[str, float | str]:
-    """Give what a specimen has other than its rated values, name -> value [SI]; unequal buffers give their mean."""
+    """Return what a specimen has other than its rated values, name -> value [SI]; unequal buffers give their mean."""
     names = [n for n in (*SPECIMEN_UNITS, *SPECIMEN_WORDS) if getattr(specimen, n) != getattr(rated, n)]
     found: dict[str, float | str] = {n: getattr(specimen, n) for n in names if n != "buffer_stiffness"}
     if "buffer_stiffness" in names:

@@ -98,7 +98,7 @@ def _places(file: Mjcf) -> tuple[Place, ...]:
 
 
 def _element(value: str, part: str) -> tuple[str, str]:
-    """Give the kind and the name of the element that a value of a pad or a buffer stands in."""
+    """Return the kind and the name of the element that a value of a pad or a buffer stands in."""
     if value in OF_EACH_PAD:
         return "numeric", value
     if value.startswith("buffer"):

@@ -50,34 +50,34 @@ class LoadBasis:
 
 
 def basis_of(specimen: Specimen) -> LoadBasis:
-    """Give the patterns of a specimen's pads."""
+    """Return the patterns of a specimen's pads."""
     return load_basis(specimen.pad_places, specimen.springs)
 
 
 def has_corners(specimen: Specimen) -> bool:
-    """Tell whether four pads stand one at each corner: what differs between them is along, across or diagonal."""
+    """Return whether four pads stand one at each corner: what differs between them is along, across or diagonal."""
     sides = basis_of(specimen).sides
     return len(sides) == 4 and len({(x > 0.0, y > 0.0) for x, y in sides if x != 0.0 and y != 0.0}) == 4
 
 
 def warps(specimen: Specimen) -> tuple[str, ...]:
-    """Give the names of a specimen's warps: none of three pads, "warp" of four, "warp" and "warp_2" of five ..."""
+    """Return the names of a specimen's warps: none of three pads, "warp" of four, "warp" and "warp_2" of five ..."""
     return WARPS[: max(len(specimen.pads) - 3, 0)]
 
 
 def by_warp(specimen: Specimen, loads: Array) -> dict[str, Array]:
-    """Give what loads (..., n) of the pads are in each warp, name -> (...)."""
+    """Return what loads (..., n) of the pads are in each warp, name -> (...)."""
     return dict(zip(warps(specimen), basis_of(specimen).warp @ np.moveaxis(loads, -1, 0), strict=True))
 
 
 def is_uneven(specimen: Specimen) -> bool:
-    """Tell whether pads are stated to stand at heights that no plane goes through: they warp the loads at rest."""
+    """Return whether pads are stated to stand at heights that no plane goes through: they warp the loads at rest."""
     loads = np.array(specimen.springs) * specimen.seating
     return any(abs(load) > _WARPED * specimen.weight for load in by_warp(specimen, loads).values())
 
 
 def buffer_sides(specimen: Specimen) -> tuple[float, ...]:
-    """Give on which side each buffer stands, -1 to 1: across from their middle, or along where all stand in one line.
+    """Return on which side each buffer stands, -1 to 1: across from their middle, or along where all stand in one line.
 
     Of one buffer, or where all stand in one place, it is 1.
     """
@@ -90,7 +90,7 @@ def buffer_sides(specimen: Specimen) -> tuple[float, ...]:
 
 
 def buffers_off_centre(specimen: Specimen) -> tuple[float, float]:
-    """Give how far the buffers' middle lies from the centre of gravity (x, y) [m]: that of those along y, along x.
+    """Return how far the buffers' middle lies from the centre of gravity (x, y) [m]: that of those along y, along x.
 
     A force along x at y turns the girder, and so moves it across where those along y stand off x.
     """
@@ -102,7 +102,7 @@ def buffers_off_centre(specimen: Specimen) -> tuple[float, float]:
 
 
 def end_pairs(specimen: Specimen) -> tuple[tuple[str, str], ...]:
-    """Give the pads that stand beside each other across the girder: same x, neighbours along y, the one at +y first."""
+    """Return pads that stand beside each other across the girder: same x, neighbours along y, the one at +y first."""
     ends: dict[float, list[Place]] = {}
     for place in specimen.places:
         same = next((x for x in ends if abs(x - place.x) <= _SAME), place.x)
@@ -112,7 +112,7 @@ def end_pairs(specimen: Specimen) -> tuple[tuple[str, str], ...]:
 
 
 def load_basis(places: Sequence[tuple[float, float]], springs: Sequence[float] | None = None) -> LoadBasis:
-    """Give the patterns of pads.
+    """Return the patterns of pads.
 
     Args:
         places: (n, 2) of three pads or more that do not stand on one line [m].
@@ -138,7 +138,7 @@ def _made(places: tuple[tuple[float, float], ...], springs: tuple[float, ...]) -
 
 
 def _warp(rigid: Array, weights: Array) -> Array:
-    """Give the patterns w with w @ loads = 0 for every load of a rigid girder, k_i (a + b x_i + c y_i)."""
+    """Return the patterns w with w @ loads = 0 for every load of a rigid girder, k_i (a + b x_i + c y_i)."""
     count = rigid.shape[1]
     if count <= 3:
         return np.empty((0, count))

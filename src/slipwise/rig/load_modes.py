@@ -87,7 +87,7 @@ def pad_loads(modes: LoadModes, basis: LoadBasis) -> Array:
 
 
 def vertical_acceleration(record: Record) -> Array:
-    """Give a_z of the girder's centre of gravity (n,) [m/s^2]: measured there, or as the mean of its two edges.
+    """Return a_z of the girder's centre of gravity (n,) [m/s^2]: measured there, or as the mean of its two edges.
 
     Raises:
         InputError: neither was recorded.
@@ -100,7 +100,7 @@ def vertical_acceleration(record: Record) -> Array:
 
 
 def rest_shares(record: Record, pads: Sequence[str] | None = None) -> Array:
-    """Give the share of the weight on each pad (p,), summing to 1; of the record's pads when none are named.
+    """Return the share of the weight on each pad (p,), summing to 1; of the record's pads when none are named.
 
     Taken while the table rests at the start; from the whole record's mean where it begins in motion.
     """
@@ -150,7 +150,7 @@ def rigid_modes(
     pads_on: str = "table",
     storeys: Sequence[Storey] = (),
 ) -> LoadModes:
-    """Give the modes that equilibrium of a rigid girder asks for, from accelerations and slip alone.
+    """Return the modes that equilibrium of a rigid girder asks for, from accelerations and slip alone.
 
     heave = m (g + a_z); pitch = (-m a_x h + x heave) / half_x; roll likewise; warp = 0. The term x heave (P-delta) is
     the weight that moves over pads which stand on the table. Buffers push at the sliding plane and turning is slow.

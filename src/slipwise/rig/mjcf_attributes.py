@@ -208,7 +208,7 @@ def _compare(
 
 
 def fields_of(model: mujoco.MjModel, prefix: str) -> Iterator[str]:
-    """Give the fields of a kind of part of a compiled model, without their prefix."""
+    """Return the fields of a kind of part of a compiled model, without their prefix."""
     return (name.removeprefix(f"{prefix}_") for name in dir(model) if name.startswith(f"{prefix}_"))
 
 

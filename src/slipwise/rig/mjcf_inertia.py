@@ -29,7 +29,7 @@ class GirderBody:
 
 
 def bodies_of_girder(model: mujoco.MjModel) -> list[int]:
-    """Give the girder's body and those that are fixed to it, by their ids."""
+    """Return the girder's body and those that are fixed to it, by their ids."""
     girder = model.body("girder").id
     inside = [girder]
     for body in range(girder + 1, model.nbody):
@@ -68,7 +68,7 @@ def _turned(moments: Array, quaternion: Array) -> Array:
 
 
 def principal_inertia(file: Mjcf, body: GirderBody) -> tuple[float, float, float]:
-    """Give the girder's moments of inertia about the axes x, y, z through its centre of gravity [kg m^2].
+    """Return the girder's moments of inertia about the axes x, y, z through its centre of gravity [kg m^2].
 
     Raises:
         InputError: its principal axes are others.

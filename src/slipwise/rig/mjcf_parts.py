@@ -37,13 +37,13 @@ _FROM_GEOMS = int(mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_TRUE)
 
 
 def names_of(model: mujoco.MjModel, kind: str) -> list[str]:
-    """Give the names of all bodies, joints, geoms ... of a compiled model, in order."""
+    """Return the names of all bodies, joints, geoms ... of a compiled model, in order."""
     count = {"joint": "njnt", "actuator": "nu"}.get(kind, f"n{kind}")
     return [getattr(model, kind)(i).name for i in range(getattr(model, count))]
 
 
 def is_free(model: mujoco.MjModel) -> bool:
-    """Tell whether the girder can move along the table; if not, its slip is prescribed."""
+    """Return whether the girder can move along the table; if not, its slip is prescribed."""
     return not set(names_of(model, "joint")).isdisjoint({*FREE_JOINTS} - {*GUIDED_JOINTS})
 
 
@@ -72,12 +72,12 @@ def check_parts(file: Mjcf) -> None:
 
 
 def pads_of(file: Mjcf) -> tuple[str, ...]:
-    """Give the names of the pads that the file has, in its order."""
+    """Return the names of the pads that the file has, in its order."""
     return tuple(match[1] for name in names_of(file.model, "geom") if (match := _PAD.fullmatch(name)))
 
 
 def buffers_of(file: Mjcf) -> tuple[str, ...]:
-    """Give the names of the buffers that the file has, in its order."""
+    """Return the names of the buffers that the file has, in its order."""
     found = (_BUFFER.fullmatch(name) for name in names_of(file.model, "tendon"))
     return tuple(dict.fromkeys(match[1] for match in found if match))
 

@@ -14,7 +14,7 @@ _OFF = 4.0
 
 
 def pad_places(file: Mjcf) -> Places:
-    """Give the places of the pads from the middle of the table (n_pads, 2) [m].
+    """Return the places of the pads from the middle of the table (n_pads, 2) [m].
 
     Raises:
         InputError: a free girder's pads stand all on one side of its centre of gravity.
@@ -36,12 +36,12 @@ def pad_places(file: Mjcf) -> Places:
 
 
 def pad_radii(file: Mjcf) -> tuple[float, ...]:
-    """Give the radius of each pad (n_pads,) [m]."""
+    """Return the radius of each pad (n_pads,) [m]."""
     return tuple(float(file.model.geom(f"pad_{pad}").size[0]) for pad in pads_of(file))
 
 
 def seating(file: Mjcf) -> tuple[float, ...]:
-    """Give the height of each pad above the sliding plane (n_pads,) [m].
+    """Return the height of each pad above the sliding plane (n_pads,) [m].
 
     Raises:
         InputError: a plate does not lie on its pad, or no pad reaches it, or the girder is inside its pads.
@@ -82,7 +82,7 @@ def seating(file: Mjcf) -> tuple[float, ...]:
 
 
 def edge_distance(file: Mjcf) -> float:
-    """Give how far the two gauges at the girder's edges are from its centre of gravity, along x [m].
+    """Return how far the two gauges at the girder's edges are from its centre of gravity, along x [m].
 
     Raises:
         InputError: a site of a gauge is missing or stands elsewhere.
@@ -115,6 +115,6 @@ def edge_distance(file: Mjcf) -> float:
 
 
 def buffer_places(file: Mjcf) -> Places:
-    """Give the places of the buffers from the middle of the table (n_buffers, 2) [m]."""
+    """Return the places of the buffers from the middle of the table (n_buffers, 2) [m]."""
     places = (file.model.geom(f"buffer_{buffer}").pos for buffer in buffers_of(file))
     return tuple((float(place[0]), float(place[1])) for place in places)

@@ -20,7 +20,7 @@ _NAME = re.compile(r"storey_([1-9][0-9]*)")
 
 
 def storey_bodies(model: mujoco.MjModel) -> list[str]:
-    """Give the names of the bodies that are storeys, in the order of their numbers."""
+    """Return the names of the bodies that are storeys, in the order of their numbers."""
     found = [name for i in range(model.nbody) if _NAME.fullmatch(name := model.body(i).name)]
     return sorted(found, key=lambda name: int(name.partition("_")[2]))
 
@@ -77,7 +77,7 @@ def _check_place(file: Mjcf, name: str, number: int) -> None:
 
 
 def _column(file: Mjcf, name: str, axis: str) -> float:
-    """Give the stiffness of a storey's joint [N/m], once all else of it is as a replay has it."""
+    """Return the stiffness of a storey's joint [N/m], once all else of it is as a replay has it."""
     shipped = mujoco.MjModel.from_xml_path(str(models_folder() / "building.xml"))
     ours, theirs = shipped.joint(f"storey_1_{axis}"), file.model.joint(name)
     rows = (("jnt", theirs.id, ours.id), ("dof", int(theirs.dofadr[0]), int(ours.dofadr[0])))

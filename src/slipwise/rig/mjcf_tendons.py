@@ -16,7 +16,7 @@ _SAME = 1e-6
 
 
 def buffers(file: Mjcf) -> tuple[Buffer, ...]:
-    """Give the buffers: places, stiffness along x and y, height of their force, and the gap before they are touched.
+    """Return the buffers: places, stiffness along x and y, height of their force, and the gap before they are touched.
 
     Raises:
         InputError: the gap of a buffer is not the same to both sides, or along x another than along y.
@@ -53,7 +53,7 @@ def _gap(file: Mjcf, tendon: str) -> float:
 
 
 def _height(file: Mjcf, buffer: str) -> float:
-    """Give the height of a buffer's force above the sliding plane [m], from the arm about the girder's pitch axis."""
+    """Return the height of a buffer's force above the sliding plane [m], from the arm about the girder's pitch axis."""
     arm = _coefficients(file.model, f"buffer_{buffer}_x").get("girder_pitch", 0.0)
     height = float(file.model.body("girder").pos[2]) + arm
     return 0.0 if abs(height) <= _SAME else round(height, 12)  # the arm is written from the centre of gravity
@@ -102,7 +102,7 @@ def _hold(file: Mjcf, tendon: str, wanted: Mapping[str, tuple[float, ...]]) -> N
 
 
 def _coefficients(model: mujoco.MjModel, tendon: str) -> dict[str, float]:
-    """Give joint -> coefficient of a fixed tendon."""
+    """Return joint -> coefficient of a fixed tendon."""
     out: dict[str, float] = {}
     at = model.tendon(tendon).id
     start = int(model.tendon_adr[at])

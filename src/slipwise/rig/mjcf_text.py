@@ -55,7 +55,7 @@ def read_elements(path: Path) -> tuple[Element, ...]:
 
 
 def place_of(elements: tuple[Element, ...], kind: str, name: str, within: str = "", key: str = "") -> str:
-    """Give the place of an element by its name, by what is around it or by what it says; "" where it is not written.
+    """Return the place of an element by its name, by what is around it or by what it says; "" where it is not written.
 
     Args:
         elements: of the file.

@@ -156,7 +156,7 @@ def _upright(name: str, at: np.ndarray, half: np.ndarray, foot: float, head: flo
 
 
 def storey_names(storeys: Sequence[Storey]) -> tuple[str, ...]:
-    """Give what the storeys are called, in the MJCF and in channels, from below: "storey_1" ..."""
+    """Return what the storeys are called, in the MJCF and in channels, from below: "storey_1" ..."""
     return tuple(f"storey_{number}" for number in range(1, len(storeys) + 1))
 
 
@@ -214,7 +214,7 @@ def _tendons(specimen: Specimen) -> list[str]:
 
 
 def arms(specimen: Specimen, part: Place | Buffer, height: float) -> dict[str, dict[str, float]]:
-    """Give the girder's joints that move a part along x and y, each with what its rate is multiplied by [1 or m].
+    """Return the girder's joints that move a part along x and y, each with what its rate is multiplied by [1 or m].
 
     Args:
         specimen: with the centre of gravity, about which the girder turns.

@@ -62,7 +62,7 @@ class Buffer:
 
 
 def mean(values: Iterable[float]) -> float:
-    """Give the mean of values; of equal ones their value, to the last digit."""
+    """Return the mean of values; of equal ones their value, to the last digit."""
     found = tuple(values)
     return found[0] if len(set(found)) == 1 else sum(found) / len(found)
 
@@ -93,7 +93,7 @@ def check_parts(rig: str, what: str, parts: Sequence[Place] | Sequence[Buffer]) 
 
 
 def values_of(part: Place | Buffer) -> dict[str, tuple[float, ...]]:
-    """Give the values of a pad or a buffer under the names that their bounds have."""
+    """Return the values of a pad or a buffer under the names that their bounds have."""
     if isinstance(part, Place):
         return {
             "pad_places": (part.x, part.y),

@@ -60,7 +60,7 @@ class Readings:
 
 
 def read_paper(rig: str, readings: Readings | None = None) -> Specimen:
-    """Give a bridge's specimen under a reading of the paper; the default reading is what the MJCF files hold.
+    """Return a bridge's specimen under a reading of the paper; the default reading is what the MJCF files hold.
 
     Args:
         rig: "bridge1" or "bridge2".

@@ -43,7 +43,7 @@ def check_rest(file: Mjcf, specimen: Specimen) -> None:
 
 
 def loads_at_rest(rig: Rig) -> NDArray[np.float64]:
-    """Give the load of each pad's contact where the compiled rig is in equilibrium (n_pads,) [N].
+    """Return the load of each pad's contact where the compiled rig is in equilibrium (n_pads,) [N].
 
     `at_rest` is exact for small turning; what it leaves is taken away by Newton's method on MuJoCo's own forces.
     """
@@ -71,7 +71,7 @@ def loads_at_rest(rig: Rig) -> NDArray[np.float64]:
 
 
 def _contact_loads(rig: Rig, data: mujoco.MjData) -> NDArray[np.float64]:
-    """Give what the contacts carry upwards (n_pads,) [N]."""
+    """Return what the contacts carry upwards (n_pads,) [N]."""
     loads, force = np.zeros(len(rig.pad_geoms)), np.zeros(6)
     for i in range(data.ncon):
         contact = data.contact[i]

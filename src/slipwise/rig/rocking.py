@@ -38,7 +38,7 @@ class RockingMode:
 
 
 def rocking_modes(specimen: Specimen) -> tuple[RockingMode, RockingMode]:
-    """Give the modes of a specimen: the one that is mostly roll, and the one that is mostly pitch."""
+    """Return the modes of a specimen: the one that is mostly roll, and the one that is mostly pitch."""
     off = np.array(specimen.pad_places) - specimen.middle
     arms, inertia = off[:, ::-1], np.diag(specimen.inertia[:2])
     stiffness = (arms * np.array(specimen.springs)[:, None]).T @ arms
@@ -55,11 +55,11 @@ def rocking_modes(specimen: Specimen) -> tuple[RockingMode, RockingMode]:
 
 
 def rolls(specimen: Specimen) -> bool:
-    """Tell whether motion along x and upwards makes the girder roll: uneven pads, or a weight off their middle."""
+    """Return whether motion along x and upwards makes the girder roll: uneven pads, or a weight off their middle."""
     off = specimen.centre_y - specimen.middle[1]
     return coupled(specimen) or abs(off) > _NONE * specimen.half_spacing[1]
 
 
 def coupled(specimen: Specimen) -> bool:
-    """Tell whether pitch makes the girder roll."""
+    """Return whether pitch makes the girder roll."""
     return bool(rocking_modes(specimen)[1].drive[0] != 0.0)

@@ -28,7 +28,7 @@ class Similarity:
 
 
 def similarity(length: float) -> Similarity:
-    """Give all scales that follow from the scale of length.
+    """Return all scales that follow from the scale of length.
 
     Args:
         length: prototype length over model length [1], e.g. LENGTH_SCALE["bridge1"].

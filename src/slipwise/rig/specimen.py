@@ -161,7 +161,7 @@ class Specimen:
         return mean(self.buffer_heights) if self.buffers else 0.0
 
     def changed(self, **values: Any) -> "Specimen":
-        """Give the specimen with other values, by the names of its attributes and of what it tells of its pads.
+        """Return the specimen with other values, by the names of its attributes and of what it tells of its pads.
 
         One number for all pads or buffers keeps the ratios in which they differ; `buffer_stiffness` scales both
         directions, `buffer_height` and `seating` are what they say, one number or one for each.

@@ -140,7 +140,7 @@ def _three(content: Mapping[str, Any], name: str, unit: str, where: str) -> list
 
 
 def _inertia(content: Mapping[str, Any], mass: float, where: str) -> tuple[float, float, float]:
-    """Give roll, pitch and yaw inertia [kg m^2]: as given, or of a box of even density, m (b^2 + c^2) / 12."""
+    """Return roll, pitch and yaw inertia [kg m^2]: as given, or of a box of even density, m (b^2 + c^2) / 12."""
     if ("box" in content) == ("inertia" in content):
         raise InputError(
             f'{where} needs one of box = ["4 m", "3 m", "0.5 m"], the girder along x, y and z, and inertia = '
@@ -178,7 +178,7 @@ def _places(content: Mapping[str, Any], where: str) -> tuple[Place, ...]:
 
 
 def _damped(places: tuple[Place, ...], given: Mapping[str, float]) -> tuple[Place, ...]:
-    """Give pads the damping that is assumed where none is given: each in proportion to its stiffness."""
+    """Return pads the damping that is assumed where none is given: each in proportion to its stiffness."""
     total = sum(place.stiffness for place in places)
     share = 2.0 * _CRITICAL * (given["mass"] / total) ** 0.5 if total > 0.0 and given["mass"] > 0.0 else 0.0
     return tuple(replace(p, damping=share * p.stiffness) if np.isnan(p.damping) else p for p in places)

@@ -80,7 +80,7 @@ class FrameMode:
 
 
 def frame_modes(storeys: Sequence[Storey], axis: str = "x") -> list[FrameMode]:
-    """Give the modes of a frame on a base that does not move, lowest first; what dampers couple is left out.
+    """Return the modes of a frame on a base that does not move, lowest first; what dampers couple is left out.
 
     Source: Chopra, Dynamics of Structures, chapters 10 and 11.
     """
@@ -100,12 +100,12 @@ def frame_modes(storeys: Sequence[Storey], axis: str = "x") -> list[FrameMode]:
 
 
 def fixed_base_frequencies(storeys: Sequence[Storey], axis: str = "x") -> Array:
-    """Give the natural frequencies of the frame on a base that does not move (n,) [Hz], lowest first."""
+    """Return the natural frequencies of the frame on a base that does not move (n,) [Hz], lowest first."""
     return np.array([mode.frequency for mode in frame_modes(storeys, axis)])
 
 
 def _chained(links: Sequence[float]) -> Array:
-    """Give the matrix of floors each linked to the one below, the lowest to the base."""
+    """Return the matrix of floors each linked to the one below, the lowest to the base."""
     below = np.array(links)
     above = np.append(below[1:], 0.0)
     return np.diag(below + above) - np.diag(below[1:], 1) - np.diag(below[1:], -1)

@@ -50,7 +50,7 @@ class CampaignFolder:
             raise OutputError(words)
 
     def session_folder(self) -> Path:
-        """Give the folder of its session, made and private, to write into.
+        """Return the folder of its session, made and private, to write into.
 
         Raises:
             OutputError: the campaign is no longer at its place, or the folder cannot be made.

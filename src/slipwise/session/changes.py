@@ -5,15 +5,15 @@ from dataclasses import replace
 
 from slipwise.effects import Effect
 from slipwise.errors import SettingError, unknown_name
-from slipwise.estimation.parameters import Free, Term, terms_of
-from slipwise.instruments.gauge_groups import places_of
 from slipwise.model import Model
+from slipwise.preparation.gauge_groups import places_of
+from slipwise.relations.parameters import Free, Term, terms_of
 from slipwise.session.evaluation import Evaluator
 from slipwise.session.state import State
 
 
 def toggled(ready: Evaluator, state: State, effect: Effect, target: str = "") -> State:
-    """Give a state with an effect, or without it where it has it.
+    """Return a state with an effect, or without it where it has it.
 
     Args:
         ready: the campaign.
@@ -35,7 +35,7 @@ def toggled(ready: Evaluator, state: State, effect: Effect, target: str = "") ->
 
 
 def with_terms(ready: Evaluator, state: State, added: Sequence[tuple[Term, Mapping[str, float]]], words: str) -> State:
-    """Give a state with more effects: with the numbers that they had before they were taken out, or with these.
+    """Return a state with more effects: with the numbers that they had before they were taken out, or with these.
 
     Args:
         ready: the campaign.
@@ -52,7 +52,7 @@ def with_terms(ready: Evaluator, state: State, added: Sequence[tuple[Term, Mappi
 
 
 def with_number(ready: Evaluator, state: State, key: str, value: float | str) -> State:
-    """Give a state with one other number.
+    """Return a state with one other number.
 
     Args:
         ready: the campaign.
@@ -74,7 +74,7 @@ def with_number(ready: Evaluator, state: State, key: str, value: float | str) ->
 
 
 def removed(ready: Evaluator, state: State, effect: str) -> State:
-    """Give a state without an effect.
+    """Return a state without an effect.
 
     Args:
         ready: the campaign.
@@ -90,13 +90,13 @@ def removed(ready: Evaluator, state: State, effect: str) -> State:
 
 
 def without_additions(ready: Evaluator, state: State) -> State:
-    """Give a state without the effects that have no role in the base model, all other numbers as they are."""
+    """Return a state without the effects that have no role in the base model, all other numbers as they are."""
     terms = tuple(t for t in state.terms if t.effect.base)
     return state if terms == state.terms else _having(ready, state, terms, {}, "without what was added")
 
 
 def as_stated(ready: Evaluator, state: State, model: Model) -> State:
-    """Give the state of another model, as it was stated: its effects and rated values, all else as it is.
+    """Return the state of another model, as it was stated: its effects and rated values, all else as it is.
 
     Args:
         ready: the campaign.
@@ -116,7 +116,7 @@ def as_stated(ready: Evaluator, state: State, model: Model) -> State:
 
 
 def _having(ready: Evaluator, state: State, terms: tuple[Term, ...], numbers: Mapping[str, float], words: str) -> State:
-    """Give a state with other effects, and with the numbers of the rig that belong to these."""
+    """Return a state with other effects, and with the numbers of the rig that belong to these."""
     typical = {f"{t.label}.{n}": v for t in terms for n, v in t.effect.typical().items()}
     values = {**typical, **numbers, **state.values}
     Model(ready.model.specimen, tuple(u for t in terms for u in t.uses(values)))  # refuses what cannot act together

@@ -11,12 +11,12 @@ from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.selection import prepared
 from slipwise.estimation.base_fit import BaseFit, free_numbers, scaled_model, with_logger
 from slipwise.estimation.least_squares import Solution, solve
-from slipwise.estimation.parameters import Free, inertia_free, stick_damping_free, terms_of
-from slipwise.estimation.problem import Problem
-from slipwise.estimation.residuals import Residuals
-from slipwise.estimation.run_data import FINER, FitRun, fit_runs
-from slipwise.instruments.repairs import InvalidSamples
+from slipwise.estimation.objective import Problem
 from slipwise.model import Model, base_model
+from slipwise.preparation.repairs import InvalidSamples
+from slipwise.relations.parameters import Free, inertia_free, stick_damping_free, terms_of
+from slipwise.relations.run_data import FINER, FitRun, fit_runs
+from slipwise.relations.table import Residuals
 from slipwise.session.state import State, Weights
 
 #: Problems that stay ready: this state's, that before it, the one it is compared with, each also coarse.
@@ -65,7 +65,7 @@ class Evaluator:
     _ready: list[tuple[Weights, Problem]] = field(default_factory=list[tuple[Weights, Problem]])
 
     def problem(self, state: State, watch: Callable[[], None] | None = None) -> Problem:
-        """Give the relations of a state, weighed as it says."""
+        """Return the relations of a state, weighed as it says."""
         found = next((ready for ready in self._ready if ready[0] == state.weights), None)
         if found is None:
             found = (state.weights, self._weighed(state.weights))
@@ -84,7 +84,7 @@ class Evaluator:
         return problem
 
     def coarse(self, state: State) -> State:
-        """Give a state that is evaluated at half the instants: in half the time, and nearly as well."""
+        """Return a state that is evaluated at half the instants: in half the time, and nearly as well."""
         return replace(state, weights=replace(state.weights, finer=False))
 
     def residuals(self, state: State) -> Residuals:
@@ -92,11 +92,11 @@ class Evaluator:
         return self.problem(state).residuals(state.values)
 
     def model_of(self, state: State) -> Model:
-        """Give the model that a state describes."""
+        """Return the model that a state describes."""
         return self.problem(state).model(state.values)
 
     def free(self, state: State) -> list[Free]:
-        """Give every number of a state that may be changed, with its bounds; an effect on a card has one set."""
+        """Return every number of a state that may be changed, with its bounds; an effect on a card has one set."""
         problem = self.problem(state)
         model = Model(self.model.specimen, tuple(u for t in state.terms for u in t.uses(state.values)))
         cards = [t for t in state.terms if len(t.targets) > 1]
@@ -110,14 +110,14 @@ class Evaluator:
         return free
 
     def as_fit(self, state: State) -> BaseFit:
-        """Give a state as a fit without slopes, for replays."""
+        """Return a state as a fit without slopes, for replays."""
         problem, free, residuals = self.problem(state), tuple(self.free(state)), self.residuals(state)
         left = residuals.stacked(problem.fitted, problem.relations)
         solution = Solution(dict(state.values), free, residuals, np.empty((0, 0)), float(left @ left), 0)
         return BaseFit(self.campaign, self.model_of(state), problem, free, solution)
 
     def with_slopes(self, state: State) -> BaseFit:
-        """Give a state that was fitted as a fit with its slopes, for screening."""
+        """Return a state that was fitted as a fit with its slopes, for screening."""
         fit = self.as_fit(state)
         return replace(fit, solution=solve(fit.problem, dict(state.values), list(fit.free), most=1))
 
@@ -143,7 +143,7 @@ def evaluator(campaign: Campaign, model: Model | None) -> tuple[Evaluator, State
 
 
 def errors_of(problem: Problem, residuals: Residuals) -> tuple[BalanceError, ...]:
-    """Give the error of every relation in floors."""
+    """Return the error of every relation in floors."""
     out = []
     for relation in problem.relations:
         squares = [float(np.sum(part**2)) for part in residuals.parts[relation]]

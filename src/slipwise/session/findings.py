@@ -8,12 +8,12 @@ from typing import Any
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.discovery.law import Discovery
 from slipwise.errors import SettingError
-from slipwise.estimation.parameters import Term
+from slipwise.relations.parameters import Term
 from slipwise.session.state import EffectOf, terms_from_json, terms_json
 
 
 def explained(found: Diagnosis, of: tuple[str, ...]) -> dict[str, Any]:
-    """Give what a session keeps of a diagnosis.
+    """Return what a session keeps of a diagnosis.
 
     Its suggestion is what it names; where nothing that matters is missing, what is there and does not matter, for the
     user may want the error at the floor all the same.
@@ -34,7 +34,7 @@ def explained(found: Diagnosis, of: tuple[str, ...]) -> dict[str, Any]:
 
 
 def suggested(content: Mapping[str, Any] | None, effect_of: EffectOf) -> list[tuple[Term, Mapping[str, float]]]:
-    """Give the effects that a diagnosis suggests, with their fitted parameters.
+    """Return the effects that a diagnosis suggests, with their fitted parameters.
 
     Raises:
         SettingError: there was no diagnosis, or it names none.

@@ -9,7 +9,7 @@ from math import isfinite
 from slipwise.estimation.base_fit import BaseFit, final_refit, fit_base
 from slipwise.estimation.intervals import Interval, intervals
 from slipwise.estimation.least_squares import Solution, solve
-from slipwise.estimation.problem import Problem
+from slipwise.estimation.objective import Problem
 from slipwise.session.evaluation import Evaluator
 from slipwise.session.state import Known, State, Weights
 

@@ -39,7 +39,7 @@ class History:
         return self.states[self.place + 1] if self.place + 1 < len(self.states) else None
 
     def pushed(self, state: State) -> "History":
-        """Give the history with one step more; what was undone before is gone.
+        """Return the history with one step more; what was undone before is gone.
 
         A number that is dragged makes one step, not hundreds.
         """
@@ -49,7 +49,7 @@ class History:
         return History(states, len(states) - 1)
 
     def undone(self) -> "History":
-        """Give the history one step back.
+        """Return the history one step back.
 
         Raises:
             SettingError: there is none.
@@ -59,7 +59,7 @@ class History:
         return replace(self, place=self.place - 1)
 
     def redone(self) -> "History":
-        """Give the history one step forward.
+        """Return the history one step forward.
 
         Raises:
             SettingError: there is none.
@@ -69,10 +69,10 @@ class History:
         return replace(self, place=self.place + 1)
 
     def as_json(self) -> dict[str, Any]:
-        """Give it as JSON holds it."""
+        """Return it as JSON holds it."""
         return {"states": [as_json(state) for state in self.states], "place": self.place}
 
 
 def history_from_json(content: Mapping[str, Any], effect_of: EffectOf) -> History:
-    """Give the history that `as_json` wrote."""
+    """Return the history that `as_json` wrote."""
     return History(tuple(from_json(one, effect_of) for one in content["states"]), content["place"])

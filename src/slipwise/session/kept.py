@@ -44,7 +44,7 @@ class Kept:
     notes: tuple[str, ...] = ()
 
     def as_json(self, campaign: Campaign, model: Path) -> dict[str, Any]:
-        """Give it as JSON holds it.
+        """Return it as JSON holds it.
 
         Args:
             campaign: that it is of.
@@ -61,7 +61,7 @@ class Kept:
 
 
 def begun(state: State) -> Kept:
-    """Give a session that begins."""
+    """Return a session that begins."""
     return Kept(History((state,), 0), state)
 
 
@@ -75,7 +75,7 @@ def resumed(
     *,
     given: bool,
 ) -> Kept:
-    """Give a session that goes on where the last one ended, as far as it may.
+    """Return a session that goes on where the last one ended, as far as it may.
 
     A session that cannot be taken up is never overwritten: it is moved aside, and a note and a warning say where it is.
 

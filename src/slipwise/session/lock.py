@@ -96,14 +96,14 @@ class Lock:
             raise cannot_write(self._path, error) from error
 
     def holds(self) -> bool:
-        """Tell whether the file is still at its place: who finds none there, or another, takes the session too."""
+        """Return whether the file is still at its place: who finds none there, or another, takes the session too."""
         try:
             return os.path.samestat(os.lstat(self._path), os.fstat(self._file.fileno()))
         except (OSError, ValueError):
             return False
 
     def close(self) -> None:
-        """Give the lock back."""
+        """Return the lock back."""
         self._forget()
         with suppress(OSError, ValueError):  # closed already
             self._file.truncate(0)

@@ -8,13 +8,13 @@ from typing import Any
 from slipwise.campaign import Campaign, as_campaign
 from slipwise.diagnosis.ladder import placed
 from slipwise.diagnosis.result import Diagnosis
+from slipwise.display import Drawn, Tabular
 from slipwise.errors import SettingError
 from slipwise.model import Model, base_model
 from slipwise.session import changes
 from slipwise.session.findings import explained
 from slipwise.session.fitting import Progress
 from slipwise.session.session import Session
-from slipwise.shown import Drawn, Tabular
 
 
 @dataclass(frozen=True, repr=False)
@@ -43,7 +43,7 @@ class ModelChange(Drawn, Tabular):
         ]
 
     def rows(self) -> list[dict[str, Any]]:
-        """Give the errors before and after as rows of a table."""
+        """Return the errors before and after as rows of a table."""
         return self._rows()
 
 
@@ -124,7 +124,7 @@ def _taken(session: Session, found: Diagnosis, progress: Progress | None) -> Mod
 
 
 def _session(campaign: Campaign | Path | str | Session, model: Model | Path | str | None) -> Session:
-    """Give the session, or open one of a model alone, which leaves nothing on disk."""
+    """Return the session, or open one of a model alone, which leaves nothing on disk."""
     if isinstance(campaign, Session):
         return campaign
     measured = as_campaign(campaign)

@@ -91,7 +91,7 @@ def read_own(path: Path) -> bytes | None:
 
 
 def move_aside(path: Path) -> Path:
-    """Give a file, or whatever has its name, another name beside: "session-1.json"; gives that path.
+    """Return a file, or whatever has its name, another name beside: "session-1.json"; gives that path.
 
     Raises:
         OutputError: it cannot be renamed.

@@ -4,14 +4,14 @@ import os
 from hashlib import sha256
 from pathlib import Path
 
-from slipwise.cache import sessions_folder
+from slipwise.jobs.cache import sessions_folder
 
 #: Folder of a session beside the files of its campaign.
 BESIDE = ".slipwise"
 
 
 def session_folder(campaign: Path) -> Path:
-    """Give the folder of a campaign's session: beside its files, or in the cache where this user may write none there.
+    """Return folder of a campaign's session: beside its files, or in the cache where this user may write none there.
 
     Args:
         campaign: folder of the campaign.
@@ -27,12 +27,12 @@ def session_folder(campaign: Path) -> Path:
 
 
 def snapshot_file(campaign: Path) -> Path:
-    """Give the file that holds every step of it."""
+    """Return the file that holds every step of it."""
     return session_folder(campaign) / "session.json"
 
 
 def is_foreign(path: Path) -> bool:
-    """Tell whether a file, folder or link is there and belongs to another user."""
+    """Return whether a file, folder or link is there and belongs to another user."""
     if not hasattr(os, "getuid"):  # Windows
         return False
     try:

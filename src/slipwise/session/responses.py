@@ -41,12 +41,12 @@ class RunReplay:
 
 
 def replayed_run(ready: Evaluator) -> str:
-    """Give the name of the run that is replayed unless another is named: the first held out, else the last."""
+    """Return the name of the run that is replayed unless another is named: the first held out, else the last."""
     return next((r.name for r in ready.runs if r.role == "holdout"), ready.runs[-1].name)
 
 
 def replay_errors(ready: Evaluator, state: State, progress: Callable[[float], None] | None = None) -> dict[str, float]:
-    """Give the errors at system level, of held-out runs if there are any: channels -> error in floors.
+    """Return the errors at system level, of held-out runs if there are any: channels -> error in floors.
 
     Replays restart from the measured slip every second, and their floor has the noise of what they are fed with in it.
 

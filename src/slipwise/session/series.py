@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.comparison.component_level import NAMES
-from slipwise.estimation.girder_balances import buffers_along, predicted_balances
-from slipwise.estimation.measurement_model import acts_on_force, on_force
-from slipwise.estimation.problem import Problem
-from slipwise.estimation.residuals import Residuals
+from slipwise.estimation.objective import Problem
+from slipwise.relations.girder import buffers_along, predicted_balances
+from slipwise.relations.measurement import acts_on_force, on_force
+from slipwise.relations.table import Residuals
 from slipwise.rig.load_basis import WARPS
 from slipwise.session.state import State
 from slipwise.simulation.predict import predictor
@@ -50,7 +50,7 @@ class Series:
 
 
 def series_of(problem: Problem, state: State, residuals: Residuals, place: int, relation: str) -> Series:
-    """Give one balance of one run.
+    """Return one balance of one run.
 
     Args:
         problem: of the state.
@@ -79,14 +79,14 @@ def series_of(problem: Problem, state: State, residuals: Residuals, place: int, 
 
 
 def _columns(judged: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Give flags (n,) or (n, c) as columns."""
+    """Return flags (n,) or (n, c) as columns."""
     return judged.reshape(len(judged), -1)
 
 
 def _both_sides(
     problem: Problem, state: State, residuals: Residuals, place: int
 ) -> tuple[dict[str, Array], dict[str, Array]]:
-    """Give what the balances of a girder predict and what was measured, faults of gauges taken out."""
+    """Return what the balances of a girder predict and what was measured, faults of gauges taken out."""
     values, count = state.values, place + 1
     model = problem.model(values)
     runs, _ = problem.kinematics.corrected(values, count)

@@ -11,11 +11,12 @@ from slipwise.campaign import Campaign, as_campaign
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.discovery.discover import diagnose_with_law, discover
 from slipwise.discovery.law import Discovery
+from slipwise.display import Drawn, Tabular
 from slipwise.effects import Effect, Trust, catalogue
 from slipwise.errors import SettingError
+from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
-from slipwise.model_file import save_model
-from slipwise.parallel import one_thread_algebra
+from slipwise.model.file import save_model
 from slipwise.session import changes
 from slipwise.session.campaign_folder import CampaignFolder
 from slipwise.session.evaluation import BalanceError, errors_of, evaluator
@@ -27,7 +28,6 @@ from slipwise.session.series import Series, series_of
 from slipwise.session.snapshot import Store
 from slipwise.session.sources import Sources
 from slipwise.session.state import State, from_json
-from slipwise.shown import Drawn, Tabular
 
 
 class Session(Drawn, Tabular):
@@ -125,12 +125,12 @@ class Session(Drawn, Tabular):
         return self.push(changes.with_number(self.ready, self.state, key, value), keep=keep)
 
     def errors(self, state: State | None = None) -> tuple[BalanceError, ...]:
-        """Give the error of every balance, component level, in floors: of the model as it is now, or of a state."""
+        """Return the error of every balance, component level, in floors: of the model as it is now, or of a state."""
         state = state or self.state
         return errors_of(self.ready.problem(state), self.ready.residuals(state))
 
     def series(self, run: str, relation: str = "pads", state: State | None = None) -> Series:
-        """Give one balance of one run, measured and predicted: of the model as it is now, or of a state.
+        """Return one balance of one run, measured and predicted: of the model as it is now, or of a state.
 
         Raises:
             SettingError: no such run or balance.
@@ -169,7 +169,7 @@ class Session(Drawn, Tabular):
         return replay_run(self.ready, state or self.state, run)
 
     def replay_errors(self, state: State | None = None) -> dict[str, float]:
-        """Give the held-out errors at system level in floors; see `responses.replay_errors`."""
+        """Return the held-out errors at system level in floors; see `responses.replay_errors`."""
         return replay_errors(self.ready, state or self.state)
 
     def explain(self, progress: Progress | None = None) -> Diagnosis:
@@ -230,7 +230,7 @@ class Session(Drawn, Tabular):
         return self.state
 
     def beside(self, other: "Session | Model | Path | str") -> State:
-        """Give another model as a state of this session, judged by the same noise.
+        """Return another model as a state of this session, judged by the same noise.
 
         Raises:
             SlipwiseError: a file that cannot be read, or effects that cannot act together.
@@ -253,12 +253,12 @@ class Session(Drawn, Tabular):
             self.store.close()
 
     def effect(self, name: str) -> Effect:
-        """Give an effect of the model with its bounds there, which hold what was stated; or another."""
+        """Return an effect of the model with its bounds there, which hold what was stated; or another."""
         held = next((u.effect for u in self.ready.model.uses if u.effect.name == name), None)
         return held or self._sources.effect(name)
 
     def read_state(self, content: Mapping[str, Any], trust: Trust) -> State:
-        """Give a state that another process of the same user has written, and whose effect files it runs already."""
+        """Return a state that another process of the same user has written, and whose effect files it runs already."""
         sources = replace(self._sources, trust=trust)
         return from_json(content, lambda name: self._kept_effect(name, sources))
 
@@ -289,7 +289,7 @@ class Session(Drawn, Tabular):
         return [{"balance": e.name, "before": before.get(e.relation), "now": e.error, **e.runs} for e in self.errors()]
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
-        """Give a notebook the table and the picture."""
+        """Return a notebook the table and the picture."""
         drawn = io.BytesIO()
         self.plot().savefig(drawn, format="png", dpi=90)
         picture = f'<img alt="error before and now" src="data:image/png;base64,{b64encode(drawn.getvalue()).decode()}">'

@@ -10,18 +10,18 @@ from typing import Any
 
 from slipwise.campaign import Campaign
 from slipwise.errors import OutputError, SlipwiseWarning
+from slipwise.jobs.atomic_write import atomic
 from slipwise.session.campaign_folder import CampaignFolder
 from slipwise.session.lock import Lock
 from slipwise.session.own_files import move_aside, read_own
 from slipwise.session.place import BESIDE, is_foreign, snapshot_file
 from slipwise.session.schema import SCHEMA, checked
-from slipwise.whole_file import atomic
 
 _LOCK = "lock"
 
 
 def fingerprint(campaign: Campaign) -> str:
-    """Give what changes when the measurement, or what is said of it, does."""
+    """Return what changes when the measurement, or what is said of it, does."""
     told = [(r.file, r.sha256, r.role, r.window, r.rest_before) for r in campaign.runs]
     return sha256(repr((told, campaign.rig, campaign.logger, dict(campaign.known))).encode()).hexdigest()
 
@@ -65,7 +65,7 @@ class Store:
         self._lock.tell(address)
 
     def read(self) -> Mapping[str, Any] | None:
-        """Give what was written last; None where nothing was.
+        """Return what was written last; None where nothing was.
 
         Raises:
             InputError: it cannot be read, or is damaged.
@@ -74,7 +74,7 @@ class Store:
         return None if data is None else checked(data, self._file.name)
 
     def move_aside(self) -> Path:
-        """Give the snapshot another name, so that the next one does not take its place; gives the path."""
+        """Return the snapshot another name, so that the next one does not take its place; gives the path."""
         return move_aside(self._file)
 
     def write(self, content: Mapping[str, Any]) -> None:

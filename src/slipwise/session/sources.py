@@ -8,7 +8,7 @@ from slipwise.campaign.scales import scales_of
 from slipwise.effects import Effect, Trust, check_trusted, find_effect, for_pads, scaled
 from slipwise.estimation.base_fit import scaled_model
 from slipwise.model import Model
-from slipwise.model_file import as_model, load_model
+from slipwise.model.file import as_model, load_model
 from slipwise.rig.load_basis import has_corners
 
 
@@ -25,7 +25,7 @@ class Sources:
     trust: Trust
 
     def model(self, given: Model | Path | str) -> Model:
-        """Give a model, or that of a file.
+        """Return a model, or that of a file.
 
         Raises:
             SlipwiseError: a file that cannot be read, or names an effect file that is not trusted.
@@ -35,11 +35,11 @@ class Sources:
         return as_model(given)
 
     def bounded(self, model: Model) -> Model:
-        """Give a model as it was stated, its effects with the bounds that they have in this campaign."""
+        """Return a model as it was stated, its effects with the bounds that they have in this campaign."""
         return scaled_model(model, scales_of(self.campaign), typical=False)
 
     def effect(self, name: str) -> Effect:
-        """Give an effect that a user names, with the bounds that it has in this campaign.
+        """Return an effect that a user names, with the bounds that it has in this campaign.
 
         Raises:
             UnknownNameError: no such effect.
@@ -50,7 +50,7 @@ class Sources:
         return for_pads(effect, specimen.pads, corners=has_corners(specimen))
 
     def kept_effect(self, name: str) -> Effect:
-        """Give an effect that the last session names.
+        """Return an effect that the last session names.
 
         Raises:
             UnknownNameError: no such effect.

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from slipwise.effects import Effect, catalogue
-from slipwise.estimation.parameters import Term
+from slipwise.relations.parameters import Term
 
 #: Name or file of an effect -> the effect, with the bounds that it has in this campaign.
 EffectOf = Callable[[str], Effect]
@@ -74,12 +74,12 @@ class State:
         return tuple(t.label for t in self.terms)
 
     def term(self, label: str) -> Term | None:
-        """Give the effect of this label, None where the model has none."""
+        """Return the effect of this label, None where the model has none."""
         return next((t for t in self.terms if t.label == label), None)
 
 
 def as_json(state: State) -> dict[str, Any]:
-    """Give a state as JSON holds it."""
+    """Return a state as JSON holds it."""
     return {
         "terms": terms_json(state.terms),
         "values": dict(state.values),
@@ -97,7 +97,7 @@ def as_json(state: State) -> dict[str, Any]:
 
 
 def from_json(content: Mapping[str, Any], effect_of: EffectOf) -> State:
-    """Give the state that `as_json` wrote.
+    """Return the state that `as_json` wrote.
 
     Args:
         content: what it wrote.
@@ -118,7 +118,7 @@ def from_json(content: Mapping[str, Any], effect_of: EffectOf) -> State:
 
 
 def terms_json(terms: Sequence[Term]) -> list[dict[str, Any]]:
-    """Give effects with the channels on which they act; a user's own by its file."""
+    """Return effects with the channels on which they act; a user's own by its file."""
     return [
         {
             "effect": named(t.effect),
@@ -132,7 +132,7 @@ def terms_json(terms: Sequence[Term]) -> list[dict[str, Any]]:
 
 
 def terms_from_json(content: Sequence[Mapping[str, Any]], effect_of: EffectOf) -> tuple[Term, ...]:
-    """Give the effects that `terms_json` wrote."""
+    """Return the effects that `terms_json` wrote."""
     return tuple(
         Term(
             effect_of(one["effect"]),
@@ -146,5 +146,5 @@ def terms_from_json(content: Sequence[Mapping[str, Any]], effect_of: EffectOf) -
 
 
 def named(effect: Effect) -> str:
-    """Give what an effect is found by: its name in the catalogue, else its file."""
+    """Return what an effect is found by: its name in the catalogue, else its file."""
     return effect.name if effect.name in catalogue() else str(effect.path)

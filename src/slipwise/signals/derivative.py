@@ -10,7 +10,7 @@ from slipwise.signals.filters import LowPass, lowpass
 
 
 def derivative(values: Array, dt: float, smoothed_by: LowPass | None = None) -> Array:
-    """Give dx/dt (n,).
+    """Return dx/dt (n,).
 
     Args:
         values: (n,) uniformly sampled.
@@ -24,7 +24,7 @@ def derivative(values: Array, dt: float, smoothed_by: LowPass | None = None) -> 
 
 
 def integral(values: Array, dt: float) -> Array:
-    """Give the integral from the first sample to each sample (n,)."""
+    """Return the integral from the first sample to each sample (n,)."""
     from scipy.interpolate import CubicSpline
 
     time = dt * np.arange(len(values))

@@ -72,7 +72,7 @@ def _way(count: int) -> Array:
 
 @lru_cache(maxsize=64)
 def _frequencies(size: int, dt: float) -> Array:
-    """Give the frequencies of a real transform [Hz]; read only, for all who ask."""
+    """Return the frequencies of a real transform [Hz]; read only, for all who ask."""
     found = np.asarray(np.fft.rfftfreq(size, dt), dtype=np.float64)
     found.flags.writeable = False
     return found

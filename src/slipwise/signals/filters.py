@@ -51,7 +51,7 @@ class LowPass:
 
 
 def response(lowpass: LowPass, frequency: Array) -> NDArray[np.complex128]:
-    """Give the filter's response H(f), (m,) complex.
+    """Return the filter's response H(f), (m,) complex.
 
     One pass: H = prod_k 1 / (1 - i f / (fc p_k)) with the Butterworth poles p_k = exp(i pi (2k + n - 1) / (2n)),
     so |H|^2 = 1 / (1 + (f/fc)^(2n)).
@@ -89,7 +89,7 @@ def lowpass(values: Array, dt: float, by: LowPass | None) -> Array:
 
 @lru_cache(maxsize=32)
 def _kept_response(by: LowPass, count: int, step: float) -> NDArray[np.complex128]:
-    """Give the response at multiples of a frequency [Hz]; many channels pass the same filter one after another."""
+    """Return the response at multiples of a frequency [Hz]; many channels pass the same filter one after another."""
     return response(by, step * np.arange(count, dtype=np.float64))
 
 
@@ -110,7 +110,7 @@ def align(values: Array, dt: float, by: LowPass | None) -> tuple[Array, LowPass 
 
 
 def folded(by: LowPass, frequency: Array, rate: float) -> NDArray[np.complex128]:
-    """Give what a causal filter leaves of each frequency in samples whose lag `align` has taken out, (m,) complex.
+    """Return what a causal filter leaves of each frequency in samples whose lag `align` has taken out, (m,) complex.
 
     What is faster than half the rate is seen at another frequency, and the lag of that one is taken out of it: of the
     turn of friction behind 150 Hz of second order, sampled at 500 Hz, that is more than the noise.

@@ -155,7 +155,7 @@ def fuse_scaled(time: Array, position: Array, velocity: Array | None, seconds: f
 
 
 def _increments(time: Array, acceleration: Array | None) -> tuple[Array, Array]:
-    """Give each step's gain of velocity and of position from a known acceleration, by its spline's integrals."""
+    """Return each step's gain of velocity and of position from a known acceleration, by its spline's integrals."""
     if acceleration is None:
         return np.zeros(len(time) - 1), np.zeros(len(time) - 1)
     spline = CubicSpline(time, acceleration)
@@ -176,7 +176,7 @@ def _start_levels(place: Array, acceleration: Array | None, dt: float) -> Array:
 
 
 def _variances(levels: Array, dt: float, accelerometers: bool) -> tuple[float, float, float, float, Array]:
-    """Give the variances of position and velocity, the densities of drive and bias walk, and the first spread."""
+    """Return the variances of position and velocity, the densities of drive and bias walk, and the first spread."""
     gauge, speed, drive = levels
     if accelerometers:
         return gauge**2, speed**2, drive**2 * dt, _BIAS_WALK**2, np.square(_FIRST)

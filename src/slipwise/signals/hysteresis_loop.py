@@ -45,7 +45,7 @@ class LoopShape:
 
 
 def energy(slip: Array, force: Array) -> float:
-    """Give the work of a force over slip, the integral of F dx by trapezoids [J].
+    """Return the work of a force over slip, the integral of F dx by trapezoids [J].
 
     Args:
         slip: (n,) [m].

@@ -43,7 +43,7 @@ class Noise:
 
 
 def white_level(values: Array) -> float:
-    """Give the standard deviation of white noise (one sample) from the top of the spectrum.
+    """Return the standard deviation of white noise (one sample) from the top of the spectrum.
 
     The median of the periodogram over 0.8 to 0.98 of half the sampling rate, so that hum lines do not count; a single
     glitch is as strong at every frequency, and is bridged before.
@@ -74,7 +74,7 @@ def ordinary(values: Array) -> NDArray[np.bool_]:
 
 
 def quantum(values: Array) -> float:
-    """Give the step of a quantised channel; 0 where values are as good as continuous."""
+    """Return the step of a quantised channel; 0 where values are as good as continuous."""
     levels, counts = np.unique(values[np.isfinite(values)][:20000], return_counts=True)
     steps = np.diff(levels)
     steps = steps[steps > 0.0]

@@ -39,7 +39,7 @@ def oscillator(push: Array, dt: float, frequency: float, damping: float, derivat
 
 @lru_cache(maxsize=64)
 def _discrete(order: int, dt: float, w: float, damping: float) -> tuple[Array, Array]:
-    """Give numerator and denominator of q's derivative of this order, for a push that is straight between samples."""
+    """Return numerator and denominator of q's derivative of this order, for a push that is straight between samples."""
     from scipy.signal import cont2discrete
 
     system = ([1.0] + [0.0] * order, [1.0, 2.0 * damping * w, w * w])

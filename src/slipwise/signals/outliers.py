@@ -45,6 +45,6 @@ def outliers(values: Array) -> Mask:
 
 
 def without_outliers(values: Array) -> Array:
-    """Give the values (n,) with outliers bridged."""
+    """Return the values (n,) with outliers bridged."""
     bad = outliers(values)
     return bridged(values, bad) if bad.any() else values

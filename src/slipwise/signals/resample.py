@@ -77,7 +77,7 @@ def slower_rate(steps: Array, dt: float) -> NDArray[np.bool_]:
 
 
 def resampled(time: Array, values: Array, new_time: Array) -> Array:
-    """Give values at new times by a cubic spline, constant beyond the ends.
+    """Return values at new times by a cubic spline, constant beyond the ends.
 
     Args:
         time: (n,) strictly rising [s].

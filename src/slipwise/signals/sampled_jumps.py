@@ -9,7 +9,7 @@ _OF_NOISE = 5.0
 
 
 def squared_jumps(values: Array, noise: float) -> Array:
-    """Give the square of each change from one sample to the next beyond what those beside it would have it (n - 1,).
+    """Return the square of each change from one sample to the next beyond what those beside it would have it (n - 1,).
 
     Args:
         values: (n,) of a channel.

@@ -12,7 +12,7 @@ _HIGHEST, _SHARE = 40.0, 0.2
 
 
 def second_derivative(displacement: Array, dt: float) -> tuple[Array, float]:
-    """Give the acceleration of a displacement.
+    """Return the acceleration of a displacement.
 
     Args:
         displacement: (n,) [m].

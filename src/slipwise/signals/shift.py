@@ -13,7 +13,7 @@ _MARGIN = 64
 
 
 def shift(values: Array, dt: float, delay: float) -> Array:
-    """Give the signal later by a delay: y(t) = x(t - delay).
+    """Return the signal later by a delay: y(t) = x(t - delay).
 
     Amplitudes stay, at every frequency below half the sampling rate; what enters at an end is its point reflection,
     so the first |delay|/dt samples (the last ones for a negative delay) are no measurement.

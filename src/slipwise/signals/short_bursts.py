@@ -57,7 +57,7 @@ def short_bursts(values: Array) -> Mask:
 
 
 def _across(values: Array, bad: Mask) -> Array:
-    """Give the values with straight lines across bad samples, (n,)."""
+    """Return the values with straight lines across bad samples, (n,)."""
     place = np.arange(len(values))
     return np.interp(place, place[~bad], values[~bad])
 
@@ -107,7 +107,7 @@ def _spikes(values: Array) -> Mask:
 
 
 def height(values: Array, longest: int) -> Array:
-    """Give how far each sample stands above or below all that lasts longer than so many, (n,): its two top-hats."""
+    """Return how far each sample stands above or below all that lasts longer than so many, (n,): its two top-hats."""
     size = longest + 1
     back = -1 if size % 2 == 0 else 0  # a window of even length is not centred: the second one makes up for the first
     opened = maximum_filter1d(minimum_filter1d(values, size), size, origin=back)
@@ -116,19 +116,19 @@ def height(values: Array, longest: int) -> Array:
 
 
 def _is_abrupt(values: Array, step: float) -> bool:
-    """Tell whether a burst, with the sample before and after it (k,), begins and ends with such a step, as no wave."""
+    """Return whether a burst, with the samples beside it (k,), begins and ends with such a step, unlike a wave."""
     steps = np.diff(values)
     return bool(min(abs(steps[0]), abs(steps[-1])) >= step and np.abs(steps).max() >= _ABRUPT * np.ptp(values))
 
 
 def stretches(mask: Mask) -> list[tuple[int, int]]:
-    """Give first sample and the one after the last of every stretch of true samples."""
+    """Return first sample and the one after the last of every stretch of true samples."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(int)))
     return [(int(start), int(end)) for start, end in zip(edges[::2], edges[1::2], strict=True)]
 
 
 def bridged(values: Array, bad: Mask) -> Array:
-    """Give the values (n,) with each bad stretch on the cubic that fits its neighbours; at an end on the next one."""
+    """Return the values (n,) with each bad stretch on the cubic that fits its neighbours; at an end on the next one."""
     good = np.flatnonzero(~bad & np.isfinite(values))
     out = np.where(bad, np.interp(np.arange(len(values)), good, values[good]), values)
     for start, end in stretches(bad):

@@ -5,7 +5,7 @@ Source: Rauch, Tung, Striebel (1965), AIAA Journal 3:1445-1450.
 
 import numpy as np
 
-from slipwise.machine_code import kept
+from slipwise.jobs.machine_code import kept
 
 
 @kept()
@@ -52,7 +52,7 @@ def _correct(x, p, row, measured, variance):  # pragma: no cover
 
 @kept()
 def unlikelihood(steps, ramp, half, place, gauge, speed, drive, walk, first, jumps):  # pragma: no cover
-    """Give minus log likelihood of the measurements."""
+    """Return minus log likelihood of the measurements."""
     x = np.zeros(3)
     p = np.diag(first)
     total = 0.0

@@ -176,7 +176,7 @@ def bridge_response(
 
 
 def _oscillator(ground: Array, dt: float, frequency: float, damping: float) -> Array:
-    """Give the absolute acceleration of a mass on a spring and a damper, exact for straight lines between samples."""
+    """Return the absolute acceleration of a mass on a spring and a damper, exact for straight lines between samples."""
     omega = 2.0 * np.pi * frequency
     block = np.zeros((4, 4))
     block[:2, :2] = dt * np.array([[0.0, 1.0], [-(omega**2), -2.0 * damping * omega]])

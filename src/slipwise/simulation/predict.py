@@ -116,7 +116,7 @@ class Predictor:
 
 @cache
 def _other_thread() -> ThreadPoolExecutor:
-    """Give a thread for half of the pads: the compiled law runs beside the one that asks."""
+    """Return a thread for half of the pads: the compiled law runs beside the one that asks."""
     return ThreadPoolExecutor(1)
 
 
@@ -138,7 +138,7 @@ def predictor(model: Model, *, engine: str | None = None, dt: float = 0.002) -> 
 
 
 def user_effects(model: Model) -> tuple[Effect, ...]:
-    """Give the effects of a model that the catalogue does not hold."""
+    """Return the effects of a model that the catalogue does not hold."""
     known = catalogue()
     return tuple(
         u.effect for u in model.uses if u.effect.name not in known or known[u.effect.name].hooks is not u.effect.hooks
@@ -146,7 +146,7 @@ def user_effects(model: Model) -> tuple[Effect, ...]:
 
 
 def shaking(model: Model, acceleration: Array, girder: Array, dt: float) -> Array:
-    """Give what the table does when it is told to move so, (n, 4): x, y, z [m/s^2], pitch [rad/s^2].
+    """Return what the table does when it is told to move so, (n, 4): x, y, z [m/s^2], pitch [rad/s^2].
 
     Args:
         model: whose effects of the table act.

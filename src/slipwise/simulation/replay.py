@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from slipwise.model import Model
-from slipwise.model_file import as_model
+from slipwise.model.file import as_model
 from slipwise.motion.load import as_motion
 from slipwise.motion.resample import resample
 from slipwise.motion.table_motion import TableMotion

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.display import Drawn
 from slipwise.errors import SimulationError
 from slipwise.motion.table_motion import TableMotion
 from slipwise.record import Record
-from slipwise.shown import Drawn
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -80,13 +80,13 @@ class Replay(Drawn):
     computing: float
 
     def summary(self, motion: TableMotion) -> dict[str, Any]:
-        """Give the numbers of summary.json; `motion` is what was replayed."""
+        """Return the numbers of summary.json; `motion` is what was replayed."""
         from slipwise.simulation.summary import summary
 
         return summary(self, motion)
 
     def to_pandas(self) -> "DataFrame":
-        """Give time and channels of the record as the columns of a pandas frame, SI.
+        """Return time and channels of the record as the columns of a pandas frame, SI.
 
         Raises:
             InputError: pandas is not installed.

@@ -12,12 +12,12 @@ Reader = Callable[[str], Array]
 
 
 def sensor(rig: Rig, name: str, sensordata: Array) -> Array:
-    """Give the columns of one sensor, (..., dim)."""
+    """Return the columns of one sensor, (..., dim)."""
     return sensordata[..., rig.sensors[name]]
 
 
 def has_sensor(rig: Rig, name: str) -> bool:
-    """Tell whether the model has a sensor of this name."""
+    """Return whether the model has a sensor of this name."""
     return name in rig.sensors
 
 

@@ -78,7 +78,7 @@ class _Collector:
         self.done += -(-len(sensordata) // split)
 
     def channels(self) -> dict[str, Array]:
-        """Give every channel at the output rate."""
+        """Return every channel at the output rate."""
         if not self.parts:
             return to_channels(
                 self.rig, np.empty((0, self.rig.model.nsensordata)), self.control[:0], self.dt, self.pitching
@@ -164,7 +164,7 @@ def simulate(
 
 
 def _feels_girder(model: Model, acceleration: Array, dt: float) -> bool:
-    """Tell whether an effect lets the girder push the table."""
+    """Return whether an effect lets the girder push the table."""
     pushed, left = (shaking(model, acceleration[:2], np.full(2, push), dt) for push in (1.0, 0.0))
     return not np.array_equal(pushed, left)
 

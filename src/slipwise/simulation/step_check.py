@@ -54,7 +54,7 @@ def warn_of_coarse_step(model: Model, answer: Replay, title: str) -> None:
 
 
 def _step_of_law(model: Model, answer: Replay) -> float | None:
-    """Give a step [s] at which reversals follow the law, None where that of the replay does."""
+    """Return a step [s] at which reversals follow the law, None where that of the replay does."""
     record = answer.record
     if not model.specimen.free or len(record.time) < 2:
         return None
@@ -68,7 +68,7 @@ def _step_of_law(model: Model, answer: Replay) -> float | None:
 
 
 def _left_out(model: Model, change: float) -> float:
-    """Give the deceleration [m/s^2] that straight lines over a change of slip rate [m/s] may be wrong by."""
+    """Return the deceleration [m/s^2] that straight lines over a change of slip rate [m/s] may be wrong by."""
     law = kernel(ENGINES[1], user_effects(model))  # three calls are not worth compiling the law by itself
     numbers, specimen = fill(law.layout, model, 1.0), model.built_specimen()
     z, load = law.layout.first_pad, specimen.weight / len(specimen.pads)

@@ -59,7 +59,7 @@ def numbers_for(law: Kernel, rig: Rig, model: Model, dt: float) -> Array:
 
 
 def _acceleration_readings(rig: Rig) -> slice:
-    """Give where the readings of acceleration stand in sensordata: one after another."""
+    """Return where the readings of acceleration stand in sensordata: one after another."""
     found = [s for name, s in rig.sensors.items() if rig.model.sensor(name).type[0] in _ACCELERATION]
     return slice(min(s.start for s in found), max(s.stop for s in found))
 
@@ -100,7 +100,7 @@ def _friction_rows(rig: Rig, count: int) -> NDArray[np.int64]:
 
 
 def start_state(rig: Rig) -> Array:
-    """Give the generalised positions at rest, (nq,)."""
+    """Return the generalised positions at rest, (nq,)."""
     rest = at_rest(rig.specimen)
     data = mujoco.MjData(rig.model)
     data.joint("girder_z").qpos[0] = rest.heave
@@ -111,7 +111,7 @@ def start_state(rig: Rig) -> Array:
 
 
 def model_for_kernel(rig: Rig, dt: float) -> mujoco.MjModel:
-    """Give a copy of the rig's model for a step dt [s] in which the law takes the place of buffers and of contacts.
+    """Return a copy of the rig's model for a step dt [s] in which the law takes the place of buffers and of contacts.
 
     The buffers' springs are left out; they stay in the rig so that it behaves in any viewer. The law says what a
     contact carries and has to be asked before a pad touches.

@@ -147,7 +147,7 @@ def _restore(simulation: _Simulation, start: dict[str, Array], before: float, af
 
 
 def _between(control: Array, first: int, count: int, parts: int) -> Array:
-    """Give the command (count * parts, 4) at and between steps, which it joins by straight lines."""
+    """Return the command (count * parts, 4) at and between steps, which it joins by straight lines."""
     if parts == 1:
         return control[first : first + count]
     known = control[first : first + count + 1]

@@ -26,7 +26,7 @@ def slip_half_range(record: Record, steady: Steady | None, axis: str = "x") -> f
 
 
 def summary(replay: Replay, motion: TableMotion) -> dict[str, Any]:
-    """Give the numbers of summary.json.
+    """Return the numbers of summary.json.
 
     Args:
         replay: the answer.

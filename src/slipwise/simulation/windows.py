@@ -115,7 +115,7 @@ def _numbers(law: Kernel, rig: Rig, model: Model, windows: Windows, dt: float) -
 
 
 def _start(rig: Rig, slip: Array, velocity: Array) -> tuple[Array, Array]:
-    """Give positions (nq,) and velocities (nv,) at a measured slip (2,) and its rate (2,)."""
+    """Return positions (nq,) and velocities (nv,) at a measured slip (2,) and its rate (2,)."""
     position, rate = start_state(rig), np.zeros(rig.model.nv)
     for axis, name in enumerate(("girder_x", "girder_y")):
         joint = rig.model.joint(name)

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from slipwise.channels import PADS
 from slipwise.effects import BalanceStates, Effect
-from slipwise.estimation.storey_balance import push_from_rest
 from slipwise.model import Model, base_model, use
 from slipwise.record import Record
+from slipwise.relations.storeys import push_from_rest
 from slipwise.rig import Specimen, load_specimen
 from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import LoadModes, pad_loads
@@ -100,7 +100,7 @@ def _loads(specimen: Specimen, pads: Array, buffers: Array) -> Array:
 
 @cache
 def _base() -> tuple[Model, Array, Array, Array]:
-    """Give the base model with its loads, pad forces and buffer forces; loads and friction agree after two rounds."""
+    """Return the base model with its loads, pad forces and buffer forces; loads and friction agree after two rounds."""
     model = base_model("bridge1")
     load = np.full((len(_motion().time), 4), model.specimen.weight / 4.0)
     for _ in range(3):

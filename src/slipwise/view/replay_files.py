@@ -4,9 +4,9 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from slipwise.parallel import on_every_core
+from slipwise.jobs.parallel import on_every_core
 from slipwise.record import Record
-from slipwise.view.geometry import RigGeometry
+from slipwise.view.recordings.geometry import RigGeometry
 
 
 def draw_replay(
@@ -29,11 +29,11 @@ def draw_replay(
     # What takes longest comes first, so that the cores end together.
     jobs: list[Callable[[], Path]] = []
     if recording:
-        from slipwise.view.recording import write_recording
+        from slipwise.view.recordings.recording import write_recording
 
         jobs.append(partial(write_recording, record, geometry, folder / "replay.rrd", title))
     if pictures:
-        from slipwise.view.pictures import PICTURES, save_picture
+        from slipwise.view.figures.pictures import PICTURES, save_picture
 
         jobs += [partial(save_picture, name, record, geometry, folder) for name in PICTURES]
     return list(on_every_core(lambda place: jobs[place](), len(jobs), "the pictures"))

@@ -4,8 +4,8 @@ from msgspec.structs import asdict
 
 from slipwise.errors import SettingError, SlipwiseError
 from slipwise.workbench import messages as said
+from slipwise.workbench.hub import Room
 from slipwise.workbench.page import Page
-from slipwise.workbench.room import Room
 
 
 async def act(room: Room, page: Page, text: str | bytes) -> None:

@@ -11,7 +11,7 @@ from slipwise.session.responses import RESPONSES, RunReplay
 from slipwise.session.session import Session
 from slipwise.session.state import State
 from slipwise.workbench.frames import frame
-from slipwise.workbench.told import errors_told, other_models
+from slipwise.workbench.replies import errors_told, other_models
 
 #: What may stand beside without a file: the reference, and the paper's law as stated.
 BEFORE, PAPER = "before", "paper"
@@ -35,7 +35,7 @@ class View:
 
 
 def beside_of(session: Session, view: View) -> State | None:
-    """Give the model that stands beside; None where there is none, or no such file in the campaign's folder."""
+    """Return the model that stands beside; None where there is none, or no such file in the campaign's folder."""
     if view.beside == BEFORE:
         return session.reference
     if view.beside == PAPER:
@@ -117,7 +117,7 @@ def watched_frame(watched: RunReplay) -> bytes:
 
 
 def shown_answer(job: str, answer: Any) -> Mapping[str, Any] | bytes | None:
-    """Give what pages are shown of an answer of `jobs.SHOWN`; None where it has nothing to show."""
+    """Return what pages are shown of an answer of `jobs.SHOWN`; None where it has nothing to show."""
     if job == "system":
         return {"kind": "system", "errors": answer}
     if isinstance(answer, str):

@@ -5,19 +5,19 @@ from dataclasses import dataclass
 from typing import Any
 
 from slipwise.comparison.compare import compare
+from slipwise.design.next_test import next_test
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.discovery.discover import diagnose_with_law, discover
 from slipwise.errors import InputError
-from slipwise.experiment.next_test import next_test
 from slipwise.session.changes import without_additions
 from slipwise.session.findings import discovered, explained
 from slipwise.session.fitting import Progress, fit_state
 from slipwise.session.responses import RunReplay, replay_errors
 from slipwise.session.session import Session
 from slipwise.session.state import State, as_json
-from slipwise.view.compare_page import compare_page
-from slipwise.view.diagnosis_page import diagnosis_page
 from slipwise.view.files import save_page
+from slipwise.view.pages.compare_page import compare_page
+from slipwise.view.pages.diagnosis_page import diagnosis_page
 
 #: Pages that the workbench writes, beside its snapshot.
 REPORT, DIAGNOSIS = "report.html", "diagnosis.html"

@@ -16,9 +16,9 @@ from slipwise.errors import InputError, SlipwiseError
 from slipwise.session.campaign_folder import CampaignFolder
 from slipwise.session.own_files import read_own
 from slipwise.session.place import session_folder
-from slipwise.view.html_style import DARK, LIGHT
-from slipwise.workbench.kept_page import kept_page
-from slipwise.workbench.opening import Opening
+from slipwise.view.pages.html_style import DARK, LIGHT
+from slipwise.workbench.page_cache import kept_page
+from slipwise.workbench.startup import Opening
 
 try:
     import uvicorn
@@ -80,7 +80,7 @@ def application(opening: Opening, token: str, key: str) -> Starlette:
     unused, until = {key}, time.monotonic() + _ONCE_LASTS
 
     def allowed(part: str, host: str | None, origin: str | None) -> bool:
-        """Tell whether a request comes from the page: by its token, on this machine, and from no other site."""
+        """Return whether a request comes from the page: by its token, on this machine, and from no other site."""
         names = [host] if origin is None else [host, origin.partition("://")[2]]
         local = all((name or "").rpartition(":")[0] in _HOSTS for name in names)
         return local and secrets.compare_digest(part.encode(), token.encode())
@@ -156,7 +156,7 @@ def application(opening: Opening, token: str, key: str) -> Starlette:
 
 
 def _report(place: CampaignFolder, name: str) -> Response:
-    """Give a report of the session's folder, where it is a plain file of this user."""
+    """Return a report of the session's folder, where it is a plain file of this user."""
     try:
         place.check()
         page = read_own(session_folder(place.path) / name)

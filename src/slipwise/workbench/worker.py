@@ -13,9 +13,9 @@ from typing import Any
 
 from slipwise.effects import Trust
 from slipwise.errors import SlipwiseError
-from slipwise.interruption import unheard_by_children
-from slipwise.parallel import begin_worker
-from slipwise.view.matplotlib_folder import pass_over_a_matplotlibrc_here
+from slipwise.jobs.interruption import unheard_by_children
+from slipwise.jobs.parallel import begin_worker
+from slipwise.view.figures.matplotlib_folder import pass_over_a_matplotlibrc_here
 
 #: A piece of work that goes on so long after it was called off is ended with its process, where somebody waits for that
 #: and where nobody does [s].

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from slipwise.campaign.rest_noise import noise_of_gauges
+from slipwise.noise.gauges import noise_of_gauges
 from slipwise.record import Record
 
 DT = 0.002

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from slipwise.campaign import Campaign, Run, as_campaign, load_campaign
-from slipwise.campaign.decimation import decimated
-from slipwise.campaign.stretches import stretched
 from slipwise.campaign.wild_samples import faulty_share, without_wild_samples
 from slipwise.errors import SlipwiseWarning
+from slipwise.preparation.decimation import decimated
+from slipwise.preparation.excerpts import stretched
 from slipwise.rig import load_specimen
 
 DEMO = Path(__file__).parents[3] / "src" / "slipwise" / "demo_data"

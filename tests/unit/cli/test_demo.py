@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from slipwise.model_file import load_model
+from slipwise.model.file import load_model
 from slipwise.session.session import Session
 
 

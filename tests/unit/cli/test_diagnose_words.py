@@ -7,7 +7,7 @@ import pytest
 from hypotheses import base, decided, diagnosed, left_by, searched
 from slipwise.campaign import Campaign
 from slipwise.cli.diagnose import _record, _tell, diagnose
-from slipwise.cli.edit import tell_change
+from slipwise.cli.model_edit import tell_change
 from slipwise.diagnosis.ladder import left_over
 from slipwise.diagnosis.unknown_surface import leftover
 from slipwise.record import Record
@@ -40,7 +40,7 @@ def test_who_listens_to_the_first_lines_only_finds_all_files(monkeypatch, tmp_pa
     found = diagnosed(searched(base()))
     monkeypatch.setattr("slipwise.campaign.load_campaign", lambda _: found.final.campaign)
     monkeypatch.setattr("slipwise.discovery.discover.diagnose_with_law", lambda *_, **__: found)
-    monkeypatch.setattr("slipwise.view.diagnosis_page.diagnosis_page", lambda *_: "the page")
+    monkeypatch.setattr("slipwise.view.pages.diagnosis_page.diagnosis_page", lambda *_: "the page")
     monkeypatch.setattr("slipwise.cli.diagnose._record", lambda _, folder: [folder / "before_and_after.rrd"])
     monkeypatch.setattr("slipwise.cli.diagnose._tell", left)
     with pytest.raises(BrokenPipeError):

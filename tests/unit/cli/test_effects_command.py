@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 from slipwise.cli.effects import register
 from slipwise.effects import catalogue, find_effect
 from slipwise.errors import SettingError, UnknownNameError
-from slipwise.view.effects import effect_rows
+from slipwise.view.words.effects import effect_rows
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ import json
 import pytest
 
 from hypotheses import base, diagnosed, left_by, searched
-from slipwise.cli.many import _names
+from slipwise.cli.batch import _names
 from slipwise.errors import InputError, SettingError
 
 
@@ -34,7 +34,7 @@ def lab(monkeypatch, tmp_path):
     monkeypatch.setattr(
         "slipwise.discovery.discover.diagnose_with_law", lambda m, *_, **__: worn if m[0] == "b" else quiet
     )
-    monkeypatch.setattr("slipwise.view.diagnosis_page.diagnosis_page", lambda *_: "the page")
+    monkeypatch.setattr("slipwise.view.pages.diagnosis_page.diagnosis_page", lambda *_: "the page")
     monkeypatch.setattr("slipwise.cli.diagnose._record", lambda *_: [])
     return tmp_path, seen
 

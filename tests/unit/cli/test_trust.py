@@ -11,7 +11,7 @@ import pytest
 import slipwise as package
 from slipwise.effects import find_effect
 from slipwise.errors import InputError
-from slipwise.model_file import add_effect, draft_model, load_model, remove_effect, save_model
+from slipwise.model.file import add_effect, draft_model, load_model, remove_effect, save_model
 
 DEMO = Path(package.__file__).parent / "demo_data"
 RAN = 'from pathlib import Path\nPath(__file__).with_name("CODE_RAN").write_text("yes")\n'
@@ -104,8 +104,8 @@ def test_control_characters_of_a_file_are_shown_and_steer_nothing(slipwise, tmp_
 
 
 def test_control_characters_are_shown_in_pages_and_notebooks():
-    from slipwise.shown import _cell
-    from slipwise.view.html import paragraph
+    from slipwise.display import _cell
+    from slipwise.view.pages.html import paragraph
 
     assert "\\x1b[0m&lt;b&gt;" in paragraph("\x1b[0m<b>").text
     assert _cell("\x9b\u202e<") == "\\x9b\\u202e&lt;"

@@ -5,7 +5,7 @@ import pytest
 
 from slipwise.comparison.cells import Samples, cells_of, corrected
 from slipwise.comparison.motion_states import STATES
-from slipwise.comparison.parity import parity
+from slipwise.comparison.odd_even import parity
 from slipwise.comparison.patterns import patterns_of
 from slipwise.comparison.sentences import places
 

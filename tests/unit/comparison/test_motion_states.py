@@ -7,8 +7,8 @@ import pytest
 
 from hypotheses import base
 from slipwise.comparison.motion_states import STATES, motion_states
-from slipwise.estimation.run_data import FitRun
 from slipwise.record import Record
+from slipwise.relations.run_data import FitRun
 
 AMPLITUDE, FREQUENCY, DT = 0.02, 1.0, 0.002
 

@@ -9,8 +9,8 @@ from hypotheses import base, left_by, searched
 from slipwise.diagnosis import backward_elimination as module
 from slipwise.diagnosis.backward_elimination import with_final_refit
 from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.estimation.parameters import Term
 from slipwise.evidence.residual_summary import ResidualSummary
+from slipwise.relations.parameters import Term
 
 
 @pytest.mark.parametrize(("alone", "kept"), [(1.02, ("buffer_mismatch",)), (3.0, ("buffer_mismatch", "key_clearance"))])

@@ -12,16 +12,16 @@ import pytest
 
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.diagnosis.candidates import candidates
-from slipwise.diagnosis.screened_rows import on_screen
+from slipwise.diagnosis.initial_grid import shapes, strengths
+from slipwise.diagnosis.row_subset import on_screen
 from slipwise.diagnosis.screening import projector
 from slipwise.diagnosis.sensitivities import column_of, residual_with, small
-from slipwise.diagnosis.starting_grid import shapes, strengths
 from slipwise.effects import NEEDS, catalogue, scaled
 from slipwise.estimation.base_fit import BaseFit, fit_base
-from slipwise.estimation.parameters import Term
-from slipwise.instruments.sample_faults import sample_faults
-from slipwise.instruments.signs import wrong_signs
+from slipwise.preparation.sample_faults import sample_faults
+from slipwise.preparation.signs import wrong_signs
 from slipwise.record import Record
+from slipwise.relations.parameters import Term
 from slipwise.rig import load_specimen
 
 STEP, SECONDS, STROKE = 0.005, 8.0, 0.05

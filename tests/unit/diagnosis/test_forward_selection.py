@@ -8,13 +8,13 @@ from bench import build_campaign
 from measured import as_campaign
 from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.hypothesis import STICK_LENGTH, base_hypothesis, polished, refit
+from slipwise.diagnosis.initial_grid import places, shapes
+from slipwise.diagnosis.initial_guesses import longer_stick, starting_points
 from slipwise.diagnosis.screening import screen_shapes
 from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.starting_grid import places, shapes
-from slipwise.diagnosis.starting_values import longer_stick, starting_points
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import BaseFit, at_rated, fit_base
-from slipwise.estimation.parameters import Term
+from slipwise.relations.parameters import Term
 
 
 @pytest.fixture(scope="module")

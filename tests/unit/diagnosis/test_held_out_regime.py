@@ -6,7 +6,7 @@ from hypotheses import measured
 from slipwise.campaign import Campaign
 from slipwise.diagnosis.held_out_regime import not_testable
 from slipwise.estimation.base_fit import fit_base
-from slipwise.estimation.problem import Problem
+from slipwise.estimation.objective import Problem
 
 
 def _problem(campaign: Campaign, factor: float) -> Problem:

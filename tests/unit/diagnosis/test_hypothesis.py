@@ -12,9 +12,9 @@ from slipwise.diagnosis.hypothesis import base_hypothesis, refit
 from slipwise.diagnosis.screening import projector, screen
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import fit_base
-from slipwise.estimation.parameters import Term, base_free
 from slipwise.evidence.acceptance import LEAST
 from slipwise.model import base_model, use
+from slipwise.relations.parameters import Term, base_free
 
 
 @pytest.fixture(scope="module")

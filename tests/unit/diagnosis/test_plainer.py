@@ -5,7 +5,7 @@ import pytest
 from hypotheses import base, decided, left_by, searched
 from slipwise.diagnosis.plainer import holds_as_limit, plainest, with_plainer
 from slipwise.effects import catalogue
-from slipwise.estimation.parameters import Term
+from slipwise.relations.parameters import Term
 
 RIM, SPRING = Term(catalogue()["restrainer"]), Term(catalogue()["slide_curvature"])
 

@@ -13,7 +13,7 @@ from slipwise.diagnosis.reported_sizes import named_sizes
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import BaseFit, fit_base
 from slipwise.estimation.intervals import intervals
-from slipwise.estimation.parameters import Term
+from slipwise.relations.parameters import Term
 
 
 @pytest.fixture(scope="module")

@@ -6,8 +6,8 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.diagnosis.candidates import candidates
+from slipwise.diagnosis.initial_grid import is_placed, places, shapes, strengths, variants
 from slipwise.diagnosis.screening import projector, screen
-from slipwise.diagnosis.starting_grid import is_placed, places, shapes, strengths, variants
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import fit_base
 

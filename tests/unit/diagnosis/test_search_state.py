@@ -13,7 +13,7 @@ from slipwise.estimation.base_fit import fit_base
 
 @pytest.mark.long
 def test_only_the_promising_are_fitted_to_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("slipwise.parallel._cores", lambda: 1)  # or children would count their own
+    monkeypatch.setattr("slipwise.jobs.parallel._cores", lambda: 1)  # or children would count their own
     ended: list[tuple[str, ...]] = []
 
     def polished(found: Hypothesis) -> Hypothesis:

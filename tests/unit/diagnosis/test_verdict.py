@@ -15,9 +15,9 @@ from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.verdict import Verdict, evidence_of, with_faults
 from slipwise.effects import Effect, catalogue
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.parameters import Term
-from slipwise.estimation.run_data import FitRun
-from slipwise.instruments.sample_faults import SampleFault
+from slipwise.preparation.sample_faults import SampleFault
+from slipwise.relations.parameters import Term
+from slipwise.relations.run_data import FitRun
 
 
 def _decided(of: BaseFit, *tried: Hypothesis, **material: float) -> Verdict:

@@ -10,10 +10,10 @@ import pytest
 
 from slipwise.discovery.discover import _without_needless
 from slipwise.discovery.law_problem import LawProblem, PlacedLaw
-from slipwise.estimation.girder_balances import through_pitch
 from slipwise.estimation.least_squares import Solution, solve, with_slopes
-from slipwise.estimation.parameters import Free
-from slipwise.estimation.residuals import Residuals
+from slipwise.relations.girder import through_pitch
+from slipwise.relations.parameters import Free
+from slipwise.relations.table import Residuals
 
 TIME = np.arange(400) * 0.005
 FORCE = 3e3 * np.sin(2.0 * np.pi * TIME)

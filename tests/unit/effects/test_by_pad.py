@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from slipwise.effects import catalogue, for_pads
-from slipwise.estimation.parameters import Term, base_free
 from slipwise.model import base_model, use
+from slipwise.relations.parameters import Term, base_free
 from slipwise.rig import load_specimen
 from slipwise.rig.load_basis import has_corners
 from slipwise.simulation.predict import predictor

@@ -32,7 +32,7 @@ from slipwise.effects import (
 from slipwise.errors import OutputError, SettingError, UnknownNameError
 from slipwise.params import Parameter
 from slipwise.simulation.kernel import engine_for
-from slipwise.view.effects import effect_rows
+from slipwise.view.words.effects import effect_rows
 
 ROOT = Path(__file__).parents[3]
 every_port = pytest.mark.parametrize("port", PORTS)

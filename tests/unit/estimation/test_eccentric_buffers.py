@@ -7,10 +7,10 @@ import numpy as np
 
 from shaking import G, coulomb, shaken, sine
 from slipwise.campaign import Campaign, Logger, Run
-from slipwise.estimation.run_data import fit_runs
-from slipwise.estimation.yaw import yaw_of
 from slipwise.model import Model
 from slipwise.record import Record
+from slipwise.relations.run_data import fit_runs
+from slipwise.relations.yaw import yaw_of
 from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import load_modes
 from slipwise.rig.places import Buffer

@@ -12,13 +12,13 @@ from slipwise.comparison.component_level import component_errors, pooled
 from slipwise.comparison.system_level import pad_springs
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import fit_base
-from slipwise.estimation.judged_samples import without_uplift
-from slipwise.estimation.problem import Problem
-from slipwise.estimation.run_data import fit_runs
-from slipwise.estimation.storey_balance import predicted_push
-from slipwise.instruments.balances import relations
+from slipwise.estimation.objective import Problem
 from slipwise.model import base_model, use
 from slipwise.record import Record, write_record
+from slipwise.relations.rigid_balances import relations
+from slipwise.relations.run_data import fit_runs
+from slipwise.relations.sample_masks import without_uplift
+from slipwise.relations.storeys import predicted_push
 from slipwise.rig import load_specimen
 from slipwise.rig.frame import floor_sway, frame_moment, frame_push
 from slipwise.rig.load_basis import basis_of

@@ -12,12 +12,12 @@ from bench.faults import Fault
 from measured import as_campaign
 from slipwise.diagnosis.hypothesis import final_refit_of, polished, refit
 from slipwise.effects import catalogue
-from slipwise.estimation.balance_noise import heave_level
 from slipwise.estimation.base_fit import fit_base
-from slipwise.estimation.parameters import Term
-from slipwise.estimation.run_data import fit_runs
 from slipwise.evidence.residual_summary import summarised
 from slipwise.model import base_model
+from slipwise.relations.noise import heave_level
+from slipwise.relations.parameters import Term
+from slipwise.relations.run_data import fit_runs
 
 CUTOFF = 12.0
 

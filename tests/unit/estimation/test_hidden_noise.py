@@ -7,11 +7,11 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign
-from slipwise.estimation.balance_noise import bent_noise_in_heave, vertical_friction_noise
-from slipwise.estimation.girder_balances import heave_rate
-from slipwise.estimation.noise_model import whitened, with_masked_noise
-from slipwise.estimation.run_data import FitRun, fit_runs
 from slipwise.model import base_model, use
+from slipwise.relations.girder import heave_rate
+from slipwise.relations.noise import bent_noise_in_heave, vertical_friction_noise
+from slipwise.relations.pad_noise import whitened, with_masked_noise
+from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.signals.oscillator import oscillator
 
 

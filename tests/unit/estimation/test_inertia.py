@@ -10,13 +10,13 @@ from measured import as_campaign
 from slipwise.campaign import Logger
 from slipwise.diagnosis.hypothesis import final_refit_of, polished, refit
 from slipwise.effects import catalogue
-from slipwise.estimation.balance_noise import driven_noise_in_pitch
 from slipwise.estimation.base_fit import fit_base
-from slipwise.estimation.girder_balances import through_pitch
-from slipwise.estimation.parameters import PITCH_INERTIA, YAW_INERTIA, Term
-from slipwise.estimation.run_data import fit_runs
 from slipwise.evidence.residual_summary import summarised
 from slipwise.model import base_model, use
+from slipwise.relations.girder import through_pitch
+from slipwise.relations.noise import driven_noise_in_pitch
+from slipwise.relations.parameters import PITCH_INERTIA, YAW_INERTIA, Term
+from slipwise.relations.run_data import fit_runs
 from slipwise.signals.filters import LowPass
 from slipwise.signals.oscillator import oscillator
 

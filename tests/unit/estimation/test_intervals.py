@@ -3,7 +3,7 @@
 import numpy as np
 
 from slipwise.estimation.intervals import of_fit
-from slipwise.estimation.parameters import Free
+from slipwise.relations.parameters import Free
 
 ROWS, RUNS = 4000, 200
 

@@ -5,7 +5,7 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign
-from slipwise.estimation.run_data import fit_runs
+from slipwise.relations.run_data import fit_runs
 from slipwise.signals.shift import shift
 
 #: As far as cards of one logger may stand apart [s].

@@ -11,10 +11,10 @@ from slipwise.effects import find_effect
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import intervals
 from slipwise.estimation.least_squares import jacobian, solve
-from slipwise.estimation.parameters import Free, Term
-from slipwise.estimation.residuals import Residuals
-from slipwise.estimation.run_data import FitRun
 from slipwise.record import Record
+from slipwise.relations.parameters import Free, Term
+from slipwise.relations.run_data import FitRun
+from slipwise.relations.table import Residuals
 
 DT, COUNT, SIGMA = 0.01, 4000, 1.0
 LEVEL = Free("rig.mass", 0.0, -9.0, 9.0, 0.1, "kg")

@@ -9,10 +9,10 @@ import pytest
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import fit_base
-from slipwise.estimation.judged_samples import roll_is_known
-from slipwise.estimation.parameters import SEAT_STIFFNESS, Term, base_free
 from slipwise.model import base_model
 from slipwise.record import Record
+from slipwise.relations.parameters import SEAT_STIFFNESS, Term, base_free
+from slipwise.relations.sample_masks import roll_is_known
 from slipwise.rig import Specimen, load_specimen
 from slipwise.simulation.replay import replay
 

@@ -10,7 +10,7 @@ from measured import as_campaign
 from slipwise.campaign import measured_states
 from slipwise.errors import SettingError
 from slipwise.evidence.floor import STATES, noise_floor
-from slipwise.view.floor_rows import floor_rows
+from slipwise.view.words.floor_rows import floor_rows
 
 KINDS = {"slip_x": "slip", "girder_ax": "girder", "table_az": "table", "pad_A_N": "load", "pad_D_Fx": "force"}
 

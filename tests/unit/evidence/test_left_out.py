@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hypotheses import base
-from slipwise.estimation.problem import Problem
+from slipwise.estimation.objective import Problem
 from slipwise.evidence.left_out import LinearFit, left_out, motions
 
 

@@ -8,9 +8,9 @@ import pytest
 from bench import Fault
 from slipwise.campaign import Campaign
 from slipwise.instruments.audit import audit
-from slipwise.instruments.late_cells import late_cells
-from slipwise.instruments.outliers import campaign_without_outliers
-from slipwise.instruments.signs import wrong_signs
+from slipwise.preparation.outliers import campaign_without_outliers
+from slipwise.preparation.signs import wrong_signs
+from slipwise.preparation.synchronisation import late_cells
 from slipwise.signals.shift import shift
 from slipwise.signals.short_bursts import short_bursts
 

@@ -9,7 +9,7 @@ from bench import GROUPS, Fault
 from shaking import needs_shared
 from slipwise.campaign import Campaign, Logger, load_campaign
 from slipwise.instruments.audit import audit
-from slipwise.instruments.logger_spectrum import estimate_logger
+from slipwise.preparation.logger import estimate_logger
 
 CELLS = GROUPS["forces"] + GROUPS["loads"]
 

@@ -7,9 +7,9 @@ import pytest
 
 from slipwise.campaign import Campaign, Logger, Run, load_campaign
 from slipwise.instruments.audit import audit
-from slipwise.instruments.repairs import for_balances, for_fits
-from slipwise.instruments.sample_faults import SampleFault, sample_faults
 from slipwise.instruments.suspects import effect_of
+from slipwise.preparation.repairs import for_balances, for_fits
+from slipwise.preparation.sample_faults import SampleFault, sample_faults
 from slipwise.record import Record
 from slipwise.rig import load_specimen
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from slipwise.campaign import Campaign, Logger, Run
-from slipwise.instruments.sample_faults import sample_faults
+from slipwise.preparation.sample_faults import sample_faults
 from slipwise.record import Record
 from slipwise.rig import load_specimen
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from physics.test_pendulum import pulse
 from shaking import FAST, coulomb, shaken
-from slipwise.instruments.balances import relations
+from slipwise.relations.rigid_balances import relations
 from slipwise.rig.curved_faces import rise_rate, risen
 
 

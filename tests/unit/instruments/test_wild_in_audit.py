@@ -8,8 +8,8 @@ import pytest
 from slipwise.campaign import Campaign, as_campaign
 from slipwise.errors import SlipwiseWarning
 from slipwise.instruments.audit import audit
-from slipwise.instruments.repairs import for_fits, with_wild
-from slipwise.instruments.sample_faults import SampleFault, sample_faults
+from slipwise.preparation.repairs import for_fits, with_wild
+from slipwise.preparation.sample_faults import SampleFault, sample_faults
 
 pytestmark = pytest.mark.filterwarnings("ignore::slipwise.errors.SlipwiseWarning")
 

@@ -14,8 +14,8 @@ from slipwise.campaign.same_specimen import check_same_specimen
 from slipwise.comparison.compare import compare
 from slipwise.errors import InputError
 from slipwise.instruments.checks import check_instruments, corrected_campaign
-from slipwise.instruments.signs import wrong_signs
 from slipwise.instruments.zeros import tared_cells
+from slipwise.preparation.signs import wrong_signs
 from slipwise.record import Record
 
 DEMO = Path(slipwise.__file__).parent / "demo_data"

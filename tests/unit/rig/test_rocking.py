@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.signal import StateSpace, lsim
 
-from slipwise.estimation.girder_balances import through_pitch
+from slipwise.relations.girder import through_pitch
 from slipwise.rig import Specimen, load_specimen
 from slipwise.rig.rocking import coupled, rocking_modes, rolls
 

@@ -6,7 +6,7 @@ import pytest
 
 from session_campaign import MISSING
 from slipwise.errors import SettingError, UnknownNameError
-from slipwise.estimation.parameters import Term
+from slipwise.relations.parameters import Term
 from slipwise.session import model_change
 from slipwise.session.findings import explained
 from slipwise.session.model_change import add, remove

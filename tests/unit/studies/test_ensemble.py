@@ -9,9 +9,9 @@ from slipwise.model import base_model
 from slipwise.motion import load_motion, scale
 from slipwise.simulation.replay import replay
 from slipwise.studies.ensemble import QUANTILES, Base, Shaken, read_scales, read_varied, run_scaled, run_shaken
+from slipwise.studies.ensemble.distributions import draw, with_values
 from slipwise.studies.ensemble.member import member_key, motion_key
 from slipwise.studies.ensemble.responses import read_limit
-from slipwise.studies.ensemble.varied import draw, with_values
 
 MODEL = base_model("bridge1")
 SINE = "sine:2Hz,0.2g,cycles=9"

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from slipwise.record import Record
-from slipwise.view.recording import write_recording
-from slipwise.view.style import PAD_COLOURS, rgb
+from slipwise.view.figures.style import PAD_COLOURS, rgb
+from slipwise.view.recordings.recording import write_recording
 
 SCRIPT = Path(__file__).parents[3] / "scripts" / "screenshot.py"
 

@@ -24,7 +24,7 @@ _KEYWORD = re.compile(r"\*\s*AMPLITUDE\b", re.IGNORECASE)
 
 
 def recognise(head: bytes) -> bool:
-    """Tell whether a line of the head begins an amplitude."""
+    """Return whether a line of the head begins an amplitude."""
     return any(_KEYWORD.match(line) for line in head.decode("utf-8", "replace").splitlines())
 
 
@@ -99,6 +99,6 @@ def _refuse_short_line(source: SourceFile, places: list[int]) -> None:
 
 
 def _options(line: str) -> dict[str, str]:
-    """Give the options of a keyword line: "*Amplitude, name=EQ, time=TOTAL TIME"."""
+    """Return the options of a keyword line: "*Amplitude, name=EQ, time=TOTAL TIME"."""
     pairs = (part.partition("=") for part in line.split(",")[1:])
     return {key.strip().lower(): value.strip() for key, _, value in pairs}

@@ -24,7 +24,7 @@ from slipwise.motion.wrapped import wrapped_pairs, wrapped_series
 
 
 def recognise(head: bytes) -> bool:
-    """Tell whether some line of the head holds nothing but numbers, or names stand above a table."""
+    """Return whether some line of the head holds nothing but numbers, or names stand above a table."""
     # A head that is not the whole file may end within a number.
     whole = head if len(head) < HEAD_BYTES else re.sub(rb"[^\s,;]*$", b"", head)
     lines = whole.decode("utf-8", "replace").splitlines()
@@ -74,13 +74,13 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
 
 
 def _name_above(rows: Rows) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Give name and unit of a single column, where the line above it is a name and a unit of acceleration."""
+    """Return name and unit of a single column, where the line above it is a name and a unit of acceleration."""
     names, units = names_and_units(rows.header[-1:])
     return (names, units) if any(map(is_acceleration, units)) else ((), ())
 
 
 def agreed_count(one: int | None, other: int | None, source: SourceFile) -> int | None:
-    """Give the count that header and first line state.
+    """Return the count that header and first line state.
 
     Raises:
         InputError: two that differ.

@@ -30,7 +30,7 @@ _CHANNEL = re.compile(r"sta\s+cha[n]?:?\s*(?P<number>\d+):?\s*(?P<name>.*?)\s*(?
 
 
 def recognise(head: bytes) -> bool:
-    """Tell whether the first line is that of a COSMOS record."""
+    """Return whether the first line is that of a COSMOS record."""
     lines = head.decode("utf-8", "replace").lstrip().splitlines()
     return bool(lines and re.search(r"\(format v[\d.]+ with", lines[0], re.IGNORECASE))
 
@@ -115,7 +115,7 @@ def _numbers(source: SourceFile, at: int, what: str) -> tuple[list[float], int]:
 
 
 def _peak(reals: list[float], text: tuple[str, ...], factor: float) -> HeaderPeak | None:
-    """Give the peak of the real header, rounded as the text lines write it; None where it is not known."""
+    """Return the peak of the real header, rounded as the text lines write it; None where it is not known."""
     value, time = reals[63], reals[64]
     if value in (-999.0, 0.0):
         return None

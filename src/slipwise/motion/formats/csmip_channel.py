@@ -84,7 +84,7 @@ def origin_of(source: SourceFile, start: int, end: int, place: str) -> Origin:
 
 
 def stated_peak(size: str, unit: str, time: str, place: str) -> HeaderPeak:
-    """Give the peak as a header writes it: size, unit, time in seconds."""
+    """Return the peak as a header writes it: size, unit, time in seconds."""
     factor = acceleration_factor(unit, place)
     return HeaderPeak(number(size, place) * factor, number(time, place), half_last_digit(size) * factor)
 

@@ -22,12 +22,12 @@ _PEAK = re.compile(r"max\s*=\s*(-?[\d.]+)\s*(\S+?)\s*,\s*at\s+([\d.]+)\s*sec", r
 
 
 def recognise(head: bytes) -> bool:
-    """Tell whether the first line is that of an uncorrected CSMIP channel."""
+    """Return whether the first line is that of an uncorrected CSMIP channel."""
     return head.lstrip().lower().startswith(b"uncorrected accelerogram data")
 
 
 def recognise_spectra(head: bytes) -> bool:
-    """Tell whether the first line is that of a Volume 3 file."""
+    """Return whether the first line is that of a Volume 3 file."""
     return head.lstrip().lower().startswith(b"response and fourier amplitude spectra")
 
 

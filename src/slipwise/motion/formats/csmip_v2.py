@@ -24,7 +24,7 @@ _END = re.compile(r"^/&.*end of data", re.IGNORECASE)
 
 
 def recognise(head: bytes) -> bool:
-    """Tell whether the first line is that of a CSMIP channel."""
+    """Return whether the first line is that of a CSMIP channel."""
     first = head.lstrip().splitlines()[0].lower() if head.strip() else b""
     return first.startswith(b"corrected accelerogram") and b"chan" in first
 

@@ -18,7 +18,7 @@ _LOOK_AT = 40
 
 
 def recognise(head: bytes) -> bool:
-    """Tell whether the header states points and interval as CSMNC does."""
+    """Return whether the header states points and interval as CSMNC does."""
     text = head.upper()
     return b"NO. OF POINTS:" in text and b"EQUALLY SPACED INTERVALS OF:" in text and b"COMP." in text
 
@@ -68,6 +68,6 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
 
 
 def _is_data(line: str) -> bool:
-    """Tell whether a line below the header holds values: nothing of a word but exponents."""
+    """Return whether a line below the header holds values: nothing of a word but exponents."""
     fields = line.split()
     return bool(fields) and all(field[0] in "+-.0123456789" and field[-1].isdigit() for field in fields)

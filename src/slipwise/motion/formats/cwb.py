@@ -19,7 +19,7 @@ _LOOK_AT = 60
 
 
 def recognise(head: bytes) -> bool:
-    """Tell whether the header names a sequence of data as CWB does."""
+    """Return whether the header names a sequence of data as CWB does."""
     return head.lstrip().startswith(b"#") and b"#DataSequence:" in head
 
 
@@ -82,7 +82,7 @@ def _rows(source: SourceFile) -> list[int]:
 
 
 def _peak(source: SourceFile, name: str, factor: float) -> HeaderPeak | None:
-    """Give the larger of the two extremes that the header states, None if it states none."""
+    """Return the larger of the two extremes that the header states, None if it states none."""
     for i, line in enumerate(source.lines[:_LOOK_AT]):
         found = re.search(rf"AmplitudeMAX\.\s*{name}:\s*(-?[\d.]+)\s*~\s*(-?[\d.]+)", line, re.IGNORECASE)
         if found:

@@ -11,7 +11,7 @@ _BEGINNINGS = (b"PK\x03\x04", b"MATLAB ", b"\x89HDF", b"PAR1", b"TDSm", b"MDF ")
 
 
 def recognise(head: bytes) -> bool:
-    """Tell whether a file begins as one of these formats does."""
+    """Return whether a file begins as one of these formats does."""
     return head.startswith(_BEGINNINGS)
 
 

@@ -26,7 +26,7 @@ _FIRST = re.compile(rb"(un)?corrected accelerogram")
 
 
 def recognise(head: bytes) -> bool:
-    """Tell whether the first two lines are those of GeoNet."""
+    """Return whether the first two lines are those of GeoNet."""
     lines = head.lstrip().lower().splitlines()[:2]
     return len(lines) == 2 and bool(_FIRST.match(lines[0])) and lines[1].startswith(b"site ")
 
@@ -121,6 +121,6 @@ def _check_raw_unit(source: SourceFile, start: int, end: int, factor: float) -> 
 
 
 def _record_time(source: SourceFile, start: int) -> datetime | None:
-    """Give the time in the record's own name, "20161113_110259_WTMC_20"."""
+    """Return the time in the record's own name, "20161113_110259_WTMC_20"."""
     found = re.search(r"\d{8}_\d{6}", source.lines[start])
     return time_in(found[0]) if found else None

@@ -15,7 +15,7 @@ _HEADER_LINES = 7
 
 
 def recognise(head: bytes) -> bool:
-    """Tell whether a file begins as JMA's do."""
+    """Return whether a file begins as JMA's do."""
     return head.lstrip().startswith(b"SITE CODE=") and b"SAMPLING RATE" in head
 
 

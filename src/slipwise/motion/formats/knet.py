@@ -21,7 +21,7 @@ _NAMED = {"N-S": "NS", "E-W": "EW", "U-D": "UD"}
 
 
 def recognise(head: bytes) -> bool:
-    """Tell whether a file begins as K-NET and KiK-net files do."""
+    """Return whether a file begins as K-NET and KiK-net files do."""
     return head.lstrip().startswith(b"Origin Time") and b"Scale Factor" in head
 
 

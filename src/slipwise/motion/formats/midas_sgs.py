@@ -19,7 +19,7 @@ _AXIS = re.compile(r"\s*(?P<name>[^(\[]*?)\s*(?:[(\[](?P<unit>[^)\]]*)[)\]])?\s*
 
 
 def recognise(head: bytes) -> bool:
-    """Tell whether the first lines hold MIDAS' keywords."""
+    """Return whether the first lines hold MIDAS' keywords."""
     return bool(re.match(rb"(?:[^\n]*\n){0,3}\s*\*SGSw", head, re.IGNORECASE)) or (
         b"*X-AXIS" in head.upper() and b"*Y-AXIS" in head.upper()
     )

@@ -25,7 +25,7 @@ _OLD = re.compile(rf"^\s*(?P<count>\d{{1,9}})\s+(?P<dt>{NUMBER})\s*,?\s+NPTS\s*,
 
 
 def recognise(head: bytes) -> bool:
-    """Tell whether NPTS stands in one of the first lines."""
+    """Return whether NPTS stands in one of the first lines."""
     return any(b"NPTS" in line.upper() for line in re.split(rb"[\r\n]+", head)[:_LOOK_AT])
 
 
@@ -71,7 +71,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
 
 
 def _title(source: SourceFile, at: int) -> tuple[str, str, bool]:
-    """Give title, component and whether that is but a letter of the file's name.
+    """Return title, component and whether that is but a letter of the file's name.
 
     The second line's last part names the component, as in "Manjil Iran, 6/20/1990, Abbar, L".
     """

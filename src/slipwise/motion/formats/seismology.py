@@ -33,7 +33,7 @@ _SAC_KINDS = {6: "displacement", 7: "velocity"}
 
 
 def recognise(head: bytes) -> bool:
-    """Tell whether a file begins as miniSEED or SAC do."""
+    """Return whether a file begins as miniSEED or SAC do."""
     if _MINISEED.match(head):
         return True
     if len(head) < 632:
@@ -86,7 +86,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
 
 
 def _unit(values: Array, given: Given, source: SourceFile, channel: str) -> tuple[float, str]:
-    """Give the factor to m/s^2 and the words for the record.
+    """Return the factor to m/s^2 and the words for the record.
 
     Raises:
         UnitError: nobody says the unit, or a unit without a number is given where the values are counts.

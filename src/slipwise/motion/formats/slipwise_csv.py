@@ -15,7 +15,7 @@ from slipwise.motion.trace import Trace
 
 
 def recognise(head: bytes) -> bool:
-    """Tell whether the first line begins with our time and names one of our channels."""
+    """Return whether the first line begins with our time and names one of our channels."""
     lines = head.decode("latin-1").lstrip().splitlines()
     names = re.findall(r"([A-Za-z_0-9]+) *\[", lines[0]) if lines else []
     return len(names) > 1 and names[0] == "time" and any(name in CHANNELS for name in names[1:])

@@ -22,7 +22,7 @@ _DATA, _RULER = "DATOSDEACELERACION", re.compile(r"\s*--[-+\s]*")
 
 
 def recognise(head: bytes) -> bool:
-    """Tell whether the file says that it is a standard file of acceleration."""
+    """Return whether the file says that it is a standard file of acceleration."""
     return "ARCHIVOESTANDARDEACELERACION" in _letters(head.decode("utf-8", "replace"))
 
 
@@ -37,7 +37,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
     header = [line.partition(":") for line in source.lines[:first]]
 
     def values(label: str, without: str = "MUESTRA", needed: bool = True) -> list[str]:
-        """Give what stands behind the labels that begin so; channels 7 to 12 have a line of their own."""
+        """Return what stands behind the labels that begin so; channels 7 to 12 have a line of their own."""
         letters = _letters(label)
         found = [
             value.strip()
@@ -98,7 +98,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
 
 
 def _first_row(source: SourceFile) -> int:
-    """Give the index of the first row of values.
+    """Return the index of the first row of values.
 
     Raises:
         InputError: no two rulers stand below "DATOS DE ACELERACION".
@@ -115,7 +115,7 @@ def _first_row(source: SourceFile) -> int:
 
 
 def _known(name: str) -> str:
-    """Give the part of "L;N65E" (axis and bearing) that says where the channel points."""
+    """Return the part of "L;N65E" (axis and bearing) that says where the channel points."""
     parts = [part.strip() for part in name.split(";")]
     return next((part for part in reversed(parts) if orientation(part) != "unknown"), name)
 

@@ -24,7 +24,7 @@ _KIND = re.compile(rb"^\s*\d\s+[A-Z][A-Z ]*?\s*\r*\n\*", re.IGNORECASE)
 
 
 def recognise(head: bytes) -> bool:
-    """Tell whether a kind of SMC stands in the first line and a star in the second."""
+    """Return whether a kind of SMC stands in the first line and a star in the second."""
     return bool(_KIND.match(head))
 
 
@@ -92,7 +92,7 @@ def _numbers(source: SourceFile, start: int) -> list[float]:
 
 
 def _peak(numbers: list[float], factor: float) -> HeaderPeak | None:
-    """Give the larger of the stated extremes, None if they are not known."""
+    """Return the larger of the stated extremes, None if they are not known."""
     candidates = [(numbers[i + 1], numbers[i]) for i in (28, 30) if np.isfinite(numbers[i : i + 2]).all()]
     if len(candidates) < 2:
         return None

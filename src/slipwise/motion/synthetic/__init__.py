@@ -40,7 +40,7 @@ def synthetic_motions() -> tuple[SyntheticMotion, ...]:
 
 
 def looks_synthetic(text: str) -> bool:
-    """Tell whether this is written as a synthetic motion: a word of two letters or more and a colon."""
+    """Return whether this is written as a synthetic motion: a word of two letters or more and a colon."""
     # A single letter before a colon is a drive of Windows.
     return bool(re.match(r"\s*[A-Za-z][A-Za-z_]+\s*:", text))
 

@@ -31,7 +31,7 @@ def _smooth_step(s: Array) -> tuple[Array, Array, Array]:
 
 
 def envelope(time: Array, start: float, rise: float, hold: float, fall: float) -> Envelope:
-    """Give an envelope that rises from `start` on, holds 1 and falls to zero, all [s]."""
+    """Return an envelope that rises from `start` on, holds 1 and falls to zero, all [s]."""
     up = _smooth_step(np.clip((time - start) / rise, 0.0, 1.0))
     down = _smooth_step(np.clip((start + rise + hold + fall - time) / fall, 0.0, 1.0))
     # Rise and fall do not overlap: one of the two factors is 1 with zero derivatives.
@@ -43,12 +43,12 @@ def envelope(time: Array, start: float, rise: float, hold: float, fall: float) -
 
 
 def enveloped(shape: Envelope, displacement: Array, velocity: Array, acceleration: Array) -> Array:
-    """Give the acceleration (n,) of an unfading motion under an envelope [m/s^2]."""
+    """Return the acceleration (n,) of an unfading motion under an envelope [m/s^2]."""
     return shape.value * acceleration + 2 * shape.slope * velocity + shape.bend * displacement
 
 
 def faded_sine(time: Array, shape: Envelope, frequency: float, amplitude: float, start: float) -> Array:
-    """Give a sine of acceleration under an envelope.
+    """Return a sine of acceleration under an envelope.
 
     Args:
         time: (n,) [s].

@@ -56,7 +56,7 @@ def build(spec: Spec) -> TableMotion:
 
 
 def _pairs(spec: Spec, values: tuple[str, ...], name: str) -> list[tuple[float, float]]:
-    """Give (frequency [Hz], peak [m/s^2]) of each sine."""
+    """Return (frequency [Hz], peak [m/s^2]) of each sine."""
     if not values or len(values) % 2:
         raise InputError(
             f"{spec.text}: {name} takes pairs of a frequency and an acceleration; it was given "

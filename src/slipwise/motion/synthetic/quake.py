@@ -80,7 +80,7 @@ def build(spec: Spec) -> TableMotion:
 
 
 def filtered_noise(generator: np.random.Generator, shape: Envelope, predominant: float) -> Array:
-    """Give noise under an envelope, of no particular size.
+    """Return noise under an envelope, of no particular size.
 
     Args:
         generator: source of the random numbers.
@@ -100,7 +100,7 @@ def filtered_noise(generator: np.random.Generator, shape: Envelope, predominant:
 
 
 def _power(frequency: Array, predominant: float) -> Array:
-    """Give S(f) of the file's head."""
+    """Return S(f) of the file's head."""
     ratio = frequency / predominant
     low = ratio / _LOW_CUT
     ground = (1 + (2 * _GROUND_DAMPING * ratio) ** 2) / ((1 - ratio**2) ** 2 + (2 * _GROUND_DAMPING * ratio) ** 2)

@@ -39,7 +39,7 @@ class Spec:
     options: Mapping[str, tuple[str, ...]]
 
     def quantity(self, text: str, what: str, dimension_of: str) -> float:
-        """Give a value of the motion in SI; it must be positive.
+        """Return a value of the motion in SI; it must be positive.
 
         Raises:
             UnitError: no unit, an unknown one, or one of another dimension.
@@ -54,21 +54,21 @@ class Spec:
         return value
 
     def frequency(self, text: str, what: str) -> float:
-        """Give a frequency [Hz]."""
+        """Return a frequency [Hz]."""
         value = self.quantity(text, what, "Hz")
         if value > HIGHEST_FREQUENCY:
             raise InputError(f"{self.text}: {what} is {text!r}; frequencies up to {HIGHEST_FREQUENCY:g} Hz are made")
         return value
 
     def acceleration(self, text: str, what: str) -> float:
-        """Give an acceleration [m/s^2]."""
+        """Return an acceleration [m/s^2]."""
         value = self.quantity(text, what, "m/s^2")
         if value > _LARGEST:
             raise InputError(f"{self.text}: {what} is {text!r}; no table reaches {_LARGEST:g} m/s^2")
         return value
 
     def whole(self, name: str, default: int, least: int, most: int, why: str = "") -> int:
-        """Give an option that is a whole number.
+        """Return an option that is a whole number.
 
         Args:
             name: of the option.
@@ -91,7 +91,7 @@ class Spec:
         return int(text)
 
     def take(self, name: str, meaning: Sequence[str], optional: int = 0) -> tuple[str, ...]:
-        """Give the values of an option.
+        """Return the values of an option.
 
         Args:
             name: of the option.
@@ -147,5 +147,5 @@ def parse_spec(text: str, known: Sequence[str]) -> Spec:
 
 
 def sample_times(duration: float) -> NDArray[np.float64]:
-    """Give the times of a synthetic motion (n,), from 0 to its duration or just beyond [s]."""
+    """Return the times of a synthetic motion (n,), from 0 to its duration or just beyond [s]."""
     return np.arange(int(np.ceil(duration / STEP - 1e-9)) + 1, dtype=np.float64) * STEP

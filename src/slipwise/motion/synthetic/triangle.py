@@ -66,6 +66,6 @@ def build(spec: Spec) -> TableMotion:
 
 
 def _pulse(time: Array, centre: float, width: float, change: float) -> Array:
-    """Give an acceleration that changes the speed by `change` [m/s] within `width` [s], smooth at both ends."""
+    """Return an acceleration that changes the speed by `change` [m/s] within `width` [s], smooth at both ends."""
     place = np.clip((time - centre) / width, -0.5, 0.5)
     return change / width * (1.0 + np.cos(2 * np.pi * place))

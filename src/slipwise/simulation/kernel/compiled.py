@@ -35,7 +35,7 @@ import sys
 
 from numba import njit, types
 
-from slipwise.machine_code import kept, kept_callback
+from slipwise.jobs.machine_code import kept, kept_callback
 from slipwise.simulation.kernel import curved_face, derived_states, girder, loading_train, pads, pointers, records, step
 from slipwise.simulation.kernel.compilable import INNER
 from slipwise.simulation.kernel.pointers import Fields

@@ -80,7 +80,7 @@ def apply_pad_load(u: Array, z: int, compression: float, rate: float, push: Arra
 def mean_load(
     stiffness: float, damping: float, compression: float, rate: float, acceleration: float, dt: float
 ) -> float:
-    """Give the mean load [N] over the dt about an instant at which compression, rate and acceleration are known.
+    """Return the mean load [N] over the dt about an instant at which compression, rate and acceleration are known.
 
     Compression and load are parabolas in time; the load counts where both are above zero.
     """
@@ -113,7 +113,7 @@ def mean_load(
 
 @compilable
 def roots(constant: float, slope: float, curvature: float, none: float) -> tuple[float, float]:
-    """Give where constant + slope s + curvature s^2 is zero; `none` for a root that there is not."""
+    """Return where constant + slope s + curvature s^2 is zero; `none` for a root that there is not."""
     under = slope * slope - 4.0 * curvature * constant
     if under < 0.0:
         return none, none

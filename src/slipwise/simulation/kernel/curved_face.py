@@ -79,7 +79,7 @@ def set_face(effects: Dispatch, u: Array, z: int, slip_x: float, slip_y: float) 
 
 @compilable
 def normal_force(u: Array, z: int, load: float, along_x: float, along_y: float) -> float:
-    """Give P [N] from the cell's load and the horizontal part T of friction [N]; never below zero."""
+    """Return P [N] from the cell's load and the horizontal part T of friction [N]; never below zero."""
     if load <= 0.0:
         return 0.0
     slope_x, slope_y = u[z + SLOPE], u[z + SLOPE + 1]
@@ -92,7 +92,7 @@ def sliding_bound(
     effects: Dispatch, u: Array, z: int, load: float, toward_x: float, toward_y: float, velocity_x: float,
     velocity_y: float, slip_x: float, slip_y: float, side_x: float, side_y: float, time: float, dt: float,
 ) -> tuple[float, float]:  # fmt: skip
-    """Give friction along the face, mu P, and its horizontal part |T| [N] if it acts along the unit vector `toward`.
+    """Return friction along the face, mu P, and its horizontal part |T| [N] if it acts along the unit vector `toward`.
 
     The normal force P, which friction itself raises or lowers, is set in `u`. Other arguments as `pad_bound`.
     """
@@ -113,7 +113,7 @@ def sliding_bound(
 
 @compilable
 def onto_table(u: Array, z: int, along_x: float, along_y: float) -> tuple[float, float]:
-    """Give what friction on the face pushes along the table, T + g (g . T) [N]."""
+    """Return what friction on the face pushes along the table, T + g (g . T) [N]."""
     slope_x, slope_y = u[z + SLOPE], u[z + SLOPE + 1]
     climb = slope_x * along_x + slope_y * along_y
     return along_x + slope_x * climb, along_y + slope_y * climb
@@ -121,7 +121,7 @@ def onto_table(u: Array, z: int, along_x: float, along_y: float) -> tuple[float,
 
 @compilable
 def along_face(u: Array, z: int, force_x: float, force_y: float) -> float:
-    """Give the size of the friction along the face [N] that pushes so along the table [N]: `onto_table` undone."""
+    """Return the size of the friction along the face [N] that pushes so along the table [N]: `onto_table` undone."""
     force = sqrt(force_x * force_x + force_y * force_y)
     if force == 0.0:
         return 0.0

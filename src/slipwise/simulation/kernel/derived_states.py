@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.effects import DERIVED
-from slipwise.machine_code import kept
+from slipwise.jobs.machine_code import kept
 from slipwise.simulation.kernel.compilable import compilable
 
 Array = NDArray[np.float64]

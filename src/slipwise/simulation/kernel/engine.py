@@ -1,6 +1,6 @@
 """The law in its two engines: compiled, and plain Python to step through with a debugger.
 
-All effects live in one kernel that is compiled once and kept on disk (`slipwise.machine_code`): which of them act is
+All effects live in one kernel that is compiled once and kept on disk (`jobs.machine_code`): which of them act is
 data. It is named by a hash of everything it was made from, so that no stale code is ever run.
 """
 
@@ -22,7 +22,7 @@ import numpy as np
 from slipwise import effects
 from slipwise.effects import Effect, catalogue
 from slipwise.errors import SettingError, SlipwiseWarning
-from slipwise.machine_code import content_key
+from slipwise.jobs.machine_code import content_key
 from slipwise.simulation.kernel import derived_states
 from slipwise.simulation.kernel.compiled import module_text
 from slipwise.simulation.kernel.curved_face import set_faces
@@ -66,7 +66,7 @@ class Kernel:
 
 
 def kernel(engine: str = "compiled", user_effects: Sequence[Effect] = ()) -> Kernel:
-    """Give the kernel of the catalogue and a user's effects; made once per process.
+    """Return the kernel of the catalogue and a user's effects; made once per process.
 
     Args:
         engine: "compiled" or "python".
@@ -81,7 +81,7 @@ def kernel(engine: str = "compiled", user_effects: Sequence[Effect] = ()) -> Ker
 
 
 def engine_for(user_effects: Sequence[Effect]) -> str:
-    """Give the engine that can run a user's effects: "compiled", or "python" where one cannot be compiled.
+    """Return the engine that can run a user's effects: "compiled", or "python" where one cannot be compiled.
 
     The Python engine runs the same law some hundred times slower; a `SlipwiseWarning` says so, and why.
     """

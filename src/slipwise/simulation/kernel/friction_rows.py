@@ -39,7 +39,7 @@ MOST_CHANGE = 0.5
 
 @compilable
 def rate_of_instant(u: Array, z: int, velocity_x: float, velocity_y: float) -> tuple[float, float]:
-    """Give a pad's slip rate [m/s] at the instant of its position, none where it turns round before that.
+    """Return a pad's slip rate [m/s] at the instant of its position, none where it turns round before that.
 
     MuJoCo's rates stand half a step before its positions; that of the step before carries them on.
     """
@@ -84,7 +84,7 @@ def learn_rate_dependence(u: Array, z: int) -> None:
 
 @compilable
 def direction(u: Array, z: int, bound: float, velocity_x: float, velocity_y: float) -> tuple[float, float, float]:
-    """Give a vector along which a pad's friction acts, and its length, so that what it may carry [N] is a circle.
+    """Return a vector along which a pad's friction acts, and its length, so that what it may carry [N] is a circle.
 
     e along v / (1 mm/s) + F / bound: along the velocity where it slides, along the last friction F where it sticks.
     """

@@ -39,7 +39,7 @@ def buffer_spring(
     effects: Dispatch, u: Array, z: int, deflection: float, rate: float, stiffness: float, gap: float, side: float,
     time: float, dt: float,
 ) -> float:  # fmt: skip
-    """Give the force of the girder on a buffer in one direction [N]; its memory goes on by dt.
+    """Return the force of the girder on a buffer in one direction [N]; its memory goes on by dt.
 
     A buffer that the girder does not touch (a clearance leaves nothing of its deflection) does not deform: its rate is
     zero.
@@ -73,7 +73,7 @@ def girder_drag(
     effects: Dispatch, u: Array, velocity_x: float, velocity_y: float, velocity_z: float, slip_x: float, slip_y: float,
     time: float, dt: float,
 ) -> tuple[float, float]:  # fmt: skip
-    """Give the horizontal force against the girder's motion along x and y [N].
+    """Return the horizontal force against the girder's motion along x and y [N].
 
     Args:
         effects: the chosen effects.
@@ -94,7 +94,7 @@ def girder_lift(
     effects: Dispatch, u: Array, force_x: float, force_y: float, velocity_x: float, velocity_y: float,
     velocity_z: float, slip_x: float, slip_y: float, time: float, dt: float,
 ) -> float:  # fmt: skip
-    """Give the vertical force on the girder at the shear keys, whose horizontal force is given [N].
+    """Return the vertical force on the girder at the shear keys, whose horizontal force is given [N].
 
     Their memory goes on by dt. All keys rise together: their memory is that of the first buffer. Each holds by its
     share of the horizontal force.

@@ -56,20 +56,20 @@ class Layout:
     buffer_memory_size: int
 
     def size(self, specimen: Specimen) -> int:
-        """Give how many numbers the array of a specimen has."""
+        """Return how many numbers the array of a specimen has."""
         return self.responses(specimen) + math.prod(response_shape(specimen))
 
     def responses(self, specimen: Specimen) -> int:
-        """Give where the responses of a specimen's rig to its pads' friction begin."""
+        """Return where the responses of a specimen's rig to its pads' friction begin."""
         return self.buffers(len(specimen.pads)) + max(len(specimen.buffers), 1) * self.buffer_block
 
     def buffers(self, n_pads: int) -> int:
-        """Give where the first buffer's block begins; there is always one, what the shear keys remember is in it."""
+        """Return where the first buffer's block begins; there is always one, what the shear keys remember is in it."""
         return self.first_pad + n_pads * self.pad_block
 
 
 def response_shape(specimen: Specimen) -> tuple[int, int]:
-    """Give the rows of the pads' dry friction, and what answers to each: degrees of freedom, rows, accelerations.
+    """Return the rows of the pads' dry friction, and what answers to each: degrees of freedom, rows, accelerations.
 
     The table has four degrees of freedom and the girder six, a bending mode one, a storey two; three accelerations are
     read at the girder's middle, its two edges and each storey, and three of its turning.
@@ -82,7 +82,7 @@ def response_shape(specimen: Specimen) -> tuple[int, int]:
 
 
 def of_each_pad(effect: Effect) -> bool:
-    """Tell whether each pad has its own parameters of an effect."""
+    """Return whether each pad has its own parameters of an effect."""
     return effect.instant_hooks.keys() <= PAD_HOOKS
 
 
@@ -124,14 +124,14 @@ def make_layout(effects: Sequence[Effect]) -> Layout:
 
 
 def observes(effect: Effect) -> str:
-    """Give which of `OBSERVED` an effect that asks for derived states belongs to; "" where it asks for none."""
+    """Return which of `OBSERVED` an effect that asks for derived states belongs to; "" where it asks for none."""
     if not effect.derived:
         return ""
     return "observe_buffer" if effect.port == "buffer" else "observe"
 
 
 def _memory(effects: Sequence[Effect], derived: dict[str, int]) -> tuple[dict[str, int], int]:
-    """Give where each effect's memory stands in a block, and its size; fills where its derived states stand."""
+    """Return where each effect's memory stands in a block, and its size; fills where its derived states stand."""
     first: dict[str, int] = {}
     offset = 0
     for effect in effects:

@@ -63,7 +63,7 @@ def follow_train(
 
 @compilable
 def _stretched_to(effects: Dispatch, u: Array, asked: float, most: float, load: float) -> float:
-    """Give the force between nothing and `most` [N] under which the train has stretched as far as is asked [m]."""
+    """Return the force between nothing and `most` [N] under which the train has stretched as far as is asked [m]."""
     low, high = 0.0, most
     below, above = -asked, effects.stretch(u, most, load) - asked
     force = high
@@ -86,7 +86,7 @@ def _sliding(
     effects: Dispatch, u: Array, z: int, asked: float, at_rest: float, load: float, toward_x: float, toward_y: float,
     state: tuple[float, float, float, float, float, float],
 ) -> tuple[float, float, float]:  # fmt: skip
-    """Give force [N], rate [m/s] and bound [N] of a contact that slides: regula falsi (Illinois) over the force."""
+    """Return force [N], rate [m/s] and bound [N] of a contact that slides: regula falsi (Illinois) over the force."""
     dt = state[5]
     rate = asked / dt  # of a train that does not carry anything
     fastest = pad_bound(effects, u, z, load, rate * toward_x, rate * toward_y, *state)

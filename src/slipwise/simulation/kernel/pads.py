@@ -31,7 +31,7 @@ def pad_bound(
     effects: Dispatch, u: Array, z: int, load: float, velocity_x: float, velocity_y: float, slip_x: float,
     slip_y: float, side_x: float, side_y: float, time: float, dt: float,
 ) -> float:  # fmt: skip
-    """Give the friction force that a pad can carry, s A_r [N]; nothing where it does not touch."""
+    """Return the friction force that a pad can carry, s A_r [N]; nothing where it does not touch."""
     if load <= 0.0:
         return 0.0
     apparent_area = u[z + APPARENT_AREA]
@@ -62,7 +62,7 @@ def pad_explicit(
     effects: Dispatch, u: Array, z: int, bound: float, load: float, velocity_x: float, velocity_y: float, slip_x: float,
     slip_y: float, side_x: float, side_y: float, time: float, dt: float,
 ) -> tuple[float, float]:  # fmt: skip
-    """Give the force of the effect that says how a pad sticks [N]; only called if there is one."""
+    """Return the force of the effect that says how a pad sticks [N]; only called if there is one."""
     apparent_area = u[z + APPARENT_AREA]
     pressure = load / apparent_area
     speed = sqrt(velocity_x * velocity_x + velocity_y * velocity_y)
@@ -77,7 +77,7 @@ def pad_further(
     effects: Dispatch, u: Array, z: int, bound: float, friction: float, load: float, velocity_x: float,
     velocity_y: float, slip_x: float, slip_y: float, side_x: float, side_y: float, time: float, dt: float,
 ) -> tuple[float, float]:  # fmt: skip
-    """Give the sum of the further forces at a pad [N], which carries `friction` of the `bound` [N]."""
+    """Return the sum of the further forces at a pad [N], which carries `friction` of the `bound` [N]."""
     apparent_area = u[z + APPARENT_AREA]
     pressure = load / apparent_area
     speed = sqrt(velocity_x * velocity_x + velocity_y * velocity_y)

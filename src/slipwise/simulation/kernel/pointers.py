@@ -83,7 +83,7 @@ _as_pointer: Any = intrinsic(_pointer)
 
 @compilable
 def _numbers(address: Any) -> Array:
-    """Give the floating-point numbers that stand at an address."""
+    """Return the floating-point numbers that stand at an address."""
     return carray(_as_pointer(address), (_LONG,), np.float64)
 
 

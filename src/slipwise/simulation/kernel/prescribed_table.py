@@ -18,7 +18,7 @@ _TABLE_DOFS = 4
 
 @compilable
 def follow_command(u: Array, command: Array, qacc: Array, constraint_force: Array) -> None:
-    """Give the table exactly the acceleration that it is told.
+    """Return the table exactly the acceleration that it is told.
 
     Args:
         u: the law's numbers.

@@ -113,7 +113,7 @@ def turn_friction(
 
 @compilable
 def _place(effects: Dispatch, row: int) -> int:
-    """Give the place in `u` of a row: of its pad's block, plus its axis."""
+    """Return the place in `u` of a row: of its pad's block, plus its axis."""
     return effects.first_pad + row // 2 * effects.pad_block + row % 2
 
 
@@ -200,7 +200,7 @@ def _turn_round(effects: Dispatch, u: Array, ten_velocity: Array) -> None:
 
 @compilable
 def _carried(u: Array, z: int, axis: int, rate: float) -> float:
-    """Give what a row may carry at a small slip rate [m/s], at `z` its pad's block plus its axis."""
+    """Return what a row may carry at a small slip rate [m/s], at `z` its pad's block plus its axis."""
     pad = z - axis
     return u[z + ROW_BOUND] / u[pad + OVER_REST] * (1.0 + u[pad + RATE_SHARE] * rate)
 
@@ -247,7 +247,7 @@ def _give_way(effects: Dispatch, u: Array, ten_velocity: Array, friction_force: 
 
 @compilable
 def _response(effects: Dispatch, u: Array, row: int, forces: int) -> float:
-    """Give the acceleration [m/s^2] of a row's slip under the forces that stand at a place of every pad's block."""
+    """Return the acceleration [m/s^2] of a row's slip under the forces that stand at a place of every pad's block."""
     n_rows, n_dofs = 2 * int(u[N_PADS]), int(u[N_DOFS])
     size = n_dofs + n_rows + int(u[N_ACCELERATIONS])
     at = int(u[RESPONSES]) + n_dofs + row

@@ -13,7 +13,7 @@ Array = NDArray[np.float64]
 
 @compilable
 def rig_motion(u: Array, qvel: Array) -> tuple[float, float, float]:
-    """Give the girder's pitch rate over the table [rad/s], the table's velocity [m/s] and acceleration [m/s^2] along x.
+    """Return girder's pitch rate over the table [rad/s], the table's velocity [m/s] and acceleration [m/s^2] along x.
 
     The acceleration of the step at hand is not known before it is solved: this is that of the step before.
     """

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from slipwise.campaign.settings import read_settings
 from slipwise.errors import SlipwiseError
-from slipwise.executors import hash_of_code
+from slipwise.jobs.executors import hash_of_code
 from slipwise.rig.files import find_rig
 
 #: The page is made by the code too, and probabilities come from a table.
@@ -16,7 +16,7 @@ _DECIDING = ("**/*.py", "**/*.json")
 
 
 def campaign_key(folder: Path, model: Path | None, effects: Iterable[Path], settings: Sequence[object]) -> str:
-    """Give the hash.
+    """Return the hash.
 
     Args:
         folder: with campaign.toml; notes and answers that lie beside the data decide nothing.
@@ -33,7 +33,7 @@ def campaign_key(folder: Path, model: Path | None, effects: Iterable[Path], sett
 
 
 def _files(folder: Path) -> Iterator[Path]:
-    """Give campaign.toml and the files that it names; alone where it cannot be read."""
+    """Yield campaign.toml and the files that it names; alone where it cannot be read."""
     yield folder / "campaign.toml"
     try:
         stated = read_settings(folder / "campaign.toml")

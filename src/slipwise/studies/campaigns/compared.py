@@ -86,7 +86,7 @@ def compare_outcomes(outcomes: Sequence[Outcome]) -> Compared:
 
 
 def _changes(given: Sequence[tuple[str, Mapping[str, Mapping]]]) -> list[ValueChange]:
-    """Give every number that two campaigns have: name of the campaign, and its numbers by key."""
+    """Return every number that two campaigns have: name of the campaign, and its numbers by key."""
     first: dict[str, tuple[str, Mapping]] = {}
     out = []
     for name, numbers in given:

@@ -47,7 +47,7 @@ class Outcome:
         return self.numbers.get("base", {})
 
     def has(self, effect: str) -> str:
-        """Tell whether an effect was found.
+        """Return whether an effect was found.
 
         Returns:
             "yes", "minor" (there, but immaterial), "perhaps" (one explanation of an ambiguous verdict), "untested",
@@ -65,7 +65,7 @@ class Outcome:
 
 
 def numbers_of(found: Diagnosis) -> dict[str, Any]:
-    """Give what is kept of a diagnosis, as JSON can hold it."""
+    """Return what is kept of a diagnosis, as JSON can hold it."""
     content = found.as_json()
     added = tuple(f"{term.label}." for term in found.search.best.terms) if found.added else ()
     best = next(iter(content["candidates"]), {"parameters": {}})
@@ -80,7 +80,7 @@ def numbers_of(found: Diagnosis) -> dict[str, Any]:
 
 
 def standard_error(entry: Mapping[str, Any]) -> float | None:
-    """Give the standard error of a number [its unit]; None where it ended on a bound or is a limit only."""
+    """Return the standard error of a number [its unit]; None where it ended on a bound or is a limit only."""
     if entry.get("at_bound") or entry.get("limit") or entry["low"] is None or entry["high"] is None:
         return None
     return 0.5 * (entry["high"] - entry["low"]) / _REACH or None

@@ -50,7 +50,7 @@ def read_truth(folder: Path) -> tuple[str, ...]:
 
 
 def with_truth(folders: Iterable[Path]) -> list[Path]:
-    """Give the campaigns in folders: those of their folders, or themselves, that have campaign.toml and truth.json.
+    """Return the campaigns in folders: those of their folders, or themselves, that have campaign.toml and truth.json.
 
     Raises:
         InputError: a folder with none.
@@ -66,7 +66,7 @@ def with_truth(folders: Iterable[Path]) -> list[Path]:
 
 
 def is_right(missing: Sequence[str], said: Mapping[str, Any]) -> bool:
-    """Tell whether a verdict and every name are exactly right.
+    """Return whether a verdict and every name are exactly right.
 
     Two effects that are one thing to some rigs may stand for each other in an ambiguous verdict.
     """

@@ -12,17 +12,17 @@ import numpy as np
 
 from slipwise.effects import find_effect
 from slipwise.errors import SettingError, SimulationError
-from slipwise.executors import ONE_AT_A_TIME, hash_of_code
+from slipwise.jobs.executors import ONE_AT_A_TIME, hash_of_code
 from slipwise.model import Model, base_model, use
 from slipwise.motion import TableMotion, load_motion, scale
 from slipwise.rig.files import find_rig
 from slipwise.simulation.replay import replay
 from slipwise.simulation.simulator import Replay
-from slipwise.studies.ensemble.varied import with_values
+from slipwise.studies.ensemble.distributions import with_values
 
 #: Parts of the package whose change makes kept results stale.
 _DECIDING = (
-    "effects/*.py", "motion/**/*.py", "rig/*.py", "model.py", "simulation/**/*.py", "studies/ensemble/*.py",
+    "effects/*.py", "motion/**/*.py", "rig/*.py", "model/*.py", "simulation/**/*.py", "studies/ensemble/*.py",
 )  # fmt: skip
 LAWS = ("paper", "coulomb")
 
@@ -54,7 +54,7 @@ class Base:
         return model.adding(*(use(name) for name in self.effects))
 
     def key(self) -> str:
-        """Give a hash of what all members share, the code included."""
+        """Return a hash of what all members share, the code included."""
         files = [find_rig(self.rig), *(find_effect(name).path for name in self.effects)]
         contents = [hashlib.sha256(path.read_bytes()).hexdigest() for path in files]
         return _hash([self.law, contents, version("mujoco"), hash_of_code(*_DECIDING)])
@@ -78,7 +78,7 @@ class Shaken:
 
 
 def member_key(base: str, motion: str, factor: float, values: Mapping[str, float]) -> str:
-    """Give a hash of everything that decides a member.
+    """Return a hash of everything that decides a member.
 
     Args:
         base: `Base.key()`.
@@ -90,7 +90,7 @@ def member_key(base: str, motion: str, factor: float, values: Mapping[str, float
 
 
 def motion_key(motion: TableMotion) -> str:
-    """Give a hash of what the table does."""
+    """Return a hash of what the table does."""
     return _hash([motion.dt, hashlib.sha256(motion.acceleration.tobytes()).hexdigest()])
 
 

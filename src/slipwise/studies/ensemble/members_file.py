@@ -12,8 +12,8 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from slipwise.record import atomic
+from slipwise.studies.ensemble.distributions import Varied
 from slipwise.studies.ensemble.responses import RESPONSES
-from slipwise.studies.ensemble.varied import Varied
 
 Array = NDArray[np.float64]
 #: Rows that are held at once.
@@ -36,7 +36,7 @@ def write_members(rows: Iterable[dict[str, Any]], varied: Sequence[Varied], path
 
 
 def responses_of(path: Path, motion: str, scale: float) -> tuple[dict[str, Array], int]:
-    """Give the responses of one motion at one scale.
+    """Return the responses of one motion at one scale.
 
     Returns:
         Name -> values of the members that were finished [SI], and how many diverged.

@@ -8,16 +8,16 @@ from pathlib import Path
 from typing import Any
 
 from slipwise.errors import SettingError
-from slipwise.executors import run_all
-from slipwise.finished_jobs import Finished
+from slipwise.jobs.executors import run_all
+from slipwise.jobs.job_log import Finished
 from slipwise.motion import TableMotion, load_motion
 from slipwise.motion.load import is_description
+from slipwise.studies.ensemble.distributions import Array, Varied, check_sampling, draw, read_varied
 from slipwise.studies.ensemble.member import Base, Shaken, member_key, motion_key, run_shaken
 from slipwise.studies.ensemble.members_file import write_members
 from slipwise.studies.ensemble.responses import read_limit
 from slipwise.studies.ensemble.scales import read_scales
 from slipwise.studies.ensemble.tables import Exceedance, Quantiles, tables_of
-from slipwise.studies.ensemble.varied import Array, Varied, check_sampling, draw, read_varied
 
 
 @dataclass(frozen=True)
@@ -65,26 +65,26 @@ class _Plan:
         return len(self.motions) * len(self.scales) * self.members
 
     def at(self, place: int) -> tuple[str, float, int]:
-        """Give motion, scale and draw of a member."""
+        """Return motion, scale and draw of a member."""
         rest, draw_number = divmod(place, self.members)
         motion, scale = divmod(rest, len(self.scales))
         return list(self.motions)[motion], self.scales[scale], draw_number
 
     def values(self, number: int) -> dict[str, float]:
-        """Give what was drawn, key -> value [SI]."""
+        """Return what was drawn, key -> value [SI]."""
         if self.drawn is None:
             return {}
         return {v.key: float(x) for v, x in zip(self.varied, self.drawn[number], strict=True)}
 
     def keys(self) -> list[str]:
-        """Give the key of every member."""
+        """Return the key of every member."""
         base = self.base.key()
         motions = {name: motion_key(motion) for name, motion in self.motions.items()}
         places = (self.at(place) for place in range(len(self)))
         return [member_key(base, motions[name], scale, self.values(number)) for name, scale, number in places]
 
     def job(self, place: int) -> Shaken:
-        """Give a member; a description goes to another machine faster than the motion it describes."""
+        """Return a member; a description goes to another machine faster than the motion it describes."""
         name, scale, number = self.at(place)
         motion = name if is_description(name) else self.motions[name]
         return Shaken(self.base, tuple(self.values(number).items()), motion, scale)
@@ -123,7 +123,7 @@ def run_scaled(
         sampling: "sobol" or "latin".
         seed: of the draws.
         limits: "RESPONSE=VALUE" each.
-        executor: that runs the replays, see `slipwise.executors`.
+        executor: that runs the replays, see `slipwise.jobs.executors`.
         workers: when no executor is given.
         progress: called with how many of how many replays are finished.
 
@@ -169,7 +169,7 @@ def _motions(given: Sequence[str]) -> dict[str, TableMotion]:
 
 
 def _anywhere(name: str, suffix: str) -> str:
-    """Give a path that holds in a process of another folder too."""
+    """Return a path that holds in a process of another folder too."""
     return str(Path(name).resolve()) if name.endswith(suffix) else name
 
 

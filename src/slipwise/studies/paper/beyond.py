@@ -22,7 +22,7 @@ WORDS = {"paper": "eq. (7) alone", "run_in": "with run-in", "heating": "with hea
 
 
 def compare(numbers: dict[str, list[dict[str, Any]]]) -> list[dict[str, Any]]:
-    """Give medians over the motions that all variants share, one row a variant."""
+    """Return medians over the motions that all variants share, one row a variant."""
     count = len(numbers["run_in with"])
     rows = []
     for name in LATER:

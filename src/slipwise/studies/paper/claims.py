@@ -21,7 +21,7 @@ UPLIFT_SINE, UPLIFT_SLENDERNESS = "sine:4.5Hz,1.2g,cycles=20,vertical=3Hz,0.5g",
 
 
 def swing_per_g(model: Model, spec: str) -> float:
-    """Give the swing of pad A's load over its load at rest per g of girder acceleration [1]."""
+    """Return the swing of pad A's load over its load at rest per g of girder acceleration [1]."""
     record = steady_loops(model, spec)[2]
     specimen = model.built_specimen()
     load, acceleration = np.ptp(record["pad_A_N"]), np.ptp(record["girder_ax"])
@@ -29,7 +29,7 @@ def swing_per_g(model: Model, spec: str) -> float:
 
 
 def uncancelled(model: Model, spec: str) -> tuple[float, float]:
-    """Give what does not cancel in the sum: its slope over the pads' slopes added, and the yaw it causes [rad]."""
+    """Return what does not cancel in the sum: its slope over the pads' slopes added, and the yaw it causes [rad]."""
     pads, total, record = steady_loops(model, spec)
     added = sum(abs(shape.edge_slope) for shape in pads.values())
     return abs(total.edge_slope) / added, float(np.abs(record["yaw"]).max())
@@ -69,7 +69,7 @@ def loss_by_uplift(settings: PaperSettings) -> tuple[float, float]:
 
 
 def lost(record: Record, model: Model) -> float:
-    """Give the mean loss of the sum of friction against four pads that share the same total load equally [1]."""
+    """Return the mean loss of the sum of friction against four pads that share the same total load equally [1]."""
     area = model.built_specimen().pad_area
     fast = np.abs(record["slip_vx"]) > 0.05
     total = record.stacked("pad_{}_N").sum(axis=1)
@@ -209,7 +209,7 @@ def study(settings: PaperSettings, numbers: dict[str, list[dict[str, Any]]]) -> 
 
 
 def _pairs(one: list[dict[str, Any]], other: list[dict[str, Any]]) -> list[tuple[dict[str, Any], dict[str, Any]]]:
-    """Give the pairs that did not diverge; the shorter group decides."""
+    """Return the pairs that did not diverge; the shorter group decides."""
     return [(a, b) for a, b in zip(one, other, strict=False) if "failed" not in a and "failed" not in b]
 
 

@@ -4,8 +4,8 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
 
-from slipwise.executors import run_all
-from slipwise.finished_jobs import Numbers
+from slipwise.jobs.executors import run_all
+from slipwise.jobs.job_log import Numbers
 from slipwise.studies.paper.member import Member, run_member
 
 
@@ -21,7 +21,7 @@ def run_ensemble(
 
     Args:
         members: the replays; equal ones are run once.
-        folder: of `members.jsonl`, see `slipwise.executors`; made if absent.
+        folder: of `members.jsonl`, see `slipwise.jobs.executors`; made if absent.
         executor: any of `concurrent.futures`, also a cluster's, e.g. `dask.distributed.Client(...).get_executor()`; it
             is left running. Processes on this machine when not given.
         workers: processes when no executor is given; as many as there are cores when not given.

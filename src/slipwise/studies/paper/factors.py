@@ -31,7 +31,7 @@ def rocking_per_g(record: Record, model: Model) -> tuple[float, float]:
 
 
 def _without_inertia(split: LoadFactors) -> Array:
-    """Give Factor B as the paper makes it, load minus Factor A (n, 4) [N]: nothing is forced to be opposite."""
+    """Return Factor B as the paper makes it, load minus Factor A (n, 4) [N]: nothing is forced to be opposite."""
     return split.rocking + split.rest
 
 

@@ -41,14 +41,14 @@ def steady_loops(model: Model, spec: str = SINE) -> tuple[dict[str, LoopShape], 
 
 
 def band(record: Record) -> float:
-    """Give the width of the sum's loop: rms of |sum F| about its mean over its mean while sliding fast [1]."""
+    """Return the width of the sum's loop: rms of |sum F| about its mean over its mean while sliding fast [1]."""
     force = np.abs(record.stacked("pad_{}_Fx").sum(axis=1))
     fast = np.abs(record["slip_vx"]) > 0.3 * np.abs(record["slip_vx"]).max()
     return float(force[fast].std() / force[fast].mean())
 
 
 def spread(values: Sequence[float] | Array) -> dict[str, float]:
-    """Give percentiles 5, 25, 50, 75, 95 by name."""
+    """Return percentiles 5, 25, 50, 75, 95 by name."""
     return {f"p{p}": float(np.percentile(values, p)) for p in _PERCENTILES}
 
 
@@ -162,5 +162,5 @@ def study(settings: PaperSettings, numbers: dict[str, list[dict[str, Any]]]) -> 
 
 
 def _finished(one: list[dict[str, Any]], other: list[dict[str, Any]]) -> list[tuple[dict[str, Any], dict[str, Any]]]:
-    """Give the pairs in which neither simulation diverged."""
+    """Return the pairs in which neither simulation diverged."""
     return [(a, b) for a, b in zip(one, other, strict=True) if "failed" not in a and "failed" not in b]

@@ -62,7 +62,7 @@ class Identified:
 
 
 def friction_law(load: Array, speed: Array, area: float, values: Array) -> Array:
-    """Give the friction of eq. (7) [N]; loads [N], speeds [m/s], values as in `Identified`.
+    """Return the friction of eq. (7) [N]; loads [N], speeds [m/s], values as in `Identified`.
 
     Source: paper, eq. (7) with exp(-kP).
     """

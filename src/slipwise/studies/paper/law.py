@@ -17,7 +17,7 @@ SWINGS = (0.05, 0.1, 0.2, 0.3, 0.5, 0.6, 0.8, 1.0)
 
 
 def mu(model: Model, pressure: Array | float, speed: Array | float) -> Array:
-    """Give the coefficient of friction that the model's law carries at pressures [Pa] and speeds [m/s]."""
+    """Return the coefficient of friction that the model's law carries at pressures [Pa] and speeds [m/s]."""
     pressure, speed = np.broadcast_arrays(np.asarray(pressure, dtype=float), np.asarray(speed, dtype=float))
     count = max(pressure.size, 2)  # a record needs two instants to have a step
     load = np.resize(pressure, count) * model.built_specimen().pad_area
@@ -29,14 +29,14 @@ def mu(model: Model, pressure: Array | float, speed: Array | float) -> Array:
 
 
 def per_load(model: Model, pressure: Array, speed: float = FAST) -> Array:
-    """Give dF/dN at pressures [Pa]: what a change of load does to friction [1]."""
+    """Return dF/dN at pressures [Pa]: what a change of load does to friction [1]."""
     step = 1e-4 * pressure
     up, down = pressure + step, pressure - step
     return (mu(model, up, speed) * up - mu(model, down, speed) * down) / (2.0 * step)
 
 
 def leftover(model: Model, swing: Array, speed: float = FAST) -> Array:
-    """Give what rocking takes from the sum of the pads: pairs at P0 (1 +- swing) against P0, as a fraction [1]."""
+    """Return what rocking takes from the sum of the pads: pairs at P0 (1 +- swing) against P0, as a fraction [1]."""
     rated = model.built_specimen().rated_pressure
     light, heavy = rated * np.maximum(1.0 - swing, 1e-9), rated * (1.0 + swing)
     pair = 0.5 * (mu(model, light, speed) * light + mu(model, heavy, speed) * heavy)
@@ -44,7 +44,7 @@ def leftover(model: Model, swing: Array, speed: float = FAST) -> Array:
 
 
 def vertical_loss(model: Model, accelerations: Array) -> Array:
-    """Give the mean change of friction under a Gaussian vertical acceleration of these rms values [m/s^2] [1]."""
+    """Return the mean change of friction under a Gaussian vertical acceleration of these rms values [m/s^2] [1]."""
     specimen = model.built_specimen()
     nodes, weights = np.polynomial.hermite_e.hermegauss(40)
     out = []
@@ -56,7 +56,7 @@ def vertical_loss(model: Model, accelerations: Array) -> Array:
 
 
 def edge_slope(model: Model, *, p_delta: bool) -> float:
-    """Give the edge slope of a pad's trapezoid while sliding fast [N/m].
+    """Return the edge slope of a pad's trapezoid while sliding fast [N/m].
 
     dF/dx = dF/dN dN/dx, dN/dx = K (h - z_b)/(2 b), and m g/(2 b) more with the weight moving over the pads (P-delta).
     """

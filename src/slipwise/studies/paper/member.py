@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from slipwise.errors import SimulationError
-from slipwise.executors import ONE_AT_A_TIME, hash_of_code
+from slipwise.jobs.executors import ONE_AT_A_TIME, hash_of_code
 from slipwise.model import Model, use
 from slipwise.motion import TableMotion, load_motion
 from slipwise.simulation.replay import replay
@@ -22,7 +22,7 @@ from slipwise.studies.paper.settings import PaperSettings, paper_model
 _CLOSE, _TRIES = 5e-4, 12
 #: Parts of the package whose change makes kept results stale.
 _DECIDING = (
-    "effects/*.py", "motion/**/*.py", "rig/*.py", "model.py", "simulation/**/*.py",
+    "effects/*.py", "motion/**/*.py", "rig/*.py", "model/*.py", "simulation/**/*.py",
     "studies/paper/member.py", "studies/paper/one_dof.py",
 )  # fmt: skip
 
@@ -68,7 +68,7 @@ class Member:
         return _model(self.bridge, self.settings, self.effects, self.slenderness)
 
     def key(self) -> str:
-        """Give a hash of everything that decides the result, the code included."""
+        """Return a hash of everything that decides the result, the code included."""
         model = self.model()
         specimen = {k: v for k, v in asdict(model.specimen).items() if k not in ("path", "sources")}
         law = {u.label: u.numbers for u in model.uses}

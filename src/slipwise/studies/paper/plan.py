@@ -33,11 +33,11 @@ class Plan:
 
     @property
     def members(self) -> list[Member]:
-        """Give all in order."""
+        """Return all in order."""
         return [member for group in self.groups.values() for member in group]
 
     def sorted(self, numbers: list[dict[str, Any]]) -> dict[str, list[dict[str, Any]]]:
-        """Give the numbers of all members back by group."""
+        """Return the numbers of all members back by group."""
         out, first = {}, 0
         for name, group in self.groups.items():
             out[name] = numbers[first : first + len(group)]
@@ -57,7 +57,7 @@ def drawn(settings: PaperSettings, seed: int) -> Member:
 
 
 def middle(settings: PaperSettings) -> Member:
-    """Give the earthquake of the pictures: the middle of the assumed ranges."""
+    """Return the earthquake of the pictures: the middle of the assumed ranges."""
     peak, frequency, strong = (
         round(0.5 * (getattr(settings, f"{name}_low") + getattr(settings, f"{name}_high")), 4)
         for name in ("peak", "frequency", "strong")

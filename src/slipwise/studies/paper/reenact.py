@@ -122,7 +122,7 @@ def assumptions(settings: PaperSettings) -> list[dict[str, Any]]:
 
 
 def as_json(result: Reenactment) -> dict[str, Any]:
-    """Give the content of paper.json."""
+    """Return the content of paper.json."""
     return {
         "schema": 1,
         "versions": {name: version(name) for name in ("slipwise", "mujoco", "numpy", "scipy")},

@@ -15,7 +15,7 @@ RATED_PRESSURE = 16.9e6
 
 
 def bridge_row(bridge: str, model: Model) -> dict[str, Any]:
-    """Give one bridge, model and prototype [SI], beside the scales between them."""
+    """Return one bridge, model and prototype [SI], beside the scales between them."""
     scale, specimen = similarity(LENGTH_SCALE[bridge]), model.built_specimen()
     stiffness = sum(specimen.buffer_stiffness)
     return {
@@ -43,14 +43,14 @@ def bridge_row(bridge: str, model: Model) -> dict[str, Any]:
 
 
 def masses_that_round_to(pressure: float, model: Model) -> tuple[float, float]:
-    """Give the range of girder masses [kg] whose pressure on four full discs rounds to the stated one (0.1 MPa)."""
+    """Return the range of girder masses [kg] whose pressure on four full discs rounds to the stated one (0.1 MPa)."""
     specimen = model.built_specimen()
     area = len(specimen.pads) * specimen.pad_area / specimen.gravity
     return (pressure - 0.05e6) * area, (pressure + 0.05e6) * area
 
 
 def unscaled(bridge: str, model: Model) -> dict[str, float]:
-    """Give what the material does not scale: prototype over model, where similarity asks for 1 [1].
+    """Return what the material does not scale: prototype over model, where similarity asks for 1 [1].
 
     Source: physics of the law: n has the unit s/m; a half-space warms as mu P V sqrt(t).
     """

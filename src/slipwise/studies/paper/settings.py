@@ -124,11 +124,11 @@ class PaperSettings:
             raise SettingError(f"seating_share = {self.seating_share:g}: between 0.5 and 1")
 
     def value(self, name: str) -> float | str | None:
-        """Give the value of one setting of `SETTINGS` [SI]."""
+        """Return the value of one setting of `SETTINGS` [SI]."""
         return getattr(self.readings if name in _READINGS else self, name)
 
     def bridge(self, *, similar_law: bool = False) -> BridgeSettings:
-        """Give the bridge model."""
+        """Return the bridge model."""
         pier = Pier(self.pier_stiffness, self.pier_mass, self.pier_damping)
         return BridgeSettings((pier,), 0, self.pier_vertical_frequency, similar_law=similar_law)
 
@@ -159,6 +159,6 @@ def change(settings: PaperSettings, assignments: Iterable[str]) -> PaperSettings
 
 
 def paper_model(bridge: str, settings: PaperSettings) -> Model:
-    """Give the paper's specimen with its law, under these settings."""
+    """Return the paper's specimen with its law, under these settings."""
     rate = RATE_PRINTED * RATE_UNITS[settings.n_unit]
     return base_model(read_paper(bridge, settings.readings)).setting("shear_rate", rate=rate)

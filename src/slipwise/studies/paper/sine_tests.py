@@ -29,7 +29,7 @@ _REPEATS = 60
 
 
 def sine_model(settings: PaperSettings) -> Model:
-    """Give Bridge 2 with pads A and D seated higher, so that pad C carries its assumed share."""
+    """Return Bridge 2 with pads A and D seated higher, so that pad C carries its assumed share."""
     model = paper_model("bridge2", settings)
     specimen = model.specimen
     lower = (1.0 - settings.seating_share) * specimen.weight / len(specimen.pads) / specimen.pad_stiffness
@@ -37,7 +37,7 @@ def sine_model(settings: PaperSettings) -> Model:
 
 
 def sine_motion(vertical: float) -> TableMotion:
-    """Give the table motion of the sine tests with a vertical peak [m/s^2]."""
+    """Return the table motion of the sine tests with a vertical peak [m/s^2]."""
     extra = f",vertical={VERTICAL_FREQUENCY}Hz,{vertical!r}m/s^2" if vertical > 0.0 else ""
     return load_motion(f"sine:{HORIZONTAL},cycles={CYCLES}{extra}")
 
@@ -76,7 +76,7 @@ def sine_test(model: Model, swing: float = (HIGHEST - LOWEST) / 2.0) -> tuple[Re
 
 
 def pad_data(record: Record, pad: str = PAD) -> PadData:
-    """Give one pad's load, speed and friction at the sampling of the identification."""
+    """Return one pad's load, speed and friction at the sampling of the identification."""
     step = max(round(_SAMPLING / record.dt), 1)
     return PadData(
         record[f"pad_{pad}_N"][::step], np.abs(record["slip_vx"][::step]), np.abs(record[f"pad_{pad}_Fx"][::step])
@@ -84,13 +84,13 @@ def pad_data(record: Record, pad: str = PAD) -> PadData:
 
 
 def truth(model: Model) -> Array:
-    """Give s', n, k, alpha of a model, (4,) [SI]."""
+    """Return s', n, k, alpha of a model, (4,) [SI]."""
     s, k = model["shear_rate"].values, model["contact_area"].values
     return np.array([s["strength"], s["rate"], k["saturation"], s["slow"]])
 
 
 def noise_of(settings: PaperSettings, model: Model) -> tuple[float, float, float]:
-    """Give rms noise of load [N], speed [m/s], friction [N]."""
+    """Return rms noise of load [N], speed [m/s], friction [N]."""
     load = model.specimen.weight / len(model.specimen.pads)
     friction = float(friction_law(np.array([load]), np.array([10.0]), model.specimen.pad_area, truth(model))[0])
     return settings.noise_load * load, settings.noise_speed, settings.noise_friction * friction
@@ -243,7 +243,7 @@ def study(settings: PaperSettings) -> Study:
 
 
 def surface_error(found: Identified, model: Model, data: PadData) -> float:
-    """Give the largest relative error of friction over the tested pressures and speeds [1]."""
+    """Return the largest relative error of friction over the tested pressures and speeds [1]."""
     load = np.linspace(np.percentile(data.load, 1), np.percentile(data.load, 99), 40)
     speed = np.linspace(0.02, np.percentile(data.speed, 99), 40)
     loads, speeds = np.meshgrid(load, speed)

@@ -1,0 +1,178 @@
+"""`slipwise diagnose A B C ...`: each campaign as by itself, a table of all, what is common and what differs."""
+
+import sys
+import traceback
+import warnings
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import typer
+
+import slipwise as sw
+from slipwise.cli.console import ERR, counting, out_folder, print_json, say
+from slipwise.cli.diagnose import own_effects, start_model, write_diagnosis
+from slipwise.cli.workers import chosen_executor
+from slipwise.errors import SettingError, SlipwiseError, SlipwiseWarning, visible
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What is asked of every campaign.
+
+    Attributes:
+        model: a model.toml to start from; the one beside campaign.toml if there is one.
+        effects: own effects that compete too, by their files.
+        trust: run the effect files that model.toml names.
+        system: replay the models as well.
+        recording: write it.
+    """
+
+    model: Path | None = None
+    effects: tuple[str, ...] = ()
+    trust: bool = False
+    system: bool = True
+    recording: bool = True
+
+
+@dataclass(frozen=True)
+class Job:
+    """One campaign, and the folder for its results; paths are absolute, for a worker stands elsewhere."""
+
+    campaign: Path
+    out: Path
+    wanted: Wanted
+
+
+def diagnose_folder(job: Job) -> dict[str, Any]:
+    """Diagnose one campaign and write its results; one that fails is a result too, "failed" says why."""
+    with sw.executors.ONE_AT_A_TIME, warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", SlipwiseWarning)
+        try:
+            numbers = _diagnosed(job)
+        except SlipwiseError as error:
+            numbers = {"failed": str(error)}
+        except Exception as error:  # of one campaign out of a hundred the others must not hear
+            numbers = {"failed": f"{type(error).__name__}: {error}", "traceback": traceback.format_exc()}
+        told = [str(w.message) for w in caught if issubclass(w.category, SlipwiseWarning)]
+    return {**numbers, "folder": job.out.name, "warnings": told}
+
+
+def _diagnosed(job: Job) -> dict[str, Any]:
+    wanted, effects = job.wanted, list(job.wanted.effects)
+    measured = sw.load_campaign(job.campaign)
+    start = start_model(job.campaign, wanted.model, wanted.trust, effects)
+    found = sw.diagnose(measured, start, own=own_effects(effects, start), system=wanted.system)
+    write_diagnosis(found, out_folder(job.out), wanted.recording and measured.specimen.free)
+    return sw.campaigns.numbers_of(found)
+
+
+def run_campaigns(
+    campaigns: Sequence[Path], folder: Path, wanted: Wanted, workers: int | None, cluster: str | None
+) -> "list[sw.campaigns.Outcome]":
+    """Diagnose those campaigns that have not been diagnosed yet, and write what they are together.
+
+    Raises:
+        SettingError: a campaign is given twice.
+    """
+    home = folder.resolve()
+    names = _names(campaigns)
+    jobs = [Job(campaign.resolve(), home / name, wanted) for campaign, name in zip(campaigns, names, strict=True)]
+    settings = [*wanted.effects, wanted.trust, wanted.system, wanted.recording]
+    own = [Path(name) for name in wanted.effects]
+    keys = [sw.campaigns.campaign_key(j.campaign, wanted.model, own, [j.out.name, *settings]) for j in jobs]
+
+    def lasting(numbers: dict[str, Any]) -> bool:
+        files = (home / numbers["folder"] / name for name in ("diagnosis.json", "report.html"))
+        return "failed" not in numbers and all(file.is_file() for file in files)
+
+    with chosen_executor(cluster) as executor, counting("campaigns") as tell:
+        finished = sw.executors.run_all(
+            diagnose_folder, keys, jobs.__getitem__, home / "campaigns.jsonl",
+            executor=executor, workers=workers, progress=tell, lasting=lasting,
+        )  # fmt: skip
+    pairs = zip(names, finished.numbers(keys), strict=True)
+    outcomes = [sw.campaigns.Outcome(name, numbers) for name, numbers in pairs]
+    for outcome in outcomes:
+        for words in outcome.numbers["warnings"]:
+            print(f"warning: {visible(f'{outcome.name}: {words}')}", file=sys.stderr)
+    return outcomes
+
+
+def diagnose_many(
+    campaigns: Sequence[Path], out: Path, wanted: Wanted, workers: int | None, cluster: str | None, json: bool
+) -> None:
+    """Diagnose several campaigns; exits with 2 if one cannot be used, with 1 if one met a fault of Slipwise."""
+    from slipwise.view.words.campaign_tables import (
+        campaign_rows,
+        compared_sentences,
+        failure_sentences,
+        summary_json,
+        title,
+    )
+    from slipwise.view.words.terminal import print_table
+
+    folder = out_folder(out)
+    outcomes = run_campaigns(campaigns, folder, wanted, workers, cluster)
+    compared = sw.campaigns.compare_outcomes(outcomes)
+    files = write_together(outcomes, compared, folder)
+    if json:
+        print_json(summary_json(outcomes, compared))
+    else:
+        print_table(title(len(outcomes)), campaign_rows(outcomes))
+        for words in failure_sentences(outcomes):
+            say(words)
+        common, differs = compared_sentences(compared)
+        for head, sentences in (("common to all", common), ("differs", differs)):
+            for words in sentences or ["nothing"]:
+                say(f"{head}: {words}")
+        for path in files:
+            say(f"wrote {path}")
+    end(outcomes)
+
+
+def write_together(
+    outcomes: "Sequence[sw.campaigns.Outcome]", compared: "sw.campaigns.Compared", folder: Path
+) -> list[Path]:
+    """Write what leads to the results of all campaigns, and their numbers side by side."""
+    from slipwise.view.files import save_json, save_page, save_rows
+    from slipwise.view.pages.campaigns_page import campaigns_page
+    from slipwise.view.words.campaign_tables import flat_rows, summary_json
+
+    return [
+        save_page(campaigns_page(outcomes, compared), folder / "index.html"),
+        save_json(summary_json(outcomes, compared), folder / "summary.json"),
+        save_rows(flat_rows(outcomes), folder / "summary.csv"),
+    ]
+
+
+def end(outcomes: "Sequence[sw.campaigns.Outcome]") -> None:
+    """Say how many campaigns failed, show what was no fault of theirs, and exit with 2 or 1 if any did."""
+    failed = [outcome for outcome in outcomes if outcome.failed]
+    if not failed:
+        return
+    faults = [outcome for outcome in failed if "traceback" in outcome.numbers]
+    for outcome in faults:
+        say(f"{outcome.name}: this is a fault of Slipwise, please report it\n{outcome.numbers['traceback']}", ERR)
+    names = ", ".join(outcome.name for outcome in failed)
+    say(f"error: {len(failed)} of {len(outcomes)} campaigns could not be diagnosed: {names}; why stands above", ERR)
+    raise typer.Exit(1 if faults else 2)
+
+
+def _names(campaigns: Sequence[Path]) -> list[str]:
+    """Name every campaign's folder of results: as its own folder, with that above where two are called alike.
+
+    Raises:
+        SettingError: a campaign is given twice.
+    """
+    homes = [campaign.resolve() for campaign in campaigns]
+    twice = [str(home) for home, count in Counter(homes).items() if count > 1]
+    if twice:
+        raise SettingError(f"{twice[0]} is given twice; give each campaign once")
+    depth = 1
+    while len({home.parts[-depth:] for home in homes}) < len(homes):
+        depth += 1
+    alike = Counter(home.name for home in homes)
+    return [home.name if alike[home.name] == 1 else "_".join(home.parts[-depth:]).replace("/", "") for home in homes]

@@ -1,0 +1,103 @@
+"""`slipwise rigs`, `channels`, `motions`: what there is, from the code itself."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import slipwise as sw
+from slipwise.cli.console import print_json
+from slipwise.errors import SettingError
+
+Json = Annotated[bool, typer.Option("--json", help="Print JSON for a program to read.")]
+
+
+def rigs(
+    rig: Annotated[
+        str | None, typer.Argument(help="One rig: a name, a folder, a specimen.toml or an MJCF file.")
+    ] = None,
+    new: Annotated[
+        str | None, typer.Option("--new", help="Begin a rig of this name: a folder with specimen.toml and its MJCF.")
+    ] = None,
+    mjcf: Annotated[bool, typer.Option("--mjcf", help="Write the MJCF of a specimen.toml beside it.")] = False,
+    json: Json = False,
+) -> None:
+    """List the rigs with their rated values, begin one, or write its MJCF.
+
+    Example: `slipwise rigs --new my_rig`, then edit my_rig/specimen.toml and
+    `slipwise replay sine:2Hz,0.3g --rig my_rig --out out/mine`
+    """
+    if new is not None:
+        path, written = sw.rig.new_rig(new, Path.cwd())
+        typer.echo(
+            f"wrote {path.relative_to(Path.cwd())}: edit it; `slipwise replay sine:2Hz,0.3g --rig {new} --out DIR`"
+        )
+        typer.echo(f"wrote {written.relative_to(Path.cwd())}: its MJCF; after edits `slipwise rigs {new} --mjcf` again")
+        return
+    if mjcf:
+        if rig is None:
+            raise SettingError("--mjcf needs the rig: `slipwise rigs my_rig --mjcf`")
+        typer.echo(f"wrote {sw.rig.write_mjcf(sw.rig.load_specimen(rig))}")
+        return
+    rows = []
+    for name in sw.rig.RIGS if rig is None else (rig,):
+        specimen = sw.rig.load_specimen(name)
+        rows.append(
+            {
+                "rig": specimen.name,
+                "mass [t]": specimen.carried_mass / 1e3,
+                "pads": len(specimen.pads),
+                "pressure [MPa]": round(specimen.rated_pressure / 1e6, 2),
+                "buffers [kN/mm]": round(sum(specimen.buffer_stiffness) / 1e6, 3),
+                "frequency [Hz]": round(specimen.frequency, 3),
+                "h/b": round(specimen.slenderness, 3) if specimen.free else None,
+                "file": specimen.path.name,
+            }
+        )
+    if rig is None and not json:  # a rig that ships lies in a file of its own name
+        rows = [{key: value for key, value in row.items() if key != "file"} for row in rows]
+    _show("Rigs", rows, json)
+
+
+def channels(json: Json = False) -> None:
+    """List the channels: name, unit, where it is measured, what a positive value means.
+
+    Example: `slipwise channels`
+    """
+    known = sw.channels.CHANNELS.values()
+    rows = [{"channel": c.name, "unit": c.shown_in, "where": c.place, "positive": c.sign} for c in known]
+    _show("Channels", rows, json)
+
+
+def motions(json: Json = False) -> None:
+    """List the synthetic motions and the formats of recorded ones that can be read.
+
+    Example: `slipwise motions`
+    """
+    from slipwise.view.words.terminal import print_table
+
+    made = [
+        {"motion": m.name, "syntax": m.syntax, "meaning": m.meaning, "example": m.example}
+        for m in sw.motion.synthetic_motions()
+    ]
+    read = [{"format": f.name, "note": f.note} for f in sw.motion.FORMATS]
+    if json:
+        print_json({"synthetic": made, "formats": read})
+        return
+    print_table("Synthetic motions", made)
+    print_table("Recorded motions", read)
+
+
+def _show(title: str, rows: list[dict], json: bool) -> None:
+    from slipwise.view.words.terminal import print_table
+
+    if json:
+        print_json(rows)
+    else:
+        print_table(title, rows)
+
+
+def register(app: typer.Typer) -> None:
+    """Add these commands to the command line."""
+    for command in (rigs, channels, motions):
+        app.command()(command)

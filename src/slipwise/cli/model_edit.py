@@ -1,0 +1,69 @@
+"""`slipwise add` and `slipwise remove`: edit model.toml, refit, and print the error before and after."""
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+import slipwise as sw
+from slipwise.cli.console import OUT, say, steps
+from slipwise.cli.diagnose import Allowed, Trusted
+
+Folder = Annotated[Path, typer.Option("--campaign", help="Folder with campaign.toml; model.toml is kept there too.")]
+
+
+def add(
+    name: Annotated[str, typer.Argument(help="An effect of `slipwise effects`, or a file of your own: ./mine.py.")],
+    campaign: Folder = Path(),
+    effect: Allowed = None,
+    trust: Trusted = False,
+) -> None:
+    """Add an effect to model.toml, refit everything, and print the error before and after.
+
+    `slipwise workbench` shows it as a step that can be undone.
+
+    Example: `slipwise add run_in --campaign campaigns/march`
+    """
+    _change(sw.add, name, campaign, trust or effect or ())
+
+
+def remove(
+    name: Annotated[str, typer.Argument(help="Name of an effect of model.toml.")],
+    campaign: Folder = Path(),
+    effect: Allowed = None,
+    trust: Trusted = False,
+) -> None:
+    """Take an effect out of model.toml, refit everything, and print the error before and after.
+
+    `slipwise workbench` shows it as a step that can be undone.
+
+    Example: `slipwise remove run_in --campaign campaigns/march`
+    """
+    _change(sw.remove, name, campaign, trust or effect or ())
+
+
+def _change(change: "Callable[..., sw.ModelChange]", name: str, campaign: Path, trust: bool | Sequence[str]) -> None:
+    session = sw.Session(campaign, trust=trust, resume=False)
+    try:
+        with steps() as tell:
+            changed = change(name, session, progress=tell)
+        tell_change(changed, held_out=bool(session.campaign.with_role("holdout")))
+        say(f"wrote {session.accept()}")
+    finally:
+        session.close()
+
+
+def tell_change(changed: "sw.ModelChange", *, held_out: bool, console: Console = OUT) -> None:
+    """Print the errors before and after."""
+    from slipwise.view.words.terminal import print_table
+
+    which = "Held-out error" if held_out else "Error of the runs that were fitted"
+    print_table(f"{which} in multiples of the noise floor", changed.rows(), console)
+
+
+def register(app: typer.Typer) -> None:
+    """Add these commands to the command line."""
+    app.command()(add)
+    app.command()(remove)

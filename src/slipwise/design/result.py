@@ -1,0 +1,79 @@
+"""What `next_test` answers: table motions, ranked by how well they would tell rivals apart."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from slipwise.display import Drawn, Tabular
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """What a motion would tell.
+
+    Attributes:
+        motion: as `slipwise replay` takes it.
+        separation: mean squared residual that the wrong one of two rivals would leave beyond the right one, mean of
+            both ways; of the two that are hardest to tell apart [noise variance].
+        relation: where.
+        probability: expected of the best hypothesis afterwards, if it is right [1].
+        refused: why the table cannot make it; "" where it can.
+        failed: why it could not be judged; "" where it was.
+    """
+
+    motion: str
+    separation: float
+    relation: str
+    probability: float
+    refused: str
+    failed: str = ""
+
+
+@dataclass(frozen=True, repr=False)
+class NextTest(Drawn, Tabular):
+    """Motions, the best first.
+
+    Attributes:
+        rivals: names of the effects of each hypothesis, the best first; none for the base model.
+        chances: probability of each today [1].
+        proposals: sorted by what they would tell.
+        words: what else tells the rivals apart, or would, where no motion does.
+        sentence: the verdict of the diagnosis.
+    """
+
+    rivals: tuple[tuple[str, ...], ...]
+    chances: tuple[float, ...]
+    proposals: tuple[Proposal, ...]
+    words: str
+    sentence: str = ""
+
+    def as_json(self) -> dict[str, Any]:
+        """Return what next.json holds."""
+        return {
+            "schema": 1,
+            "best": list(self.rivals[0]),
+            "rival": list(self.rivals[1]),
+            "probability": round(self.chances[0], 3),
+            "rivals": [
+                {"effects": list(names), "probability": round(chance, 3)}
+                for names, chance in zip(self.rivals, self.chances, strict=True)
+            ],
+            "words": self.words,
+            "motions": self._rows(),
+        }
+
+    def _headline(self) -> str:
+        rivals = " against ".join(" + ".join(names) or "the base model" for names in self.rivals)
+        return f"{rivals}: best told apart by {self.proposals[0].motion}" if self.proposals else rivals
+
+    def _rows(self) -> list[dict[str, Any]]:
+        return [
+            {
+                "motion": p.motion,
+                "separation": round(p.separation, 3),
+                "in": p.relation,
+                "probability then": round(p.probability, 3),
+                "table": p.refused or "can make it",
+                "failed": p.failed,
+            }
+            for p in self.proposals
+        ]

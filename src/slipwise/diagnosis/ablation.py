@@ -1,0 +1,66 @@
+"""What a hypothesis would leave without one of its effects: a straight line from where it stands, or a refit.
+
+The effect is set to its absence, the residual is evaluated there, and one Gauss-Newton step lets every other number
+make up for what it can. An effect that is never absent, or in whose place a number of the base comes back, is taken out
+by a refit.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.diagnosis.hypothesis import Hypothesis, weighed_as
+from slipwise.diagnosis.initial_grid import strengths
+from slipwise.errors import SlipwiseError
+from slipwise.evidence.left_out import LinearFit, linear_fit
+from slipwise.evidence.residual_summary import ResidualSummary, summarised_linear
+from slipwise.relations.parameters import ZERO, Term, numbers_replaced
+
+Array = NDArray[np.float64]
+
+
+def without(found: Hypothesis, terms: Sequence[Term], refit: Callable[[Sequence[Term]], Hypothesis]) -> ResidualSummary:
+    """Return what a hypothesis leaves without some of its effects.
+
+    Args:
+        found: the hypothesis.
+        terms: that are taken out.
+        refit: fits the hypothesis of the terms that stay.
+    """
+    labels = {t.label for t in terms}
+    rest = [t for t in found.terms if t.label not in labels]
+    slider = not found.problem.specimen.free
+    linear = None if any(_needs_refit(t, slider) for t in terms) else _linear(found, terms, labels)
+    if linear is None:
+        return weighed_as(refit(rest), found.problem).summary
+    return summarised_linear(found.problem, linear, found.summary.held_out, found.summary.counts)
+
+
+def _needs_refit(term: Term, slider: bool) -> bool:
+    effect = term.effect
+    replaced = numbers_replaced([effect]) - (set[str]() if slider else {ZERO})  # which only a slider's base has
+    return not strengths(effect) or bool(replaced) or effect.reverses
+
+
+def _linear(found: Hypothesis, terms: Sequence[Term], labels: set[str]) -> LinearFit | None:
+    problem, solution = found.problem, found.solution
+    absent = {f"{t.label}.{p.name}": float(p.neutral or 0.0) for t in terms for p in strengths(t.effect)}
+    try:
+        there = problem.residuals({**solution.values, **absent}, fitted_only=True)
+    except SlipwiseError:
+        return None
+    left = there.stacked(problem.fitted, problem.relations)
+    if not np.isfinite(left).all():
+        return None
+    ends = set(solution.at_bounds)
+    inside = [f.key for f in solution.free if f.key not in ends]
+    stays = np.array([key.rpartition(".")[0] not in labels for key in inside], dtype=bool)
+    fit = linear_fit(problem, solution)
+    slopes, low, high = fit.slopes[:, stays], fit.low[stays], fit.high[stays]
+    step = np.clip(-np.linalg.lstsq(slopes.T @ slopes, slopes.T @ left, rcond=1e-12)[0], low, high)
+    constants = fit.constants - sum(f.key.rpartition(".")[0] in labels for f in solution.free)
+    return replace(
+        fit, residual=left + slopes @ step, slopes=slopes, low=low - step, high=high - step, constants=constants
+    )

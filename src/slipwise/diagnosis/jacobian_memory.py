@@ -1,0 +1,55 @@
+"""Slopes and residuals of hypotheses that are kept: each is as long as all runs together, and dozens are tried.
+
+An ordinary campaign's are all kept. Of a long one those of the best are, as far as there is room; the others keep what
+they found and are told by, and take their slopes anew where a search comes back to them.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.estimation.least_squares import Solution, with_slopes
+from slipwise.relations.table import Residuals
+
+#: Bytes that slopes and residuals of all that was tried may take together.
+ROOM = 400 * 2**20
+
+
+def size_of(solution: Solution) -> int:
+    """Return the bytes that slopes and residuals of a solution take."""
+    parts = [*solution.residuals.pad_forces, *(part for of in solution.residuals.parts.values() for part in of)]
+    return solution.jacobian.nbytes + sum(part.nbytes for part in parts)
+
+
+def light(solution: Solution) -> Solution:
+    """Return a solution without slopes and residuals."""
+    return replace(solution, residuals=Residuals({}, []), jacobian=np.empty((0, len(solution.free))))
+
+
+def whole(found: Hypothesis) -> Hypothesis:
+    """Return a hypothesis with slopes and residuals, taken anew where they were not kept."""
+    solution = found.solution
+    if solution.residuals.parts:
+        return found
+    solution = replace(solution, residuals=found.problem.residuals(solution.values))
+    return replace(found, solution=with_slopes(found.problem, solution))
+
+
+def lighten(tried: list[Hypothesis], worth: Callable[[Hypothesis], float], room: int | None = None) -> None:
+    """Keep slopes and residuals of the best as far as there is room, in place.
+
+    Args:
+        tried: hypotheses.
+        worth: by which the best are kept.
+        room: bytes that they may take together; `ROOM` if not given.
+    """
+    left = ROOM if room is None else room
+    sizes = [size_of(h.solution) for h in tried]
+    if sum(sizes) <= left:
+        return
+    for place in sorted(range(len(tried)), key=lambda i: -worth(tried[i])):
+        left -= sizes[place]
+        if left < 0:
+            tried[place] = replace(tried[place], solution=light(tried[place].solution))

@@ -1,0 +1,228 @@
+"""What a campaign cannot tell beside the effects that it cannot test: found in its runs, and in what was tried."""
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.campaign import Run
+from slipwise.diagnosis.held_out_regime import not_testable
+from slipwise.diagnosis.identifiability import unidentified
+from slipwise.diagnosis.indistinguishable import known_effects
+from slipwise.diagnosis.initial_grid import shapes, strengths
+from slipwise.diagnosis.row_subset import on_screen
+from slipwise.diagnosis.screening import projector
+from slipwise.diagnosis.search_state import Search
+from slipwise.diagnosis.sensitivities import column_of, residual_with, small
+from slipwise.effects import Effect
+from slipwise.errors import SlipwiseError
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.relations.parameters import ZERO, Term
+from slipwise.relations.sample_masks import rolls_only_at_rest
+from slipwise.rig.frame import storey_channels
+from slipwise.rig.load_basis import buffers_off_centre
+from slipwise.rig.rocking import coupled
+
+Array = NDArray[np.float64]
+#: Two effects look alike when their columns agree so well: one run gives 0.95, two after a long rest 0.8 at most [1].
+_ALIKE = 0.85
+#: A model that leaves less than this share of a floor shows that the floor is too high [1].
+_CREDIBLE = 0.9
+#: Springs whose middle lies off the centre by more than this share of the pads' half spacing turn the girder [1].
+_OFF = 0.02
+#: Runs that are named one by one.
+_NAMED = 3
+#: A column of which the base leaves a smaller share does what the base does [1].
+_NOTHING_LEFT = 3e-5
+#: A shorter column counts as no response: noise alone is as long as the root of the number of samples [1].
+_MIN_COLUMN_LENGTH = 0.1
+
+
+def cannot_tell(state: Search, final: BaseFit) -> list[tuple[str, str]]:
+    """Return what this campaign cannot tell, each with the reason; effects that it cannot test are in `state.cannot`.
+
+    Args:
+        state: of the search.
+        final: its best hypothesis as a fit.
+    """
+    project = projector(on_screen(state.base.problem, state.base.solution.jacobian))
+    return [
+        *unidentified(final, state.base),
+        *_alike(state, project),
+        *_rests_not_given(state),
+        *_zero_not_shown(state, final),
+        *_nothing_held_out(state.base),
+        *_storeys_not_measured(state.base),
+        *_turning_not_measured(state.base),
+        *_friction_across_not_measured(state.base),
+        *_beyond_what_was_fitted(state.base),
+        *_floors_not_credible(state),
+        *_gauges_not_tried(state),
+        *_without_response(state, project),
+    ]
+
+
+def _alike(state: Search, project: Callable[[Array], Array]) -> Iterator[tuple[str, str]]:
+    """Find pairs of which one fades in a pause and the other does not, and which look alike in these runs."""
+    base = state.base
+    effects = {t.effect.name: t.effect for t in state.terms if t.effect.memory and not t.effect.target}
+    pairs = [(a, b) for a in effects.values() for b in effects.values() if _distinguished_by_a_rest(a, b)]
+    for fading, lasting in pairs:
+        one, other = (_traces(base, effect, project) for effect in (fading, lasting))
+        likeness = max((abs(float(a @ b)) for a in one for b in other), default=0.0)
+        if likeness > _ALIKE:
+            message = f"what they do in these runs is {likeness:.0%} alike"
+            reason = ", and ".join([*_lacking(base.campaign.runs), message])
+            apart = fading.confused_with[lasting.name]
+            yield f"{fading.name} against {lasting.name}", f"{reason}; what tells them apart: {apart}"
+
+
+def _beyond_what_was_fitted(base: BaseFit) -> Iterator[tuple[str, str]]:
+    for place, reason in not_testable(base.problem).items():
+        yield f"held-out run {base.problem.runs[place].name}", f"not testable here, no fitted run covers it: {reason}"
+
+
+def _storeys_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
+    """Name the accelerations without which nobody knows what the storeys push."""
+    needed = storey_channels(base.campaign.specimen.storeys)
+    if absent := [n for n in needed if not all(n in run.record for run in base.campaign.runs)]:
+        reason = f"{', '.join(absent)} not measured: the storeys push the girder unknown, so these are left out"
+        yield "girder and pitch balance", reason
+
+
+def _turning_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
+    """Name the motion that springs off the middle bring with them and that no gauge shows."""
+    rig = base.campaign.specimen
+    along, across = buffers_off_centre(rig) if rig.free else (0.0, 0.0)
+    off = (f"the buffers' middle lies {size:.2g} m off the centre of gravity" for size in (across, along))
+    for name, size, half, words in zip(("yaw", "slip_y"), (across, along), rig.half_spacing[::-1], off, strict=True):
+        if abs(size) > _OFF * half and not all(name in run.record for run in base.campaign.runs):
+            moves = "turns" if name == "yaw" else "moves across"
+            yield name, f"not measured, but {words}, so the girder {moves}: what is left may be that"
+
+
+def _friction_across_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
+    """Say that roll is judged at rest only where the girder rolls with its pitch or moves across."""
+    if not base.problem.balanced or not rolls_only_at_rest(base.problem.runs[0].states.has_y, base.campaign.specimen):
+        return
+    why = "pads that stand unevenly turn pitch into roll" if coupled(base.campaign.specimen) else "it moves across"
+    judged = "judged before the motion only" if "roll" in base.problem.relations else "not judged"
+    yield "roll balance", f"{why}, and what turns the girder then is not all measured: it is {judged}"
+
+
+def _floors_not_credible(state: Search) -> Iterator[tuple[str, str]]:
+    """Find balances of which a model leaves less than their noise: it was taken for larger than it is."""
+    final = state.final.summary
+    for relation in final.fitted:
+        left = float(np.sqrt(final.fitted_level(relation)))
+        if left < _CREDIBLE:
+            yield f"floor of {relation}", f"floor not credible: the model leaves {left:.2f} of it on the fitted runs"
+
+
+def _zero_not_shown(state: Search, fit: BaseFit) -> Iterator[tuple[str, str]]:
+    for zero in (f for f in fit.solution.free if f.key == ZERO):
+        reason = f"no record of a slider shows its gauge's zero, and up to {zero.high:.2g} N is taken for one"
+        yield ", ".join(name for name, e in known_effects(state).items() if ZERO in e.stands_for), reason
+
+
+def _distinguished_by_a_rest(fading: Effect, lasting: Effect) -> bool:
+    confused = lasting.name in fading.confused_with and fading.name in lasting.confused_with
+    return confused and "rest" in fading.hooks and "rest" not in lasting.hooks
+
+
+def _traces(base: BaseFit, effect: Effect, project: Callable[[Array], Array]) -> list[Array]:
+    """Return what an effect with a response does beside the base, of unit length, for a grid of its constants."""
+    columns = [c for c in _columns(base, Term(effect)) if c is not None and _length(c) > _MIN_COLUMN_LENGTH]
+    clean = [(project(c), _length(c)) for c in columns]
+    return [c / _length(c) for c, whole in clean if _length(c) > _NOTHING_LEFT * whole]
+
+
+def _columns(base: BaseFit, term: Term) -> list[Array | None]:
+    """Return the columns of a candidate near its typical size, for a grid of its constants."""
+    off = residual_with(base, term, term.effect.neutral())
+    points = [(p, small(term.effect, shape, p)) for shape in shapes(term.effect) for p in strengths(term.effect)]
+    return [None if off is None else column_of(base, term, p, values, off) for p, values in points]
+
+
+def _length(column: Array) -> float:
+    return float(np.linalg.norm(column))
+
+
+def _lacking(runs: Sequence[Run]) -> list[str]:
+    """Say which kind of run is lacking to tell what fades in a pause from what lasts."""
+    out = [] if any(r.role == "repeat" for r in runs) else ["no run has the role repeat"]
+    return out if len(runs) == 1 or any(r.rest_before for r in runs[1:]) else [*out, "no rest between runs is given"]
+
+
+def _rests_not_given(state: Search) -> Iterator[tuple[str, str]]:
+    runs = state.base.campaign.runs
+    unknown = [b.name for a, b in pairwise(runs) if b.rest_before is None and not _goes_on(a, b)]
+    fading = {t.effect.name for t in (*state.base.problem.terms, *state.terms) if "rest" in t.effect.hooks}
+    if unknown and fading:
+        more = f" and {len(unknown) - _NAMED} more" if len(unknown) > _NAMED else ""
+        named = f"{', '.join(unknown[:_NAMED])}{more}"
+        yield ", ".join(sorted(fading)), f"the rest before {named} is not given and was taken as none"
+
+
+def _goes_on(before: Run, after: Run) -> bool:
+    """Return whether a run begins where the one before ends, in one file: then there was no rest."""
+    if before.sha256 != after.sha256 or before.window is None or after.window is None:
+        return False
+    return abs(after.window[0] - before.window[1]) < 2.0 * after.record.dt
+
+
+def _nothing_held_out(base: BaseFit) -> Iterator[tuple[str, str]]:
+    if not base.problem.held_out:
+        yield "verdict", "no run is held out, so what was found was judged on the runs that were fitted"
+
+
+def _gauges_not_tried(state: Search) -> Iterator[tuple[str, str]]:
+    """Name the channels that were recorded and on which no fault was a candidate; "_raw" ones only serve others."""
+    terms = (*state.base.problem.terms, *state.terms)
+    tried = {target for t in terms if t.effect.port == "gauge" for target in t.targets}
+    recorded = dict.fromkeys(c for r in state.base.campaign.runs for c in r.record.channels)
+    alike: dict[str, list[str]] = {}
+    for c in recorded:
+        if c not in tried and not c.endswith("_raw"):
+            alike.setdefault(re.sub(r"^(pad|buffer)_[A-D12]_", r"\1_*_", c), []).append(c)
+    if alike:
+        named = ", ".join(together if len(own) > 1 else own[0] for together, own in alike.items())
+        but = ", but for rails and lost samples" if state.base.problem.specimen.free else ""
+        yield f"faults of {named}", f"never tried{but}"
+
+
+def _without_response(state: Search, project: Callable[[Array], Array]) -> Iterator[tuple[str, str]]:
+    """Say why nothing came of the candidates that screening saw nothing in; that a sign was wrong is no reason."""
+    with_response = {s.term.effect.name for s in state.all_screened}
+    reasons: dict[str, set[str]] = {}
+    for term in (t for t in state.terms if t.effect.name not in with_response):
+        reasons.setdefault(term.effect.name, set()).add(_reason(state.base, term, project))
+    for name, found in reasons.items():
+        if "" not in found:
+            yield name, "; ".join(sorted(found))
+
+
+def _reason(base: BaseFit, term: Term, project: Callable[[Array], Array]) -> str:
+    """Say why a candidate could not be tested; "" where it could, and explained nothing."""
+    columns = _columns(base, term)
+    with_response = [c for c in columns if c is not None and _length(c) > _MIN_COLUMN_LENGTH]
+    if not columns or all(c is None for c in columns):
+        return _failure(base, term)
+    if not with_response:
+        return "at its usual size it changes nothing that was measured"
+    if all(_length(project(c)) < _NOTHING_LEFT * _length(c) for c in with_response):
+        return "the base's own numbers do all that it does here"
+    return ""
+
+
+def _failure(base: BaseFit, term: Term) -> str:
+    """Say what keeps a candidate from being evaluated at its typical size; "" where nothing does."""
+    keyed = {f"{term.label}.{k}": v for k, v in term.effect.typical().items()}
+    try:
+        found = base.problem.adding(term).residuals({**base.solution.values, **keyed}, fitted_only=True)
+    except SlipwiseError as error:
+        return f"it could not be evaluated: {error}"
+    stacked = found.stacked(base.problem.fitted, base.problem.relations)
+    return "" if np.isfinite(stacked).all() else "what it says of these runs is no finite number"

@@ -1,0 +1,230 @@
+"""Effect files that a program writes: a law in, a file out that reads, checks and runs like one of the catalogue.
+
+The text is that of `templates/effect.py.jinja`. Code comes from the program that writes: the lines of the hooks. All
+else are words; they may hold the name of a campaign or a path, so whatever could end a quotation is taken from them.
+"""
+
+import keyword
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from importlib.machinery import PathFinder
+from math import isfinite
+from pathlib import Path
+
+from slipwise.effects._catalogue import catalogue
+from slipwise.effects._hooks import PORTS
+from slipwise.effects._python_text import AS_IT_IS, WIDTH, block, columns, entry, packed, quoted, sentence, words
+from slipwise.effects._written_hook import HOMES, WrittenHook, body, head, names_from_elsewhere
+from slipwise.errors import SettingError, unknown_name
+from slipwise.params import Parameter
+from slipwise.record import write_text
+
+_TEMPLATE = "effect.py.jinja"
+#: Before each Parameter of EFFECT.
+_INDENT = " " * 8
+#: What every file imports, and nearly every one.
+_ALWAYS: dict[str, str] = {
+    "Effect": "slipwise.effects", "Parameter": "slipwise.params", "RESPONSE": "slipwise.effects",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class WrittenEffect:
+    """An effect to be written; what is not said here is as in `Effect`.
+
+    Attributes:
+        name: of the file.
+        title: what it is, the first line of the docstring.
+        equation: in plain text, one line.
+        about: paragraphs that explain it.
+        valid: range of validity.
+        source: where it comes from, or "assumed".
+        port: where it acts.
+        component: what it belongs to in a verdict.
+        hooks: in the order in which they are written.
+        parameters: of the hooks.
+        signature: how it shows.
+        confused_with: other effects -> the test that tells them apart.
+        memory: names of the numbers it remembers.
+        moves: channels that it may change; empty for `RESPONSE`.
+        target: "channel" where it sits on one of these channels at a time.
+    """
+
+    name: str
+    title: str
+    equation: str
+    about: tuple[str, ...]
+    valid: str
+    source: str
+    port: str
+    component: str
+    hooks: tuple[WrittenHook, ...]
+    parameters: tuple[Parameter, ...]
+    signature: str
+    confused_with: Mapping[str, str]
+    memory: tuple[str, ...] = ()
+    moves: tuple[str, ...] = ()
+    target: str = ""
+
+
+def effect_text(written: WrittenEffect) -> str:
+    """Return the text of an effect's file.
+
+    Raises:
+        UnknownNameError: no such port, or it has no such hook.
+        SettingError: a name that is none in Python, a number that is not finite, or a body that is no Python.
+    """
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined  # only a command that writes waits for it
+
+    _check(written)
+    environment = Environment(
+        loader=FileSystemLoader(Path(__file__).parent / "templates"),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,  # the text is Python; `words` makes it harmless
+    )
+    environment.filters["block"] = block
+    entries = _entries(written)
+    return environment.get_template(_TEMPLATE).render(
+        title=sentence(written.title, WIDTH - 3),
+        equation=words(written.equation),
+        about=[words(paragraph) for paragraph in written.about],
+        valid=f"Valid: {words(written.valid)}",
+        source=f"Source: {words(written.source)}",
+        imports=_imports(written),
+        hooks=[[head(hook), *body(hook)] for hook in written.hooks],
+        entries=entries,
+        ending=AS_IT_IS if f"{_INDENT}Parameter(" in entries else "",
+    )
+
+
+def write_effect(written: WrittenEffect, folder: Path, *, replace: bool = False) -> Path:
+    """Write an effect's file, whole or not at all.
+
+    Args:
+        written: the effect.
+        folder: where to; it is made if it does not exist.
+        replace: whether a file of this name may be written over.
+
+    Returns:
+        The file, FOLDER/NAME.py.
+
+    Raises:
+        UnknownNameError: no such port, or it has no such hook.
+        SettingError: the name cannot be that of an effect's file, there is such a file, or as `effect_text`.
+    """
+    check_name(written.name)
+    path = folder / f"{written.name}.py"
+    if path.exists() and not replace:
+        raise SettingError(f"{path} exists already and is left as it is; give another name or another folder")
+    text = effect_text(written)
+    try:
+        write_text(path, text)
+    except OSError as error:
+        raise SettingError(f"{path} cannot be written ({error.strerror}); give a folder that you may write") from None
+    return path
+
+
+def _check(written: WrittenEffect) -> None:
+    """Refuse what would not be Python, or more than it should be."""
+    if written.port not in PORTS:
+        raise unknown_name("port", written.port, PORTS)
+    for hook in written.hooks:
+        if hook.name not in PORTS[written.port]:
+            raise unknown_name(f"hook of port {written.port!r}", hook.name, PORTS[written.port])
+    names = [*(a for hook in written.hooks for a in hook.arguments), *(p.name for p in written.parameters)]
+    for name in (*names, *written.memory, *written.confused_with):
+        if not _is_name(name):
+            raise SettingError(f"{name!r} in effect {written.name!r} is no name in Python: use letters, digits and _")
+    for p in written.parameters:
+        for value in (p.typical, p.low, p.high, p.neutral):
+            if value is not None and not isfinite(value):
+                raise SettingError(f"parameter {p.name!r} of effect {written.name!r} is {value}: give a finite number")
+
+
+def check_name(name: str) -> None:
+    """Refuse what cannot be the name of a user's effect.
+
+    Raises:
+        SettingError: it is no name in Python, that of a module, or one of the catalogue.
+    """
+    if not _is_name(name) or not name.isascii() or name.startswith("_"):
+        raise SettingError(
+            f"{name!r} cannot be the name of an effect, which is one in Python too: use letters a to z, digits and _, "
+            "and begin with a letter, for example my_effect"
+        )
+    if _is_module(name):
+        raise SettingError(
+            f"{name!r} is the name of a module: in its folder {name}.py would be taken for it; give another name, for "
+            f"example my_{name}"
+        )
+    if name in catalogue():
+        raise SettingError(f"an effect called {name!r} exists already; give yours another name, for example my_{name}")
+
+
+def _is_module(name: str) -> bool:
+    """Return whether Python, or a package that is installed, has a module of this name, or Python looks for it."""
+    if name in sys.stdlib_module_names or name in ("sitecustomize", "usercustomize"):
+        return True
+    installed = [place for place in sys.path if Path(place).name in ("site-packages", "dist-packages")]
+    return PathFinder.find_spec(name, installed) is not None
+
+
+def _is_name(text: str) -> bool:
+    return text.isidentifier() and not keyword.iskeyword(text)
+
+
+def _entries(written: WrittenEffect) -> list[str]:
+    """Return the lines of EFFECT."""
+    lines = [f'    port="{written.port}",', *entry("    component=", words(written.component))]
+    lines += [*entry("    equation=", words(written.equation)), *_parameters(written.parameters)]
+    lines += [*(_names("moves", written.moves) if written.moves else ["    moves=RESPONSE,"])]
+    lines += entry("    signature=", words(written.signature))
+    rivals = [
+        line for rival, test in written.confused_with.items() for line in entry(f'        "{rival}": ', words(test))
+    ]
+    lines += ["    confused_with={", *rivals, "    },"] if rivals else ["    confused_with={},"]
+    lines += _names("memory", written.memory) if written.memory else []
+    return [*lines, *entry("    target=", words(written.target))] if written.target else lines
+
+
+def _parameters(parameters: Sequence[Parameter]) -> list[str]:
+    lines = [line for p in parameters for line in _parameter(p)]
+    flat = f"    parameters=({lines[0].strip()}),"
+    if len(lines) == 1 and columns(flat) <= WIDTH:
+        return [flat]
+    return ["    parameters=(", *lines, "    ),"]
+
+
+def _parameter(p: Parameter) -> list[str]:
+    inner = f"{_INDENT}    "
+    numbers = ("None" if value is None else repr(float(value)) for value in (p.typical, p.low, p.high, p.neutral))
+    items = [f'"{p.name}"', f'"{words(p.unit)}"', *numbers, *(quoted(words(t), inner) for t in (p.source, p.meaning))]
+    items += [f'"{words(p.shown_in)}"'] if p.shown_in else []
+    items += ["whole=True"] if p.whole else []
+    flat = f"{_INDENT}Parameter({', '.join(items)}),"
+    return [flat] if columns(flat) <= WIDTH else [f"{_INDENT}Parameter(", *packed(items, inner), f"{_INDENT}),"]
+
+
+def _names(head: str, names: Sequence[str]) -> list[str]:
+    """Return the lines of an entry that is a tuple of names."""
+    given = [f'"{words(name)}"' for name in names]
+    flat = f"    {head}=({', '.join(given)}{',' if len(given) == 1 else ''}),"
+    return [flat] if columns(flat) <= WIDTH else [f"    {head}=(", *(f"{_INDENT}{name}," for name in given), "    ),"]
+
+
+def _imports(written: WrittenEffect) -> list[str]:
+    """Return the groups of imports: of the standard library, numpy, ours; in each the order of ruff and isort."""
+    homes = {**HOMES, **_ALWAYS}
+    used = {name for hook in written.hooks for name in names_from_elsewhere(hook)}
+    used |= _ALWAYS.keys() - ({"RESPONSE"} if written.moves else set())
+    groups: dict[bool, list[str]] = {False: [], True: []}
+    for module in sorted({homes[name] for name in used} - {"numpy"}):
+        # constants before classes, and these before functions
+        names = sorted((n for n in used if homes[n] == module), key=lambda n: (not n.isupper(), n.islower(), n))
+        groups[module.startswith("slipwise")].append(f"from {module} import {', '.join(names)}")
+    numpy = ["import numpy as np"] if "np" in used else []
+    return ["\n".join(group) for group in (groups[False], numpy, groups[True]) if group]

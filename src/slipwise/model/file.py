@@ -1,0 +1,252 @@
+"""model.toml: a model that people read and edit by hand.
+
+    rig = "bridge1"
+
+    [specimen]                      # optional: what is known better than the rig's rated values
+    mass = "10.02 t"
+
+    [[effect]]
+    name = "shear_rate"
+    strength = "1.379 MPa"          # a parameter that is not given takes its typical value
+    [effect.pads]                   # what a pad has of its own, where an effect acts on single pads
+    A = { strength = "1.1 MPa" }
+
+    [[effect]]
+    name = "channel_gain"
+    target = "pad_A_N"
+    gain = "3 %"
+
+    [[effect]]
+    file = "mine.py"                # an effect of one's own, beside this file
+
+Comments and order survive every change that Slipwise makes.
+"""
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, cast
+
+import tomlkit
+from tomlkit.exceptions import TOMLKitError
+from tomlkit.items import AoT, Table
+
+from slipwise.effects import Effect, Trust, base_effects, catalogue, find_effect
+from slipwise.errors import InputError, SettingError, unknown_name
+from slipwise.input_file import read_input
+from slipwise.model import EffectUse, Model, base_model, use
+from slipwise.model.entry import entry_use, label_of, made, new_entry, write_values
+from slipwise.model.unused_values import refuse_stated
+from slipwise.params import same_number
+from slipwise.record import write_text
+from slipwise.rig import RIGS, Specimen, load_specimen
+from slipwise.rig.known import SPECIMEN_UNITS, better_known, known_better, read_known
+from slipwise.units import quantity
+
+_TOP = ("rig", "specimen", "effect")
+_HEAD = """# A model: the rig and the effects that act on it. `slipwise add` and `slipwise remove` edit this file too,
+# and keep your comments. `slipwise effects NAME` tells what an effect is.
+"""
+
+
+def draft_model(rig: str) -> str:
+    """Write the text of a first model.toml: a rig with the paper's law.
+
+    Args:
+        rig: a name, or the path of an MJCF file as seen from the model.toml.
+    """
+    document = tomlkit.parse(f"{_HEAD}rig = {tomlkit.item(rig).as_string()}\n")
+    for effect in base_effects("law"):
+        _append(document, use(effect), "")
+    return re.sub(r"\n{3,}", "\n\n", tomlkit.dumps(document))
+
+
+def load_model(path: Path | str, *, trust: Trust = False) -> Model:
+    """Read a model.toml.
+
+    Args:
+        path: of the file.
+        trust: effect files that it names and that may be run: none, these, or all (True).
+
+    Raises:
+        InputError: no file, no TOML, something that is needed is missing, or an effect file that is not trusted.
+        UnknownNameError: a rig, effect, parameter or key that does not exist, with the nearest ones.
+        UnitError: a value without a unit or of the wrong dimension.
+        SettingError: a value out of bounds, or effects that cannot go together.
+    """
+    return _model(_read(Path(path)), Path(path), trust)
+
+
+def as_model(given: Model | Specimen | Path | str) -> Model:
+    """Return the model that a user means: itself, a model.toml, or a rig, which stands for the paper's law on it.
+
+    Raises:
+        SettingError: something else.
+        SlipwiseError: a file or a rig that cannot be read.
+    """
+    if isinstance(given, Model):
+        return given
+    if isinstance(given, Specimen):
+        return base_model(given)
+    if not isinstance(given, Path | str):
+        raise SettingError(
+            "a model is what base_model or load_model gives, the path of a model.toml, or the name of a rig "
+            f"({', '.join(RIGS)}); got {type(given).__name__}"
+        )
+    return load_model(given) if Path(given).suffix == ".toml" else base_model(given)
+
+
+def save_model(model: Model, path: Path | str) -> None:
+    """Write a model; a file that is there keeps its comments, and its order as far as the model has it.
+
+    Raises:
+        SettingError: the file is of another rig.
+    """
+    path = Path(path)
+    rig = model.specimen.name if model.specimen.name in RIGS else str(model.specimen.path)
+    document = _read(path) if path.is_file() else tomlkit.parse(f"{_HEAD}rig = {tomlkit.item(rig).as_string()}\n")
+    rated = load_specimen(str(document["rig"]), path.parent)
+    if rated.path != model.specimen.path:
+        raise SettingError(f"{path} is a model of {document['rig']!r}, not of {rig!r}; write to another file")
+    unused = model.unused_values
+    known = {n: value for n, value in known_better(model.specimen, rated).items() if n not in unused}
+    _write_specimen(document, known)
+    labels = [u.label for u in model.uses]
+    entries = _entries(document)
+    for i in reversed(range(len(entries))):
+        if label_of(entries[i], path) not in labels:
+            del entries[i]
+    written = {label_of(entry, path): entry for entry in entries}
+    for wanted in model.uses:
+        if wanted.label in written:
+            write_values(written[wanted.label], wanted)
+        else:
+            _append(document, wanted, _file_of(wanted.effect, path))
+    write_text(path, tomlkit.dumps(document))
+
+
+def add_effect(
+    path: Path,
+    name: str,
+    target: str = "",
+    values: Mapping[str, str | float] | None = None,
+    *,
+    trust: Trust = False,
+) -> Model:
+    """Add an effect to a model.toml.
+
+    Args:
+        path: of the model.toml.
+        name: of an effect of the catalogue, or a path of one's own file ("mine.py").
+        target: the channel, for effects that need one.
+        values: parameter -> quantity with unit, or number [SI]; typical values for the others.
+        trust: other effect files of the model that may be run; the one that is named may.
+
+    Returns:
+        The model as it is now.
+
+    Raises:
+        UnknownNameError: no such effect or parameter.
+        SettingError: the model holds it already, a value is out of bounds, or it needs a target.
+    """
+    document = _read(path)
+    effect = find_effect(name)
+    _append(document, made(effect, target, values or {}, name), _file_of(effect, path))
+    model = _model(document, path, trust if isinstance(trust, bool) and trust else [effect.path, *(trust or ())])
+    write_text(path, tomlkit.dumps(document))
+    return model
+
+
+def remove_effect(path: Path, name: str, *, trust: Trust = False) -> Model:
+    """Take an effect out of a model.toml.
+
+    Args:
+        path: of the model.toml.
+        name: of the effect, or its label where it acts on several channels, e.g. "channel_gain[pad_A_N]".
+        trust: effect files of what is left of the model that may be run.
+
+    Returns:
+        The model as it is now.
+
+    Raises:
+        UnknownNameError: the model has no such effect.
+        SettingError: the name is that of several.
+    """
+    document = _read(path)
+    entries = _entries(document)
+    labels = [label_of(entry, path) for entry in entries]
+    found = [i for i, label in enumerate(labels) if name in (label.partition("[")[0], label)]
+    if not found:
+        raise unknown_name(f"effect (in {path.name})", name, labels)
+    if len(found) > 1:
+        raise SettingError(f"{name} acts on several channels; say which: {', '.join(labels[i] for i in found)}")
+    del entries[found[0]]
+    model = _model(document, path, trust)
+    write_text(path, tomlkit.dumps(document))
+    return model
+
+
+def _read(path: Path) -> tomlkit.TOMLDocument:
+    if not path.is_file():
+        raise InputError(f"{path}: no such file; `slipwise init {path.parent}` drafts one")
+    try:
+        document = tomlkit.parse(read_input(path).decode("utf-8-sig"))
+    except (TOMLKitError, UnicodeDecodeError, RecursionError) as error:
+        raise InputError(f"{path}: not valid TOML: {error}") from None
+    for key in document:
+        if key not in _TOP:
+            raise unknown_name(f"key in {path.name}", key, _TOP)
+    if "rig" not in document:
+        raise InputError(f"{path}: 'rig' is missing; write for example rig = \"bridge1\"")
+    if not isinstance(document.get("effect", AoT([])), AoT):
+        raise InputError(f"{path}: effects are written as [[effect]] with double brackets, one for each")
+    return document
+
+
+def _entries(document: tomlkit.TOMLDocument) -> AoT:
+    return cast(AoT, document.get("effect", AoT([])))
+
+
+def _model(document: tomlkit.TOMLDocument, path: Path, trust: Trust) -> Model:
+    specimen = load_specimen(str(document["rig"]), path.parent)
+    part = cast(Mapping[str, Any], document.get("specimen", {}))
+    known = read_known(part, f"[specimen] of {path.name}")
+    uses = tuple(entry_use(entry, path, trust, slider=not specimen.free) for entry in _entries(document))
+    model = Model(better_known(specimen, known, path.name), uses)
+    refuse_stated(model.specimen, model.unused_values)
+    return model
+
+
+def _file_of(effect: Effect, path: Path) -> str:
+    """Return a user's effect file as seen from the model file; nothing for an effect of the catalogue."""
+    if effect.name in catalogue():
+        return ""
+    inside = effect.path.is_relative_to(path.parent.resolve())
+    return (effect.path.relative_to(path.parent.resolve()) if inside else effect.path).as_posix()
+
+
+def _append(document: tomlkit.TOMLDocument, wanted: EffectUse, file: str) -> None:
+    if "effect" not in document:
+        document.add(tomlkit.nl())
+        document["effect"] = tomlkit.aot()
+    elif not tomlkit.dumps(document).endswith("\n\n"):
+        _entries(document)[-1].add(tomlkit.nl())
+    _entries(document).append(new_entry(wanted, file))
+
+
+def _write_specimen(document: tomlkit.TOMLDocument, known: Mapping[str, float | str]) -> None:
+    if "specimen" not in document and not known:
+        return
+    if "specimen" not in document:
+        entries = document.pop("effect", None)
+        document["specimen"] = tomlkit.table()
+        if entries is not None:
+            document["effect"] = entries
+    part = cast(Table, document["specimen"])
+    for name in [n for n in part if n not in known]:
+        del part[name]
+    for name, value in known.items():
+        if isinstance(value, str):
+            part[name] = value
+        elif name not in part or not same_number(quantity(str(part[name]), SPECIMEN_UNITS[name], name), value):
+            part[name] = f"{value:.15g} {SPECIMEN_UNITS[name]}".removesuffix(" 1")

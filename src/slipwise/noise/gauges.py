@@ -1,0 +1,197 @@
+"""What the rests before all runs tell of the gauges: how noisy each is, and how much of that is slow.
+
+A gauge is as noisy in every run, and many runs show too short a rest: their samples are put together. Noise that is
+not white puts more than its share into low frequencies, `colour` times as much, and a velocity is made of those.
+
+What steady sliding tells of a gauge that never rests: force and load scatter about a smooth line.
+
+An actuator that draws a slider at one speed shows the noise of its gauges together with that of the contact itself,
+which no law of friction explains: asperities, debris, a controller that hunts. It is slower than white noise, so the
+top of a spectrum misses it.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import detrend
+
+from slipwise.record import Record
+from slipwise.signals.noise import noise, ordinary, quantum
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+#: Samples at rest that are enough to know a gauge's noise, and the least of one run that count.
+_ENOUGH, _LEAST = 60, 24
+#: Samples at rest that show how noise is coloured, and the longest lag that is looked at.
+_ENOUGH_FOR_COLOUR, _LAGS = 200, 12
+#: Samples whose mean shows that a channel has begun to move, and how many times their scatter it must have moved.
+_ONSET, _ONSET_SURE = 16, 4.0
+#: Correlations below this many of their own errors are none.
+_SURE = 3.0
+#: No gauge is truer than this share of what it measures: the best cells and displacement gauges have 0.02 to 0.1 % of
+#: their span of non-linearity. It is the floor of records without noise, such as those of another simulation [1].
+_TRUEST = 1e-3
+
+
+@dataclass(frozen=True)
+class Gauge:
+    """Noise of one channel.
+
+    Attributes:
+        level: standard deviation of one sample, in the channel's unit.
+        colour: spectral density at low frequency over that of white noise of the same level [1]; 1 where unknown.
+        rested: whether a rest has shown it.
+    """
+
+    level: float
+    colour: float = 1.0
+    rested: bool = False
+
+    @property
+    def slow_level(self) -> float:
+        """Level of the white noise that is as strong at low frequency."""
+        return float(np.sqrt(self.colour)) * self.level
+
+
+def noise_of_gauges(records: Sequence[Record], invalid: Sequence[Mapping[str, Mask]] | None = None) -> dict[str, Gauge]:
+    """Return the noise of every channel of a campaign's runs.
+
+    Args:
+        records: of the runs.
+        invalid: of each run, channel -> samples (n,) at which it is no measurement.
+    """
+    quiet = [before_motion(r) for r in records]
+    channels = dict.fromkeys(c for r in records for c in r.channels)
+    bad = invalid or [{} for _ in records]
+    found = {
+        c: _gauge([(r[c], _less(q, b.get(c))) for r, q, b in zip(records, quiet, bad, strict=True) if c in r])
+        for c in channels
+    }
+    return {c: _with_contact(g, records, c) if all(q is None for q in quiet) else g for c, g in found.items()}
+
+
+def _less(quiet: Mask | None, bad: Mask | None) -> Mask | None:
+    return quiet if quiet is None or bad is None else quiet & ~bad
+
+
+def _with_contact(gauge: Gauge, records: Sequence[Record], channel: str) -> Gauge:
+    """Return the noise of a slider's gauge as steady sliding shows it, that of the contact included."""
+    if not channel.startswith("pad_"):
+        return gauge
+    return replace(gauge, level=max(gauge.level, steady_level(records, channel)))
+
+
+def noise_of_slip(gauges: Mapping[str, Gauge], axis: str) -> tuple[float, float] | None:
+    """Return the noise of slip gauge [m] and relative acceleration [m/s^2] where the rests have shown all three gauges.
+
+    What a gauge hums at rest it may hum less when it moves, but noise that is slow must be known: the likelihood of a
+    run takes it for motion, and a velocity then errs four times as much.
+    """
+    names = (f"slip_{axis}", f"girder_a{axis}", f"table_a{axis}")
+    if not all(n in gauges and gauges[n].rested and gauges[n].level > 0.0 for n in names):
+        return None
+    slip, girder, table = (gauges[n].slow_level for n in names)
+    return slip, float(np.hypot(girder, table))
+
+
+def _gauge(parts: list[tuple[Array, Mask | None]]) -> Gauge:
+    """Return the noise of a channel from its samples (n,) in all runs and which of them were at rest.
+
+    Where rest is too short in all runs together, the top of the spectrum must do, which noise that is not white does
+    not reach.
+    """
+    truest = _TRUEST * float(np.sqrt(np.mean([np.var(values) for values, _ in parts])))
+    rests = [_before_onset(v[q]) for v, q in parts if q is not None and np.count_nonzero(q) >= _LEAST]
+    still = [_detrended(r) for r in rests if len(r) >= _LEAST]
+    freedom = sum(len(s) - 2 for s in still)
+    if freedom < _ENOUGH:
+        return Gauge(max(float(np.median([noise(values).level for values, _ in parts])), truest))
+    level = float(np.sqrt(sum(float(s @ s) for s in still) / freedom))
+    resolution = float(np.median([quantum(values) for values, _ in parts])) / np.sqrt(12.0)
+    # a coarse gauge may not even flicker at rest
+    return Gauge(max(level, resolution, truest), _colour(still), rested=True)
+
+
+def _detrended(rest: Array) -> Array:
+    """Return what a rest (n,) leaves about its line, without samples that are none of its noise, (m,)."""
+    usual = ordinary(detrend(rest))
+    return detrend(rest[usual] if np.count_nonzero(usual) >= _LEAST else rest)
+
+
+def _before_onset(rest: Array) -> Array:
+    """Cut a rest where a channel begins to move: a cell feels the girder before the table is seen to move."""
+    smooth = np.convolve(rest, np.ones(_ONSET) / _ONSET, mode="valid")
+    away = np.abs(smooth - np.median(smooth))
+    moved = away > _ONSET_SURE * 1.4826 * np.median(away)
+    return rest[: int(np.argmax(moved))] if moved.any() else rest
+
+
+def _colour(still: list[Array]) -> float:
+    """Return 1 + 2 (r1 + r2 + ...) of the correlations up to the first that is not sure."""
+    count = sum(len(s) for s in still)
+    power = sum(float(s @ s) for s in still)
+    if count < _ENOUGH_FOR_COLOUR or power == 0.0:
+        return 1.0
+    total = 1.0
+    for lag in range(1, _LAGS + 1):
+        correlation = sum(float(s[lag:] @ s[:-lag]) for s in still) / power
+        if correlation < _SURE / np.sqrt(count):
+            break
+        total += 2.0 * correlation
+    return total
+
+
+def before_motion(record: Record) -> Mask | None:
+    """Tell which samples at the start of a run are at rest (n,): the table has not moved yet; None without table_ax."""
+    if "table_ax" not in record:
+        return None
+    level = noise(record["table_ax"]).level
+    block = max(8, round(0.02 / record.dt))
+    smooth = np.convolve(np.abs(record["table_ax"] - np.median(record["table_ax"][:block])), np.ones(block) / block)
+    moving = smooth[: len(record)] > 3.0 * level
+    first = int(np.argmax(moving)) - block if moving.any() else len(record)
+    return np.arange(len(record)) < first
+
+
+#: Samples of a stretch, the least stretches that tell something, and the share of them that are the calmest [1].
+_LENGTH, _ENOUGH_STEADY, _CALMEST = 128, 3, 0.25
+#: A stretch is steady where the speed changes by less than this share of itself, and slip is that many times its noise.
+_CHANGE, _MOVED = 0.1, 20.0
+
+
+def steady_level(records: Sequence[Record], channel: str) -> float:
+    """Return the scatter of one sample of a channel while a slider is drawn steadily; 0 where none ever is.
+
+    Args:
+        records: of the runs, with slip_x.
+        channel: of friction or load.
+    """
+    levels = [
+        _scatter(record[channel][part])
+        for record in records
+        if "slip_x" in record and channel in record
+        for part in _steady(record["slip_x"])
+    ]
+    return float(np.quantile(levels, _CALMEST)) if len(levels) >= _ENOUGH_STEADY else 0.0
+
+
+def _steady(slip: Array) -> Iterator[slice]:
+    for start in range(0, len(slip) - _LENGTH + 1, _LENGTH):
+        part = slice(start, start + _LENGTH)
+        (_, rate, bend), left = _about_a_curve(slip[part])
+        if abs(4.0 * bend) < _CHANGE * abs(rate) and abs(rate) > _MOVED * float(np.std(left)) / np.sqrt(_LENGTH):
+            yield part
+
+
+def _scatter(values: Array) -> float:
+    curve, left = _about_a_curve(values)
+    return float(np.sqrt(left @ left / (len(values) - len(curve))))
+
+
+def _about_a_curve(values: Array) -> tuple[Array, Array]:
+    """Return the parabola through values (n,), its coefficients over -1 to 1, and what is left of them (n,)."""
+    place = np.linspace(-1.0, 1.0, len(values))
+    curve = np.asarray(np.polynomial.polynomial.polyfit(place, values, 2), dtype=np.float64)
+    return curve, values - np.polynomial.polynomial.polyval(place, curve)

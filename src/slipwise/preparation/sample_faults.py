@@ -1,0 +1,285 @@
+"""What samples show by themselves: wrong signs, dead channels, rails, samples that repeat, samples that are lost."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.campaign import Campaign, Run
+from slipwise.campaign.wild_samples import FAULTY, faulty_share
+from slipwise.channels import pads_in
+from slipwise.instruments.zeros import tared_cells, zeros_of
+from slipwise.preparation.outliers import campaign_without_outliers
+from slipwise.preparation.rounding import NEAR, chance_of_equal, coarse
+from slipwise.preparation.signs import with_signs, wrong_signs
+from slipwise.preparation.synchronisation import in_step_campaign, late_cells, late_motion
+from slipwise.preparation.wrong_units import in_right_units, wrong_units
+from slipwise.rig import Specimen
+from slipwise.rig.load_basis import basis_of
+from slipwise.signals.noise import quantum, white_level
+from slipwise.signals.resample import slower_rate
+
+Array = NDArray[np.float64]
+#: A pad's cell, and the share of what its like scatter below which it shows nothing but noise [1].
+_CELL, _IDLE = re.compile(r"pad_[A-Za-z0-9]+_(?P<kind>N|Fx|Fy)$"), 0.08
+#: Other cells of its kind that must be there to tell whether a cell is idle.
+_LIKE_IT = 2
+#: Other pads that tell how a rigid girder moves.
+_HOLD = 3
+Mask = NDArray[np.bool_]
+#: A rail holds at least this many samples of a campaign, in one place at least that many, this part side by side [1].
+_RAIL, _LONG_RAIL, _BESIDE = 6, 15, 0.5
+RAILS: tuple[str, ...] = ("upper rail", "lower rail")
+#: A rail is met faster than this many standard deviations of noise, and this many steps of rounding, a sample [1].
+_FAST, _STEPS = 0.2, 1.5
+#: Samples repeat when so many more of them equal their neighbour than rounding explains (standard deviations), and
+#: this part of all [1].
+_SURE, _REPEATED = 6.0, 0.002
+#: What rounding does may be misjudged by this share: a converter's steps and a file's digits do not fit each other [1].
+_MISJUDGED = 1.0
+#: Equal values at the end of a run, and of all runs, where single ones are rare: as many were lost before.
+_TAIL, _TAILS, _RARE = 4, 8, 0.15
+#: A step of time longer than this many usual ones has lost samples.
+_GAP = 1.6
+
+
+@dataclass(frozen=True)
+class SampleFault:
+    """Bad samples of one channel, or of several at the same instants.
+
+    Attributes:
+        kind: "late", "turned", "scaled", "shifted", "wild", "dead", "upper rail", "lower rail", "held", "lost" or
+            "gap".
+        channels: that show it.
+        size: rail or shift in the channel's unit; delay [s]; -1 for a wrong sign; factor by which a channel is too
+            large [1]; else share of all samples [1].
+        bad: run -> samples that are no measurement (n,); none of a wrong sign, unit or zero, which is put right.
+        runs: names of the runs that show it.
+    """
+
+    kind: str
+    channels: tuple[str, ...]
+    size: float
+    bad: dict[str, Mask]
+    runs: tuple[str, ...]
+
+
+def sample_faults(campaign: Campaign) -> list[SampleFault]:
+    """Look for late loggers, wrong signs and units, zeros that are far off and bad samples in every channel and run.
+
+    Cells are looked at with the gauges of the motion in step, and all else with the cells in step too. Lags, signs,
+    units and zeros are told from records without outliers.
+    """
+    steady = campaign_without_outliers(campaign)
+    late = [one for one in (late_motion(steady),) if one is not None]
+    steady = in_step_campaign(steady, late)
+    cells = [one for one in (late_cells(steady),) if one is not None]
+    steady = in_step_campaign(steady, cells)
+    every = tuple(run.name for run in campaign.runs)
+    units = wrong_units(with_signs(steady, wrong_signs(steady, tared_cells(steady))))
+    steady = in_right_units(steady, units)
+    campaign = in_right_units(in_step_campaign(campaign, (*late, *cells)), units)
+    found = [*_turned(steady), *_shifted(steady)]
+    found += [SampleFault("scaled", one.channels, one.factor, {}, every) for one in units]
+    found += [SampleFault("late", one.channels, one.delay, {}, every) for one in (*late, *cells)]
+    names = list(dict.fromkeys(name for run in campaign.runs for name in run.record.channels))
+    # what every channel repeats at its end is a record that was cut, no gauge's loss
+    cut = {
+        run.name: min((_tail(values) for values in run.record.channels.values()), default=0) for run in campaign.runs
+    }
+    for name in names:
+        runs = [run for run in campaign.runs if name in run.record]
+        fault = _wild(name, runs) or _dead(name, runs, campaign.specimen)
+        if fault is not None:
+            found.append(fault)
+            continue
+        if name.startswith("slip") and not campaign.specimen.free:
+            continue  # an actuator rests as long as it likes: no rail, and samples repeat by themselves
+        found += _rails(name, runs) or [f for f in (_held(name, runs), _lost(name, runs, cut)) if f]
+    return [*_gaps(campaign), *_together(found)]
+
+
+def _turned(campaign: Campaign) -> list[SampleFault]:
+    """Wrong signs; the pads' cells of a kind are one card."""
+    every, wrong = tuple(run.name for run in campaign.runs), wrong_signs(campaign, tared_cells(campaign))
+    cards = [tuple(f"pad_{pad}_{kind}" for pad in campaign.specimen.pads) for kind in ("N", "Fx", "Fy")]
+    whole = [card for card in cards if set(card) <= set(wrong)]
+    alone = [(name,) for name in wrong if not any(name in card for card in whole)]
+    return [SampleFault("turned", channels, -1.0, {}, every) for channels in (*whole, *alone)]
+
+
+def _shifted(campaign: Campaign) -> list[SampleFault]:
+    every = tuple(run.name for run in campaign.runs)
+    return [SampleFault("shifted", zero.channels, zero.size, {}, every) for zero in zeros_of(campaign)]
+
+
+def _wild(name: str, runs: Sequence[Run]) -> SampleFault | None:
+    """A channel that writes more than single wild samples is no gauge any more; single ones are only left out."""
+    share = faulty_share(runs, name)
+    if share <= FAULTY:
+        return None
+    shown = {run.name for run in runs if any(one.channel == name for one in run.wild)}
+    bad = {run.name: np.ones(len(run.record), dtype=bool) for run in runs if run.name in shown}
+    return SampleFault("wild", (name,), share, bad, tuple(bad))
+
+
+def _dead(name: str, runs: Sequence[Run], specimen: Specimen) -> SampleFault | None:
+    """A channel that never moves while others do; a constant of campaign.toml does not move in any run.
+
+    The cell of a pad may be dead and noisy: it hardly scatters where the other cells of its kind move.
+    """
+    constant = {run.name for run in runs if np.ptp(run.record[name]) == 0.0}
+    still = set() if len(constant) == len(runs) else constant
+    still |= {run.name for run in runs if _idle_beside_its_like(name, run, specimen)}
+    if not still:
+        return None
+    bad = {run.name: np.ones(len(run.record), dtype=bool) for run in runs if run.name in still}
+    return SampleFault("dead", (name,), -1.0, bad, tuple(bad))
+
+
+def _idle_beside_its_like(name: str, run: Run, specimen: Specimen) -> bool:
+    match = _CELL.match(name)
+    pads = pads_in(run.record.channels)
+    others = [f"pad_{p}_{match['kind']}" for p in pads if f"pad_{p}_{match['kind']}" != name] if match else []
+    if match is None or len(others) < _LIKE_IT or not run.record.has_all(*others):
+        return False
+    moved = float(np.median([np.std(run.record[n]) for n in others]))
+    if match["kind"] == "N" and specimen.free and set(pads) == set(specimen.pads):
+        moved = min([moved, *(float(np.std(load)) for load in _expected(name, others, run, specimen))])
+    return float(np.std(run.record[name])) < _IDLE * moved
+
+
+def _expected(name: str, others: Sequence[str], run: Run, specimen: Specimen) -> list[Array]:
+    """Return what a pad carries (n,) [N] by the others: pads in the middle of a row do not feel the pitch.
+
+    A rigid girder says so by the place of three others, of which one may be dead itself where there are more; where
+    there are two, its weight and its vertical acceleration do.
+    """
+    if len(others) < _HOLD:
+        if not run.record.has_all("girder_az"):
+            return []
+        held = specimen.carried_mass * (specimen.gravity + run.record["girder_az"])
+        return [held - np.sum([run.record[n] for n in others], axis=0)]
+    rigid = basis_of(specimen).rigid * np.array(specimen.springs)
+    patterns = {f"pad_{pad}_N": rigid[:, i] for i, pad in enumerate(specimen.pads)}
+    found = []
+    for seen in (others, *([n for n in others if n != left] for left in others if len(others) > _HOLD)):
+        loads = np.stack([run.record[n] for n in seen])
+        found.append(patterns[name] @ np.linalg.lstsq(np.stack([patterns[n] for n in seen]), loads, rcond=None)[0])
+    return found
+
+
+def _rails(name: str, runs: Sequence[Run]) -> list[SampleFault]:
+    """An amplifier has two rails, and a gauge may meet either of them or both; its range may change between runs."""
+    found = []
+    for kind, side in (("upper rail", 1.0), ("lower rail", -1.0)):
+        bad = _at_rail(name, runs, side)
+        for run in (r for r in runs if not bad.get(r.name, np.zeros(1)).any()):
+            bad |= _at_rail(name, [run], side)
+        touched = [run for run in runs if bad.get(run.name, np.zeros(1)).any()]
+        if touched:
+            top = max(float((side * run.record[name]).max()) for run in touched)
+            found.append(SampleFault(kind, (name,), side * top, bad, tuple(run.name for run in touched)))
+    return found
+
+
+def _at_rail(name: str, runs: Sequence[Run], side: float) -> dict[str, Mask]:
+    """Return the samples of each run (n,) at the largest value of all, where that is a rail; else nothing."""
+    top = max(float((side * run.record[name]).max()) for run in runs)
+    bad = {run.name: side * run.record[name] >= top for run in runs}
+    count = sum(int(b.sum()) for b in bad.values())
+    beside = sum(int((b[1:] & b[:-1]).sum()) for b in bad.values())
+    # one burst of repeated samples at the peak is no rail
+    met = count - beside
+    enough = (met >= 2 or count >= _LONG_RAIL) and count >= _RAIL and beside >= _BESIDE * count
+    return bad if enough and _cut(name, runs, bad, side) else {}
+
+
+def _cut(name: str, runs: Sequence[Run], bad: dict[str, Mask], side: float) -> bool:
+    """Tell a rail from a rest at the largest value: a rail is met and left at speed, far above noise and rounding."""
+    steps, everywhere, rounding = [], [], []
+    for run in runs:
+        values, on = side * run.record[name], bad[run.name]
+        edges = np.flatnonzero(on[1:] != on[:-1])
+        steps.extend(np.abs(values[edges + 1] - values[edges]).tolist())
+        everywhere.append(white_level(values))
+        rounding.append(quantum(values))
+    least = max(_FAST * float(np.median(everywhere)), _STEPS * max(rounding))
+    return bool(steps) and float(np.median(steps)) > least
+
+
+def _held(name: str, runs: Sequence[Run]) -> SampleFault | None:
+    # what was computed from coarse channels repeats with them
+    computed = name.startswith("slip_v") or any(f"{name}_raw" in run.record for run in runs)
+    if computed or any(coarse(run.record[name]) for run in runs):
+        return None
+    bad: dict[str, Mask] = {}
+    equal = expected = count = 0.0
+    for run in runs:
+        values = run.record[name]
+        same = np.zeros(len(values), dtype=bool)
+        same[1:] = values[1:] == values[:-1]
+        same[len(values) - _tail(values) :] = False
+        same[: 1 + _tail(values[::-1])] = False  # a simulation begins at rest, to the last digit
+        equal, expected, count = equal + same.sum(), expected + chance_of_equal(values).sum(), count + len(values)
+        bad[run.name] = same
+    more = float(equal - expected)
+    if more < max(_SURE * np.sqrt(expected + 1.0), _REPEATED * count, _MISJUDGED * expected):
+        return None
+    return SampleFault("held", (name,), more / float(count), bad, tuple(n for n, b in bad.items() if b.any()))
+
+
+def _tail(values: Array) -> int:
+    """How many samples before the last one equal it without a break."""
+    different = np.flatnonzero(values != values[-1])
+    return len(values) - 1 - int(different[-1]) - 1 if len(different) else 0
+
+
+def _lost(name: str, runs: Sequence[Run], cut: Mapping[str, int]) -> SampleFault | None:
+    tails = {run.name: _tail(run.record[name]) - cut[run.name] for run in runs}
+    ends = {run.name: chance_of_equal(run.record[name])[-NEAR - tails[run.name] - cut[run.name] :] for run in runs}
+    shown = [n for n, tail in tails.items() if tail >= _TAIL and float(np.mean(ends[n])) < _RARE]
+    if sum(tails[n] for n in shown) < _TAILS or any(coarse(run.record[name]) for run in runs):
+        return None
+    bad = {run.name: np.ones(len(run.record), dtype=bool) for run in runs if run.name in shown}
+    count = sum(len(run.record) for run in runs)
+    return SampleFault("lost", (name,), sum(tails.values()) / count, bad, tuple(shown))
+
+
+def _gaps(campaign: Campaign) -> list[SampleFault]:
+    lost, bad, count = 0, {}, 0
+    for run in campaign.runs:
+        steps = np.diff(run.record.time)
+        dt = float(np.median(steps))
+        wide = (steps > _GAP * dt) & ~slower_rate(steps, dt)
+        # a clock that is only rounded has no gap: its steps make up for each other
+        if np.any(wide) and np.sum(steps[wide]) - dt * wide.sum() > 2.0 * dt:
+            lost += int(np.sum(np.round(steps[wide] / dt) - 1))
+            bad[run.name] = np.concatenate([[False], wide])
+        count += len(run.record)
+    names = tuple(campaign.runs[0].record.channels)
+    return [SampleFault("gap", names, lost / (count + lost), bad, tuple(bad))] if lost else []
+
+
+def _together(faults: list[SampleFault]) -> list[SampleFault]:
+    """Join channels that repeat or lose the same samples: they are one card."""
+    joined: list[SampleFault] = []
+    for fault in faults:
+        for i, other in enumerate(joined):
+            if fault.kind == other.kind and fault.kind in ("held", "lost") and _alike(fault, other):
+                channels = (*other.channels, *fault.channels)
+                joined[i] = SampleFault(fault.kind, channels, max(fault.size, other.size), other.bad, other.runs)
+                break
+        else:
+            joined.append(fault)
+    return joined
+
+
+def _alike(one: SampleFault, other: SampleFault) -> bool:
+    if set(one.bad) != set(other.bad):
+        return False
+    both = sum(int((one.bad[n] & other.bad[n]).sum()) for n in one.bad if len(one.bad[n]) == len(other.bad[n]))
+    most = max(sum(int(b.sum()) for b in f.bad.values()) for f in (one, other))
+    return both > 0.7 * most and abs(one.size - other.size) < 0.3 * max(one.size, other.size)

@@ -1,0 +1,1 @@
+"""What a campaign's channels must satisfy, with a law of friction and without."""

@@ -1,0 +1,47 @@
+"""The states of the pads at the instants at which their laws are evaluated."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.relations.run_data import FitRun, refined
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Instants:
+    """States of one run at the instants at which the laws are evaluated: f = fine (n - 1) + 1 for n samples.
+
+    Attributes:
+        time: (f,) [s].
+        load: (f, p) [N].
+        velocity: (f, p, 2) [m/s].
+        slip: (f, p, 2) [m].
+    """
+
+    time: Array
+    load: Array
+    velocity: Array
+    slip: Array
+
+
+def instants(run: FitRun, velocity: Array, slip: Array, lost: Array | None = None) -> Instants:
+    """Refine the states of a run.
+
+    Args:
+        run: its loads and times, and where it is at rest.
+        velocity: (n, p, 2) of each pad, or (n, 1, 2) where all move alike [m/s].
+        slip: (n, p, 2) of each pad, or (n, 1, 2) [m].
+        lost: (f, p) or (f, 1) what the logger's filter took from the velocity, see `lost_velocity` [m/s].
+    """
+    time = np.linspace(run.time[0], run.time[-1], run.fine * (len(run.time) - 1) + 1)
+    fine = refined(velocity, run.fine)
+    if lost is not None:
+        fine[:, :, 0] += lost
+    still = np.repeat(run.states.at_rest, run.fine)[: len(time)]
+    fine[still & np.roll(still, 1 - run.fine)] = 0.0
+    every = (*run.fine_load.shape, 2)  # views: a long record's states of pads that move alike are kept once
+    fine, slip = (np.broadcast_to(x, every) for x in (fine, refined(slip, run.fine)))
+    return Instants(time, run.fine_load, fine, slip)

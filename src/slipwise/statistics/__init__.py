@@ -1,1 +1,0 @@
-"""Statistics that every part shares: least squares, effective samples, prediction intervals."""

@@ -1,0 +1,52 @@
+"""The page that leads to the pages of many campaigns."""
+
+from collections.abc import Sequence
+from urllib.parse import quote
+
+from slipwise.studies.campaigns import Compared, Outcome
+from slipwise.view.pages.html import Html, Section, bullets, details, escape, page, paragraph, table
+from slipwise.view.words.campaign_tables import (
+    campaign_rows,
+    change_words,
+    compared_sentences,
+    failure_sentences,
+    size_words,
+    title,
+)
+
+_NOTHING = "Nothing."
+
+
+def campaigns_page(outcomes: Sequence[Outcome], found: Compared) -> str:
+    """Make the page, to be put beside the folders of the campaigns.
+
+    Returns:
+        The text of a self-contained HTML file.
+    """
+    rows = [{**row, "campaign": _link(o)} for row, o in zip(campaign_rows(outcomes), outcomes, strict=True)]
+    failed = [place for place, outcome in enumerate(outcomes) if outcome.failed]
+    common, differs = compared_sentences(found)
+    every = [change_words(change) for change in found.changes]
+    sections = [
+        Section("Campaigns", [table(rows, title(len(outcomes)), failed), *failure_sentences(outcomes)]),
+        Section("Common to all", [bullets(common) if common else paragraph(_NOTHING)]),
+        Section(
+            "What differs",
+            [
+                bullets(differs) if differs else paragraph(_NOTHING),
+                details(f"All {len(every)} numbers that two campaigns have", [bullets(every)]),
+            ],
+        ),
+        Section("Base parameters", [_base(outcome) for outcome in outcomes if not outcome.failed]),
+    ]
+    return page(f"Diagnosis of {len(outcomes)} campaigns", sections)
+
+
+def _link(outcome: Outcome) -> Html:
+    if outcome.failed:
+        return Html(escape(outcome.name))
+    return Html(f'<a href="{escape(quote(outcome.name))}/report.html">{escape(outcome.name)}</a>')
+
+
+def _base(outcome: Outcome) -> Html:
+    return details(outcome.name, [bullets([size_words(key, entry) for key, entry in outcome.base.items()])])

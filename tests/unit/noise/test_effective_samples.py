@@ -1,0 +1,34 @@
+"""The number of samples for one independent one is what theory says of noise of a known colour."""
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from slipwise.noise.effective_samples import correlation_sum
+
+
+def coloured(memory: float, seed: int, count: int = 40_000) -> np.ndarray:
+    return lfilter([1.0], [1.0, -memory], np.random.default_rng(seed).normal(size=count))
+
+
+@pytest.mark.parametrize("memory", [0.0, 0.5, 0.9])
+def test_first_order_noise_counts_as_theory_says(memory):
+    theory = (1.0 + memory) / (1.0 - memory)
+    assert correlation_sum([coloured(memory, 1), coloured(memory, 2)]) == pytest.approx(theory, rel=0.1)
+
+
+def test_samples_that_are_not_judged_do_not_shorten_the_memory():
+    noise = coloured(0.9, 3)
+    hidden = np.where(np.random.default_rng(4).random(noise.size) < 0.5, noise, 0.0)
+    assert correlation_sum([hidden]) == pytest.approx(correlation_sum([noise]), rel=0.15)
+
+
+def test_the_variance_of_a_mean_follows():
+    means = [float(np.mean(coloured(0.8, seed, 2000))) for seed in range(300)]
+    level = np.std(coloured(0.8, 999))
+    assert np.std(means) == pytest.approx(level * np.sqrt(correlation_sum([coloured(0.8, 5)]) / 2000), rel=0.15)
+
+
+def test_nothing_known_counts_every_sample():
+    assert correlation_sum([]) == 1.0
+    assert correlation_sum([np.zeros(50)]) == 1.0

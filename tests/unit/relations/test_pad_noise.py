@@ -1,0 +1,54 @@
+"""What nobody can vouch for at a reversal is counted beside it too, and in balances where a fault hides the forces."""
+
+import numpy as np
+import pytest
+
+from bench import build_campaign
+from measured import as_campaign
+from slipwise.effects import catalogue
+from slipwise.model import base_model
+from slipwise.relations.measurement import changed_by
+from slipwise.relations.noise import noise_of_fault_correction
+from slipwise.relations.pad_noise import reversal_noise
+from slipwise.relations.parameters import Term
+from slipwise.relations.run_data import FitRun, fit_runs
+
+
+@pytest.fixture(scope="module")
+def run() -> FitRun:
+    return fit_runs(as_campaign(build_campaign(36206, effects=(), rig="bridge1")))[0]
+
+
+def test_a_reversal_is_unsure_for_half_a_period_of_the_logger_before_and_after(run: FitRun) -> None:
+    assert run.filtered is not None
+    turn, reach = len(run.time) // 2, int(np.ceil(0.5 / (run.filtered.frequency * run.dt)))
+    plain = np.where(np.arange(len(run.time)) < turn, -1000.0, 1000.0)[:, None]
+    unsure = reversal_noise(run, plain, plain)[:, 0]
+    # the slope of a step is seen on the samples before and after it
+    assert np.flatnonzero(unsure).tolist() == list(range(turn - 1 - reach, turn + reach + 1))
+    assert unsure.max() == pytest.approx(1e-4 * 1000.0 / run.dt)
+
+
+def test_a_fault_lets_through_as_much_of_an_error_as_it_changes_a_pulse(run: FitRun) -> None:
+    gain, behind = (
+        Term(catalogue()["channel_gain"], ("pad_A_Fx",), "pad_A_Fx"),
+        Term(catalogue()["channel_filter"], tuple(f"pad_{p}_Fx" for p in "ABCD"), "pad_*_Fx"),
+    )
+    assert changed_by((), {}, run) == pytest.approx(np.zeros(4))
+    by_gain = changed_by([gain], {f"{gain.label}.gain": 0.03}, run)
+    assert by_gain == pytest.approx([0.03, 0.0, 0.0, 0.0])
+    by_filter = changed_by([behind], {f"{behind.label}.lag": 3e-3, f"{behind.label}.order": 2.0}, run)
+    assert (by_filter > 0.5).all()
+
+
+def test_the_pitch_rings_with_what_the_law_must_make_up_for() -> None:
+    specimen = base_model("bridge1").specimen
+    reversal = np.zeros((101, 4))
+    reversal[50] = 100.0
+    ringing = np.zeros(101)
+    ringing[50:60] = 0.8 ** np.arange(10)
+    more = noise_of_fault_correction(specimen, reversal, np.array([1.0, 0.0, 0.0, 0.0]), ringing)
+    assert more["girder"][50] == pytest.approx(100.0 / specimen.mass)
+    lever = specimen.centre_height / specimen.half_spacing[0]
+    assert more["pitch"][50:60] == pytest.approx(100.0 * lever * 0.8 ** np.arange(10))
+    assert more["pitch"][40] == pytest.approx(0.0, abs=1e-6)
