@@ -20,15 +20,15 @@ ALLOWED = {
     ("rig/build.py", "table_pitch"),  # a joint of the rig
     ("rig/known.py", "buffer_height"),  # a number of the rig
     *((f"rig/{part}.py", "buffer_height") for part in ("bounds", "changed_parts", "places", "specimen_file")),
-    ("rig/mjcf_writer.py", "table_pitch"),  # a joint of the rig
+    ("rig/mjcf/writer.py", "table_pitch"),  # a joint of the rig
     ("view/pages/paper_page.py", "buffer_height"),  # the same, in an example of a command
     ("comparison/motion_states.py", "breakaway"),  # a state of motion
     ("cli/effects.py", "heating"),  # an example of a command
     ("cli/bench.py", "run_in"),  # an example of an answer
     ("cli/ensemble.py", "shear_rate"),  # an example of a command
-    ("rig/mjcf_parts.py", "table_pitch"),  # a joint of the rig
+    ("rig/mjcf/parts.py", "table_pitch"),  # a joint of the rig
     # what a user takes in the place of what an MJCF may not hold
-    *(("rig/mjcf_attributes.py", n) for n in ("buffer_damping", "guide_drag", "key_clearance", "key_friction")),
+    *(("rig/mjcf/comparison.py", n) for n in ("buffer_damping", "guide_drag", "key_clearance", "key_friction")),
     ("model/entry.py", "heating"),  # an example of an entry
     *(
         (f, "superstructure") for f in ("data_files/column_words.py", "view/figures/paper_rig_pictures.py")

@@ -33,20 +33,17 @@ app = typer.Typer(
     rich_markup_mode="markdown",
     pretty_exceptions_enable=False,
 )
-demo.register(app)
-replay.register(app)
-campaign.register(app)
-diagnose.register(app)
-discover.register(app)
-workbench.register(app)
-model_edit.register(app)
-next_test.register(app)
-ensemble.register(app)
-bench.register(app)
-paper.register(app)
-view.register(app)
-catalogue.register(app)
-effects.register(app)
+for command in (
+    demo.demo, replay.replay, campaign.init, campaign.audit, campaign.compare, diagnose.diagnose, diagnose.ladder,
+    discover.discover, workbench.workbench, model_edit.add, model_edit.remove,
+):  # fmt: skip
+    app.command()(command)
+app.command("next")(next_test.next_motion)
+for command in (
+    ensemble.ensemble, bench.bench, paper.paper, view.view, catalogue.rigs, catalogue.channels, catalogue.motions,
+    effects.effects,
+):  # fmt: skip
+    app.command()(command)
 
 
 def _print_version(wanted: bool) -> None:

@@ -56,8 +56,3 @@ def bench(
             say(words)
         print_table("Score", rate_rows(scored))
     end(outcomes)
-
-
-def register(app: typer.Typer) -> None:
-    """Add this command to the command line."""
-    app.command()(bench)

@@ -133,9 +133,3 @@ def compare(
     print_table("Noise floor of one sample", floor_rows(found.floor))
     for path in files:
         say(f"wrote {path}")
-
-
-def register(app: typer.Typer) -> None:
-    """Add these commands to the command line."""
-    for command in (init, audit, compare):
-        app.command()(command)

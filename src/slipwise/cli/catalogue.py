@@ -95,9 +95,3 @@ def _show(title: str, rows: list[dict], json: bool) -> None:
         print_json(rows)
     else:
         print_table(title, rows)
-
-
-def register(app: typer.Typer) -> None:
-    """Add these commands to the command line."""
-    for command in (rigs, channels, motions):
-        app.command()(command)

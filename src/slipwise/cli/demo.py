@@ -105,8 +105,3 @@ def _copy(campaign: Path) -> None:
 def _say(title: str, words: str) -> None:
     OUT.print(f"\n[bold]{title}[/bold]")
     OUT.print(words, markup=False, highlight=False)
-
-
-def register(app: typer.Typer) -> None:
-    """Add this command to the command line."""
-    app.command()(demo)

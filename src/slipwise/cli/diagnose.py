@@ -272,9 +272,3 @@ def print_rungs(found: "sw.Ladder") -> None:
 def _wrote(files: list[Path]) -> None:
     for path in files:
         say(f"wrote {path}")
-
-
-def register(app: typer.Typer) -> None:
-    """Add these commands to the command line."""
-    app.command()(diagnose)
-    app.command()(ladder)

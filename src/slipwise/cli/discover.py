@@ -82,8 +82,3 @@ def _added(campaign: Path, beside: Sequence[str], files: Sequence[Path]) -> list
 
 def _interval(low: float, high: float) -> str:
     return f" ({low:.4g} to {high:.4g})" if low == low else " (a choice)"
-
-
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command()(discover)

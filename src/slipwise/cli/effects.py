@@ -94,8 +94,3 @@ def _asks(effect: "sw.Effect") -> list[str]:
         for at in effect.limits
     ]
     return [f"Turns the girder about the vertical (yaw): {turns}.", *(needs or [every]), *ends]
-
-
-def register(app: typer.Typer) -> None:
-    """Add this command to the command line."""
-    app.command()(effects)

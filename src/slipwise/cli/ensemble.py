@@ -84,8 +84,3 @@ def _tell(found: "sw.ensemble.Ensemble", tables: list) -> None:
     say(f"{found.members} members at each motion and scale: {drawn}")
     speed = f", {found.run / found.seconds:.1f} a second" if found.run else ""
     say(f"{count} replays, {found.run} of them now in {found.seconds:.0f} s{speed}")
-
-
-def register(app: typer.Typer) -> None:
-    """Add this command to the command line."""
-    app.command()(ensemble)

@@ -61,9 +61,3 @@ def tell_change(changed: "sw.ModelChange", *, held_out: bool, console: Console =
 
     which = "Held-out error" if held_out else "Error of the runs that were fitted"
     print_table(f"{which} in multiples of the noise floor", changed.rows(), console)
-
-
-def register(app: typer.Typer) -> None:
-    """Add these commands to the command line."""
-    app.command()(add)
-    app.command()(remove)

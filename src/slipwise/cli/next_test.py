@@ -79,8 +79,3 @@ def _tell(ranked: "sw.NextTest") -> None:
     left += [f"{p.motion} could not be judged: {p.failed}" for p in ranked.proposals if p.failed]
     for words in (*left, *filter(None, [ranked.words])):
         say(words)
-
-
-def register(app: typer.Typer) -> None:
-    """Add this command to the command line."""
-    app.command("next")(next_motion)

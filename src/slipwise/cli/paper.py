@@ -71,8 +71,3 @@ def paper(
     OUT.print(f"\n{counts}; {result.replays} replays in {result.seconds:.0f} s", markup=False, highlight=False)
     for path in (page, folder / "paper.json"):
         say(f"wrote {path}")
-
-
-def register(app: typer.Typer) -> None:
-    """Add this command to the command line."""
-    app.command()(paper)

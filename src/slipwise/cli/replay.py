@@ -174,8 +174,3 @@ def _tell(numbers: dict, motion: "sw.TableMotion", files: list[Path]) -> None:
         say(f"motion: {words}")
     for path in files:
         say(f"wrote {path}")
-
-
-def register(app: typer.Typer) -> None:
-    """Add this command to the command line."""
-    app.command()(replay)

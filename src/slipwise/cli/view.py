@@ -14,8 +14,3 @@ def view(folder: Annotated[Path, typer.Argument(help="A folder that a command wr
     from slipwise.view.recordings.viewer import open_viewer
 
     open_viewer(folder)
-
-
-def register(app: typer.Typer) -> None:
-    """Add this command to the command line."""
-    app.command()(view)

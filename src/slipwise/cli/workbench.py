@@ -22,8 +22,3 @@ def workbench(
     Example: `slipwise workbench campaigns/march`
     """
     sw.workbench.serve(campaign, trust=trust or effect or (), port=port, show=show)
-
-
-def register(app: typer.Typer) -> None:
-    """Add this command to the command line."""
-    app.command()(workbench)

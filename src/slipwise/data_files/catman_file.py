@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges
+from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges, unreadable
 from slipwise.errors import InputError, missing_library
 
 #: What a catman file begins with, in its versions: a whole number of two bytes.
@@ -39,8 +39,7 @@ def read_catman(path: Path) -> NamedColumns:
             short = [c for c in channels if len(c.data) != c.length]
             gauges = [Gauge(c.Name.strip(), c.unit.strip(), np.asarray(c.data, float)) for c in channels]
     except Exception as error:  # apread lets struct, key and memory errors of damaged files through
-        first = (str(error).splitlines() or [""])[0][:120] or type(error).__name__
-        raise InputError(f"{path}: not a readable catman file ({first}); export it again") from None
+        raise unreadable(path, "catman file", error) from None
     if short:
         raise InputError(
             f"{path}: {short[0].Name!r} states {short[0].length} values and the file holds {len(short[0].data)}: it "

@@ -5,7 +5,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges
+from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges, one_step, unreadable
 from slipwise.errors import InputError, missing_library
 
 
@@ -37,16 +37,10 @@ def read_tdm(path: Path) -> NamedColumns:
             f"{path}: its numbers are in {Path(str(error.filename)).name}, which is missing; copy it beside the .tdm"
         ) from None
     except Exception as error:  # tdm-loader lets errors of XML, of memory maps and of missing keys through
-        first = (str(error).splitlines() or [""])[0][:120] or type(error).__name__
-        first = "the .tdx is shorter than the .tdm says" if first.startswith("mmap") else first
-        raise InputError(f"{path}: not a readable DIAdem file ({first}); export .tdm and .tdx again") from None
-    if steps and max(steps) > 1.000001 * min(steps):
-        raise InputError(
-            f"{path}: its channels are sampled at different steps, {', '.join(f'{s:g} s' for s in sorted(steps))}; "
-            "export those of one step to a file of their own"
-        )
-    read = of_gauges(path, gauges, "DIAdem")
-    return NamedColumns(read.columns, next(iter(steps), None), read.notes)
+        short = ValueError("the .tdx is shorter than the .tdm says") if str(error).startswith("mmap") else error
+        raise unreadable(path, "DIAdem file", short, "export .tdm and .tdx again") from None
+    step, read = one_step(path, steps), of_gauges(path, gauges, "DIAdem")
+    return NamedColumns(read.columns, step, read.notes)
 
 
 def _steps(path: Path) -> set[float]:

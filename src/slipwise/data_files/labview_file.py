@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.data_files.named_columns import NamedColumns
+from slipwise.data_files.named_columns import NamedColumns, one_step, unreadable
 from slipwise.errors import InputError, missing_library
 
 Array = NDArray[np.float64]
@@ -75,15 +75,10 @@ def read_tdms(path: Path) -> NamedColumns:
     except InputError:
         raise
     except Exception as error:  # npTDMS lets struct, value and key errors of damaged files through
-        raise InputError(f"{path}: not a readable .tdms file ({error}); export it again") from None
+        raise unreadable(path, ".tdms file", error) from None
     if not columns:
         raise InputError(f"{path}: no channel of numbers is in this .tdms file")
-    if steps and max(steps) > 1.000001 * min(steps):
-        raise InputError(
-            f"{path}: its channels are sampled at different steps, {', '.join(f'{s:g} s' for s in sorted(steps))}; "
-            "export those of one step to a file of their own"
-        )
-    return NamedColumns(columns, next(iter(steps), None))
+    return NamedColumns(columns, one_step(path, steps))
 
 
 def _check_whole(path: Path) -> None:

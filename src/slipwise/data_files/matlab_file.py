@@ -20,7 +20,7 @@ from scipy.io.matlab import MatlabOpaque
 from slipwise.data_files.matlab_hdf5 import DEEPEST, LARGEST, WIDEST, read_hdf5
 from slipwise.data_files.matlab_objects import left_out, object_of
 from slipwise.data_files.matlab_structures import joined_headers, stated_steps, told_channel, told_matrix
-from slipwise.data_files.named_columns import NamedColumns
+from slipwise.data_files.named_columns import NamedColumns, one_step, unreadable
 from slipwise.errors import InputError
 
 Array = NDArray[np.float64]
@@ -43,9 +43,7 @@ def read_matlab(path: Path) -> NamedColumns:
     except NotImplementedError:
         content, objects = read_hdf5(path)
     except Exception as error:  # damaged files raise zlib, index, key and memory errors from scipy's depths
-        raise InputError(
-            f"{path}: not a readable MATLAB file ({error or type(error).__name__}); save it again"
-        ) from None
+        raise unreadable(path, "MATLAB file", error, "save it again") from None
     variables = {
         name: value
         for name, value in content.items()
@@ -57,12 +55,7 @@ def read_matlab(path: Path) -> NamedColumns:
     said = left_out(objects)
     if not columns:
         raise InputError(f"{path}: no vector or matrix of numbers in this MATLAB file" + (f"; {said}" if said else ""))
-    if steps and max(steps) > 1.000001 * min(steps):
-        raise InputError(
-            f"{path}: it states different steps, {', '.join(f'{s:g} s' for s in sorted(steps))}; save the channels of "
-            "one step in a file of their own"
-        )
-    return NamedColumns(columns, next(iter(steps), None), (f"{path.name}: {said}",) if said else ())
+    return NamedColumns(columns, one_step(path, steps), (f"{path.name}: {said}",) if said else ())
 
 
 def _checked(path: Path) -> dict[str, str]:
@@ -91,7 +84,7 @@ def _checked(path: Path) -> dict[str, str]:
                     block = unpack.decompress(part, 1 << 24)
                     head, total, part = head or block[:_NAMED], total + len(block), unpack.unconsumed_tail
             except zlib.error as error:
-                raise InputError(f"{path}: not a readable MATLAB file ({error}); save it again") from None
+                raise unreadable(path, "MATLAB file", error, "save it again") from None
         if total > LARGEST:
             raise InputError(
                 f"{path}: with {_variable(head, order)} it unpacks to more than {LARGEST / 1e6:g} MB; save the "

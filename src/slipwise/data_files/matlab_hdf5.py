@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from slipwise.data_files.named_columns import unreadable
 from slipwise.errors import InputError
 
 #: Structures within structures beyond this depth are no channels, nor are elements of an array beyond this number.
@@ -78,7 +79,7 @@ def read_hdf5(path: Path) -> tuple[dict[str, Any], dict[str, str]]:
     except InputError:
         raise
     except Exception as error:  # damaged files raise what HDF5 raises
-        raise InputError(f"{path}: not a readable MATLAB file ({error}); save it again") from None
+        raise unreadable(path, "MATLAB file", error, "save it again") from None
     return (content if isinstance(content, dict) else {}), objects
 
 

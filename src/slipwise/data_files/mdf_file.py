@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges
+from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges, unreadable
 from slipwise.errors import InputError, missing_library
 
 #: What a file begins with: one that was closed, and one that was not.
@@ -35,7 +35,7 @@ def read_mdf(path: Path) -> NamedColumns:
                     time = np.asarray(signal.timestamps, dtype=np.float64)
                     gauges.append(Gauge(str(signal.name), str(signal.unit or ""), values.astype(float), time))
     except Exception as error:  # asammdf lets struct, index, zlib and its own errors of damaged files through
-        raise InputError(f"{path}: not a readable MDF file ({_first(error)}); export it again") from None
+        raise unreadable(path, "MDF file", error) from None
     return of_gauges(path, gauges, "MDF")
 
 
@@ -67,7 +67,3 @@ def _check_whole(path: Path) -> None:
                 "written; copy or export it again"
             )
         waiting += [link for link in struct.unpack_from(f"<{links}Q", data, at + _BLOCK_HEAD) if link]
-
-
-def _first(error: Exception) -> str:
-    return (str(error).splitlines() or [""])[0][:120] or type(error).__name__

@@ -41,6 +41,26 @@ class Gauge:
     time: Array | None = None
 
 
+def unreadable(path: Path, what: str, error: Exception, todo: str = "export it again") -> InputError:
+    """Make the error for a damaged file, with the first line of what the library that reads such files says."""
+    reason = (str(error).splitlines() or [""])[0][:120] or type(error).__name__
+    return InputError(f"{path}: not a readable {what} ({reason}); {todo}")
+
+
+def one_step(path: Path, steps: set[float]) -> float | None:
+    """Return the step that the channels of a file state [s], None where none is stated.
+
+    Raises:
+        InputError: they state different ones.
+    """
+    if steps and max(steps) > (1.0 + _SAME_STEP) * min(steps):
+        listed = ", ".join(f"{step:g} s" for step in sorted(steps))
+        raise InputError(
+            f"{path}: its channels state different steps, {listed}; export those of one step to a file of their own"
+        )
+    return next(iter(steps), None)
+
+
 def of_gauges(path: Path, gauges: Sequence[Gauge], kind: str) -> NamedColumns:
     """Make columns of the channels that share their times with most others; name those of other times.
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.data_files.header_rows import MISSING, Header, find_header
+from slipwise.data_files.named_columns import unreadable
 from slipwise.data_files.table_rows import left_out_below
 from slipwise.data_files.time_stamps import seconds_of_stamps
 from slipwise.errors import InputError, missing_library
@@ -122,7 +123,7 @@ def _workbook(path: Path) -> Any:
     except InputError:
         raise
     except Exception as error:  # zip, xml and key errors of damaged files come through as they are
-        raise InputError(f"{path}: not a readable workbook ({error}); save it again, or as CSV") from None
+        raise unreadable(path, "workbook", error, "save it again, or as CSV") from None
 
 
 def _rows(sheet: Any, path: Path) -> Iterator[list[str]]:

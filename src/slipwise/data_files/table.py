@@ -15,7 +15,7 @@ from slipwise.data_files.diadem_file import read_tdm
 from slipwise.data_files.labview_file import read_tdms
 from slipwise.data_files.matlab_file import read_matlab
 from slipwise.data_files.mdf_file import read_mdf
-from slipwise.data_files.named_columns import NamedColumns
+from slipwise.data_files.named_columns import NamedColumns, unreadable
 from slipwise.data_files.spreadsheet import inspect_sheet, read_sheet
 from slipwise.data_files.statements import read_statements
 from slipwise.data_files.table_rows import Block
@@ -136,7 +136,7 @@ def _parquet(path: Path) -> Table:
             unit = (entry.metadata or {}).get(b"unit")
             headers.append(f"{entry.name} [{unit.decode('utf-8', 'replace')}]" if unit is not None else entry.name)
     except Exception as error:  # Arrow lets errors of Thrift, of memory and of text through
-        raise InputError(f"{path}: not a readable parquet file ({error}); write it again") from None
+        raise unreadable(path, "parquet file", error, "write it again") from None
 
     def columns(wanted: Sequence[int]) -> Columns:
         if 8 * metadata.num_rows * len(wanted) > _LARGEST:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges
+from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges, unreadable
 from slipwise.errors import InputError, missing_library
 
 #: Type of a function that is a time response; 0 is not told, and has times if its abscissa is one of time.
@@ -38,8 +38,7 @@ def read_uff(path: Path) -> NamedColumns:
     except InputError:
         raise
     except Exception as error:  # pyuff lets value, index and key errors of damaged files through
-        first = (str(error).splitlines() or [""])[0][:120] or type(error).__name__
-        raise InputError(f"{path}: not a readable universal file ({first}); export it again") from None
+        raise unreadable(path, "universal file", error) from None
     if not gauges:
         there = f"{len(sets)} functions of dataset 58" if sets else f"datasets {', '.join(map(str, kinds)) or 'none'}"
         raise InputError(f"{path}: no time response is in this universal file; it holds {there}")

@@ -1,17 +1,14 @@
 """Effect files to begin one's own idea with: for every port a law that works, and words that say what to change."""
 
+import textwrap
 from dataclasses import replace
 
 from slipwise.effects._hooks import DERIVED, HOOKS, LAGGING, PORTS
-from slipwise.effects._python_text import block
+from slipwise.effects._python_text import WIDTH
 from slipwise.effects._templates import FIRST_LAWS
 from slipwise.effects._writer import WrittenEffect
 from slipwise.errors import unknown_name
 
-_ABOUT = (
-    "This file works as it is: begin with it and change it bit by bit. Say here what happens physically, and in which "
-    "test it shows.",
-)
 _EFFECT = (
     "Every other argument is a number of the law: a Parameter of the same name in EFFECT below, with its SI unit, "
     "typical, lowest and highest value, the value at which it changes nothing (None for a constant that alone switches "
@@ -33,24 +30,7 @@ def skeleton(name: str, port: str = "shear") -> WrittenEffect:
         raise unknown_name("port", port, PORTS)
     law = FIRST_LAWS[port]
     first, *others = law.hooks
-    guided = replace(first, lines=(*_guide(first.name, port), *first.lines))
-    return WrittenEffect(
-        name=name,
-        title=law.title,
-        equation=law.equation,
-        about=_ABOUT,
-        valid="say in which range of speed, load or size it holds.",
-        source="assumed.",
-        port=port,
-        component=law.component,
-        hooks=(guided, *others),
-        parameters=law.parameters,
-        signature=law.signature,
-        confused_with={},
-        memory=law.memory,
-        moves=law.moves,
-        target=law.target,
-    )
+    return replace(law, name=name, hooks=(replace(first, lines=(*_guide(first.name, port), *first.lines)), *others))
 
 
 def _guide(hook: str, port: str) -> list[str]:
@@ -71,10 +51,7 @@ def _guide(hook: str, port: str) -> list[str]:
             "  memory                   numbers that it remembers, memory[0] and so on: EFFECT names them, as in",
             "                           memory=('largest',); they begin at zero",
         ]
-    lines += _comment(_EFFECT)
-    lines += _comment(f"Other hooks of port {port!r}: {', '.join(h for h in PORTS[port] if h != hook)}.")
+    others = ", ".join(other for other in PORTS[port] if other != hook)
+    for words in (_EFFECT, f"Other hooks of port {port!r}: {others}."):
+        lines += textwrap.wrap(words, WIDTH - 8, break_on_hyphens=False)
     return [f"# {line}".rstrip() for line in lines]
-
-
-def _comment(words: str) -> list[str]:
-    return block(words, " " * 8).replace(" " * 8, "").splitlines()

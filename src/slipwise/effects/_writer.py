@@ -1,7 +1,7 @@
 """Effect files that a program writes: a law in, a file out that reads, checks and runs like one of the catalogue.
 
-The text is that of `templates/effect.py.jinja`. Code comes from the program that writes: the lines of the hooks. All
-else are words; they may hold the name of a campaign or a path, so whatever could end a quotation is taken from them.
+Code comes from the program that writes: the lines of the hooks. All else are words; they may hold the name of a
+campaign or a path, so whatever could end a quotation is taken from them.
 """
 
 import keyword
@@ -14,15 +14,32 @@ from pathlib import Path
 
 from slipwise.effects._catalogue import catalogue
 from slipwise.effects._hooks import PORTS
-from slipwise.effects._python_text import AS_IT_IS, WIDTH, block, columns, entry, packed, quoted, sentence, words
-from slipwise.effects._written_hook import HOMES, WrittenHook, body, head, names_from_elsewhere
+from slipwise.effects._python_text import WIDTH, paragraph, sentence, words
+from slipwise.effects._written_hook import HOMES, WrittenHook, function_text, names_from_elsewhere
 from slipwise.errors import SettingError, unknown_name
 from slipwise.params import Parameter
 from slipwise.record import write_text
 
-_TEMPLATE = "effect.py.jinja"
-#: Before each Parameter of EFFECT.
-_INDENT = " " * 8
+_FILE = '''"""{title}
+
+{equation}
+
+{about}
+
+{valid}
+{source}
+"""
+
+{imports}
+
+
+{hooks}
+
+
+EFFECT = Effect(
+{entries}
+)
+'''
 #: What every file imports, and nearly every one.
 _ALWAYS: dict[str, str] = {
     "Effect": "slipwise.effects", "Parameter": "slipwise.params", "RESPONSE": "slipwise.effects",
@@ -75,29 +92,16 @@ def effect_text(written: WrittenEffect) -> str:
         UnknownNameError: no such port, or it has no such hook.
         SettingError: a name that is none in Python, a number that is not finite, or a body that is no Python.
     """
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined  # only a command that writes waits for it
-
     _check(written)
-    environment = Environment(
-        loader=FileSystemLoader(Path(__file__).parent / "templates"),
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-        autoescape=False,  # the text is Python; `words` makes it harmless
-    )
-    environment.filters["block"] = block
-    entries = _entries(written)
-    return environment.get_template(_TEMPLATE).render(
+    return _FILE.format(
         title=sentence(written.title, WIDTH - 3),
-        equation=words(written.equation),
-        about=[words(paragraph) for paragraph in written.about],
-        valid=f"Valid: {words(written.valid)}",
-        source=f"Source: {words(written.source)}",
-        imports=_imports(written),
-        hooks=[[head(hook), *body(hook)] for hook in written.hooks],
-        entries=entries,
-        ending=AS_IT_IS if f"{_INDENT}Parameter(" in entries else "",
+        equation=paragraph(words(written.equation), "    "),
+        about="\n\n".join(paragraph(words(part)) for part in written.about),
+        valid=paragraph(f"Valid: {words(written.valid)}"),
+        source=paragraph(f"Source: {words(written.source)}"),
+        imports="\n\n".join(_imports(written)),
+        hooks="\n\n\n".join(function_text(hook) for hook in written.hooks),
+        entries="\n".join(f"    {name}={value}," for name, value in _entries(written).items()),
     )
 
 
@@ -115,16 +119,13 @@ def write_effect(written: WrittenEffect, folder: Path, *, replace: bool = False)
     Raises:
         UnknownNameError: no such port, or it has no such hook.
         SettingError: the name cannot be that of an effect's file, there is such a file, or as `effect_text`.
+        OutputError: the folder cannot be written.
     """
     check_name(written.name)
     path = folder / f"{written.name}.py"
     if path.exists() and not replace:
         raise SettingError(f"{path} exists already and is left as it is; give another name or another folder")
-    text = effect_text(written)
-    try:
-        write_text(path, text)
-    except OSError as error:
-        raise SettingError(f"{path} cannot be written ({error.strerror}); give a folder that you may write") from None
+    write_text(path, effect_text(written))
     return path
 
 
@@ -177,43 +178,42 @@ def _is_name(text: str) -> bool:
     return text.isidentifier() and not keyword.iskeyword(text)
 
 
-def _entries(written: WrittenEffect) -> list[str]:
-    """Return the lines of EFFECT."""
-    lines = [f'    port="{written.port}",', *entry("    component=", words(written.component))]
-    lines += [*entry("    equation=", words(written.equation)), *_parameters(written.parameters)]
-    lines += [*(_names("moves", written.moves) if written.moves else ["    moves=RESPONSE,"])]
-    lines += entry("    signature=", words(written.signature))
-    rivals = [
-        line for rival, test in written.confused_with.items() for line in entry(f'        "{rival}": ', words(test))
-    ]
-    lines += ["    confused_with={", *rivals, "    },"] if rivals else ["    confused_with={},"]
-    lines += _names("memory", written.memory) if written.memory else []
-    return [*lines, *entry("    target=", words(written.target))] if written.target else lines
+def _entries(written: WrittenEffect) -> dict[str, str]:
+    """Return what EFFECT says, as Python."""
+    entries = {
+        "port": _quoted(written.port),
+        "component": _quoted(written.component),
+        "equation": _quoted(written.equation),
+        "parameters": _lines("(", [_parameter(p) for p in written.parameters], ")"),
+        "moves": _names(written.moves) if written.moves else "RESPONSE",
+        "signature": _quoted(written.signature),
+        "confused_with": _lines("{", [f'"{rival}": {_quoted(t)}' for rival, t in written.confused_with.items()], "}"),
+    }
+    entries |= {"memory": _names(written.memory)} if written.memory else {}
+    return entries | ({"target": _quoted(written.target)} if written.target else {})
 
 
-def _parameters(parameters: Sequence[Parameter]) -> list[str]:
-    lines = [line for p in parameters for line in _parameter(p)]
-    flat = f"    parameters=({lines[0].strip()}),"
-    if len(lines) == 1 and columns(flat) <= WIDTH:
-        return [flat]
-    return ["    parameters=(", *lines, "    ),"]
-
-
-def _parameter(p: Parameter) -> list[str]:
-    inner = f"{_INDENT}    "
+def _parameter(p: Parameter) -> str:
     numbers = ("None" if value is None else repr(float(value)) for value in (p.typical, p.low, p.high, p.neutral))
-    items = [f'"{p.name}"', f'"{words(p.unit)}"', *numbers, *(quoted(words(t), inner) for t in (p.source, p.meaning))]
-    items += [f'"{words(p.shown_in)}"'] if p.shown_in else []
-    items += ["whole=True"] if p.whole else []
-    flat = f"{_INDENT}Parameter({', '.join(items)}),"
-    return [flat] if columns(flat) <= WIDTH else [f"{_INDENT}Parameter(", *packed(items, inner), f"{_INDENT}),"]
+    items = [_quoted(p.name), _quoted(p.unit), *numbers, _quoted(p.source), _quoted(p.meaning)]
+    items += [_quoted(p.shown_in)] if p.shown_in else []
+    return f"Parameter({', '.join([*items, *(['whole=True'] if p.whole else [])])})"
 
 
-def _names(head: str, names: Sequence[str]) -> list[str]:
-    """Return the lines of an entry that is a tuple of names."""
-    given = [f'"{words(name)}"' for name in names]
-    flat = f"    {head}=({', '.join(given)}{',' if len(given) == 1 else ''}),"
-    return [flat] if columns(flat) <= WIDTH else [f"    {head}=(", *(f"{_INDENT}{name}," for name in given), "    ),"]
+def _quoted(text: str) -> str:
+    return f'"{words(text)}"'
+
+
+def _names(names: Sequence[str]) -> str:
+    return f"({', '.join(map(_quoted, names))}{',' if len(names) == 1 else ''})"
+
+
+def _lines(opening: str, items: Sequence[str], closing: str) -> str:
+    """Return items between brackets, each on a line of its own; a single one of a tuple stays with them if it fits."""
+    if len(items) == 1 and opening == "(" and len(items[0]) < WIDTH - 18:
+        return f"({items[0]},)"
+    lines = [f"\n        {item}," for item in items]
+    return f"{opening}{''.join(lines)}\n    {closing}" if items else opening + closing
 
 
 def _imports(written: WrittenEffect) -> list[str]:

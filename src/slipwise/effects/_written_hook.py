@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from slipwise.effects._python_text import AS_IT_IS, WIDTH, packed, sentence, statement
+from slipwise.effects._python_text import WIDTH, sentence
 from slipwise.errors import SettingError, unknown_name
 
 #: What hooks are given beside numbers, and what they give back beside one number.
@@ -47,21 +47,12 @@ class WrittenHook:
     lines: tuple[str, ...]
 
 
-def head(hook: WrittenHook) -> str:
-    """Return the line, or lines, that begin the function."""
-    arguments = [f"{name}: {_GIVEN.get(name, 'float')}" for name in hook.arguments]
-    returned = _RETURNED.get(hook.name, "float")
-    line = f"def {hook.name}({', '.join(arguments)}) -> {returned}:"
-    if len(line) <= WIDTH:
-        return line
-    inner = "\n".join(packed(arguments, "    "))
-    return f"def {hook.name}(\n{inner}\n) -> {returned}:{AS_IT_IS}"
-
-
-def body(hook: WrittenHook) -> list[str]:
-    """Return docstring and statements, as they stand in the function."""
-    lines = [f'"""{sentence(hook.words, WIDTH - 10)}"""', *(part for line in hook.lines for part in statement(line))]
-    return [f"    {line}" for line in lines]
+def function_text(hook: WrittenHook) -> str:
+    """Return the hook as a function: head with types, docstring, statements."""
+    arguments = ", ".join(f"{name}: {_GIVEN.get(name, 'float')}" for name in hook.arguments)
+    lines = [f'"""{sentence(hook.words, WIDTH - 10)}"""', *hook.lines]
+    head = f"def {hook.name}({arguments}) -> {_RETURNED.get(hook.name, 'float')}:"
+    return "\n".join([head, *(f"    {line}" for line in lines)])
 
 
 def names_from_elsewhere(hook: WrittenHook) -> set[str]:

@@ -1,6 +1,5 @@
 """Table motions: recorded ones in their agencies' formats, synthetic ones, and what can be done to them."""
 
-from slipwise.motion.components import read_motion
 from slipwise.motion.formats import FORMATS
 from slipwise.motion.load import load_motion
 from slipwise.motion.plausibility import warn_of_travel
@@ -25,7 +24,6 @@ __all__ = [
     "displacement_peak",
     "load_motion",
     "parse_motion",
-    "read_motion",
     "resample",
     "scale",
     "scale_time",

@@ -1,7 +1,7 @@
 """Three components of a table from the components of one or several files."""
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -22,52 +22,22 @@ from slipwise.motion.trace import Baseline, Trace
 AT_REST = "none"
 
 
-def read_motion(
-    paths: Sequence[str | Path],
-    *,
-    x: str | Path | None = None,
-    y: str | Path | None = None,
-    z: str | Path | None = None,
-    dt: float | None = None,
-    unit: str | None = None,
-    baseline: Baseline | None = None,
-    join_anyway: bool = False,
-    count: str | None = None,
-    allow_short: bool = False,
+def join_files(
+    files: Sequence[Path], choices: Mapping[str, str], given: Given, baseline: Baseline | None, join_anyway: bool
 ) -> TableMotion:
-    """Read a table motion from files of any of the formats.
-
-    Without `x`, `y`, `z` the names of the components decide: x (shaking direction) is the east-west component, as in
-    the paper (Fig. 6), or else the first horizontal one; y the other horizontal one; z the vertical one. DWN is minus
-    UP: it is reversed. Components keep the sign that the agency gave them otherwise. Components start together; the
-    longer ones lose their ends. They must be of one record: station, sensor, event and start are compared.
+    """Read files of any of the formats and join their components; arguments and errors as in `load_motion`.
 
     Args:
-        paths: the files; may be empty if `x`, `y` or `z` name files.
-        x: what shakes in x: a component's name ("EW"), a file, or "none". A leading minus reverses the sign ("-N28W");
-            with a leading sign a component is taken as it stands, so "-DWN" is up, as "DWN" alone is.
-        y: the same across.
-        z: the same upwards.
-        dt: step of files that do not state it [s].
-        unit: unit of acceleration of files that do not state it.
-        baseline: "mean", "linear" or "none"; by default what the format asks for (K-NET and KiK-net: mean).
-        join_anyway: join components of different records with a warning, instead of refusing them.
-        count: acceleration of one count of a digitizer whose file holds counts, "2.4e-6 m/s^2".
-        allow_short: take a record that is a few values shorter than its header promises, with a warning.
-
-    Raises:
-        InputError: a file is missing or damaged, the steps differ, the components cannot be told apart or are of
-            different records, or gravity is in one of them.
-        UnitError: a unit is missing, unknown or of the wrong dimension.
-        UnknownNameError: `x`, `y` or `z` names neither a component nor a file.
+        files: may be empty if the choices name files.
+        choices: axis -> what shakes in it, where a user says so.
+        given: what a user says of step, unit and count.
+        baseline: how it is treated; None for what the format asks for.
+        join_anyway: join components of different records with a warning.
     """
-    given = Given(dt, unit, count, allow_short)
-    wanted = {axis: str(choice) for axis, choice in zip(AXES, (x, y, z), strict=True) if choice is not None}
-    if "" in wanted.values():
+    if "" in choices.values():
         raise InputError(f"a component has no name; give --x, --y and --z a name, a file, or {AT_REST!r}")
-    files = [Path(path) for path in paths]
     read = {file: read_file(file, given) for file in dict.fromkeys(files)}
-    for choice in wanted.values():
+    for choice in choices.values():
         traces = [trace for group in read.values() for trace in group]
         file = _file_of(_sign_and_name(choice, read, traces)[1], read)
         if file is not None and file not in read:
@@ -77,14 +47,14 @@ def read_motion(
     if not traces:
         raise InputError("no motion is given; name a file or a synthetic motion such as sine:2Hz,0.3g")
     chosen: dict[str, tuple[Trace, int] | None] = {}
-    for axis, choice in wanted.items():
+    for axis, choice in choices.items():
         chosen[axis] = None if choice.lower() == AT_REST else _pick(axis, choice, traces, read)
     taken = [pair[0] for pair in chosen.values() if pair]
     if files:
         _fill_by_name(chosen, [trace for trace in traces if not any(trace is other for other in taken)])
     pairs = {axis: chosen.get(axis) for axis in AXES}
     for trace in traces:
-        check_stated_peak(trace, unit, used=any(pair is not None and pair[0] is trace for pair in pairs.values()))
+        check_stated_peak(trace, given.unit, used=any(pair is not None and pair[0] is trace for pair in pairs.values()))
     return _assemble(pairs, baseline, join_anyway)
 
 

@@ -4,9 +4,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from slipwise.errors import InputError, SettingError
-from slipwise.motion.components import read_motion
+from slipwise.motion.components import join_files
+from slipwise.motion.stated import Given
 from slipwise.motion.synthetic import looks_synthetic, parse_motion, synthetic_motions
-from slipwise.motion.table_motion import TableMotion
+from slipwise.motion.table_motion import AXES, TableMotion
 from slipwise.motion.trace import Baseline
 from slipwise.units import quantity
 
@@ -26,20 +27,29 @@ def load_motion(
 ) -> TableMotion:
     """Return the table motion that a user names.
 
+    Without `x`, `y`, `z` the names of the components decide: x (shaking direction) is the east-west component, as in
+    the paper (Fig. 6), or else the first horizontal one; y the other horizontal one; z the vertical one. DWN is minus
+    UP: it is reversed. Components keep the sign that the agency gave them otherwise. Components start together; the
+    longer ones lose their ends. They must be of one record: station, sensor, event and start are compared.
+
     Args:
-        specs: one synthetic motion ("sine:2Hz,0.3g"), or the files of a recorded one.
-        x: which component, or which file, shakes in x; "none" for rest. See `read_motion`.
+        specs: one synthetic motion ("sine:2Hz,0.3g"), or the files of a recorded one, of any of the formats; none if
+            `x`, `y` or `z` name files.
+        x: what shakes in x: a component's name ("EW"), a file, or "none". A leading minus reverses the sign ("-N28W");
+            with a leading sign a component is taken as it stands, so "-DWN" is up, as "DWN" alone is.
         y: the same across.
         z: the same upwards.
         dt: step of files that do not state it: seconds, or text with a unit ("5 ms").
         unit: unit of acceleration of files that do not state it.
-        baseline: "mean", "linear" or "none"; by default what the format asks for.
+        baseline: "mean", "linear" or "none"; by default what the format asks for (K-NET and KiK-net: mean).
         join_anyway: join components of different records with a warning, instead of refusing them.
         count: acceleration of one count of a digitizer whose file holds counts, "2.4e-6 m/s^2".
         allow_short: take a record that is a few values shorter than its header promises, with a warning.
 
     Raises:
-        InputError: files and descriptions mixed, settings that a synthetic motion cannot use, or a damaged file.
+        InputError: files and descriptions mixed, settings that a synthetic motion cannot use, a file that is missing or
+            damaged, steps that differ, components that cannot be told apart or are of different records, or gravity in
+            one of them.
         UnitError: a unit is missing, unknown or of the wrong dimension.
         UnknownNameError: no such kind of motion, option, component or file.
     """
@@ -47,18 +57,9 @@ def load_motion(
     described = [str(spec) for spec in given if is_description(spec)]
     if not described:
         step = quantity(dt, "s", "dt") if isinstance(dt, str) else dt
-        return read_motion(
-            given,
-            x=x,
-            y=y,
-            z=z,
-            dt=step,
-            unit=unit,
-            baseline=baseline,
-            join_anyway=join_anyway,
-            count=count,
-            allow_short=allow_short,
-        )
+        choices = {axis: str(choice) for axis, choice in zip(AXES, (x, y, z), strict=True) if choice is not None}
+        stated = Given(step, unit, count, allow_short)
+        return join_files([Path(file) for file in given], choices, stated, baseline, join_anyway)
     if len(given) > 1:
         raise InputError(
             f"{described[0]} is a motion by itself; it cannot be joined with "

@@ -28,8 +28,8 @@ class Trace:
         title: event and station.
         dt: step [s].
         acceleration: (n,) as recorded [m/s^2].
-        baseline: the treatment of the baseline that the format asks for.
         treatment: reader, unit and step in words.
+        baseline: the treatment of the baseline that the format asks for.
         header_peak: what the file states, or None.
         origin: station, sensor, event and start that the file states.
         aliases: other names by which a user may choose it: "Chan 3", "3".
@@ -41,8 +41,8 @@ class Trace:
     title: str
     dt: float
     acceleration: Array
-    baseline: Baseline
     treatment: tuple[str, ...]
+    baseline: Baseline = "none"
     header_peak: HeaderPeak | None = None
     origin: Origin = field(default_factory=Origin)
     aliases: tuple[str, ...] = ()

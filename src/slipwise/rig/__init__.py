@@ -3,7 +3,7 @@
 from slipwise.rig.build import Rig, build, check_step, largest_step, pad_frequencies
 from slipwise.rig.files import RIGS
 from slipwise.rig.load import load_specimen
-from slipwise.rig.mjcf_writer import storey_names
+from slipwise.rig.mjcf.writer import storey_names
 from slipwise.rig.new_rig import new_rig, write_mjcf
 from slipwise.rig.places import Buffer, Place
 from slipwise.rig.readings import Readings, read_paper

@@ -1,7 +1,7 @@
 """From a specimen to a MuJoCo model that is ready to be shaken.
 
-The model is always the one that `mjcf_writer.py` writes of the specimen, whatever file it was read from: so what a file
-holds and a specimen does not cannot act without a record. `mjcf_attributes.py` refuses files that hold such things.
+The model is always the one that `mjcf/writer.py` writes of the specimen, whatever file it was read from: so what a file
+holds and a specimen does not cannot act without a record. `mjcf/comparison.py` refuses files that hold such things.
 """
 
 from collections.abc import Mapping
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.errors import SettingError
-from slipwise.rig.mjcf_writer import mjcf_text, storey_names
+from slipwise.rig.mjcf.writer import mjcf_text, storey_names
 from slipwise.rig.specimen import Specimen
 from slipwise.rig.storeys import fixed_base_frequencies
 

@@ -19,11 +19,6 @@ def models_folder() -> Path:
     return packed if packed.is_dir() else Path(__file__).parents[3] / "models"
 
 
-def shipped_file(free: bool) -> str:
-    """Return name of the shipped file that a rig is held against: of a girder that is free, or of prescribed slip."""
-    return "bridge1.xml" if free else "pad.xml"
-
-
 def find_rig(rig: str | Path, beside: Path | None = None) -> Path:
     """Find the file of a rig given by name or by path.
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.record import Record
-from slipwise.rig.mjcf_writer import storey_names
+from slipwise.rig.mjcf.writer import storey_names
 from slipwise.rig.specimen import Specimen
 from slipwise.rig.storeys import Storey
 

@@ -6,13 +6,13 @@ from typing import Any
 from slipwise.errors import SettingError, UnknownNameError
 from slipwise.rig.bounds import out_of_bounds
 from slipwise.rig.files import find_rig
-from slipwise.rig.mjcf import Mjcf, read_mjcf
-from slipwise.rig.mjcf_attributes import check_attributes
-from slipwise.rig.mjcf_inertia import girder_body, principal_inertia
-from slipwise.rig.mjcf_parts import OF_EACH_PAD, WORDS, check_parts, is_free, names_of, pads_of
-from slipwise.rig.mjcf_places import edge_distance, pad_places, pad_radii, seating
-from slipwise.rig.mjcf_storeys import read_storeys
-from slipwise.rig.mjcf_tendons import buffers, check_arms
+from slipwise.rig.mjcf.comparison import check_attributes, check_gravity
+from slipwise.rig.mjcf.file import Mjcf, read_mjcf
+from slipwise.rig.mjcf.inertia import girder_body, principal_inertia
+from slipwise.rig.mjcf.parts import OF_EACH_PAD, WORDS, check_parts, is_free, names_of, pads_of
+from slipwise.rig.mjcf.places import edge_distance, pad_places, pad_radii, seating
+from slipwise.rig.mjcf.storeys import read_storeys
+from slipwise.rig.mjcf.tendons import buffers, check_arms
 from slipwise.rig.places import Place, values_of
 from slipwise.rig.rest_check import check_rest
 from slipwise.rig.specimen import Specimen
@@ -36,8 +36,9 @@ def load_specimen(rig: str | Path, beside: Path | None = None) -> Specimen:
         return read_specimen(path)
     file = read_mjcf(path)
     check_parts(file)
-    check_attributes(file)
+    check_gravity(file)
     specimen = _specimen(file)
+    check_attributes(file, specimen)
     check_rest(file, specimen)
     return specimen
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from slipwise.errors import InputError, SettingError
 from slipwise.record import write_text
 from slipwise.rig.files import SPECIMEN_FILE
-from slipwise.rig.mjcf_writer import mjcf_text
+from slipwise.rig.mjcf.writer import mjcf_text
 from slipwise.rig.specimen import Specimen
 from slipwise.rig.specimen_file import read_specimen
 

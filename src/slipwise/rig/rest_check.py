@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from slipwise.errors import SettingError
 from slipwise.rig.build import Rig, build, largest_step
-from slipwise.rig.mjcf import Mjcf
+from slipwise.rig.mjcf.file import Mjcf
 from slipwise.rig.specimen import Specimen
 from slipwise.rig.statics import at_rest
 

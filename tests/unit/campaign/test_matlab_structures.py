@@ -216,7 +216,7 @@ def test_a_file_that_was_cut_is_refused_in_a_sentence(tmp_path, version, kept):
 
 @pytest.mark.parametrize("version", ["5", "7.3"])
 def test_channels_of_different_steps_are_refused_with_both(tmp_path, version):
-    with pytest.raises(InputError, match=r"states different steps, 0\.01 s, 0\.02 s"):
+    with pytest.raises(InputError, match=r"state different steps, 0\.01 s, 0\.02 s"):
         open_table(saved(tmp_path, lms((0.02, 0.01)), version))
 
 

@@ -7,7 +7,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from slipwise.cli.effects import register
+from slipwise.cli.effects import effects
 from slipwise.effects import catalogue, find_effect
 from slipwise.errors import SettingError, UnknownNameError
 from slipwise.view.words.effects import effect_rows
@@ -16,7 +16,7 @@ from slipwise.view.words.effects import effect_rows
 @pytest.fixture
 def run():
     app = typer.Typer()
-    register(app)
+    app.command()(effects)
 
     def call(*words: str) -> str:
         result = CliRunner().invoke(app, list(words))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from slipwise.errors import InputError, SlipwiseError
-from slipwise.motion import read_motion
+from slipwise.motion import load_motion
 from slipwise.motion.detect import detect
 from slipwise.motion.source_file import source_of
 from slipwise.motion.stated import Given, acceleration_factor
@@ -147,7 +147,7 @@ def test_a_record_that_slipwise_wrote_is_a_table_motion_again(tmp_path):
         name: samples.wave(200, 3.0, phase) for name, phase in (("table_ax", 0.1), ("slip_x", 1.0), ("table_az", 2.0))
     }
     write_record(Record(time, channels), tmp_path / "record.csv")
-    motion = read_motion([tmp_path / "record.csv"])
+    motion = load_motion([tmp_path / "record.csv"])
     assert motion.components == ("table_ax", "", "table_az")
     assert motion.dt == pytest.approx(0.0005, rel=1e-9)
     np.testing.assert_allclose(motion.acceleration[:, 2], channels["table_az"], rtol=1e-8)
@@ -227,7 +227,7 @@ def test_every_trace_says_in_words_how_it_was_read():
 def load(tmp_path):
     def write_and_load(data: bytes, name: str, **settings):
         (tmp_path / name).write_bytes(data)
-        return read_motion([tmp_path / name], **settings)
+        return load_motion([tmp_path / name], **settings)
 
     return write_and_load
 

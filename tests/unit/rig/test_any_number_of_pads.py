@@ -10,7 +10,7 @@ from slipwise.model import EffectUse, base_model, use
 from slipwise.rig import Buffer, Place, Specimen, Storey, build, load_specimen, new_rig, write_mjcf
 from slipwise.rig.load_basis import basis_of, end_pairs, load_basis
 from slipwise.rig.load_modes import load_modes, pad_loads
-from slipwise.rig.mjcf_writer import mjcf_text
+from slipwise.rig.mjcf.writer import mjcf_text
 from slipwise.rig.rest_check import loads_at_rest
 from slipwise.rig.statics import at_rest
 from slipwise.simulation.predict import predictor

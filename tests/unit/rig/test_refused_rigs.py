@@ -11,7 +11,7 @@ from refused_rigs import LEFT_OUT
 from slipwise.errors import InputError
 from slipwise.rig import load_specimen
 from slipwise.rig.files import find_rig
-from slipwise.rig.mjcf_attributes import NOT_FELT, fields_of
+from slipwise.rig.mjcf.comparison import NOT_FELT, fields_of
 
 CASES = LEFT_OUT | IMPOSSIBLE
 

@@ -32,7 +32,7 @@ def test_values_of_a_storey_are_read(tmp_path: Path) -> None:
     ("old", "new", "words"),
     [
         ('<joint name="storey_1_x"', '<joint name="storey_1_x" frictionloss="5"', "storey_1_x.*frictionloss"),
-        ('storey_1_x" type="slide" axis="1 0 0"', 'storey_1_x" type="slide" axis="0 0 1"', "slides along x"),
+        ('storey_1_x" type="slide" axis="1 0 0"', 'storey_1_x" type="slide" axis="0 0 1"', "slide along x and y"),
         ('<joint name="storey_2_y"', '<joint name="storey_2_y" springref="0.1"', "storey_2_y.*springref"),
         ('<body name="storey_1" pos="0 0', '<body name="storey_1" pos="0.2 0', "beside the girder's centre"),
         ('<body name="storey_2"', '<body name="storey_3"', "numbered from 1"),

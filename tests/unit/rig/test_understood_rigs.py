@@ -9,7 +9,7 @@ from slipwise.errors import InputError
 from slipwise.model import base_model
 from slipwise.motion import load_motion
 from slipwise.rig import RIGS, Specimen, build, load_specimen
-from slipwise.rig.mjcf import read_mjcf
+from slipwise.rig.mjcf.file import read_mjcf
 from slipwise.rig.rest_check import check_rest, loads_at_rest
 from slipwise.simulation.replay import replay
 
@@ -190,6 +190,12 @@ def test_a_file_that_only_copies_the_shipped_rig_gives_the_same_replay(tmp_path)
     motion = load_motion(["sine:2Hz,0.3g,cycles=9"])
     ours, shipped = (replay(rig, motion).record for rig in (changed(tmp_path), "bridge1"))
     assert all(np.array_equal(ours[name], shipped[name]) for name in shipped.channels)
+
+
+def test_a_file_may_have_any_name(tmp_path):
+    path = tmp_path / "R&D <2>.xml"
+    path.write_text(changed(tmp_path).read_text())
+    assert load_specimen(path).name == "R&D <2>"
 
 
 def test_one_buffer_is_enough(tmp_path):

@@ -91,7 +91,6 @@ def _record(source: SourceFile, given: Given, start: int, end: int, text_lines: 
         title=f"{text[4].strip()} {text[1].strip()}"[:80] if len(text) > 4 else source.stem,
         dt=dt,
         acceleration=values,
-        baseline="none",
         treatment=(f"read as COSMOS: {source.name}, {level} acceleration, channel {name}", f"{unit_words}; {dt_words}"),
         header_peak=peak,
         origin=_origin(text),

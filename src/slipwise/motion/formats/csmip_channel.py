@@ -126,7 +126,6 @@ def channel_trace(
         title=title[:80].strip(),
         dt=dt,
         acceleration=acceleration,
-        baseline="none",
         treatment=(
             f"read as CSMIP/CESMD {volume}: {source.name}, channel {channel.name}{where}",
             f"{unit_words}; {dt_words}",

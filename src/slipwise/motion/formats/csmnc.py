@@ -56,7 +56,6 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
             title=f"{source.lines[2].strip()} {station}",
             dt=dt,
             acceleration=values,
-            baseline="none",
             treatment=(
                 f"read as CSMNC: {source.name}, {kind[1].lower()}, component {name}",
                 f"{unit_words}; {dt_words}",

@@ -68,7 +68,6 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
                 title=f"{station} {origin.event}",
                 dt=dt,
                 acceleration=values,
-                baseline="none",
                 treatment=(f"read as CWB/TSMIP: {source.name}, component {name}", f"{unit_words}; {dt_words}"),
                 header_peak=peak,
                 origin=origin,

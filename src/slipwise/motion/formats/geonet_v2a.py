@@ -88,7 +88,6 @@ def _component(source: SourceFile, given: Given, start: int) -> tuple[Trace, int
         title=f"{site} {event}",
         dt=dt,
         acceleration=values,
-        baseline="none",
         treatment=(
             f"read as GeoNet {_volume(source, start)}: {source.name}, component {name}",
             f"{unit_words}; {dt_words}; {prepended:g} s before the record were put there by the agency",

@@ -56,7 +56,6 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
             title=f"{site[1].strip()} {started[1].strip()}",
             dt=dt,
             acceleration=values[:, column],
-            baseline="none",
             treatment=(f"read as JMA CSV: {source.name}, component {name}", f"{unit_words}; {dt_words}"),
             origin=Origin(station=site[1].strip(), start=time_in(started[1])),
         )

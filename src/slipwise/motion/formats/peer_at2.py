@@ -57,7 +57,6 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
             title=title,
             dt=dt,
             acceleration=np.array(values) * factor,
-            baseline="none",
             treatment=(f"read as PEER AT2: {source.name}, component {name}", f"{unit_words}; {dt_words}"),
             # "Manjil Iran, 6/20/1990, Abbar": event and station stand around the date.
             origin=Origin(

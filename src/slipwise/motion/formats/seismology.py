@@ -70,7 +70,6 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
                 title=f"{stats.network}.{stats.station} {stats.starttime}",
                 dt=dt,
                 acceleration=values * factor,
-                baseline="none",
                 treatment=(f"read by obspy: {source.name}, {found.id}", f"{unit_words}; {dt_words}"),
                 origin=Origin(
                     station=f"{stats.network}.{stats.station}".strip("."),

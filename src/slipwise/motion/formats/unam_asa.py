@@ -87,7 +87,6 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
                 title=f"{text('NOMBRE DE LA ESTACION')} {event}".strip() or source.stem,
                 dt=dt,
                 acceleration=table[:, column] * factor,
-                baseline="none",
                 treatment=(f"read as UNAM ASA: {source.name}, channel {name}", f"{unit_words}; {dt_words}"),
                 header_peak=peak,
                 origin=Origin(station=station, event=event, start=start),

@@ -65,7 +65,6 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
             title=f"{source.lines[3].strip()} {source.lines[5].partition('component')[0].strip()}",
             dt=dt,
             acceleration=values,
-            baseline="none",
             treatment=(
                 f"read as USGS SMC: {source.name}, component {name}",
                 f"{unit_words.replace('the file states', 'the format says')}; {dt_words}",

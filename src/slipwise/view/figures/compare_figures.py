@@ -16,7 +16,8 @@ from slipwise.relations.run_data import FitRun
 from slipwise.units import parse_unit
 from slipwise.view.figures.canvas import new_figure
 from slipwise.view.figures.pad_layout import layout_from_places
-from slipwise.view.figures.style import INK, MUTED, UPLIFT, envelope, pad_colour, shown_unit, styled
+from slipwise.view.figures.panels import SUM_PANEL, pad_panels, zero_lines
+from slipwise.view.figures.style import INK, MUTED, UPLIFT, envelope, shown_unit, styled
 
 Array = NDArray[np.float64]
 _MEASURED, _MODEL, _HELD = INK, "#e69f00", "#0072b2"
@@ -156,28 +157,17 @@ def loops_figure(found: Comparison) -> Figure:
         rig = run.states.specimen
         layout = layout_from_places(rig.pads, rig.pad_places)
         grid = figure.add_gridspec(layout.rows, 2 * layout.columns)
-        first: Axes | None = None
+        panels = pad_panels(figure, grid, layout, layout.columns, ("slip x [mm]", "friction [kN]"))
         for i, pad in enumerate(run.pads):
-            row, column = layout.panels[pad]
-            axes = figure.add_subplot(grid[row, column], sharex=first, sharey=first)
-            first = first or axes
-            axes.set_title(layout.titles[pad], color=pad_colour(pad))
-            _loop(axes, run, run.force[:, i], said[:, i], part)
-            if row == layout.rows - 1:
-                axes.set_xlabel("slip x [mm]")
-            if column == 0:
-                axes.set_ylabel("friction [kN]")
-        axes = figure.add_subplot(grid[:, layout.columns :])
-        _loop(axes, run, run.force.sum(axis=1), said.sum(axis=1), part)
-        axes.set(title="Sum of the pads", xlabel="slip x [mm]", ylabel="friction [kN]")
-        axes.legend(loc="lower right")
+            _loop(panels[pad], run, run.force[:, i], said[:, i], part)
+        _loop(panels[SUM_PANEL], run, run.force.sum(axis=1), said.sum(axis=1), part)
+        panels[SUM_PANEL].legend(loc="lower right")
     return figure
 
 
 def _loop(axes: Axes, run: FitRun, measured: Array, said: Array, part: slice) -> None:
     factor = _force_unit(run)[0]
-    axes.axhline(0.0, color="#b8c0cb", linewidth=0.8, zorder=1)
-    axes.axvline(0.0, color="#b8c0cb", linewidth=0.8, zorder=1)
+    zero_lines(axes)
     slip = run.slip * 1e3
     axes.plot(slip, measured * factor, color="#c9d0d8", linewidth=0.6, rasterized=True)
     axes.plot(slip[part], measured[part] * factor, color=_MEASURED, linewidth=1.8, label="measured")

@@ -13,7 +13,8 @@ from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.unknown_surface import WORDS, Surface
 from slipwise.units import convert
 from slipwise.view.figures.canvas import new_figure
-from slipwise.view.figures.style import EXPECTED, INK, MODEL_COLOURS
+from slipwise.view.figures.panels import AFTER, BEFORE, error_bars
+from slipwise.view.figures.style import EXPECTED, INK
 from slipwise.view.words.numbers import in_words, usual_unit
 
 Array = NDArray[np.float64]
@@ -29,7 +30,6 @@ _TITLE = 40
 _FAR = 20.0
 #: A missing force below this is drawn in its SI unit [N].
 _SMALL = 1000.0
-_BEFORE, _AFTER = MODEL_COLOURS[0], MODEL_COLOURS[5]
 
 
 def under_axis(relation: str) -> str:
@@ -41,14 +41,9 @@ def balances_figure(found: Diagnosis, *, narrow: bool = False) -> Figure:
     """Draw the error of every balance, before and after, in multiples of the floor; held-out where runs are."""
     figure = new_figure(_NARROW if narrow else _WIDE, 3.4)
     axes = figure.subplots()
-    names = list(found.relations)
-    places = np.arange(len(names))
-    before, after = (np.array([found.relations[n][i] for n in names]) for i in (0, 1))
-    axes.bar(places - (0.19 if found.added else 0.0), before, 0.36, color=_BEFORE, label="base model")
-    if found.added:
-        axes.bar(places + 0.19, after, 0.36, color=_AFTER, label=_with(found))
-    axes.axhline(1.0, color=INK, lw=1.0, ls="--", label="noise floor")
-    axes.set_xticks(places, [under_axis(n) for n in names], rotation=90 if narrow else 0, fontsize=8.0)
+    errors = [(before, after if found.added else None) for before, after in found.relations.values()]
+    places = error_bars(axes, errors, ("base model", _with(found)))
+    axes.set_xticks(places, [under_axis(n) for n in found.relations], rotation=90 if narrow else 0, fontsize=8.0)
     held = found.search.base.problem.held_out
     axes.set_ylabel(f"{'held-out error' if held else 'error on fitted runs'} / floor")
     figure.legend(loc="outside upper right", ncols=1 if narrow else 3)  # bars may fill the panel
@@ -78,10 +73,10 @@ def ladder_figure(found: Ladder) -> Figure:
     figure = new_figure(8.0, 3.9)
     axes = figure.subplots()
     places = np.arange(len(found.steps))
-    looks = {"fitted runs": (EXPECTED, "o"), "held-out runs": (_AFTER, "o")}
+    looks = {"fitted runs": (EXPECTED, "o"), "held-out runs": (AFTER, "o")}
     errors = step_errors(found)
     for label, values in errors.items():
-        colour, marker = looks.get(label, (_BEFORE, "s"))
+        colour, marker = looks.get(label, (BEFORE, "s"))
         known = np.isfinite(values)  # of a search only the ends are replayed
         axes.plot(places[known], np.array(values)[known], marker=marker, color=colour, label=label, lw=2.0)
     axes.axhline(1.0, color=INK, lw=1.0, ls="--", label="noise floor")
@@ -113,8 +108,8 @@ def loops_figure(found: Diagnosis) -> Figure:
     problem = found.search.base.problem
     place = (problem.held_out or [0])[0]
     run = problem.runs[place]
-    models = [("base model", found.search.base, _BEFORE)]
-    models += [(_with(found), found.final, _AFTER)] if found.added else []
+    models = [("base model", found.search.base, BEFORE)]
+    models += [(_with(found), found.final, AFTER)] if found.added else []
     figure = new_figure(8.6, 4.2)
     panels = figure.subplots(1, len(models), sharey=True, sharex=True, squeeze=False)[0]
     for axes, (label, fit, colour) in zip(panels, models, strict=True):
@@ -144,7 +139,7 @@ def surface_figure(surface: Surface) -> Figure:
     axes.set_xlabel(labels[0])
     if len(surface.states) == 1:
         axes.fill_between(middles[0], mean - band, mean + band, color=EXPECTED, label="95 %")
-        axes.plot(middles[0], mean, color=_AFTER, marker="o", ms=3, label="missing force")
+        axes.plot(middles[0], mean, color=AFTER, marker="o", ms=3, label="missing force")
         axes.axhline(0.0, color=INK, lw=0.8)
         axes.set_ylabel(f"{surface.relation} [{unit}]")
         axes.legend()

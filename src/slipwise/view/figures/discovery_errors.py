@@ -14,7 +14,6 @@ from slipwise.rig.frame import frame_push
 from slipwise.view.figures.canvas import new_figure
 from slipwise.view.figures.compare_figures import widest_loop
 from slipwise.view.figures.diagnosis_figures import under_axis
-from slipwise.view.figures.discovery_figures import LAW
 from slipwise.view.figures.discovery_samples import (
     after,
     left_over,
@@ -22,11 +21,10 @@ from slipwise.view.figures.discovery_samples import (
     predicted_forces,
     predicted_load,
 )
-from slipwise.view.figures.style import MODEL_COLOURS
+from slipwise.view.figures.panels import AFTER, BEFORE, error_bars
 from slipwise.view.words.discovery_words import state_axis
 
 Array = NDArray[np.float64]
-_BEFORE, _AFTER = MODEL_COLOURS[0], LAW
 #: States over which the error is drawn, and bins of each.
 _STATES, _BINS = 4, 24
 #: A bin of fewer samples is left out.
@@ -57,13 +55,7 @@ def errors_figure(found: Discovery, *, narrow: bool = False) -> Figure:
     shape = (len(groups), 1) if narrow else (1, len(groups))
     panels = figure.subplots(*shape, sharey=True, squeeze=False).ravel()
     for axes, (words, levels) in zip(panels, groups.items(), strict=True):
-        places = np.arange(len(levels))
-        before, later = zip(*levels.values(), strict=True)
-        both = found.laws != ()
-        axes.bar(places - (0.19 if both else 0.0), before, 0.36, color=_BEFORE, label="before")
-        if both:
-            axes.bar(places + 0.19, later, 0.36, color=_AFTER, label="with the law")
-        axes.axhline(1.0, color=mpl.rcParams["text.color"], lw=1.0, ls="--", label="noise floor")
+        places = error_bars(axes, list(levels.values()), ("before", "with the law"))
         axes.set_xticks(places, [under_axis(r) for r in levels], rotation=90, fontsize=8.0)
         axes.set_title(words)
     panels[0].set_ylabel("error / floor")
@@ -87,7 +79,7 @@ def states_figure(found: Discovery) -> Figure:
     states, later = shown_states(found), after(found)
     figure = new_figure(10.0, 3.1 * (1 if len(states) == 1 else -(-len(states) // 2)))
     panels = figure.subplots(-(-len(states) // 2), min(len(states), 2), sharey=True, squeeze=False)
-    fits = [("before", found.base.solution, _BEFORE)] + ([("with the law", later, _AFTER)] if later else [])
+    fits = [("before", found.base.solution, BEFORE)] + ([("with the law", later, AFTER)] if later else [])
     for axes, state in zip(panels.ravel(), states, strict=False):
         factor = 1.0
         for words, solution, colour in fits:
@@ -162,7 +154,7 @@ def _loop(axes: Axes, found: Discovery, place: int) -> None:
     measured = _measured(found, place)
     axes.plot(slip, 1e-3 * measured, color=mpl.rcParams["axes.edgecolor"], lw=0.6, rasterized=True, label="whole run")
     axes.plot(slip[part], 1e-3 * measured[part], color=ink, lw=3.2, label="measured, one cycle")
-    for words, with_laws, colour in (("before", False, _BEFORE), ("with the law", True, _AFTER)):
+    for words, with_laws, colour in (("before", False, BEFORE), ("with the law", True, AFTER)):
         if with_laws and not found.laws:
             continue
         said = _predicted(found, place, with_laws)

@@ -12,7 +12,7 @@ from slipwise.record import Record
 from slipwise.signals.hysteresis_loop import branches, loop_shape
 from slipwise.view.figures.canvas import new_figure
 from slipwise.view.figures.pad_layout import PadLayout, layout_of
-from slipwise.view.figures.panels import missing
+from slipwise.view.figures.panels import SUM_PANEL, missing, pad_panels, zero_lines
 from slipwise.view.figures.style import MUTED, SUM, pad_colour, styled
 from slipwise.view.recordings.geometry import RigGeometry
 from slipwise.view.words.numbers import NOTHING
@@ -57,19 +57,12 @@ def _loops_along(figure: Figure, record: Record, layout: PadLayout, axis: str, t
         layout.rows, wide + 2, left=0.06, right=0.985, top=top, bottom=bottom, wspace=0.24, hspace=0.24,
         width_ratios=(*(1.0,) * wide, 0.05, 1.95 if wide == 2 else 0.8 * wide),
     )  # fmt: skip
-    first: Axes | None = None
-    for pad, (row, column) in layout.panels.items():
-        axes = figure.add_subplot(grid[row, column], sharex=first, sharey=first)
-        first = first or axes
-        axes.set_title(layout.titles[pad], color=pad_colour(pad), fontsize=None if wide == 2 else 9.0)
-        if column == 0:
-            axes.set_ylabel(f"friction F along {axis} [kN]")
-        if row == layout.rows - 1:
-            axes.set_xlabel(f"slip {axis} [mm]")
-        _loop(axes, record, axis, [pad], pad_colour(pad))
-    axes = figure.add_subplot(grid[:, wide + 1])
-    axes.set(title=f"Sum of the pads, along {axis}", xlabel=f"slip {axis} [mm]", ylabel=f"ΣF along {axis} [kN]")
-    _loop(axes, record, axis, layout.pads, SUM)
+    labels = (f"slip {axis} [mm]", f"friction F along {axis} [kN]")
+    panels = pad_panels(figure, grid, layout, wide + 1, labels, 10.0 if wide == 2 else 9.0)
+    panels[SUM_PANEL].set(title=f"Sum of the pads, along {axis}", ylabel=f"ΣF along {axis} [kN]")
+    for pad in layout.panels:
+        _loop(panels[pad], record, axis, [pad], pad_colour(pad))
+    _loop(panels[SUM_PANEL], record, axis, layout.pads, SUM)
 
 
 def _loop(axes: Axes, record: Record, axis: str, pads: Sequence[str], colour: str) -> None:
@@ -78,8 +71,7 @@ def _loop(axes: Axes, record: Record, axis: str, pads: Sequence[str], colour: st
     if missing(axes, record, [f"slip_{axis}", *forces]):
         return
     force = np.sum([record[name] for name in forces], axis=0)
-    axes.axhline(0.0, color="#b8c0cb", linewidth=0.8, zorder=1)
-    axes.axvline(0.0, color="#b8c0cb", linewidth=0.8, zorder=1)
+    zero_lines(axes)
     slip, long = record[f"slip_{axis}"], len(record) > _VECTOR_POINTS
     axes.plot(slip * 1e3, force / 1e3, color=colour, linewidth=0.8, alpha=0.45, rasterized=long)
     widest = _widest_cycle(slip)

@@ -1,15 +1,13 @@
 """One picture for every result: what its `.plot()` gives."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import Any
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from slipwise.view.figures.canvas import new_figure
-from slipwise.view.figures.style import AXIS_COLOURS, INK, MODEL_COLOURS, MUTED, envelope, styled
-
-_BEFORE, _AFTER = MODEL_COLOURS[0], MODEL_COLOURS[5]
+from slipwise.view.figures.panels import AFTER, error_bars
+from slipwise.view.figures.style import AXIS_COLOURS, INK, MUTED, envelope, styled
 
 
 def plot(result: object) -> Figure:
@@ -92,19 +90,15 @@ def _change(change: Any) -> Figure:
     return _floors(change.words, held, ("before", "after"))
 
 
-def _floors(title: str, errors: Mapping[str, tuple[float, float]], labels: Sequence[str]) -> Figure:
+def _floors(title: str, errors: Mapping[str, tuple[float, float]], labels: tuple[str, str]) -> Figure:
     """Draw errors before and after, in multiples of the noise floor."""
     figure = new_figure(8.0, 3.4, title)
     axes = figure.subplots()
-    places = np.arange(len(errors))
-    for side, (label, colour) in enumerate(zip(labels, (_BEFORE, _AFTER), strict=True)):
-        values = [pair[side] for pair in errors.values()]
-        axes.bar(places + (side - 0.5) * 0.38, values, 0.36, color=colour, label=label)
-    axes.axhline(1.0, color=INK, lw=1.0, ls="--")
+    places = error_bars(axes, list(errors.values()), labels)
     axes.annotate("noise floor", (1.0, 1.0), xycoords=("axes fraction", "data"), ha="right", va="bottom", color=MUTED)
     axes.set_xticks(places, list(errors), rotation=30, ha="right")
     axes.set_ylabel("error / floor")
-    axes.legend()
+    axes.legend(handles=axes.containers)
     return figure
 
 
@@ -118,7 +112,7 @@ def _next_test(found: Any) -> Figure:
     shown = [p for p in found.proposals if not p.refused and not p.failed]
     figure = new_figure(9.0, 1.2 + 0.4 * max(len(shown), 1), "How well each motion would tell the rivals apart")
     axes = figure.subplots()
-    axes.barh([p.motion for p in reversed(shown)], [p.separation for p in reversed(shown)], color=_AFTER)
+    axes.barh([p.motion for p in reversed(shown)], [p.separation for p in reversed(shown)], color=AFTER)
     axes.set_xlabel("separation [variances of the noise]")
     return figure
 

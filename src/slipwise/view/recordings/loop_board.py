@@ -14,6 +14,7 @@ from slipwise.channels import pads_in
 from slipwise.record import Record
 from slipwise.view.figures.canvas import new_figure
 from slipwise.view.figures.pad_layout import PadLayout
+from slipwise.view.figures.panels import SUM_PANEL, pad_panels, zero_lines
 from slipwise.view.figures.style import NIGHT, NIGHT_INK, NIGHT_MUTED, mixed, pad_colour, rgb, styled
 from slipwise.view.recordings.timeline import frames, time_column
 
@@ -26,7 +27,6 @@ _PIECES = 25.0
 _POINTS = 250.0
 #: This much of the past is drawn bright [s].
 RECENT = 1.5
-SUM = "sum"
 
 
 @dataclass(frozen=True)
@@ -52,12 +52,12 @@ class Trace:
 
 def own_colours(record: Record) -> Trace:
     """Return a record in the pads' own colours."""
-    return Trace("", record, {SUM: NIGHT_INK})
+    return Trace("", record, {SUM_PANEL: NIGHT_INK})
 
 
 def one_colour(label: str, record: Record, colour: str, width: float = 2.0) -> Trace:
     """Return a record in one colour on every panel."""
-    return Trace(label, record, dict.fromkeys((*pads_in(record.channels), SUM), colour), width)
+    return Trace(label, record, dict.fromkeys((*pads_in(record.channels), SUM_PANEL), colour), width)
 
 
 def panels_of(record: Record, pads: Sequence[str]) -> dict[str, Array]:
@@ -66,7 +66,7 @@ def panels_of(record: Record, pads: Sequence[str]) -> dict[str, Array]:
     if "slip_x" not in record:
         return {}
     if len(there) == len(pads):  # of a lone slider too, whose panel would stand empty
-        there[SUM] = np.sum(list(there.values()), axis=0)
+        there[SUM_PANEL] = np.sum(list(there.values()), axis=0)
     return there
 
 
@@ -91,9 +91,9 @@ def log_loops(stream: rr.RecordingStream, root: str, traces: Sequence[Trace], la
                 axes[panel].plot(slip * 1e3, force / 1e3, color=trace.colour(panel), alpha=0.28, linewidth=0.8)
         for trace in traces:
             if trace.label:
-                axes[SUM].plot([], [], color=trace.colour(SUM), linewidth=3.0, label=trace.label)
+                axes[SUM_PANEL].plot([], [], color=trace.colour(SUM_PANEL), linewidth=3.0, label=trace.label)
         if any(trace.label for trace in traces):
-            axes[SUM].legend(loc="lower right", fontsize=13.0)
+            axes[SUM_PANEL].legend(loc="lower right", fontsize=13.0)
         picture = io.BytesIO()
         figure.savefig(picture, format="png", dpi=100, metadata={"Software": None})
     stream.log(f"{root}/board", rr.EncodedImage(contents=picture.getvalue(), media_type="image/png"), static=True)
@@ -109,27 +109,16 @@ def log_loops(stream: rr.RecordingStream, root: str, traces: Sequence[Trace], la
 
 
 def _axes(figure: Figure, layout: PadLayout) -> dict[str, Axes]:
-    grid = figure.add_gridspec(layout.rows, 2 * layout.columns)
-    axes: dict[str, Axes] = {}
-    first: Axes | None = None
-    small = 17.0 if len(layout.pads) <= 4 else 12.0
-    for pad, (row, column) in layout.panels.items():
-        axes[pad] = figure.add_subplot(grid[row, column], sharex=first, sharey=first)
-        first = first or axes[pad]
-        axes[pad].set_title(layout.titles[pad], color=pad_colour(pad), fontsize=small)
-    axes[SUM] = figure.add_subplot(grid[:, layout.columns :])
-    axes[SUM].set_title("Sum of the pads", fontsize=17.0)
+    grid, few = figure.add_gridspec(layout.rows, 2 * layout.columns), len(layout.pads) <= 4
+    small = 17.0 if few else 12.0
+    axes = pad_panels(figure, grid, layout, layout.columns, ("slip x [mm]", "friction [kN]"), small)
+    axes[SUM_PANEL].set_title("Sum of the pads", fontsize=17.0)
     for panel in axes.values():
-        panel.tick_params(labelsize=15.0 if len(layout.pads) <= 4 else 11.0)
+        panel.tick_params(labelsize=15.0 if few else 11.0)
         panel.margins(0.08)
-        panel.axhline(0.0, color="#3a4552", linewidth=1.0)
-        panel.axvline(0.0, color="#3a4552", linewidth=1.0)
-    left = [pad for pad, (_, column) in layout.panels.items() if column == 0]
-    lowest = [pad for pad, (row, _) in layout.panels.items() if row == layout.rows - 1]
-    for panel in (*left, SUM):
-        axes[panel].set_ylabel("friction [kN]", fontsize=small - 2.0, color=NIGHT_MUTED)
-    for panel in (*lowest, SUM):
-        axes[panel].set_xlabel("slip x [mm]", fontsize=small - 2.0, color=NIGHT_MUTED)
+        zero_lines(panel, "#3a4552", 1.0)
+        for label in (panel.xaxis.label, panel.yaxis.label):
+            label.set(fontsize=small - 2.0, color=NIGHT_MUTED)
     return axes
 
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.campaign.draft_column import Column, Mapped
+from slipwise.campaign.draft.column import Column, Mapped
 
 Array = NDArray[np.float64]
 #: Correlations from which on two motions are one, and a speed is the rate of a slip [1].

@@ -10,13 +10,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.campaign.draft_column import Mapped
-from slipwise.campaign.draft_columns import map_columns
-from slipwise.campaign.draft_files import DataFile, open_data_files
-from slipwise.campaign.draft_lines import column_lines, quoted
-from slipwise.campaign.draft_rig import rig_for
-from slipwise.campaign.draft_roles import is_sine, record_of, roles_of
-from slipwise.campaign.draft_time import no_time
+from slipwise.campaign.draft.channel_mapping import map_columns
+from slipwise.campaign.draft.column import Mapped
+from slipwise.campaign.draft.column_lines import column_lines, quoted
+from slipwise.campaign.draft.data_files import DataFile, open_data_files
+from slipwise.campaign.draft.rig import rig_for
+from slipwise.campaign.draft.roles import is_sine, record_of, roles_of
+from slipwise.campaign.draft.time_column import no_time
 from slipwise.channels import pads_in, part_of
 from slipwise.data_files.table import SUFFIXES
 from slipwise.errors import InputError

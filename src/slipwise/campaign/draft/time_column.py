@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.campaign.draft_column import Column, Mapped
+from slipwise.campaign.draft.column import Column, Mapped
 
 Array = NDArray[np.float64]
 #: A stated step agrees with a column within this [1]; steps longer than this are milliseconds, or no shaking [s].

@@ -5,13 +5,9 @@ import re
 import mujoco
 import numpy as np
 
-from slipwise.rig.files import models_folder
-from slipwise.rig.mjcf import Mjcf
-from slipwise.rig.mjcf_attributes import NOT_FELT, fields_of
+from slipwise.rig.mjcf.file import Mjcf
 from slipwise.rig.storeys import Storey
 
-#: Fields of a storey's joint that are read into the specimen.
-_READ = frozenset({"stiffness", "damping"})
 #: Moment of inertia of a floor about its own middle, over the girder's, that is not felt [1].
 _SMALL = 1e-4
 #: Places that differ by less are the same [m].
@@ -44,7 +40,7 @@ def read_storeys(file: Mjcf) -> tuple[Storey, ...]:
                 "body",
                 name,
             )
-        stiffness = [_column(file, joint, axis) for joint, axis in zip(joints, "xy", strict=True)]
+        stiffness = [float(model.joint(joint).stiffness[0]) for joint in joints]
         height += float(body.pos[2])
         damping = [float(model.dof_damping[model.joint(joint).dofadr[0]]) for joint in joints]
         out.append(Storey(float(body.mass[0]), height, *stiffness, *damping))
@@ -74,27 +70,3 @@ def _check_place(file: Mjcf, name: str, number: int) -> None:
             "body",
             name,
         )
-
-
-def _column(file: Mjcf, name: str, axis: str) -> float:
-    """Return the stiffness of a storey's joint [N/m], once all else of it is as a replay has it."""
-    shipped = mujoco.MjModel.from_xml_path(str(models_folder() / "building.xml"))
-    ours, theirs = shipped.joint(f"storey_1_{axis}"), file.model.joint(name)
-    rows = (("jnt", theirs.id, ours.id), ("dof", int(theirs.dofadr[0]), int(ours.dofadr[0])))
-    for prefix, at, known in rows:
-        for field in fields_of(shipped, prefix):
-            if field in NOT_FELT[prefix] or field in _READ:
-                continue
-            if not np.array_equal(
-                getattr(file.model, f"{prefix}_{field}")[at], getattr(shipped, f"{prefix}_{field}")[known]
-            ):
-                raise file.refused(
-                    f"the joint {name!r} has a {field} that would not be simulated; a storey's joint slides along "
-                    f"{axis} and has stiffness and damping: leave the rest out",
-                    "joint",
-                    name,
-                )
-    place = int(theirs.qposadr[0])
-    if file.model.qpos0[place] or file.model.qpos_spring[place]:
-        raise file.refused(f"the joint {name!r} has a ref or springref; possible is 0", "joint", name)
-    return float(theirs.stiffness[0])

@@ -8,7 +8,7 @@ import mujoco
 
 from slipwise.errors import InputError, visible
 from slipwise.rig.bounds import out_of_bounds
-from slipwise.rig.mjcf_text import Element, place_of, read_elements
+from slipwise.rig.mjcf.text import Element, place_of, read_elements
 
 #: What MuJoCo says of an element that an included file holds.
 _INCLUDED = "line 0"

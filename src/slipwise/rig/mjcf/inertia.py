@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.rig.mjcf import Mjcf
+from slipwise.rig.mjcf.file import Mjcf
 
 Array = NDArray[np.float64]
 #: Products of inertia below this share of the largest moment are rounding [1].

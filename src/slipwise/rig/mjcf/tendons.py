@@ -6,9 +6,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.rig.mjcf import Mjcf
-from slipwise.rig.mjcf_parts import buffers_of, is_free, pads_of
-from slipwise.rig.mjcf_places import buffer_places, pad_places
+from slipwise.rig.mjcf.file import Mjcf
+from slipwise.rig.mjcf.parts import buffers_of, is_free, pads_of
+from slipwise.rig.mjcf.places import buffer_places, pad_places
+from slipwise.rig.mjcf.writer import arms
 from slipwise.rig.places import Buffer
 
 #: Arms and coefficients that differ by less are the same [m or 1].
@@ -70,32 +71,25 @@ def check_arms(file: Mjcf) -> None:
     """
     if not is_free(file.model):
         for axis in "xy":
-            _hold(file, f"pad_{pads_of(file)[0]}_{axis}", {f"table_{axis}": (-1.0,)})
+            _hold(file, f"pad_{pads_of(file)[0]}_{axis}", {f"table_{axis}": -1.0}, {})
         return
-    girder_x, girder_y, height = (float(v) for v in file.model.body("girder").pos)
-    arms = {f"pad_{pad}": (*place, 0.0) for pad, place in zip(pads_of(file), pad_places(file), strict=True)}
-    arms |= {f"buffer_{b.name}": (b.x, b.y, b.z) for b in buffers(file)}
-    for part, (x, y, z) in arms.items():
-        _hold(
-            file,
-            f"{part}_x",
-            {"girder_x": (1.0,), "girder_pitch": (z - height,), "girder_yaw": (girder_y - y, -y)},
-        )
-        _hold(
-            file,
-            f"{part}_y",
-            {"girder_y": (1.0,), "girder_roll": (height - z,), "girder_yaw": (x - girder_x, x)},
-        )
+    girder = [float(v) for v in file.model.body("girder").pos]
+    acting = {f"pad_{pad}": (*place, 0.0) for pad, place in zip(pads_of(file), pad_places(file), strict=True)}
+    acting |= {f"buffer_{b.name}": (b.x, b.y, b.z) for b in buffers(file)}
+    for part, place in acting.items():
+        in_plan = arms([0.0, 0.0, girder[2]], place)
+        for axis, wanted in arms(girder, place).items():
+            _hold(file, f"{part}_{axis}", wanted, in_plan[axis])
 
 
-def _hold(file: Mjcf, tendon: str, wanted: Mapping[str, tuple[float, ...]]) -> None:
+def _hold(file: Mjcf, tendon: str, wanted: Mapping[str, float], also: Mapping[str, float]) -> None:
     given = _coefficients(file.model, tendon)
     for joint in {**given, **wanted}:
-        possible, value = wanted.get(joint, (0.0,)), given.get(joint, 0.0)
-        if not any(abs(value - right) <= _SAME for right in possible):
+        value, right = given.get(joint, 0.0), wanted.get(joint, 0.0)
+        if min(abs(value - right), abs(value - also.get(joint, right))) > _SAME:
             raise file.refused(
                 f"the tendon {tendon!r} has the coefficient {value:g} of the joint {joint}; from the places of girder, "
-                f"pad and buffer it is {possible[0]:g}",
+                f"pad and buffer it is {right:g}",
                 "tendon",
                 tendon,
             )

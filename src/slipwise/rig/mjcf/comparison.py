@@ -1,20 +1,20 @@
-"""Every attribute of a rig's parts: read, without effect on the motion, or as the shipped rigs have it.
+"""Every attribute of a rig's parts: read, without effect on the motion, or as it is written of the specimen.
 
-A replay runs the shipped model with the specimen's values in it. So whatever a file gives must be a value of the
-specimen, or be what the shipped model has. The compiled models are compared field by field, which sees defaults,
-includes and frames as MuJoCo does: a field that is not named here, one of a later MuJoCo too, must agree.
+A replay runs the model that is written of the specimen. So whatever a file gives must be a value of the specimen, or be
+what that model has. The compiled models are compared field by field, which sees defaults, includes and frames as MuJoCo
+does: a field that is not named here, one of a later MuJoCo too, must agree.
 """
 
 from collections.abc import Iterator, Mapping
-from functools import cache
 
 import mujoco
 import numpy as np
 
 from slipwise.errors import InputError
-from slipwise.rig.files import models_folder, shipped_file
-from slipwise.rig.mjcf import Mjcf
-from slipwise.rig.mjcf_parts import ACTUATORS, buffers_of, is_free, names_of, pads_of
+from slipwise.rig.mjcf.file import Mjcf
+from slipwise.rig.mjcf.parts import ACTUATORS, is_free, names_of, pads_of
+from slipwise.rig.mjcf.writer import mjcf_text
+from slipwise.rig.specimen import Specimen
 
 #: Fields of each kind of part that follow from others, or only show.
 NOT_FELT: Mapping[str, frozenset[str]] = {
@@ -38,6 +38,7 @@ READ: Mapping[str, frozenset[str]] = {
     "plate": frozenset("conaffinity contype pos".split()),
     "buffer": frozenset("lengthspring stiffness".split()),
     "table_az": frozenset(["biasprm"]),
+    "storey": frozenset("damping stiffness".split()),
 }
 #: How MJCF writes a field that has another name in the compiled model.
 _WRITTEN = {
@@ -59,6 +60,7 @@ _INSTEAD = {
     ("buffer", "frictionloss"): "friction of a shear key is an effect, key_friction",
     ("buffer", "range"): "play of a shear key is an effect, key_clearance",
     ("girder", "frictionloss"): "friction of a guide is an effect, guide_drag",
+    ("storey", ""): "a storey's joints slide along x and y and have stiffness and damping: leave the rest out",
     ("girder", "damping"): "drag on the girder is an effect, guide_drag",
 }
 _WORDS_OF = {
@@ -69,42 +71,47 @@ _WORDS_OF = {
 }
 
 
-@cache
-def _shipped(free: bool) -> mujoco.MjModel:
-    return mujoco.MjModel.from_xml_path(str(models_folder() / shipped_file(free)))
+def check_gravity(file: Mjcf) -> None:
+    """Refuse gravity that does not point down.
+
+    Raises:
+        InputError: it does not.
+    """
+    value = file.model.opt.gravity
+    if value[0] or value[1] or not value[2] < 0.0:
+        raise file.refused(
+            f"the option gravity = {_text(value)} must point down, as 0 0 -9.80665", "option", key="gravity"
+        )
 
 
-def check_attributes(file: Mjcf) -> None:
+def check_attributes(file: Mjcf, specimen: Specimen) -> None:
     """Refuse an attribute that a replay would leave out.
+
+    Args:
+        file: as MuJoCo compiles it.
+        specimen: that is read from it.
 
     Raises:
         InputError: the message names the element, the attribute and what is possible.
     """
-    _check_options(file)
-    model, shipped = file.model, _shipped(is_free(file.model))
-    joints = names_of(shipped, "joint")
+    ours = mujoco.MjModel.from_xml_string(mjcf_text(specimen))
+    _check_options(file, ours)
     for name in ("table", "girder"):
-        _compare(file, "body", name, name, [("body", model.body(name).id, shipped.body(name).id)])
-    for name in joints:
-        ours, theirs = shipped.joint(name), model.joint(name)
-        dofs = (int(theirs.dofadr[0]), int(ours.dofadr[0]))
-        _compare(file, "joint", name, name.split("_")[0], [("jnt", theirs.id, ours.id), ("dof", *dofs)])
+        _compare(file, ours, "body", name)
+    for name in names_of(ours, "joint"):
+        _compare(file, ours, "joint", name)
+        at = int(file.model.joint(name).qposadr[0])
         for key, words in (("qpos0", "ref"), ("qpos_spring", "springref")):
-            if given := float(getattr(model, key)[theirs.qposadr[0]]):
+            if given := float(getattr(file.model, key)[at]):
                 raise file.refused(f"the joint {name!r} has {words} = {given:g}; possible is 0", "joint", name)
     _check_bits(file)
     for pad in pads_of(file):
-        for part in ("pad", "plate"):
-            name = f"{part}_{pad}"
-            _compare(file, "geom", name, part, [("geom", model.geom(name).id, shipped.geom(f"{part}_A").id)])
-    like = {f"pad_{pad}": "pad_A" for pad in pads_of(file)} | {f"buffer_{b}": "buffer_1" for b in buffers_of(file)}
-    for part, known in like.items():
-        for axis in "xy":
-            name = f"{part}_{axis}"
-            ids = ("tendon", model.tendon(name).id, shipped.tendon(f"{known}_{axis}").id)
-            _compare(file, "tendon", name, part.split("_")[0], [ids])
+        _compare(file, ours, "geom", f"pad_{pad}")
+        _compare(file, ours, "geom", f"plate_{pad}")
+    for name in names_of(ours, "tendon"):
+        _compare(file, ours, "tendon", name)
     for name in ACTUATORS:
-        _check_actuator(file, shipped, name)
+        _check_actuator(file, ours, name)
 
 
 def _check_bits(file: Mjcf) -> None:
@@ -131,17 +138,12 @@ def _wrong_bit(file: Mjcf, name: str, key: str, given: int) -> InputError:
     )
 
 
-def _check_options(file: Mjcf) -> None:
-    """Take options as the shipped rigs have them or as MuJoCo has them where nothing is said."""
-    given, shipped, unsaid = file.model.opt, _shipped(is_free(file.model)).opt, mujoco.MjOption()
-    for name in (n for n in dir(given) if not n.startswith("_")):
-        value, ours, default = getattr(given, name), getattr(shipped, name), getattr(unsaid, name)
-        if name == "gravity":
-            if value[0] or value[1] or not value[2] < 0.0:
-                raise file.refused(
-                    f"the option gravity = {_text(value)} must point down, as 0 0 -9.80665", "option", key=name
-                )
-        elif name in ("disableflags", "enableflags"):
+def _check_options(file: Mjcf, written: mujoco.MjModel) -> None:
+    """Take options as they are written of the specimen or as MuJoCo has them where nothing is said."""
+    given, unsaid = file.model.opt, mujoco.MjOption()
+    for name in (n for n in dir(given) if not n.startswith("_") and n != "gravity"):
+        value, ours, default = getattr(given, name), getattr(written.opt, name), getattr(unsaid, name)
+        if name in ("disableflags", "enableflags"):
             _check_flags(file, name, int(value), int(ours) | int(default))
         elif not (np.array_equal(value, ours) or np.array_equal(value, default)):
             kind = _WORDS_OF.get(name)
@@ -163,11 +165,11 @@ def _check_flags(file: Mjcf, name: str, given: int, possible: int) -> None:
             raise file.refused(f'the flag {called}="{word}" is not that of a replay; leave it out', "flag", key=called)
 
 
-def _check_actuator(file: Mjcf, shipped: mujoco.MjModel, name: str) -> None:
+def _check_actuator(file: Mjcf, written: mujoco.MjModel, name: str) -> None:
     model = file.model
-    ours, theirs = shipped.actuator(name), model.actuator(name)
+    ours, theirs = written.actuator(name), model.actuator(name)
     drives = model.joint(int(theirs.trnid[0])).name if int(theirs.trntype[0]) == int(ours.trntype[0]) else ""
-    wanted = shipped.joint(int(ours.trnid[0])).name
+    wanted = written.joint(int(ours.trnid[0])).name
     if drives != wanted:
         raise file.refused(f"the actuator {name} must drive the joint {wanted}", "actuator", name)
     if np.any(theirs.biasprm[1:] != ours.biasprm[1:]):
@@ -177,34 +179,34 @@ def _check_actuator(file: Mjcf, shipped: mujoco.MjModel, name: str) -> None:
             "actuator",
             name,
         )
-    _compare(file, "actuator", name, name, [("actuator", theirs.id, ours.id)], also=frozenset({"trnid"}))
+    _compare(file, written, "actuator", name, also=frozenset({"trnid"}))
 
 
-def _compare(
-    file: Mjcf,
-    kind: str,
-    name: str,
-    part: str,
-    rows: list[tuple[str, int, int]],
-    also: frozenset[str] = frozenset(),
-) -> None:
-    """Compare one part with the shipped one: rows of prefix of the fields, index in the file, index in the shipped."""
-    shipped = _shipped(is_free(file.model))
-    for prefix, at, ours in rows:
-        for field in fields_of(shipped, prefix):
-            if field in NOT_FELT[prefix] or field in READ.get(part, ()) or field in also:
-                continue
+def _compare(file: Mjcf, written: mujoco.MjModel, kind: str, name: str, also: frozenset[str] = frozenset()) -> None:
+    """Hold a part to the one that is written of the specimen, but for what is read, not felt, or in `also`."""
+    part = name if name in READ else name.split("_")[0]
+    theirs, ours = getattr(file.model, kind)(name), getattr(written, kind)(name)
+    rows = [(kind, theirs.id, ours.id)]
+    if kind == "joint":
+        rows = [("jnt", theirs.id, ours.id), ("dof", int(theirs.dofadr[0]), int(ours.dofadr[0]))]
+    for prefix, at, own in rows:
+        left_out = NOT_FELT[prefix] | READ.get(part, frozenset()) | also
+        for field in (field for field in fields_of(written, prefix) if field not in left_out):
             given = getattr(file.model, f"{prefix}_{field}")[at]
-            possible = getattr(shipped, f"{prefix}_{field}")[ours]
+            possible = getattr(written, f"{prefix}_{field}")[own]
             if not np.array_equal(given, possible):
-                written = _WRITTEN.get(f"{prefix}_{field}", _WRITTEN.get(field, field))
-                instead = _INSTEAD.get((part, field), f"leave it as {shipped_file(is_free(file.model))} has it")
+                words = _WRITTEN.get(f"{prefix}_{field}", _WRITTEN.get(field, field))
+                instead = _INSTEAD.get((part, field), _INSTEAD.get((part, ""), _as_shipped(file)))
                 raise file.refused(
-                    f"the {kind} {name!r} has {written} = {_text(given)}, which would not be simulated; possible is "
+                    f"the {kind} {name!r} has {words} = {_text(given)}, which would not be simulated; possible is "
                     f"{_text(possible)}: {instead}",
                     kind,
                     name,
                 )
+
+
+def _as_shipped(file: Mjcf) -> str:
+    return f"leave it as {'bridge1.xml' if is_free(file.model) else 'pad.xml'} has it"
 
 
 def fields_of(model: mujoco.MjModel, prefix: str) -> Iterator[str]:

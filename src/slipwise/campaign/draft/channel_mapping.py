@@ -11,10 +11,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.campaign.draft_column import LETTERS, Column, Mapped
-from slipwise.campaign.draft_forces import split_forces
-from slipwise.campaign.draft_slip import alike, map_slips, slip_rate
-from slipwise.campaign.draft_time import time_column
+from slipwise.campaign.draft.column import LETTERS, Column, Mapped
+from slipwise.campaign.draft.loads_and_frictions import split_forces
+from slipwise.campaign.draft.slip import alike, map_slips, slip_rate
+from slipwise.campaign.draft.time_column import time_column
 from slipwise.channels import PADS
 
 Array = NDArray[np.float64]

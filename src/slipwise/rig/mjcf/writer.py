@@ -8,7 +8,6 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from slipwise.rig.files import models_folder
-from slipwise.rig.places import Buffer, Place
 from slipwise.rig.specimen import Specimen
 from slipwise.rig.storeys import Storey
 
@@ -34,7 +33,7 @@ def mjcf_text(specimen: Specimen) -> str:
     free_girder = [f"{inside}{line}" for line in girder] if specimen.free else []
     guided_girder = [] if specimen.free else [f"{inside}{line}" for line in girder]
     lines = [
-        f'<mujoco model="{specimen.name}">{shared}',
+        f'<mujoco model="{_escaped(specimen.name)}">{shared}',
         *(["", f'  <option gravity="0 0 {-specimen.gravity!r}"/>']),
         "",
         "  <custom>",
@@ -202,26 +201,26 @@ def _tendons(specimen: Specimen) -> list[str]:
     if not specimen.free:
         joints = {axis: {f"table_{axis}": -1.0} for axis in "xy"}
         return [_fixed(f"pad_{p.name}_{a}", 'class="friction"', joints[a]) for p in specimen.places for a in "xy"]
+    centre = (specimen.centre_x, specimen.centre_y, specimen.centre_height)
     for pad in specimen.places:
-        for axis, joints in arms(specimen, pad, 0.0).items():
+        for axis, joints in arms(centre, (pad.x, pad.y, 0.0)).items():
             out.append(_fixed(f"pad_{pad.name}_{axis}", 'class="friction"', joints))
     for buffer in specimen.buffers:
         play = f' springlength="{-buffer.gap!r} {buffer.gap!r}"' if buffer.gap else ""
-        for axis, joints in arms(specimen, buffer, buffer.z).items():
+        for axis, joints in arms(centre, (buffer.x, buffer.y, buffer.z)).items():
             stiffness = buffer.stiffness_x if axis == "x" else buffer.stiffness_y
             out.append(_fixed(f"buffer_{buffer.name}_{axis}", f'stiffness="{stiffness!r}"{play}', joints))
     return out
 
 
-def arms(specimen: Specimen, part: Place | Buffer, height: float) -> dict[str, dict[str, float]]:
-    """Return the girder's joints that move a part along x and y, each with what its rate is multiplied by [1 or m].
+def arms(centre: Sequence[float], place: Sequence[float]) -> dict[str, dict[str, float]]:
+    """Return the girder's joints that move a place along x and y, each with what its rate is multiplied by [1 or m].
 
     Args:
-        specimen: with the centre of gravity, about which the girder turns.
-        part: a pad or a buffer.
-        height: of its force above the sliding plane [m].
+        centre: about which the girder turns (3,) [m].
+        place: where a pad or a buffer acts on it (3,) [m].
     """
-    x, y, z = part.x - specimen.centre_x, part.y - specimen.centre_y, height - specimen.centre_height
+    x, y, z = (at - middle for at, middle in zip(place, centre, strict=True))
     return {
         "x": {"girder_x": 1.0, "girder_pitch": z, "girder_yaw": -y},
         "y": {"girder_y": 1.0, "girder_roll": -z, "girder_yaw": x},

@@ -4,8 +4,8 @@ import re
 
 import mujoco
 
-from slipwise.rig.mjcf import Mjcf
-from slipwise.rig.mjcf_inertia import bodies_of_girder
+from slipwise.rig.mjcf.file import Mjcf
+from slipwise.rig.mjcf.inertia import bodies_of_girder
 from slipwise.rig.places import MOST_PADS
 
 #: The joints of the two bodies, in order; a girder whose slip is prescribed has the second kind only.
@@ -111,7 +111,7 @@ def _check_bodies(file: Mjcf) -> None:
                     f"the body {body.name} lies in {parent!r}; move it into {wanted!r}", "body", body.name
                 )
         elif _STOREY.fullmatch(body.name) and free:
-            continue  # `mjcf_storeys.py` holds it to what a storey is
+            continue  # `storeys.py` holds it to what a storey is
         elif body.jntnum[0] or (mass > _NOTHING and i not in fixed):
             what = f"has a mass of {mass:g} kg, which would not be counted" if mass > _NOTHING else "has joints"
             raise file.refused(

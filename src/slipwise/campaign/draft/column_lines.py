@@ -5,8 +5,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from slipwise.campaign.draft_column import Column, Mapped, column_of
-from slipwise.campaign.draft_files import DataFile, is_ours, one_line
+from slipwise.campaign.draft.column import Column, Mapped, column_of
+from slipwise.campaign.draft.data_files import DataFile, is_ours, one_line
 from slipwise.channels import channel
 from slipwise.data_files.column_names import kind_of
 from slipwise.errors import SlipwiseError

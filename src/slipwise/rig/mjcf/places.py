@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from slipwise.rig.mjcf import Mjcf
-from slipwise.rig.mjcf_inertia import girder_body
-from slipwise.rig.mjcf_parts import buffers_of, is_free, names_of, pads_of
+from slipwise.rig.mjcf.file import Mjcf
+from slipwise.rig.mjcf.inertia import girder_body
+from slipwise.rig.mjcf.parts import buffers_of, is_free, names_of, pads_of
 
 Places = tuple[tuple[float, float], ...]
 #: Lengths that differ by less are the same [m]: a thousandth of how far a pad sinks.

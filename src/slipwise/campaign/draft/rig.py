@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from slipwise.campaign.draft_roles import rig_of
+from slipwise.campaign.draft.roles import rig_of
 from slipwise.campaign.zero_state import GRAVITY
 from slipwise.channels import PADS
 from slipwise.record import Record

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.campaign.draft_column import Column, column_of
+from slipwise.campaign.draft.column import Column, column_of
 from slipwise.channels import channel, is_channel
 from slipwise.data_files.table import COMPANIONS, SUFFIXES, Table, open_table
 from slipwise.errors import InputError, SlipwiseError

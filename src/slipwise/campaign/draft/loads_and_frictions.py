@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from slipwise.campaign.draft_column import Column
+from slipwise.campaign.draft.column import Column
 
 #: A load varies by less than this part of its mean [1].
 _STEADY = 0.6

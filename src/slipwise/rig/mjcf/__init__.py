@@ -1,0 +1,1 @@
+"""The MJCF file of a rig: written of a specimen, and read into one, with all that it may hold."""
