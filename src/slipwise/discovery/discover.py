@@ -12,13 +12,15 @@ from pathlib import Path
 import numpy as np
 
 from slipwise.campaign import Campaign, as_campaign
-from slipwise.diagnosis.diagnose import as_fit, diagnose
+from slipwise.diagnosis.diagnose import diagnose
+from slipwise.diagnosis.hypothesis_fit import as_fit
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.discovery.candidate import Candidate
-from slipwise.discovery.law import Discovery, Law
+from slipwise.discovery.law import Law
 from slipwise.discovery.law_problem import FittedLaw, LawProblem
 from slipwise.discovery.law_summary import told_law
 from slipwise.discovery.levels import excess, held_out_level, level
+from slipwise.discovery.result import Discovery
 from slipwise.discovery.search import LEVEL, Found, different, find_law
 from slipwise.discovery.states import WORDS, pad_instants, pad_states, rig_states
 from slipwise.effects import RIG_MOTION, Effect
