@@ -4,6 +4,10 @@ numba's own cache trusts its files: one that is cut off, a disk that is full or 
 every command. Here each function is one file that begins with its checksum, in a folder of this user's alone; it is
 named by all that decides its content. What does not agree is thrown away and compiled again; what the cache cannot take
 goes to a spare folder, or is compiled by each process; of processes that lack the same function one compiles it.
+
+Trap: numba has no public way to do so. Replaced are `_cache` and `compile` of a dispatcher and of a `CFunc`; used are
+`CompileResult._reduce` and `_rebuild`, `has_dynamic_globals` of a library and `magic_tuple` of its codegen. Therefore
+pyproject.toml bounds numba, and a test names what a version has no more.
 """
 
 import hashlib
