@@ -15,7 +15,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 from bench import make_campaign  # noqa: E402  # pyright: ignore[reportMissingImports]
 from slipwise.campaign import load_campaign  # noqa: E402
 from slipwise.comparison.compare import compare  # noqa: E402
-from slipwise.comparison.refinement import refine  # noqa: E402
 from slipwise.comparison.tables import as_json  # noqa: E402
 from slipwise.instruments.checks import check_instruments  # noqa: E402
 from slipwise.record import write_json, write_text  # noqa: E402
@@ -56,12 +55,6 @@ def main() -> None:
         print(question, answer)
     for place in found.places:
         print(" -", place.words)
-
-    # %% Where a replay of the whole rig is what counts: bring numbers of the fit to where the replay agrees
-    if not given.quick:
-        refined = refine(found.base, ("shear_rate.strength", "rig.buffer_stiffness"))
-        numbers = [{"number": e.key, "fitted": e.rated, "refined": e.value, "unit": e.unit} for e in refined.entries]
-        print_table(f"Error of the replay: {refined.before:.3f} before, {refined.after:.3f} after", numbers)
 
     # %% Every result is a table: found.rows(...), or found.to_pandas(...) where pandas is installed
     named = [c for c in found.rows("cells") if c["above"] and c["kind"] != "frequency"]

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.campaign.materiality import Materiality
-from slipwise.diagnosis.diagnose import as_fit
 from slipwise.diagnosis.findings import Finding, _rivals, above_noise
 from slipwise.diagnosis.hypothesis import Hypothesis, at_limit, base_hypothesis, parameters_at_bound
+from slipwise.diagnosis.hypothesis_fit import as_fit
 from slipwise.diagnosis.importance import Change, Importance
 from slipwise.diagnosis.result import Candidate, Diagnosis
 from slipwise.diagnosis.search_state import Search, tried_before

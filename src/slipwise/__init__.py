@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from slipwise.diagnosis.result import Diagnosis
     from slipwise.discovery.discover import diagnose_with_law as diagnose
     from slipwise.discovery.discover import discover
-    from slipwise.discovery.law import Discovery
+    from slipwise.discovery.result import Discovery
     from slipwise.effects import Effect
     from slipwise.errors import SlipwiseError
     from slipwise.instruments.checks import Checks, corrected_campaign
@@ -85,7 +85,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "Checks": ("instruments.checks", "Checks"),
     "Comparison": ("comparison.result", "Comparison"),
     "Diagnosis": ("diagnosis.result", "Diagnosis"),
-    "Discovery": ("discovery.law", "Discovery"),
+    "Discovery": ("discovery.result", "Discovery"),
     "Effect": ("effects", "Effect"),
     "Ladder": ("diagnosis.ladder", "Ladder"),
     "Limits": ("design.motions", "Limits"),

@@ -3,6 +3,7 @@
 import html
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
+from importlib.metadata import entry_points
 from typing import TYPE_CHECKING, Any
 
 from slipwise.errors import InputError, visible
@@ -11,6 +12,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from pandas import DataFrame
 
+#: Entry point by which the pictures are found, so that numerics import none of them.
+PICTURES = "slipwise.pictures"
 #: Rows that a notebook shows of a long table.
 _MOST_ROWS = 30
 
@@ -56,11 +59,16 @@ class Drawn(Shown):
 
         Returns:
             The matplotlib figure; a notebook shows it, `figure.savefig("name.png")` writes it.
-        """
-        # The one place where a result reaches out to the pictures; numerics load without matplotlib.
-        from slipwise.view.figures.plots import plot
 
-        return plot(self)
+        Raises:
+            InputError: this installation states no function that draws.
+        """
+        for found in entry_points(group=PICTURES):
+            return found.load()(self)
+        raise InputError(
+            f"nothing can draw this result: the installed slipwise states no entry point of the group {PICTURES}; "
+            "install it again with `pip install --force-reinstall --no-deps slipwise`, or from its source folder"
+        )
 
 
 def frame(table: Sequence[Mapping[str, Any]] | Mapping[str, Any]) -> "DataFrame":

@@ -28,7 +28,7 @@ FORMATS = (ROOT / "docs" / "formats.md").read_text(encoding="utf-8")
 CONTRIBUTING = (ROOT / "docs" / "contributing.md").read_text(encoding="utf-8")
 #: Section of formats.md -> files and functions that write it.
 WRITTEN_BY = {
-    "summary.json": {"simulation/summary.py": ("summary",)},
+    "summary.json": {"simulation/result.py": ("summary",)},
     "Audit as JSON": {"instruments/checks.py": ("as_json",), "instruments/report.py": ("rows",)},
     "compare.json": {"comparison/tables.py": (), "evidence/floor.py": ("rows",)},
     "diagnosis.json": {

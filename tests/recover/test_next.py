@@ -11,7 +11,6 @@ import pytest
 from slipwise.design.motions import Limits
 from slipwise.design.next_test import next_test, rivals
 from slipwise.diagnosis.diagnose import diagnose
-from slipwise.diagnosis.ladder import ladder_of
 from slipwise.errors import SimulationError
 from slipwise.simulation.simulator import SimulationDiverged
 from slipwise.view.pages.diagnosis_page import diagnosis_page
@@ -67,7 +66,7 @@ def test_a_simulation_that_fails_is_no_motion_that_tells_nothing(found, monkeypa
 
 
 def test_the_ladder_and_the_page_of_a_diagnosis_tell_the_same_errors(found):
-    ladder = ladder_of(found)
+    ladder = found.ladder()
     assert ladder.steps[0].holdout_error == pytest.approx(found.base_error)
     assert ladder.steps[-1].holdout_error == pytest.approx(found.final_error)
     page = diagnosis_page(found, ladder)
@@ -79,7 +78,7 @@ def test_the_ladder_and_the_page_of_a_diagnosis_tell_the_same_errors(found):
 def test_a_rung_that_was_not_replayed_has_no_error_of_a_replay(found):
     """Where nothing is named the base model is replayed: its error was shown as that of the search's last model."""
     named = replace(found, system={"base": 4.0, "final": 1.2})
-    assert [r.system_holdout_error for r in ladder_of(named).steps] == [4.0, 1.2]
+    assert [r.system_holdout_error for r in named.ladder().steps] == [4.0, 1.2]
     unknown = replace(named, verdict=replace(found.verdict, effects=()), system={"base": 4.0, "final": 4.0})
-    seen = [r.system_holdout_error for r in ladder_of(unknown).steps]
+    seen = [r.system_holdout_error for r in unknown.ladder().steps]
     assert seen[0] == 4.0 and isnan(seen[1])

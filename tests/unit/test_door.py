@@ -48,6 +48,12 @@ def test_every_name_is_there(name):
     assert name in dir(sw)
 
 
+def test_an_installation_that_states_no_pictures_says_how_to_get_them(monkeypatch):
+    monkeypatch.setattr("slipwise.display.entry_points", lambda group: ())
+    with pytest.raises(InputError, match="install it again"):
+        RECORD.plot()
+
+
 def test_the_version_is_that_of_the_package():
     assert sw.__version__ == version("slipwise")
 

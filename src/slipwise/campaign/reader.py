@@ -18,7 +18,8 @@ from slipwise.campaign.held_out_check import check_untouched
 from slipwise.campaign.same_specimen import check_same_specimen
 from slipwise.campaign.settings import ColumnMap, RunSettings, Settings, read_settings
 from slipwise.campaign.time_axis import check_time, time_of_file
-from slipwise.campaign.wild_samples import WildSamples, inherited, marked, warned, without_wild_samples
+from slipwise.campaign.wild_samples import WildSamples, inherited, without_wild_samples
+from slipwise.campaign.wild_samples_of_runs import marked, warned
 from slipwise.channels import CHANNELS, channel, is_channel, part_of
 from slipwise.data_files.table import Table, open_table
 from slipwise.errors import InputError, UnitError, unknown_name

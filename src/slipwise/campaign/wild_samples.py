@@ -5,27 +5,19 @@ A sample is wild where a burst of at most 20 stands out of its channel by more t
 shows in the loads and in the vertical acceleration at the same time, a glitch in one of them alone.
 """
 
-import warnings
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.channels import channel
-from slipwise.errors import SlipwiseWarning
 from slipwise.rig import Specimen
 from slipwise.signals.short_bursts import bridged, short_bursts, stretches
 from slipwise.units import convert
 
-if TYPE_CHECKING:
-    from slipwise.campaign.campaign import Campaign, Run
-
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-#: A channel of which more than this share is wild is faulty as a whole [1].
-FAULTY = 0.02
 #: A burst is motion where the rest of a balance leaves less than this share of it unexplained [1].
 _UNEXPLAINED = 0.5
 #: Bursts of a channel that are named one by one.
@@ -111,48 +103,6 @@ def inherited(wild: Sequence[WildSamples], name: str, sources: Sequence[str]) ->
     """Return samples at which a channel that was computed from others has taken theirs, which are not told again."""
     bad = [one.bad for one in wild if one.channel in sources]
     return (WildSamples(name, np.any(bad, axis=0), np.empty(0), np.empty(0)),) if bad else ()
-
-
-def marked(campaign: "Campaign") -> "Campaign":
-    """Return a campaign without the wild samples of its runs, in which they are marked; a warning and a note name them.
-
-    A campaign without any, such as one that was read from its folder, is given as it is.
-    """
-    runs: list[Run] = []
-    fresh: list[Run] = []
-    for run in campaign.runs:
-        channels, wild = without_wild_samples(run.record.time, run.record.channels, campaign.specimen)
-        if wild:
-            record = run.record.replaced(**{one.channel: channels[one.channel] for one in wild})
-            fresh.append(replace(run, wild=wild))
-            run = replace(run, record=record, wild=(*run.wild, *wild))
-        runs.append(run)
-    if not fresh:
-        return campaign
-    return replace(campaign, runs=tuple(runs), notes=(*campaign.notes, *warned(fresh)))
-
-
-def warned(runs: "Sequence[Run]") -> tuple[str, ...]:
-    """Warn of the wild samples of runs, and give the sentences."""
-    told = sentences(runs)
-    for words in told:
-        warnings.warn(words, SlipwiseWarning, stacklevel=4)
-    return told
-
-
-def sentences(runs: "Sequence[Run]") -> tuple[str, ...]:
-    """Name the wild samples of runs, a sentence a channel."""
-    found = [(run.name, one) for run in runs for one in run.wild if len(one.times)]
-    told: dict[str, list[str]] = {}
-    for run, one in found:
-        told.setdefault(one.channel, []).append(f"{run}: {one.words}")
-    return tuple(f"{name} holds what no gauge can have read, left out: {'; '.join(by)}" for name, by in told.items())
-
-
-def faulty_share(runs: "Sequence[Run]", name: str) -> float:
-    """Return the share of wild samples in a channel over the runs that have it [1]."""
-    count = sum(len(run.record) for run in runs if name in run.record)
-    return sum(len(one.times) for run in runs for one in run.wild if one.channel == name) / max(count, 1)
 
 
 def _is_motion(name: str, burst: slice, channels: Mapping[str, Array], specimen: Specimen) -> bool:

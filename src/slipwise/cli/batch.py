@@ -13,7 +13,8 @@ import typer
 
 import slipwise as sw
 from slipwise.cli.console import ERR, counting, out_folder, print_json, say
-from slipwise.cli.diagnose import own_effects, start_model, write_diagnosis
+from slipwise.cli.diagnosis_files import write_diagnosis
+from slipwise.cli.options import own_effects, start_model
 from slipwise.cli.workers import chosen_executor
 from slipwise.errors import SettingError, SlipwiseError, SlipwiseWarning, visible
 

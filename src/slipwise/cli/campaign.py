@@ -7,8 +7,8 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import out_folder, print_json, say
-from slipwise.cli.diagnose import (
+from slipwise.cli.console import out_folder, print_json, say, steps
+from slipwise.cli.options import (
     Allowed,
     CampaignFolder,
     Figures,
@@ -19,7 +19,6 @@ from slipwise.cli.diagnose import (
     Trusted,
     own_effects,
     start_model,
-    steps,
 )
 
 Correct = Annotated[

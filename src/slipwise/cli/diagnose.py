@@ -8,54 +8,27 @@ import typer
 from rich.console import Console
 
 import slipwise as sw
+from slipwise.cli.batch import Wanted, diagnose_many
 from slipwise.cli.console import ERR, OUT, out_folder, print_json, say, steps
+from slipwise.cli.diagnosis_files import write_diagnosis
+from slipwise.cli.model_edit import tell_change
+from slipwise.cli.options import (
+    CampaignFolder,
+    Figures,
+    Json,
+    ModelFile,
+    Own,
+    System,
+    Trusted,
+    own_effects,
+    start_model,
+)
 from slipwise.cli.workers import Cluster, Workers
 from slipwise.errors import InputError
 
-CampaignFolder = Annotated[Path, typer.Argument(help="Folder with campaign.toml and the measured runs.")]
 CampaignFolders = Annotated[
     list[Path], typer.Argument(help="Folders with campaign.toml and the measured runs; one, or several to compare.")
 ]
-System = Annotated[bool, typer.Option(help="Replay the models in MuJoCo as well (system level).")]
-ModelFile = Annotated[
-    Path | None,
-    typer.Option("--model", help="A model.toml to start from; the one beside campaign.toml if there is one."),
-]
-Own = Annotated[
-    list[str] | None, typer.Option("--effect", help="An effect of your own that competes too, by its file (./mine.py).")
-]
-Trusted = Annotated[
-    bool, typer.Option("--trust", help="Run the effect files that model.toml names; they are code: look at them first.")
-]
-Allowed = Annotated[
-    list[str] | None, typer.Option("--effect", help="Run this effect file where model.toml names it; may be repeated.")
-]
-Figures = Annotated[
-    bool, typer.Option("--figures", help="Write every figure of the report as SVG too, with its numbers as CSV beside.")
-]
-Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON for a program to read.")]
-
-
-def start_model(
-    campaign: Path, given: Path | None, trust: bool = False, allowed: list[str] | None = None
-) -> "sw.Model | None":
-    """Return the user's model: the file named, or model.toml beside campaign.toml, or nothing.
-
-    Args:
-        campaign: its folder.
-        given: the model.toml that the user names.
-        trust: run every effect file that it names.
-        allowed: effect files that the command names, and that may be run for that.
-    """
-    beside = campaign / "model.toml"
-    path = given or (beside if beside.is_file() else None)
-    return None if path is None else sw.load_model(path, trust=trust or allowed or ())
-
-
-def own_effects(given: list[str] | None, start: "sw.Model | None" = None) -> "tuple[sw.Effect, ...]":
-    """Return the effects of a user's own files, but for those that the model to start from holds already."""
-    held = {use.effect.path for use in start.uses} if start is not None else set()
-    return tuple(effect for path in given or [] if (effect := sw.effects.find_effect(path)).path not in held)
 
 
 def diagnose(
@@ -94,8 +67,6 @@ def diagnose(
     if len(campaign) > 1:
         if accept:
             raise InputError("--accept writes the model.toml of one campaign; give one")
-        from slipwise.cli.batch import Wanted, diagnose_many
-
         own = tuple(str(Path(name).resolve()) if name.endswith(".py") else name for name in effect or [])
         wanted = Wanted(model.resolve() if model else None, own, trust, system, recording)
         diagnose_many(campaign, out, wanted, workers, cluster, json)
@@ -133,8 +104,6 @@ def _diagnose_one(
 
 def _accept(found: "sw.Diagnosis", session: "sw.Session", console: Console) -> None:
     """Put what a diagnosis names into model.toml, fitted, as the workbench does."""
-    from slipwise.cli.model_edit import tell_change
-
     if not found.verdict.effects:
         say("nothing is named that could be put into the model; model.toml is as it was", console)
         return
@@ -154,18 +123,6 @@ def _show(found: "sw.Diagnosis", folder: Path, recording: bool, figures: bool, j
         print_json(found.as_json())
     else:
         _wrote(files)
-
-
-def write_diagnosis(found: "sw.Diagnosis", folder: Path, recording: bool, figures: bool = False) -> list[Path]:
-    """Write the diagnosis, its page and, if asked for, its recording and figures; gives the files."""
-    from slipwise.view.figures.figure_files import figures_into
-    from slipwise.view.files import save_json, save_page
-    from slipwise.view.pages.diagnosis_page import diagnosis_page
-
-    files = [save_json(found.as_json(), folder / "diagnosis.json")]
-    with figures_into(folder / "figures" if figures else None) as drawn:
-        files.append(save_page(diagnosis_page(found, found.ladder()), folder / "report.html"))
-    return [*files, *drawn, *(_record(found, folder) if recording else [])]
 
 
 def _tell(found: "sw.Diagnosis") -> None:
@@ -203,19 +160,6 @@ def print_effects(found: "sw.Diagnosis") -> None:
         say(words)
     if rows := importance_rows(found, brief=True):
         print_table(f"Changes without each effect; peak slip, energy and largest load of {replayed_run(found)}", rows)
-
-
-def _record(found: "sw.Diagnosis", folder: Path) -> list[Path]:
-    from slipwise.view.recordings.comparison import write_comparison
-    from slipwise.view.recordings.geometry import geometry_of
-
-    try:
-        measured, simulated = found.replays()
-    except InputError as error:
-        say(f"no recording: {error}", ERR)
-        return []
-    geometry = geometry_of(found.final.campaign.specimen)
-    return [write_comparison(measured, simulated, geometry, folder / "before_and_after.rrd", found.sentence)]
 
 
 def ladder(

@@ -9,7 +9,7 @@ import typer
 
 import slipwise as sw
 from slipwise.cli.console import OUT, out_folder, print_json, say, steps
-from slipwise.cli.diagnose import CampaignFolder, Figures, Json, ModelFile, Own, Trusted, own_effects, start_model
+from slipwise.cli.options import CampaignFolder, Figures, Json, ModelFile, Own, Trusted, own_effects, start_model
 from slipwise.errors import visible
 
 

@@ -9,7 +9,7 @@ from rich.console import Console
 
 import slipwise as sw
 from slipwise.cli.console import OUT, say, steps
-from slipwise.cli.diagnose import Allowed, Trusted
+from slipwise.cli.options import Allowed, Trusted
 
 Folder = Annotated[Path, typer.Option("--campaign", help="Folder with campaign.toml; model.toml is kept there too.")]
 

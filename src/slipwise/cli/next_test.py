@@ -7,7 +7,7 @@ import typer
 
 import slipwise as sw
 from slipwise.cli.console import out_folder, print_json, say, steps
-from slipwise.cli.diagnose import CampaignFolder, Json, ModelFile, Own, Trusted, own_effects, start_model
+from slipwise.cli.options import CampaignFolder, Json, ModelFile, Own, Trusted, own_effects, start_model
 
 
 def next_motion(

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.diagnose import Allowed, CampaignFolder, Trusted
+from slipwise.cli.options import Allowed, CampaignFolder, Trusted
 
 
 def workbench(

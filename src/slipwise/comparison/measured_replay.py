@@ -21,7 +21,7 @@ from slipwise.signals.filters import lowpass
 from slipwise.simulation.kernel.layout import buffer_memories, pad_memories
 from slipwise.simulation.predict import Predictor, predictor
 from slipwise.simulation.simulator import DT, Memory
-from slipwise.simulation.windows import Windows, simulate_models
+from slipwise.simulation.windows import Windows, simulate_windows
 
 Array = NDArray[np.float64]
 #: Length of a window, and what of its start is not judged: the pads ring, and the filter has no past [s].
@@ -68,72 +68,40 @@ def simulation_step(sampling: float) -> float:
     return sampling / float(np.ceil(sampling / DT * (1.0 - 1e-9)))
 
 
-def replay_runs(
-    model: Model,
-    runs: Sequence[tuple[str, States, float]],
-    *,
-    window: float = WINDOW,
-    dt: float = DT,
-    threads: int = 2,
-) -> list[SystemRun]:
-    """Replay the runs of a campaign with one model; arguments as `replay_models`."""
-    return replay_models([model], runs, window=window, dt=dt, threads=threads)[0]
-
-
-def replay_models(
-    models: Sequence[Model],
-    runs: Sequence[tuple[str, States, float]],
-    *,
-    window: float = WINDOW,
-    dt: float = DT,
-    threads: int = 2,
-) -> list[list[SystemRun]]:
+def replay_runs(model: Model, runs: Sequence[tuple[str, States, float]], *, dt: float = DT) -> list[SystemRun]:
     """Replay the runs of a campaign in windows, the memory of pads and buffers carried along.
 
     Args:
-        models: of one rig and the same effects, with values of their own; they are stepped side by side.
+        model: to be replayed.
         runs: (name, measured states, pause before it [s]) in the order in which they were made.
-        window: length of a window [s].
         dt: step of the simulation [s].
-        threads: to step on.
-
-    Returns:
-        For each model its runs.
 
     Raises:
         InputError: a channel that the system level needs was not recorded.
     """
-    laws = [predictor(model) for model in models]
-    out: list[list[SystemRun]] = [[] for _ in models]
+    law = predictor(model)
+    out: list[SystemRun] = []
     for name, states, rest in runs:
-        for law in laws:
-            law.rest(rest)
-        for kept, run in zip(out, _replayed(laws, name, states, window, dt, threads), strict=True):
-            kept.append(run)
+        law.rest(rest)
+        out.append(_replayed(law, name, states, dt))
     return out
 
 
-def _replayed(
-    laws: Sequence[Predictor], name: str, states: States, window: float, dt: float, threads: int
-) -> list[SystemRun]:
+def _replayed(law: Predictor, name: str, states: States, dt: float) -> SystemRun:
     step = states.dt
     every = max(1, round(step / dt))
     fine = resample(measured_motion(states), step / every).acceleration
-    length = min(round((window + SETTLE + _END) / step), len(states.time))
+    length = min(round((WINDOW + SETTLE + _END) / step), len(states.time))
     stride = max(1, length - round((SETTLE + _END) / step))
     starts = list(range(0, len(states.time) - length + 1, stride))
     acceleration = np.stack([fine[s * every : s * every + length * every - every + 1] for s in starts])
     instants = np.linspace(states.time[0], states.time[-1], len(fine))
     pushed = np.interp(instants, states.time, np.nan_to_num(states.girder_acceleration[:, 0]))
     girder = np.stack([pushed[s * every : s * every + acceleration.shape[1]] for s in starts])
-    windows = [
-        Windows(acceleration, states.slip[starts], states.velocity[starts], _memories(law, states, starts),
-                states.time[starts], girder)
-        for law in laws
-    ]  # fmt: skip
-    models = [law.model for law in laws]
-    answers = simulate_models(models, windows, dt=step / every, every=every, threads=threads)
-    return [_seen(m, name, states, starts, length, a) for m, a in zip(models, answers, strict=True)]
+    memories = _memories(law, states, starts)
+    windows = Windows(acceleration, states.slip[starts], states.velocity[starts], memories, states.time[starts], girder)
+    answers = simulate_windows(law.model, windows, dt=step / every, every=every)
+    return _seen(law.model, name, states, starts, length, answers)
 
 
 def _seen(

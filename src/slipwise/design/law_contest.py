@@ -9,7 +9,8 @@ from slipwise.diagnosis.hypothesis import Hypothesis, polished, refit
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.discovery.discover import discover
 from slipwise.discovery.effect_file import can_be_written, write_law
-from slipwise.discovery.law import Discovery, Law
+from slipwise.discovery.law import Law
+from slipwise.discovery.result import Discovery
 from slipwise.effects import find_effect
 from slipwise.relations.parameters import Term
 
@@ -63,7 +64,7 @@ def _names(laws: Sequence[Law]) -> list[str]:
 
 def _fitted(found: Diagnosis, told: Discovery, law: Law, name: str, folder: Path) -> Hypothesis:
     """Fit a law as an effect beside those that the search for it began with."""
-    term = Term(find_effect(str(write_law(law, told, folder, name, ""))))
+    term = Term(find_effect(str(write_law(law, told.origin, folder, name, ""))))
     base, known = found.search.base, told.base.solution.values
     beside = [t for t in told.base.problem.terms if t not in base.problem.terms]
     starts = {t.label: {n: known[f"{t.label}.{n}"] for n in t.effect.parameter_names} for t in beside}

@@ -12,9 +12,9 @@ from slipwise.diagnosis.detectable_size import least_sizes
 from slipwise.diagnosis.findings import findings
 from slipwise.diagnosis.full_length_errors import errors_on_all_samples
 from slipwise.diagnosis.hypothesis import Hypothesis, final_refit_of
+from slipwise.diagnosis.hypothesis_fit import as_fit
 from slipwise.diagnosis.importance import importance_of_effects
 from slipwise.diagnosis.indistinguishable import alike_pairs
-from slipwise.diagnosis.jacobian_memory import whole
 from slipwise.diagnosis.limitations import cannot_tell
 from slipwise.diagnosis.replays import replayed_errors
 from slipwise.diagnosis.reported_sizes import named_sizes
@@ -26,7 +26,6 @@ from slipwise.effects import Effect
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Interval, intervals
-from slipwise.estimation.least_squares import with_slopes as take_slopes
 from slipwise.estimation.prediction_interval import PredictedFriction, predicted_friction
 from slipwise.evidence.residual_summary import ResidualSummary, error_of
 from slipwise.evidence.score import largest_drop, score
@@ -120,21 +119,6 @@ def _predicted_friction(final: BaseFit) -> tuple[PredictedFriction, ...]:
     if final.problem.balanced:
         return ()
     return tuple(found for found in predicted_friction(final) if found.inside is not None)
-
-
-def as_fit(base: BaseFit, found: Hypothesis, *, with_slopes: bool = True) -> BaseFit:
-    """Return a hypothesis as a fit of its own, with its own Jacobian, for intervals, locating and replays.
-
-    Args:
-        base: the base fit.
-        found: the hypothesis.
-        with_slopes: take its slopes, those that it has are of a fit nearby; `final_refit_of` has taken its own.
-    """
-    if found.solution is base.solution:
-        return base
-    found = whole(found)
-    solution = take_slopes(found.problem, found.solution) if with_slopes else found.solution
-    return BaseFit(base.campaign, base.model, found.problem, solution.free, solution)
 
 
 def _component(state: Search, verdict: Verdict) -> str:

@@ -1,7 +1,7 @@
 """The ladder: effects added one by one, the error falling step by step, on runs the fit has not seen."""
 
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -10,13 +10,11 @@ from typing import Any
 import numpy as np
 
 from slipwise.campaign import Campaign, as_campaign
-from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.candidates import candidates
-from slipwise.diagnosis.diagnose import as_fit
 from slipwise.diagnosis.forward_selection import MOST_EFFECTS
 from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, final_refit_of, polished, refit
+from slipwise.diagnosis.hypothesis_fit import as_fit
 from slipwise.diagnosis.replays import replayed_errors
-from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.screening import Screened, screen
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.selection import prepared, select_effects
@@ -154,30 +152,21 @@ def ladder(
     return Ladder(found.name, tuple(steps), counts, stopped, fits, time.perf_counter() - began)
 
 
-def ladder_of(found: Diagnosis) -> Ladder:
-    """Return the ladder that a diagnosis has climbed already, with the replays that it knows.
+def ladder_of(search: Search, system: Mapping[str, float], *, named: bool) -> Ladder:
+    """Return the ladder that a search has climbed already.
 
-    Where nothing is named the base model was replayed, and not what the search had come to.
+    Args:
+        search: of a diagnosis.
+        system: {"base", "final"} errors of its replays, in floors; empty where none was asked for.
+        named: whether the diagnosis names what the search came to; where it names nothing, the base model was replayed.
     """
-    search = found.search
     path = _hypothesis_path(search)
-    ends = {0: found.system.get("base", np.nan)}
-    if found.added:
-        ends[len(path) - 1] = found.system.get("final", np.nan)
+    ends = {0: system.get("base", np.nan)}
+    if named:
+        ends[len(path) - 1] = system.get("final", np.nan)
     steps = [_step(h, float(ends.get(i, np.nan))) for i, h in enumerate(path)]
     counts = (len(search.screened), len(search.tried))
     return Ladder(search.base.campaign.name, tuple(steps), counts, _why(search), (), 0.0)
-
-
-def left_over(found: Diagnosis) -> str:
-    """Say what is left above the noise when the named effects are in the model."""
-    over = [f"{NAMES[name][0]} {after:.2f}" for name, (_, after) in found.relations.items() if after >= FLOOR_REACHED]
-    if over:
-        return f"still above the noise, in floors: {', '.join(over)}"
-    if found.verdict.leftover != "none":
-        surface = found.verdict.surface
-        return f"what is left: {surface.words if surface else 'no state that was measured organises it'}"
-    return "nothing is missing any more"
 
 
 def _hypothesis_path(state: Search) -> list[Hypothesis]:

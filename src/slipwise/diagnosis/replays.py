@@ -7,7 +7,6 @@ import numpy as np
 from slipwise.campaign import measured_states
 from slipwise.comparison.measured_replay import measured_motion, simulation_step
 from slipwise.comparison.system_level import replayed_model, system_level
-from slipwise.diagnosis.result import Diagnosis
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.jobs.parallel import on_every_core
 from slipwise.model import Model
@@ -18,10 +17,15 @@ from slipwise.simulation.replay import replay
 _SEED = 1
 
 
-def replays(found: Diagnosis) -> tuple[Record, list[tuple[str, Record]]]:
+def replays(base: BaseFit, final: BaseFit, added: Sequence[str]) -> tuple[Record, list[tuple[str, Record]]]:
     """Replay the first held-out run (or the first run) from its measured table motion.
 
     Gauges are left out: the viewer shows what the rig does.
+
+    Args:
+        base: the fit before.
+        final: the fit after.
+        added: names of what it has beside the base's.
 
     Returns:
         The measured record, and label and record of the base model and, if anything was named, of the final one.
@@ -29,13 +33,13 @@ def replays(found: Diagnosis) -> tuple[Record, list[tuple[str, Record]]]:
     Raises:
         InputError: the table's motion was not recorded.
     """
-    campaign = found.final.campaign
+    campaign = final.campaign
     run = next((r for r in campaign.runs if r.role == "holdout"), campaign.runs[0])
     states = measured_states(run, campaign)
     motion = measured_motion(states)
-    models = [("base model", found.search.base)]
-    if found.added:
-        models.append((f"with {' and '.join(found.added)}", found.final))
+    models = [("base model", base)]
+    if added:
+        models.append((f"with {' and '.join(added)}", final))
     dt = simulation_step(states.dt)
     return states.record, [
         (label, replay(_mechanics(fit), motion, dt=dt, output_dt=states.dt).record) for label, fit in models

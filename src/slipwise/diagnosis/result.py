@@ -2,13 +2,16 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.alternatives import discriminating_tests, explanations, nearest_family
 from slipwise.diagnosis.data_corrections import FirstThing
 from slipwise.diagnosis.importance import Importance
+from slipwise.diagnosis.ladder import FLOOR_REACHED, Ladder, ladder_of
+from slipwise.diagnosis.replays import replays
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import Surface
@@ -19,9 +22,6 @@ from slipwise.estimation.intervals import Interval
 from slipwise.estimation.prediction_interval import PredictedFriction
 from slipwise.model import Model
 from slipwise.record import Record
-
-if TYPE_CHECKING:
-    from slipwise.diagnosis.ladder import Ladder
 
 SCHEMA = 2
 
@@ -117,18 +117,22 @@ class Diagnosis(Drawn, Tabular):
         """What would tell two explanations of an ambiguous verdict apart; nothing for another verdict."""
         return discriminating_tests(self.verdict, self.search)
 
-    def ladder(self) -> "Ladder":
+    def ladder(self) -> Ladder:
         """Return the ladder that the diagnosis has climbed already."""
-        from slipwise.diagnosis.ladder import ladder_of
-
-        return ladder_of(self)
+        return ladder_of(self.search, self.system, named=bool(self.added))
 
     @property
     def left_over(self) -> str:
         """What is left above the noise when the named effects are in the model, in words."""
-        from slipwise.diagnosis.ladder import left_over
-
-        return left_over(self)
+        over = [
+            f"{NAMES[name][0]} {after:.2f}" for name, (_, after) in self.relations.items() if after >= FLOOR_REACHED
+        ]
+        if over:
+            return f"still above the noise, in floors: {', '.join(over)}"
+        if self.verdict.leftover != "none":
+            surface = self.verdict.surface
+            return f"what is left: {surface.words if surface else 'no state that was measured organises it'}"
+        return "nothing is missing any more"
 
     def replays(self) -> tuple[Record, list[tuple[str, Record]]]:
         """Replay the first held-out run with the model before and after: measured record, then label and record.
@@ -136,9 +140,7 @@ class Diagnosis(Drawn, Tabular):
         Raises:
             InputError: the table's motion was not recorded.
         """
-        from slipwise.diagnosis.replays import replays
-
-        return replays(self)
+        return replays(self.search.base, self.final, self.added)
 
     @property
     def sentence(self) -> str:

@@ -6,19 +6,21 @@ Source: forward selection of one law at a time by curves over states, then forms
 
 import time
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from slipwise.campaign import Campaign, as_campaign
-from slipwise.diagnosis.diagnose import as_fit, diagnose
+from slipwise.diagnosis.diagnose import diagnose
+from slipwise.diagnosis.hypothesis_fit import as_fit
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.discovery.candidate import Candidate
-from slipwise.discovery.law import Discovery, Law
+from slipwise.discovery.law import Law
 from slipwise.discovery.law_problem import FittedLaw, LawProblem
 from slipwise.discovery.law_summary import told_law
 from slipwise.discovery.levels import excess, held_out_level, level
+from slipwise.discovery.result import Discovery
 from slipwise.discovery.search import LEVEL, Found, different, find_law
 from slipwise.discovery.states import WORDS, pad_instants, pad_states, rig_states
 from slipwise.effects import RIG_MOTION, Effect
@@ -31,8 +33,10 @@ from slipwise.model import Model
 
 #: Shares of the error above noise at which a law, a state, an organising state may be said [1].
 LAW, STATE, ORGANISED = 0.95, 0.9, 0.5
-#: A law's held-out error is at most this many floors.
+#: A law leaves at most this many floors, on the fitted runs and on the held-out ones.
 HELD_OUT = 1.25
+#: What may be said, the least first.
+_ORDER = ("unknown", "organised", "state", "nothing", "law")
 #: Two laws tie within this much of the squared residual: so much, this share of what the better one leaves above noise,
 #: this share of what the base leaves [1].
 _TIE, _TIE_OF_LEFT, _TIE_OF_ALL = 60.0, 0.25, 1e-3
@@ -42,6 +46,33 @@ _FURTHER, _CONFIRMED, _MOST_LAWS = 0.025, 0.4, 3
 _SHOWN = 10
 #: A law that leads, what ties with it, and the share of the error that it explains.
 _Leader = tuple[FittedLaw, list[FittedLaw], float]
+
+
+@dataclass(frozen=True)
+class _Answer:
+    """What one start has led to, by the fitted runs alone.
+
+    Attributes:
+        base: the start, with its slopes.
+        end: with the laws; the start where there is none.
+        laws: in the order in which they were found.
+        share: of the error above noise that they, or where there is none `organised`, explain [1].
+        evidence: what the fitted runs alone would bear.
+        organised: what explains most, whether or not it may be called a law.
+        looked_at: what explains most in the first screen, best first.
+        worst: relation that the laws act on.
+        cannot_judge: states that could not be judged, and why.
+    """
+
+    base: BaseFit
+    end: Solution
+    laws: tuple[Law, ...]
+    share: float
+    evidence: str
+    organised: Candidate | None
+    looked_at: tuple[Candidate, ...]
+    worst: str
+    cannot_judge: tuple[str, ...]
 
 
 @one_thread_algebra()
@@ -74,17 +105,16 @@ def discover(
     state = diagnosis.search
     if diagnosis.verdict.kind == "unknown" and state.final.terms:
         starts.append(as_fit(state.base, state.final))
-    best: Discovery | None = None
+    answers: list[_Answer] = []
     for number, start in enumerate(starts):
         tell("looking for a law", 0.5 + 0.5 * number / len(starts))
-        found = _from(measured.name, start)
-        if best is None or _rank(found) > _rank(best):
-            best = found
-        if best.evidence in ("law", "nothing"):
+        answers.append(_from(start))
+        if answers[-1].evidence in ("law", "nothing"):
             break
+    best = max(answers, key=lambda answer: (_ORDER.index(answer.evidence), answer.share))
+    told = _held_against_the_others(measured.name, best)
     tell("done", 1.0)
-    assert best is not None
-    return replace(best, seconds=time.perf_counter() - began)
+    return replace(told, seconds=time.perf_counter() - began)
 
 
 def diagnose_with_law(
@@ -115,12 +145,7 @@ def diagnose_with_law(
     return replace(found, law=law.proposal, seconds=found.seconds + law.seconds)
 
 
-def _rank(found: Discovery) -> tuple[float, float]:
-    order = {"law": 4.0, "nothing": 3.5, "state": 3.0, "organised": 2.0, "unknown": 1.0}
-    return order[found.evidence], found.share
-
-
-def _from(name: str, base: BaseFit) -> Discovery:
+def _from(base: BaseFit) -> _Answer:
     """Search from one fit on."""
     problem, solution = base.problem, base.solution
     if len(solution.jacobian) == 0 or solution.jacobian.shape[1] != len(solution.free):
@@ -145,30 +170,51 @@ def _from(name: str, base: BaseFit) -> Discovery:
         leaders = _without_needless(leaders, whole)
         acted = {f.law.match.candidate.port.relation for f, _, _ in leaders}
         now, here = leaders[-1][0].problem, leaders[-1][0].solution
-    added = dict.fromkeys(t.effect.name for t in problem.terms)
-    beside = tuple(effect for effect in added if effect not in base.model)
     cannot, start = tuple(_cannot_judge(now)), replace(base, solution=solution)
     worst = max(sorted(acted) or problem.relations, key=lambda r: level(problem, solution, r, problem.fitted))
+    before = max(level(problem, solution, r, problem.fitted) for r in problem.relations)
 
-    def answer(kept: list[_Leader]) -> Discovery:
+    def answer(kept: list[_Leader]) -> _Answer:
         end = kept[-1][0].solution if kept else solution
         fit = replace(base, free=end.free, solution=end)
         known = {i.key: i for i in intervals(fit).entries} if kept else {}
         every = [told_law(replace(f, solution=end), tied, problem.fitted, share, known) for f, tied, share in kept]
         laws = tuple(replace(law, name=_name(number)) for number, law in enumerate(every))
         share = (solution.cost - end.cost) / max(whole, 1e-9)
-        held_out = [{r: held_out_level(problem, x, r) for r in problem.relations} for x in (solution, end)]
-        relations = {r: (held_out[0][r], held_out[1][r]) for r in problem.relations}
-        evidence = _evidence(laws, share, relations, worst, whole)
-        nearest = None if evidence == "nothing" else organised
-        seen = share if laws else (nearest.share if nearest else 0.0)
-        told = (name, evidence, laws, nearest, looked_at, seen, relations, worst, cannot, start, (), 0.0)
-        return Discovery(*told, beside=beside)
+        evidence = _evidence(laws, share, before if whole > 0.0 else 0.0, level(problem, end, worst, problem.fitted))
+        seen = share if laws or organised is None else organised.share
+        return _Answer(start, end, laws, seen, evidence, organised, looked_at, worst, cannot)
 
     found = answer(leaders)
     if found.evidence in ("law", "state") or len(leaders) < 2:
         return found
     return answer(leaders[:1])  # what no law explains is not told by a sum of them
+
+
+def _held_against_the_others(name: str, found: _Answer) -> Discovery:
+    """Look at the held-out runs: what they do not bear is taken back."""
+    base, problem = found.base, found.base.problem
+    held_out = [{r: held_out_level(problem, x, r) for r in problem.relations} for x in (base.solution, found.end)]
+    errors = {r: (held_out[0][r], held_out[1][r]) for r in problem.relations}
+    borne = _evidence(found.laws, found.share, max(held_out[0].values()), held_out[1][found.worst])
+    evidence = min(found.evidence, borne, key=_ORDER.index)
+    nearest = None if evidence == "nothing" else found.organised
+    added = dict.fromkeys(t.effect.name for t in problem.terms)
+    return Discovery(
+        campaign=name,
+        evidence=evidence,
+        laws=found.laws,
+        organised=nearest,
+        looked_at=found.looked_at,
+        share=found.share if found.laws or nearest else 0.0,
+        relations=errors,
+        worst=found.worst,
+        cannot_judge=found.cannot_judge,
+        base=base,
+        files=(),
+        seconds=0.0,
+        beside=tuple(effect for effect in added if effect not in base.model),
+    )
 
 
 def _looked_at(candidates: Sequence[Candidate]) -> tuple[Candidate, ...]:
@@ -183,13 +229,18 @@ def _name(number: int) -> str:
     return "law" if number == 0 else f"law_{number + 1}"
 
 
-def _evidence(
-    laws: Sequence[Law], share: float, relations: dict[str, tuple[float, float]], worst: str, whole: float
-) -> str:
+def _evidence(laws: Sequence[Law], share: float, before: float, after: float) -> str:
+    """Return what may be said.
+
+    Args:
+        laws: that were found.
+        share: of the error above noise that they explain [1].
+        before: largest error without them [floors].
+        after: error of the relation that they act on, with them [floors].
+    """
     if not laws:
-        return "nothing" if max(e for e, _ in relations.values()) < LEVEL or whole <= 0.0 else "unknown"
+        return "nothing" if before < LEVEL else "unknown"
     single = not any(law.tied or law.rivals for law in laws)
-    after = relations[worst][1]
     if share >= LAW and after <= HELD_OUT and single:
         return "law"
     if share >= STATE and not any(law.other_states for law in laws):

@@ -1,13 +1,12 @@
 """A law as an effect file: read, edited and added by its user like any effect of the catalogue."""
 
-import dataclasses
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import slipwise
 from slipwise.discovery.form import FUNCTIONS
-from slipwise.discovery.law import Discovery, Law, LawConstant, with_names
+from slipwise.discovery.law import Law, LawConstant, Origin, with_names
 from slipwise.discovery.law_problem import STRENGTH, TIME_CONSTANT
 from slipwise.discovery.matching import constants_of
 from slipwise.discovery.states import UNITS
@@ -27,41 +26,17 @@ _ROOM = 10.0
 _STRONGEST = 10.0
 
 
-def write_discovered(found: Discovery, folder: Path, name: str, date: str) -> Discovery:
-    """Write the effect files of a discovery's laws, over those of an earlier one; where no law is claimed, none.
-
-    Args:
-        found: the discovery.
-        folder: is made where it is not there.
-        name: of the first law's effect; further ones get a number.
-        date: of the discovery, as text.
-
-    Returns:
-        The discovery with the files.
-
-    Raises:
-        SettingError: the name cannot be that of an effect.
-    """
-    if found.evidence not in ("law", "state"):
-        return found
-    files = []
-    for number, law in enumerate((law for law in found.laws if can_be_written(law)), start=1):
-        own = name if number == 1 else f"{name}_{number}"
-        files.append(write_law(law, found, folder, own, date, replace=True))
-    return dataclasses.replace(found, files=tuple(files))
-
-
 def can_be_written(law: Law) -> bool:
     """Return whether an effect can be a law: a force that lifts the girder knows its speed and place only."""
     return law.port != "load" or set(law.states) <= _OF_GIRDER
 
 
-def write_law(law: Law, found: Discovery, folder: Path, name: str, date: str, *, replace: bool = False) -> Path:
+def write_law(law: Law, origin: Origin, folder: Path, name: str, date: str, *, replace: bool = False) -> Path:
     """Write a law's effect file, FOLDER/NAME.py.
 
     Args:
         law: of the discovery.
-        found: where it comes from.
+        origin: where it comes from.
         folder: is made where it is not there.
         name: of the effect.
         date: of the discovery, as text.
@@ -70,20 +45,20 @@ def write_law(law: Law, found: Discovery, folder: Path, name: str, date: str, *,
     Raises:
         SettingError: the name cannot be that of an effect, or the file is there already.
     """
-    return write_effect(written_law(law, found, name, date), folder, replace=replace)
+    return write_effect(written_law(law, origin, name, date), folder, replace=replace)
 
 
-def written_law(law: Law, found: Discovery, name: str, date: str) -> WrittenEffect:
+def written_law(law: Law, origin: Origin, name: str, date: str) -> WrittenEffect:
     """Return a law as an effect to be written; arguments as `write_law`."""
-    before, after = found.relations.get(found.worst, (float("nan"),) * 2)
     ranges = ", ".join(f"{s} {low:.3g} to {high:.3g} {UNITS.get(s, 'm')}" for s, (low, high) in law.valid.items())
     rivals = [f"form {f}" for f in law.tied] + list(law.rivals)
     tied = f" Cannot be told apart from it: {'; '.join(rivals)}." if rivals else ""
     explained = f"explains {100.0 * law.share:.1f} % of what the model left above noise"
-    fell = f"the error of {found.worst} fell from {before:.2f} to {after:.2f} floors on what no fit has seen"
-    beside = f" beside {', '.join(found.beside)}" if found.beside else ""
+    errors = f"from {origin.before:.2f} to {origin.after:.2f} floors on what no fit has seen"
+    fell = f"the error of {origin.relation} fell {errors}"
+    beside = f" beside {', '.join(origin.beside)}" if origin.beside else ""
     about = (
-        f"Found in the data of {found.campaign}{beside}: it {explained}; {fell}.{tied}",
+        f"Found in the data of {origin.campaign}{beside}: it {explained}; {fell}.{tied}",
         "It is a law of the data. No mechanism is claimed.",
     )
     port, component, hooks = _hooks(law)
@@ -95,11 +70,11 @@ def written_law(law: Law, found: Discovery, name: str, date: str) -> WrittenEffe
     subject = "a force" if port in ("buffer", "girder") else "friction"
     return WrittenEffect(
         name=name,
-        title=f"Law of {found.campaign}: {subject} that goes with {law.driver}.",
+        title=f"Law of {origin.campaign}: {subject} that goes with {law.driver}.",
         equation=law.equation,
         about=about,
         valid=f"{ranges}: the range of the data.",
-        source=f"{found.campaign}, {date}, Slipwise {slipwise.__version__}; share explained {law.share:.3f}.",
+        source=f"{origin.campaign}, {date}, Slipwise {slipwise.__version__}; share explained {law.share:.3f}.",
         port=port,
         component=component,
         hooks=hooks,

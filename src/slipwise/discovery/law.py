@@ -1,19 +1,13 @@
-"""What a discovery answers: laws with their constants, what they explain, and what may be said of them."""
+"""A law of the data: its states, form and constants, what it explains, and what cannot be told apart from it."""
 
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import isfinite
-from pathlib import Path
-from typing import Any
 
-from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.form import FUNCTIONS, Form
 from slipwise.discovery.law_problem import FittedLaw
 from slipwise.discovery.matching import name_of
 from slipwise.discovery.states import WORDS
-from slipwise.display import Drawn, Tabular
-from slipwise.estimation.base_fit import BaseFit
 
 
 @dataclass(frozen=True)
@@ -130,119 +124,20 @@ def with_names(text: str, state: str, place: int) -> str:
     return re.sub(r"[A-Za-z_]\w*", name, text)
 
 
-@dataclass(frozen=True, repr=False)
-class Discovery(Drawn, Tabular):
-    """The answer.
+@dataclass(frozen=True)
+class Origin:
+    """Where a law comes from, as its effect file states it.
 
     Attributes:
         campaign: its name.
-        evidence: what may be said: "law", "state", "organised", "unknown" or "nothing".
-        laws: in the order in which they were found; empty where nothing may be called one.
-        organised: what explains most, whether or not it may be called a law; None where nothing does.
-        looked_at: what explains most in the first screen, one of each state and port, best first.
-        share: of the error above noise that all laws, or that, explain [1].
-        relations: relation -> held-out error in floors before and after; of the fitted runs where none is held out.
-        worst: relation that the laws act on.
-        cannot_judge: states that could not be judged, and why.
-        base: the fit from which the search began, with its slopes.
-        files: of the effects that were written.
-        seconds: it took.
-        beside: effects that the diagnosis had added to the user's model before the search for a law began.
+        beside: effects that the fit held before the search for a law began.
+        relation: that the laws act on.
+        before: its error on what no fit has seen, without laws [floors].
+        after: the same with them [floors].
     """
 
     campaign: str
-    evidence: str
-    laws: tuple[Law, ...]
-    organised: Candidate | None
-    looked_at: tuple[Candidate, ...]
-    share: float
-    relations: Mapping[str, tuple[float, float]]
-    worst: str
-    cannot_judge: tuple[str, ...]
-    base: BaseFit
-    files: tuple[Path, ...]
-    seconds: float
-    beside: tuple[str, ...] = ()
-
-    @property
-    def sentence(self) -> str:
-        """The answer in words."""
-        from slipwise.discovery.words import sentence
-
-        return sentence(self)
-
-    def written(self, folder: Path, name: str, date: str) -> "Discovery":
-        """Write its laws as effect files; see `effect_file.write_discovered`."""
-        from slipwise.discovery.effect_file import write_discovered
-
-        return write_discovered(self, folder, name, date)
-
-    @property
-    def proposal(self) -> dict[str, Any] | None:
-        """The first law in short, for a diagnosis whose verdict is unknown; None where no law and no state is told."""
-        if self.evidence not in ("law", "state"):
-            return None
-        law = self.laws[0]
-        return {
-            "state": list(law.states),
-            "port": law.acts_on,
-            "form": law.form,
-            "file": str(self.files[0]) if self.files else None,
-            "share": self.share,
-            "words": self.sentence,
-        }
-
-    def as_json(self) -> dict[str, Any]:
-        """Return the answer for a program to read."""
-        before, after = self.relations.get(self.worst, (float("nan"),) * 2)
-        return {
-            "campaign": self.campaign,
-            "evidence": self.evidence,
-            "words": self.sentence,
-            "laws": [
-                {
-                    "name": law.name,
-                    "states": list(law.states),
-                    "port": law.acts_on,
-                    "enters": law.port,
-                    "where": law.where,
-                    "parity": law.parity,
-                    "form": law.form,
-                    "equation": law.equation,
-                    "tied": list(law.tied),
-                    "rivals": list(law.rivals),
-                    "constants": {
-                        c.name: {"value": c.value, "low": _known(c.low), "high": _known(c.high), "unit": c.unit}
-                        for c in law.constants
-                    },
-                    "share": law.share,
-                    "valid": {state: list(ends) for state, ends in law.valid.items()},
-                }
-                for law in self.laws
-            ],
-            "beside": list(self.beside),
-            "organised": None if self.organised is None else self.organised.label,
-            "share": self.share,
-            "held_out": {"before": _known(before), "after": _known(after)},
-            "relations": {name: [_known(error) for error in errors] for name, errors in self.relations.items()},
-            "cannot_judge": list(self.cannot_judge),
-            "file": str(self.files[0]) if self.files else None,
-            "files": [str(path) for path in self.files],
-            "seconds": self.seconds,
-        }
-
-    def _headline(self) -> str:
-        return f"{self.campaign}: {self.sentence}"
-
-    def _rows(self) -> list[dict[str, Any]]:
-        return [
-            {"law": law.name, "form": law.form, "constant": c.name, "value": c.value, "low": c.low, "high": c.high,
-             "unit": c.unit}
-            for law in self.laws
-            for c in law.constants
-        ]  # fmt: skip
-
-
-def _known(value: float) -> float | None:
-    """Return a number for JSON, which has none that is not known."""
-    return value if isfinite(value) else None
+    beside: tuple[str, ...]
+    relation: str
+    before: float
+    after: float

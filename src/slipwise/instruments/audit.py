@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from slipwise.campaign import Campaign, as_campaign
-from slipwise.campaign.wild_samples import sentences as wild_samples
+from slipwise.campaign.wild_samples_of_runs import sentences as wild_samples
 from slipwise.campaign.zero_state import ShiftedZero
 from slipwise.channels import channel
 from slipwise.effects import Effect, catalogue

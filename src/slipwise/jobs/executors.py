@@ -5,19 +5,16 @@ the disk before the next, and only what is missing is run. Few jobs are handed o
 so that memory does not grow with them.
 """
 
-import hashlib
 import os
 import threading
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from contextlib import closing, contextmanager
-from functools import cache
 from importlib import import_module
 from itertools import islice
 from pathlib import Path
 from typing import Any
 
-import slipwise
 from slipwise.errors import InputError, SettingError, SlipwiseError, cannot_write
 from slipwise.jobs.job_log import Finished, Numbers, add_line, read_places
 from slipwise.jobs.worker_processes import finished
@@ -147,15 +144,3 @@ def on_cluster(address: str) -> Iterator[Executor]:
         ) from None
     with client:
         yield client.get_executor()
-
-
-@cache
-def hash_of_code(*patterns: str) -> str:
-    """Return a hash of files of this package: results of older code must not be taken for new ones.
-
-    Args:
-        patterns: as `Path.glob` reads them, from the package's folder.
-    """
-    package = Path(slipwise.__file__).parent
-    files = sorted({path for pattern in patterns for path in package.glob(pattern)})
-    return hashlib.sha256(b"".join(path.read_bytes() for path in files)).hexdigest()[:16]

@@ -4,13 +4,17 @@ numba's own cache trusts its files: one that is cut off, a disk that is full or 
 every command. Here each function is one file that begins with its checksum, in a folder of this user's alone; it is
 named by all that decides its content. What does not agree is thrown away and compiled again; what the cache cannot take
 goes to a spare folder, or is compiled by each process; of processes that lack the same function one compiles it.
+
+Trap: numba has no public way to do so. Replaced are `_cache` and `compile` of a dispatcher and of a `CFunc`; used are
+`CompileResult._reduce` and `_rebuild`, `has_dynamic_globals` of a library and `magic_tuple` of its codegen. Therefore
+pyproject.toml bounds numba, and a test names what a version has no more.
 """
 
 import hashlib
 import pickle
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
@@ -18,6 +22,7 @@ from types import FunctionType
 from typing import Any
 
 import numpy as np
+from filelock import FileLock, Timeout
 from numba import njit
 from numba.core.caching import NullCache
 from numba.core.ccallback import CFunc
@@ -27,11 +32,12 @@ from numba.core.sigutils import normalize_signature
 
 from slipwise.jobs.atomic_write import written_beside
 from slipwise.jobs.cache import code_folders, own_file, tell_once
-from slipwise.jobs.file_lock import one_at_a_time
 
 #: A process that waits for another one's machine code compiles it itself after this time [s]: five times what the
 #: longest function takes on a slow core; assumed.
 _PATIENCE = 120.0
+#: A process that waits longer than this says why [s].
+_LONG = 1.0
 #: Bytes of the checksum with which a file begins.
 _SUM = hashlib.sha256().digest_size
 
@@ -83,8 +89,7 @@ class _MachineCode(NullCache):
         name = self._file(sig, target_context.codegen())
         found = _read(name, target_context)
         if found is None:
-            locks = [folder / f"{name}.lock" for folder in code_folders()]
-            self._alone.enter_context(one_at_a_time(locks, _PATIENCE, _tell_of_waiting))
+            self._alone.enter_context(_one_process(name))
             found = _read(name, target_context)
         return found
 
@@ -182,5 +187,30 @@ def _read(name: str, target_context: Any) -> Any:
     return None
 
 
-def _tell_of_waiting() -> None:
-    tell_once("another process compiles the law: waiting for it, so that the work is not done twice")
+@contextmanager
+def _one_process(name: str) -> Iterator[None]:
+    """Hold the lock of a function; where none can be had, go on without: work is then done twice, and not wrongly."""
+    lock = _lock_of(name)
+    try:
+        yield
+    finally:
+        if lock is not None:
+            with suppress(OSError):  # Windows removes no file that another one has open
+                Path(lock.lock_file).unlink()
+            lock.release()
+
+
+def _lock_of(name: str) -> FileLock | None:
+    """Take the lock of a function in the first folder that knows locks; the system gives it back for who is killed."""
+    for folder in code_folders():
+        lock = FileLock(folder / f"{name}.lock", mode=0o600, fallback_to_soft=False)
+        try:
+            lock.acquire(timeout=_LONG)
+        except Timeout:
+            tell_once("another process compiles the law: waiting for it, so that the work is not done twice")
+            with suppress(OSError):
+                lock.acquire(timeout=_PATIENCE - _LONG)
+        except OSError:
+            continue
+        return lock if lock.is_locked else None
+    return None

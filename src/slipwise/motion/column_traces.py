@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from slipwise.data_files.statements import Peak, Statements
 from slipwise.errors import InputError, SlipwiseWarning, UnitError
 from slipwise.motion.column_kind import Kind, kind_of
-from slipwise.motion.displacement import acceleration_of
 from slipwise.motion.header_peaks import header_peak, peak_of, unit_of_peaks
 from slipwise.motion.orientation import component_of, name_from_stem, orientation, sensor_of
 from slipwise.motion.origin import origin_of
@@ -225,7 +224,7 @@ def _of_displacement(table: ColumnTable, k: int, dt: float, dt_words: str, sourc
     if given.unit is not None:
         raise UnitError(f"{source.name}: {name!r} is a displacement in {unit}; leave --unit {given.unit} out")
     metres = table.values[:, k] * parse_unit(unit, "m", f"column {name!r} of {source.name}")
-    acceleration, words = acceleration_of(metres, dt, source, name)
+    acceleration, words = _acceleration_of(metres, dt, source, name)
     si = replace(
         table,
         names=(name.replace("table_d", "table_a"),),
@@ -278,3 +277,26 @@ def _trace(
         origin=replace(origin, sensor=origin.sensor or sensor_of(name)),
         letter_of_file=letter,
     )
+
+
+def _acceleration_of(displacement: Array, dt: float, source: SourceFile, name: str) -> tuple[Array, str]:
+    """Differentiate a displacement twice, and say so: it is the table's command as some controllers write it.
+
+    Args:
+        displacement: (n,) [m].
+        dt: step [s].
+        source: the file, for messages.
+        name: of the column.
+
+    Returns:
+        The acceleration (n,) [m/s^2] and what was done, in words.
+
+    Raises:
+        InputError: too few samples.
+    """
+    from slipwise.signals.second_derivative import second_derivative  # here, for it takes long to load
+
+    if len(displacement) < 9:
+        raise InputError(f"{source.name}: {len(displacement)} samples of a displacement are too few to differentiate")
+    values, frequency = second_derivative(displacement, dt)
+    return values, f"{name} is a displacement: differentiated twice, below {frequency:.3g} Hz"

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign import Campaign, Run
-from slipwise.campaign.wild_samples import FAULTY, faulty_share
+from slipwise.campaign.wild_samples_of_runs import FAULTY, faulty_share
 from slipwise.channels import pads_in
 from slipwise.instruments.zeros import tared_cells, zeros_of
 from slipwise.preparation.outliers import campaign_without_outliers

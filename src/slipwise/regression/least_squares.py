@@ -5,20 +5,17 @@ next point. How a step is kept safe is the rule that `move` follows:
 
     damped (`LevenbergMarquardt`)   trials one after the other, each more damped, until one lowers the cost; slopes that
                                     keep their promise are used again. For many numbers and cheap trials.
-    shortened (`shortened_step`)    the full step and parts of it are tried together, and the best is taken. For dear
-                                    trials that run side by side.
     undamped                        the full step, where weights change from step to step and costs do not compare.
 
 Source: Nocedal, Wright (2006), Numerical Optimization, chapter 10.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import lsq_linear
 
 Array = NDArray[np.float64]
 Point = TypeVar("Point")
@@ -170,30 +167,3 @@ def bounded_step(
         step[out] = (np.clip(end, low, high) - here)[out] / scale[out]
         free &= ~out
     return step
-
-
-def shortened_step(
-    bounds: Bounds,
-    here: Array,
-    residual: Array,
-    jacobian: Array,
-    evaluate: Callable[[Sequence[Array]], list[tuple[Point, Array]]],
-    parts: Sequence[float],
-) -> tuple[Point, float]:
-    """Try parts of the step to where straight slopes would end; give the best point, and by how much it is better.
-
-    Args:
-        bounds: of the numbers.
-        here: (k,) numbers.
-        residual: (m,) at these numbers.
-        jacobian: (m, k) per unit of each number's scale.
-        evaluate: points and residuals (m,) at several sets of numbers, side by side.
-        parts: of the step that are tried [1].
-    """
-    low, high = (bounds.low - here) / bounds.scale, (bounds.high - here) / bounds.scale
-    wide = high > low
-    step = np.zeros(len(here))
-    step[wide] = lsq_linear(jacobian[:, wide], -residual, bounds=(low[wide] - 1e-12, high[wide] + 1e-12)).x
-    tried = [np.clip(here + part * step * bounds.scale, bounds.low, bounds.high) for part in parts]
-    point, left = min(evaluate(tried), key=lambda made: float(made[1] @ made[1]))
-    return point, float(residual @ residual - left @ left)

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from slipwise.diagnosis.result import Diagnosis
-from slipwise.discovery.law import Discovery
+from slipwise.discovery.result import Discovery
 from slipwise.errors import SettingError
 from slipwise.relations.parameters import Term
 from slipwise.session.state import EffectOf, terms_from_json, terms_json

@@ -10,7 +10,7 @@ from typing import Any
 from slipwise.campaign import Campaign, as_campaign
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.discovery.discover import diagnose_with_law, discover
-from slipwise.discovery.law import Discovery
+from slipwise.discovery.result import Discovery
 from slipwise.display import Drawn, Tabular
 from slipwise.effects import Effect, Trust, catalogue
 from slipwise.errors import SettingError

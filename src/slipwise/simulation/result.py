@@ -8,13 +8,15 @@ from numpy.typing import NDArray
 
 from slipwise.display import Drawn
 from slipwise.errors import SimulationError
-from slipwise.motion.table_motion import TableMotion
+from slipwise.motion.table_motion import Steady, TableMotion
 from slipwise.record import Record
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
 Array = NDArray[np.float64]
+#: Cycles of a sine at full amplitude, the last ones, over which its slip is measured.
+_CYCLES = 4
 
 
 class SimulationDiverged(SimulationError):
@@ -81,9 +83,36 @@ class Replay(Drawn):
 
     def summary(self, motion: TableMotion) -> dict[str, Any]:
         """Return the numbers of summary.json; `motion` is what was replayed."""
-        from slipwise.simulation.summary import summary
-
-        return summary(self, motion)
+        pads = {
+            pad: {
+                "N_min_kN": self.load_range[pad][0] / 1e3,
+                "N_max_kN": self.load_range[pad][1] / 1e3,
+                "F_max_kN": self.largest_friction[pad] / 1e3,
+                "energy_kN_cm": self.pad_energy[pad] / 10.0,
+            }
+            for pad in self.load_range
+        }
+        return {
+            "schema": 1,
+            "rig": self.record.provenance["rig"],
+            "motion": motion.title,
+            "slip_x_half_range_mm": _slip_half_range(self.record, motion.steady) * 1e3,
+            "slip_x_max_mm": max(map(abs, self.slip_range)) * 1e3,
+            "slip_y_half_range_mm": _slip_half_range(self.record, motion.steady, "y") * 1e3,
+            "slip_y_max_mm": max(map(abs, self.slip_y_range)) * 1e3,
+            "slip_max_mm": self.largest_slip * 1e3,
+            "energy_kN_cm": sum(p["energy_kN_cm"] for p in pads.values()),
+            "energy_x_kN_cm": self.energy_along[0] / 10.0,
+            "energy_y_kN_cm": self.energy_along[1] / 10.0,
+            "pads": pads,
+            "uplift_s": self.uplift,
+            "energy_balance_error": self.energy_error,
+            "dt_s": self.dt,
+            "steps": self.steps,
+            "wall_s": self.computing,
+            "compile_s": self.compiling,
+            "engine": self.engine,
+        }
 
     def to_pandas(self) -> "DataFrame":
         """Return time and channels of the record as the columns of a pandas frame, SI.
@@ -108,3 +137,17 @@ class Replay(Drawn):
             }
             for pad, (low, high) in self.load_range.items()
         ]
+
+
+def _slip_half_range(record: Record, steady: Steady | None, axis: str = "x") -> float:
+    """Half of largest minus smallest slip along an axis [m].
+
+    Over the last four cycles at full amplitude of a sine, over the whole record otherwise.
+    """
+    slip = record[f"slip_{axis}"]
+    if steady is not None:
+        start = max(steady.start, steady.end - _CYCLES * steady.period)
+        inside = (record.time >= start) & (record.time <= steady.end)
+        if inside.any():
+            slip = slip[inside]
+    return float(np.ptp(slip) / 2.0)

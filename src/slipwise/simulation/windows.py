@@ -4,7 +4,6 @@ A free run that sticks a millisecond late is wrong from there on, although nothi
 start again from what was measured keep such an error from swamping everything.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import mujoco
@@ -50,54 +49,27 @@ class Windows:
 def simulate_windows(
     model: Model, windows: Windows, *, dt: float = DT, every: int = 4, threads: int = 2
 ) -> list[dict[str, Array]]:
-    """Shake all windows of one model side by side; arguments and answer as `simulate_models` with one model."""
-    return simulate_models([model], [windows], dt=dt, every=every, threads=threads)[0]
-
-
-def simulate_models(
-    models: Sequence[Model], windows: Sequence[Windows], *, dt: float = DT, every: int = 4, threads: int = 2
-) -> list[list[dict[str, Array]]]:
-    """Shake the windows of many models side by side, in one batch.
+    """Shake all windows of one model side by side, in one batch.
 
     Args:
-        models: of the same rig and effects, with values of their own (effects on port `gauge` are left to the caller).
-        windows: of each model what to shake, all of the same length.
+        model: specimen and effects (those on port `gauge` are left to the caller).
+        windows: what to shake.
         dt: step [s].
         every: steps per sample of the answer.
         threads: to step on.
 
     Returns:
-        For each model and window the channels, (n / every,) each; a window that MuJoCo had to stop holds NaN.
+        For each window the channels, (n / every,) each; a window that MuJoCo had to stop holds NaN.
     """
-    own = user_effects(models[0])
+    own = user_effects(model)
     law = kernel(engine_for(own), own)
-    rigs = _rigs(models, dt, law)
-    numbers = [_numbers(law, r, m, w, dt) for m, r, w in zip(models, rigs, windows, strict=True)]
-    controls = [_control(m, w, dt) for m, w in zip(models, windows, strict=True)]
+    specimen = model.built_specimen()
+    rig = build(specimen, dt, law.layout.size(specimen))
+    control = _control(model, windows, dt)
     run = _in_batch if law.callbacks else _one_by_one
-    seen = run(law, rigs, windows, np.concatenate(numbers), np.concatenate(controls), every, threads)
-    out, first = [], 0
-    for rig, control in zip(rigs, controls, strict=True):
-        part = seen[first : first + len(control)]
-        pitching = bool(np.any(control[..., 3]))
-        pairs = zip(part, control[:, ::every], strict=True)
-        out.append([to_channels(rig, data, command, dt, pitching) for data, command in pairs])
-        first += len(control)
-    return out
-
-
-def _rigs(models: Sequence[Model], dt: float, law: Kernel) -> list[Rig]:
-    """Compile every specimen once; most models differ in numbers of the law only, which are no part of it."""
-    made: list[Rig] = []
-    out = []
-    for model in models:
-        specimen = model.built_specimen()
-        rig = next((r for r in made if r.specimen == specimen), None)
-        if rig is None:
-            rig = build(specimen, dt, law.layout.size(specimen))
-            made.append(rig)
-        out.append(rig)
-    return out
+    seen = run(law, rig, windows, _numbers(law, rig, model, windows, dt), control, every, threads)
+    pitching = bool(np.any(control[..., 3]))
+    return [to_channels(rig, *pair, dt, pitching) for pair in zip(seen, control[:, ::every], strict=True)]
 
 
 def _control(model: Model, windows: Windows, dt: float) -> Array:
@@ -125,18 +97,15 @@ def _start(rig: Rig, slip: Array, velocity: Array) -> tuple[Array, Array]:
 
 
 def _in_batch(
-    law: Kernel, rigs: list[Rig], windows: Sequence[Windows], numbers: Array, control: Array, every: int, threads: int
+    law: Kernel, rig: Rig, windows: Windows, numbers: Array, control: Array, every: int, threads: int
 ) -> Array:
-    """Step all windows of all models together; gives sensordata (all windows, samples, sensors)."""
-    each = [(r, i, w) for r, w in zip(rigs, windows, strict=True) for i in range(len(w.start))]
-    models = {id(rig): model_for_kernel(rig, float(rig.model.opt.timestep)) for rig in rigs}
-    batch = Batch(models[id(rigs[0])], len(each), threads)
-    if len(models) > 1:
-        batch.set_models([models[id(rig)] for rig, _, _ in each])
-    starts = [_start(rig, w.slip[i], w.velocity[i]) for rig, i, w in each]
+    """Step all windows together; gives sensordata (windows, samples, sensors)."""
+    count = len(windows.start)
+    batch = Batch(model_for_kernel(rig, float(rig.model.opt.timestep)), count, threads)
+    starts = [_start(rig, slip, velocity) for slip, velocity in zip(windows.slip, windows.velocity, strict=True)]
     batch.bind("qpos")[:] = np.stack([position for position, _ in starts])
     batch.bind("qvel")[:] = np.stack([rate for _, rate in starts])
-    batch.bind("time")[:] = np.concatenate([w.start for w in windows])
+    batch.bind("time")[:] = windows.start
     batch.bind("userdata")[:] = numbers
     parts = []
     with installed(law):
@@ -144,27 +113,26 @@ def _in_batch(
             part = control[:, first : first + _CHUNK * every]
             parts.append(batch.rollout(part.shape[1], part, record=("sensordata",))["sensordata"][:, ::every])
     out = np.concatenate(parts, axis=1)
-    out[batch.warning.reshape(len(each), -1).any(axis=1)] = np.nan
+    out[batch.warning.reshape(count, -1).any(axis=1)] = np.nan
     return out
 
 
 def _one_by_one(
-    law: Kernel, rigs: list[Rig], windows: Sequence[Windows], numbers: Array, control: Array, every: int, threads: int
+    law: Kernel, rig: Rig, windows: Windows, numbers: Array, control: Array, every: int, threads: int
 ) -> Array:
     """Step one window after another with the law in plain Python, which no batch can take; answer as `_in_batch`."""
-    each = [(r, i, w) for r, w in zip(rigs, windows, strict=True) for i in range(len(w.start))]
-    out = np.empty((len(each), -(-control.shape[1] // every), rigs[0].model.nsensordata))
-    for row, (rig, i, w) in enumerate(each):
-        compiled = model_for_kernel(rig, float(rig.model.opt.timestep))
+    out = np.empty((len(windows.start), -(-control.shape[1] // every), rig.model.nsensordata))
+    compiled = model_for_kernel(rig, float(rig.model.opt.timestep))
+    for window, start in enumerate(windows.start):
         data = mujoco.MjData(compiled)
-        data.qpos[:], data.qvel[:] = _start(rig, w.slip[i], w.velocity[i])
-        data.time, data.userdata[:] = w.start[i], numbers[row]
+        data.qpos[:], data.qvel[:] = _start(rig, windows.slip[window], windows.velocity[window])
+        data.time, data.userdata[:] = start, numbers[window]
         with installed(law):
-            for step, command in enumerate(control[row]):
+            for step, command in enumerate(control[window]):
                 data.ctrl[:] = command
                 mujoco.mj_step(compiled, data)
                 if step % every == 0:
-                    out[row, step // every] = data.sensordata
+                    out[window, step // every] = data.sensordata
         if any(warning.number for warning in data.warning):
-            out[row] = np.nan
+            out[window] = np.nan
     return out

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from slipwise.campaign import Campaign, Run, as_campaign, load_campaign
-from slipwise.campaign.wild_samples import faulty_share, without_wild_samples
+from slipwise.campaign.wild_samples import without_wild_samples
+from slipwise.campaign.wild_samples_of_runs import faulty_share
 from slipwise.errors import SlipwiseWarning
 from slipwise.preparation.decimation import decimated
 from slipwise.preparation.excerpts import stretched

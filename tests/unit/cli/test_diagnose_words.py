@@ -6,9 +6,9 @@ import pytest
 
 from hypotheses import base, decided, diagnosed, left_by, searched
 from slipwise.campaign import Campaign
-from slipwise.cli.diagnose import _record, _tell, diagnose
+from slipwise.cli.diagnose import _tell, diagnose
+from slipwise.cli.diagnosis_files import _record
 from slipwise.cli.model_edit import tell_change
-from slipwise.diagnosis.ladder import left_over
 from slipwise.diagnosis.unknown_surface import leftover
 from slipwise.record import Record
 from slipwise.session.model_change import ModelChange
@@ -41,7 +41,7 @@ def test_who_listens_to_the_first_lines_only_finds_all_files(monkeypatch, tmp_pa
     monkeypatch.setattr("slipwise.campaign.load_campaign", lambda _: found.final.campaign)
     monkeypatch.setattr("slipwise.discovery.discover.diagnose_with_law", lambda *_, **__: found)
     monkeypatch.setattr("slipwise.view.pages.diagnosis_page.diagnosis_page", lambda *_: "the page")
-    monkeypatch.setattr("slipwise.cli.diagnose._record", lambda _, folder: [folder / "before_and_after.rrd"])
+    monkeypatch.setattr("slipwise.cli.diagnosis_files._record", lambda _, folder: [folder / "before_and_after.rrd"])
     monkeypatch.setattr("slipwise.cli.diagnose._tell", left)
     with pytest.raises(BrokenPipeError):
         diagnose([tmp_path], out=tmp_path / "out")
@@ -51,13 +51,13 @@ def test_who_listens_to_the_first_lines_only_finds_all_files(monkeypatch, tmp_pa
 def test_the_demo_says_what_is_left():
     of = base(pads=20.0)
     quiet = diagnosed(searched(of, left_by("heating", of=of)))
-    assert left_over(quiet) == "nothing is missing any more"
+    assert quiet.left_over == "nothing is missing any more"
     little = left_by("heating", of=of, pads=1.3, over=lambda run: run.velocity)
     state = searched(of, little)
     shaped = replace(decided(state), leftover="unknown", surface=leftover(little))
-    assert left_over(diagnosed(state, shaped)).startswith("what is left: pads: depends on slip velocity")
+    assert diagnosed(state, shaped).left_over.startswith("what is left: pads: depends on slip velocity")
     loud = diagnosed(searched(of, left_by("heating", of=of, pads=2.3**2)))
-    assert left_over(loud) == "still above the noise, in floors: pad friction 2.30"
+    assert loud.left_over == "still above the noise, in floors: pad friction 2.30"
 
 
 def test_the_terminal_says_what_each_effect_changes_and_whether_it_is_confirmed(capsys):

@@ -35,7 +35,7 @@ def lab(monkeypatch, tmp_path):
         "slipwise.discovery.discover.diagnose_with_law", lambda m, *_, **__: worn if m[0] == "b" else quiet
     )
     monkeypatch.setattr("slipwise.view.pages.diagnosis_page.diagnosis_page", lambda *_: "the page")
-    monkeypatch.setattr("slipwise.cli.diagnose._record", lambda *_: [])
+    monkeypatch.setattr("slipwise.cli.diagnosis_files._record", lambda *_: [])
     return tmp_path, seen
 
 

@@ -7,8 +7,8 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign
-from slipwise.diagnosis.diagnose import as_fit
 from slipwise.diagnosis.hypothesis import Hypothesis, polished, refit
+from slipwise.diagnosis.hypothesis_fit import as_fit
 from slipwise.diagnosis.reported_sizes import named_sizes
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import BaseFit, fit_base

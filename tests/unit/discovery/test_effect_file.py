@@ -12,10 +12,11 @@ import pytest
 from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.effect_file import can_be_written, write_law
 from slipwise.discovery.form import forms
-from slipwise.discovery.law import Discovery, Law, LawConstant
+from slipwise.discovery.law import Law, LawConstant
 from slipwise.discovery.law_problem import FittedLaw, LawProblem, PlacedLaw
 from slipwise.discovery.matching import Match, constants_of, product_at
 from slipwise.discovery.ports import EVERYWHERE, Gate, Port
+from slipwise.discovery.result import Discovery
 from slipwise.discovery.states import UNITS, State
 from slipwise.effects import LAGGING, load_effect
 from slipwise.errors import SettingError
@@ -70,7 +71,7 @@ CASES = [
 @pytest.mark.parametrize(("port", "states", "names"), CASES, ids=lambda x: str(x))
 def test_a_file_is_written_read_and_says_where_it_comes_from(port, states, names, tmp_path: Path) -> None:
     law = law_of(port, states, names)
-    effect = load_effect(write_law(law, discovery(law), tmp_path, "found", "2026-11-27"))
+    effect = load_effect(write_law(law, discovery(law).origin, tmp_path, "found", "2026-11-27"))
     assert "march" in effect.text and "No mechanism is claimed" in effect.text and "2026-11-27" in effect.text
     assert {c.name for c in law.constants} <= set(effect.parameter_names)
     assert effect.neutral()["strength"] == 0.0
@@ -81,7 +82,7 @@ def test_a_file_is_written_read_and_says_where_it_comes_from(port, states, names
 @pytest.mark.parametrize("port", ["adds to mu", "multiplies mu", "adds to friction"])
 def test_the_hook_is_the_law(port: str, gate: Gate, tmp_path: Path) -> None:
     law = law_of(port, ("heat", "speed"), ("saturation", "linear"), gate)
-    effect = load_effect(write_law(law, discovery(law), tmp_path, "found", "2026-11-27"))
+    effect = load_effect(write_law(law, discovery(law).origin, tmp_path, "found", "2026-11-27"))
     given = {
         "heat": 0.4,
         "speed": 0.3,
@@ -110,7 +111,7 @@ def test_a_force_at_the_centre_is_the_same_in_a_replay_and_in_the_balances(
     port: str, sign: float, tmp_path: Path
 ) -> None:
     law = law_of(port, ("slip",), ("sine",))
-    effect = load_effect(write_law(law, discovery(law), tmp_path, "found", "2026-11-27"))
+    effect = load_effect(write_law(law, discovery(law).origin, tmp_path, "found", "2026-11-27"))
     match = law.fitted.law.match
     expected = sign * 0.2 * product_at(match.forms, [np.array([0.004])], match.constants)[0]
     given = {"velocity_x": -0.3, "velocity_y": 0.0, "slip_x": 0.004, **effect.typical()}
@@ -123,7 +124,7 @@ def test_a_force_at_the_centre_is_the_same_in_a_replay_and_in_the_balances(
 
 def test_a_force_that_tips_the_girder_is_written_at_its_buffers(tmp_path: Path) -> None:
     law = dataclasses.replace(law_of("girder by place", ("slip",), ("bump",)), at_buffers=True)
-    assert "spring" in load_effect(write_law(law, discovery(law), tmp_path, "found", "2026-11-27")).hooks
+    assert "spring" in load_effect(write_law(law, discovery(law).origin, tmp_path, "found", "2026-11-27")).hooks
 
 
 def test_a_lift_that_no_hook_can_know_is_not_written() -> None:
@@ -134,14 +135,14 @@ def test_a_lift_that_no_hook_can_know_is_not_written() -> None:
 def test_words_from_a_campaign_stay_words(tmp_path: Path) -> None:
     law = law_of("adds to mu", ("speed",), ("bump",))
     hostile = dataclasses.replace(discovery(law), campaign='x"""\nimport os\n"""')
-    effect = load_effect(write_law(law, hostile, tmp_path, "found", "2026-11-27"))
+    effect = load_effect(write_law(law, hostile.origin, tmp_path, "found", "2026-11-27"))
     assert "os" not in vars(__import__("sys").modules[effect.hooks["coefficient"].__module__])
 
 
 def test_a_name_of_the_catalogue_is_refused(tmp_path: Path) -> None:
     law = law_of("adds to mu", ("speed",), ("bump",))
     with pytest.raises(SettingError, match="run_in"):
-        write_law(law, discovery(law), tmp_path, "run_in", "2026-11-27")
+        write_law(law, discovery(law).origin, tmp_path, "run_in", "2026-11-27")
 
 
 def test_units_are_known_for_every_state() -> None:

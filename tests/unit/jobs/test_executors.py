@@ -143,10 +143,3 @@ def test_a_file_of_something_else_is_refused_and_kept(tmp_path):
 def test_no_worker_is_refused(tmp_path):
     with pytest.raises(SettingError, match="0 workers"):
         run([1], tmp_path, workers=0)
-
-
-def test_the_hash_of_code_follows_the_files_that_decide():
-    hashes = {
-        executors.hash_of_code(*patterns) for patterns in (("model.py",), ("rig/*.py",), ("model.py", "rig/*.py"))
-    }
-    assert len(hashes) == 3

@@ -9,7 +9,10 @@ import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import numba
 import pytest
+from numba import cfunc, njit
+from numba.core.caching import NullCache
 
 from slipwise.errors import CacheWarning
 from slipwise.jobs import machine_code
@@ -31,6 +34,28 @@ Run = Callable[[], tuple[float, int, list[str]]]
 
 def twice(x: float) -> float:
     return 2.0 * x
+
+
+def test_numba_has_the_private_names_on_which_kept_code_rests() -> None:
+    compiled, callback = njit(twice), cfunc("float64(float64)")(twice)
+    compiled(1.0)
+    (result,) = compiled.overloads.values()
+    needed = [
+        (compiled, "_cache compile"),
+        (callback, "_cache compile"),
+        (result, "_reduce _rebuild library"),
+        (result.library, "has_dynamic_globals codegen"),
+        (result.library.codegen, "magic_tuple"),
+        (result.target_context, "refresh codegen"),
+        (NullCache(), "load_overload save_overload"),
+    ]
+    gone = [
+        f"{type(owner).__name__}.{name}"
+        for owner, names in needed
+        for name in names.split()
+        if not hasattr(owner, name)
+    ]
+    assert not gone, f"numba {numba.__version__} lacks {gone}: bound it in pyproject.toml, or adapt machine_code.py"
 
 
 @pytest.fixture

@@ -14,7 +14,6 @@ from slipwise.record import read_record, write_record
 from slipwise.simulation.kernel import installed, kernel
 from slipwise.simulation.replay import replay
 from slipwise.simulation.simulator import SimulationDiverged, simulate
-from slipwise.simulation.summary import summary
 
 
 def test_a_record_says_what_it_was_made_from(tmp_path):
@@ -42,7 +41,7 @@ def test_a_file_names_unit_sign_and_place_of_every_channel(tmp_path):
 def test_the_summary_reads_a_sine_over_its_last_four_full_cycles():
     motion = load_motion("sine:2Hz,0.3g,cycles=40")
     answer = replay(base_model("bridge1"), motion)
-    numbers = summary(answer, motion)
+    numbers = answer.summary(motion)
     assert numbers["slip_x_half_range_mm"] == pytest.approx(14.4045, rel=0.005)
     assert numbers["energy_kN_cm"] == pytest.approx(sum(p["energy_kN_cm"] for p in numbers["pads"].values()))
     assert numbers["uplift_s"] == 0.0

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from slipwise.campaign.settings import read_settings
 from slipwise.errors import SlipwiseError
-from slipwise.jobs.executors import hash_of_code
+from slipwise.jobs.code_hash import hash_of_files
 from slipwise.rig.files import find_rig
 
 #: The page is made by the code too, and probabilities come from a table.
@@ -25,7 +25,7 @@ def campaign_key(folder: Path, model: Path | None, effects: Iterable[Path], sett
         settings: what else decides the results, as JSON can hold it.
     """
     model = model or folder / "model.toml"
-    code = (version("slipwise"), version("mujoco"), hash_of_code(*_DECIDING))
+    code = (version("slipwise"), version("mujoco"), hash_of_files(*_DECIDING))
     beside = sorted(model.parent.glob("*.py")) if model.is_file() else []
     contents = [_digest(path) for path in (*_files(folder), model, *beside, *effects)]
     text = json.dumps([str(folder.resolve()), contents, code, list(settings)])

@@ -1,29 +1,23 @@
 """One member of an ensemble: a model with drawn numbers, shaken by one motion at one scale."""
 
 import hashlib
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib.metadata import version
 from typing import Any
 
 import numpy as np
 
 from slipwise.effects import find_effect
-from slipwise.errors import SettingError, SimulationError
-from slipwise.jobs.executors import ONE_AT_A_TIME, hash_of_code
+from slipwise.errors import SettingError
 from slipwise.model import Model, base_model, use
 from slipwise.motion import TableMotion, load_motion, scale
 from slipwise.rig.files import find_rig
 from slipwise.simulation.replay import replay
 from slipwise.simulation.simulator import Replay
 from slipwise.studies.ensemble.distributions import with_values
+from slipwise.studies.members import key_of, numbers_or_failure
 
-#: Parts of the package whose change makes kept results stale.
-_DECIDING = (
-    "effects/*.py", "motion/**/*.py", "rig/*.py", "model/*.py", "simulation/**/*.py", "studies/ensemble/*.py",
-)  # fmt: skip
 LAWS = ("paper", "coulomb")
 
 
@@ -57,7 +51,7 @@ class Base:
         """Return a hash of what all members share, the code included."""
         files = [find_rig(self.rig), *(find_effect(name).path for name in self.effects)]
         contents = [hashlib.sha256(path.read_bytes()).hexdigest() for path in files]
-        return _hash([self.law, contents, version("mujoco"), hash_of_code(*_DECIDING)])
+        return key_of([self.law, contents], __name__)
 
 
 @dataclass(frozen=True)
@@ -86,12 +80,12 @@ def member_key(base: str, motion: str, factor: float, values: Mapping[str, float
         factor: on the motion.
         values: that were drawn [SI].
     """
-    return _hash([base, motion, factor, dict(values)])
+    return key_of([base, motion, factor, dict(values)], __name__)
 
 
 def motion_key(motion: TableMotion) -> str:
     """Return a hash of what the table does."""
-    return _hash([motion.dt, hashlib.sha256(motion.acceleration.tobytes()).hexdigest()])
+    return hashlib.sha256(np.float64(motion.dt).tobytes() + motion.acceleration.tobytes()).hexdigest()
 
 
 def run_shaken(member: Shaken) -> dict[str, Any]:
@@ -100,13 +94,12 @@ def run_shaken(member: Shaken) -> dict[str, Any]:
     Returns:
         Numbers that JSON holds exactly, SI, by the names of `responses.RESPONSES`.
     """
-    with ONE_AT_A_TIME:
-        model = with_values(_model(member.base), dict(member.values))
-        try:
-            answer = replay(model, scale(_motion(member.motion), member.factor))
-        except SimulationError as error:
-            return {"failed": str(error)}
-        return _numbers(answer, model)
+    return numbers_or_failure(lambda: _shaken(member))
+
+
+def _shaken(member: Shaken) -> dict[str, Any]:
+    model = with_values(_model(member.base), dict(member.values))
+    return _numbers(replay(model, scale(_motion(member.motion), member.factor)), model)
 
 
 @lru_cache(maxsize=4)
@@ -138,7 +131,3 @@ def _numbers(answer: Replay, model: Model) -> dict[str, Any]:
         "energy": sum(answer.pad_energy.values()),
         "buffer_hit": farthest > gaps[0] if gaps else None,
     }
-
-
-def _hash(content: Any) -> str:
-    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:20]

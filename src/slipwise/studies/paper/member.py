@@ -1,30 +1,28 @@
 """One replay of an ensemble: everything that decides it, and the few numbers that are kept of it."""
 
-import hashlib
-import json
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from dataclasses import asdict, dataclass, replace
 from functools import cache
-from importlib.metadata import version
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.optimize import brentq
 
 from slipwise.errors import SimulationError
-from slipwise.jobs.executors import ONE_AT_A_TIME, hash_of_code
+from slipwise.jobs.executors import run_all
+from slipwise.jobs.job_log import Numbers
 from slipwise.model import Model, use
 from slipwise.motion import TableMotion, load_motion
 from slipwise.simulation.replay import replay
 from slipwise.simulation.simulator import Replay
+from slipwise.studies.members import key_of, numbers_or_failure
 from slipwise.studies.paper.one_dof import OneDof, one_dof
 from slipwise.studies.paper.settings import PaperSettings, paper_model
 
 #: Energy that a searched motion has to reach lies within this fraction; at most so many replays are tried.
 _CLOSE, _TRIES = 5e-4, 12
-#: Parts of the package whose change makes kept results stale.
-_DECIDING = (
-    "effects/*.py", "motion/**/*.py", "rig/*.py", "model/*.py", "simulation/**/*.py",
-    "studies/paper/member.py", "studies/paper/one_dof.py",
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -73,8 +71,7 @@ class Member:
         specimen = {k: v for k, v in asdict(model.specimen).items() if k not in ("path", "sources")}
         law = {u.label: u.numbers for u in model.uses}
         motion = [self.seed, self.peak, self.frequency, self.strong, self.vertical, self.target]
-        text = json.dumps([specimen, law, motion, version("mujoco"), hash_of_code(*_DECIDING)], sort_keys=True)
-        return hashlib.sha256(text.encode()).hexdigest()[:20]
+        return key_of([specimen, law, motion], __name__)
 
 
 @cache
@@ -92,13 +89,29 @@ def run_member(member: Member) -> dict[str, Any]:
     Returns:
         Numbers that JSON holds exactly, all SI.
     """
-    with ONE_AT_A_TIME:
-        try:
-            if member.target > 0.0:
-                return _searched(member)
-            return _numbers(*_shaken(member))
-        except SimulationError as error:
-            return {"failed": str(error)}
+    return numbers_or_failure(lambda: _searched(member) if member.target > 0.0 else _numbers(*_shaken(member)))
+
+
+def run_ensemble(
+    members: Sequence[Member],
+    folder: Path,
+    *,
+    executor: Executor | None = None,
+    workers: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> list[Numbers]:
+    """Run what has not been run yet and return the numbers of all members in their order.
+
+    Args:
+        members: the replays; equal ones are run once.
+        folder: of `members.jsonl`; made if absent.
+        executor: as for `slipwise.jobs.executors.run_all`, like the others and what is raised.
+        workers: when no executor is given.
+        progress: called with how many of how many are finished.
+    """
+    keys, path = [member.key() for member in members], folder / "members.jsonl"
+    done = run_all(run_member, keys, members.__getitem__, path, executor=executor, workers=workers, progress=progress)
+    return list(done.numbers(keys))
 
 
 def _shaken(member: Member) -> tuple[Replay, OneDof]:
@@ -109,34 +122,25 @@ def _shaken(member: Member) -> tuple[Replay, OneDof]:
 def _searched(member: Member) -> dict[str, Any]:
     """Scale a motion until the pads dissipate the target; then shake it without its vertical part too."""
 
+    @cache
     def energy(factor: float, vertical: bool = True) -> float:
         scaled = replace(
             member, peak=member.peak * factor, vertical=member.vertical * factor if vertical else 0.0, target=0.0
         )
-        return sum(replay(scaled.model(), scaled.motion()).pad_energy.values())
+        return sum(replay(scaled.model(), scaled.motion()).pad_energy.values()) if factor > 0.0 else 0.0
+
+    def missed(factor: float) -> float:
+        """Return by what share the target is missed; 0, at which the search ends, where that is close enough."""
+        share = energy(factor) / member.target - 1.0
+        return share if abs(share) >= _CLOSE else 0.0
 
     low, high = 0.0, 1.0
-    at_high = energy(high)
-    while at_high < member.target:
+    while energy(high) < member.target:
         low, high = high, high * 1.5
-        at_high = energy(high)
         if high > 10.0:
-            raise SimulationError(f"ten times this motion still dissipates only {at_high / 10:.0f} kN cm")
-    factor, reached = high, at_high
-    at_low = 0.0 if low == 0.0 else energy(low)
-    for _ in range(_TRIES):
-        if abs(reached / member.target - 1.0) < _CLOSE:
-            break
-        straight = low + (high - low) * (member.target - at_low) / (at_high - at_low)
-        # Regula falsi creeps on a bent curve: keep away from the ends.
-        margin = 0.01 * (high - low)
-        factor = min(max(straight, low + margin), high - margin)
-        reached = energy(factor)
-        if reached < member.target:
-            low, at_low = factor, reached
-        else:
-            high, at_high = factor, reached
-    return {"factor": factor, "energy": reached, "energy_without": energy(factor, vertical=False)}
+            raise SimulationError(f"{low:.3g} times this motion still dissipates only {energy(low) / 10:.0f} kN cm")
+    factor = float(brentq(missed, low, high, maxiter=_TRIES, disp=False))
+    return {"factor": factor, "energy": energy(factor), "energy_without": energy(factor, vertical=False)}
 
 
 def _numbers(answer: Replay, single: OneDof) -> dict[str, Any]:

@@ -11,8 +11,8 @@ from typing import Any
 
 from slipwise.motion import TableMotion
 from slipwise.studies.paper import beyond, claims, extreme, factors, hysteresis, law, scaling, sine_tests, table_input
-from slipwise.studies.paper.ensemble import run_ensemble
 from slipwise.studies.paper.finding import VERDICTS, Study
+from slipwise.studies.paper.member import run_ensemble
 from slipwise.studies.paper.plan import Plan, plan
 from slipwise.studies.paper.settings import SETTINGS, PaperSettings
 
@@ -68,9 +68,9 @@ def reenact(
     began = time.perf_counter()
     chosen = plan(settings, quick=quick)
 
-    def part(fraction: float) -> None:
+    def part(finished: int, of: int) -> None:
         if progress is not None:
-            progress(_ENSEMBLE_SHARE * fraction)
+            progress(_ENSEMBLE_SHARE * finished / of)
 
     answers = run_ensemble(chosen.members, folder, executor=executor, workers=workers, progress=part)
     studies = _studies(settings, chosen, chosen.sorted(answers), ground, progress)

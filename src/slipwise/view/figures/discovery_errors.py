@@ -6,8 +6,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from slipwise.discovery.law import Discovery
 from slipwise.discovery.levels import level
+from slipwise.discovery.result import Discovery
 from slipwise.discovery.splines import knots_of
 from slipwise.discovery.states import State
 from slipwise.rig.frame import frame_push

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.form import Form
-from slipwise.discovery.law import Discovery, Law
+from slipwise.discovery.law import Law
 from slipwise.discovery.law_problem import STRENGTH
 from slipwise.discovery.matching import product_at
+from slipwise.discovery.result import Discovery
 from slipwise.discovery.splines import columns
 from slipwise.view.figures.canvas import new_figure
 from slipwise.view.figures.discovery_samples import Cloud, candidate_cloud, law_cloud
@@ -46,15 +47,6 @@ def law_figure(law: Law) -> Figure:
 def candidate_figure(found: Discovery, candidate: Candidate) -> Figure:
     """Draw the curve of the screen over its data, where no form is called a law."""
     return _figure(candidate_cloud(found, candidate), candidate, [])
-
-
-def discovery_figure(found: Discovery) -> Figure:
-    """Draw what was found: the first law, or else the state that explains most, or else the errors."""
-    from slipwise.view.figures.discovery_errors import errors_figure
-
-    if found.laws:
-        return law_figure(found.laws[0])
-    return candidate_figure(found, found.organised) if found.organised else errors_figure(found)
 
 
 def _figure(cloud: Cloud, candidate: Candidate, forms: Sequence[_Drawn]) -> Figure:

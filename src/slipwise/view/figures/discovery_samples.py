@@ -7,11 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.discovery.candidate import Candidate
-from slipwise.discovery.law import Discovery, Law
+from slipwise.discovery.law import Law
 from slipwise.discovery.law_problem import STRENGTH, FittedLaw
 from slipwise.discovery.matching import product_at
 from slipwise.discovery.ports import opened, places_of
 from slipwise.discovery.residual_field import residual_field
+from slipwise.discovery.result import Discovery
 from slipwise.discovery.splines import Spline, columns, spline
 from slipwise.discovery.states import State
 from slipwise.estimation.least_squares import Solution

@@ -45,9 +45,13 @@ def _ladder(found: Any) -> Figure:
 
 
 def _discovery(found: Any) -> Figure:
-    from slipwise.view.figures.discovery_figures import discovery_figure
+    """Draw the first law, or else the state that explains most, or else the errors."""
+    from slipwise.view.figures.discovery_errors import errors_figure
+    from slipwise.view.figures.discovery_figures import candidate_figure, law_figure
 
-    return discovery_figure(found)
+    if found.laws:
+        return law_figure(found.laws[0])
+    return candidate_figure(found, found.organised) if found.organised else errors_figure(found)
 
 
 def _effect(effect: Any) -> Figure:

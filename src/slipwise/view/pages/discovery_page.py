@@ -1,7 +1,8 @@
 """The page of a discovery: the law in a sentence, its numbers, the data under it, and what it takes away."""
 
 from slipwise.comparison.component_level import NAMES
-from slipwise.discovery.law import Discovery, Law
+from slipwise.discovery.law import Law
+from slipwise.discovery.result import Discovery
 from slipwise.view.figures.discovery_errors import (
     errors,
     errors_figure,

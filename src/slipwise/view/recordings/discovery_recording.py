@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.discovery.law import Discovery, Law
+from slipwise.discovery.law import Law
+from slipwise.discovery.result import Discovery
 from slipwise.record import Record
 from slipwise.view.figures.discovery_errors import errors_figure, loops_figure, shown_runs, shown_states, states_figure
 from slipwise.view.figures.discovery_figures import candidate_figure, law_figure

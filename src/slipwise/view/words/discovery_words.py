@@ -1,7 +1,8 @@
 """What a page says of a discovery beside its sentence: states, ports and gates in words, units that people read."""
 
 from slipwise.discovery.candidate import Candidate
-from slipwise.discovery.law import Discovery, Law
+from slipwise.discovery.law import Law
+from slipwise.discovery.result import Discovery
 from slipwise.discovery.states import UNITS, WORDS
 from slipwise.units import convert
 from slipwise.view.words.numbers import in_words, unit_of_size

@@ -9,11 +9,12 @@ from rerun.chunk import RrdReader
 from hypotheses import base
 from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.form import forms
-from slipwise.discovery.law import Discovery, Law, LawConstant, TiedForm
+from slipwise.discovery.law import Law, LawConstant, TiedForm
 from slipwise.discovery.law_problem import FittedLaw, LawProblem, PlacedLaw
 from slipwise.discovery.matching import Match
 from slipwise.discovery.ports import EVERYWHERE, pad_ports
 from slipwise.discovery.residual_field import residual_field
+from slipwise.discovery.result import Discovery
 from slipwise.discovery.splines import spline
 from slipwise.discovery.states import pad_instants, pad_states
 from slipwise.estimation.least_squares import Solution, jacobian

@@ -1,0 +1,32 @@
+"""The files of a diagnosis: its JSON, its page, its recording and its figures."""
+
+from pathlib import Path
+
+import slipwise as sw
+from slipwise.cli.console import ERR, say
+from slipwise.errors import InputError
+
+
+def write_diagnosis(found: "sw.Diagnosis", folder: Path, recording: bool, figures: bool = False) -> list[Path]:
+    """Write the diagnosis, its page and, if asked for, its recording and figures; gives the files."""
+    from slipwise.view.figures.figure_files import figures_into
+    from slipwise.view.files import save_json, save_page
+    from slipwise.view.pages.diagnosis_page import diagnosis_page
+
+    files = [save_json(found.as_json(), folder / "diagnosis.json")]
+    with figures_into(folder / "figures" if figures else None) as drawn:
+        files.append(save_page(diagnosis_page(found, found.ladder()), folder / "report.html"))
+    return [*files, *drawn, *(_record(found, folder) if recording else [])]
+
+
+def _record(found: "sw.Diagnosis", folder: Path) -> list[Path]:
+    from slipwise.view.recordings.comparison import write_comparison
+    from slipwise.view.recordings.geometry import geometry_of
+
+    try:
+        measured, simulated = found.replays()
+    except InputError as error:
+        say(f"no recording: {error}", ERR)
+        return []
+    geometry = geometry_of(found.final.campaign.specimen)
+    return [write_comparison(measured, simulated, geometry, folder / "before_and_after.rrd", found.sentence)]

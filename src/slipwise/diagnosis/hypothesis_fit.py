@@ -1,0 +1,21 @@
+"""A hypothesis as a fit of its own, as intervals, the table of errors and replays take it."""
+
+from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.diagnosis.jacobian_memory import whole
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.least_squares import with_slopes as take_slopes
+
+
+def as_fit(base: BaseFit, found: Hypothesis, *, with_slopes: bool = True) -> BaseFit:
+    """Return a hypothesis as a fit of its own, with its own Jacobian, for intervals, locating and replays.
+
+    Args:
+        base: the base fit.
+        found: the hypothesis.
+        with_slopes: take its slopes, those that it has are of a fit nearby; `final_refit_of` has taken its own.
+    """
+    if found.solution is base.solution:
+        return base
+    found = whole(found)
+    solution = take_slopes(found.problem, found.solution) if with_slopes else found.solution
+    return BaseFit(base.campaign, base.model, found.problem, solution.free, solution)
