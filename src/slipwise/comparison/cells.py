@@ -18,12 +18,11 @@ from scipy.stats import chi2
 
 from slipwise.comparison.motion_states import STATES, MotionStates
 from slipwise.noise.effective_samples import correlation_sum
+from slipwise.noise.level import AT_FLOOR
 from slipwise.relations.run_data import FitRun
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-#: The floor itself, near reversals above all, is not known better than this: nothing below it counts as above [1].
-ALLOWANCE = 1.3
 #: Part of the cells named above the floor that may be so by chance (false discovery rate) [1].
 _FALSE = 0.01
 #: A cell with fewer independent samples than this is not tested.
@@ -47,7 +46,7 @@ class Cell:
         error: rms over the floor [1].
         samples: in the cell.
         effective: independent ones among them [1].
-        chance: that error at the floor (with its allowance) would look like this [1]; 1 where not tested.
+        chance: that error at the floor (as well as that is known, see `noise.level`) would look like this [1]; 1 where not tested.
         above: whether it stands above the floor, corrected for the number of cells.
         excess: mean squared error above the floor times samples, in squared floors.
     """
@@ -186,7 +185,7 @@ def _tested(
     relation: str, kind: str, label: str, low: float, high: float, squares: Array, count: int, effective: float
 ) -> Cell:
     mean = float(squares.mean()) if count else 0.0
-    chance = float(chi2.sf(effective * mean / ALLOWANCE**2, effective)) if effective >= _FEWEST else 1.0
+    chance = float(chi2.sf(effective * mean / AT_FLOOR**2, effective)) if effective >= _FEWEST else 1.0
     excess = count * max(mean - 1.0, 0.0)
     return Cell(relation, kind, label, low, high, float(np.sqrt(mean)), count, effective, chance, False, excess)
 

@@ -28,9 +28,7 @@ from slipwise.evidence.residual_summary import ResidualSummary, error_of
 from slipwise.jobs.parallel import on_every_core, one_thread_algebra
 from slipwise.model import Model
 from slipwise.model.file import as_model
-
-#: An error below this has reached the noise floor [floors].
-FLOOR_REACHED = 1.15
+from slipwise.noise.level import is_at_floor
 
 
 @dataclass(frozen=True)
@@ -171,7 +169,7 @@ def ladder_of(found: Diagnosis) -> Ladder:
 
 def left_over(found: Diagnosis) -> str:
     """Say what is left above the noise when the named effects are in the model."""
-    over = [f"{NAMES[name][0]} {after:.2f}" for name, (_, after) in found.relations.items() if after >= FLOOR_REACHED]
+    over = [f"{NAMES[name][0]} {after:.2f}" for name, (_, after) in found.relations.items() if not is_at_floor(after)]
     if over:
         return f"still above the noise, in floors: {', '.join(over)}"
     if found.verdict.leftover != "none":
@@ -231,7 +229,7 @@ def _why(state: Search) -> str:
         return "no effect of the catalogue can be tested here"
     account = state.final.summary
     worst = max(error_of(account, relation) for relation in account.fitted)
-    if worst < FLOOR_REACHED:
+    if is_at_floor(worst):
         return "nothing above the noise floor is left"
     if len(state.best.terms) >= MOST_EFFECTS:
         return f"{MOST_EFFECTS} effects are the most that are added; {worst:.2g} floors are left"

@@ -19,7 +19,7 @@ from slipwise.discovery.law import Discovery, Law
 from slipwise.discovery.law_problem import FittedLaw, LawProblem
 from slipwise.discovery.law_summary import told_law
 from slipwise.discovery.levels import excess, held_out_level, level
-from slipwise.discovery.search import LEVEL, Found, different, find_law
+from slipwise.discovery.search import Found, different, find_law
 from slipwise.discovery.states import WORDS, pad_instants, pad_states, rig_states
 from slipwise.effects import RIG_MOTION, Effect
 from slipwise.estimation.base_fit import BaseFit
@@ -28,6 +28,7 @@ from slipwise.estimation.least_squares import Solution, slopes_of, solve, with_s
 from slipwise.estimation.objective import Problem
 from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
+from slipwise.noise.level import is_at_floor
 
 #: Shares of the error above noise at which a law, a state, an organising state may be said [1].
 LAW, STATE, ORGANISED = 0.95, 0.9, 0.5
@@ -132,7 +133,7 @@ def _from(name: str, base: BaseFit) -> Discovery:
     looked_at: tuple[Candidate, ...] = ()
     acted: set[str] = set()
     for number in range(_MOST_LAWS):
-        if not any(level(problem, here, r, problem.fitted) > LEVEL for r in problem.relations):
+        if all(is_at_floor(level(problem, here, r, problem.fitted)) for r in problem.relations):
             break
         found = find_law(now, here, base.model, _name(number))  # a label of its own, whatever has been dropped
         organised = organised or (found.candidates[0] if found.candidates else None)
@@ -187,7 +188,7 @@ def _evidence(
     laws: Sequence[Law], share: float, relations: dict[str, tuple[float, float]], worst: str, whole: float
 ) -> str:
     if not laws:
-        return "nothing" if max(e for e, _ in relations.values()) < LEVEL or whole <= 0.0 else "unknown"
+        return "nothing" if is_at_floor(max(e for e, _ in relations.values())) or whole <= 0.0 else "unknown"
     single = not any(law.tied or law.rivals for law in laws)
     after = relations[worst][1]
     if share >= LAW and after <= HELD_OUT and single:

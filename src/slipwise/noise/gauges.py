@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 from scipy.signal import detrend
 
 from slipwise.record import Record
-from slipwise.signals.noise import noise, ordinary, quantum
+from slipwise.signals.noise import difference_level, noise, ordinary, quantum, white_level
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 #: Samples at rest that are enough to know a gauge's noise, and the least of one run that count.
-_ENOUGH, _LEAST = 60, 24
+ENOUGH, _LEAST = 60, 24
 #: Samples at rest that show how noise is coloured, and the longest lag that is looked at.
 _ENOUGH_FOR_COLOUR, _LAGS = 200, 12
 #: Samples whose mean shows that a channel has begun to move, and how many times their scatter it must have moved.
@@ -99,17 +99,19 @@ def noise_of_slip(gauges: Mapping[str, Gauge], axis: str) -> tuple[float, float]
 def _gauge(parts: list[tuple[Array, Mask | None]]) -> Gauge:
     """Return the noise of a channel from its samples (n,) in all runs and which of them were at rest.
 
-    Where rest is too short in all runs together, the top of the spectrum must do, which noise that is not white does
-    not reach.
+    Where rest is too short in all runs together, the motion itself must do: the top of the spectrum or the differences
+    of neighbours, whichever is less, for signal only adds to either. Friction that turns round between two samples is
+    as strong at every frequency, but touches few differences; noise that is not white reaches neither.
     """
     truest = _TRUEST * float(np.sqrt(np.mean([np.var(values) for values, _ in parts])))
+    resolution = float(np.median([quantum(values) for values, _ in parts])) / np.sqrt(12.0)
     rests = [_before_onset(v[q]) for v, q in parts if q is not None and np.count_nonzero(q) >= _LEAST]
     still = [_detrended(r) for r in rests if len(r) >= _LEAST]
     freedom = sum(len(s) - 2 for s in still)
-    if freedom < _ENOUGH:
-        return Gauge(max(float(np.median([noise(values).level for values, _ in parts])), truest))
+    if freedom < ENOUGH:
+        levels = [min(white_level(values), difference_level(values)) for values, _ in parts]
+        return Gauge(max(float(np.median(levels)), resolution, truest))
     level = float(np.sqrt(sum(float(s @ s) for s in still) / freedom))
-    resolution = float(np.median([quantum(values) for values, _ in parts])) / np.sqrt(12.0)
     # a coarse gauge may not even flicker at rest
     return Gauge(max(level, resolution, truest), _colour(still), rested=True)
 
@@ -155,8 +157,10 @@ def before_motion(record: Record) -> Mask | None:
     return np.arange(len(record)) < first
 
 
-#: Samples of a stretch, the least stretches that tell something, and the share of them that are the calmest [1].
-_LENGTH, _ENOUGH_STEADY, _CALMEST = 128, 3, 0.25
+#: Most and fewest samples of a stretch, the fewest stretches that tell something, and the share that is the calmest [1].
+_LONGEST, _SHORTEST, _ENOUGH_STEADY, _CALMEST = 128, 16, 3, 0.25
+#: Share of the stroke over which every law is a smooth curve: a longer stretch takes the law's own shape for noise [1].
+_OF_STROKE = 0.1
 #: A stretch is steady where the speed changes by less than this share of itself, and slip is that many times its noise.
 _CHANGE, _MOVED = 0.1, 20.0
 
@@ -178,10 +182,14 @@ def steady_level(records: Sequence[Record], channel: str) -> float:
 
 
 def _steady(slip: Array) -> Iterator[slice]:
-    for start in range(0, len(slip) - _LENGTH + 1, _LENGTH):
-        part = slice(start, start + _LENGTH)
+    fastest = float(np.quantile(np.abs(np.diff(slip)), 0.98))
+    length = int(min(_LONGEST, _OF_STROKE * np.ptp(slip) / max(fastest, 1e-300)))
+    if length < _SHORTEST:  # logged too coarsely: nothing is smooth over the samples that noise needs
+        return
+    for start in range(0, len(slip) - length + 1, length):
+        part = slice(start, start + length)
         (_, rate, bend), left = _about_a_curve(slip[part])
-        if abs(4.0 * bend) < _CHANGE * abs(rate) and abs(rate) > _MOVED * float(np.std(left)) / np.sqrt(_LENGTH):
+        if abs(4.0 * bend) < _CHANGE * abs(rate) and abs(rate) > _MOVED * float(np.std(left)) / np.sqrt(length):
             yield part
 
 

@@ -2,10 +2,11 @@
 
 from typing import Any
 
-from slipwise.comparison.cells import ALLOWANCE, Cell
+from slipwise.comparison.cells import Cell
 from slipwise.comparison.component_level import NAMES
 from slipwise.comparison.result import Comparison
 from slipwise.comparison.sentences import UNITS
+from slipwise.noise.level import AT_FLOOR
 from slipwise.view.figures import compare_figures as figures
 from slipwise.view.figures import error_maps
 from slipwise.view.figures.friction_clouds import friction_clouds
@@ -108,7 +109,7 @@ def _places(found: Comparison) -> list[Any]:
         figure(
             error_maps.map_figure(found),
             f"Error by balance and state of motion, in floors. Bold: above the floor beyond doubt (more than "
-            f"{ALLOWANCE:g} floors, corrected for the {len(found.cells)} cells looked at).",
+            f"{AT_FLOOR:g} floors, corrected for the {len(found.cells)} cells looked at).",
             "Table of error over floor by balance and state of motion",
         )
     )

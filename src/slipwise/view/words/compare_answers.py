@@ -2,9 +2,9 @@
 
 from typing import Any
 
-from slipwise.comparison.cells import ALLOWANCE
 from slipwise.comparison.component_level import NAMES
 from slipwise.comparison.result import Comparison
+from slipwise.noise.level import is_at_floor
 from slipwise.view.pages.html import Tone
 
 
@@ -70,7 +70,7 @@ def _error_words(found: Comparison) -> str:
     held = bool(found.base.problem.held_out)
     errors = {r: found.error(r, held_out=held) for r in found.relations}
     known = {r: e for r, e in errors.items() if e is not None}
-    good = [r for r, e in known.items() if e <= ALLOWANCE]
+    good = [r for r, e in known.items() if is_at_floor(e)]
     bad = sorted((r for r in known if r not in good), key=lambda r: -known[r])
     words = f"{len(good)} of {len(known)} balances are at the floor"
     if bad:
