@@ -46,7 +46,7 @@ class Cell:
         error: rms over the floor [1].
         samples: in the cell.
         effective: independent ones among them [1].
-        chance: that error at the floor (as well as that is known, see `noise.level`) would look like this [1]; 1 where not tested.
+        chance: that error at the floor, as well as that is known, would look like this [1]; 1 where not tested.
         above: whether it stands above the floor, corrected for the number of cells.
         excess: mean squared error above the floor times samples, in squared floors.
     """

@@ -1,6 +1,7 @@
-"""What the rests before all runs tell of the gauges: how noisy each is, and how much of that is slow.
+"""The noise of every gauge: how large it is, on what that rests, and how much of it is slow.
 
-A gauge is as noisy in every run, and many runs show too short a rest: their samples are put together. Noise that is
+It is what divides every residual, see `relations.noise`, and what `compare` prints for every channel. Rests before all
+runs show it best. A gauge is as noisy in every run, and many runs show too short a rest: their samples are put together. Noise that is
 not white puts more than its share into low frequencies, `colour` times as much, and a velocity is made of those.
 
 What steady sliding tells of a gauge that never rests: force and load scatter about a smooth line.
@@ -33,6 +34,8 @@ _SURE = 3.0
 #: No gauge is truer than this share of what it measures: the best cells and displacement gauges have 0.02 to 0.1 % of
 #: their span of non-linearity. It is the floor of records without noise, such as those of another simulation [1].
 _TRUEST = 1e-3
+#: What moves by less than this part of itself is a constant; taking a logger's lag out rounds [1].
+_CONSTANT = 1e-9
 
 
 @dataclass(frozen=True)
@@ -41,13 +44,17 @@ class Gauge:
 
     Attributes:
         level: standard deviation of one sample, in the channel's unit.
+        basis: what has shown it, in words.
         colour: spectral density at low frequency over that of white noise of the same level [1]; 1 where unknown.
         rested: whether a rest has shown it.
+        known: whether anything has; a channel that is the same in all samples is no measurement.
     """
 
     level: float
+    basis: str
     colour: float = 1.0
     rested: bool = False
+    known: bool = True
 
     @property
     def slow_level(self) -> float:
@@ -80,7 +87,8 @@ def _with_contact(gauge: Gauge, records: Sequence[Record], channel: str) -> Gaug
     """Return the noise of a slider's gauge as steady sliding shows it, that of the contact included."""
     if not channel.startswith("pad_"):
         return gauge
-    return replace(gauge, level=max(gauge.level, steady_level(records, channel)))
+    steady = steady_level(records, channel)
+    return replace(gauge, level=steady, basis="steady sliding") if steady > gauge.level else gauge
 
 
 def noise_of_slip(gauges: Mapping[str, Gauge], axis: str) -> tuple[float, float] | None:
@@ -105,15 +113,27 @@ def _gauge(parts: list[tuple[Array, Mask | None]]) -> Gauge:
     """
     truest = _TRUEST * float(np.sqrt(np.mean([np.var(values) for values, _ in parts])))
     resolution = float(np.median([quantum(values) for values, _ in parts])) / np.sqrt(12.0)
+    if all(np.ptp(values) <= _CONSTANT * np.max(np.abs(values)) for values, _ in parts):
+        return Gauge(truest, "it is a constant of the campaign, not a measurement", known=False)
     rests = [_before_onset(v[q]) for v, q in parts if q is not None and np.count_nonzero(q) >= _LEAST]
     still = [_detrended(r) for r in rests if len(r) >= _LEAST]
     freedom = sum(len(s) - 2 for s in still)
     if freedom < ENOUGH:
-        levels = [min(white_level(values), difference_level(values)) for values, _ in parts]
-        return Gauge(max(float(np.median(levels)), resolution, truest))
+        top, neighbours = (float(np.median([of(v) for v, _ in parts])) for of in (white_level, difference_level))
+        basis = "top of the spectrum" if top <= neighbours else "differences of neighbours"
+        return Gauge(*_at_least(min(top, neighbours), basis, resolution, truest))
     level = float(np.sqrt(sum(float(s @ s) for s in still) / freedom))
-    # a coarse gauge may not even flicker at rest
-    return Gauge(max(level, resolution, truest), _colour(still), rested=True)
+    return Gauge(*_at_least(level, "rest before the motion", resolution, truest), _colour(still), rested=True)
+
+
+def _at_least(level: float, basis: str, resolution: float, truest: float) -> tuple[float, str]:
+    """Return a level with its basis; a coarse gauge may not even flicker at rest, and none is truer than `_TRUEST`."""
+    least = (
+        f"{100 * _TRUEST:g} % of what it measures, and more than it scatters"
+        if truest > resolution
+        else "its resolution"
+    )
+    return (level, basis) if level >= max(resolution, truest) else (max(resolution, truest), least)
 
 
 def _detrended(rest: Array) -> Array:
@@ -157,7 +177,7 @@ def before_motion(record: Record) -> Mask | None:
     return np.arange(len(record)) < first
 
 
-#: Most and fewest samples of a stretch, the fewest stretches that tell something, and the share that is the calmest [1].
+#: Most and fewest samples of a stretch, the fewest stretches that tell something, and the share that is calmest [1].
 _LONGEST, _SHORTEST, _ENOUGH_STEADY, _CALMEST = 128, 16, 3, 0.25
 #: Share of the stroke over which every law is a smooth curve: a longer stretch takes the law's own shape for noise [1].
 _OF_STROKE = 0.1

@@ -48,9 +48,9 @@ def test_noise_at_the_floor_accuses_no_cell(motion):
     assert found == ()
 
 
-def test_noise_twenty_percent_above_the_floor_is_within_what_is_known_of_the_floor(motion):
+def test_noise_ten_percent_above_the_floor_is_within_what_is_known_of_the_floor(motion):
     since, direction, speed, noise = motion
-    assert located(samples(1.2 * noise, since, direction, speed))[1] == ()
+    assert located(samples(1.1 * noise, since, direction, speed))[1] == ()
 
 
 def test_error_after_reversals_is_found_there_and_nowhere_else(motion):

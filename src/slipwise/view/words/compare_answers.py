@@ -56,7 +56,7 @@ def roles(found: Comparison) -> str:
 
 def _floor_words(found: Comparison) -> str:
     row = next(r for r in found.rows("floor") if r["relation"] == "pads")
-    words = "unknown while sliding" if row["floor"] is None else f"{size(row['floor'], 'N')} while sliding"
+    words = size(row["floor"], "N")
     if row["near_reversals"] is not None:
         words += f" and {size(row['near_reversals'], 'N')} near reversals"
     words = f"On the friction of one pad {words}, from the noise of gauges and velocity"
