@@ -14,10 +14,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import chi2
+from scipy.stats import chi2, false_discovery_control
 
 from slipwise.comparison.motion_states import STATES, MotionStates
-from slipwise.noise.effective_samples import correlation_sum
+from slipwise.noise.independent_samples import correlation_sum
 from slipwise.noise.level import AT_FLOOR
 from slipwise.relations.run_data import FitRun
 
@@ -163,12 +163,10 @@ def cells_of(samples: Samples) -> list[Cell]:
 def corrected(cells: Iterable[Cell]) -> tuple[Cell, ...]:
     """Mark the cells above the floor, at a false discovery rate over all of them (Benjamini and Hochberg)."""
     cells = list(cells)
-    tested = sorted(c.chance for c in cells if c.effective >= _FEWEST)
-    limit = 0.0
-    for rank, chance in enumerate(tested, start=1):
-        if chance <= _FALSE * rank / len(tested):
-            limit = chance
-    named = [replace(c, above=bool(c.effective >= _FEWEST and c.chance <= limit)) for c in cells]
+    tested = [i for i, c in enumerate(cells) if c.effective >= _FEWEST]
+    rates = false_discovery_control([cells[i].chance for i in tested]) if tested else ()
+    above = {i for i, rate in zip(tested, rates, strict=True) if rate <= _FALSE}
+    named = [replace(c, above=i in above) for i, c in enumerate(cells)]
     # noise of a logger may have a colour of its own: a band alone accuses nobody
     accused = {c.relation for c in named if c.above and c.kind != "frequency"}
     return tuple(replace(c, above=c.above and c.relation in accused) for c in named)

@@ -128,12 +128,9 @@ def _gauge(parts: list[tuple[Array, Mask | None]]) -> Gauge:
 
 def _at_least(level: float, basis: str, resolution: float, truest: float) -> tuple[float, str]:
     """Return a level with its basis; a coarse gauge may not even flicker at rest, and none is truer than `_TRUEST`."""
-    least = (
-        f"{100 * _TRUEST:g} % of what it measures, and more than it scatters"
-        if truest > resolution
-        else "its resolution"
-    )
-    return (level, basis) if level >= max(resolution, truest) else (max(resolution, truest), least)
+    if level >= max(resolution, truest):
+        return level, basis
+    return (resolution, "its resolution") if resolution >= truest else (truest, f"{_TRUEST:.1%} of what it measures")
 
 
 def _detrended(rest: Array) -> Array:

@@ -33,7 +33,7 @@ def test_a_level_is_told_in_the_unit_that_people_read():
         (moved(800, 5e-5), "rest before the motion"),
         (moved(10, 5e-5), "top of the spectrum"),
         (moved(800, 1e-6, step=2e-4), "its resolution"),
-        (moved(800, 1e-9), "0.1 % of what it measures"),
+        (moved(800, 1e-9), "0.1% of what it measures"),
     ],
 )
 def test_the_basis_of_a_level_is_told(record, basis):

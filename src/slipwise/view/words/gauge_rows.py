@@ -1,4 +1,4 @@
-"""The noise of every gauge as people read it: in the channel's usual unit, with what it rests on or why it is unknown."""
+"""The noise of every gauge as people read it: in the channel's usual unit, with what has shown it."""
 
 from collections.abc import Mapping
 
