@@ -30,7 +30,7 @@ CONTRIBUTING = (ROOT / "docs" / "contributing.md").read_text(encoding="utf-8")
 WRITTEN_BY = {
     "summary.json": {"simulation/result.py": ("summary",)},
     "Audit as JSON": {"instruments/checks.py": ("as_json",), "instruments/report.py": ("rows",)},
-    "compare.json": {"comparison/tables.py": (), "evidence/floor.py": ("rows",)},
+    "compare.json": {"comparison/tables.py": ()},
     "diagnosis.json": {
         "diagnosis/result.py": (
             "as_json",

@@ -123,12 +123,12 @@ def compare(
         print_json(content)
         return
     from slipwise.view.words.compare_answers import error_rows, one_minute
-    from slipwise.view.words.floor_rows import floor_rows
+    from slipwise.view.words.gauge_rows import gauge_rows
     from slipwise.view.words.terminal import print_table
 
     for question, answer in one_minute(found):
         say(f"{question} {answer}")
     print_table("Error in multiples of the noise floor", error_rows(found))
-    print_table("Noise floor of one sample", floor_rows(found.floor))
+    print_table("Noise of every gauge, one sample", gauge_rows(found.gauges))
     for path in files:
         say(f"wrote {path}")

@@ -14,16 +14,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import chi2
+from scipy.stats import chi2, false_discovery_control
 
 from slipwise.comparison.motion_states import STATES, MotionStates
-from slipwise.noise.effective_samples import correlation_sum
+from slipwise.noise.independent_samples import correlation_sum
+from slipwise.noise.level import AT_FLOOR
 from slipwise.relations.run_data import FitRun
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-#: The floor itself, near reversals above all, is not known better than this: nothing below it counts as above [1].
-ALLOWANCE = 1.3
 #: Part of the cells named above the floor that may be so by chance (false discovery rate) [1].
 _FALSE = 0.01
 #: A cell with fewer independent samples than this is not tested.
@@ -47,7 +46,7 @@ class Cell:
         error: rms over the floor [1].
         samples: in the cell.
         effective: independent ones among them [1].
-        chance: that error at the floor (with its allowance) would look like this [1]; 1 where not tested.
+        chance: that error at the floor, as well as that is known, would look like this [1]; 1 where not tested.
         above: whether it stands above the floor, corrected for the number of cells.
         excess: mean squared error above the floor times samples, in squared floors.
     """
@@ -164,12 +163,10 @@ def cells_of(samples: Samples) -> list[Cell]:
 def corrected(cells: Iterable[Cell]) -> tuple[Cell, ...]:
     """Mark the cells above the floor, at a false discovery rate over all of them (Benjamini and Hochberg)."""
     cells = list(cells)
-    tested = sorted(c.chance for c in cells if c.effective >= _FEWEST)
-    limit = 0.0
-    for rank, chance in enumerate(tested, start=1):
-        if chance <= _FALSE * rank / len(tested):
-            limit = chance
-    named = [replace(c, above=bool(c.effective >= _FEWEST and c.chance <= limit)) for c in cells]
+    tested = [i for i, c in enumerate(cells) if c.effective >= _FEWEST]
+    rates = false_discovery_control([cells[i].chance for i in tested]) if tested else ()
+    above = {i for i, rate in zip(tested, rates, strict=True) if rate <= _FALSE}
+    named = [replace(c, above=i in above) for i, c in enumerate(cells)]
     # noise of a logger may have a colour of its own: a band alone accuses nobody
     accused = {c.relation for c in named if c.above and c.kind != "frequency"}
     return tuple(replace(c, above=c.above and c.relation in accused) for c in named)
@@ -186,7 +183,7 @@ def _tested(
     relation: str, kind: str, label: str, low: float, high: float, squares: Array, count: int, effective: float
 ) -> Cell:
     mean = float(squares.mean()) if count else 0.0
-    chance = float(chi2.sf(effective * mean / ALLOWANCE**2, effective)) if effective >= _FEWEST else 1.0
+    chance = float(chi2.sf(effective * mean / AT_FLOOR**2, effective)) if effective >= _FEWEST else 1.0
     excess = count * max(mean - 1.0, 0.0)
     return Cell(relation, kind, label, low, high, float(np.sqrt(mean)), count, effective, chance, False, excess)
 

@@ -20,7 +20,6 @@ from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit, fit_finely
 from slipwise.estimation.intervals import intervals
 from slipwise.estimation.prediction_interval import predicted_friction
-from slipwise.evidence.floor import noise_floor
 from slipwise.instruments.checks import Checks, check_instruments
 from slipwise.instruments.corrections import is_tared, is_wrong_unit
 from slipwise.instruments.suspects import effect_of
@@ -82,8 +81,6 @@ def compare(
     parities = {r: found for r, one in samples.items() if (found := parity(one)) is not None}
     patterns = tuple(pattern for one in samples.values() for pattern in patterns_of(one))
     errors = {r: float(np.sqrt(one.squared.mean())) for r, one in samples.items()}
-    states = {run.name: run.states for run in base.problem.runs}
-    floor = noise_floor(campaign, [states[run.name] for run in campaign.runs])
     found = intervals(base)
     tell("drawing the friction surface", 0.6)
     friction = surface(base, found)
@@ -104,7 +101,6 @@ def compare(
         model=base.problem.model(base.solution.values),
         base=base,
         checks=checks,
-        floor=floor,
         residuals=residuals,
         components=components,
         repeats=repeat_errors(base, residuals),

@@ -35,7 +35,7 @@ class ComponentError:
         role: "fit", "repeat" or "holdout".
         error: rms of the residual over its floor [1].
         rms: of the residual, in the relation's unit.
-        floor: rms of the noise that gauges explain, in the relation's unit.
+        floor: noise by which the residual is divided, see `dividing_noise`, in the relation's unit: rms over error.
         share: rms of the residual over the rms of what was measured; NaN for relations that are zero by nature [1].
         samples: that were judged.
     """
@@ -63,20 +63,33 @@ def component_errors(base: BaseFit) -> tuple[ComponentError, ...]:
             left = part[judged] * sigma
             measured = run.force[judged] if relation == "pads" else _measured(relation, run, judged)
             size = float(np.sqrt(np.mean(measured**2))) if measured is not None else float("nan")
-            rms = float(np.sqrt(np.mean(left**2)))
+            rms, error = float(np.sqrt(np.mean(left**2))), float(np.sqrt(np.mean(part[judged] ** 2)))
             out.append(
                 ComponentError(
                     relation,
                     run.name,
                     run.role,
-                    float(np.sqrt(np.mean(part[judged] ** 2))),
+                    error,
                     rms,
-                    float(np.sqrt(np.mean(sigma**2))),
+                    dividing_noise(left, part[judged]),
                     rms / size if size > 0.0 else float("nan"),
                     int(np.count_nonzero(judged)),
                 )
             )
     return tuple(out)
+
+
+def dividing_noise(residual: Array, in_floors: Array) -> float:
+    """Return the one noise that divides a residual to the same error as its own noise does sample by sample.
+
+    sqrt(sum r^2 / sum (r / sigma)^2): the noise itself where it is the same in all samples. It times an error is the
+    rms of the residual.
+
+    Args:
+        residual: r, (n,) in the relation's unit, none of it zero.
+        in_floors: r / sigma, (n,).
+    """
+    return float(np.sqrt(np.sum(residual**2) / np.sum(in_floors**2)))
 
 
 def _measured(relation: str, run, judged: NDArray[np.bool_]) -> Array | None:

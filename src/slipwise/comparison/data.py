@@ -15,9 +15,9 @@ from slipwise.comparison.system_level import SystemLevel, held_out_channels
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Intervals
 from slipwise.estimation.prediction_interval import PredictedFriction
-from slipwise.evidence.floor import Floor
 from slipwise.instruments.checks import Checks
 from slipwise.model import Model
+from slipwise.noise.gauges import Gauge
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,6 @@ class ComparisonData:
         model: fitted on the runs that may be fitted.
         base: the fit, with residuals of all runs.
         checks: of the instruments, before any fit.
-        floor: noise of every channel in every state of motion, or why it is unknown.
         residuals: relation -> per run residual in floors, zero where masked.
         components: error of every relation in every run.
         repeats: relation -> what a repeated run says of its floor: 1 where the floor is right.
@@ -50,7 +49,6 @@ class ComparisonData:
     model: Model
     base: BaseFit
     checks: Checks
-    floor: Floor
     residuals: Mapping[str, Sequence[Any]]
     components: tuple[ComponentError, ...]
     repeats: Mapping[str, float]
@@ -65,6 +63,11 @@ class ComparisonData:
     cannot: tuple[str, ...]
     notes: tuple[str, ...]
     seconds: float
+
+    @property
+    def gauges(self) -> Mapping[str, Gauge]:
+        """Noise of every channel: what the floors of all balances are made of."""
+        return self.base.campaign.gauges
 
     @property
     def relations(self) -> tuple[str, ...]:

@@ -21,7 +21,7 @@ class Comparison(ComparisonData, Drawn):
 
         Args:
             table: audit, components, system, parameters, correlations, cells, places, parity, floor (by relation),
-                noise (floor by channel and state) or predicted_friction.
+                noise (of every gauge) or predicted_friction.
 
         Raises:
             UnknownNameError: no such table.

@@ -3,10 +3,11 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from slipwise.comparison.cells import ALLOWANCE, Cell
+from slipwise.comparison.cells import Cell
 from slipwise.comparison.component_level import NAMES
 from slipwise.comparison.odd_even import Parity
 from slipwise.comparison.patterns import Pattern
+from slipwise.noise.level import AT_FLOOR, is_at_floor
 
 #: Both directions count as equal within this ratio of their errors, and with this part of even residual [1].
 _EQUAL, _EVEN = 1.15, 0.25
@@ -110,7 +111,7 @@ def _place(relation: str, cells: Sequence[Cell], found: Parity | None, error: fl
     here, there = _rms(chosen), _rms(rest)
     share, part = _part(own, chosen, "excess"), _part(own, chosen, "samples")
     where = _where(kind, own, chosen)
-    if not any(c.above for c in rest) and there < ALLOWANCE:
+    if not any(c.above for c in rest) and is_at_floor(there):
         words = f"{subject}: above the floor only {where}: {here:.1f} floors there, {there:.1f} elsewhere"
     else:
         most = "most of it" if share >= _MOST else f"{share:.0%} of it"
@@ -207,7 +208,7 @@ def _direction(cells: Sequence[Cell], found: Parity | None) -> str:
     plus, minus = sides.get("sliding to +x"), sides.get("sliding to −x")
     if plus is None or minus is None or found is None:
         return ""
-    if plus.above != minus.above and max(plus.error, minus.error) > ALLOWANCE * min(plus.error, minus.error):
+    if plus.above != minus.above and max(plus.error, minus.error) > AT_FLOOR * min(plus.error, minus.error):
         return "only sliding to +x" if plus.above else "only sliding to −x"
     ratio = max(plus.error, minus.error) / max(min(plus.error, minus.error), 1e-12)
     even = found.even > _EVEN * max(found.odd, found.even, 1e-12) and found.even > 0.5

@@ -1,11 +1,13 @@
 """Tables of a comparison, and compare.json."""
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
-from slipwise.comparison.component_level import NAMES
+from slipwise.channels import channel
+from slipwise.comparison.component_level import NAMES, dividing_noise
 from slipwise.comparison.data import ComparisonData
 from slipwise.comparison.system_level import pooled_system
 
@@ -76,22 +78,42 @@ def _floor(found: ComparisonData) -> list[dict[str, Any]]:
     problem = found.base.problem
     out = []
     for relation in found.relations:
-        sliding, turning = [], []
-        for sigma, part, run in zip(problem.sigmas[relation], found.residuals[relation], problem.runs, strict=True):
-            wide = part if part.ndim == 2 else part[:, None]
-            level = np.broadcast_to(sigma if np.ndim(sigma) != 1 else np.asarray(sigma)[:, None], wide.shape)
-            turns = np.broadcast_to(run.states.near_reversal[:, None], wide.shape)
-            sliding.append(level[(wide != 0.0) & ~turns])
-            turning.append(level[(wide != 0.0) & turns])
-        row = {"relation": relation, "floor": _rms(sliding), "near_reversals": _rms(turning)}
+        parts, residuals, turns = found.residuals[relation], [], []
+        for part, sigma, run in zip(parts, problem.sigmas[relation], problem.runs, strict=True):
+            residuals.append(part * sigma)
+            turns.append(np.broadcast_to(run.states.near_reversal[(...,) + (None,) * (part.ndim - 1)], part.shape))
+        in_floors, residual = (np.concatenate([p.ravel() for p in of]) for of in (parts, residuals))
+        turning = np.concatenate([t.ravel() for t in turns])
+        floors = [
+            dividing_noise(residual[of], in_floors[of]) if np.any(in_floors[of]) else None
+            for of in (np.ones_like(turning), turning)
+        ]
+        row = {"relation": relation, "floor": floors[0], "near_reversals": floors[1]}
         row |= {"unit": NAMES[relation][1], "repeated_runs": found.repeats.get(relation)}
         out.append(row)
     return out
 
 
-def _rms(parts: list[np.ndarray]) -> float | None:
-    values = np.concatenate(parts)
-    return float(np.sqrt(np.mean(values**2))) if len(values) else None
+def _noise(found: ComparisonData) -> list[dict[str, Any]]:
+    step = found.base.problem.runs[0].dt
+    return [
+        {
+            "channel": name,
+            "unit": channel(name).unit,
+            "level": gauge.level if gauge.known else None,
+            "basis": gauge.basis,
+            "correlation_time": gauge.colour * step if gauge.rested else None,
+        }
+        for name, gauge in found.gauges.items()
+    ]
+
+
+def _noise_notes(found: ComparisonData) -> Iterator[str]:
+    if not any(gauge.rested for gauge in found.gauges.values()):
+        yield "no run begins at rest: the noise of the gauges is read off records that move"
+    for name, gauge in found.gauges.items():
+        if not gauge.known:
+            yield f"{name}: noise unknown, {gauge.basis}"
 
 
 _MAKERS = {
@@ -104,7 +126,7 @@ _MAKERS = {
     "places": _places,
     "parity": _parity,
     "floor": _floor,
-    "noise": lambda found: found.floor.rows(),
+    "noise": _noise,
     "predicted_friction": _predicted_friction,
 }
 
@@ -125,7 +147,7 @@ def as_json(found: ComparisonData) -> dict[str, Any]:
     surface: {pressure, speed, friction, deviation}, mu(P, V), or null
     floor: [{relation, floor, near_reversals, unit, repeated_runs}]
     predicted_friction: [{run, role, measured, value, low, high, inside}], mean friction of one pad while sliding
-    noise: {channels: [{channel, unit, level, stuck, near reversal, sliding, basis, correlation_time}], notes: in words}
+    noise: {channels: [{channel, unit, level, basis, correlation_time}], notes: in words}
     parity: [{relation, odd, even, plus, minus}]
     cells: [{relation, kind, label, low, high, error, samples, effective, chance, above}]
     runs: {components: [...], system: [...]}, error of every run
@@ -165,7 +187,7 @@ def as_json(found: ComparisonData) -> dict[str, Any]:
             name: rows_of(found, name)
             for name in ("places", "parameters", "correlations", "floor", "parity", "cells", "predicted_friction")
         },
-        "noise": {"channels": rows_of(found, "noise"), "notes": list(found.floor.notes)},
+        "noise": {"channels": rows_of(found, "noise"), "notes": list(_noise_notes(found))},
         "runs": {"components": rows_of(found, "components"), "system": rows_of(found, "system")},
         "cannot": list(found.cannot),
         "notes": list(found.notes),

@@ -26,9 +26,7 @@ from slipwise.evidence.residual_summary import ResidualSummary, error_of
 from slipwise.jobs.parallel import on_every_core, one_thread_algebra
 from slipwise.model import Model
 from slipwise.model.file import as_model
-
-#: An error below this has reached the noise floor [floors].
-FLOOR_REACHED = 1.15
+from slipwise.noise.level import is_at_floor
 
 
 @dataclass(frozen=True)
@@ -220,7 +218,7 @@ def _why(state: Search) -> str:
         return "no effect of the catalogue can be tested here"
     account = state.final.summary
     worst = max(error_of(account, relation) for relation in account.fitted)
-    if worst < FLOOR_REACHED:
+    if is_at_floor(worst):
         return "nothing above the noise floor is left"
     if len(state.best.terms) >= MOST_EFFECTS:
         return f"{MOST_EFFECTS} effects are the most that are added; {worst:.2g} floors are left"

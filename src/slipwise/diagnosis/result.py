@@ -10,7 +10,7 @@ from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.alternatives import discriminating_tests, explanations, nearest_family
 from slipwise.diagnosis.data_corrections import FirstThing
 from slipwise.diagnosis.importance import Importance
-from slipwise.diagnosis.ladder import FLOOR_REACHED, Ladder, ladder_of
+from slipwise.diagnosis.ladder import Ladder, ladder_of
 from slipwise.diagnosis.replays import replays
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.search_state import Search
@@ -21,6 +21,7 @@ from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Interval
 from slipwise.estimation.prediction_interval import PredictedFriction
 from slipwise.model import Model
+from slipwise.noise.level import is_at_floor
 from slipwise.record import Record
 
 SCHEMA = 2
@@ -125,7 +126,7 @@ class Diagnosis(Drawn, Tabular):
     def left_over(self) -> str:
         """What is left above the noise when the named effects are in the model, in words."""
         over = [
-            f"{NAMES[name][0]} {after:.2f}" for name, (_, after) in self.relations.items() if after >= FLOOR_REACHED
+            f"{NAMES[name][0]} {after:.2f}" for name, (_, after) in self.relations.items() if not is_at_floor(after)
         ]
         if over:
             return f"still above the noise, in floors: {', '.join(over)}"

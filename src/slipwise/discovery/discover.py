@@ -21,7 +21,7 @@ from slipwise.discovery.law_problem import FittedLaw, LawProblem
 from slipwise.discovery.law_summary import told_law
 from slipwise.discovery.levels import excess, held_out_level, level
 from slipwise.discovery.result import Discovery
-from slipwise.discovery.search import LEVEL, Found, different, find_law
+from slipwise.discovery.search import Found, different, find_law
 from slipwise.discovery.states import WORDS, pad_instants, pad_states, rig_states
 from slipwise.effects import RIG_MOTION, Effect
 from slipwise.estimation.base_fit import BaseFit
@@ -30,6 +30,7 @@ from slipwise.estimation.least_squares import Solution, slopes_of, solve, with_s
 from slipwise.estimation.objective import Problem
 from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
+from slipwise.noise.level import is_at_floor
 
 #: Shares of the error above noise at which a law, a state, an organising state may be said [1].
 LAW, STATE, ORGANISED = 0.95, 0.9, 0.5
@@ -157,7 +158,7 @@ def _from(base: BaseFit) -> _Answer:
     looked_at: tuple[Candidate, ...] = ()
     acted: set[str] = set()
     for number in range(_MOST_LAWS):
-        if not any(level(problem, here, r, problem.fitted) > LEVEL for r in problem.relations):
+        if all(is_at_floor(level(problem, here, r, problem.fitted)) for r in problem.relations):
             break
         found = find_law(now, here, base.model, _name(number))  # a label of its own, whatever has been dropped
         organised = organised or (found.candidates[0] if found.candidates else None)
@@ -239,7 +240,7 @@ def _evidence(laws: Sequence[Law], share: float, before: float, after: float) ->
         after: error of the relation that they act on, with them [floors].
     """
     if not laws:
-        return "nothing" if before < LEVEL else "unknown"
+        return "nothing" if is_at_floor(before) else "unknown"
     single = not any(law.tied or law.rivals for law in laws)
     if share >= LAW and after <= HELD_OUT and single:
         return "law"

@@ -19,9 +19,8 @@ from slipwise.discovery.screening import screen_states, weighed
 from slipwise.discovery.states import pad_instants, pad_states, rig_states
 from slipwise.estimation.least_squares import Solution, with_slopes
 from slipwise.model import Model
+from slipwise.noise.level import AT_FLOOR
 
-#: A relation is looked at above this level [1].
-LEVEL = 1.15
 #: Candidates, forms of each, and matches of each start that are fitted, and of these the ones that are fitted finely.
 _CANDIDATES, _FORMS, _FITTED, _FINELY = 6, 5, 9, 3
 #: Of these candidates and matches, the ones that have a single state: two states bend further than the truth's one
@@ -142,7 +141,7 @@ def _screened(here: LawProblem, start: Solution) -> list[Candidate]:
     """Screen every relation with more than noise; shares are of what all of them leave."""
     states = pad_states(here.every)
     fields = [residual_field(here.plain, start, r) for r in ("pads", "girder", "heave") if r in here.relations]
-    fields = [f for f in fields if f.residual @ f.residual >= LEVEL**2 * len(f.residual)]
+    fields = [f for f in fields if f.residual @ f.residual >= AT_FLOOR**2 * len(f.residual)]
     whole = max(sum(f.excess for f in fields), 1e-9)
     out: list[Candidate] = []
     for field in fields:

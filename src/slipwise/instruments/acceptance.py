@@ -8,13 +8,12 @@ from numpy.typing import NDArray
 
 from slipwise.instruments.joint_fit import EVIDENCE, Case, Fit, predicted
 from slipwise.instruments.suspects import Suspect
+from slipwise.noise.level import AT_FLOOR
 from slipwise.regression.normal_equations import inverse, parts_of, weighed
 
 Array = NDArray[np.float64]
 #: A fault explains at least this part of what its relations show above their floors, and of what they showed at first.
 _SHARE, _FIRST_SHARE = 0.5, 0.1
-#: Floors are known this well: what is below this many of their squares is no excess [1].
-_FLOOR_SURE = 1.15
 #: Sizes seen by single runs and single relations lie within this of the whole [1], or this many standard errors.
 _AGREE, _APART = 0.5, 3.0
 #: A size is known when it is this many standard errors from zero, in balances that may accuse too.
@@ -114,7 +113,7 @@ def _shares(first: Fit, before: Fit, after: Fit, balances: Mapping[str, float]) 
     took = was = began = 0.0
     for name in balances:
         squares = [float(np.sum((f.left[name] / after.floor[name]) ** 2)) for f in (first, before, after)]
-        sure = _FLOOR_SURE * len(after.left[name])
+        sure = AT_FLOOR**2 * len(after.left[name])
         took += squares[1] - squares[2]
         was += max(squares[1] - sure, 0.0)
         began += max(squares[0] - sure, 0.0)

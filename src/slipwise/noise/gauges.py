@@ -1,7 +1,9 @@
-"""What the rests before all runs tell of the gauges: how noisy each is, and how much of that is slow.
+"""The noise of every gauge: how large it is, on what that rests, and how much of it is slow.
 
-A gauge is as noisy in every run, and many runs show too short a rest: their samples are put together. Noise that is
-not white puts more than its share into low frequencies, `colour` times as much, and a velocity is made of those.
+It is what divides every residual, see `relations.noise`, and what `compare` prints for every channel. Rests before all
+runs show it best. A gauge is as noisy in every run, and many runs show too short a rest: their samples are put
+together. Noise that is not white puts more than its share into low frequencies, `colour` times as much, and a velocity
+is made of those.
 
 What steady sliding tells of a gauge that never rests: force and load scatter about a smooth line.
 
@@ -18,12 +20,12 @@ from numpy.typing import NDArray
 from scipy.signal import detrend
 
 from slipwise.record import Record
-from slipwise.signals.noise import noise, ordinary, quantum
+from slipwise.signals.noise import difference_level, noise, ordinary, quantum, white_level
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 #: Samples at rest that are enough to know a gauge's noise, and the least of one run that count.
-_ENOUGH, _LEAST = 60, 24
+ENOUGH, _LEAST = 60, 24
 #: Samples at rest that show how noise is coloured, and the longest lag that is looked at.
 _ENOUGH_FOR_COLOUR, _LAGS = 200, 12
 #: Samples whose mean shows that a channel has begun to move, and how many times their scatter it must have moved.
@@ -33,6 +35,8 @@ _SURE = 3.0
 #: No gauge is truer than this share of what it measures: the best cells and displacement gauges have 0.02 to 0.1 % of
 #: their span of non-linearity. It is the floor of records without noise, such as those of another simulation [1].
 _TRUEST = 1e-3
+#: What moves by less than this part of itself is a constant; taking a logger's lag out rounds [1].
+_CONSTANT = 1e-9
 
 
 @dataclass(frozen=True)
@@ -41,13 +45,17 @@ class Gauge:
 
     Attributes:
         level: standard deviation of one sample, in the channel's unit.
+        basis: what has shown it, in words.
         colour: spectral density at low frequency over that of white noise of the same level [1]; 1 where unknown.
         rested: whether a rest has shown it.
+        known: whether anything has; a channel that is the same in all samples is no measurement.
     """
 
     level: float
+    basis: str
     colour: float = 1.0
     rested: bool = False
+    known: bool = True
 
     @property
     def slow_level(self) -> float:
@@ -80,7 +88,8 @@ def _with_contact(gauge: Gauge, records: Sequence[Record], channel: str) -> Gaug
     """Return the noise of a slider's gauge as steady sliding shows it, that of the contact included."""
     if not channel.startswith("pad_"):
         return gauge
-    return replace(gauge, level=max(gauge.level, steady_level(records, channel)))
+    steady = steady_level(records, channel)
+    return replace(gauge, level=steady, basis="steady sliding") if steady > gauge.level else gauge
 
 
 def noise_of_slip(gauges: Mapping[str, Gauge], axis: str) -> tuple[float, float] | None:
@@ -99,19 +108,30 @@ def noise_of_slip(gauges: Mapping[str, Gauge], axis: str) -> tuple[float, float]
 def _gauge(parts: list[tuple[Array, Mask | None]]) -> Gauge:
     """Return the noise of a channel from its samples (n,) in all runs and which of them were at rest.
 
-    Where rest is too short in all runs together, the top of the spectrum must do, which noise that is not white does
-    not reach.
+    Where rest is too short in all runs together, the motion itself must do: the top of the spectrum or the differences
+    of neighbours, whichever is less, for signal only adds to either. Friction that turns round between two samples is
+    as strong at every frequency, but touches few differences; noise that is not white reaches neither.
     """
     truest = _TRUEST * float(np.sqrt(np.mean([np.var(values) for values, _ in parts])))
+    resolution = float(np.median([quantum(values) for values, _ in parts])) / np.sqrt(12.0)
+    if all(np.ptp(values) <= _CONSTANT * np.max(np.abs(values)) for values, _ in parts):
+        return Gauge(truest, "it is a constant of the campaign, not a measurement", known=False)
     rests = [_before_onset(v[q]) for v, q in parts if q is not None and np.count_nonzero(q) >= _LEAST]
     still = [_detrended(r) for r in rests if len(r) >= _LEAST]
     freedom = sum(len(s) - 2 for s in still)
-    if freedom < _ENOUGH:
-        return Gauge(max(float(np.median([noise(values).level for values, _ in parts])), truest))
+    if freedom < ENOUGH:
+        top, neighbours = (float(np.median([of(v) for v, _ in parts])) for of in (white_level, difference_level))
+        basis = "top of the spectrum" if top <= neighbours else "differences of neighbours"
+        return Gauge(*_at_least(min(top, neighbours), basis, resolution, truest))
     level = float(np.sqrt(sum(float(s @ s) for s in still) / freedom))
-    resolution = float(np.median([quantum(values) for values, _ in parts])) / np.sqrt(12.0)
-    # a coarse gauge may not even flicker at rest
-    return Gauge(max(level, resolution, truest), _colour(still), rested=True)
+    return Gauge(*_at_least(level, "rest before the motion", resolution, truest), _colour(still), rested=True)
+
+
+def _at_least(level: float, basis: str, resolution: float, truest: float) -> tuple[float, str]:
+    """Return a level with its basis; a coarse gauge may not even flicker at rest, and none is truer than `_TRUEST`."""
+    if level >= max(resolution, truest):
+        return level, basis
+    return (resolution, "its resolution") if resolution >= truest else (truest, f"{_TRUEST:.1%} of what it measures")
 
 
 def _detrended(rest: Array) -> Array:
@@ -155,8 +175,10 @@ def before_motion(record: Record) -> Mask | None:
     return np.arange(len(record)) < first
 
 
-#: Samples of a stretch, the least stretches that tell something, and the share of them that are the calmest [1].
-_LENGTH, _ENOUGH_STEADY, _CALMEST = 128, 3, 0.25
+#: Most and fewest samples of a stretch, the fewest stretches that tell something, and the share that is calmest [1].
+_LONGEST, _SHORTEST, _ENOUGH_STEADY, _CALMEST = 128, 16, 3, 0.25
+#: Share of the stroke over which every law is a smooth curve: a longer stretch takes the law's own shape for noise [1].
+_OF_STROKE = 0.1
 #: A stretch is steady where the speed changes by less than this share of itself, and slip is that many times its noise.
 _CHANGE, _MOVED = 0.1, 20.0
 
@@ -178,10 +200,14 @@ def steady_level(records: Sequence[Record], channel: str) -> float:
 
 
 def _steady(slip: Array) -> Iterator[slice]:
-    for start in range(0, len(slip) - _LENGTH + 1, _LENGTH):
-        part = slice(start, start + _LENGTH)
+    fastest = float(np.quantile(np.abs(np.diff(slip)), 0.98))
+    length = int(min(_LONGEST, _OF_STROKE * np.ptp(slip) / max(fastest, 1e-300)))
+    if length < _SHORTEST:  # logged too coarsely: nothing is smooth over the samples that noise needs
+        return
+    for start in range(0, len(slip) - length + 1, length):
+        part = slice(start, start + length)
         (_, rate, bend), left = _about_a_curve(slip[part])
-        if abs(4.0 * bend) < _CHANGE * abs(rate) and abs(rate) > _MOVED * float(np.std(left)) / np.sqrt(_LENGTH):
+        if abs(4.0 * bend) < _CHANGE * abs(rate) and abs(rate) > _MOVED * float(np.std(left)) / np.sqrt(length):
             yield part
 
 

@@ -63,6 +63,21 @@ def white_level(values: Array) -> float:
     return float(np.sqrt(np.median(top) / np.log(2.0)))
 
 
+def difference_level(values: Array) -> float:
+    """Return the standard deviation of white noise (one sample) from the usual size of third differences.
+
+    sigma = median |d3| / (0.6745 sqrt(20)): a jump touches four differences and moves no median.
+
+    Args:
+        values: (n,); 0 for fewer than four.
+
+    Source: Rice (1984), Annals of Statistics 12; sum of the squared binomials 1, 3, 3, 1: Gasser, Sroka,
+    Jennen-Steinmetz (1986), Biometrika 73; median deviation: Hampel (1974).
+    """
+    finite = values[np.isfinite(values)]
+    return float(np.median(np.abs(np.diff(finite, 3)))) / (0.6745 * np.sqrt(20.0)) if len(finite) >= 4 else 0.0
+
+
 def ordinary(values: Array) -> NDArray[np.bool_]:
     """Tell which values (n,) scatter as most do: within six standard deviations that follow from the median deviation.
 

@@ -8,6 +8,7 @@ from slipwise.channels import channel
 from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.candidates import candidates
 from slipwise.effects import catalogue
+from slipwise.noise.level import AT_FLOOR
 from slipwise.preparation.gauge_groups import places_of
 from slipwise.relations.parameters import Free
 from slipwise.session.session import Session
@@ -47,6 +48,7 @@ def campaign_told(session: Session) -> dict[str, Any]:
             for effect in catalogue().values()
             if not effect.in_samples and effect.base != "springs"
         ],
+        "at_floor": AT_FLOOR,
         "models": [path.name for path in other_models(session)],
     }
 

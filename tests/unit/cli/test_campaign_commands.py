@@ -53,9 +53,9 @@ def test_compare_says_where_a_slider_differs_and_writes_page_numbers_and_recordi
     assert "after reversals, both directions" in words.replace("\n", " ")
     assert {p.name for p in out.iterdir()} == {"compare.json", "report.html", "compare.rrd"}
     printed = " ".join(words.split())
-    assert "Noise floor of one sample" in printed and "top of the spectrum" in printed
+    assert "Noise of every gauge, one sample" in printed and "differences of neighbours" in printed
     content = json.loads((out / "compare.json").read_text(encoding="utf-8"))
-    assert any("no repeated run" in note for note in content["noise"]["notes"])
+    assert any("no run begins at rest" in note for note in content["noise"]["notes"])
     assert content["schema"] == 1
     place = content["places"][0]
     assert place["kind"] == "since reversal" and "within 4 mm after a reversal" in place["words"]

@@ -73,13 +73,32 @@ def test_a_hidden_breakaway_is_found_in_the_pads_and_not_in_the_girder(breaking_
     assert {p.relation for p in breaking_away.places} <= {"pads", "pitch"}
 
 
-def test_the_floor_of_a_channel_is_the_noise_of_its_gauge_in_every_state(made, complete):
+def test_the_floor_that_is_printed_times_the_error_is_the_residual_in_newtons(complete):
+    base = complete.base
+    printed = {(row["relation"], row["run"]): row for row in complete.rows("components")}
+    predicted = base.solution.residuals.pad_forces
+    for run, force in zip(base.problem.runs, predicted, strict=True):
+        left = (run.force - force)[run.judged["pads"]]
+        row = printed["pads", run.name]
+        assert row["floor"] * row["error"] == pytest.approx(np.sqrt(np.mean(left**2)), rel=1e-6)
+    assert all(row["floor"] * row["error"] == pytest.approx(row["rms"]) for row in printed.values())
+
+
+def test_the_floor_of_all_runs_lies_between_those_of_single_runs(complete):
+    for row in complete.rows("floor"):
+        single = [c["floor"] for c in complete.rows("components") if c["relation"] == row["relation"]]
+        assert 0.999 * min(single) <= row["floor"] <= 1.001 * max(single)
+    pads = next(row for row in complete.rows("floor") if row["relation"] == "pads")
+    assert pads["near_reversals"] > pads["floor"]
+
+
+def test_the_noise_of_a_gauge_that_is_printed_is_what_divides_and_what_was_planted(made, complete):
     noise = made.truth.logger.noise
     rows = {row["channel"]: row for row in complete.rows("noise")}
+    assert all(run.noise[name] == row["level"] for run in complete.base.problem.runs for name, row in rows.items())
     for name, kind in (("slip_x", "slip"), ("girder_ax", "girder"), ("pad_C_N", "load"), ("pad_B_Fx", "force")):
-        assert rows[name]["basis"].startswith("repeat")
-        for state in ("stuck", "near reversal", "sliding"):
-            assert rows[name][state] == pytest.approx(noise[kind], rel=0.15), (name, state)
+        assert rows[name]["basis"] == "rest before the motion"
+        assert rows[name]["level"] == pytest.approx(noise[kind], rel=0.15), name
 
 
 def test_a_comparison_is_json_and_holds_what_the_tables_hold(complete):

@@ -1,9 +1,11 @@
 """Locate: noise accuses nobody, and error that is put into one state of motion is found there and said in words."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from slipwise.comparison.cells import Samples, cells_of, corrected
+from slipwise.comparison.cells import Cell, Samples, cells_of, corrected
 from slipwise.comparison.motion_states import STATES
 from slipwise.comparison.odd_even import parity
 from slipwise.comparison.patterns import patterns_of
@@ -41,6 +43,17 @@ def located(one):
     return cells, places(cells, patterns_of(one), found, {one.relation: float(np.sqrt(one.squared.mean()))})
 
 
+def test_at_most_one_in_a_hundred_of_the_cells_named_is_above_by_chance():
+    rng = np.random.default_rng(9)
+    chances = np.where(rng.random(400) < 0.1, 10.0 ** rng.uniform(-9.0, -1.0, 400), rng.random(400))
+    plain = Cell("pads", "speed", "", 0.0, 1.0, 1.2, 100, 50.0, 1.0, False, 1.0)
+    above = [c.chance for c in corrected(replace(plain, chance=float(p)) for p in chances) if c.above]
+    # Benjamini and Hochberg (1995): the largest k for which the k-th smallest chance is at most 0.01 k/m
+    ordered = np.sort(chances)
+    k = np.flatnonzero(ordered <= 0.01 * np.arange(1, 401) / 400)[-1] + 1
+    assert sorted(above) == pytest.approx(ordered[:k])
+
+
 def test_noise_at_the_floor_accuses_no_cell(motion):
     since, direction, speed, noise = motion
     cells, found = located(samples(noise, since, direction, speed))
@@ -48,9 +61,9 @@ def test_noise_at_the_floor_accuses_no_cell(motion):
     assert found == ()
 
 
-def test_noise_twenty_percent_above_the_floor_is_within_what_is_known_of_the_floor(motion):
+def test_noise_ten_percent_above_the_floor_is_within_what_is_known_of_the_floor(motion):
     since, direction, speed, noise = motion
-    assert located(samples(1.2 * noise, since, direction, speed))[1] == ()
+    assert located(samples(1.1 * noise, since, direction, speed))[1] == ()
 
 
 def test_error_after_reversals_is_found_there_and_nowhere_else(motion):

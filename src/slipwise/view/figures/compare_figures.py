@@ -9,9 +9,9 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from slipwise.channels import channel
-from slipwise.comparison.cells import ALLOWANCE
 from slipwise.comparison.component_level import NAMES
 from slipwise.comparison.result import Comparison
+from slipwise.noise.level import AT_FLOOR, is_at_floor
 from slipwise.relations.run_data import FitRun
 from slipwise.units import parse_unit
 from slipwise.view.figures.canvas import new_figure
@@ -53,13 +53,13 @@ def errors_figure(found: Comparison, *, narrow: bool = False) -> Figure:
         axes = figure.add_subplot()
         places = -np.arange(len(rows), dtype=float) - np.where(np.arange(len(rows)) >= split, 0.6, 0.0)
         largest = max(v for _, a, b in rows for v in (a, b) if v is not None)
-        axes.axvspan(0.9, ALLOWANCE, color="#e3f1ec", zorder=0)
+        axes.axvspan(0.9, AT_FLOOR, color="#e3f1ec", zorder=0)
         axes.axvline(1.0, color="#00795c", linewidth=1.2, zorder=1)
         for place, (_, fitted, held) in zip(places, rows, strict=True):
             for value, shift, colour, height in ((fitted, 0.17, "#b9c1cb", 0.26), (held, -0.14, _HELD, 0.36)):
                 if value is None:
                     continue
-                above = value > ALLOWANCE and colour == _HELD
+                above = not is_at_floor(value) and colour == _HELD
                 words = "held-out runs" if colour == _HELD else "fitted runs"
                 axes.barh(place + shift, value, height, color=UPLIFT if above else colour, zorder=2, label=words)
                 axes.text(

@@ -2,17 +2,18 @@
 
 from typing import Any
 
-from slipwise.comparison.cells import ALLOWANCE, Cell
+from slipwise.comparison.cells import Cell
 from slipwise.comparison.component_level import NAMES
 from slipwise.comparison.result import Comparison
 from slipwise.comparison.sentences import UNITS
+from slipwise.noise.level import AT_FLOOR
 from slipwise.view.figures import compare_figures as figures
 from slipwise.view.figures import error_maps
 from slipwise.view.figures.friction_clouds import friction_clouds
 from slipwise.view.pages.html import Html, Section, bullets, callout, details, figure, page, paragraph, table, verdict
 from slipwise.view.words.compare_answers import capital, headline, one_minute, place_words, roles, size, tones
 from slipwise.view.words.fitted_numbers import fitted_numbers, predicted_runs
-from slipwise.view.words.floor_rows import floor_rows
+from slipwise.view.words.gauge_rows import gauge_rows
 
 
 def compare_page(found: Comparison) -> str:
@@ -108,7 +109,7 @@ def _places(found: Comparison) -> list[Any]:
         figure(
             error_maps.map_figure(found),
             f"Error by balance and state of motion, in floors. Bold: above the floor beyond doubt (more than "
-            f"{ALLOWANCE:g} floors, corrected for the {len(found.cells)} cells looked at).",
+            f"{AT_FLOOR:g} floors, corrected for the {len(found.cells)} cells looked at).",
             "Table of error over floor by balance and state of motion",
         )
     )
@@ -207,7 +208,7 @@ def _floor(found: Comparison) -> list[Any]:
         rows.append(
             {
                 "balance": NAMES[row["relation"]][0],
-                "while sliding": size(row["floor"], row["unit"]),
+                "noise": size(row["floor"], row["unit"]),
                 "near reversals": size(row["near_reversals"], row["unit"]),
                 "a repeated run shows": "" if again is None else f"{again:.2f} floors",
             }
@@ -218,11 +219,10 @@ def _floor(found: Comparison) -> list[Any]:
         "differs between two runs of one motion is noise."
     )
     single = (
-        "The same for every channel by itself, one sample: stuck, near a reversal, and sliding. What two runs of one "
-        "motion differ by counts where there is a repeated run; quiet stretches are a lower bound."
+        "The noise of every gauge, one sample, and what has shown it. The floors of the balances are made of it: it is "
+        "what divides every error of this report."
     )
-    pieces = [paragraph(words), table(rows), paragraph(single), table(floor_rows(found.floor))]
-    return [*pieces, bullets(found.floor.notes)] if found.floor.notes else pieces
+    return [paragraph(words), table(rows), paragraph(single), table(gauge_rows(found.gauges))]
 
 
 def _about(found: Comparison) -> list[Any]:

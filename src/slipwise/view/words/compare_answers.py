@@ -2,9 +2,9 @@
 
 from typing import Any
 
-from slipwise.comparison.cells import ALLOWANCE
 from slipwise.comparison.component_level import NAMES
 from slipwise.comparison.result import Comparison
+from slipwise.noise.level import is_at_floor
 from slipwise.view.pages.html import Tone
 
 
@@ -56,7 +56,7 @@ def roles(found: Comparison) -> str:
 
 def _floor_words(found: Comparison) -> str:
     row = next(r for r in found.rows("floor") if r["relation"] == "pads")
-    words = "unknown while sliding" if row["floor"] is None else f"{size(row['floor'], 'N')} while sliding"
+    words = size(row["floor"], "N")
     if row["near_reversals"] is not None:
         words += f" and {size(row['near_reversals'], 'N')} near reversals"
     words = f"On the friction of one pad {words}, from the noise of gauges and velocity"
@@ -70,7 +70,7 @@ def _error_words(found: Comparison) -> str:
     held = bool(found.base.problem.held_out)
     errors = {r: found.error(r, held_out=held) for r in found.relations}
     known = {r: e for r, e in errors.items() if e is not None}
-    good = [r for r, e in known.items() if e <= ALLOWANCE]
+    good = [r for r, e in known.items() if is_at_floor(e)]
     bad = sorted((r for r in known if r not in good), key=lambda r: -known[r])
     words = f"{len(good)} of {len(known)} balances are at the floor"
     if bad:

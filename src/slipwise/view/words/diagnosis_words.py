@@ -3,9 +3,9 @@
 from math import isfinite
 
 from slipwise.comparison.component_level import NAMES
-from slipwise.diagnosis.ladder import FLOOR_REACHED
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.verdict import Verdict, leaves_much
+from slipwise.noise.level import is_at_floor
 
 
 def error_name(found: Diagnosis) -> str:
@@ -62,8 +62,8 @@ def cannot_tell_words(found: Diagnosis) -> list[str]:
 
 def four_answers(found: Diagnosis) -> list[tuple[str, str]]:
     """Return the four questions that everybody asks, with their answers in a sentence each."""
-    good = [NAMES[r][0] for r, (base, _) in found.relations.items() if base < FLOOR_REACHED]
-    bad = {NAMES[r][0]: pair for r, pair in found.relations.items() if pair[0] >= FLOOR_REACHED}
+    good = [NAMES[r][0] for r, (base, _) in found.relations.items() if is_at_floor(base)]
+    bad = {NAMES[r][0]: pair for r, pair in found.relations.items() if not is_at_floor(pair[0])}
     after = bool(found.added)
     fails = ", ".join(f"{n} {floors(a)}" + (f" -> {floors(b)}" if after else "") for n, (a, b) in bad.items())
     agrees = ", ".join(good) + (" are" if len(good) > 1 else " is") + " at the noise floor." if good else "No balance."

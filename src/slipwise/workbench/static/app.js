@@ -47,7 +47,7 @@ function hear(message) {
   act?.();
 }
 
-const readings = () => drawReadings(page.replay, page.noReplay, page.system);
+const readings = () => drawReadings(page.replay, page.noReplay, page.system, page.campaign?.at_floor);
 const say = (words) => { find("news").textContent = words; };
 
 /** Show what is wrong; a folder that was moved stays told until it is back. */
@@ -111,7 +111,7 @@ function drawState() {
 function drawCurves() {
   const { curves } = page, measured = page.measured.get(curves.run);
   if (!measured) return;
-  drawErrors(curves.errors);
+  drawErrors(curves.errors, page.campaign.at_floor);
   if (view.run !== curves.run) { view.run = curves.run; find("run").value = curves.run; histories.ends = null; loops.window = [-Infinity, Infinity]; view.drawn = ""; }
   const kept = page.besideArrays;
   const brings = Object.keys(curves.arrays).some((name) => name.startsWith("beside"));

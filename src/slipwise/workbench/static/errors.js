@@ -1,7 +1,6 @@
 // The error of every balance: how far above its noise floor, now, before, and of a model that stands beside.
 
 import { find, make } from "./dom.js";
-import { FLOOR_REACHED } from "./guide.js";
 import { floors } from "./units.js";
 
 /** Bars reach from 0 to this many floors, or as far as the largest error. */
@@ -9,7 +8,8 @@ const LEAST_REACH = 3;
 
 const one = (found) => (found ? found.held_out ?? found.fitted : null);
 
-export function drawErrors(errors) {
+/** Draw every balance; an error up to `atFloor` is at the noise floor. */
+export function drawErrors(errors, atFloor) {
   const all = errors.flatMap((e) => [e.now, e.before, e.beside]).filter(Boolean);
   const reach = Math.max(LEAST_REACH, ...all.flatMap((e) => [e.fitted, e.held_out ?? 0]));
   const place = (error) => `${(100 * Math.log1p(error)) / Math.log1p(reach)}%`;
@@ -21,7 +21,7 @@ export function drawErrors(errors) {
       piece.style[wide ? "width" : "left"] = place(error);
       bar.append(piece);
     };
-    add(one(e.now) > FLOOR_REACHED ? "over" : "", one(e.now), true);
+    add(one(e.now) > atFloor ? "over" : "", one(e.now), true);
     add("fitted", e.now.fitted, true);
     add("floor", 1, false);
     add("mark", one(e.before), false);

@@ -3,27 +3,28 @@
 import { find, make } from "./dom.js";
 import { floors } from "./units.js";
 
-/** An error below this has reached the noise floor [floors]. */
-export const FLOOR_REACHED = 1.15;
 /** Give the error of a balance by which it is judged: of held-out runs, where any are. */
 export const judged = (error) => error.now.held_out ?? error.now.fitted;
 
 const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 const labelOf = (s) => (s.group ? `${s.effect}[${s.group}]` : s.effect);
 
-/** Say what to do next: {words, button, message}; without a button where nothing is left to be done here. */
-export function nextStep(state) {
+/**
+ * Say what to do next: {words, button, message}; without a button where nothing is left to be done here.
+ * @param atFloor an error up to this is at the noise floor [floors]
+ */
+export function nextStep(state, atFloor) {
   const labels = state.effects.map((e) => e.label);
   const { explain, discover, next } = state.findings;
   const worst = state.errors.reduce((a, b) => (judged(b) > judged(a) ? b : a));
-  const left = judged(worst) < FLOOR_REACHED ? "every balance is at its noise floor" : `${worst.name} is left at ${floors(judged(worst))} floors`;
+  const left = judged(worst) <= atFloor ? "every balance is at its noise floor" : `${worst.name} is left at ${floors(judged(worst))} floors`;
   const current = explain && same(explain.of, labels);
   const missing = (explain?.suggestion ?? []).filter((s) => !labels.includes(labelOf(s)));
   const follows = explain && explain.of.every((label) => labels.includes(label));
   const accept = { words: `Fitted: ${left}. Accept keeps this model as model.toml.`, button: "Accept", message: { do: "accept" } };
 
   if (!state.fitted) return { words: state.words === "opened" ? "A fit brings the model as near to the measurement as it comes." : "The model was changed: a fit shows how far the error falls.", button: "Fit", message: { do: "fit" } };
-  const matters = explain?.effects.length || judged(worst) >= FLOOR_REACHED;
+  const matters = explain?.effects.length || judged(worst) > atFloor;
   if (missing.length && follows && matters) {
     const names = missing.map((s) => s.effect).join(" and ");
     if (!explain.effects.length)
@@ -42,7 +43,7 @@ export function nextStep(state) {
   }
   const added = state.words === "fitted" && explain && follows && labels.length > explain.of.length;
   if (added && !state.accepted) return accept;
-  if (added && judged(worst) < FLOOR_REACHED) return { words: "Accepted: every balance is at its noise floor." };
+  if (added && judged(worst) <= atFloor) return { words: "Accepted: every balance is at its noise floor." };
   return { words: `Fitted: ${left}. The search for what is missing takes a minute or two.`, button: "Find what is missing", message: { do: "explain" } };
 }
 
@@ -55,8 +56,8 @@ function once(button, act) {
   act();
 }
 
-export function drawGuide(state, ask) {
-  const { words, button, message } = nextStep(state);
+export function drawGuide(state, atFloor, ask) {
+  const { words, button, message } = nextStep(state, atFloor);
   find("suggestion").replaceChildren(make("h3", {}, "Next step"), make("p", { id: "guide-words" }, words),
     ...(button ? [make("button", { id: "go-on", class: "main edits", onclick: (event) => once(event.currentTarget, () => ask(message)) }, button)] : []));
 }

@@ -1,7 +1,7 @@
 // The left side: the stages from data to the next test, what each has found, and the one click that goes on.
 
 import { find, make } from "./dom.js";
-import { FLOOR_REACHED, drawGuide, judged } from "./guide.js";
+import { drawGuide, judged } from "./guide.js";
 import { floors } from "./units.js";
 
 const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
@@ -15,7 +15,7 @@ export function drawStages(campaign, state, ask) {
   const held = campaign.runs.filter((r) => r.role === "holdout").length;
   const worst = state.errors.reduce((a, b) => (judged(b) > judged(a) ? b : a));
   const worstFitted = Math.max(...state.errors.map((e) => e.now.fitted));
-  const good = Math.max(worst.now.held_out ?? 0, worstFitted) < FLOOR_REACHED;
+  const good = Math.max(worst.now.held_out ?? 0, worstFitted) <= campaign.at_floor;
   const button = (job, words) => make("button", { id: `do-${job}`, class: "edits", onclick: () => ask({ do: job }) }, words);
   const link = (file, words) => make("p", {}, make("a", { href: file, target: "_blank", rel: "noopener" }, words));
   const stages = [
@@ -38,5 +38,5 @@ export function drawStages(campaign, state, ask) {
   ];
   find("stage-list").replaceChildren(...stages.map(([title, kind, pieces]) => make("li", { class: kind },
     make("strong", {}, title), ...pieces.map((piece) => (typeof piece === "string" ? make("p", {}, piece) : piece)))));
-  drawGuide(state, ask);
+  drawGuide(state, campaign.at_floor, ask);
 }

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from scipy.signal import lfilter
+from scipy.signal import lfilter, resample_poly
 
-from slipwise.noise.effective_samples import correlation_sum
+from slipwise.noise.independent_samples import block_length, correlation_sum
 
 
 def coloured(memory: float, seed: int, count: int = 40_000) -> np.ndarray:
@@ -15,6 +15,22 @@ def coloured(memory: float, seed: int, count: int = 40_000) -> np.ndarray:
 def test_first_order_noise_counts_as_theory_says(memory):
     theory = (1.0 + memory) / (1.0 - memory)
     assert correlation_sum([coloured(memory, 1), coloured(memory, 2)]) == pytest.approx(theory, rel=0.1)
+
+
+def test_a_record_that_is_sampled_finer_holds_no_more_independent_samples():
+    noise = coloured(0.5, 6, 4000)
+    for finer in (2, 4):
+        series = resample_poly(noise, finer, 1)
+        assert len(series) / correlation_sum([series]) == pytest.approx(len(noise) / correlation_sum([noise]), rel=0.05)
+
+
+@pytest.mark.parametrize("memory", [0.0, 0.9])
+def test_sums_over_blocks_scatter_as_sums_of_independent_samples_do(memory):
+    noise = coloured(memory, 7)
+    length = block_length([noise])
+    blocks = noise[: len(noise) // length * length].reshape(-1, length).sum(axis=1)
+    expected = np.var(noise) * len(noise) * correlation_sum([noise])
+    assert np.sum(blocks**2) == pytest.approx(expected, rel=0.15)
 
 
 def test_samples_that_are_not_judged_do_not_shorten_the_memory():

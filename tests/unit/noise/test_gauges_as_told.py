@@ -1,0 +1,45 @@
+"""What is told of the noise of a gauge: its level in the unit that people read, and what has shown it."""
+
+import numpy as np
+import pytest
+
+from slipwise.noise.gauges import noise_of_gauges
+from slipwise.record import Record
+from slipwise.view.words.gauge_rows import gauge_rows
+
+TIME = 0.002 * np.arange(3000)
+
+
+def moved(rest: int, noise: float, step: float = 0.0) -> Record:
+    """Slip of 20 mm after a rest, with noise, rounded to steps; a load that never changes."""
+    rng = np.random.default_rng(8)
+    moving = np.where(TIME > TIME[rest], np.sin(12.0 * (TIME - TIME[rest])), 0.0)
+    slip = 0.02 * moving + noise * rng.standard_normal(len(TIME))
+    slip = np.round(slip / step) * step if step else slip
+    table = 2.0 * moving + 0.02 * rng.standard_normal(len(TIME))
+    return Record(TIME, {"table_ax": table, "slip_x": slip, "pad_A_N": np.full(len(TIME), 24e3)})
+
+
+def test_a_level_is_told_in_the_unit_that_people_read():
+    gauges = noise_of_gauges([moved(800, 5e-5)])
+    (row,) = [row for row in gauge_rows(gauges) if row["channel"] == "slip_x"]
+    assert row["unit"] == "mm" and row["from"] == "rest before the motion"
+    assert float(row["noise"]) == pytest.approx(0.05, rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("record", "basis"),
+    [
+        (moved(800, 5e-5), "rest before the motion"),
+        (moved(10, 5e-5), "top of the spectrum"),
+        (moved(800, 1e-6, step=2e-4), "its resolution"),
+        (moved(800, 1e-9), "0.1% of what it measures"),
+    ],
+)
+def test_the_basis_of_a_level_is_told(record, basis):
+    assert noise_of_gauges([record])["slip_x"].basis.startswith((basis, "differences" if basis[0] == "t" else basis))
+
+
+def test_a_constant_is_no_measurement_and_the_reason_is_told():
+    (row,) = [row for row in gauge_rows(noise_of_gauges([moved(800, 5e-5)])) if row["channel"] == "pad_A_N"]
+    assert row["noise"] == "unknown" and "constant of the campaign" in row["from"]
