@@ -24,8 +24,9 @@ from slipwise.simulation.kernel import engine_for
 from slipwise.simulation.predict import predictor
 from slipwise.simulation.simulator import simulate
 from slipwise.view.figures.canvas import save_figure
+from slipwise.view.figures.effect_picture import effect_picture
 from slipwise.view.figures.style import styled
-from slipwise.view.words.effects import effect_picture, print_effect
+from slipwise.view.words.effects import print_effect
 
 # 1. The file. A docstring that a reader learns from, hooks whose arguments say what they need, and EFFECT. What hooks
 # cannot say is declared: without a changing load this effect is one with the base law, so a diagnosis must not try it.

@@ -22,8 +22,9 @@ from slipwise.cli import app
 from slipwise.effects import Effect, base_effects, catalogue
 from slipwise.record import write_text
 from slipwise.view.figures.canvas import save_figure
+from slipwise.view.figures.effect_picture import effect_picture
 from slipwise.view.figures.style import styled
-from slipwise.view.words.effects import effect_picture, effect_rows, effects_table
+from slipwise.view.words.effects import effect_rows, effects_table
 
 DOCS = Path(__file__).parents[1] / "docs"
 _MADE = "<!-- made by scripts/make_docs.py -->\n\n"

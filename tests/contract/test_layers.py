@@ -72,6 +72,8 @@ ARROWS: dict[str, str] = {
     "cli": "errors jobs view",
     "__main__": "cli jobs",
 }
+#: Folder of the view -> what it may import of the others.
+IN_VIEW = {"words": "", "figures": "words", "pages": "words figures", "recordings": "words figures"}
 #: No file is longer, and one that is shorter has a second importer or a reason, in lines.
 LONGEST, SHORTEST = 400, 40
 #: Folders that are walked at run time, one effect, form, format or command a file.
@@ -153,6 +155,13 @@ def test_a_file_imports_only_what_its_package_may(path):
 
 def test_no_file_leads_back_to_itself_by_whatever_import():
     assert not circles({module_of(path): imports(path) for path in INNER})
+
+
+@pytest.mark.parametrize("path", sorted(PACKAGE.glob("view/*/*.py")), ids=lambda p: str(p.relative_to(PACKAGE)))
+def test_words_need_no_figure_and_figures_need_no_page(path):
+    before = IN_VIEW[path.parent.name].split()
+    folders = {name.split(".")[2] for name in imports(path) if name.startswith("slipwise.view.")}
+    assert folders & set(IN_VIEW) <= {path.parent.name, *before}
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(PACKAGE)))

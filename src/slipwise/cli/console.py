@@ -9,7 +9,7 @@ from pathlib import Path
 from rich.console import Console
 
 from slipwise.errors import InputError, visible
-from slipwise.view.words.pipe_safe_console import PatientConsole, write_out
+from slipwise.view.pipe_safe_console import PatientConsole, write_out
 
 OUT = PatientConsole()
 ERR = PatientConsole(stderr=True)

@@ -26,9 +26,9 @@ def demo(
     Example: `slipwise demo`
     """
     from slipwise.view.files import save_json, save_page
+    from slipwise.view.geometry import geometry_of
     from slipwise.view.pages.diagnosis_page import diagnosis_page
     from slipwise.view.recordings.comparison import write_comparison
-    from slipwise.view.recordings.geometry import geometry_of
     from slipwise.view.words.diagnosis_words import floors
     from slipwise.view.words.numbers import counted, in_words
     from slipwise.view.words.terminal import print_table

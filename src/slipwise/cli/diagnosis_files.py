@@ -20,8 +20,8 @@ def write_diagnosis(found: "sw.Diagnosis", folder: Path, recording: bool, figure
 
 
 def _record(found: "sw.Diagnosis", folder: Path) -> list[Path]:
+    from slipwise.view.geometry import geometry_of
     from slipwise.view.recordings.comparison import write_comparison
-    from slipwise.view.recordings.geometry import geometry_of
 
     try:
         measured, simulated = found.replays()

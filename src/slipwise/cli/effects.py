@@ -55,8 +55,8 @@ def effects(
             say(words)
     if picture:
         from slipwise.view.figures.canvas import save_figure
+        from slipwise.view.figures.effect_picture import effect_picture
         from slipwise.view.figures.style import styled
-        from slipwise.view.words.effects import effect_picture
 
         if picture.suffix != ".png":
             raise SettingError(f"--picture {picture}: pictures are written as .png")

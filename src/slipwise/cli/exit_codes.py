@@ -17,7 +17,7 @@ import typer
 
 from slipwise.errors import FULL, SlipwiseError, SlipwiseWarning, cannot_write, visible
 from slipwise.jobs.interruption import Stopped, end_children, stoppable
-from slipwise.view.words.pipe_safe_console import to_nobody, write_out
+from slipwise.view.pipe_safe_console import to_nobody, write_out
 
 #: What the system says and a user can mend; any other error of the system is one of ours.
 _OF_THE_MACHINE = FULL | {EACCES, EIO, EMFILE, ENOMEM, EPERM, EROFS}

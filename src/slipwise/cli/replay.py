@@ -159,7 +159,7 @@ def _write_record(answer: "sw.Replay", folder: Path, csv: bool) -> Path:
 def _draw(
     answer: "sw.Replay", model: "sw.Model", folder: Path, title: str, pictures: bool, recording: bool
 ) -> list[Path]:
-    from slipwise.view.recordings.geometry import geometry_of
+    from slipwise.view.geometry import geometry_of
     from slipwise.view.replay_files import draw_replay
 
     geometry = geometry_of(model.built_specimen())

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from slipwise.jobs.parallel import on_every_core
 from slipwise.record import Record
-from slipwise.view.recordings.geometry import RigGeometry
+from slipwise.view.geometry import RigGeometry
 
 
 def draw_replay(

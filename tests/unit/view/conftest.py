@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from slipwise.record import Record
-from slipwise.view.recordings.geometry import RigGeometry
+from slipwise.view.geometry import RigGeometry
 
 PLACES = ((1.5, 2.5), (-1.5, 2.5), (1.5, -2.5), (-1.5, -2.5))
 GEOMETRY = RigGeometry(

@@ -139,7 +139,10 @@ def _searched(member: Member) -> dict[str, Any]:
         low, high = high, high * 1.5
         if high > 10.0:
             raise SimulationError(f"{low:.3g} times this motion still dissipates only {energy(low) / 10:.0f} kN cm")
-    factor = float(brentq(missed, low, high, maxiter=_TRIES, disp=False))
+    found: Any = brentq(
+        missed, low, high, maxiter=_TRIES, disp=False
+    )  # its type depends on arguments that are not given
+    factor = float(found)
     return {"factor": factor, "energy": energy(factor), "energy_without": energy(factor, vertical=False)}
 
 

@@ -12,8 +12,7 @@ from slipwise.comparison.result import Comparison
 from slipwise.discovery.splines import knots_of
 from slipwise.relations.run_data import FitRun
 from slipwise.view.figures.canvas import new_figure
-from slipwise.view.figures.style import MODEL_COLOURS, styled
-from slipwise.view.pages.html import Html, figure, paragraph
+from slipwise.view.figures.style import MODEL_COLOURS
 from slipwise.view.words.numbers import usual_unit
 
 Array = NDArray[np.float64]
@@ -43,21 +42,6 @@ class Friction:
     pressure: Array
     measured: Array
     predicted: Array
-
-
-def friction_clouds(found: Comparison) -> list[Html]:
-    """Make the part of a page that shows the clouds."""
-    known = friction(found)
-    if not len(known.speed):
-        return [paragraph("No pad has both its friction and its load at the samples by which the pads are judged.")]
-    caption = (
-        "Coefficient of friction of every pad in every run while it slides: measured, one point a sample, thinned, and "
-        "what the fitted law says at the same samples, as medians of bins. Each colour holds a third of the samples, "
-        "cut by the variable over which the other panel is drawn. Points beside their line: there the law fails."
-    )
-    with styled():
-        drawn = clouds_figure(known)
-    return [figure(drawn, caption, "Clouds of friction over load against slip speed and against pressure")]
 
 
 def friction(found: Comparison) -> Friction:

@@ -14,7 +14,7 @@ from slipwise.view.figures.canvas import new_figure
 from slipwise.view.figures.pad_layout import PadLayout, layout_of
 from slipwise.view.figures.panels import SUM_PANEL, missing, pad_panels, zero_lines
 from slipwise.view.figures.style import MUTED, SUM, pad_colour, styled
-from slipwise.view.recordings.geometry import RigGeometry
+from slipwise.view.geometry import RigGeometry
 from slipwise.view.words.numbers import NOTHING
 
 Array = NDArray[np.float64]

@@ -8,7 +8,7 @@ import numpy as np
 from slipwise.channels import PADS, pads_in
 from slipwise.record import Record
 from slipwise.view.figures.style import PAD_PANELS, PAD_PLACES, pad_colour
-from slipwise.view.recordings.geometry import RigGeometry
+from slipwise.view.geometry import RigGeometry
 
 #: Places that differ by less stand in one row or column [m]; a grid with more empty than full panels is no picture.
 _SAME = 1e-3

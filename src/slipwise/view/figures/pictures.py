@@ -34,7 +34,7 @@ from slipwise.view.figures.style import (
     shown_unit,
     styled,
 )
-from slipwise.view.recordings.geometry import RigGeometry
+from slipwise.view.geometry import RigGeometry
 from slipwise.view.words.numbers import NOTHING
 
 Array = NDArray[np.float64]

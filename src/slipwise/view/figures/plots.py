@@ -55,7 +55,7 @@ def _discovery(found: Any) -> Figure:
 
 
 def _effect(effect: Any) -> Figure:
-    from slipwise.view.words.effects import effect_picture
+    from slipwise.view.figures.effect_picture import effect_picture
 
     return effect_picture(effect)
 

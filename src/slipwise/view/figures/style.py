@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from slipwise.channels import channel
 from slipwise.record import Record
 from slipwise.units import affine
-from slipwise.view.figures.colours import (  # noqa: F401  whoever draws takes all from here
+from slipwise.view.colours import (  # noqa: F401  whoever draws takes all from here
     AXIS_COLOURS,
     BUFFER_COLOURS,
     EXPECTED,

@@ -9,10 +9,11 @@ from slipwise.comparison.sentences import UNITS
 from slipwise.noise.level import AT_FLOOR
 from slipwise.view.figures import compare_figures as figures
 from slipwise.view.figures import error_maps
-from slipwise.view.figures.friction_clouds import friction_clouds
+from slipwise.view.figures.friction_clouds import clouds_figure, friction
+from slipwise.view.figures.style import styled
+from slipwise.view.pages.fitted_numbers import fitted_numbers, predicted_runs
 from slipwise.view.pages.html import Html, Section, bullets, callout, details, figure, page, paragraph, table, verdict
 from slipwise.view.words.compare_answers import capital, headline, one_minute, place_words, roles, size, tones
-from slipwise.view.words.fitted_numbers import fitted_numbers, predicted_runs
 from slipwise.view.words.gauge_rows import gauge_rows
 
 
@@ -24,7 +25,7 @@ def compare_page(found: Comparison) -> str:
         Section("Where it fails", _places(found)),
         Section("Histories", _histories(found)),
         Section("Loops", _loops(found)),
-        Section("Friction over load, against speed and pressure", friction_clouds(found)),
+        Section("Friction over load, against speed and pressure", _friction_clouds(found)),
         Section("Are the instruments telling the truth", _audit(found)),
         Section("Noise floor", _floor(found)),
         Section("Fitted numbers", fitted_numbers(found)),
@@ -244,3 +245,18 @@ def _about(found: Comparison) -> list[Any]:
         for r in found.campaign.runs
     ]
     return [*pieces, table(runs)]
+
+
+def _friction_clouds(found: Comparison) -> list[Html]:
+    """Make the part of a page that shows the clouds."""
+    known = friction(found)
+    if not len(known.speed):
+        return [paragraph("No pad has both its friction and its load at the samples by which the pads are judged.")]
+    caption = (
+        "Coefficient of friction of every pad in every run while it slides: measured, one point a sample, thinned, and "
+        "what the fitted law says at the same samples, as medians of bins. Each colour holds a third of the samples, "
+        "cut by the variable over which the other panel is drawn. Points beside their line: there the law fails."
+    )
+    with styled():
+        drawn = clouds_figure(known)
+    return [figure(drawn, caption, "Clouds of friction over load against slip speed and against pressure")]

@@ -8,17 +8,16 @@ import html as markup
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 from matplotlib.figure import Figure
 
 from slipwise.errors import visible
+from slipwise.view.colours import Tone
 from slipwise.view.figures.canvas import figure_svg
 from slipwise.view.figures.figure_files import export
 from slipwise.view.pages.html_style import STYLE
 from slipwise.view.words.terminal import cell
-
-Tone = Literal["plain", "good", "warn", "bad"]
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """The style sheet of every report: the colours of the pictures, one column, wide enough for figures."""
 
-from slipwise.view.figures.colours import (
+from slipwise.view.colours import (
     GRID,
     INK,
     MUTED,

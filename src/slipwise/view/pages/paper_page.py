@@ -11,6 +11,7 @@ from slipwise.studies.paper.finding import FAILS, HOLDS, LIMITS, UNCHECKED, Find
 from slipwise.studies.paper.reenact import Reenactment, assumptions
 from slipwise.studies.paper.settings import SETTINGS
 from slipwise.units import convert
+from slipwise.view.colours import Tone
 from slipwise.view.figures.paper_law_pictures import claims_figure, identification_figure, law_figure, map_figure
 from slipwise.view.figures.paper_rig_pictures import (
     energies_figure,
@@ -23,7 +24,6 @@ from slipwise.view.pages.html import (
     Html,
     Piece,
     Section,
-    Tone,
     callout,
     details,
     escape,

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from slipwise.record import Record
 from slipwise.view.figures.style import NIGHT_INK, buffer_colour, pad_colour, rgb
-from slipwise.view.recordings.geometry import RigGeometry
+from slipwise.view.geometry import RigGeometry
 from slipwise.view.recordings.timeline import frames, time_column
 
 Array = NDArray[np.float64]

@@ -11,9 +11,9 @@ from slipwise.relations.run_data import FitRun
 from slipwise.view.figures.compare_figures import shown_run
 from slipwise.view.figures.friction_clouds import clouds_figure, coefficients, friction
 from slipwise.view.figures.style import styled
+from slipwise.view.geometry import geometry_of
 from slipwise.view.recordings.boards import Board, Dots
 from slipwise.view.recordings.comparison import write_comparison
-from slipwise.view.recordings.geometry import geometry_of
 
 
 def write_compare_recording(found: Comparison, path: Path) -> Path:

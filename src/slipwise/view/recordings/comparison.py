@@ -12,9 +12,9 @@ from slipwise.errors import InputError
 from slipwise.record import Record
 from slipwise.view.figures.pad_layout import layout_of
 from slipwise.view.figures.style import MODEL_COLOURS, NIGHT_INK, mixed, packed
+from slipwise.view.geometry import RigGeometry
 from slipwise.view.recordings.arrows import FRICTION_ZOOM
 from slipwise.view.recordings.boards import Board, log_board
-from slipwise.view.recordings.geometry import RigGeometry
 from slipwise.view.recordings.loop_board import log_loops, one_colour
 from slipwise.view.recordings.recording import check_drawable, loops_view, rig_view, send_layout, started, write_bytes
 from slipwise.view.recordings.scene import Scene, largest_motion, log_rig, nice_zoom

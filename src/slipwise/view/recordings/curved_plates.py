@@ -4,7 +4,7 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from slipwise.view.recordings.geometry import RigGeometry
+from slipwise.view.geometry import RigGeometry
 
 Array = NDArray[np.float64]
 _PLATE = (150, 160, 172, 150)

@@ -13,9 +13,9 @@ from slipwise.view.figures.discovery_errors import errors_figure, loops_figure, 
 from slipwise.view.figures.discovery_figures import candidate_figure, law_figure
 from slipwise.view.figures.discovery_samples import law_heights, law_states, predicted_acceleration, predicted_forces
 from slipwise.view.figures.style import styled
+from slipwise.view.geometry import geometry_of
 from slipwise.view.recordings.boards import Board, Dots
 from slipwise.view.recordings.comparison import write_comparison
-from slipwise.view.recordings.geometry import geometry_of
 from slipwise.view.words.discovery_words import state_axis
 
 Array = NDArray[np.float64]

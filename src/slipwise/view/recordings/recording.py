@@ -15,8 +15,8 @@ from slipwise.jobs.atomic_write import atomic
 from slipwise.record import Record
 from slipwise.view.figures.pad_layout import layout_of
 from slipwise.view.figures.style import NIGHT, rgb
+from slipwise.view.geometry import RigGeometry
 from slipwise.view.recordings.arrows import FRICTION_ZOOM
-from slipwise.view.recordings.geometry import RigGeometry
 from slipwise.view.recordings.loop_board import BOARD_SIZE, RECENT, log_loops, own_colours
 from slipwise.view.recordings.scene import Scene, largest_motion, log_rig, nice_zoom
 from slipwise.view.recordings.series import STICKING, log_series, log_states, series_tabs, tabs_of

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from slipwise.record import Record
 from slipwise.view.figures.style import NIGHT_INK, UPLIFT, packed, pad_colour, rgb
+from slipwise.view.geometry import RigGeometry
 from slipwise.view.recordings.arrows import log_forces
 from slipwise.view.recordings.curved_plates import log_curved_plates
-from slipwise.view.recordings.geometry import RigGeometry
 from slipwise.view.recordings.storeys import log_storeys
 from slipwise.view.recordings.timeline import frames, time_column
 

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from slipwise.record import Record
 from slipwise.rig.frame import floor_sway
-from slipwise.view.recordings.geometry import RigGeometry
+from slipwise.view.geometry import RigGeometry
 from slipwise.view.recordings.timeline import frames, time_column
 
 Array = NDArray[np.float64]

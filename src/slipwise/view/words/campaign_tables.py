@@ -7,7 +7,7 @@ from slipwise.effects import catalogue
 from slipwise.studies.campaigns import Compared, EffectDifference, Outcome, Scored, ValueChange, rates
 from slipwise.units import convert
 from slipwise.view.words.diagnosis_words import floors
-from slipwise.view.words.fitted_numbers import CALLED
+from slipwise.view.words.number_names import CALLED
 from slipwise.view.words.numbers import counted, usual_unit
 
 #: What `Outcome.has` says -> how it is told of several campaigns.

@@ -5,7 +5,7 @@ from typing import Any
 from slipwise.comparison.component_level import NAMES
 from slipwise.comparison.result import Comparison
 from slipwise.noise.level import is_at_floor
-from slipwise.view.pages.html import Tone
+from slipwise.view.colours import Tone
 
 
 def headline(found: Comparison) -> tuple[str, str, Tone]:

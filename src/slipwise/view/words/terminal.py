@@ -9,8 +9,8 @@ from rich.table import Table
 from rich.text import Text
 
 from slipwise.errors import visible
+from slipwise.view.pipe_safe_console import PatientConsole
 from slipwise.view.words.numbers import NOTHING
-from slipwise.view.words.pipe_safe_console import PatientConsole
 
 #: Rows of a replay's summary: key, what it is called, unit.
 _SUMMARY: tuple[tuple[str, str, str], ...] = (

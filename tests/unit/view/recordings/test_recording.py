@@ -8,7 +8,7 @@ from slipwise.errors import InputError, SettingError
 from slipwise.record import Record
 from slipwise.rig.storeys import Storey
 from slipwise.view.figures.style import UPLIFT, packed
-from slipwise.view.recordings.geometry import RigGeometry
+from slipwise.view.geometry import RigGeometry
 from slipwise.view.recordings.recording import write_recording
 from slipwise.view.recordings.scene import nice_zoom
 

@@ -9,8 +9,9 @@ from rich.console import Console
 
 from slipwise.effects import Effect, catalogue
 from slipwise.studies.demonstration import demonstrate
+from slipwise.view.figures.effect_picture import effect_picture
 from slipwise.view.figures.style import styled
-from slipwise.view.words.effects import effect_picture, effect_rows, effects_table, print_effect, print_effects
+from slipwise.view.words.effects import effect_rows, effects_table, print_effect, print_effects
 
 every_effect = pytest.mark.parametrize("effect", catalogue().values(), ids=list(catalogue()))
 

@@ -4,6 +4,10 @@ Those of Okabe and Ito, told apart in every common form of colour blindness. Pad
 so that rocking shows as blue against orange.
 """
 
+from typing import Literal
+
+#: Of the box around a sentence: what it tells is neither good nor bad, good, to be looked at, or bad.
+Tone = Literal["plain", "good", "warn", "bad"]
 INK, MUTED, GRID, PAPER = "#1b2733", "#5f6b7a", "#e4e8ed", "#ffffff"
 PAD_COLOURS: dict[str, str] = {"A": "#0072b2", "B": "#d55e00", "C": "#56b4e9", "D": "#e69f00"}
 #: Of pads beyond those, and of buffers beyond two.
