@@ -47,13 +47,6 @@ class Windows:
     girder: Array | None = None
 
 
-def simulate_windows(
-    model: Model, windows: Windows, *, dt: float = DT, every: int = 4, threads: int = 2
-) -> list[dict[str, Array]]:
-    """Shake all windows of one model side by side; arguments and answer as `simulate_models` with one model."""
-    return simulate_models([model], [windows], dt=dt, every=every, threads=threads)[0]
-
-
 def simulate_models(
     models: Sequence[Model], windows: Sequence[Windows], *, dt: float = DT, every: int = 4, threads: int = 2
 ) -> list[list[dict[str, Array]]]:
