@@ -19,7 +19,7 @@ import numpy as np
 from slipwise.effects import load_effect
 from slipwise.errors import SettingError
 from slipwise.model import base_model, use
-from slipwise.model.file import add_effect, draft_model, load_model
+from slipwise.model.file import load_model, save_model
 from slipwise.simulation.kernel import engine_for
 from slipwise.simulation.predict import predictor
 from slipwise.simulation.simulator import simulate
@@ -135,8 +135,7 @@ def main() -> None:
     with styled():
         picture = save_figure(effect_picture(effect), settings.out / "late_area.png")
     file = settings.out / "model.toml"
-    file.write_text(draft_model("bridge1"), encoding="utf-8")
-    add_effect(file, str(path), values={"time_constant": "50 ms"})
+    save_model(base_model("bridge1").adding(use(effect, time_constant="50 ms")), file)
     print(f"{file} now holds {', '.join(u.label for u in load_model(file, trust=[path]).uses)}. Picture: {picture}")
     print(f"Use it: slipwise replay sine:2Hz,0.3g --effect {path} --out out/with_it")
 

@@ -18,10 +18,10 @@ from shaking import shaken, sine
 from slipwise.effects import catalogue, find_effect, load_effect
 from slipwise.errors import InputError, SettingError, SlipwiseWarning, UnknownNameError
 from slipwise.model import base_model, use
-from slipwise.model.file import add_effect, draft_model, load_model
+from slipwise.model.file import load_model, save_model
 from slipwise.simulation.kernel import engine_for
 from slipwise.simulation.predict import predictor
-from slipwise.simulation.windows import Windows, simulate_windows
+from slipwise.simulation.windows import Windows, simulate_models
 from slipwise.view.words.effects import effect_rows
 
 MINE = '''
@@ -106,9 +106,8 @@ def test_a_copy_of_any_shipped_effect_works_from_outside(tmp_path: Path) -> None
 
 def test_model_toml_takes_a_file_of_ones_own(tmp_path: Path) -> None:
     path = tmp_path / "model.toml"
-    path.write_text(draft_model("bridge1"))
-    written(tmp_path)
-    model = add_effect(path, str(tmp_path / "washboard.py"), values={"length": "20 mm"})
+    model = base_model("bridge1").adding(use(str(written(tmp_path)), length="20 mm"))
+    save_model(model, path)
     assert 'file = "washboard.py"' in path.read_text()
     assert model["washboard"].values["length"] == load_model(path, trust=True)["washboard"].values["length"] == 0.02
 
@@ -131,7 +130,8 @@ def test_an_effect_that_cannot_be_compiled_runs_on_the_python_engine_and_says_so
     assert replayed.engine == "python"
     np.testing.assert_allclose(replayed.record["slip_x"], shaken(compiled, shake).record["slip_x"], atol=1e-9)
     windows = Windows(np.stack([sine(2.0, 4.0, 0.05)] * 2), np.zeros((2, 2)), np.full((2, 2), 0.1), None, np.zeros(2))
-    for slow, fast in zip(simulate_windows(model, windows), simulate_windows(compiled, windows), strict=True):
+    (one,), (two,) = (simulate_models([m], [windows]) for m in (model, compiled))
+    for slow, fast in zip(one, two, strict=True):
         for name in ("slip_x", "slip_y", "pad_A_N", "pad_D_Fx"):
             np.testing.assert_allclose(slow[name], fast[name], rtol=1e-7, atol=1e-7)
 

@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Any, cast
 
 import tomlkit
-from tomlkit.items import InlineTable, Item, Table
+from tomlkit.items import InlineTable, Table
 
-from slipwise.effects import Effect, Trust, check_trusted, find_effect, holding, load_effect
+from slipwise.effects import Trust, check_trusted, find_effect, holding, load_effect
 from slipwise.errors import InputError
 from slipwise.model import EffectUse, use
 from slipwise.params import Parameter, same_number
@@ -50,7 +50,10 @@ def entry_use(entry: Table, path: Path, trust: Trust, *, slider: bool) -> Effect
         if "[" in name:
             raise InputError(f"{where}: {name!r} is of one pad: write [effect.pads] below, with A = {{ ... }}")
     values |= _of_pads(entry, where)
-    return made(effect, str(entry.get("target", "")), values, where, slider=slider)
+    given = {name: (effect.parameter(name), value) for name, value in values.items()}
+    si = {name: p.snapped(quantity(value, p.unit, f"{where}, {name}")) for name, (p, value) in given.items()}
+    known = holding(effect, {**effect.typical(), **si}) if slider else effect
+    return use(known, str(entry.get("target", "")), **si)
 
 
 def _of_pads(entry: Table, where: str) -> dict[str, Any]:
@@ -78,27 +81,6 @@ def _file_in(entry: Table, path: Path) -> Path | None:
         raise InputError(f'{path}: each [[effect]] needs either name = "heating" or file = "mine.py"')
     given = str(entry["file"] if "file" in entry else entry["name"])
     return path.parent / given if "file" in entry or given.endswith(".py") else None
-
-
-def made(effect: Effect, target: str, values: Mapping[str, Any], where: str, *, slider: bool = False) -> EffectUse:
-    """Make a use of an effect from values as they are written.
-
-    Args:
-        effect: which.
-        target: the channel, for effects that need one.
-        values: parameter, or that of a pad ("strength[A]") -> quantity with unit, or number [SI].
-        where: what is read, for messages.
-        slider: whether the rig is one slider.
-    """
-    si: dict[str, float] = {}
-    for name, value in values.items():
-        parameter = effect.parameter(name)
-        # A number of a TOML file must have a unit; one that a program gives is SI.
-        plain = isinstance(value, float | int) and not isinstance(value, Item)
-        found = float(value) if plain else quantity(value, parameter.unit, f"{where}, {name}")
-        si[name] = parameter.snapped(found)
-    # a slider's sizes are of no reference rig
-    return use(holding(effect, {**effect.typical(), **si}) if slider else effect, target, **si)
 
 
 def new_entry(wanted: EffectUse, file: str) -> Table:

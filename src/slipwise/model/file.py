@@ -22,7 +22,6 @@
 Comments and order survive every change that Slipwise makes.
 """
 
-import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, cast
@@ -31,11 +30,11 @@ import tomlkit
 from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT, Table
 
-from slipwise.effects import Effect, Trust, base_effects, catalogue, find_effect
+from slipwise.effects import Effect, Trust, catalogue
 from slipwise.errors import InputError, SettingError, unknown_name
 from slipwise.input_file import read_input
-from slipwise.model import EffectUse, Model, base_model, use
-from slipwise.model.entry import entry_use, label_of, made, new_entry, write_values
+from slipwise.model import EffectUse, Model, base_model
+from slipwise.model.entry import entry_use, label_of, new_entry, write_values
 from slipwise.model.unused_values import refuse_stated
 from slipwise.params import same_number
 from slipwise.record import write_text
@@ -47,18 +46,6 @@ _TOP = ("rig", "specimen", "effect")
 _HEAD = """# A model: the rig and the effects that act on it. `slipwise add` and `slipwise remove` edit this file too,
 # and keep your comments. `slipwise effects NAME` tells what an effect is.
 """
-
-
-def draft_model(rig: str) -> str:
-    """Write the text of a first model.toml: a rig with the paper's law.
-
-    Args:
-        rig: a name, or the path of an MJCF file as seen from the model.toml.
-    """
-    document = tomlkit.parse(f"{_HEAD}rig = {tomlkit.item(rig).as_string()}\n")
-    for effect in base_effects("law"):
-        _append(document, use(effect), "")
-    return re.sub(r"\n{3,}", "\n\n", tomlkit.dumps(document))
 
 
 def load_model(path: Path | str, *, trust: Trust = False) -> Model:
@@ -122,68 +109,9 @@ def save_model(model: Model, path: Path | str) -> None:
             write_values(written[wanted.label], wanted)
         else:
             _append(document, wanted, _file_of(wanted.effect, path))
+    if not model.uses:
+        document.pop("effect", None)  # an empty list would be no table of [[effect]]
     write_text(path, tomlkit.dumps(document))
-
-
-def add_effect(
-    path: Path,
-    name: str,
-    target: str = "",
-    values: Mapping[str, str | float] | None = None,
-    *,
-    trust: Trust = False,
-) -> Model:
-    """Add an effect to a model.toml.
-
-    Args:
-        path: of the model.toml.
-        name: of an effect of the catalogue, or a path of one's own file ("mine.py").
-        target: the channel, for effects that need one.
-        values: parameter -> quantity with unit, or number [SI]; typical values for the others.
-        trust: other effect files of the model that may be run; the one that is named may.
-
-    Returns:
-        The model as it is now.
-
-    Raises:
-        UnknownNameError: no such effect or parameter.
-        SettingError: the model holds it already, a value is out of bounds, or it needs a target.
-    """
-    document = _read(path)
-    effect = find_effect(name)
-    _append(document, made(effect, target, values or {}, name), _file_of(effect, path))
-    model = _model(document, path, trust if isinstance(trust, bool) and trust else [effect.path, *(trust or ())])
-    write_text(path, tomlkit.dumps(document))
-    return model
-
-
-def remove_effect(path: Path, name: str, *, trust: Trust = False) -> Model:
-    """Take an effect out of a model.toml.
-
-    Args:
-        path: of the model.toml.
-        name: of the effect, or its label where it acts on several channels, e.g. "channel_gain[pad_A_N]".
-        trust: effect files of what is left of the model that may be run.
-
-    Returns:
-        The model as it is now.
-
-    Raises:
-        UnknownNameError: the model has no such effect.
-        SettingError: the name is that of several.
-    """
-    document = _read(path)
-    entries = _entries(document)
-    labels = [label_of(entry, path) for entry in entries]
-    found = [i for i, label in enumerate(labels) if name in (label.partition("[")[0], label)]
-    if not found:
-        raise unknown_name(f"effect (in {path.name})", name, labels)
-    if len(found) > 1:
-        raise SettingError(f"{name} acts on several channels; say which: {', '.join(labels[i] for i in found)}")
-    del entries[found[0]]
-    model = _model(document, path, trust)
-    write_text(path, tomlkit.dumps(document))
-    return model
 
 
 def _read(path: Path) -> tomlkit.TOMLDocument:
