@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import out_folder, print_json, say
+from slipwise.cli.console import out_folder, print_json, say, say_corrections
 from slipwise.cli.diagnose import (
     Allowed,
     CampaignFolder,
@@ -129,6 +129,7 @@ def compare(
 
     for question, answer in one_minute(found):
         say(f"{question} {answer}")
+    say_corrections(found.corrections)
     print_table("Error in multiples of the noise floor", error_rows(found))
     print_table("Noise floor of one sample", floor_rows(found.floor))
     for path in files:

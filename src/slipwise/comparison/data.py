@@ -18,6 +18,7 @@ from slipwise.estimation.prediction_interval import PredictedFriction
 from slipwise.evidence.floor import Floor
 from slipwise.instruments.checks import Checks
 from slipwise.model import Model
+from slipwise.preparation.data_corrections import DataCorrection
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,7 @@ class ComparisonData:
         campaign: that was measured.
         model: fitted on the runs that may be fitted.
         base: the fit, with residuals of all runs.
+        corrections: what was done about the data before any fit.
         checks: of the instruments, before any fit.
         floor: noise of every channel in every state of motion, or why it is unknown.
         residuals: relation -> per run residual in floors, zero where masked.
@@ -49,6 +51,7 @@ class ComparisonData:
     campaign: Campaign
     model: Model
     base: BaseFit
+    corrections: tuple[DataCorrection, ...]
     checks: Checks
     floor: Floor
     residuals: Mapping[str, Sequence[Any]]

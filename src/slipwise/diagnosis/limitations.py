@@ -19,6 +19,7 @@ from slipwise.diagnosis.sensitivities import column_of, residual_with, small
 from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
+from slipwise.preparation.sample_fault import SampleFault
 from slipwise.relations.parameters import ZERO, Term
 from slipwise.relations.sample_masks import rolls_only_at_rest
 from slipwise.rig.frame import storey_channels
@@ -32,6 +33,8 @@ _ALIKE = 0.85
 _CREDIBLE = 0.9
 #: Springs whose middle lies off the centre by more than this share of the pads' half spacing turn the girder [1].
 _OFF = 0.02
+#: Faults of samples of which nothing is left that could be judged.
+_SHOW_NOTHING = ("dead", "wild")
 #: Runs that are named one by one.
 _NAMED = 3
 #: A column of which the base leaves a smaller share does what the base does [1].
@@ -40,12 +43,13 @@ _NOTHING_LEFT = 3e-5
 _MIN_COLUMN_LENGTH = 0.1
 
 
-def cannot_tell(state: Search, final: BaseFit) -> list[tuple[str, str]]:
+def cannot_tell(state: Search, final: BaseFit, faults: Sequence[SampleFault] = ()) -> list[tuple[str, str]]:
     """Return what this campaign cannot tell, each with the reason; effects that it cannot test are in `state.cannot`.
 
     Args:
         state: of the search.
         final: its best hypothesis as a fit.
+        faults: of samples, found before any fit.
     """
     project = projector(on_screen(state.base.problem, state.base.solution.jacobian))
     return [
@@ -59,6 +63,7 @@ def cannot_tell(state: Search, final: BaseFit) -> list[tuple[str, str]]:
         *_friction_across_not_measured(state.base),
         *_beyond_what_was_fitted(state.base),
         *_floors_not_credible(state),
+        *_without_dead_channels(state, faults),
         *_gauges_not_tried(state),
         *_without_response(state, project),
     ]
@@ -110,6 +115,20 @@ def _friction_across_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
     why = "pads that stand unevenly turn pitch into roll" if coupled(base.campaign.specimen) else "it moves across"
     judged = "judged before the motion only" if "roll" in base.problem.relations else "not judged"
     yield "roll balance", f"{why}, and what turns the girder then is not all measured: it is {judged}"
+
+
+def _without_dead_channels(state: Search, faults: Sequence[SampleFault]) -> Iterator[tuple[str, str]]:
+    """Name the balances that no fitted run shows for want of dead channels, and the effects that no other one shows."""
+    dead = dict.fromkeys(name for fault in faults if fault.kind in _SHOW_NOTHING for name in fault.channels)
+    problem = state.base.problem
+    lost = [r for r in problem.relations if not any(problem.runs[i].judged[r].any() for i in problem.fitted)]
+    if not dead or not lost:
+        return
+    why = f"{', '.join(dead)} shows nothing, and without it no fitted run shows"
+    yield f"balance of {', '.join(lost)}", f"not judged: {why} this balance"
+    seen = {screened.term.effect.name for screened in state.all_screened}
+    if blind := dict.fromkeys(t.effect.name for t in state.terms if t.effect.name not in seen):
+        yield ", ".join(blind), f"not judged: {why} {', '.join(lost)}"
 
 
 def _floors_not_credible(state: Search) -> Iterator[tuple[str, str]]:
@@ -186,7 +205,7 @@ def _gauges_not_tried(state: Search) -> Iterator[tuple[str, str]]:
     alike: dict[str, list[str]] = {}
     for c in recorded:
         if c not in tried and not c.endswith("_raw"):
-            alike.setdefault(re.sub(r"^(pad|buffer)_[A-D12]_", r"\1_*_", c), []).append(c)
+            alike.setdefault(re.sub(r"^(pad|buffer)_[A-Za-z0-9]+_", r"\1_*_", c), []).append(c)
     if alike:
         named = ", ".join(together if len(own) > 1 else own[0] for together, own in alike.items())
         but = ", but for rails and lost samples" if state.base.problem.specimen.free else ""

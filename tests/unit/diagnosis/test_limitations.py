@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bench import build_campaign
-from measured import as_campaign
+from measured import as_campaign, fit_base
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.hypothesis import base_hypothesis
@@ -15,7 +15,7 @@ from slipwise.diagnosis.limitations import cannot_tell
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.search_state import Search
 from slipwise.effects import catalogue
-from slipwise.estimation.base_fit import BaseFit, fit_base
+from slipwise.estimation.base_fit import BaseFit
 from slipwise.record import Record
 from slipwise.relations.parameters import Term
 from slipwise.rig import load_specimen

@@ -5,9 +5,8 @@ import pytest
 from bench import build_campaign
 from bench.campaign import with_faults
 from bench.faults import Fault
-from measured import as_campaign
+from measured import as_campaign, fit_base
 from slipwise.diagnosis.selection import prepared
-from slipwise.estimation.base_fit import fit_base
 from slipwise.evidence.residual_summary import summarised
 
 

@@ -14,8 +14,8 @@ from slipwise.campaign.same_specimen import check_same_specimen
 from slipwise.comparison.compare import compare
 from slipwise.errors import InputError
 from slipwise.instruments.checks import check_instruments, corrected_campaign
-from slipwise.instruments.zeros import tared_cells
-from slipwise.preparation.signs import wrong_signs
+from slipwise.preparation.signs import find_wrong_signs
+from slipwise.preparation.tare import find_tared_cells
 from slipwise.record import Record
 
 DEMO = Path(slipwise.__file__).parent / "demo_data"
@@ -75,8 +75,8 @@ def test_loads_that_count_compression_negative_are_named_as_such(demo, turned, n
 
 def test_a_sliders_load_that_counts_compression_negative_has_the_wrong_sign(demo):
     slider = replace(demo, specimen=replace(demo.specimen, free=False, places=demo.specimen.places[:1]))
-    assert wrong_signs(slider) == []
-    assert wrong_signs(altered(slider, pad_A_N=np.negative)) == ["pad_A_N"]
+    assert find_wrong_signs(slider) == []
+    assert find_wrong_signs(altered(slider, pad_A_N=np.negative)) == ["pad_A_N"]
 
 
 def tared(campaign: Campaign) -> Campaign:
@@ -171,4 +171,4 @@ def test_a_pad_that_carries_nothing_and_a_dead_cell_are_not_taken_for_tared(demo
     seated = altered(demo, **{name: (lambda v, s=s: v + 0.95 * s * quarter) for name, s in lifted.items()})
     dead = altered(demo, pad_B_N=lambda v: np.zeros_like(v))
     faint = altered(demo, pad_B_N=lambda v: 0.02 * v)
-    assert [tared_cells(campaign) for campaign in (demo, seated, dead, faint)] == [(), (), (), ()]
+    assert [find_tared_cells(campaign) for campaign in (demo, seated, dead, faint)] == [(), (), (), ()]
