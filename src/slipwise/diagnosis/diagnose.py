@@ -92,7 +92,8 @@ def diagnose(
             replayed = {"base": errors[0], "final": errors[-1]}
         except InputError as error:
             cannot.append(f"system level: {error}")
-    relations = {r: (error_of(before.summary, r), error_of(shown.summary, r)) for r in before.summary.fitted}
+    judged_at_all = (r for r, counts in before.summary.counts.items() if any(counts))
+    relations = {r: (error_of(before.summary, r), error_of(shown.summary, r)) for r in judged_at_all}
     judged = (before,) if shown is before else (before, shown)
     whole = errors_on_all_samples(prepared.uncut, prepared.unjudged, base.campaign, judged)
     recorded = _unmended(prepared, start) or before.summary

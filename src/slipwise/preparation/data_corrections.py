@@ -67,21 +67,30 @@ def _describe(fault: SampleFault, estimated: Sequence[EstimatedLoad]) -> DataCor
 
 def _words(fault: SampleFault, kind: str, places: str, estimated: Sequence[EstimatedLoad]) -> str:
     runs, size = ", ".join(fault.runs), fault.size
-    if kind == "dead":
-        instead = [one for one in estimated if one.channel in fault.channels]
-        return f"{places}: dead in {runs}; {instead[0].words if instead else 'left out there'}"
-    return {
-        "reversed": f"{places}: reversed; turned round before any fit",
-        "late": f"{places}: {size:.3f} s behind the other channels; brought forward before any fit",
-        "tared": f"{places}: set to zero under the girder; {_weight_put_back(fault)}",
-        "gravity": f"{places}: gravity is in it; taken out before any fit",
-        "wrong_unit": f"{WrongUnit(fault.channels, size).words(places)}; divided by that before any fit",
-        "clipped": f"{places}: stands at a rail of {_shown(fault)} in {runs}; not judged there",
-        "repeated": f"{places}: {size:.2%} of all samples repeat the one before; bridged, and not judged there",
-        "lost": f"{places}: samples are lost in {runs}; those that repeat another are bridged, and not judged",
-        "wild": f"{places}: {size:.1%} of its samples are wild; left out in {runs}",
-        "gap": f"the logger has lost {size:.2%} of all samples; nothing is judged there",
-    }[kind]
+    match kind:
+        case "reversed":
+            return f"{places}: reversed; turned round before any fit"
+        case "late":
+            return f"{places}: {size:.3f} s behind the other channels; brought forward before any fit"
+        case "dead":
+            instead = [one.words for one in estimated if one.channel in fault.channels]
+            return f"{places}: dead in {runs}; {instead[0] if instead else 'left out there'}"
+        case "tared":
+            return f"{places}: set to zero under the girder; {_weight_put_back(fault)}"
+        case "gravity":
+            return f"{places}: gravity is in it; taken out before any fit"
+        case "wrong_unit":
+            return f"{WrongUnit(fault.channels, size).words(places)}; divided by that before any fit"
+        case "clipped":
+            return f"{places}: stands at a rail of {_shown(fault)} in {runs}; not judged there"
+        case "repeated":
+            return f"{places}: {size:.2%} of all samples repeat the one before; bridged, and not judged there"
+        case "lost":
+            return f"{places}: samples are lost in {runs}; those that repeat another are bridged, and not judged"
+        case "wild":
+            return f"{places}: {size:.1%} of its samples are wild; left out in {runs}"
+        case _:
+            return f"the logger has lost {size:.2%} of all samples; nothing is judged there"
 
 
 def _shown(fault: SampleFault) -> str:

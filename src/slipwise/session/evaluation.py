@@ -78,7 +78,9 @@ class Evaluator:
         if weights.finer:
             problem.kinematics.refine(FINER)
             problem.runs = problem.kinematics.runs
-        problem.weigh(weights.values)
+        for values in (weights.before, weights.values):
+            if values:
+                problem.weigh(values)
         return problem
 
     def coarse(self, state: State) -> State:
