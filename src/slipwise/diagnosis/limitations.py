@@ -1,6 +1,5 @@
 """What a campaign cannot tell beside the effects that it cannot test: found in its runs, and in what was tried."""
 
-import re
 from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 
@@ -8,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign import Run
+from slipwise.channels import part_of
 from slipwise.diagnosis.held_out_regime import not_testable
 from slipwise.diagnosis.identifiability import unidentified
 from slipwise.diagnosis.indistinguishable import known_effects
@@ -205,7 +205,8 @@ def _gauges_not_tried(state: Search) -> Iterator[tuple[str, str]]:
     alike: dict[str, list[str]] = {}
     for c in recorded:
         if c not in tried and not c.endswith("_raw"):
-            alike.setdefault(re.sub(r"^(pad|buffer)_[A-Za-z0-9]+_", r"\1_*_", c), []).append(c)
+            kind, place = part_of(c)
+            alike.setdefault(c.replace(f"{kind}_{place}_", f"{kind}_*_", 1) if place else c, []).append(c)
     if alike:
         named = ", ".join(together if len(own) > 1 else own[0] for together, own in alike.items())
         but = ", but for rails and lost samples" if state.base.problem.specimen.free else ""

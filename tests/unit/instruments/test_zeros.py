@@ -135,20 +135,12 @@ def test_the_part_of_a_single_tared_cell_is_put_back_where_the_mass_is_known(dem
     assert not accused(right)
 
 
-def test_a_tared_cell_is_told_by_compare_with_the_correction_that_mends_it(demo):
-    wrong = replace(tared_alone(demo, "pad_C_N"), known={"mass": demo.specimen.mass})
-    with pytest.raises(InputError, match=r"pad_C_N was set to zero under the girder.*") as told:
-        compare(wrong, system=False)
-    assert "sign" not in str(told.value)
-    (name,) = re.findall(r"--correct '(.+?)'", str(told.value))
-    assert name == "channel_offset:pad_C_N"
-
-
 @pytest.mark.slow
-def test_a_campaign_with_a_tared_cell_is_as_good_as_before_once_it_is_corrected(demo):
-    wrong = replace(tared_alone(demo, "pad_C_N"), known={"mass": demo.specimen.mass})
-    mended = corrected_campaign(wrong, check_instruments(wrong), ["channel_offset:pad_C_N"])
-    errors = [compare(c, system=False).error("pads", held_out=True) for c in (mended, demo)]
+def test_a_comparison_puts_the_weight_of_a_tared_cell_back_and_says_so(demo):
+    found = compare(tared_alone(demo, "pad_C_N"), system=False)
+    (told,) = found.corrections
+    assert told.kind == "tared" and "rated weight was put back" in told.words
+    errors = [of.error("pads", held_out=True) for of in (found, compare(demo, system=False))]
     assert errors[0] == pytest.approx(errors[1], rel=0.1)
 
 

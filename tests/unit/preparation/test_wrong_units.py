@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from slipwise.campaign import Campaign
-from slipwise.comparison.compare import compare
-from slipwise.errors import InputError
 from slipwise.instruments.audit import audit
 from slipwise.instruments.checks import check_instruments, corrected_campaign
+from slipwise.preparation.prepare import prepare
 from slipwise.preparation.wrong_units import WrongUnit, find_wrong_units
 
 
@@ -72,14 +71,17 @@ def test_an_audit_names_the_unit_and_accuses_nobody_else(sound):
     assert finding.name == "channel_gain:pad_A_Fx"
 
 
-def test_a_comparison_refuses_it_until_it_is_corrected(sound):
+def test_preparation_divides_by_the_factor_and_says_so(sound):
+    ready = prepare(times(sound, 1e3, "pad_A_Fx"))
+    np.testing.assert_allclose(ready.campaign.runs[0].record["pad_A_Fx"], sound.runs[0].record["pad_A_Fx"], rtol=1e-9)
+    (told,) = ready.corrections
+    assert told.kind == "wrong_unit" and "1 000 times too large" in told.words
+
+
+def test_records_are_put_right_on_request(sound):
     wrong = times(sound, 1e3, "pad_A_Fx")
-    checks = check_instruments(wrong)
-    with pytest.raises(InputError, match="1 000 times too large.*--correct 'channel_gain:pad_A_Fx'"):
-        compare(wrong, checks=checks, system=False)
-    mended = corrected_campaign(wrong, checks, ["channel_gain:pad_A_Fx"])
-    record = mended.runs[0].record
-    assert np.allclose(record["pad_A_Fx"], sound.runs[0].record["pad_A_Fx"], rtol=1e-9)
+    mended = corrected_campaign(wrong, check_instruments(wrong), ["channel_gain:pad_A_Fx"])
+    np.testing.assert_allclose(mended.runs[0].record["pad_A_Fx"], sound.runs[0].record["pad_A_Fx"], rtol=1e-9)
 
 
 @pytest.mark.parametrize(
