@@ -52,6 +52,7 @@ def cannot_tell(state: Search, final: BaseFit, faults: Sequence[SampleFault] = (
         faults: of samples, found before any fit.
     """
     project = projector(on_screen(state.base.problem, state.base.solution.jacobian))
+    lost = _balances_not_judged(state, faults)
     return [
         *unidentified(final, state.base),
         *_alike(state, project),
@@ -63,9 +64,9 @@ def cannot_tell(state: Search, final: BaseFit, faults: Sequence[SampleFault] = (
         *_friction_across_not_measured(state.base),
         *_beyond_what_was_fitted(state.base),
         *_floors_not_credible(state),
-        *_without_dead_channels(state, faults),
         *_gauges_not_tried(state),
-        *_without_response(state, project),
+        *([("balances", lost)] if lost else []),
+        *_without_response(state, project, lost),
     ]
 
 
@@ -117,18 +118,14 @@ def _friction_across_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
     yield "roll balance", f"{why}, and what turns the girder then is not all measured: it is {judged}"
 
 
-def _without_dead_channels(state: Search, faults: Sequence[SampleFault]) -> Iterator[tuple[str, str]]:
-    """Name the balances that no fitted run shows for want of dead channels, and the effects that no other one shows."""
+def _balances_not_judged(state: Search, faults: Sequence[SampleFault]) -> str:
+    """Say which balances no fitted run shows for want of channels that show nothing; "" where there are none."""
     dead = dict.fromkeys(name for fault in faults if fault.kind in _SHOW_NOTHING for name in fault.channels)
     problem = state.base.problem
     lost = [r for r in problem.relations if not any(problem.runs[i].judged[r].any() for i in problem.fitted)]
     if not dead or not lost:
-        return
-    why = f"{', '.join(dead)} shows nothing, and without it no fitted run shows"
-    yield f"balance of {', '.join(lost)}", f"not judged: {why} this balance"
-    seen = {screened.term.effect.name for screened in state.all_screened}
-    if blind := dict.fromkeys(t.effect.name for t in state.terms if t.effect.name not in seen):
-        yield ", ".join(blind), f"not judged: {why} {', '.join(lost)}"
+        return ""
+    return f"{', '.join(dead)} shows nothing, and without it no fitted run shows the balance of {', '.join(lost)}"
 
 
 def _floors_not_credible(state: Search) -> Iterator[tuple[str, str]]:
@@ -213,25 +210,29 @@ def _gauges_not_tried(state: Search) -> Iterator[tuple[str, str]]:
         yield f"faults of {named}", f"never tried{but}"
 
 
-def _without_response(state: Search, project: Callable[[Array], Array]) -> Iterator[tuple[str, str]]:
-    """Say why nothing came of the candidates that screening saw nothing in; that a sign was wrong is no reason."""
+def _without_response(state: Search, project: Callable[[Array], Array], lost: str) -> Iterator[tuple[str, str]]:
+    """Say why nothing came of the candidates that screening saw nothing in; that a sign was wrong is no reason.
+
+    What changes nothing that was measured may show in balances that were lost, as `_balances_not_judged` says.
+    """
     with_response = {s.term.effect.name for s in state.all_screened}
     reasons: dict[str, set[str]] = {}
     for term in (t for t in state.terms if t.effect.name not in with_response):
-        reasons.setdefault(term.effect.name, set()).add(_reason(state.base, term, project))
+        reasons.setdefault(term.effect.name, set()).add(_reason(state.base, term, project, lost))
     for name, found in reasons.items():
         if "" not in found:
             yield name, "; ".join(sorted(found))
 
 
-def _reason(base: BaseFit, term: Term, project: Callable[[Array], Array]) -> str:
+def _reason(base: BaseFit, term: Term, project: Callable[[Array], Array], lost: str) -> str:
     """Say why a candidate could not be tested; "" where it could, and explained nothing."""
     columns = _columns(base, term)
     with_response = [c for c in columns if c is not None and _length(c) > _MIN_COLUMN_LENGTH]
     if not columns or all(c is None for c in columns):
         return _failure(base, term)
     if not with_response:
-        return "at its usual size it changes nothing that was measured"
+        nothing = "at its usual size it changes nothing that was measured"
+        return f"{nothing}; {lost}" if lost else nothing
     if all(_length(project(c)) < _NOTHING_LEFT * _length(c) for c in with_response):
         return "the base's own numbers do all that it does here"
     return ""
