@@ -21,7 +21,6 @@ import numpy as np
 from slipwise.campaign import Campaign, as_campaign
 from slipwise.errors import SlipwiseWarning
 from slipwise.instruments.audit import audit
-from slipwise.instruments.corrections import is_wrong_unit
 from slipwise.instruments.report import AuditReport
 from slipwise.record import write_json
 
@@ -117,7 +116,7 @@ def units(campaigns: list[Sound], count: int, rng: np.random.Generator) -> Itera
         for run in planted.runs:
             planted = with_channel(planted, run.name, name, factor * run.record[name])
         report = audit(planted)
-        own = [f for f in report.findings if is_wrong_unit(f) and f.channel == name]
+        own = [f for f in report.findings if f.of_samples and f.of_samples.kind == "scaled" and f.channel == name]
         right = len(own) == 1 and abs((1.0 + own[0].size) / factor - 1.0) < 2e-3
         others = {f.name for f in report.findings if f not in own} - set(findings(sound.report))
         yield right and not others, f"{name} times {factor:.4g}: {[f.words for f in report.findings]}"

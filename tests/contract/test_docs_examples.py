@@ -41,7 +41,7 @@ WRITTEN_BY = {
             "written",
             "_surface",
         ),
-        "diagnosis/data_corrections.py": ("as_json",),
+        "preparation/data_corrections.py": ("as_json",),
     },
     "ladder.json": {"diagnosis/ladder.py": ("as_json", "table")},
     "next.json": {"design/result.py": ("as_json", "_rows")},

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import slipwise as sw
+from measured import fit_base
 from recover.own_replay import campaign_of
 from shaking import shaken
-from slipwise.estimation.base_fit import fit_base
 from slipwise.estimation.intervals import intervals
 from slipwise.model import Model, base_model
 from slipwise.simulation.predict import predictor

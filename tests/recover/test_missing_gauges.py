@@ -5,11 +5,10 @@ from dataclasses import replace
 import pytest
 
 from bench import build_campaign
-from measured import as_campaign
+from measured import as_campaign, fit_base
 from slipwise.campaign import Campaign, Logger
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.errors import InputError
-from slipwise.estimation.base_fit import fit_base
 from slipwise.record import Record
 
 pytestmark = pytest.mark.long

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import slipwise as sw
+from measured import fit_base
 from recover.own_replay import campaign_of
-from slipwise.estimation.base_fit import fit_base
 from slipwise.estimation.objective import Problem
 from slipwise.model import EffectUse, Model, base_model, use
 from slipwise.relations.parameters import base_free, terms_of

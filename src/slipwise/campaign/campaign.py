@@ -86,6 +86,7 @@ class Run:
         file: as campaign.toml names it.
         sha256: of the file.
         wild: samples that no gauge can have read; they are bridged in the record.
+        estimated: channel -> expected error of one sample of what stands there in place of a dead gauge [SI].
     """
 
     name: str
@@ -96,6 +97,7 @@ class Run:
     file: str
     sha256: str
     wild: tuple[WildSamples, ...] = ()
+    estimated: Mapping[str, float] = field(default_factory=dict[str, float])
 
     @property
     def invalid(self) -> dict[str, NDArray[np.bool_]]:

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import out_folder, print_json, say, steps
+from slipwise.cli.console import out_folder, print_json, say, say_corrections, steps
 from slipwise.cli.options import (
     Allowed,
     CampaignFolder,
@@ -128,6 +128,7 @@ def compare(
 
     for question, answer in one_minute(found):
         say(f"{question} {answer}")
+    say_corrections(found.corrections)
     print_table("Error in multiples of the noise floor", error_rows(found))
     print_table("Noise of every gauge, one sample", gauge_rows(found.gauges))
     for path in files:

@@ -2,14 +2,18 @@
 
 import json
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rich.console import Console
 
 from slipwise.errors import InputError, visible
 from slipwise.view.pipe_safe_console import PatientConsole, write_out
+
+if TYPE_CHECKING:
+    from slipwise.preparation.data_corrections import DataCorrection
 
 OUT = PatientConsole()
 ERR = PatientConsole(stderr=True)
@@ -56,6 +60,12 @@ def progress(words: str) -> Iterator[Callable[[float], None]]:
     with Progress(*columns, console=ERR, transient=True, disable=not ERR.is_terminal) as bar:
         task = bar.add_task(words, total=1.0)
         yield lambda fraction: bar.update(task, completed=fraction)
+
+
+def say_corrections(corrections: "Sequence[DataCorrection]") -> None:
+    """Say what was done about the data before any fit, a line each."""
+    for one in corrections:
+        say(f"before any fit: {one.words}")
 
 
 @contextmanager

@@ -9,7 +9,7 @@ from rich.console import Console
 
 import slipwise as sw
 from slipwise.cli.batch import Wanted, diagnose_many
-from slipwise.cli.console import ERR, OUT, out_folder, print_json, say, steps
+from slipwise.cli.console import ERR, OUT, out_folder, print_json, say, say_corrections, steps
 from slipwise.cli.diagnosis_files import write_diagnosis
 from slipwise.cli.model_edit import tell_change
 from slipwise.cli.options import (
@@ -132,8 +132,7 @@ def _tell(found: "sw.Diagnosis") -> None:
 
     for question, answer in four_answers(found):
         say(f"{question} {answer}")
-    for thing in found.first:
-        say(f"before any fit: {thing.words}")
+    say_corrections(found.corrections)
     print_effects(found)
     for words in found.discriminating_tests[1:]:
         say(f"to tell apart: {words}")
@@ -192,6 +191,7 @@ def ladder(
     if json:
         print_json(found.as_json())
         return
+    say_corrections(found.corrections)
     print_rungs(found)
     screened, refitted = found.tried
     OUT.print(f"{screened} candidates screened, {refitted} hypotheses refitted, {found.seconds:.0f} s; {found.stopped}")

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import OUT, out_folder, print_json, say, steps
+from slipwise.cli.console import OUT, out_folder, print_json, say, say_corrections, steps
 from slipwise.cli.options import CampaignFolder, Figures, Json, ModelFile, Own, Trusted, own_effects, start_model
 from slipwise.errors import visible
 
@@ -54,6 +54,7 @@ def discover(
         print_json(found.as_json())
         return
     OUT.print(visible(found.sentence), markup=False, highlight=False)
+    say_corrections(found.corrections)
     for law in found.laws:
         for c in law.constants:
             say(f"{law.name}.{c.name} = {c.value:.4g} {c.unit}" + _interval(c.low, c.high))

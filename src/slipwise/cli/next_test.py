@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import out_folder, print_json, say, steps
+from slipwise.cli.console import out_folder, print_json, say, say_corrections, steps
 from slipwise.cli.options import CampaignFolder, Json, ModelFile, Own, Trusted, own_effects, start_model
 
 
@@ -68,6 +68,7 @@ def _tell(ranked: "sw.NextTest") -> None:
         for p in ranked.proposals
         if not p.refused and not p.failed
     ]
+    say_corrections(ranked.corrections)
     if not ranked.proposals:
         say(ranked.words)
     say(f"{ranked.sentence}\n{told}{':' if rows else '.'}")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from slipwise.campaign import Campaign, as_campaign
+from slipwise.campaign import Campaign
 from slipwise.comparison.cells import cells_of, corrected, gather
 from slipwise.comparison.component_level import component_errors, repeat_errors
 from slipwise.comparison.friction_surface import surface
@@ -17,16 +17,15 @@ from slipwise.comparison.result import Comparison
 from slipwise.comparison.sentences import places
 from slipwise.comparison.system_level import SystemLevel, system_level
 from slipwise.errors import InputError
-from slipwise.estimation.base_fit import BaseFit, fit_finely
+from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import intervals
 from slipwise.estimation.prediction_interval import predicted_friction
 from slipwise.instruments.checks import Checks, check_instruments
-from slipwise.instruments.corrections import is_tared, is_wrong_unit
-from slipwise.instruments.suspects import effect_of
 from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
 from slipwise.model.file import as_model
-from slipwise.preparation.excerpts import stretched
+from slipwise.preparation.prepare import prepare
+from slipwise.preparation.prepared import Prepared, fit_prepared
 from slipwise.relations.girder import balances_of
 
 #: Noise that the replay is fed with is the same in every comparison, so that two of them can be compared.
@@ -35,7 +34,7 @@ _SEED = 1
 
 @one_thread_algebra()
 def compare(
-    campaign: Campaign | Path | str,
+    campaign: Campaign | Path | str | Prepared,
     model: Model | Path | str | None = None,
     *,
     system: bool = True,
@@ -47,26 +46,25 @@ def compare(
     Base parameters are fitted on the runs of role fit and repeat; held-out runs are only looked at.
 
     Args:
-        campaign: or its folder.
+        campaign: or its folder; one that is prepared is not prepared again.
         model: the user's current model, or its model.toml; the paper's law on the campaign's rig when not given.
         system: replay the runs as well.
         checks: the audit of the instruments, where it was made already.
         progress: called with what is being done and the fraction done.
 
     Raises:
-        InputError: the campaign lacks what every comparison needs, its loads are turned round or tared, or a channel
-            was read in another unit than it was written in.
+        InputError: the campaign lacks what every comparison needs.
     """
     began = time.perf_counter()
     tell = progress or (lambda words, done: None)
     tell("reading", 0.0)
-    campaign = stretched(as_campaign(campaign), {})[0]
+    prepared = prepare(campaign)
+    campaign = prepared.campaign
     start = None if model is None else as_model(model)
     tell("auditing the instruments", 0.05)
-    checks = checks or check_instruments(campaign)
-    _refuse_wrong_channels(checks, campaign)
+    checks = checks or check_instruments(prepared)
     tell("fitting base parameters", 0.25)
-    base = fit_finely(campaign, start)
+    base = fit_prepared(prepared, start, finely=True)
     tell("locating errors", 0.5)
     residuals = {r: base.solution.residuals.parts[r] for r in base.problem.relations}
     components = component_errors(base)
@@ -100,6 +98,7 @@ def compare(
         campaign=campaign,
         model=base.problem.model(base.solution.values),
         base=base,
+        corrections=prepared.corrections,
         checks=checks,
         residuals=residuals,
         components=components,
@@ -116,28 +115,6 @@ def compare(
         notes=tuple(dict.fromkeys([*campaign.notes, *(level.notes if level else ())])),
         seconds=time.perf_counter() - began,
     )
-
-
-def _refuse_wrong_channels(checks: Checks, campaign: Campaign) -> None:
-    """Refuse channels with which no law of friction can be held against anything.
-
-    Raises:
-        InputError: a load cell counts compression negative, or does not show the girder's weight; a channel is off by
-            a factor of units.
-    """
-    turned = effect_of("turned").name
-    loads = [f for f in checks.report.findings if f.channel.startswith("pad_") and f.channel.endswith("_N")]
-    wrong = [finding for finding in loads if finding.what == turned or is_tared(finding, campaign)]
-    scaled = [finding for finding in checks.report.findings if is_wrong_unit(finding)]
-    if not wrong and not scaled:
-        return
-    names = " ".join(f"--correct '{finding.name}'" for finding in (*wrong, *scaled))
-    signs = any(finding.what == turned for finding in wrong)
-    mapped = ", or write sign = -1 in [columns] of campaign.toml" if signs else ""
-    mapped += ", or write its unit in [columns] of campaign.toml" if scaled else ""
-    rule = "loads are positive in compression and hold the girder's weight here; " if wrong else ""
-    told = "; ".join(finding.words for finding in (*wrong, *scaled))
-    raise InputError(f"{told}: {rule}{names} puts the records right{mapped}")
 
 
 def _cannot(base: BaseFit) -> list[str]:

@@ -18,6 +18,7 @@ from slipwise.estimation.prediction_interval import PredictedFriction
 from slipwise.instruments.checks import Checks
 from slipwise.model import Model
 from slipwise.noise.gauges import Gauge
+from slipwise.preparation.data_corrections import DataCorrection
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,7 @@ class ComparisonData:
         campaign: that was measured.
         model: fitted on the runs that may be fitted.
         base: the fit, with residuals of all runs.
+        corrections: what was done about the data before any fit.
         checks: of the instruments, before any fit.
         residuals: relation -> per run residual in floors, zero where masked.
         components: error of every relation in every run.
@@ -48,6 +50,7 @@ class ComparisonData:
     campaign: Campaign
     model: Model
     base: BaseFit
+    corrections: tuple[DataCorrection, ...]
     checks: Checks
     residuals: Mapping[str, Sequence[Any]]
     components: tuple[ComponentError, ...]

@@ -180,6 +180,7 @@ def as_json(found: ComparisonData) -> dict[str, Any]:
             for r in found.relations
         },
         "system": system,
+        "corrections": [one.as_json() for one in found.corrections],
         "audit": {"accused": found.checks.accused, "words": found.checks.words, "findings": rows_of(found, "audit")},
         "worst": {"relation": worst, "error": error},
         "surface": surface,

@@ -20,7 +20,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from slipwise.campaign import Campaign, Run, as_campaign
+from slipwise.campaign import Campaign, Run
 from slipwise.comparison.measured_replay import simulation_step
 from slipwise.comparison.system_level import replayed_model
 from slipwise.design.law_contest import Contest, law_contest
@@ -40,6 +40,8 @@ from slipwise.evidence.score import largest_drop, score
 from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
 from slipwise.motion import parse_motion
+from slipwise.preparation.prepare import prepare
+from slipwise.preparation.prepared import Prepared
 from slipwise.record import Record
 from slipwise.relations.parameters import Term
 from slipwise.signals.filters import lowpass
@@ -53,7 +55,7 @@ _MOST = 3
 
 @one_thread_algebra()
 def next_test(
-    found: Diagnosis | Campaign | Path | str,
+    found: Diagnosis | Campaign | Path | str | Prepared,
     limits: Limits | None = None,
     library: Sequence[str] = LIBRARY,
     progress: Callable[[str, float], None] | None = None,
@@ -77,10 +79,10 @@ def next_test(
         SlipwiseError: a motion of the library cannot be read.
     """
     tell = progress or (lambda words, share: None)
-    if isinstance(found, Campaign | Path | str):
-        measured, half = as_campaign(found), tell
-        _refuse_prescribed(measured)
-        found = diagnose(measured, model, own=own, progress=lambda words, share: half(words, 0.5 * share))
+    if not isinstance(found, Diagnosis):
+        prepared, half = prepare(found), tell
+        _refuse_prescribed(prepared.recorded)
+        found = diagnose(prepared, model, own=own, progress=lambda words, share: half(words, 0.5 * share))
         tell = lambda words, share: half(words, 0.5 + 0.5 * share)  # noqa: E731
     _refuse_prescribed(found.final.campaign)
     asked = motions_for(library, limits or Limits())
@@ -98,7 +100,7 @@ def _ranked(found: Diagnosis, every: Contest, asked: Mapping[str, str], tell: Ca
     contest, chances = every.hypotheses[:_MOST], every.chances[:_MOST]
     if chances[0] >= _SUREST:
         words = "Nothing is in doubt: no motion could make anybody surer of this than the campaign does."
-        return NextTest(tuple(h.names for h in contest), chances, (), words, found.sentence)
+        return NextTest(tuple(h.names for h in contest), chances, (), words, found.sentence, found.corrections)
     models = [_as_shaken(found, h) for h in contest]
     out = []
     for i, (text, refused) in enumerate(asked.items()):
@@ -114,7 +116,8 @@ def _ranked(found: Diagnosis, every: Contest, asked: Mapping[str, str], tell: Ca
     ranked = sorted(out, key=lambda p: (bool(p.refused), bool(p.failed), -p.separation))
     most = max((p.separation for p in judged), default=np.inf)
     words = " ".join(filter(None, (every.words, _words(found, contest, most))))
-    return NextTest(tuple(h.names for h in contest), chances, tuple(ranked), words, found.sentence)
+    names = tuple(h.names for h in contest)
+    return NextTest(names, chances, tuple(ranked), words, found.sentence, found.corrections)
 
 
 def _refuse_prescribed(campaign: Campaign) -> None:

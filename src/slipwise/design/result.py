@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from slipwise.display import Drawn, Tabular
+from slipwise.preparation.data_corrections import DataCorrection
 
 
 @dataclass(frozen=True)
@@ -38,6 +39,7 @@ class NextTest(Drawn, Tabular):
         proposals: sorted by what they would tell.
         words: what else tells the rivals apart, or would, where no motion does.
         sentence: the verdict of the diagnosis.
+        corrections: what was done about the data before it.
     """
 
     rivals: tuple[tuple[str, ...], ...]
@@ -45,6 +47,7 @@ class NextTest(Drawn, Tabular):
     proposals: tuple[Proposal, ...]
     words: str
     sentence: str = ""
+    corrections: tuple[DataCorrection, ...] = ()
 
     def as_json(self) -> dict[str, Any]:
         """Return what next.json holds."""
@@ -58,6 +61,7 @@ class NextTest(Drawn, Tabular):
                 for names, chance in zip(self.rivals, self.chances, strict=True)
             ],
             "words": self.words,
+            "corrections": [one.as_json() for one in self.corrections],
             "motions": self._rows(),
         }
 

@@ -6,12 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
-from slipwise.campaign import Campaign, as_campaign
-from slipwise.diagnosis.data_corrections import first_things
+from slipwise.campaign import Campaign
 from slipwise.diagnosis.detectable_size import least_sizes
 from slipwise.diagnosis.findings import findings
 from slipwise.diagnosis.full_length_errors import errors_on_all_samples
-from slipwise.diagnosis.hypothesis import Hypothesis, final_refit_of
+from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, final_refit_of
 from slipwise.diagnosis.hypothesis_fit import as_fit
 from slipwise.diagnosis.importance import importance_of_effects
 from slipwise.diagnosis.indistinguishable import alike_pairs
@@ -24,7 +23,7 @@ from slipwise.diagnosis.selection import SelectionResult, select_effects
 from slipwise.diagnosis.verdict import Verdict, confirmed, decide_verdict, with_faults
 from slipwise.effects import Effect
 from slipwise.errors import InputError
-from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.base_fit import BaseFit, fit_base
 from slipwise.estimation.intervals import Interval, intervals
 from slipwise.estimation.prediction_interval import PredictedFriction, predicted_friction
 from slipwise.evidence.residual_summary import ResidualSummary, error_of
@@ -33,6 +32,8 @@ from slipwise.instruments.suspects import effect_of
 from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
 from slipwise.model.file import as_model
+from slipwise.preparation.prepare import prepare
+from slipwise.preparation.prepared import Prepared
 
 #: Hypotheses that are listed.
 _LISTED = 6
@@ -40,7 +41,7 @@ _LISTED = 6
 
 @one_thread_algebra()
 def diagnose(
-    campaign: Campaign | Path | str,
+    campaign: Campaign | Path | str | Prepared,
     model: Model | Path | str | None = None,
     *,
     own: Iterable[Effect] = (),
@@ -50,7 +51,7 @@ def diagnose(
     """Say which effect a model lacks.
 
     Args:
-        campaign: or its folder.
+        campaign: or its folder; one that is prepared is not prepared again.
         model: the user's current model, or its model.toml; the paper's law on the campaign's rig when not given.
         own: effects beside those of the catalogue, as `slipwise.effects.find_effect` gives them.
         system: replay base and final model as well.
@@ -62,11 +63,12 @@ def diagnose(
     began = time.perf_counter()
     tell = progress or (lambda words, share: None)
     tell("reading", 0.0)
-    measured = as_campaign(campaign)
+    prepared = prepare(campaign)
+    measured = prepared.recorded
     start = None if model is None else as_model(model)
     tell("fitting base parameters", 0.02)
     part = 0.7 if system else 0.9
-    selected = select_effects(measured, start, own, lambda words, share: tell(words, part * share))
+    selected = select_effects(prepared, start, own, lambda words, share: tell(words, part * share))
     base, state = selected.base, selected.search
     tell("replaying without each effect", part)
     found = as_fit(base, state.final, with_slopes=not state.final.problem.balanced)
@@ -75,9 +77,10 @@ def diagnose(
     decided = decide_verdict(state, evidence, measured.materiality)
     before = final_refit_of(state.path[0])
     shown = state.final if decided.effects else before
-    verdict = with_faults(decided, selected.faults, state.best.terms)
+    verdict = with_faults(decided, prepared.gauge_faults, state.best.terms)
     final = found if shown is state.final else as_fit(base, shown, with_slopes=True)
-    cannot = [f"{name}: {reason}" for name, reason in [*state.cannot.items(), *cannot_tell(state, final)]]
+    reasons = [*state.cannot.items(), *cannot_tell(state, final, prepared.faults)]
+    cannot = [f"{name}: {reason}" for name, reason in reasons]
     replayed: dict[str, float] = {}
     if system:
         tell("replaying", part)
@@ -88,30 +91,46 @@ def diagnose(
             replayed = {"base": errors[0], "final": errors[-1]}
         except InputError as error:
             cannot.append(f"system level: {error}")
-    relations = {r: (error_of(before.summary, r), error_of(shown.summary, r)) for r in before.summary.fitted}
+    judged_at_all = (r for r, counts in before.summary.counts.items() if any(counts))
+    relations = {r: (error_of(before.summary, r), error_of(shown.summary, r)) for r in judged_at_all}
     judged = (before,) if shown is before else (before, shown)
-    whole = errors_on_all_samples(*selected.uncut, base.campaign, judged)
-    recorded = selected.uncorrected or before.summary
+    whole = errors_on_all_samples(prepared.uncut, prepared.unjudged, base.campaign, judged)
+    recorded = _unmended(prepared, start) or before.summary
     tell("done", 1.0)
     return Diagnosis(
         campaign=measured.name,
         verdict=verdict,
         component=_component(state, verdict),
-        base_error=max(error_of(recorded, r) for r in recorded.fitted),
+        recorded_error=max(error_of(recorded, r) for r in recorded.fitted),
+        base_error=max(a for a, _ in relations.values()),
         final_error=max(b for _, b in relations.values()),
         relations=relations,
         all_samples={relation: (errors[0], errors[-1]) for relation, errors in whole.items()},
         system=replayed,
-        candidates=_listed(selected, before.summary, decided, verdict, sizes),
+        candidates=_listed(selected, recorded, before.summary, decided, verdict, sizes),
         confirmed=confirmed(state) if decided.effects else None,
         predicted_friction=_predicted_friction(final),
         least=least_sizes(state.all_screened, state.path[0]),
         cannot_tell=tuple(cannot),
-        first=first_things(selected.faults, selected.other_rig),
+        corrections=prepared.corrections,
         search=state,
         final=final,
         seconds=time.perf_counter() - began,
     )
+
+
+def _unmended(prepared: Prepared, model: Model | None) -> ResidualSummary | None:
+    """Return what the base model leaves of the campaign as it was recorded; None where no gauge has a fault of samples.
+
+    Where nothing could be fitted as it was recorded, there is nothing to hold the mended campaign against.
+    """
+    if not prepared.gauge_faults:
+        return None
+    try:
+        base = fit_base(prepared.unmended, prepared.on_rig(model), start=prepared.start)
+    except InputError:
+        return None
+    return final_refit_of(base_hypothesis(base)).summary
 
 
 def _predicted_friction(final: BaseFit) -> tuple[PredictedFriction, ...]:
@@ -134,16 +153,21 @@ def _component(state: Search, verdict: Verdict) -> str:
 
 
 def _listed(
-    selected: SelectionResult, before: ResidualSummary, decided: Verdict, verdict: Verdict, sizes: Sequence[Interval]
+    selected: SelectionResult,
+    recorded: ResidualSummary,
+    before: ResidualSummary,
+    decided: Verdict,
+    verdict: Verdict,
+    sizes: Sequence[Interval],
 ) -> tuple[Candidate, ...]:
     """Return hypotheses, and faults of samples: before them where they alone are what is missing."""
     hypotheses = _candidates(selected.search, before, decided, sizes)
-    recorded, kept = selected.uncorrected or before, before
     where = max(recorded.fitted, key=lambda relation: error_of(recorded, relation))
-    with_fault, without = error_of(recorded, where), error_of(kept, where)
-    labels = dict.fromkeys(f"{effect_of(f.kind).name}[{name}]" for f in selected.faults for name in f.channels)
-    faults = tuple(Candidate(label, verdict.probability, with_fault, without, 0.0, {}) for label in labels)
-    return (*hypotheses, *faults) if decided.effects else (*faults, *hypotheses)
+    with_fault, without = error_of(recorded, where), error_of(before, where)
+    faults = selected.prepared.gauge_faults
+    labels = dict.fromkeys(f"{effect_of(f.kind).name}[{name}]" for f in faults for name in f.channels)
+    told = tuple(Candidate(label, verdict.probability, with_fault, without, 0.0, {}) for label in labels)
+    return (*hypotheses, *told) if decided.effects else (*told, *hypotheses)
 
 
 def _candidates(

@@ -10,9 +10,9 @@ from dataclasses import replace
 import numpy as np
 
 from slipwise.campaign import Campaign
+from slipwise.campaign.invalid_samples import InvalidSamples
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.estimation.objective import Problem
-from slipwise.preparation.repairs import InvalidSamples
 from slipwise.relations.run_data import FitRun, fit_runs
 
 

@@ -144,14 +144,9 @@ def weighed_as(found: Hypothesis, other: Problem) -> Hypothesis:
 
 
 def final_refit_of(found: Hypothesis) -> Hypothesis:
-    """Fit on, weighed by its own law and finer, as what is reported of it should be.
-
-    A slider's gauges are often so quiet that nearly all its floor is what the base law's reversals leave unsure:
-    another floor would make its error before and after two different things.
-    """
-    if not found.problem.balanced:
-        return found
-    return _hypothesis(found.terms, *final_refit(found.problem, found.solution))
+    """Fit on, weighed by its own law and finer, as what is reported of it should be."""
+    problem, solution = final_refit(found.problem, found.solution)
+    return found if solution is found.solution else _hypothesis(found.terms, problem, solution)
 
 
 def _several_starts(

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from slipwise.campaign import Campaign, as_campaign
+from slipwise.campaign import Campaign
 from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.forward_selection import MOST_EFFECTS
 from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, final_refit_of, polished, refit
@@ -17,16 +17,19 @@ from slipwise.diagnosis.hypothesis_fit import as_fit
 from slipwise.diagnosis.replays import replayed_errors
 from slipwise.diagnosis.screening import Screened, screen
 from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.selection import prepared, select_effects
+from slipwise.diagnosis.selection import select_effects
 from slipwise.display import Drawn, Tabular
 from slipwise.effects import Effect, find_effect
 from slipwise.errors import InputError, SettingError
-from slipwise.estimation.base_fit import BaseFit, fit_base
+from slipwise.estimation.base_fit import BaseFit
 from slipwise.evidence.residual_summary import ResidualSummary, error_of
 from slipwise.jobs.parallel import on_every_core, one_thread_algebra
 from slipwise.model import Model
 from slipwise.model.file import as_model
 from slipwise.noise.level import is_at_floor
+from slipwise.preparation.data_corrections import DataCorrection
+from slipwise.preparation.prepare import prepare
+from slipwise.preparation.prepared import Prepared, fit_prepared
 
 
 @dataclass(frozen=True)
@@ -61,6 +64,7 @@ class Ladder(Drawn, Tabular):
         stopped: why no further step was climbed.
         fits: the fit of each step, for model.toml; none where a diagnosis has climbed already.
         seconds: it took.
+        corrections: what was done about the data before any fit.
     """
 
     campaign: str
@@ -69,6 +73,7 @@ class Ladder(Drawn, Tabular):
     stopped: str
     fits: tuple[BaseFit, ...]
     seconds: float
+    corrections: tuple[DataCorrection, ...] = ()
 
     def as_json(self) -> list[dict[str, Any]]:
         """Return the contract of ladder.json: the steps; the last one says why no further one was climbed."""
@@ -102,7 +107,7 @@ class Ladder(Drawn, Tabular):
 
 @one_thread_algebra()
 def ladder(
-    campaign: Campaign | Path | str,
+    campaign: Campaign | Path | str | Prepared,
     add: Sequence[str] = (),
     model: Model | Path | str | None = None,
     *,
@@ -127,16 +132,15 @@ def ladder(
     began = time.perf_counter()
     tell = progress or (lambda words, share: None)
     asked = [find_effect(name) for name in add]
-    found = as_campaign(campaign)
+    prepared = prepare(campaign)
     start = None if model is None else as_model(model)
     tell("fitting base parameters", 0.02)
     part = 0.6 if system else 1.0
     if asked:
-        whole, invalid, _ = prepared(found)
-        base = fit_base(whole, start, invalid)
+        base = fit_prepared(prepared, start)
         path, counts, stopped = _asked(base, asked, lambda share: tell("refitting", part * share))
     else:
-        selected = select_effects(found, start, own, lambda words, share: tell(words, part * share))
+        selected = select_effects(prepared, start, own, lambda words, share: tell(words, part * share))
         base, state = selected.base, selected.search
         path, counts, stopped = _hypothesis_path(state), (len(state.screened), len(state.tried)), _why(state)
     fits = tuple(as_fit(base, h) for h in path)
@@ -147,15 +151,19 @@ def ladder(
             errors = replayed_errors(fits, ("holdout",), lambda share: tell("replaying", part + (1.0 - part) * share))
     steps = [_step(h, error) for h, error in zip(path, errors, strict=True)]
     tell("done", 1.0)
-    return Ladder(found.name, tuple(steps), counts, stopped, fits, time.perf_counter() - began)
+    name, seconds = prepared.recorded.name, time.perf_counter() - began
+    return Ladder(name, tuple(steps), counts, stopped, fits, seconds, prepared.corrections)
 
 
-def ladder_of(search: Search, system: Mapping[str, float], *, named: bool) -> Ladder:
+def ladder_of(
+    search: Search, system: Mapping[str, float], corrections: tuple[DataCorrection, ...], *, named: bool
+) -> Ladder:
     """Return the ladder that a search has climbed already.
 
     Args:
         search: of a diagnosis.
         system: {"base", "final"} errors of its replays, in floors; empty where none was asked for.
+        corrections: of the data, before any fit.
         named: whether the diagnosis names what the search came to; where it names nothing, the base model was replayed.
     """
     path = _hypothesis_path(search)
@@ -164,7 +172,7 @@ def ladder_of(search: Search, system: Mapping[str, float], *, named: bool) -> La
         ends[len(path) - 1] = system.get("final", np.nan)
     steps = [_step(h, float(ends.get(i, np.nan))) for i, h in enumerate(path)]
     counts = (len(search.screened), len(search.tried))
-    return Ladder(search.base.campaign.name, tuple(steps), counts, _why(search), (), 0.0)
+    return Ladder(search.base.campaign.name, tuple(steps), counts, _why(search), (), 0.0, corrections)
 
 
 def _hypothesis_path(state: Search) -> list[Hypothesis]:

@@ -1,6 +1,5 @@
 """What a campaign cannot tell beside the effects that it cannot test: found in its runs, and in what was tried."""
 
-import re
 from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 
@@ -8,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign import Run
+from slipwise.channels import part_of
 from slipwise.diagnosis.held_out_regime import not_testable
 from slipwise.diagnosis.identifiability import unidentified
 from slipwise.diagnosis.indistinguishable import known_effects
@@ -19,6 +19,7 @@ from slipwise.diagnosis.sensitivities import column_of, residual_with, small
 from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
+from slipwise.preparation.sample_fault import SampleFault
 from slipwise.relations.parameters import ZERO, Term
 from slipwise.relations.sample_masks import rolls_only_at_rest
 from slipwise.rig.frame import storey_channels
@@ -32,6 +33,8 @@ _ALIKE = 0.85
 _CREDIBLE = 0.9
 #: Springs whose middle lies off the centre by more than this share of the pads' half spacing turn the girder [1].
 _OFF = 0.02
+#: Faults of samples of which nothing is left that could be judged.
+_SHOW_NOTHING = ("dead", "wild")
 #: Runs that are named one by one.
 _NAMED = 3
 #: A column of which the base leaves a smaller share does what the base does [1].
@@ -40,14 +43,16 @@ _NOTHING_LEFT = 3e-5
 _MIN_COLUMN_LENGTH = 0.1
 
 
-def cannot_tell(state: Search, final: BaseFit) -> list[tuple[str, str]]:
+def cannot_tell(state: Search, final: BaseFit, faults: Sequence[SampleFault] = ()) -> list[tuple[str, str]]:
     """Return what this campaign cannot tell, each with the reason; effects that it cannot test are in `state.cannot`.
 
     Args:
         state: of the search.
         final: its best hypothesis as a fit.
+        faults: of samples, found before any fit.
     """
     project = projector(on_screen(state.base.problem, state.base.solution.jacobian))
+    lost = _balances_not_judged(state, faults)
     return [
         *unidentified(final, state.base),
         *_alike(state, project),
@@ -60,7 +65,8 @@ def cannot_tell(state: Search, final: BaseFit) -> list[tuple[str, str]]:
         *_beyond_what_was_fitted(state.base),
         *_floors_not_credible(state),
         *_gauges_not_tried(state),
-        *_without_response(state, project),
+        *([("balances", lost)] if lost else []),
+        *_without_response(state, project, lost),
     ]
 
 
@@ -110,6 +116,16 @@ def _friction_across_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
     why = "pads that stand unevenly turn pitch into roll" if coupled(base.campaign.specimen) else "it moves across"
     judged = "judged before the motion only" if "roll" in base.problem.relations else "not judged"
     yield "roll balance", f"{why}, and what turns the girder then is not all measured: it is {judged}"
+
+
+def _balances_not_judged(state: Search, faults: Sequence[SampleFault]) -> str:
+    """Say which balances no fitted run shows for want of channels that show nothing; "" where there are none."""
+    dead = dict.fromkeys(name for fault in faults if fault.kind in _SHOW_NOTHING for name in fault.channels)
+    problem = state.base.problem
+    lost = [r for r in problem.relations if not any(problem.runs[i].judged[r].any() for i in problem.fitted)]
+    if not dead or not lost:
+        return ""
+    return f"{', '.join(dead)} shows nothing, and without it no fitted run shows the balance of {', '.join(lost)}"
 
 
 def _floors_not_credible(state: Search) -> Iterator[tuple[str, str]]:
@@ -186,32 +202,37 @@ def _gauges_not_tried(state: Search) -> Iterator[tuple[str, str]]:
     alike: dict[str, list[str]] = {}
     for c in recorded:
         if c not in tried and not c.endswith("_raw"):
-            alike.setdefault(re.sub(r"^(pad|buffer)_[A-D12]_", r"\1_*_", c), []).append(c)
+            kind, place = part_of(c)
+            alike.setdefault(c.replace(f"{kind}_{place}_", f"{kind}_*_", 1) if place else c, []).append(c)
     if alike:
         named = ", ".join(together if len(own) > 1 else own[0] for together, own in alike.items())
         but = ", but for rails and lost samples" if state.base.problem.specimen.free else ""
         yield f"faults of {named}", f"never tried{but}"
 
 
-def _without_response(state: Search, project: Callable[[Array], Array]) -> Iterator[tuple[str, str]]:
-    """Say why nothing came of the candidates that screening saw nothing in; that a sign was wrong is no reason."""
+def _without_response(state: Search, project: Callable[[Array], Array], lost: str) -> Iterator[tuple[str, str]]:
+    """Say why nothing came of the candidates that screening saw nothing in; that a sign was wrong is no reason.
+
+    What changes nothing that was measured may show in balances that were lost, as `_balances_not_judged` says.
+    """
     with_response = {s.term.effect.name for s in state.all_screened}
     reasons: dict[str, set[str]] = {}
     for term in (t for t in state.terms if t.effect.name not in with_response):
-        reasons.setdefault(term.effect.name, set()).add(_reason(state.base, term, project))
+        reasons.setdefault(term.effect.name, set()).add(_reason(state.base, term, project, lost))
     for name, found in reasons.items():
         if "" not in found:
             yield name, "; ".join(sorted(found))
 
 
-def _reason(base: BaseFit, term: Term, project: Callable[[Array], Array]) -> str:
+def _reason(base: BaseFit, term: Term, project: Callable[[Array], Array], lost: str) -> str:
     """Say why a candidate could not be tested; "" where it could, and explained nothing."""
     columns = _columns(base, term)
     with_response = [c for c in columns if c is not None and _length(c) > _MIN_COLUMN_LENGTH]
     if not columns or all(c is None for c in columns):
         return _failure(base, term)
     if not with_response:
-        return "at its usual size it changes nothing that was measured"
+        nothing = "at its usual size it changes nothing that was measured"
+        return f"{nothing}; {lost}" if lost else nothing
     if all(_length(project(c)) < _NOTHING_LEFT * _length(c) for c in with_response):
         return "the base's own numbers do all that it does here"
     return ""

@@ -8,7 +8,6 @@ import numpy as np
 
 from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.alternatives import discriminating_tests, explanations, nearest_family
-from slipwise.diagnosis.data_corrections import FirstThing
 from slipwise.diagnosis.importance import Importance
 from slipwise.diagnosis.ladder import Ladder, ladder_of
 from slipwise.diagnosis.replays import replays
@@ -22,6 +21,7 @@ from slipwise.estimation.intervals import Interval
 from slipwise.estimation.prediction_interval import PredictedFriction
 from slipwise.model import Model
 from slipwise.noise.level import is_at_floor
+from slipwise.preparation.data_corrections import BEFORE_BALANCES, DataCorrection
 from slipwise.record import Record
 
 SCHEMA = 2
@@ -56,7 +56,9 @@ class Diagnosis(Drawn, Tabular):
         campaign: its name.
         verdict: kind, effects, probability.
         component: "pad friction", "pad load", "buffer", "girder", "table", "instrument" or "none".
-        base_error: held-out component-level error of the base model, worst relation, in floors.
+        recorded_error: held-out component-level error of the base model on the campaign as it was recorded, worst
+            relation, in floors.
+        base_error: the same once faults of samples are put right.
         final_error: the same with the named effects.
         relations: relation -> (base, final) held-out error in floors.
         all_samples: the same over all samples of the held-out runs, where stretches of them were judged; else empty.
@@ -66,7 +68,7 @@ class Diagnosis(Drawn, Tabular):
         predicted_friction: mean friction of the held-out runs of one slider, predicted and measured.
         least: effect -> smallest size that this campaign would have shown, and its unit.
         cannot_tell: what this campaign could not test, and why.
-        first: what was wrong before any balance.
+        corrections: what was done about the data before any fit.
         search: everything that was looked at.
         final: the best hypothesis as a fit, for reports and replays.
         seconds: it took.
@@ -76,6 +78,7 @@ class Diagnosis(Drawn, Tabular):
     campaign: str
     verdict: Verdict
     component: str
+    recorded_error: float
     base_error: float
     final_error: float
     relations: Mapping[str, tuple[float, float]]
@@ -86,11 +89,16 @@ class Diagnosis(Drawn, Tabular):
     predicted_friction: tuple[PredictedFriction, ...]
     least: Mapping[str, tuple[float, str]]
     cannot_tell: tuple[str, ...]
-    first: tuple[FirstThing, ...]
+    corrections: tuple[DataCorrection, ...]
     search: Search
     final: BaseFit
     seconds: float
     law: Mapping[str, Any] | None = None
+
+    @property
+    def first(self) -> tuple[DataCorrection, ...]:
+        """What was wrong with the data so that no balance meant anything."""
+        return tuple(one for one in self.corrections if one.kind in BEFORE_BALANCES)
 
     @property
     def added(self) -> tuple[str, ...]:
@@ -120,7 +128,7 @@ class Diagnosis(Drawn, Tabular):
 
     def ladder(self) -> Ladder:
         """Return the ladder that the diagnosis has climbed already."""
-        return ladder_of(self.search, self.system, named=bool(self.added))
+        return ladder_of(self.search, self.system, self.corrections, named=bool(self.added))
 
     @property
     def left_over(self) -> str:
@@ -149,7 +157,7 @@ class Diagnosis(Drawn, Tabular):
         chance = f"{100 * self.verdict.probability:.0f} %"
         names = " and ".join(self.verdict.effects)
         error = "held-out error" if self.search.base.problem.held_out else "error on the runs that were fitted"
-        fall = f"{error} {_short(self.base_error)} -> {_short(self.final_error)} times the noise floor"
+        fall = f"{error} {_short(self.recorded_error)} -> {_short(self.final_error)} times the noise floor"
         match self.verdict.kind:
             case "complete":
                 least = "that matters" if self.verdict.minor else "above the noise"
@@ -195,6 +203,7 @@ class Diagnosis(Drawn, Tabular):
             "minor": list(verdict.minor),
             "probability": round(verdict.probability, 3),
             "component": self.component,
+            "recorded_error": _number(self.recorded_error),
             "base_error": _number(self.base_error),
             "floor": 1.0,
             "final_error": _number(self.final_error),
@@ -212,6 +221,7 @@ class Diagnosis(Drawn, Tabular):
             "least": {k: _number(v) for k, (v, _) in self.least.items()},
             "cannot_tell": list(self.cannot_tell),
             "first": [one.as_json() for one in self.first],
+            "corrections": [one.as_json() for one in self.corrections],
             "words": self.sentence,
             "seconds": round(self.seconds, 1),
         }

@@ -19,7 +19,7 @@ from slipwise.evidence.calibration import calibration
 from slipwise.evidence.decision import EVEN_ODDS, decide, remains
 from slipwise.evidence.score import relative_drop
 from slipwise.instruments.suspects import effect_of
-from slipwise.preparation.sample_faults import SampleFault
+from slipwise.preparation.sample_fault import SampleFault
 from slipwise.relations.parameters import Term
 
 #: Share of a probability that is left where no run is held out, which could have confirmed it [1].

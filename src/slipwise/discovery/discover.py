@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from slipwise.campaign import Campaign, as_campaign
+from slipwise.campaign import Campaign
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.hypothesis_fit import as_fit
 from slipwise.diagnosis.result import Diagnosis
@@ -31,6 +31,8 @@ from slipwise.estimation.objective import Problem
 from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
 from slipwise.noise.level import is_at_floor
+from slipwise.preparation.prepare import prepare
+from slipwise.preparation.prepared import Prepared
 
 #: Shares of the error above noise at which a law, a state, an organising state may be said [1].
 LAW, STATE, ORGANISED = 0.95, 0.9, 0.5
@@ -78,7 +80,7 @@ class _Answer:
 
 @one_thread_algebra()
 def discover(
-    campaign: Campaign | Path | str,
+    campaign: Campaign | Path | str | Prepared,
     model: Model | Path | str | None = None,
     *,
     own: Iterable[Effect] = (),
@@ -88,7 +90,7 @@ def discover(
     """Find the law of what a model lacks where the catalogue ends.
 
     Args:
-        campaign: or its folder.
+        campaign: or its folder; one that is prepared is not prepared again.
         model: the user's current model, as for `diagnose`.
         own: effects beside those of the catalogue.
         diagnosis: of the same campaign and model; made where not given.
@@ -98,7 +100,7 @@ def discover(
         InputError: the campaign lacks what every fit needs.
     """
     tell = progress or (lambda words, share: None)
-    measured = as_campaign(campaign)
+    measured = prepare(campaign)
     if diagnosis is None:
         diagnosis = diagnose(measured, model, own=own, progress=lambda words, share: tell(words, 0.5 * share))
     began = time.perf_counter()
@@ -113,13 +115,13 @@ def discover(
         if answers[-1].evidence in ("law", "nothing"):
             break
     best = max(answers, key=lambda answer: (_ORDER.index(answer.evidence), answer.share))
-    told = _held_against_the_others(measured.name, best)
+    told = _held_against_the_others(measured.recorded.name, best)
     tell("done", 1.0)
-    return replace(told, seconds=time.perf_counter() - began)
+    return replace(told, corrections=diagnosis.corrections, seconds=time.perf_counter() - began)
 
 
 def diagnose_with_law(
-    campaign: Campaign | Path | str,
+    campaign: Campaign | Path | str | Prepared,
     model: Model | Path | str | None = None,
     *,
     own: Iterable[Effect] = (),
@@ -129,7 +131,7 @@ def diagnose_with_law(
     """Say which effect a model lacks, and where the catalogue has none, which law its force follows.
 
     Args:
-        campaign: or its folder.
+        campaign: or its folder; one that is prepared is not prepared again.
         model: the user's current model, or its model.toml; the paper's law on the campaign's rig when not given.
         own: effects beside those of the catalogue, as `slipwise.effects.find_effect` gives them.
         system: replay base and final model as well.
@@ -138,7 +140,7 @@ def diagnose_with_law(
     Raises:
         InputError: the campaign lacks what every fit needs.
     """
-    measured = as_campaign(campaign)
+    measured = prepare(campaign)
     found = diagnose(measured, model, own=own, system=system, progress=progress)
     if found.verdict.kind != "unknown":
         return found

@@ -12,6 +12,7 @@ from slipwise.discovery.law import Law, Origin
 from slipwise.discovery.states import UNITS
 from slipwise.display import Drawn, Tabular
 from slipwise.estimation.base_fit import BaseFit
+from slipwise.preparation.data_corrections import DataCorrection
 
 #: A law's form in a sentence.
 _HOW = {
@@ -44,6 +45,7 @@ class Discovery(Drawn, Tabular):
         files: of the effects that were written.
         seconds: it took.
         beside: effects that the diagnosis had added to the user's model before the search for a law began.
+        corrections: what was done about the data before any fit.
     """
 
     campaign: str
@@ -59,6 +61,7 @@ class Discovery(Drawn, Tabular):
     files: tuple[Path, ...]
     seconds: float
     beside: tuple[str, ...] = ()
+    corrections: tuple[DataCorrection, ...] = ()
 
     @property
     def sentence(self) -> str:
@@ -137,6 +140,7 @@ class Discovery(Drawn, Tabular):
                 for law in self.laws
             ],
             "beside": list(self.beside),
+            "corrections": [one.as_json() for one in self.corrections],
             "organised": None if self.organised is None else self.organised.label,
             "share": self.share,
             "held_out": {"before": _known(before), "after": _known(after)},

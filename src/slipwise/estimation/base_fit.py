@@ -5,15 +5,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from slipwise.campaign import Campaign, Logger
+from slipwise.campaign import Campaign
+from slipwise.campaign.invalid_samples import InvalidSamples
 from slipwise.campaign.scales import Scales, scales_of
 from slipwise.effects import catalogue, holding, scaled
 from slipwise.errors import InputError
 from slipwise.estimation.least_squares import Solution, jacobian, slopes_of, solve
 from slipwise.estimation.objective import Problem
 from slipwise.model import Model, base_model, use_of
-from slipwise.preparation.logger import estimate_logger
-from slipwise.preparation.repairs import InvalidSamples
 from slipwise.relations.force_offset import free_zero
 from slipwise.relations.parameters import (
     DAMPED_STICK,
@@ -27,7 +26,6 @@ from slipwise.relations.parameters import (
     terms_of,
 )
 from slipwise.relations.run_data import FitRun, fit_runs
-from slipwise.signals.filters import LowPass
 
 #: Noise near reversals depends on the fit and the fit on the noise: each is made anew, and every fit ends where a step
 #: promises less than this much of the squared residual. One halfwidth of an interval is worth four [1].
@@ -53,7 +51,7 @@ class BaseFit:
     """What the base model makes of a campaign.
 
     Attributes:
-        campaign: that was fitted, with the logger's filter as it was found where nobody knew it.
+        campaign: that was fitted.
         model: where the fit began.
         problem: relations and noise.
         free: base parameters.
@@ -71,24 +69,26 @@ def fit_base(
     campaign: Campaign,
     model: Model | None = None,
     invalid: InvalidSamples | None = None,
+    start: Mapping[str, float] | None = None,
     watch: Callable[[], None] | None = None,
 ) -> BaseFit:
     """Fit a campaign's base parameters on its runs of role fit and repeat.
 
     Args:
-        campaign: with at least one run that is not held out.
+        campaign: with at least one run that is not held out; where its logger is not known, the frequency of the usual
+            filter is fitted too.
         model: the user's current model; the paper's law on the campaign's rig when not given.
         invalid: run -> channel -> samples (n,) at which it is no measurement.
+        start: key -> value where the fit begins; rated or typical where none is given.
         watch: called before every evaluation; what it raises ends the fit.
 
     Raises:
         InputError: a run lacks what every fit needs, or the runs are too short for one.
     """
     model = scaled_model(model or base_model(campaign.specimen), scales_of(campaign), typical=model is None)
-    campaign, start = with_logger(campaign, model, invalid)
     problem = Problem(fit_runs(campaign, invalid), model.specimen, terms_of(model), watch=watch)
     _refuse_too_short(problem, free_numbers(campaign, model, problem))
-    return _fitted(campaign, model, problem, start)
+    return _fitted(campaign, model, problem, start or {})
 
 
 def _refuse_too_short(problem: Problem, free: Sequence[Free]) -> None:
@@ -115,26 +115,19 @@ def _judged_samples(problem: Problem, run: FitRun) -> int:
     return int(np.count_nonzero(np.any(masks, axis=0)))
 
 
-def with_logger(
-    campaign: Campaign, model: Model, invalid: InvalidSamples | None = None
-) -> tuple[Campaign, Mapping[str, float]]:
-    """Return a campaign with the logger's filter as the fitted runs show it, and where a fit that found it ended.
+def fit_roughly(campaign: Campaign, invalid: InvalidSamples | None = None) -> Mapping[str, float]:
+    """Return the numbers at which a rough fit of the paper's law ends, the logger's frequency among them if not known.
 
     Args:
-        campaign: itself where its logger is known, or its rig prescribes the slip.
-        model: whose law a fit of the filter's frequency stands beside.
+        campaign: with at least one run that is not held out.
         invalid: as for `fit_base`.
+
+    Raises:
+        InputError: a run lacks what every fit needs.
     """
-    if campaign.logger.known or not model.specimen.free:  # of one slider no filter is told from a law
-        return campaign, {}
-    start: Mapping[str, float] = {}
-    fitted = tuple(run for run in campaign.runs if run.role != "holdout")
-    estimated = estimate_logger(replace(campaign, runs=fitted)).likeliest
-    if estimated is None:  # the usual kind, at the frequency that a fit finds beside the law
-        problem = Problem(fit_runs(campaign, invalid), model.specimen, terms_of(model))
-        start = _roughly(problem, free_numbers(campaign, model, problem), {}).values
-        estimated = Logger(LowPass(start["rig.logger"]), known=True)
-    return replace(campaign, logger=replace(estimated, thinning=campaign.logger.thinning)), start
+    model = scaled_model(base_model(campaign.specimen), scales_of(campaign), typical=True)
+    problem = Problem(fit_runs(campaign, invalid), model.specimen, terms_of(model))
+    return _roughly(problem, free_numbers(campaign, model, problem), {}).values
 
 
 def scaled_model(model: Model, scales: Scales, *, typical: bool) -> Model:
@@ -222,8 +215,12 @@ def _resonance_moved(weighed: Mapping[str, float], found: Mapping[str, float]) -
 def final_refit(problem: Problem, solution: Solution) -> tuple[Problem, Solution]:
     """Fit on with the laws evaluated at twice the instants, weighed anew twice, and a stick that may be damped.
 
-    What was weighed by another law is off near reversals, where that law was wrong.
+    What was weighed by another law is off near reversals, where that law was wrong. A slider's fit stays as it is: its
+    gauges are often so quiet that nearly all its floor is what the base law's reversals leave unsure, and another floor
+    would make its error before and after two different things.
     """
+    if not problem.balanced:
+        return problem, solution
     problem, free, start = problem.weighed_anew(solution.values, finer=True), list(solution.free), solution.values
     if any(f.key in DAMPED_STICK for f in free):
         scale = problem.runs[0].scales
@@ -238,9 +235,15 @@ def final_refit(problem: Problem, solution: Solution) -> tuple[Problem, Solution
     return problem, solve(problem, values, free, most=3, enough=_FINAL_REFIT, rough=_MUCH_LEFT)
 
 
-def fit_finely(campaign: Campaign, model: Model | None = None) -> BaseFit:
-    """Fit a campaign's base parameters for their own sake; arguments and errors as `fit_base`."""
-    base = fit_base(campaign, model)
+def fit_finely(
+    campaign: Campaign,
+    model: Model | None = None,
+    invalid: InvalidSamples | None = None,
+    start: Mapping[str, float] | None = None,
+    watch: Callable[[], None] | None = None,
+) -> BaseFit:
+    """Fit a campaign's base parameters as all that is reported is; arguments and errors as `fit_base`."""
+    base = fit_base(campaign, model, invalid, start, watch)
     problem, solution = final_refit(base.problem, base.solution)
     return replace(base, problem=problem, free=solution.free, solution=solution)
 

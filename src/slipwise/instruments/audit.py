@@ -2,10 +2,11 @@
 
 from collections.abc import Iterable
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
-from slipwise.campaign import Campaign, as_campaign
+from slipwise.campaign import Campaign
 from slipwise.campaign.wild_samples_of_runs import sentences as wild_samples
 from slipwise.campaign.zero_state import ShiftedZero
 from slipwise.channels import channel
@@ -19,10 +20,10 @@ from slipwise.instruments.report import AuditReport, Balance, Finding
 from slipwise.instruments.sentences import as_sentence, confusable, how_to_settle, nearest, sentence
 from slipwise.instruments.suspects import Suspect, effect_of
 from slipwise.instruments.zeros import values_of_zero, with_refined_zeros
-from slipwise.preparation.logger import estimate_logger
-from slipwise.preparation.repairs import for_balances
+from slipwise.preparation.prepare import prepare
+from slipwise.preparation.prepared import Prepared
 from slipwise.preparation.rounding import coarse
-from slipwise.preparation.sample_faults import RAILS, SampleFault, sample_faults
+from slipwise.preparation.sample_fault import RAILS, SampleFault
 from slipwise.preparation.wrong_units import WrongUnit
 from slipwise.relations.balance_rows import constants_of, noise_of_channels, noise_of_runs, prepare_runs, stack
 from slipwise.relations.rigid_balances import relations
@@ -41,35 +42,36 @@ NOTHING_MAPPED = (
 )
 
 
-def audit(campaign: Campaign, own: Iterable[Effect] = ()) -> AuditReport:
+def audit(campaign: Campaign | Path | str | Prepared, own: Iterable[Effect] = ()) -> AuditReport:
     """Compare every run's channels with each other; nothing is corrected.
 
     Args:
-        campaign: whose logger may be unknown: then its filter is estimated too.
+        campaign: or its folder; one that is prepared is not prepared again.
         own: effects beside those of the catalogue: faults of gauges (`fault`) and physical explanations (`disturb`).
     """
-    campaign = as_campaign(campaign)
+    prepared = prepare(campaign)
+    campaign = prepared.recorded
     if not any(run.record.channels for run in campaign.runs):
         return AuditReport(campaign.name, (), (), (), {}, None, (NOTHING_MAPPED,))
-    samples = sample_faults(campaign)
-    records, left_out = for_balances(campaign, samples)
-    clean = campaign.with_records(records, "wrong signs turned back, bad samples and outliers left out")
-    runs, band = prepare_runs(clean, left_out)
-    allowed, cannot = relations(runs[0].record, campaign.specimen)
+    clean, rig = prepared.balances.campaign, prepared.campaign.specimen
+    runs, band = prepare_runs(clean, prepared.balances.left_out)
+    allowed, cannot = relations(runs[0].record, rig)
     noise = noise_of_runs(runs, noise_of_channels(clean, runs, band), band)
     mass_error = KNOWN_MASS if "mass" in campaign.known else RATED_MASS
-    logger = None if campaign.logger.known else estimate_logger(clean)
-    findings, notes = [_of_samples(fault) for fault in samples], [*wild_samples(campaign.runs), *_rounded(campaign)]
+    logger = prepared.logger
+    findings = [_of_samples(fault) for fault in prepared.faults]
+    notes = [*wild_samples(campaign.runs), *_rounded(campaign)]
+    notes += [one.words for one in prepared.corrections if one.kind == "wrong_rig"]
     plain = AuditReport(campaign.name, tuple(findings), (), (), {}, logger, tuple(cannot), tuple(notes))
     if not any(relation.accuses and relation.rows in ("moving", "inner") for relation in allowed):
         return plain
-    if not stack(runs, allowed, campaign.specimen, dict.fromkeys(constants_of(allowed), 0.0)).residual:
+    if not stack(runs, allowed, rig, dict.fromkeys(constants_of(allowed), 0.0)).residual:
         why = "balances: no run has a sample at which they hold; the runs are too short, or the rig is at rest in them"
         return replace(plain, cannot=(*plain.cannot, why))
     likeliest = campaign.logger if logger is None else logger.likeliest
     highest = passed(likeliest.every if likeliest else None, clean.runs[0].record.dt)
     effects = {**catalogue(), **{e.name: e for e in own}}
-    case = Case(runs, allowed, campaign.specimen, noise, mass_error, highest, tuple(effects.values()))
+    case = Case(runs, allowed, rig, noise, mass_error, highest, tuple(effects.values()))
     first = start(case)
     selection = select_faults(case, first)
     findings = with_refined_zeros(findings, [_of_evidence(evidence) for evidence in selection.accepted])
@@ -154,6 +156,7 @@ def _of_samples(fault: SampleFault) -> Finding:
         target=fault.channels[0] if len(fault.channels) == 1 else place,
         values=values,
         runs=fault.runs,
+        of_samples=fault,
     )
 
 

@@ -9,13 +9,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from slipwise.campaign import Campaign, as_campaign
+from slipwise.campaign import Campaign
 from slipwise.display import Drawn, Tabular
 from slipwise.effects import Effect
 from slipwise.instruments.audit import NOTHING_MAPPED, audit
 from slipwise.instruments.corrections import correct
-from slipwise.instruments.report import AuditReport, Finding, LoggerEstimate
+from slipwise.instruments.report import AuditReport, Finding
 from slipwise.instruments.sentences import shown
+from slipwise.preparation.logger import LoggerEstimate
+from slipwise.preparation.prepared import Prepared
 
 
 @dataclass(frozen=True, repr=False)
@@ -72,11 +74,11 @@ class Checks(Drawn, Tabular):
         return self.report.rows()
 
 
-def check_instruments(campaign: Campaign | Path | str, *, own: Iterable[Effect] = ()) -> Checks:
+def check_instruments(campaign: Campaign | Path | str | Prepared, *, own: Iterable[Effect] = ()) -> Checks:
     """Audit a campaign without any law of friction.
 
     Args:
-        campaign: or its folder.
+        campaign: or its folder; one that is prepared is not prepared again.
         own: effects beside those of the catalogue, as `slipwise.effects.find_effect` gives them: faults of gauges
             (`fault`) and physical explanations (`disturb`).
 
@@ -84,7 +86,7 @@ def check_instruments(campaign: Campaign | Path | str, *, own: Iterable[Effect] 
         InputError: the folder holds no campaign that can be read.
     """
     began = time.perf_counter()
-    report = audit(as_campaign(campaign), own)
+    report = audit(campaign, own)
     tested = [b for b in report.balances if not b.relation.startswith("rest_")]
     if report.findings:
         words = f"No: {'; '.join(f.words for f in report.findings)}. No law of friction was needed to see it."

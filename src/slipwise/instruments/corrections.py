@@ -8,9 +8,8 @@ from slipwise.campaign import Campaign
 from slipwise.errors import InputError, unknown_name
 from slipwise.instruments.report import AuditReport, Finding
 from slipwise.instruments.suspects import declared, effect_of
-from slipwise.instruments.zeros import tared_cells
-from slipwise.preparation.repairs import bridged
-from slipwise.preparation.sample_faults import sample_faults
+from slipwise.preparation.balance_records import bridge_by_splines
+from slipwise.preparation.tare import find_tared_cells
 from slipwise.record import Record
 
 
@@ -40,7 +39,7 @@ def correct(campaign: Campaign, report: AuditReport, names: Iterable[str]) -> tu
         for finding in chosen:
             _check_known_weight(finding, campaign)
             words = f"corrected: {finding.words}"
-            records = {run.name: _corrected(run.record, finding, campaign, run.name) for run in campaign.runs}
+            records = {run.name: _corrected(run.record, finding, run.name) for run in campaign.runs}
             campaign = campaign.with_records(records, words)
             done.append(words)
     return campaign, done
@@ -66,35 +65,28 @@ def _check_known_weight(finding: Finding, campaign: Campaign) -> None:
 
 def is_tared(finding: Finding, campaign: Campaign) -> bool:
     """Return whether a finding is a load cell, or all four, that was set to zero under the girder."""
-    cells = tared_cells(campaign)
+    cells = find_tared_cells(campaign)
     return finding.what == effect_of("shifted").name and bool(cells) and finding.channel in (*cells, "pad_*_N")
 
 
-def is_wrong_unit(finding: Finding) -> bool:
-    """Return whether a finding is a channel off by a factor of units: more than a gain that a gauge can have."""
-    gain = effect_of("scaled").parameters[0]
-    dead = finding.size <= -1.0
-    return finding.what == effect_of("scaled").name and not dead and not gain.low <= finding.size <= gain.high
-
-
-def _corrected(record: Record, finding: Finding, campaign: Campaign, run: str) -> Record:
+def _corrected(record: Record, finding: Finding, run: str) -> Record:
     hooks = finding.effect.hooks
     if declared(finding.effect).scales and finding.size <= -1.0:
         raise InputError(f"{finding.channel} is dead: there is nothing that could be corrected; leave the channel out")
     if "held" in declared(finding.effect).samples:
-        return _bridged(record, finding, campaign, run)
+        return _bridged(record, finding, run)
     undo = hooks.get("undo", hooks.get("sharpen"))
     if undo is None:
         raise InputError(f"{finding.words}: what it has cut away cannot be brought back; leave the channel or run out")
     return undo(record, finding.target, **finding.values)
 
 
-def _bridged(record: Record, finding: Finding, campaign: Campaign, run: str) -> Record:
+def _bridged(record: Record, finding: Finding, run: str) -> Record:
     """Interpolate over repeated samples."""
-    for fault in sample_faults(campaign):
-        if fault.kind == "held" and run in fault.bad and finding.runs == fault.runs:
-            bad = fault.bad[run]
-            return record.replaced(**{n: bridged(record[n], bad) for n in fault.channels if np.any(bad)})
+    fault = finding.of_samples
+    if fault is not None and fault.kind == "held" and run in fault.bad:
+        bad = fault.bad[run]
+        return record.replaced(**{n: bridge_by_splines(record[n], bad) for n in fault.channels if np.any(bad)})
     if run in finding.runs:
         raise InputError(f"{finding.words}: samples that are lost cannot be put back; cut the run before them")
     return record

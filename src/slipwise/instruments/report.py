@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from slipwise.campaign import Logger
 from slipwise.display import Drawn, Tabular
 from slipwise.effects import Effect
-from slipwise.signals.filters import LowPass
+from slipwise.preparation.logger import LoggerEstimate
+from slipwise.preparation.sample_fault import SampleFault
 
 
 @dataclass(frozen=True)
@@ -28,6 +28,7 @@ class Finding:
         target: of the effect that undoes it.
         values: parameters of that effect.
         runs: names of the runs that show it.
+        of_samples: the fault of samples that it is; None of one that balances show.
     """
 
     effect: Effect
@@ -43,6 +44,7 @@ class Finding:
     target: str
     values: Mapping[str, float]
     runs: tuple[str, ...] = ()
+    of_samples: SampleFault | None = None
 
     @property
     def what(self) -> str:
@@ -72,25 +74,6 @@ class Balance:
     left: float
     explained: float
     rows: int
-
-
-@dataclass(frozen=True)
-class LoggerEstimate:
-    """What the data say of the logger's filter.
-
-    Attributes:
-        lowpass: the filter, None when the data do not tell it within the interval that matters.
-        low: lower end of the 95 % interval of its frequency [Hz].
-        high: upper end.
-        why: how it was found, or why it was not.
-        likeliest: what a fit takes the logger for, sure or not; None where nothing is known of it.
-    """
-
-    lowpass: LowPass | None
-    low: float
-    high: float
-    why: str
-    likeliest: Logger | None = None
 
 
 @dataclass(frozen=True, repr=False)

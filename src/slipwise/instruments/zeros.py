@@ -1,25 +1,12 @@
-"""Zeros that are far off, found before any balance: gravity in vertical accelerometers, load cells tared under load."""
+"""Zeros that are far off as findings of the audit, and what the balances add to them."""
 
 from collections.abc import Iterable
 from dataclasses import replace
 
-from slipwise.campaign import Campaign
-from slipwise.campaign.zero_state import ShiftedZero, shifted_zeros
+from slipwise.campaign.zero_state import ShiftedZero
 from slipwise.effects._gauges import span
 from slipwise.instruments.report import Finding
 from slipwise.instruments.suspects import effect_of
-
-
-def zeros_of(campaign: Campaign) -> tuple[ShiftedZero, ...]:
-    """Return the channels of a campaign whose zero is far off."""
-    rig = campaign.specimen
-    loads = tuple(f"pad_{pad}_N" for pad in rig.pads) if rig.free else ()
-    return shifted_zeros([run.record for run in campaign.runs], loads, rig.weight)
-
-
-def tared_cells(campaign: Campaign) -> tuple[str, ...]:
-    """Return the load cells that do not show the girder's weight."""
-    return tuple(name for zero in zeros_of(campaign) if zero.tared for name in zero.channels)
 
 
 def values_of_zero(zero: ShiftedZero) -> dict[str, float]:

@@ -4,13 +4,13 @@ What lies far above the new half rate is taken out before, in phase. Noise just 
 top of the spectrum stays as loud as the rest, and tells how loud that is.
 """
 
-from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.campaign import Campaign, Run, Thinning
+from slipwise.campaign.invalid_samples import InvalidSamples
 from slipwise.record import Record
 from slipwise.rig import Specimen
 from slipwise.signals.filters import LowPass, lowpass
@@ -35,9 +35,7 @@ def thinning(run: Run, specimen: Specimen) -> int:
     return max(1, int(np.floor(1.0 / (run.record.dt * ENOUGH) + 1e-6)))
 
 
-def decimated(
-    campaign: Campaign, invalid: Mapping[str, Mapping[str, Mask]]
-) -> tuple[Campaign, dict[str, dict[str, Mask]]]:
+def decimate(campaign: Campaign, invalid: InvalidSamples) -> tuple[Campaign, InvalidSamples]:
     """Return a campaign with at most twice `ENOUGH` samples a second, and which of its samples are no measurement.
 
     Args:
@@ -46,7 +44,7 @@ def decimated(
     """
     every = {run.name: thinning(run, campaign.specimen) for run in campaign.runs}
     if max(every.values()) == 1:
-        return campaign, {run: dict(of) for run, of in invalid.items()}
+        return campaign, invalid
     records = {run.name: _thinned(run.record, every[run.name]) for run in campaign.runs}
     masks = {
         run: {name: _any_of(mask, every[run])[: len(records[run])] for name, mask in of.items()}

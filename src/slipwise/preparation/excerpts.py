@@ -9,13 +9,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slipwise.campaign.campaign import Campaign, Run
-from slipwise.preparation.decimation import decimated
+from slipwise.campaign.invalid_samples import InvalidSamples
 from slipwise.record import Record
 
-Mask = NDArray[np.bool_]
 #: Samples of all runs together that are fitted.
 MOST = 160_000
 #: Rest that is kept before the first slip, for it shows the noise of the gauges [s].
@@ -24,24 +22,20 @@ _REST = 4.0
 _SLIPS = 0.02
 
 
-def stretched(
-    campaign: Campaign, invalid: Mapping[str, Mapping[str, Mask]], most: int = MOST
-) -> tuple[Campaign, dict[str, dict[str, Mask]]]:
+def cut_excerpts(campaign: Campaign, invalid: InvalidSamples, most: int = MOST) -> tuple[Campaign, InvalidSamples]:
     """Return a campaign with at most so many samples, and which of them are no measurement; a shorter one as it is.
 
     Args:
-        campaign: as recorded.
+        campaign: decimated, so that nothing is cut for the sake of samples that tell nothing.
         invalid: run -> channel -> samples (n,) at which it is no measurement.
         most: samples of all runs together.
     """
-    masks = {run: dict(of) for run, of in invalid.items()}
     if sum(len(run.record) for run in campaign.runs) <= most:
-        return campaign, masks
-    campaign, masks = decimated(campaign, invalid)
+        return campaign, invalid
     longest = _share([len(run.record) for run in campaign.runs], most)
     cut = {run.name: _stretch(run, longest) for run in campaign.runs if len(run.record) > longest}
     runs = tuple(_within(run, cut[run.name]) if run.name in cut else run for run in campaign.runs)
-    masks = {run: {c: mask[cut[run]] if run in cut else mask for c, mask in of.items()} for run, of in masks.items()}
+    masks = {run: {c: mask[cut[run]] if run in cut else mask for c, mask in of.items()} for run, of in invalid.items()}
     notes = (_note(cut, campaign),) if cut else ()
     return replace(campaign, runs=runs, notes=(*campaign.notes, *notes)), masks
 

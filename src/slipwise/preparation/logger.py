@@ -12,7 +12,8 @@ the law under many filters read 48 Hz where 80 Hz hid behind a presliding bristl
 Source: Whittle (1953), Arkiv Matematik 2:423-434.
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,9 @@ from scipy.optimize import minimize
 from scipy.signal import welch
 
 from slipwise.campaign import Campaign, Logger
-from slipwise.instruments.report import LoggerEstimate
+from slipwise.campaign.invalid_samples import InvalidSamples
+from slipwise.errors import InputError
+from slipwise.estimation.base_fit import fit_roughly
 from slipwise.jobs.parallel import on_every_core
 from slipwise.record import Record
 from slipwise.signals.filters import LowPass
@@ -40,6 +43,25 @@ _WIDEST = 0.25
 
 
 @dataclass(frozen=True)
+class LoggerEstimate:
+    """What the data say of the logger's filter.
+
+    Attributes:
+        lowpass: the filter, None when the data do not tell it within the interval that matters.
+        low: lower end of the 95 % interval of its frequency [Hz].
+        high: upper end.
+        why: how it was found, or why it was not.
+        likeliest: what a fit takes the logger for, sure or not; None where nothing is known of it.
+    """
+
+    lowpass: LowPass | None
+    low: float
+    high: float
+    why: str
+    likeliest: Logger | None = None
+
+
+@dataclass(frozen=True)
 class _Shape:
     """One fitted shape: numbers are log level at 50 Hz, slope, log corner, log noise, tilt of the noise."""
 
@@ -52,6 +74,34 @@ class _Shape:
     @property
     def corner(self) -> float:
         return float(np.exp(self.numbers[2]))
+
+
+def determine_logger(
+    campaign: Campaign, invalid: InvalidSamples
+) -> tuple[Campaign, LoggerEstimate | None, Mapping[str, float]]:
+    """Return a campaign with the logger's filter as its fitted runs show it, what they say, and where fits begin.
+
+    Where friction's spectrum does not tell it, the filter is of the usual kind, at the frequency that a rough fit finds
+    beside the law; later fits begin where that one ended.
+
+    Args:
+        campaign: with its logger; where campaign.toml describes that nothing is to be found out.
+        invalid: run -> channel -> samples (n,) at which it is no measurement.
+    """
+    if campaign.logger.known:
+        return campaign, None, {}
+    fitted = tuple(run for run in campaign.runs if run.role != "holdout")
+    found, start = estimate_logger(replace(campaign, runs=fitted)), dict[str, float]()
+    if not campaign.specimen.free:  # of one slider no filter is told from a law
+        return campaign, found, start
+    likeliest = found.likeliest
+    if likeliest is None:
+        try:
+            start = dict(fit_roughly(campaign, invalid))
+        except InputError:  # what a fit lacks is told by whoever asks for one
+            return campaign, found, start
+        likeliest = Logger(LowPass(start["rig.logger"]), known=True)
+    return replace(campaign, logger=replace(likeliest, thinning=campaign.logger.thinning)), found, start
 
 
 def estimate_logger(campaign: Campaign) -> LoggerEstimate:

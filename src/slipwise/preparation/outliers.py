@@ -10,14 +10,14 @@ from slipwise.signals.outliers import outliers
 from slipwise.signals.short_bursts import bridged
 
 
-def without_outliers(record: Record, specimen: Specimen) -> Record:
+def bridge_outliers(campaign: Campaign) -> Campaign:
+    """Return a campaign with the outliers of every run bridged."""
+    runs = (replace(run, record=bridge_outliers_of(run.record, campaign.specimen)) for run in campaign.runs)
+    return replace(campaign, runs=tuple(runs))
+
+
+def bridge_outliers_of(record: Record, specimen: Specimen) -> Record:
     """Return a record with the outliers of its channels bridged, but for those that a balance confirms as a motion."""
     channels = record.channels
     found = not_motion({name: outliers(values) for name, values in channels.items()}, channels, specimen)
     return record.replaced(**{name: bridged(channels[name], bad) for name, bad in found.items()})
-
-
-def campaign_without_outliers(campaign: Campaign) -> Campaign:
-    """Return a campaign with the outliers of every run bridged."""
-    runs = (replace(run, record=without_outliers(run.record, campaign.specimen)) for run in campaign.runs)
-    return replace(campaign, runs=tuple(runs))

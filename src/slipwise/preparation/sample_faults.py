@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,12 +9,14 @@ from numpy.typing import NDArray
 from slipwise.campaign import Campaign, Run
 from slipwise.campaign.wild_samples_of_runs import FAULTY, faulty_share
 from slipwise.channels import pads_in
-from slipwise.instruments.zeros import tared_cells, zeros_of
-from slipwise.preparation.outliers import campaign_without_outliers
+from slipwise.preparation.outliers import bridge_outliers
+from slipwise.preparation.put_right import put_right
 from slipwise.preparation.rounding import NEAR, chance_of_equal, coarse
-from slipwise.preparation.signs import with_signs, wrong_signs
-from slipwise.preparation.synchronisation import in_step_campaign, late_cells, late_motion
-from slipwise.preparation.wrong_units import in_right_units, wrong_units
+from slipwise.preparation.sample_fault import SampleFault
+from slipwise.preparation.signs import find_wrong_signs
+from slipwise.preparation.synchronisation import LateChannels, find_late_cells, find_late_motion
+from slipwise.preparation.tare import find_shifted_zeros, find_tared_cells
+from slipwise.preparation.wrong_units import find_wrong_units
 from slipwise.rig import Specimen
 from slipwise.rig.load_basis import basis_of
 from slipwise.signals.noise import quantum, white_level
@@ -31,7 +32,6 @@ _HOLD = 3
 Mask = NDArray[np.bool_]
 #: A rail holds at least this many samples of a campaign, in one place at least that many, this part side by side [1].
 _RAIL, _LONG_RAIL, _BESIDE = 6, 15, 0.5
-RAILS: tuple[str, ...] = ("upper rail", "lower rail")
 #: A rail is met faster than this many standard deviations of noise, and this many steps of rounding, a sample [1].
 _FAST, _STEPS = 0.2, 1.5
 #: Samples repeat when so many more of them equal their neighbour than rounding explains (standard deviations), and
@@ -45,45 +45,51 @@ _TAIL, _TAILS, _RARE = 4, 8, 0.15
 _GAP = 1.6
 
 
-@dataclass(frozen=True)
-class SampleFault:
-    """Bad samples of one channel, or of several at the same instants.
-
-    Attributes:
-        kind: "late", "turned", "scaled", "shifted", "wild", "dead", "upper rail", "lower rail", "held", "lost" or
-            "gap".
-        channels: that show it.
-        size: rail or shift in the channel's unit; delay [s]; -1 for a wrong sign; factor by which a channel is too
-            large [1]; else share of all samples [1].
-        bad: run -> samples that are no measurement (n,); none of a wrong sign, unit or zero, which is put right.
-        runs: names of the runs that show it.
-    """
-
-    kind: str
-    channels: tuple[str, ...]
-    size: float
-    bad: dict[str, Mask]
-    runs: tuple[str, ...]
-
-
-def sample_faults(campaign: Campaign) -> list[SampleFault]:
+def find_sample_faults(campaign: Campaign) -> list[SampleFault]:
     """Look for late loggers, wrong signs and units, zeros that are far off and bad samples in every channel and run.
 
-    Cells are looked at with the gauges of the motion in step, and all else with the cells in step too. Lags, signs,
-    units and zeros are told from records without outliers.
+    Each step looks at records in which what was found before is put right; lags, signs, units and zeros are told from
+    records without outliers.
     """
-    steady = campaign_without_outliers(campaign)
-    late = [one for one in (late_motion(steady),) if one is not None]
-    steady = in_step_campaign(steady, late)
-    cells = [one for one in (late_cells(steady),) if one is not None]
-    steady = in_step_campaign(steady, cells)
+    steady = bridge_outliers(campaign)
+    late = _late(campaign, find_late_motion(steady))
+    late += _late(campaign, find_late_cells(put_right(steady, late)))
+    steady = put_right(steady, late)
+    scaled = _scaled(steady)
+    steady = put_right(steady, scaled)
+    bad = _bad_samples(put_right(campaign, late + scaled))
+    return [*_gaps(campaign), *_join([*_turned(steady), *_shifted(steady), *scaled, *late, *bad])]
+
+
+def _late(campaign: Campaign, found: LateChannels | None) -> list[SampleFault]:
     every = tuple(run.name for run in campaign.runs)
-    units = wrong_units(with_signs(steady, wrong_signs(steady, tared_cells(steady))))
-    steady = in_right_units(steady, units)
-    campaign = in_right_units(in_step_campaign(campaign, (*late, *cells)), units)
-    found = [*_turned(steady), *_shifted(steady)]
-    found += [SampleFault("scaled", one.channels, one.factor, {}, every) for one in units]
-    found += [SampleFault("late", one.channels, one.delay, {}, every) for one in (*late, *cells)]
+    return [] if found is None else [SampleFault("late", found.channels, found.delay, {}, every)]
+
+
+def _scaled(campaign: Campaign) -> list[SampleFault]:
+    """Wrong units, told by balances, which mean nothing before wrong signs are turned round."""
+    every = tuple(run.name for run in campaign.runs)
+    units = find_wrong_units(put_right(campaign, _turned(campaign)))
+    return [SampleFault("scaled", one.channels, one.factor, {}, every) for one in units]
+
+
+def _turned(campaign: Campaign) -> list[SampleFault]:
+    """Wrong signs; the pads' cells of a kind are one card."""
+    every, wrong = tuple(run.name for run in campaign.runs), find_wrong_signs(campaign, find_tared_cells(campaign))
+    cards = [tuple(f"pad_{pad}_{kind}" for pad in campaign.specimen.pads) for kind in ("N", "Fx", "Fy")]
+    whole = [card for card in cards if set(card) <= set(wrong)]
+    alone = [(name,) for name in wrong if not any(name in card for card in whole)]
+    return [SampleFault("turned", channels, -1.0, {}, every) for channels in (*whole, *alone)]
+
+
+def _shifted(campaign: Campaign) -> list[SampleFault]:
+    every = tuple(run.name for run in campaign.runs)
+    return [SampleFault("shifted", zero.channels, zero.size, {}, every) for zero in find_shifted_zeros(campaign)]
+
+
+def _bad_samples(campaign: Campaign) -> list[SampleFault]:
+    """Channels that are dead or wild, and samples at a rail, repeated or lost; of a dead channel nothing else."""
+    found: list[SampleFault] = []
     names = list(dict.fromkeys(name for run in campaign.runs for name in run.record.channels))
     # what every channel repeats at its end is a record that was cut, no gauge's loss
     cut = {
@@ -98,21 +104,7 @@ def sample_faults(campaign: Campaign) -> list[SampleFault]:
         if name.startswith("slip") and not campaign.specimen.free:
             continue  # an actuator rests as long as it likes: no rail, and samples repeat by themselves
         found += _rails(name, runs) or [f for f in (_held(name, runs), _lost(name, runs, cut)) if f]
-    return [*_gaps(campaign), *_together(found)]
-
-
-def _turned(campaign: Campaign) -> list[SampleFault]:
-    """Wrong signs; the pads' cells of a kind are one card."""
-    every, wrong = tuple(run.name for run in campaign.runs), wrong_signs(campaign, tared_cells(campaign))
-    cards = [tuple(f"pad_{pad}_{kind}" for pad in campaign.specimen.pads) for kind in ("N", "Fx", "Fy")]
-    whole = [card for card in cards if set(card) <= set(wrong)]
-    alone = [(name,) for name in wrong if not any(name in card for card in whole)]
-    return [SampleFault("turned", channels, -1.0, {}, every) for channels in (*whole, *alone)]
-
-
-def _shifted(campaign: Campaign) -> list[SampleFault]:
-    every = tuple(run.name for run in campaign.runs)
-    return [SampleFault("shifted", zero.channels, zero.size, {}, every) for zero in zeros_of(campaign)]
+    return found
 
 
 def _wild(name: str, runs: Sequence[Run]) -> SampleFault | None:
@@ -263,7 +255,7 @@ def _gaps(campaign: Campaign) -> list[SampleFault]:
     return [SampleFault("gap", names, lost / (count + lost), bad, tuple(bad))] if lost else []
 
 
-def _together(faults: list[SampleFault]) -> list[SampleFault]:
+def _join(faults: list[SampleFault]) -> list[SampleFault]:
     """Join channels that repeat or lose the same samples: they are one card."""
     joined: list[SampleFault] = []
     for fault in faults:

@@ -37,7 +37,7 @@ _UNTIED = 0.5
 _STRONG = 3.0
 
 
-def wrong_signs(campaign: Campaign, tared: Collection[str] = ()) -> list[str]:
+def find_wrong_signs(campaign: Campaign, tared: Collection[str] = ()) -> list[str]:
     """Return the channels that are wired the wrong way round.
 
     Of a slider loads have their own sign; a force that drives the slip is no friction, and is taken for turned.
@@ -61,13 +61,9 @@ def wrong_signs(campaign: Campaign, tared: Collection[str] = ()) -> list[str]:
     return [*found, *(name for name in _against(rest) if name not in tared)]
 
 
-def with_signs(campaign: Campaign, turned: Collection[str]) -> Campaign:
-    """Return a campaign with these channels turned back."""
-    records = {
-        run.name: run.record.replaced(**{name: -run.record[name] for name in turned if name in run.record})
-        for run in campaign.runs
-    }
-    return campaign.with_records(records, f"turned back: {', '.join(turned)}") if turned else campaign
+def reverse_signs(record: Record, turned: Iterable[str]) -> Record:
+    """Return a record with these channels turned back."""
+    return record.replaced(**{name: -record[name] for name in turned if name in record})
 
 
 def _loads(campaign: Campaign) -> list[str]:

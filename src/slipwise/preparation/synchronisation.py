@@ -15,8 +15,8 @@ holds at one lag only. The girder's accelerometers may be late, the table's, or 
 gauges that are early: friction, which follows the slip, tells which of the two is out of step with the cells.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,17 +59,9 @@ def agreed(lags: Sequence[float], dt: float) -> float | None:
     return float(np.median(lags))
 
 
-def in_step(record: Record, channels: Sequence[str], delay: float) -> Record:
+def synchronise(record: Record, channels: Sequence[str], delay: float) -> Record:
     """Bring channels forward by a delay [s]; `without_partner` tells where they then show nothing."""
     return record.replaced(**{n: shift(record[n], record.dt, -delay) for n in channels if n in record})
-
-
-def in_step_campaign(campaign: Campaign, late: Iterable[LateChannels]) -> Campaign:
-    """Return a campaign with its late channels brought forward."""
-    for one in late:
-        runs = (replace(r, record=in_step(r.record, one.channels, one.delay)) for r in campaign.runs)
-        campaign = replace(campaign, runs=tuple(runs))
-    return campaign
 
 
 def without_partner(count: int, dt: float, delay: float) -> NDArray[np.bool_]:
@@ -108,7 +100,7 @@ _TURNED = 0.02
 _BESIDE = 4
 
 
-def late_cells(campaign: Campaign) -> LateChannels | None:
+def find_late_cells(campaign: Campaign) -> LateChannels | None:
     """Return whether the pads' cells are late as one, of a girder that slides by itself; None where they are not."""
     if not campaign.specimen.free:
         return None
@@ -172,7 +164,7 @@ class _Asked:
         return explained(self.late, self.states, lag)
 
 
-def late_motion(campaign: Campaign) -> LateChannels | None:
+def find_late_motion(campaign: Campaign) -> LateChannels | None:
     """Tell which gauges of the motion along x are late, of a girder that slides by itself; None where none are."""
     if not campaign.specimen.free:
         return None
@@ -233,7 +225,7 @@ def _slip_is_out_of_step(runs: Sequence[Run], pads: Sequence[str], delay: float)
     if not with_cells:
         return False
     as_recorded = sum(_follows(record, pads, record["slip_x"]) for record in with_cells)
-    moved = sum(_follows(record, pads, in_step(record, ["slip_x"], -delay)["slip_x"]) for record in with_cells)
+    moved = sum(_follows(record, pads, synchronise(record, ["slip_x"], -delay)["slip_x"]) for record in with_cells)
     return moved > as_recorded
 
 

@@ -4,7 +4,7 @@ A factor is told as a unit where it is one that units have, where the relations 
 better with it, and where no other channel put right lets all relations hold better.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +13,7 @@ from slipwise.campaign import Campaign
 from slipwise.channels import channel
 from slipwise.preparation.channel_scale import ChannelScale, System, channel_scale, divided, system_of
 from slipwise.preparation.gauge_groups import gauge_groups
+from slipwise.record import Record
 from slipwise.relations.balance_rows import PreparedRun, prepare_runs
 from slipwise.relations.rigid_balances import Relation, relations
 from slipwise.rig import Specimen
@@ -61,7 +62,7 @@ class WrongUnit:
         return f"{place} is {size.replace(',', ' ')} times too {large} ({_guess(self.channels[0], self.factor)})"
 
 
-def wrong_units(campaign: Campaign) -> list[WrongUnit]:
+def find_wrong_units(campaign: Campaign) -> list[WrongUnit]:
     """Return the channels and cards that were read in another unit, the clearest first; at most three.
 
     Args:
@@ -82,14 +83,9 @@ def wrong_units(campaign: Campaign) -> list[WrongUnit]:
     return found
 
 
-def in_right_units(campaign: Campaign, wrong: Sequence[WrongUnit]) -> Campaign:
-    """Return a campaign with channels divided by the factors by which they are too large."""
-    factors = {name: one.factor for one in wrong for name in one.channels}
-    records = {
-        run.name: run.record.replaced(**{n: run.record[n] / f for n, f in factors.items() if n in run.record})
-        for run in campaign.runs
-    }
-    return campaign.with_records(records, f"units put right: {', '.join(factors)}") if wrong else campaign
+def convert_units(record: Record, factors: Mapping[str, float]) -> Record:
+    """Return a record with channels divided by the factors by which they are too large, channel -> factor [1]."""
+    return record.replaced(**{name: record[name] / factor for name, factor in factors.items() if name in record})
 
 
 def _clearest(runs: list[PreparedRun], usable: Sequence[Relation], specimen: Specimen) -> WrongUnit | None:

@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign import Campaign, Run
+from slipwise.campaign.invalid_samples import InvalidSamples, add_wild_samples
 from slipwise.campaign.scales import Scales
 from slipwise.campaign.states import States, measured_states
 from slipwise.errors import InputError
 from slipwise.jobs.machine_code import kept
-from slipwise.preparation.repairs import InvalidSamples, with_wild
 from slipwise.record import Record
-from slipwise.relations.sample_masks import judged_and_ringing
+from slipwise.relations.sample_masks import judged_and_ringing, without_estimated_loads
 from slipwise.signals.ends import in_frequency
 from slipwise.signals.filters import LowPass, lowpass
 from slipwise.signals.shift import shift
@@ -208,9 +208,13 @@ def fit_runs(campaign: Campaign, invalid: InvalidSamples | None = None) -> list[
     Raises:
         InputError: a run lacks slip, or a pad's friction.
     """
-    runs = [_fit_run(run, campaign, with_wild(run, (invalid or {}).get(run.name, {}))) for run in campaign.runs]
+    runs = [_fit_run(run, campaign, add_wild_samples(run, (invalid or {}).get(run.name, {}))) for run in campaign.runs]
     levels = {channel: gauge.level for channel, gauge in campaign.gauges.items()}
-    return [replace(r, noise=levels) for r in runs]
+    estimated = (
+        {channel: float(np.hypot(levels.get(channel, 0.0), error)) for channel, error in run.estimated.items()}
+        for run in campaign.runs
+    )
+    return [replace(r, noise={**levels, **wider}) for r, wider in zip(runs, estimated, strict=True)]
 
 
 def _fit_run(run: Run, campaign: Campaign, invalid: Mapping[str, Mask]) -> FitRun:
@@ -239,6 +243,7 @@ def _fit_run(run: Run, campaign: Campaign, invalid: Mapping[str, Mask]) -> FitRu
     # samples were looked at as recorded; a gap of theirs is filled on the axis of the states
     bad = {c: np.interp(states.time, run.record.time, m.astype(float)) > 0.0 for c, m in invalid.items()}
     kept, ringing = judged_and_ringing(states, grounded, sliding, fast, pads, bad)
+    kept = without_estimated_loads(kept) if run.estimated else kept
     unseen = campaign.logger.unseen(f"pad_{pads[0]}_Fx")
     more = {"unseen": unseen, "ringing": ringing}
     return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, across, sliding, kept, bad, **more)

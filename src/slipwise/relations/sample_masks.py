@@ -131,6 +131,12 @@ def without_uplift(
     return {name: mask & ~spoilt[name] if name in spoilt else mask for name, mask in kept.items()}
 
 
+def without_estimated_loads(kept: Mapping[str, Mask]) -> dict[str, Mask]:
+    """Return the samples by which each relation is judged where a load was made of the others by a rigid girder."""
+    balances = {*WARPS, *(name for name, channels in _USES.items() if "pad_*_N" in channels)}
+    return {name: np.zeros_like(mask) if name in balances else mask for name, mask in kept.items()}
+
+
 def before_uplift(lifted: Mask, dt: float) -> Mask:
     """Return the samples from which a pad's lifting is felt in slip against accelerometers, which look ahead, (n,)."""
     return spread(lifted, round(_CUT / dt), 0) if lifted.any() else lifted

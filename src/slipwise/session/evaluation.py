@@ -8,12 +8,12 @@ import numpy as np
 from slipwise.campaign import Campaign
 from slipwise.campaign.scales import scales_of
 from slipwise.comparison.component_level import NAMES
-from slipwise.diagnosis.selection import prepared
-from slipwise.estimation.base_fit import BaseFit, free_numbers, scaled_model, with_logger
+from slipwise.estimation.base_fit import BaseFit, free_numbers, scaled_model
 from slipwise.estimation.least_squares import Solution, solve
 from slipwise.estimation.objective import Problem
 from slipwise.model import Model, base_model
-from slipwise.preparation.repairs import InvalidSamples
+from slipwise.preparation.prepare import prepare
+from slipwise.preparation.prepared import Prepared
 from slipwise.relations.parameters import Free, inertia_free, stick_damping_free, terms_of
 from slipwise.relations.run_data import FINER, FitRun, fit_runs
 from slipwise.relations.table import Residuals
@@ -52,14 +52,12 @@ class Evaluator:
     """The runs of a campaign, ready for the relations of a fit.
 
     Attributes:
-        campaign: samples corrected, with the logger's filter as it was found where nobody knew it.
-        invalid: run -> channel -> samples at which it is no measurement.
+        prepared: the campaign.
         model: where the session began, its effects with the bounds that they have in this campaign.
         runs: as a fit needs them.
     """
 
-    campaign: Campaign
-    invalid: InvalidSamples
+    prepared: Prepared
     model: Model
     runs: list[FitRun]
     _ready: list[tuple[Weights, Problem]] = field(default_factory=list[tuple[Weights, Problem]])
@@ -80,7 +78,9 @@ class Evaluator:
         if weights.finer:
             problem.kinematics.refine(FINER)
             problem.runs = problem.kinematics.runs
-        problem.weigh(weights.values)
+        for values in (weights.before, weights.values):
+            if values:
+                problem.weigh(values)
         return problem
 
     def coarse(self, state: State) -> State:
@@ -101,7 +101,7 @@ class Evaluator:
         model = Model(self.model.specimen, tuple(u for t in state.terms for u in t.uses(state.values)))
         cards = [t for t in state.terms if len(t.targets) > 1]
         single = {f"{u.label}.{n}" for t in cards for u in t.uses(state.values) for n in t.effect.parameter_names}
-        free = [f for f in free_numbers(self.campaign, model, problem) if f.key not in single]
+        free = [f for f in free_numbers(self.prepared.campaign, model, problem) if f.key not in single]
         for term in cards:
             free += term.free({n: state.values[f"{term.label}.{n}"] for n in term.effect.parameter_names})
         free += [inertia_free(problem.specimen, key) for key in problem.kinematics.inertias]
@@ -114,7 +114,7 @@ class Evaluator:
         problem, free, residuals = self.problem(state), tuple(self.free(state)), self.residuals(state)
         left = residuals.stacked(problem.fitted, problem.relations)
         solution = Solution(dict(state.values), free, residuals, np.empty((0, 0)), float(left @ left), 0)
-        return BaseFit(self.campaign, self.model_of(state), problem, free, solution)
+        return BaseFit(self.prepared.campaign, self.model_of(state), problem, free, solution)
 
     def with_slopes(self, state: State) -> BaseFit:
         """Return a state that was fitted as a fit with its slopes, for screening."""
@@ -132,13 +132,13 @@ def evaluator(campaign: Campaign, model: Model | None) -> tuple[Evaluator, State
     Raises:
         InputError: a run lacks what every fit needs.
     """
-    whole, invalid, _ = prepared(campaign)
-    begun = scaled_model(model or base_model(whole.specimen), scales_of(whole), typical=model is None)
-    whole, found = with_logger(whole, begun, invalid)
-    ready = Evaluator(whole, invalid, begun, fit_runs(whole, invalid))
+    prepared = prepare(campaign)
+    whole, stated = prepared.campaign, prepared.on_rig(model)
+    begun = scaled_model(stated or base_model(whole.specimen), scales_of(whole), typical=model is None)
+    ready = Evaluator(prepared, begun, fit_runs(whole, prepared.invalid))
     terms = terms_of(begun)
     problem = Problem(ready.runs, begun.specimen, terms)
-    values = {f.key: found.get(f.key, f.start) for f in free_numbers(whole, begun, problem)}
+    values = {f.key: prepared.start.get(f.key, f.start) for f in free_numbers(whole, begun, problem)}
     return ready, State(terms, values, Weights(terms, values, finer=False))
 
 

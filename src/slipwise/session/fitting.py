@@ -6,10 +6,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from math import isfinite
 
-from slipwise.estimation.base_fit import BaseFit, final_refit, fit_base
+from slipwise.estimation.base_fit import BaseFit, final_refit
 from slipwise.estimation.intervals import Interval, intervals
 from slipwise.estimation.least_squares import Solution, solve
 from slipwise.estimation.objective import Problem
+from slipwise.preparation.prepared import fit_prepared
 from slipwise.session.evaluation import Evaluator
 from slipwise.session.state import Known, State, Weights
 
@@ -74,22 +75,24 @@ def fit_state(ready: Evaluator, state: State, progress: Progress) -> State:
         progress: told of the fit; what it raises ends it.
     """
     watch = Watch(progress, end=0.0)
-    if state.weights.finer:
+    if state.weights.fitted:
         watch.next("fitting from here", 0.45, 40)
         problem, solution = _from_here(ready, ready.problem(ready.coarse(state), watch), state, state.values)
     else:
         watch.next("fitting from rated numbers", 0.45, 60)
-        base = fit_base(ready.campaign, ready.model, ready.invalid, watch)
+        base = fit_prepared(ready.prepared, ready.model, watch)
         problem, solution = base.problem, base.solution
         if state.terms != problem.terms:
             values = {**state.values, **{k: v for k, v in solution.values.items() if k.startswith("rig.")}}
             problem, solution = _from_here(ready, problem.having(state.terms), state, values)
     watch.next("fitting on, with the noise that this law leaves", 0.85, 80)
+    before = solution.values
     problem, solution = final_refit(problem, solution)
     watch.next("how sure the numbers are", 1.0, 30)
-    fit = BaseFit(ready.campaign, ready.model, problem, solution.free, solution)
+    fit = BaseFit(ready.prepared.campaign, ready.model, problem, solution.free, solution)
     known = {e.key: _known(e) for e in intervals(fit).entries}
-    weights = Weights(state.terms, problem.kinematics.weighed_by, finer=True, yaw=problem.kinematics.yaw)
+    weighed = problem.kinematics
+    weights = Weights(state.terms, weighed.weighed_by, finer=problem.balanced, yaw=weighed.yaw, before=before)
     values = {**state.values, **solution.values}
     progress("done", 1.0)
     return replace(state, values=values, weights=weights, fitted=True, known=known, words="fitted", edit="")

@@ -30,6 +30,7 @@ class _Weights(TypedDict):
     values: dict[str, float]
     finer: bool
     yaw: bool
+    before: NotRequired[dict[str, float]]
 
 
 class _State(TypedDict):

@@ -17,6 +17,7 @@ from slipwise.errors import SettingError
 from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
 from slipwise.model.file import save_model
+from slipwise.preparation.data_corrections import DataCorrection
 from slipwise.session import changes
 from slipwise.session.campaign_folder import CampaignFolder
 from slipwise.session.evaluation import BalanceError, errors_of, evaluator
@@ -85,6 +86,11 @@ class Session(Drawn, Tabular):
         except BaseException:
             self.close()
             raise
+
+    @property
+    def corrections(self) -> tuple[DataCorrection, ...]:
+        """What was done about the data before any fit."""
+        return self.ready.prepared.corrections
 
     @property
     def state(self) -> State:
@@ -174,7 +180,7 @@ class Session(Drawn, Tabular):
 
     def explain(self, progress: Progress | None = None) -> Diagnosis:
         """Say which effect the model lacks, as it is now; `take_suggestion` puts it in."""
-        found = diagnose_with_law(self.campaign, self.model, progress=progress)
+        found = diagnose_with_law(self.ready.prepared, self.model, progress=progress)
         self.remember("explain", explained(found, self.state.labels))
         return found
 
@@ -185,7 +191,7 @@ class Session(Drawn, Tabular):
             folder: that takes the effect file; the campaign's session folder if not given.
             progress: called with what is being done and the share done.
         """
-        found = discover(self.campaign, self.model, progress=progress)
+        found = discover(self.ready.prepared, self.model, progress=progress)
         self.remember("discover", discovered(found, Path(folder or self.place.session_folder()), self.state.labels))
         return found
 

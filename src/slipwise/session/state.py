@@ -18,6 +18,7 @@ class Weights:
     Attributes:
         terms: of that model.
         values: its numbers.
+        before: numbers by which it was weighed before these: what filters took at reversals is told in two rounds.
         finer: whether the laws were evaluated at as many instants as what is reported needs.
         yaw: whether the girder's yaw is made from the measured forces.
     """
@@ -26,6 +27,12 @@ class Weights:
     values: Mapping[str, float]
     finer: bool
     yaw: bool = False
+    before: Mapping[str, float] = field(default_factory=dict[str, float])
+
+    @property
+    def fitted(self) -> bool:
+        """Whether a fit has weighed the noise, and not the model as it is stated."""
+        return self.finer or bool(self.before)
 
 
 @dataclass(frozen=True)
@@ -88,6 +95,7 @@ def as_json(state: State) -> dict[str, Any]:
             "values": dict(state.weights.values),
             "finer": state.weights.finer,
             "yaw": state.weights.yaw,
+            "before": dict(state.weights.before),
         },
         "fitted": state.fitted,
         "known": {k: [v.low, v.high, v.bound, v.limit] for k, v in state.known.items()},
@@ -108,7 +116,11 @@ def from_json(content: Mapping[str, Any], effect_of: EffectOf) -> State:
         terms_from_json(content["terms"], effect_of),
         dict(content["values"]),
         Weights(
-            terms_from_json(weights["terms"], effect_of), dict(weights["values"]), weights["finer"], weights["yaw"]
+            terms_from_json(weights["terms"], effect_of),
+            dict(weights["values"]),
+            weights["finer"],
+            weights["yaw"],
+            dict(weights.get("before", {})),
         ),
         content["fitted"],
         {key: Known(*of) for key, of in known},

@@ -78,7 +78,7 @@ def _system(task: Task, tell: Progress) -> dict[str, float]:
 
 def _locate(task: Task, tell: Progress) -> dict[str, Any]:
     """Say what the instruments tell, and where the model fails."""
-    found = compare(task.session.campaign, task.session.ready.model_of(task.state), system=False, progress=tell)
+    found = compare(task.session.ready.prepared, task.session.ready.model_of(task.state), system=False, progress=tell)
     relation, error = found.worst
     return {
         "of": list(task.state.labels),
@@ -94,7 +94,7 @@ def _locate(task: Task, tell: Progress) -> dict[str, Any]:
 def _report(task: Task, tell: Progress) -> dict[str, Any]:
     """Write the report of the comparison, replays included."""
     found = compare(
-        task.session.campaign, task.session.ready.model_of(task.state), progress=lambda w, s: tell(w, 0.8 * s)
+        task.session.ready.prepared, task.session.ready.model_of(task.state), progress=lambda w, s: tell(w, 0.8 * s)
     )
     tell("drawing the report", 0.8)
     save_page(compare_page(found), task.session.place.session_folder() / REPORT)
@@ -104,21 +104,21 @@ def _report(task: Task, tell: Progress) -> dict[str, Any]:
 def _explain(task: Task, tell: Progress) -> dict[str, Any]:
     """Say what is missing, and write the page that says why."""
     model = task.session.ready.model_of(task.state)
-    found = diagnose_with_law(task.session.campaign, model, progress=lambda w, s: tell(w, 0.9 * s))
+    found = diagnose_with_law(task.session.ready.prepared, model, progress=lambda w, s: tell(w, 0.9 * s))
     tell("drawing the report", 0.9)
     save_page(diagnosis_page(found, found.ladder()), task.session.place.session_folder() / DIAGNOSIS)
     return {**explained(found, task.state.labels), "file": DIAGNOSIS}
 
 
 def _discover(task: Task, tell: Progress) -> dict[str, Any]:
-    found = discover(task.session.campaign, task.session.ready.model_of(task.state), progress=tell)
+    found = discover(task.session.ready.prepared, task.session.ready.model_of(task.state), progress=tell)
     return discovered(found, task.session.place.session_folder(), task.state.labels)
 
 
 def _next(task: Task, tell: Progress) -> dict[str, Any]:
     """Say which motion would tell most."""
     model = task.session.ready.model_of(task.state)
-    found = diagnose(task.session.campaign, model, progress=lambda w, s: tell(w, 0.6 * s))
+    found = diagnose(task.session.ready.prepared, model, progress=lambda w, s: tell(w, 0.6 * s))
     try:
         ranked = next_test(found, progress=lambda w, s: tell(w, 0.6 + 0.4 * s))
     except InputError as error:

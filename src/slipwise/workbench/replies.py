@@ -28,7 +28,7 @@ def campaign_told(session: Session) -> dict[str, Any]:
         "kind": "campaign",
         "name": session.campaign.name,
         "rig": session.campaign.rig,
-        "notes": [*session.campaign.notes, *session.notes],
+        "notes": [*ready.prepared.campaign.notes, *(one.words for one in session.corrections), *session.notes],
         "runs": [{"name": r.name, "role": r.role, "seconds": float(r.time[-1] - r.time[0])} for r in ready.runs],
         "relations": {r: {"name": NAMES[r][0], "unit": _unit(NAMES[r][1])} for r in problem.relations},
         "pads": list(ready.runs[0].pads),

@@ -10,8 +10,8 @@ from slipwise.campaign import Campaign, Run, as_campaign, load_campaign
 from slipwise.campaign.wild_samples import without_wild_samples
 from slipwise.campaign.wild_samples_of_runs import faulty_share
 from slipwise.errors import SlipwiseWarning
-from slipwise.preparation.decimation import decimated
-from slipwise.preparation.excerpts import stretched
+from slipwise.preparation.decimation import decimate
+from slipwise.preparation.excerpts import cut_excerpts
 from slipwise.rig import load_specimen
 
 DEMO = Path(__file__).parents[3] / "src" / "slipwise" / "demo_data"
@@ -66,13 +66,13 @@ def test_a_campaign_in_which_they_are_marked_is_not_marked_again(sound):
 
 def test_what_is_thinned_out_or_cut_keeps_its_marks(sound):
     campaign = wild_campaign(sound, slice(700, 720))
-    short = stretched(campaign, {}, 5000)[0].run("quake_h")
+    short = cut_excerpts(campaign, {}, 5000)[0].run("quake_h")
     assert all(len(one.bad) == len(short.record) for one in short.wild)
     fast = replace(
         campaign,
         runs=tuple(replace(r, record=replace(r.record, time=0.4 * r.record.time)) for r in campaign.runs),
     )
-    thin = decimated(fast, {})[0].run("quake_h")
+    thin = decimate(fast, {})[0].run("quake_h")
     assert len(thin.invalid["pad_A_Fx"]) == len(thin.record) < len(campaign.run("quake_h").record)
     assert thin.invalid["pad_A_Fx"].any()
 

@@ -5,11 +5,11 @@ from dataclasses import replace
 import pytest
 
 from bench import build_campaign
-from measured import as_campaign
+from measured import as_campaign, fit_base
 from slipwise.diagnosis.bound_check import keeps_its_gain, with_bounds_checked
 from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.screening import Screened, screen
-from slipwise.estimation.base_fit import BaseFit, fit_base
+from slipwise.estimation.base_fit import BaseFit
 
 
 def screened(base: BaseFit, *labels: str) -> dict[str, Screened]:

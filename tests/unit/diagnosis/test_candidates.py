@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
+from measured import fit_base
 from slipwise.campaign import load_campaign
 from slipwise.diagnosis.candidates import candidates
-from slipwise.estimation.base_fit import fit_base
 from unit.campaign.slider import write_at_loads
 
 OF_LOAD = {"pressure_law", "slide_tilt"}

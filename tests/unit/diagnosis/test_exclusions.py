@@ -18,8 +18,8 @@ from slipwise.diagnosis.screening import projector
 from slipwise.diagnosis.sensitivities import column_of, residual_with, small
 from slipwise.effects import NEEDS, catalogue, scaled
 from slipwise.estimation.base_fit import BaseFit, fit_base
-from slipwise.preparation.sample_faults import sample_faults
-from slipwise.preparation.signs import wrong_signs
+from slipwise.preparation.sample_faults import find_sample_faults
+from slipwise.preparation.signs import find_wrong_signs
 from slipwise.record import Record
 from slipwise.relations.parameters import Term
 from slipwise.rig import load_specimen
@@ -146,21 +146,21 @@ def test_a_gain_of_a_sliders_gauge_is_one_with_its_friction(steady: BaseFit, cha
 def test_an_actuator_that_rests_at_its_ends_has_neither_a_rail_nor_lost_samples() -> None:
     """The same plateau is a rail in a gauge of force, and there it is said."""
     resting = np.clip(1.5 * sine(), -STROKE, STROKE)
-    assert sample_faults(campaign_of(run("rests", resting, slip_x=resting))) == []
+    assert find_sample_faults(campaign_of(run("rests", resting, slip_x=resting))) == []
     force = run("plain", sine()).record["pad_A_Fx"]
     cut = np.clip(force + np.random.default_rng(1).normal(0.0, 50.0, force.size), -2.0e3, 2.0e3)
-    found = sample_faults(campaign_of(run("cut", sine(), pad_A_Fx=cut)))
+    found = find_sample_faults(campaign_of(run("cut", sine(), pad_A_Fx=cut)))
     assert {f.kind for f in found} == {"upper rail", "lower rail"}
     assert "only its slip" in candidates(fit_base(campaign_of(run("rests", resting))))[1]["channel_clipping"]
 
 
 def test_a_force_that_drives_the_slip_is_reversed_and_a_spring_is_not() -> None:
     plain = run("plain", sine())
-    assert wrong_signs(campaign_of(plain)) == []
-    assert wrong_signs(campaign_of(run("turned", sine(), pad_A_Fx=-plain.record["pad_A_Fx"]))) == ["pad_A_Fx"]
+    assert find_wrong_signs(campaign_of(plain)) == []
+    assert find_wrong_signs(campaign_of(run("turned", sine(), pad_A_Fx=-plain.record["pad_A_Fx"]))) == ["pad_A_Fx"]
     slip = sine()
     for way in (1.0, -1.0):
-        assert wrong_signs(campaign_of(run("spring", slip, pad_A_Fx=way * 4e5 * slip))) == []
+        assert find_wrong_signs(campaign_of(run("spring", slip, pad_A_Fx=way * 4e5 * slip))) == []
 
 
 def test_load_is_told_from_speed_by_two_runs_of_unlike_load_at_one_speed() -> None:

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from bench import build_campaign
-from measured import as_campaign
+from measured import as_campaign, fit_base
 from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.hypothesis import STICK_LENGTH, base_hypothesis, polished, refit
 from slipwise.diagnosis.initial_grid import places, shapes
@@ -13,7 +13,7 @@ from slipwise.diagnosis.initial_guesses import longer_stick, starting_points
 from slipwise.diagnosis.screening import screen_shapes
 from slipwise.diagnosis.search_state import Search
 from slipwise.effects import catalogue
-from slipwise.estimation.base_fit import BaseFit, at_rated, fit_base
+from slipwise.estimation.base_fit import BaseFit, at_rated
 from slipwise.relations.parameters import Term
 
 

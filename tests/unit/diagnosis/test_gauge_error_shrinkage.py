@@ -3,13 +3,12 @@
 import pytest
 
 from bench import Fault, build_campaign, with_faults
-from measured import as_campaign
+from measured import as_campaign, fit_base
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.gauge_error_shrinkage import shares_that_stay
 from slipwise.diagnosis.hypothesis import polished, refit
 from slipwise.diagnosis.screening import screen
 from slipwise.effects import catalogue
-from slipwise.estimation.base_fit import fit_base
 from slipwise.relations.parameters import Term
 
 CELLS = tuple(f"pad_{p}_N" for p in "ABCD")

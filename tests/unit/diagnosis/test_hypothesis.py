@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 from bench import build_campaign
-from measured import as_campaign
+from measured import as_campaign, fit_base
 from slipwise.diagnosis.detectable_size import least_sizes
 from slipwise.diagnosis.hypothesis import base_hypothesis, refit
 from slipwise.diagnosis.screening import projector, screen
 from slipwise.effects import catalogue
-from slipwise.estimation.base_fit import fit_base
 from slipwise.evidence.acceptance import LEAST
 from slipwise.model import base_model, use
 from slipwise.relations.parameters import Term, base_free

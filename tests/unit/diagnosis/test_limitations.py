@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bench import build_campaign
-from measured import as_campaign
+from measured import as_campaign, fit_base
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.hypothesis import base_hypothesis
@@ -15,7 +15,9 @@ from slipwise.diagnosis.limitations import cannot_tell
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.search_state import Search
 from slipwise.effects import catalogue
-from slipwise.estimation.base_fit import BaseFit, fit_base
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.preparation.prepare import prepare
+from slipwise.preparation.prepared import fit_prepared
 from slipwise.record import Record
 from slipwise.relations.parameters import Term
 from slipwise.rig import load_specimen
@@ -59,6 +61,32 @@ def reasons(base: BaseFit, terms: list[Term] = FADES_AND_LASTS, *, screened: boo
     nothing = np.zeros(0)
     found = [Screened(t, {}, 0.0, 0.0, nothing, 0.0) for t in terms] if screened else []
     return dict(cannot_tell(Search(base, {}, terms, [], (base_hypothesis(base),), screened=found), base))
+
+
+def test_cells_of_pads_of_any_name_are_told_as_one_card() -> None:
+    (run,) = (made := slider(0.3)).runs
+    more = {f"pad_{pad}_Fy": 0.1 * run.record["pad_A_Fx"] for pad in ("west", "east")}
+    (told,) = (
+        key
+        for key in reasons(fit_base(made.with_records({run.name: run.record.replaced(**more)}, "")))
+        if key.startswith("faults of")
+    )
+    assert "pad_*_Fy" in told and "west" not in told
+
+
+@pytest.mark.slow
+def test_what_a_dead_gauge_hides_is_told_with_the_effects_that_no_other_shows(whole: Campaign) -> None:
+    runs = (whole.runs[1], whole.runs[4])
+    dead = {run.name: run.record.replaced(pad_D_Fx=np.zeros(len(run.record))) for run in runs}
+    ready = prepare(replace(whole, runs=runs).with_records(dead, ""))
+    fit = fit_prepared(ready)
+    hidden = [Term(catalogue()["buffer_hardening"])]
+    state = Search(fit, {}, hidden, [], (base_hypothesis(fit),), screened=[])
+    told = dict(cannot_tell(state, fit, ready.faults))
+    assert told["balances"] == (
+        "pad_D_Fx shows nothing, and without it no fitted run shows the balance of girder, pitch"
+    )
+    assert told["buffer_hardening"].endswith(told["balances"])
 
 
 @pytest.mark.slow

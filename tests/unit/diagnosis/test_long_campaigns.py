@@ -6,14 +6,13 @@ import numpy as np
 import pytest
 
 from bench import build_campaign
-from measured import as_campaign
+from measured import as_campaign, fit_base
 from slipwise.diagnosis import jacobian_memory as kept_slopes
 from slipwise.diagnosis import row_subset as screened_rows
 from slipwise.diagnosis.full_length_errors import errors_on_all_samples
 from slipwise.diagnosis.hypothesis import base_hypothesis
 from slipwise.diagnosis.screening import screen
 from slipwise.effects import catalogue
-from slipwise.estimation.base_fit import fit_base
 from slipwise.record import Record
 from slipwise.relations.parameters import Term
 from slipwise.session.evaluation import errors_of

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from bench import build_campaign
-from measured import as_campaign
+from measured import as_campaign, fit_base
 from slipwise.diagnosis.hypothesis import Hypothesis, polished, refit
 from slipwise.diagnosis.hypothesis_fit import as_fit
 from slipwise.diagnosis.reported_sizes import named_sizes
 from slipwise.effects import catalogue
-from slipwise.estimation.base_fit import BaseFit, fit_base
+from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import intervals
 from slipwise.relations.parameters import Term
 

@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 
 from bench import build_campaign
-from measured import as_campaign
+from measured import as_campaign, fit_base
 from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.initial_grid import is_placed, places, shapes, strengths, variants
 from slipwise.diagnosis.screening import projector, screen
 from slipwise.effects import catalogue
-from slipwise.estimation.base_fit import fit_base
 
 
 def test_what_the_base_can_do_is_projected_out_and_the_rest_stays() -> None:

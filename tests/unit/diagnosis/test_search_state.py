@@ -3,12 +3,11 @@
 import pytest
 
 from bench import build_campaign
-from measured import as_campaign
+from measured import as_campaign, fit_base
 from slipwise.diagnosis import search_state as module
 from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis
 from slipwise.diagnosis.search_state import Search, try_all
-from slipwise.estimation.base_fit import fit_base
 
 
 @pytest.mark.long

@@ -15,7 +15,7 @@ from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.verdict import Verdict, evidence_of, with_faults
 from slipwise.effects import Effect, catalogue
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.preparation.sample_faults import SampleFault
+from slipwise.preparation.sample_fault import SampleFault
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import FitRun
 

@@ -6,12 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from measured import fit_base
 from recover.own_replay import noise_of
 from slipwise.campaign import Campaign, Logger, Run, load_campaign
 from slipwise.comparison.component_level import component_errors, pooled
 from slipwise.comparison.system_level import pad_springs
 from slipwise.errors import InputError
-from slipwise.estimation.base_fit import fit_base
 from slipwise.estimation.objective import Problem
 from slipwise.model import base_model, use
 from slipwise.record import Record, write_record

@@ -9,10 +9,9 @@ from bench import build_campaign
 from bench.campaign import Campaign as Made
 from bench.campaign import with_faults
 from bench.faults import Fault
-from measured import as_campaign
+from measured import as_campaign, fit_base
 from slipwise.diagnosis.hypothesis import final_refit_of, polished, refit
 from slipwise.effects import catalogue
-from slipwise.estimation.base_fit import fit_base
 from slipwise.evidence.residual_summary import summarised
 from slipwise.model import base_model
 from slipwise.relations.noise import heave_level

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from bench import build_campaign
-from measured import as_campaign
+from measured import as_campaign, fit_base
 from slipwise.campaign import Logger
 from slipwise.diagnosis.hypothesis import final_refit_of, polished, refit
 from slipwise.effects import catalogue
-from slipwise.estimation.base_fit import fit_base
 from slipwise.evidence.residual_summary import summarised
 from slipwise.model import base_model, use
 from slipwise.relations.girder import through_pitch

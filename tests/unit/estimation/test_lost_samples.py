@@ -6,9 +6,9 @@ from bench import build_campaign
 from bench.campaign import with_faults
 from bench.faults import Fault
 from measured import as_campaign
-from slipwise.diagnosis.selection import prepared
-from slipwise.estimation.base_fit import fit_base
 from slipwise.evidence.residual_summary import summarised
+from slipwise.preparation.prepare import prepare
+from slipwise.preparation.prepared import fit_prepared
 
 
 @pytest.mark.slow
@@ -16,10 +16,8 @@ def test_pitch_does_not_ring_with_samples_that_gauges_of_friction_have_lost() ->
     """At a reversal a held sample is off by kilonewtons, and pitch rings with it: by 8.6 noise variances once."""
     made = build_campaign(61, effects=(), rig="bridge2")
     gauges = tuple(f"pad_{p}_Fx" for p in "ABCD")
-    whole, invalid, faults = prepared(
-        as_campaign(with_faults(made, [Fault("dropped_samples", gauges, 0.06, "held")], 5))
-    )
-    assert {name for f in faults for name in f.channels} == set(gauges)
-    base = fit_base(whole, None, invalid)
+    ready = prepare(as_campaign(with_faults(made, [Fault("dropped_samples", gauges, 0.06, "held")], 5)))
+    assert {name for fault in ready.faults for name in fault.channels} == set(gauges)
+    base = fit_prepared(ready)
     levels = summarised(base.problem, base.solution)
     assert max(levels.fitted_level("pitch"), levels.held_out_level("pitch")) < 1.25

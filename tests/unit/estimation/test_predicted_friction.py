@@ -5,9 +5,8 @@ from pathlib import Path
 import pytest
 
 from bench import build_campaign
-from measured import as_campaign
+from measured import as_campaign, fit_base
 from slipwise.campaign import load_campaign
-from slipwise.estimation.base_fit import fit_base
 from slipwise.estimation.prediction_interval import PredictedFriction, predicted_friction
 from unit.campaign.slider import write_at_loads
 

@@ -8,9 +8,9 @@ import pytest
 from bench import Fault
 from slipwise.campaign import Campaign
 from slipwise.instruments.audit import audit
-from slipwise.preparation.outliers import campaign_without_outliers
-from slipwise.preparation.signs import wrong_signs
-from slipwise.preparation.synchronisation import late_cells
+from slipwise.preparation.outliers import bridge_outliers
+from slipwise.preparation.signs import find_wrong_signs
+from slipwise.preparation.synchronisation import find_late_cells
 from slipwise.signals.shift import shift
 from slipwise.signals.short_bursts import short_bursts
 
@@ -61,8 +61,8 @@ def test_lags_are_those_without_glitches(sound):
             for r in campaign.runs
         ),
     )
-    before = late_cells(campaign_without_outliers(late))
-    after = late_cells(campaign_without_outliers(with_glitches(late, 0.8, 3)))
+    before = find_late_cells(bridge_outliers(late))
+    after = find_late_cells(bridge_outliers(with_glitches(late, 0.8, 3)))
     assert before is not None
     assert after is not None
     assert after.delay == pytest.approx(before.delay, abs=1e-4)
@@ -73,4 +73,4 @@ def test_signs_are_those_without_glitches(sound):
         sound,
         runs=tuple(replace(r, record=r.record.replaced(girder_ax=-r.record["girder_ax"])) for r in sound.runs),
     )
-    assert wrong_signs(campaign_without_outliers(with_glitches(turned, 0.8, 3))) == ["girder_ax"]
+    assert find_wrong_signs(bridge_outliers(with_glitches(turned, 0.8, 3))) == ["girder_ax"]

@@ -5,11 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from measured import mended_for_balances, mended_for_fits
 from slipwise.campaign import Campaign, Logger, Run, load_campaign
 from slipwise.instruments.audit import audit
 from slipwise.instruments.suspects import effect_of
-from slipwise.preparation.repairs import for_balances, for_fits
-from slipwise.preparation.sample_faults import SampleFault, sample_faults
+from slipwise.preparation.sample_fault import SampleFault
+from slipwise.preparation.sample_faults import find_sample_faults
 from slipwise.record import Record
 from slipwise.rig import load_specimen
 
@@ -42,7 +43,7 @@ def named(faults: list[SampleFault]) -> list[tuple[str, str]]:
 
 
 def test_sound_gauges_show_no_fault() -> None:
-    assert sample_faults(_campaign()) == []
+    assert find_sample_faults(_campaign()) == []
 
 
 @pytest.mark.parametrize("name", ["slip_x", "girder_ax", "table_ax", "girder_az", "pad_C_Fx", "pad_B_N"])
@@ -50,18 +51,18 @@ def test_a_gauge_wired_the_wrong_way_round_is_named_and_turned_back(name: str) -
     campaign = _campaign()
     wrong = replace(campaign.runs[0], record=campaign.runs[0].record.replaced(**{name: -campaign.runs[0].record[name]}))
     broken = replace(campaign, runs=(wrong,))
-    faults = sample_faults(broken)
+    faults = find_sample_faults(broken)
     assert named(faults) == [("channel_sign", name)]
-    whole, _ = for_fits(broken, faults)
+    whole, _ = mended_for_fits(broken, faults)
     assert np.array_equal(whole.runs[0].record[name], campaign.runs[0].record[name])
-    records, _ = for_balances(broken, faults)
+    records, _ = mended_for_balances(broken, faults)
     assert np.array_equal(records["only"][name], campaign.runs[0].record[name])
 
 
 def test_four_cells_that_are_wired_the_wrong_way_round_are_one_card() -> None:
     record = _campaign().runs[0].record
     cells = {f"pad_{pad}_Fx": -record[f"pad_{pad}_Fx"] for pad in "ABCD"}
-    (fault,) = sample_faults(_campaign(**cells))
+    (fault,) = find_sample_faults(_campaign(**cells))
     assert (fault.kind, fault.channels) == ("turned", tuple(cells))
 
 
@@ -70,12 +71,12 @@ def test_a_girder_that_hardly_slides_says_nothing_of_the_signs_along_it() -> Non
     record = _campaign().runs[0].record
     stuck = {"slip_x": rng.normal(0.0, 2e-5, len(record)), "girder_ax": record["table_ax"]}
     stuck |= {f"pad_{pad}_Fx": record["table_ax"] for pad in "ABCD"}
-    assert "table_ax" not in {name for _, name in named(sample_faults(_campaign(**stuck)))}
+    assert "table_ax" not in {name for _, name in named(find_sample_faults(_campaign(**stuck)))}
 
 
 def test_a_rail_is_told_from_a_peak() -> None:
     force = _campaign().runs[0].record["pad_A_Fx"]
-    faults = sample_faults(_campaign(pad_A_Fx=np.minimum(force, 2380.0)))
+    faults = find_sample_faults(_campaign(pad_A_Fx=np.minimum(force, 2380.0)))
     assert named(faults) == [("channel_clipping", "pad_A_Fx")]
 
 
@@ -84,10 +85,10 @@ def test_lost_samples_are_told_and_left_out() -> None:
     lost = np.arange(100, 2900, 40)
     load[lost] = load[lost - 1]
     broken = _campaign(pad_B_N=load)
-    faults = sample_faults(broken)
+    faults = find_sample_faults(broken)
     assert named(faults) == [("dropped_samples", "pad_B_N")]
     assert faults[0].size == pytest.approx(lost.size / load.size, rel=0.3)
-    whole, invalid = for_fits(broken, faults)
+    whole, invalid = mended_for_fits(broken, faults)
     assert invalid["only"]["pad_B_N"][lost].all()
     np.testing.assert_allclose(whole.runs[0].record["pad_B_N"][lost], 0.5 * (load[lost - 1] + load[lost + 1]))
 
@@ -96,13 +97,13 @@ def test_samples_that_were_lost_for_good_show_where_the_record_had_to_be_filled_
     slip = _campaign().runs[0].record["slip_x"]
     kept = np.delete(slip, [700, 701, 702, 1500, 1501, 2200, 2201, 2202, 2600])
     moved = np.concatenate([kept, np.full(9, kept[-1])])
-    assert named(sample_faults(_campaign(slip_x=moved))) == [("dropped_samples", "slip_x")]
+    assert named(find_sample_faults(_campaign(slip_x=moved))) == [("dropped_samples", "slip_x")]
     record = _campaign().runs[0].record
     cut = {name: np.concatenate([x[:-20], np.full(20, x[-21])]) for name, x in record.channels.items()}
-    assert sample_faults(_campaign(**cut)) == [], "every channel ends so: the record was cut"
+    assert find_sample_faults(_campaign(**cut)) == [], "every channel ends so: the record was cut"
     few = slip.copy()
     few[-4:] = few[-5]  # as many as a coarse card repeats now and then
-    assert sample_faults(_campaign(slip_x=few)) == []
+    assert find_sample_faults(_campaign(slip_x=few)) == []
 
 
 def test_a_peak_that_is_held_is_no_rail_where_other_samples_are_held_too() -> None:
@@ -110,14 +111,14 @@ def test_a_peak_that_is_held_is_no_rail_where_other_samples_are_held_too() -> No
     starts = [int(np.argmax(load)), *range(100, 2900, 90)]
     for start in starts:
         load[start : start + 5] = load[start]
-    assert named(sample_faults(_campaign(pad_C_N=load))) == [("dropped_samples", "pad_C_N")]
+    assert named(find_sample_faults(_campaign(pad_C_N=load))) == [("dropped_samples", "pad_C_N")]
 
 
 def test_what_a_clipped_accelerometer_does_to_the_velocity_is_left_out_widely() -> None:
     campaign = _campaign(girder_ax=np.clip(_campaign().runs[0].record["girder_ax"], -1.5, 1.5))
-    faults = sample_faults(campaign)
+    faults = find_sample_faults(campaign)
     assert named(faults) == [("channel_clipping", "girder_ax")]
-    _, invalid = for_fits(campaign, faults)
+    _, invalid = mended_for_fits(campaign, faults)
     rail = np.abs(campaign.runs[0].record["girder_ax"]) == 1.5
     assert invalid["only"]["girder_ax"][np.convolve(rail, np.ones(61), mode="same") > 0.5].all()
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from slipwise.campaign import Campaign, Logger, Run
-from slipwise.preparation.sample_faults import sample_faults
+from slipwise.preparation.sample_faults import find_sample_faults
 from slipwise.record import Record
 from slipwise.rig import load_specimen
 
@@ -26,18 +26,18 @@ def rocking(mass: float, digits: int = 9, dead: str = "") -> Campaign:
 
 
 def test_a_pad_in_the_middle_of_a_row_is_not_dead_because_the_girder_rocks_over_it():
-    assert sample_faults(rocking(15e3)) == []
+    assert find_sample_faults(rocking(15e3)) == []
 
 
 @pytest.mark.parametrize("pad", ["A", "F"])
 def test_a_cell_at_the_end_of_a_row_that_shows_noise_alone_is_dead(pad):
-    (fault,) = sample_faults(rocking(15e3, dead=pad))
+    (fault,) = find_sample_faults(rocking(15e3, dead=pad))
     assert (fault.kind, fault.channels) == ("dead", (f"pad_{pad}_N",))
 
 
 @pytest.mark.parametrize("mass", [6e3, 15e3, 60e3, 62e3])
 def test_values_on_both_sides_of_a_power_of_ten_do_not_repeat_for_their_digits(mass):
-    assert sample_faults(rocking(mass, digits=5)) == []
+    assert find_sample_faults(rocking(mass, digits=5)) == []
 
 
 @pytest.mark.parametrize("dead", ["", "C"])
@@ -52,5 +52,5 @@ def test_of_three_pads_one_in_the_middle_is_idle_only_where_the_weight_says_that
         moved = 0.0 if pad == dead else heave + pitch * side
         channels[f"pad_{pad}_N"] = share * (1.0 + moved + rng.normal(0.0, 0.001 * (pad != dead) + 1e-5, time.size))
     run = Run("only", "fit", Record(time, channels), 0.0, None, "only.csv", "")
-    found = sample_faults(Campaign("made", "rig", specimen, Logger(), (run,), specimen.path.parent))
+    found = find_sample_faults(Campaign("made", "rig", specimen, Logger(), (run,), specimen.path.parent))
     assert [fault.channels for fault in found if fault.kind == "dead"] == ([(f"pad_{dead}_N",)] if dead else [])

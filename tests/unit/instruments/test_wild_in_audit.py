@@ -5,11 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from measured import mended_for_fits
 from slipwise.campaign import Campaign, as_campaign
+from slipwise.campaign.invalid_samples import add_wild_samples
 from slipwise.errors import SlipwiseWarning
 from slipwise.instruments.audit import audit
-from slipwise.preparation.repairs import for_fits, with_wild
-from slipwise.preparation.sample_faults import SampleFault, sample_faults
+from slipwise.preparation.sample_fault import SampleFault
+from slipwise.preparation.sample_faults import find_sample_faults
 
 pytestmark = pytest.mark.filterwarnings("ignore::slipwise.errors.SlipwiseWarning")
 
@@ -45,7 +47,7 @@ def test_a_burst_accuses_nobody_and_moves_no_balance(sound, sound_report, name, 
 
 def test_samples_around_a_wild_one_are_not_judged(sound):
     run = as_campaign(with_burst(sound, "slip_x", slice(1500, 1510), 0.5)).runs[1]
-    kept = ~with_wild(run, {})["slip_x"]
+    kept = ~add_wild_samples(run, {})["slip_x"]
     assert not kept[1480:1530].any()
     assert kept[:1400].all()
     assert kept[1600:].all()
@@ -55,7 +57,7 @@ def test_marks_move_with_a_channel_that_is_brought_into_step(sound):
     marked = as_campaign(with_burst(sound, "pad_A_Fx", slice(700, 703), 1e9))
     run = marked.runs[1]
     late = SampleFault("late", ("pad_A_Fx",), 100.0 * run.record.dt, {}, (run.name,))
-    moved, _ = for_fits(marked, [late])
+    moved, _ = mended_for_fits(marked, [late])
     assert moved.runs[1].invalid["pad_A_Fx"][600:603].all()
 
 
@@ -70,7 +72,7 @@ def test_a_channel_that_is_wild_too_often_is_faulty(sound):
         campaign = replace(campaign, runs=tuple(changed if r.name == one.name else r for r in campaign.runs))
     with pytest.warns(SlipwiseWarning, match="pad_B_Fx"):
         campaign = as_campaign(campaign)
-    (fault,) = [fault for fault in sample_faults(campaign) if fault.kind == "wild"]
+    (fault,) = [fault for fault in find_sample_faults(campaign) if fault.kind == "wild"]
     assert fault.channels == ("pad_B_Fx",)
     assert fault.size == pytest.approx(1.0 / 30.0, rel=0.2)
     assert run.name in fault.runs

@@ -14,8 +14,8 @@ from slipwise.campaign.same_specimen import check_same_specimen
 from slipwise.comparison.compare import compare
 from slipwise.errors import InputError
 from slipwise.instruments.checks import check_instruments, corrected_campaign
-from slipwise.instruments.zeros import tared_cells
-from slipwise.preparation.signs import wrong_signs
+from slipwise.preparation.signs import find_wrong_signs
+from slipwise.preparation.tare import find_tared_cells
 from slipwise.record import Record
 
 DEMO = Path(slipwise.__file__).parent / "demo_data"
@@ -75,8 +75,8 @@ def test_loads_that_count_compression_negative_are_named_as_such(demo, turned, n
 
 def test_a_sliders_load_that_counts_compression_negative_has_the_wrong_sign(demo):
     slider = replace(demo, specimen=replace(demo.specimen, free=False, places=demo.specimen.places[:1]))
-    assert wrong_signs(slider) == []
-    assert wrong_signs(altered(slider, pad_A_N=np.negative)) == ["pad_A_N"]
+    assert find_wrong_signs(slider) == []
+    assert find_wrong_signs(altered(slider, pad_A_N=np.negative)) == ["pad_A_N"]
 
 
 def tared(campaign: Campaign) -> Campaign:
@@ -135,20 +135,12 @@ def test_the_part_of_a_single_tared_cell_is_put_back_where_the_mass_is_known(dem
     assert not accused(right)
 
 
-def test_a_tared_cell_is_told_by_compare_with_the_correction_that_mends_it(demo):
-    wrong = replace(tared_alone(demo, "pad_C_N"), known={"mass": demo.specimen.mass})
-    with pytest.raises(InputError, match=r"pad_C_N was set to zero under the girder.*") as told:
-        compare(wrong, system=False)
-    assert "sign" not in str(told.value)
-    (name,) = re.findall(r"--correct '(.+?)'", str(told.value))
-    assert name == "channel_offset:pad_C_N"
-
-
 @pytest.mark.slow
-def test_a_campaign_with_a_tared_cell_is_as_good_as_before_once_it_is_corrected(demo):
-    wrong = replace(tared_alone(demo, "pad_C_N"), known={"mass": demo.specimen.mass})
-    mended = corrected_campaign(wrong, check_instruments(wrong), ["channel_offset:pad_C_N"])
-    errors = [compare(c, system=False).error("pads", held_out=True) for c in (mended, demo)]
+def test_a_comparison_puts_the_weight_of_a_tared_cell_back_and_says_so(demo):
+    found = compare(tared_alone(demo, "pad_C_N"), system=False)
+    (told,) = found.corrections
+    assert told.kind == "tared" and "rated weight was put back" in told.words
+    errors = [of.error("pads", held_out=True) for of in (found, compare(demo, system=False))]
     assert errors[0] == pytest.approx(errors[1], rel=0.1)
 
 
@@ -171,4 +163,4 @@ def test_a_pad_that_carries_nothing_and_a_dead_cell_are_not_taken_for_tared(demo
     seated = altered(demo, **{name: (lambda v, s=s: v + 0.95 * s * quarter) for name, s in lifted.items()})
     dead = altered(demo, pad_B_N=lambda v: np.zeros_like(v))
     faint = altered(demo, pad_B_N=lambda v: 0.02 * v)
-    assert [tared_cells(campaign) for campaign in (demo, seated, dead, faint)] == [(), (), (), ()]
+    assert [find_tared_cells(campaign) for campaign in (demo, seated, dead, faint)] == [(), (), (), ()]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from slipwise.campaign import Campaign, Logger, Run
-from slipwise.preparation.decimation import decimated
+from slipwise.preparation.decimation import decimate
 from slipwise.record import Record
 from slipwise.relations.pad_law import as_logged
 from slipwise.relations.run_data import fit_runs
@@ -36,7 +36,7 @@ def logged(logger: Logger) -> Campaign:
 
 
 def test_a_prediction_goes_through_the_filter_that_thinned_the_record() -> None:
-    thinned, _ = decimated(logged(Logger(None, known=True)), {})
+    thinned, _ = decimate(logged(Logger(None, known=True)), {})
     (run,) = fit_runs(thinned)
     assert run.dt == pytest.approx(5 * DT) and run.filtered == thinned.logger.of("pad_A_Fx")
     fine = run.time[0] + np.arange(run.fine * (len(run.time) - 1) + 1) * run.dt / run.fine
@@ -53,13 +53,13 @@ def test_a_prediction_goes_through_the_filter_that_thinned_the_record() -> None:
 
 @pytest.mark.parametrize(("corner", "kept"), [(100.0, True), (600.0, False)])
 def test_of_two_filters_the_lower_one_counts(corner: float, kept: bool) -> None:
-    thinned, _ = decimated(logged(Logger(LowPass(corner), known=True)), {})
+    thinned, _ = decimate(logged(Logger(LowPass(corner), known=True)), {})
     assert (thinned.logger.of("pad_A_Fx") == LowPass(corner)) is kept
     assert thinned.logger.unseen("pad_A_Fx") == 0.0
 
 
 def test_nobody_knows_when_friction_jumped_between_samples_that_were_thinned_out() -> None:
-    thinned, _ = decimated(logged(Logger(None, known=True)), {})
+    thinned, _ = decimate(logged(Logger(None, known=True)), {})
     assert thinned.logger.unseen("pad_A_Fx") == pytest.approx(DT)
     assert replace(thinned.logger, known=False).unseen("pad_A_Fx") == 0.0
     assert replace(thinned.logger, known=False).of("pad_A_Fx") is None

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from bench import build_campaign
-from measured import as_campaign
+from measured import as_campaign, fit_base
 from slipwise.campaign import Campaign, Logger
-from slipwise.estimation.base_fit import fit_base
 from slipwise.preparation.logger import estimate_logger
 from slipwise.signals.filters import LowPass, lowpass
 

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 from bench import build_campaign
-from measured import as_campaign
+from measured import as_campaign, mended_for_fits
 from slipwise.campaign import Campaign
-from slipwise.diagnosis.data_corrections import first_things
-from slipwise.preparation.repairs import for_fits
-from slipwise.preparation.sample_faults import sample_faults
-from slipwise.preparation.synchronisation import in_step, late_cells, late_motion, without_partner
+from slipwise.preparation.data_corrections import describe_corrections
+from slipwise.preparation.sample_faults import find_sample_faults
+from slipwise.preparation.synchronisation import find_late_cells, find_late_motion, synchronise, without_partner
 
 CELLS = tuple(f"pad_{pad}_{kind}" for pad in "ABCD" for kind in ("N", "Fx"))
 
@@ -22,33 +21,33 @@ def sound() -> Campaign:
 
 
 def late_by(sound: Campaign, delay: float, channels: tuple[str, ...] = CELLS) -> Campaign:
-    runs = (replace(run, record=in_step(run.record, channels, -delay)) for run in sound.runs)
+    runs = (replace(run, record=synchronise(run.record, channels, -delay)) for run in sound.runs)
     return replace(sound, runs=tuple(runs))
 
 
 def test_cells_that_are_in_step_are_not_late(sound: Campaign) -> None:
-    assert late_cells(sound) is None and late_motion(sound) is None
-    assert "late" not in {fault.kind for fault in sample_faults(sound)}
+    assert find_late_cells(sound) is None and find_late_motion(sound) is None
+    assert "late" not in {fault.kind for fault in find_sample_faults(sound)}
 
 
 @pytest.mark.parametrize("delay", [0.1, 0.5, -0.3])
 def test_how_late_cells_are_is_found_within_two_milliseconds(sound: Campaign, delay: float) -> None:
-    found = late_cells(late_by(sound, delay))
+    found = find_late_cells(late_by(sound, delay))
     assert found is not None
     assert set(found.channels) == set(CELLS)
     assert found.delay == pytest.approx(delay, abs=2e-3)
 
 
 def test_one_cell_that_is_late_alone_is_a_matter_of_the_fit(sound: Campaign) -> None:
-    assert late_cells(late_by(sound, 0.3, CELLS[:2])) is None
+    assert find_late_cells(late_by(sound, 0.3, CELLS[:2])) is None
 
 
 def test_late_cells_are_brought_forward_and_their_end_is_not_judged(sound: Campaign) -> None:
     campaign = late_by(sound, 0.25)
-    faults = sample_faults(campaign)
-    (told,) = (thing for thing in first_things(faults) if thing.kind == "late")
+    faults = find_sample_faults(campaign)
+    (told,) = (thing for thing in describe_corrections(faults) if thing.kind == "late")
     assert set(told.channels) == set(CELLS) and "s behind the other channels" in told.words
-    whole, invalid = for_fits(campaign, faults)
+    whole, invalid = mended_for_fits(campaign, faults)
     run, true = whole.runs[0], sound.runs[0].record
     judged = ~invalid[run.name]["pad_A_N"]
     assert np.flatnonzero(~judged)[0] >= len(true) - round(0.27 / true.dt)
@@ -72,7 +71,7 @@ def test_gauges_of_the_motion_on_a_late_logger_are_found(
     sound: Campaign, channels: tuple[str, ...], delay: float
 ) -> None:
     there = tuple(name for name in channels if name in sound.runs[0].record)
-    found = late_motion(late_by(sound, delay, there))
+    found = find_late_motion(late_by(sound, delay, there))
     assert found is not None
     assert set(there) <= set(found.channels)
     assert {name.split("_")[0] for name in found.channels} - {"yaw"} == {name.split("_")[0] for name in there}
@@ -81,6 +80,6 @@ def test_gauges_of_the_motion_on_a_late_logger_are_found(
 
 def test_a_late_table_and_late_cells_are_told_apart(sound: Campaign) -> None:
     both = late_by(late_by(sound, 0.2, TABLE), 0.5)
-    late = [(set(f.channels), f.size) for f in sample_faults(both) if f.kind == "late"]
+    late = [(set(f.channels), f.size) for f in find_sample_faults(both) if f.kind == "late"]
     assert [channels & {"table_ax", "pad_A_N"} for channels, _ in late] == [{"table_ax"}, {"pad_A_N"}]
     assert [size for _, size in late] == pytest.approx([0.2, 0.5], abs=3e-3)

@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 
 from slipwise.campaign import Campaign
-from slipwise.comparison.compare import compare
-from slipwise.errors import InputError
 from slipwise.instruments.audit import audit
 from slipwise.instruments.checks import check_instruments, corrected_campaign
-from slipwise.preparation.wrong_units import WrongUnit, wrong_units
+from slipwise.preparation.prepare import prepare
+from slipwise.preparation.wrong_units import WrongUnit, find_wrong_units
 
 
 def times(campaign: Campaign, factor: float, *names: str) -> Campaign:
@@ -17,7 +16,7 @@ def times(campaign: Campaign, factor: float, *names: str) -> Campaign:
 
 
 def test_sound_gauges_are_in_their_units(sound):
-    assert wrong_units(sound) == []
+    assert find_wrong_units(sound) == []
 
 
 @pytest.mark.parametrize(
@@ -34,25 +33,25 @@ def test_sound_gauges_are_in_their_units(sound):
     ],
 )
 def test_a_factor_of_units_is_found_in_its_channel(sound, name, factor):
-    (found,) = wrong_units(times(sound, factor, name))
+    (found,) = find_wrong_units(times(sound, factor, name))
     assert found.channels == (name,)
     assert found.factor == pytest.approx(factor, rel=1e-4)
 
 
 def test_a_whole_card_in_kilonewtons_is_found(sound):
     cells = tuple(f"pad_{pad}_Fx" for pad in "ABCD")
-    (found,) = wrong_units(times(sound, 1e-3, *cells))
+    (found,) = find_wrong_units(times(sound, 1e-3, *cells))
     assert (found.channels, found.factor) == (cells, 1e-3)
 
 
 def test_two_columns_are_both_found(sound):
-    found = wrong_units(times(times(sound, 1e3, "pad_B_N"), 0.1, "slip_x"))
+    found = find_wrong_units(times(times(sound, 1e3, "pad_B_N"), 0.1, "slip_x"))
     assert {(one.channels, one.factor) for one in found} == {(("pad_B_N",), 1e3), (("slip_x",), 0.1)}
 
 
 @pytest.mark.parametrize("factor", [1.05, 0.9, 1.4])
 def test_a_gain_is_no_unit(sound, factor):
-    assert wrong_units(times(sound, factor, "pad_A_Fx")) == []
+    assert find_wrong_units(times(sound, factor, "pad_A_Fx")) == []
 
 
 def test_a_dead_a_tared_and_a_turned_cell_are_in_no_other_unit(sound):
@@ -63,7 +62,7 @@ def test_a_dead_a_tared_and_a_turned_cell_are_in_no_other_unit(sound):
         ("girder_az", lambda x: x + 9.80665),
     ):
         changed = {r.name: r.record.replaced(**{name: change(r.record[name])}) for r in sound.runs}
-        assert wrong_units(sound.with_records(changed, "")) == []
+        assert find_wrong_units(sound.with_records(changed, "")) == []
 
 
 def test_an_audit_names_the_unit_and_accuses_nobody_else(sound):
@@ -72,14 +71,17 @@ def test_an_audit_names_the_unit_and_accuses_nobody_else(sound):
     assert finding.name == "channel_gain:pad_A_Fx"
 
 
-def test_a_comparison_refuses_it_until_it_is_corrected(sound):
+def test_preparation_divides_by_the_factor_and_says_so(sound):
+    ready = prepare(times(sound, 1e3, "pad_A_Fx"))
+    np.testing.assert_allclose(ready.campaign.runs[0].record["pad_A_Fx"], sound.runs[0].record["pad_A_Fx"], rtol=1e-9)
+    (told,) = ready.corrections
+    assert told.kind == "wrong_unit" and "1 000 times too large" in told.words
+
+
+def test_records_are_put_right_on_request(sound):
     wrong = times(sound, 1e3, "pad_A_Fx")
-    checks = check_instruments(wrong)
-    with pytest.raises(InputError, match="1 000 times too large.*--correct 'channel_gain:pad_A_Fx'"):
-        compare(wrong, checks=checks, system=False)
-    mended = corrected_campaign(wrong, checks, ["channel_gain:pad_A_Fx"])
-    record = mended.runs[0].record
-    assert np.allclose(record["pad_A_Fx"], sound.runs[0].record["pad_A_Fx"], rtol=1e-9)
+    mended = corrected_campaign(wrong, check_instruments(wrong), ["channel_gain:pad_A_Fx"])
+    np.testing.assert_allclose(mended.runs[0].record["pad_A_Fx"], sound.runs[0].record["pad_A_Fx"], rtol=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from measured import fit_base
 from slipwise.campaign import load_campaign
-from slipwise.estimation.base_fit import fit_base
 from unit.campaign.slider import HEADER, slider, text
 
 

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from bench import build_campaign
-from measured import as_campaign
-from slipwise.preparation.repairs import for_fits
-from slipwise.preparation.sample_faults import sample_faults
+from measured import as_campaign, mended_for_fits
+from slipwise.preparation.sample_faults import find_sample_faults
 from slipwise.relations.kinematics import Kinematics
 from slipwise.relations.memo import Recent
 from slipwise.relations.run_data import FitRun, fit_runs
@@ -49,7 +48,7 @@ def test_the_yaw_of_unequal_pads_is_seen_though_one_of_their_gauges_is_clipped()
         rail = 0.5 * float(np.abs(force).max())
         runs.append(replace(run, record=run.record.replaced(pad_C_Fx=np.clip(force, -rail, rail))))
     clipped = replace(campaign, runs=tuple(runs))
-    whole, invalid = for_fits(clipped, sample_faults(clipped))
+    whole, invalid = mended_for_fits(clipped, find_sample_faults(clipped))
     ready = fit_runs(whole, invalid)
     assert all(r.judged["pads"][:, 0].sum() > 1.5 * r.judged["pads"][:, 2].sum() for r in ready)
     specimen, truth = campaign.specimen, made.truth.as_dict()["settings"]

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from bench import build_campaign
-from measured import as_campaign
+from measured import as_campaign, fit_base
 from slipwise.comparison.component_level import component_errors
 from slipwise.effects import catalogue
-from slipwise.estimation.base_fit import fit_base
 from slipwise.estimation.objective import Problem
 from slipwise.record import Record
 from slipwise.relations.parameters import Term

@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 
 from bench import build_campaign
-from measured import as_campaign
+from measured import as_campaign, fit_base
 from slipwise.diagnosis.hypothesis import refit
 from slipwise.effects import catalogue, load_effect
-from slipwise.estimation.base_fit import fit_base
 from slipwise.model import base_model, use
 from slipwise.relations.parameters import YAW_INERTIA, Term
 

@@ -7,7 +7,6 @@ import numpy as np
 
 from slipwise.campaign.draft.roles import rig_of
 from slipwise.campaign.zero_state import GRAVITY
-from slipwise.channels import PADS
 from slipwise.record import Record
 from slipwise.rig import RIGS, load_specimen
 from slipwise.rig.files import SPECIMEN_FILE
@@ -32,12 +31,11 @@ def rig_for(records: Sequence[Record], pads: tuple[str, ...], folder: Path) -> t
         return SPECIMEN_FILE, "it lies in this folder", ""
     if len(pads) < 3:
         return "pad", "not enough pads for a girder", ""
-    if pads == PADS:
-        rig, why = rig_of(records)
-        return (rig, why, "") if rig != "pad" else ("bridge1", "four pads; nothing tells which rig", "")
+    weights = {name: rig.weight for name in RIGS if (rig := load_specimen(name)).free and rig.pads == pads}
+    if len(weights) > 1:
+        return *rig_of(records, list(weights)), ""
     loads = loads_at_rest(records, pads)
     if loads is not None:
-        weights = {name: rig.weight for name in RIGS if (rig := load_specimen(name)).free and rig.pads == pads}
         name = min(weights, key=lambda n: abs(weights[n] - sum(loads)), default="")
         if name and abs(sum(loads) / weights[name] - 1.0) < _SAME_WEIGHT:
             return name, f"its pads {', '.join(pads)} carry {sum(loads) / 1e3:.3g} kN here", ""

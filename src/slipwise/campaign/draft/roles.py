@@ -7,9 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.same_specimen import lever_of
-from slipwise.channels import PADS
 from slipwise.record import Record
-from slipwise.rig import RIGS, load_specimen
+from slipwise.rig import load_specimen
 
 Array = NDArray[np.float64]
 #: Two motions are one where this little of them differs [1]; a sine holds this part of its power near one frequency.
@@ -52,18 +51,21 @@ def roles_of(records: Mapping[str, Record | None]) -> dict[str, tuple[str, str]]
     return out
 
 
-def rig_of(records: Sequence[Record]) -> tuple[str, str]:
-    """Return the rig of the package that these runs are nearest to, and why."""
-    four = [record for record in records if record.has_all(*(f"pad_{pad}_N" for pad in "ABCD"))]
-    if not four:
-        return "pad", "not four pads"
-    levers = [lever for record in four if (lever := lever_of(record, load_specimen("bridge1"))) is not None]
-    free = [name for name in RIGS if load_specimen(name).free and len(load_specimen(name).pads) == len(PADS)]
+def rig_of(records: Sequence[Record], rigs: Sequence[str]) -> tuple[str, str]:
+    """Return which of some rigs these runs are nearest to, and why.
+
+    Args:
+        records: of the runs.
+        rigs: of the package, whose pads have the names of those in the records and stand alike.
+    """
+    first = load_specimen(rigs[0])
+    loaded = [record for record in records if record.has_all(*(f"pad_{pad}_N" for pad in first.pads))]
+    levers = [lever for record in loaded if (lever := lever_of(record, first)) is not None]
     if not levers:
-        return "bridge1", "four pads; nothing tells which rig"
+        return rigs[0], f"pads {', '.join(first.pads)}; nothing tells which rig"
     height = float(np.median(levers))
-    stiff = _restored(four)
-    near = [name for name in free if bool(sum(load_specimen(name).buffer_stiffness)) == stiff] or free
+    stiff = _restored(loaded, first.pads)
+    near = [name for name in rigs if bool(sum(load_specimen(name).buffer_stiffness)) == stiff] or rigs
     name = min(near, key=lambda n: abs((load_specimen(n).slenderness or 0.0) - height))
     return (
         name,
@@ -71,12 +73,12 @@ def rig_of(records: Sequence[Record]) -> tuple[str, str]:
     )
 
 
-def _restored(records: Sequence[Record]) -> bool:
+def _restored(records: Sequence[Record], pads: Sequence[str]) -> bool:
     """Return whether a force in proportion to the slip acts beside friction: buffers."""
     for record in records:
-        if record.has_all("girder_ax", "slip_x", *(f"pad_{pad}_Fx" for pad in "ABCD")):
-            mass = float(np.median(np.sum([record[f"pad_{pad}_N"] for pad in "ABCD"], axis=0))) / 9.80665
-            rest = -(mass * record["girder_ax"] + np.sum([record[f"pad_{pad}_Fx"] for pad in "ABCD"], axis=0))
+        if record.has_all("girder_ax", "slip_x", *(f"pad_{pad}_Fx" for pad in pads)):
+            mass = float(np.median(np.sum([record[f"pad_{pad}_N"] for pad in pads], axis=0))) / 9.80665
+            rest = -(mass * record["girder_ax"] + np.sum([record[f"pad_{pad}_Fx"] for pad in pads], axis=0))
             return bool(np.corrcoef(rest, record["slip_x"])[0, 1] > 0.7)
     return True
 

@@ -51,7 +51,8 @@ def _summary(found: Comparison) -> list[Any]:
         callout(question, answer, own).text
         for (question, answer), own in zip(one_minute(found), tones(found), strict=True)
     )
-    return [verdict(title, words, tone, facts), Html(f'<div style="{columns}">{boxes}</div>')]
+    first = [callout("Before anything was fitted", f"{one.words}.", "warn") for one in found.corrections]
+    return [verdict(title, words, tone, facts), *first, Html(f'<div style="{columns}">{boxes}</div>')]
 
 
 def _errors(found: Comparison) -> list[Any]:

@@ -67,7 +67,7 @@ def _page(found: Diagnosis, ladder: Ladder | None) -> str:
         _change(found),
         _limits(found),
     ]
-    first = [callout("Before anything was fitted", f"{thing.words}.", "warn") for thing in found.first]
+    first = [callout("Before anything was fitted", f"{thing.words}.", "warn") for thing in found.corrections]
     return page(f"Diagnosis of {found.campaign}", [part for part in sections if part is not None], [box, *first])
 
 

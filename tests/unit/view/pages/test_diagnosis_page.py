@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 
 from hypotheses import base, diagnosed, findings_of, left_by, on, searched
-from slipwise.diagnosis.data_corrections import FirstThing
 from slipwise.diagnosis.ladder import Ladder, LadderStep
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.unknown_surface import Surface
 from slipwise.diagnosis.verdict import Verdict
 from slipwise.effects import catalogue
 from slipwise.estimation.intervals import Interval
+from slipwise.preparation.data_corrections import DataCorrection
 from slipwise.view.figures.diagnosis_figures import balances_figure, ladder_figure, loops_figure, surface_figure
 from slipwise.view.figures.style import styled
 from slipwise.view.pages.diagnosis_effects import size_rows
@@ -188,8 +188,8 @@ def test_a_number_without_an_interval_is_not_written_as_one():
 
 
 def test_what_was_wrong_before_any_fit_stands_at_the_top():
-    dead = FirstThing("dead", ("pad_B_Fx",), "pad_B_Fx: dead in quake; left out there")
-    text = diagnosis_page(replace(_found("heating", kind="named"), first=(dead,)))
+    dead = DataCorrection("dead", ("pad_B_Fx",), "pad_B_Fx: dead in quake; left out there")
+    text = diagnosis_page(replace(_found("heating", kind="named"), corrections=(dead,)))
     assert text.index("Before anything was fitted") < text.index("<nav") and dead.words in text
 
 
