@@ -21,12 +21,14 @@ from slipwise.comparison.measured_replay import SystemRun, replay_models
 from slipwise.comparison.system_level import replayed_model
 from slipwise.errors import InputError, SettingError, unknown_name
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.intervals import BLOCK, Interval, of_fit
+from slipwise.estimation.intervals import Interval, of_fit
 from slipwise.model import Model
 from slipwise.regression.least_squares import Bounds, Move, gauss_newton, shortened_step
 from slipwise.relations.parameters import Free, fitted_model
 
 Array = NDArray[np.float64]
+#: Stretches of time that count as independent [s].
+_BLOCK = 0.5
 #: Numbers of the rig that a replay has; all others belong to the measurement, or to the springs that are fitted apart.
 _REPLAYED = ("rig.mass", "rig.centre_height", "rig.buffer_stiffness", "rig.shear_strength")
 #: Difference over a number's scale: large enough that reversals move by more than a step's chance.
@@ -201,7 +203,7 @@ def _blocks(answer: Sequence[SystemRun], which: Sequence[int]) -> NDArray[np.int
     parts: list[NDArray[np.int64]] = []
     first = 0
     for i in which:
-        of_sample = ((answer[i].time - answer[i].time[0]) / BLOCK).astype(np.int64) + first
+        of_sample = ((answer[i].time - answer[i].time[0]) / _BLOCK).astype(np.int64) + first
         parts += [of_sample] * len(answer[i].simulated)
         first = int(of_sample[-1]) + 1
     return np.concatenate(parts)
