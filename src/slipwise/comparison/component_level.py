@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.estimation.base_fit import BaseFit
+from slipwise.relations.motions import is_same_motion
 from slipwise.rig.frame import frame_push
 from slipwise.rig.load_basis import WARPS, basis_of
 
@@ -127,7 +128,7 @@ def repeat_errors(base: BaseFit, residuals: Mapping[str, Sequence[Array]]) -> di
         for j, later in enumerate(runs)
         if later.role == "repeat"
         for i, first in enumerate(runs[:j])
-        if _same_motion(first, later)
+        if is_same_motion(first, later)
     ]
     out = {}
     for relation, parts in residuals.items():
@@ -139,11 +140,3 @@ def repeat_errors(base: BaseFit, residuals: Mapping[str, Sequence[Array]]) -> di
         if count:
             out[relation] = float(np.sqrt(squares / count))
     return out
-
-
-def _same_motion(first, later) -> bool:
-    name = next((n for n in ("table_ax", "slip_x") if n in first.record and n in later.record), "")
-    if not name or len(first.record) != len(later.record):
-        return False
-    one, other = first.record[name], later.record[name]
-    return float(np.sqrt(np.mean((one - other) ** 2))) < 0.1 * float(np.std(one)) + 2.0 * first.noise[name]

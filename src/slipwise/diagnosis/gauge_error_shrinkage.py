@@ -21,18 +21,20 @@ from slipwise.diagnosis.importance import share_of_channel
 from slipwise.diagnosis.initial_grid import strengths
 from slipwise.diagnosis.pairs import at_odds
 from slipwise.diagnosis.rescreening import row_weights
-from slipwise.diagnosis.row_subset import on_screen
+from slipwise.diagnosis.row_subset import on_screen, rows_of
 from slipwise.diagnosis.screening import Screened
 from slipwise.errors import SlipwiseError
+from slipwise.noise.independent_samples import correlation_sum
 from slipwise.relations.measurement import faulted
 from slipwise.relations.parameters import Free
 from slipwise.relations.run_data import FitRun
 
 Array = NDArray[np.float64]
+#: Share of an independent sample that counts: the errors of a modeller, too small to be seen beside the noise, are the
+#: same in all samples, and a gauge that takes them up is not known the better for it; assumed [1].
+_COUNTED = 0.1
 #: Usual size of an imperfection, over what matters [1].
 _USUAL = 0.5
-#: Variance of the residuals over that of independent ones: samples that follow each other share their errors [1].
-_CORRELATED = 10.0
 
 
 def shares_that_stay(
@@ -48,7 +50,7 @@ def shares_that_stay(
     """
     if not found.problem.balanced:
         return dict.fromkeys(importances, 1.0)
-    solution, weights = found.solution, row_weights(found) / np.sqrt(_CORRELATED)
+    solution, weights = found.solution, row_weights(found) * np.sqrt(_COUNTED / _samples_for_one(found))
     kept = _linear_numbers(found)
     free = [solution.free[j] for j in kept]
     whose = {f"{t.label}.{p.name}": (t.effect.name, p) for t in found.terms for p in strengths(t.effect)}
@@ -70,6 +72,13 @@ def shares_that_stay(
     held = np.diag(precision + 1e-12 * float(np.diag(normal).max()))
     ended = places + np.linalg.solve(normal + held, -(slopes.T @ left) - precision * places)
     return {name: _share(places[own], ended[own]) for name, own in owned.items()}
+
+
+def _samples_for_one(found: Hypothesis) -> Array:
+    """Return how many screened rows stand for one independent one, row by row (q,): neighbours share their errors."""
+    problem, parts = found.problem, found.solution.residuals.parts
+    sums = {r: correlation_sum([parts[r][i] for i in problem.fitted]) for r in problem.relations}
+    return np.concatenate([np.full(rows, sums[r]) for r, rows in rows_of(problem).items()])
 
 
 def _share(fitted: Array, ended: Array) -> float:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.evidence.left_out import motions
-from slipwise.evidence.residual_summary import BLOCK
+from slipwise.noise.independent_samples import SHORTEST_BLOCK
 from slipwise.relations.run_data import FitRun
 
 Array = NDArray[np.float64]
@@ -117,7 +117,7 @@ def _usual_level(found: Hypothesis, relation: str) -> float:
     blocks: list[tuple[float, int]] = []
     for i in found.problem.fitted:
         run, part = found.problem.runs[i], found.solution.residuals.parts[relation][i]
-        edges = np.arange(0, len(part), max(1, round(BLOCK / run.dt)))
+        edges = np.arange(0, len(part), max(1, round(SHORTEST_BLOCK * run.scales.time / run.dt)))
         squares = np.add.reduceat((part**2).reshape(len(part), -1).sum(axis=1), edges)
         counts = np.add.reduceat(run.judged[relation].reshape(len(part), -1).sum(axis=1), edges)
         blocks += [(float(s), int(c)) for s, c in zip(squares, counts, strict=True) if c]

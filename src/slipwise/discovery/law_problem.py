@@ -15,8 +15,8 @@ from slipwise.estimation.least_squares import Solution, slopes_of, solve
 from slipwise.estimation.objective import Problem
 from slipwise.relations.girder import through_pitch
 from slipwise.relations.memo import Recent
+from slipwise.relations.noise import whitened
 from slipwise.relations.pad_law import as_logged
-from slipwise.relations.pad_noise import whitened
 from slipwise.relations.parameters import Free
 from slipwise.relations.table import Residuals
 from slipwise.signals.filters import LowPass

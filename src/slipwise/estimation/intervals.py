@@ -3,8 +3,9 @@
     C = A^-1 (sum over blocks of s s') A^-1,    A = J'J,    s = sum of J_t' r_t over a block
 
 Residuals of pads and balances at one instant share gauges, and neighbours share what the model lacks: a block holds
-all relations over a stretch of time, and only blocks are taken as independent. The usual formula, one variance for all
-rows, covers the truth in 15 to 40 % of the cases when residuals are correlated.
+all relations over a stretch of time, of all runs of one motion, and only blocks are taken as independent. How long they
+must be for that the correlation of the residuals tells; none is shorter than a cycle of the motion. The usual formula,
+one variance for all rows, covers the truth in 15 to 40 % of the cases when residuals are correlated.
 
 What a whole run shares is no block's scatter: pads and cards that reverse some hundredths of a millisecond early or
 late, or more gently than the law says. Both, of each pad in each run, are nuisances of known size, and what they could
@@ -27,13 +28,13 @@ from scipy.stats import t as student
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.profile_likelihood import is_strength, upper_limit
 from slipwise.jobs.parallel import on_every_core
-from slipwise.relations.pad_noise import TIMING
+from slipwise.noise.independent_samples import SHORTEST_BLOCK, block_length
+from slipwise.relations.motions import by_motion
+from slipwise.relations.noise import TIMING
 from slipwise.relations.parameters import Free
 
 Array = NDArray[np.float64]
 Shared = tuple[Array, NDArray[np.int64]]
-#: Length of a block [s]: some cycles of whatever the model lacks.
-BLOCK = 0.5
 #: Fewer blocks than this many for each free number are no basis; blocks are then made shorter [1].
 _BLOCKS_EACH = 3
 COVERAGE = 0.95
@@ -105,9 +106,9 @@ def intervals(base: BaseFit) -> Intervals:
     start = 0
     offsets: dict[int, int] = {}
     length = _block_length(base)
-    for i in problem.fitted:
-        offsets[i] = start
-        start += int(len(problem.runs[i].time) * problem.runs[i].dt / length) + 1
+    for group in by_motion(problem.runs, problem.fitted):  # runs of one motion repeat what the model lacks
+        offsets |= dict.fromkeys(group, start)
+        start += max(int(len(problem.runs[i].time) * problem.runs[i].dt / length) + 1 for i in group)
     for relation in problem.relations:
         for i in problem.fitted:
             part = solution.residuals.parts[relation][i]
@@ -244,7 +245,10 @@ def bound_of(free: Free, value: float) -> str:
 
 
 def _block_length(base: BaseFit) -> float:
-    seconds = sum(float(base.problem.runs[i].time[-1] - base.problem.runs[i].time[0]) for i in base.problem.fitted)
-    scale = base.problem.runs[0].scales.time
-    longest = seconds / (_BLOCKS_EACH * max(len(base.free), 1))
-    return min(BLOCK * scale, longest) if seconds < 200.0 * scale else seconds / 400.0
+    """Return how long a block must be for blocks to be as good as independent [s]."""
+    problem, parts = base.problem, base.solution.residuals.parts
+    run, fitted = problem.runs[0], problem.fitted
+    independent = run.dt * max(block_length([parts[r][i] for i in fitted]) for r in problem.relations)
+    independent = max(independent, SHORTEST_BLOCK * run.scales.time)
+    seconds = sum(float(problem.runs[i].time[-1] - problem.runs[i].time[0]) for i in fitted)
+    return min(independent, seconds / (_BLOCKS_EACH * max(len(base.free), 1)))

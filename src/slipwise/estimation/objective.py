@@ -21,12 +21,16 @@ from slipwise.relations.memo import Key, Recent
 from slipwise.relations.noise import (
     driven_noise_in_pitch,
     heave_level,
+    noise_across,
+    pad_noise,
+    reversal_noise,
     ringing_noise,
     shares_of_noise,
     weighed_balances,
+    whitened,
+    with_masked_noise,
 )
 from slipwise.relations.pad_law import PadLaw, as_logged, force_along, lost_velocity, stick_share
-from slipwise.relations.pad_noise import noise_across, pad_noise, reversal_noise, whitened, with_masked_noise
 from slipwise.relations.parameters import PITCH_INERTIA, ZERO, Term, fitted_model
 from slipwise.relations.run_data import FINER, FitRun
 from slipwise.relations.table import Residuals

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.objective import Problem
+from slipwise.relations.motions import by_motion
 
 Array = NDArray[np.float64]
 #: Stretches of time that are left out one by one where there is one motion only [1].
@@ -30,16 +31,8 @@ _REACH = 1.0
 
 
 def motions(problem: Problem) -> list[list[int]]:
-    """Return the places of the fitted runs by motion: a repeat belongs to the run before it that it resembles most."""
-    out: list[list[int]] = []
-    for i in problem.fitted:
-        run = problem.runs[i]
-        alike = [g for g in out if len(problem.runs[g[0]].time) == len(run.time)]
-        if run.role == "repeat" and (alike or out):
-            (alike or out)[-1].append(i)
-        else:
-            out.append([i])
-    return out
+    """Return the places of the fitted runs by motion."""
+    return by_motion(problem.runs, problem.fitted)
 
 
 def _parts(problem: Problem) -> tuple[list[tuple[slice, int]], int]:

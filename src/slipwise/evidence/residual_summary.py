@@ -12,11 +12,10 @@ from numpy.typing import NDArray
 
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.objective import Problem
-from slipwise.evidence.left_out import LinearFit, left_out, linear_fit
+from slipwise.evidence.left_out import LinearFit, left_out, linear_fit, motions
+from slipwise.noise.independent_samples import SHORTEST_BLOCK
 
 Array = NDArray[np.float64]
-#: Length of a block of time: some cycles of whatever a model lacks, so that blocks may be taken as independent [s].
-BLOCK = 0.5
 
 
 @dataclass(frozen=True)
@@ -29,7 +28,8 @@ class ResidualSummary:
         held_out: relation -> sum over the held-out runs; no choice may depend on it.
         counts: relation -> (samples fitted, samples held out).
         constants: numbers that were fitted.
-        blocks: relation -> (b,) sums as in `left_out` over blocks of `BLOCK` seconds, those of all relations alike.
+        blocks: relation -> (b,) sums as in `left_out` over blocks of `SHORTEST_BLOCK` seconds and over all runs of one
+            motion, those of all relations alike.
     """
 
     fitted: dict[str, float]
@@ -81,19 +81,25 @@ def summarised_linear(
 def _in_blocks(problem: Problem, residual: Array) -> dict[str, Array]:
     """Sum up squared residuals (m,) of the fitted runs in blocks of time, relation -> (b,)."""
     out: dict[str, Array] = {}
-    start = 0
+    groups, start = motions(problem), 0
     for name in problem.relations:
-        sums = []
+        sums: dict[int, Array] = {}
         for i in problem.fitted:
             run = problem.runs[i]
             shape = run.judged[name].shape
             end = start + int(np.prod(shape, dtype=np.int64))
             squares = (residual[start:end] ** 2).reshape(shape[0], -1).sum(axis=1)
-            edges = np.arange(0, shape[0], max(1, round(BLOCK * run.scales.time / run.dt)))
-            sums.append(np.add.reduceat(squares, edges))
+            edges = np.arange(0, shape[0], max(1, round(SHORTEST_BLOCK * run.scales.time / run.dt)))
+            sums[i] = np.add.reduceat(squares, edges)
             start = end
-        out[name] = np.concatenate(sums)
+        out[name] = np.concatenate([_added([sums[i] for i in group]) for group in groups])
     return out
+
+
+def _added(parts: Sequence[Array]) -> Array:
+    """Add up arrays that may differ in length, from their beginnings."""
+    longest = max(len(part) for part in parts)
+    return np.sum([np.pad(part, (0, longest - len(part))) for part in parts], axis=0)
 
 
 def error_of(summary: ResidualSummary, relation: str) -> float:

@@ -7,7 +7,8 @@ variances of the noise. The variance of each relation is thereby its own discrep
 that leaves thirty floors in one balance does not drown what another balance tells. The constants cost what they do in
 Schwarz (1978).
 
-Whether two hypotheses differ by more than chance is told by the blocks of time in which one is better (Vuong 1989).
+Whether two hypotheses differ by more than chance is told by the blocks of time in which one is better (Vuong 1989), as
+many of them as are independent.
 
 Source: Gneiting, Raftery (2007), Journal of the American Statistical Association 102 (logarithmic score); Schwarz
 (1978), Annals of Statistics 6; Vuong (1989), Econometrica 57.
@@ -16,6 +17,7 @@ Source: Gneiting, Raftery (2007), Journal of the American Statistical Associatio
 import numpy as np
 
 from slipwise.evidence.residual_summary import ResidualSummary
+from slipwise.noise.independent_samples import correlation_sum
 
 #: Mean squared residual below which a relation is as good as it can be [noise variance]: a noise that was thought too
 #: large must not turn rounding into evidence.
@@ -56,7 +58,8 @@ def lead(best: ResidualSummary, other: ResidualSummary) -> float:
     gains = np.zeros(1)
     for relation, mine in best.blocks.items():
         gains = gains + 0.5 * (other.blocks[relation] - mine) / max(best.left_out_level(relation), FLOOR)
-    deviation = float(np.sqrt(np.sum((gains - gains.mean()) ** 2)))
+    apart = gains - gains.mean()
+    deviation = float(np.sqrt(np.sum(apart**2) * correlation_sum([apart])))
     samples = sum(n for n, _ in best.counts.values())
     cost = 0.5 * (other.constants - best.constants) * np.log(max(samples, 2))
     return float(np.sum(gains) + cost) / max(deviation, 1e-9)

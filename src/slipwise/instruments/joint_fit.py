@@ -23,8 +23,12 @@ from slipwise.rig import Specimen
 Array = NDArray[np.float64]
 #: A rated mass is taken to be right within this, a mass that the campaign gives within that [1].
 RATED_MASS, KNOWN_MASS = 0.01, 0.003
-#: Rows of one band are not quite independent, and misfit is less so: evidence counts this part of each row [1].
-EVIDENCE = 0.2
+#: Rows are three in each period of the band's edge, whatever the sampling rate: of noise in that band 1.5 of them stand
+#: for one independent one.
+ROWS_FOR_ONE = 1.5
+#: Evidence counts this part of each row [1]: 0.3 of an independent one, for misfit remembers longer than noise
+#: (assumed).
+EVIDENCE = 0.3 / ROWS_FOR_ONE
 #: What an explanation pays for each number it may choose freely, in units of the score (half of log n).
 PER_NUMBER = 4.0
 #: A floor is known well enough that no explanation is paid for going below this part of it [1].

@@ -1,7 +1,7 @@
 """The noise of every gauge: how large it is, on what that rests, and how much of it is slow.
 
 It is what divides every residual, see `relations.noise`, and what `compare` prints for every channel. Rests before all
-runs show it best. A gauge is as noisy in every run, and many runs show too short a rest: their samples are put
+runs show it best: a gauge is as noisy in every run, and many runs show too short a rest, so their samples are put
 together. Noise that is not white puts more than its share into low frequencies, `colour` times as much, and a velocity
 is made of those.
 

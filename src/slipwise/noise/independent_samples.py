@@ -4,10 +4,10 @@
 
 The variance of a mean of n samples is that of n_eff independent ones: white noise has S = 1, first-order noise
 (1 + rho)/(1 - rho), and a record that is sampled k times finer, which tells nothing new, k times the S of before. One
-definition for scores, intervals, blocks of time and cells of a comparison.
+definition for leads, intervals, blocks of time and cells of a comparison.
 
-Source: Bayley, Hammersley (1946), J. Roy. Stat. Soc. Supplement 8:184-197 (the sum); Sokal (1997),
-Monte Carlo Methods in Statistical Mechanics, section 3 (the window: longer sums add noise only).
+Source: Bayley, Hammersley (1946), Journal of the Royal Statistical Society Supplement 8:184-197 (the sum); Sokal
+(1997), Monte Carlo Methods in Statistical Mechanics, section 3 (the window: longer sums add noise only).
 """
 
 from collections.abc import Sequence
@@ -20,6 +20,9 @@ Array = NDArray[np.float64]
 _WINDOW = 5.0
 #: Blocks of time are so many correlation times long: what reaches over their ends is then 5 % of their variance [1].
 _BLOCK = 10.0
+#: Shortest block of time on a rig of ordinary size, see `campaign.scales` [s]: what a model lacks comes back with every
+#: cycle of the motion, smaller than the noise, so that no correlation of samples shows it.
+SHORTEST_BLOCK = 0.5
 
 
 def correlation_sum(parts: Sequence[Array]) -> float:

@@ -1,5 +1,6 @@
 """Structure can be predicted on motions that it was not made from; noise, and one early reversal, cannot."""
 
+from copy import copy
 from dataclasses import replace
 
 import numpy as np
@@ -7,7 +8,8 @@ import pytest
 
 from hypotheses import base, left_by
 from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.diagnosis.unknown_surface import leftover, structured
+from slipwise.diagnosis.unknown_surface import above_noise, leftover, structured
+from slipwise.record import Record
 
 
 def with_left(found: Hypothesis, relation: str, left: list[np.ndarray]) -> Hypothesis:
@@ -37,6 +39,22 @@ def test_a_force_is_found_where_every_run_was_fitted() -> None:
     found = leftover(left_by("heating", of=of, pads=5.0, over=lambda run: run.velocity))
     assert structured(found)
     assert found is not None and "velocity" in found.states
+
+
+def slowed(found: Hypothesis, factor: float) -> Hypothesis:
+    """The hypothesis of a test that was run so many times slower on a rig that is as slow."""
+    problem = copy(found.problem)
+    problem.runs = []
+    for run in found.problem.runs:
+        record = Record(run.record.time * factor, run.record.channels)
+        scales = replace(run.scales, speed=run.scales.speed / factor)
+        problem.runs.append(replace(run, states=replace(run.states, record=record, scales=scales)))
+    return replace(found, problem=problem)
+
+
+def test_what_is_left_above_the_noise_does_not_change_with_the_unit_of_time() -> None:
+    found = left_by("heating", of=base(pads=4.0), pads=4.0)
+    assert above_noise(slowed(found, 20.0)) == pytest.approx(above_noise(found))
 
 
 def test_one_early_reversal_in_each_run_is_no_structure() -> None:

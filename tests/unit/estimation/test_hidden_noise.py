@@ -9,8 +9,7 @@ from bench import build_campaign
 from measured import as_campaign
 from slipwise.model import base_model, use
 from slipwise.relations.girder import heave_rate
-from slipwise.relations.noise import bent_noise_in_heave, vertical_friction_noise
-from slipwise.relations.pad_noise import whitened, with_masked_noise
+from slipwise.relations.noise import bent_noise_in_heave, vertical_friction_noise, whitened, with_masked_noise
 from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.signals.oscillator import oscillator
 

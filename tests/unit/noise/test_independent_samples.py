@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter, resample_poly
 
+from slipwise.instruments.joint_fit import ROWS_FOR_ONE
 from slipwise.noise.independent_samples import block_length, correlation_sum
+from slipwise.signals.filters import LowPass, lowpass
 
 
 def coloured(memory: float, seed: int, count: int = 40_000) -> np.ndarray:
@@ -48,3 +50,10 @@ def test_the_variance_of_a_mean_follows():
 def test_nothing_known_counts_every_sample():
     assert correlation_sum([]) == 1.0
     assert correlation_sum([np.zeros(50)]) == 1.0
+
+
+def test_rows_of_an_audit_hold_as_many_independent_samples_as_their_evidence_counts():
+    step, band = 0.002, 40.0
+    noise = lowpass(np.random.default_rng(8).normal(size=200_000), step, LowPass(band, 6, "aligned"))
+    rows = noise[:: int(1.0 / (3.0 * band * step))]
+    assert correlation_sum([rows]) == pytest.approx(ROWS_FOR_ONE, rel=0.1)

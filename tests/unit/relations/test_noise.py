@@ -8,8 +8,7 @@ from measured import as_campaign
 from slipwise.effects import catalogue
 from slipwise.model import base_model
 from slipwise.relations.measurement import changed_by
-from slipwise.relations.noise import noise_of_fault_correction
-from slipwise.relations.pad_noise import reversal_noise
+from slipwise.relations.noise import noise_of_fault_correction, reversal_noise
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import FitRun, fit_runs
 

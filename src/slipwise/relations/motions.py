@@ -1,0 +1,46 @@
+"""Which runs are of one motion: what they leave is no independent evidence, and they are left out together."""
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from slipwise.relations.run_data import FitRun
+
+#: Motions are the same where their difference is below this share of the motion, besides the noise of the gauge [1].
+_SAME, _NOISE = 0.1, 2.0
+#: Samples that tell a motion from another; every hypothesis asks.
+_ENOUGH = 500
+
+
+def is_same_motion(one: FitRun, other: FitRun) -> bool:
+    """Return whether two runs are as long and of one motion: of the table, or of the slip where that is prescribed."""
+    name = next((n for n in ("table_ax", "slip_x") if n in one.record and n in other.record), "")
+    if not name or len(one.record) != len(other.record):
+        return False
+    every = slice(None, None, max(1, len(one.record) // _ENOUGH))
+    first, second = one.record[name][every], other.record[name][every]
+    apart = float(np.sqrt(np.mean((first - second) ** 2)))
+    return apart < _SAME * float(np.std(first)) + _NOISE * one.noise[name]
+
+
+def by_motion(runs: Sequence[FitRun], places: Iterable[int]) -> list[list[int]]:
+    """Return the places of runs by motion, in the order in which each motion came first.
+
+    A run of role repeat that is like none before it belongs to the last one that is as long, or to the last at all: it
+    may have been cut a little differently.
+
+    Args:
+        runs: of the campaign.
+        places: those that are asked for.
+    """
+    out: list[list[int]] = []
+    for i in places:
+        run = runs[i]
+        same = next((group for group in out if is_same_motion(runs[group[0]], run)), None)
+        if same is None and run.role == "repeat" and out:
+            same = ([g for g in out if len(runs[g[0]].time) == len(run.time)] or out)[-1]
+        if same is None:
+            out.append([i])
+        else:
+            same.append(i)
+    return out
