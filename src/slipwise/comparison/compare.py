@@ -69,7 +69,7 @@ def compare(
     tell("fitting base parameters", 0.25)
     base = fit_finely(campaign, start)
     tell("locating errors", 0.5)
-    residuals = {r: base.solution.residuals.parts[r] for r in base.problem.relations}
+    residuals = {r: list(base.solution.residuals.of(r)) for r in base.problem.relations}
     components = component_errors(base)
     motions = [motion_states(run) for run in base.problem.runs]
     area = base.problem.specimen.pad_area

@@ -54,12 +54,12 @@ def component_errors(base: BaseFit) -> tuple[ComponentError, ...]:
     """Return the error of every relation in every run."""
     out = []
     for relation in base.problem.relations:
-        parts = zip(base.problem.runs, base.solution.residuals.parts[relation], strict=True)
-        for i, (run, part) in enumerate(parts):
+        for of in base.solution.residuals.blocks(relation):
+            run, part = base.problem.run(of.run), of.value
             judged = part != 0.0
             if not judged.any():
                 continue
-            sigma = np.broadcast_to(base.problem.sigmas[relation][i], part.shape)[judged]
+            sigma = of.noise[judged]
             left = part[judged] * sigma
             measured = run.force[judged] if relation == "pads" else _measured(relation, run, judged)
             size = float(np.sqrt(np.mean(measured**2))) if measured is not None else float("nan")

@@ -171,7 +171,7 @@ def _judged(
     """Return channel, simulated minus measured (n,), and which samples count (n,), of every channel of these runs."""
     out = []
     for i in which:
-        usable = base.problem.runs[i].states.usable
+        usable = base.problem.run(i).states.usable
         for name, simulated in answer[i].simulated.items():
             out.append((name, simulated - answer[i].measured[name], usable & np.isfinite(simulated)))
     return out

@@ -136,7 +136,7 @@ def pad_springs(base: BaseFit, model: Model) -> tuple[float, float] | None:
     runs = [
         run
         for i in base.problem.fitted
-        if (run := base.problem.runs[i]).record.has_all("table_az", "girder_az")
+        if (run := base.problem.run(i)).record.has_all("table_az", "girder_az")
         and run.noise["table_az"] > 0.0
         and float(np.std(run.record["table_az"])) > _SHAKEN * run.noise["table_az"]
     ]

@@ -77,10 +77,9 @@ def _floor(found: ComparisonData) -> list[dict[str, Any]]:
     out = []
     for relation in found.relations:
         sliding, turning = [], []
-        for sigma, part, run in zip(problem.sigmas[relation], found.residuals[relation], problem.runs, strict=True):
-            wide = part if part.ndim == 2 else part[:, None]
-            level = np.broadcast_to(sigma if np.ndim(sigma) != 1 else np.asarray(sigma)[:, None], wide.shape)
-            turns = np.broadcast_to(run.states.near_reversal[:, None], wide.shape)
+        for of in found.base.solution.residuals.blocks(relation):
+            wide, level = of.columns, of.noise.reshape(len(of.time), -1)
+            turns = np.broadcast_to(problem.run(of.run).states.near_reversal[:, None], wide.shape)
             sliding.append(level[(wide != 0.0) & ~turns])
             turning.append(level[(wide != 0.0) & turns])
         row = {"relation": relation, "floor": _rms(sliding), "near_reversals": _rms(turning)}

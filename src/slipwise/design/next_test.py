@@ -242,7 +242,7 @@ def _refitted(campaign: Campaign, model: Model, contest: Sequence[Hypothesis]) -
 def _measured(found: Diagnosis, model: Model, text: str) -> Campaign:
     """Shake a model on the computer and measure it as the campaign was measured: channels, filter, step, noise."""
     campaign = found.final.campaign
-    pattern = found.search.base.problem.runs[0]
+    pattern = found.search.base.problem.run(0)
     rng = np.random.default_rng(1)
     dt = simulation_step(pattern.dt)
     every = round(pattern.dt / dt)

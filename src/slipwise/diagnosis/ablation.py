@@ -51,7 +51,7 @@ def _linear(found: Hypothesis, terms: Sequence[Term], labels: set[str]) -> Linea
         there = problem.residuals({**solution.values, **absent}, fitted_only=True)
     except SlipwiseError:
         return None
-    left = there.stacked(problem.fitted, problem.relations)
+    left = there.stacked(problem.fitted)
     if not np.isfinite(left).all():
         return None
     ends = set(solution.at_bounds)

@@ -32,7 +32,7 @@ def keeps_its_gain(base: BaseFit, found: Screened) -> bool:
     if found.term.effect.port not in _PORTS:
         return True
     solution, problem = base.solution, base.problem
-    left = on_screen(problem, solution.residuals.stacked(problem.fitted, problem.relations))
+    left = on_screen(problem, solution.residuals.stacked(problem.fitted))
     cost = float(left @ left)
     there = residual_with(base, found.term, found.values)
     if there is None or cost - float(there @ there) > _ENOUGH * found.gain:

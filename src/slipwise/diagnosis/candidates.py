@@ -8,7 +8,7 @@ import numpy as np
 
 from slipwise.effects import Effect, catalogue, for_pads, scaled
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
 from slipwise.preparation.gauge_groups import places_of
 from slipwise.relations.parameters import Term
 from slipwise.rig.load_basis import WARPS, has_corners
@@ -33,7 +33,7 @@ def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], d
     problem, model = base.problem, base.model
     terms: list[Term] = []
     cannot: dict[str, str] = {}
-    scales = problem.runs[0].scales
+    scales = problem.scales
     for name, as_rated in (catalogue() | {e.name: e for e in own}).items():
         effect = scaled(as_rated, scales.of, scales.room)
         effect = for_pads(effect, problem.specimen.pads, corners=has_corners(problem.specimen))
@@ -61,9 +61,9 @@ def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], d
     return terms, cannot | _confounded(problem)
 
 
-def _confounded(problem: Problem) -> dict[str, str]:
+def _confounded(problem: Objective) -> dict[str, str]:
     """Say where no two fitted runs of unlike load have like speeds, so that what looks like one may be the other."""
-    runs = [r for r in (problem.runs[i] for i in problem.fitted) if r.sliding.any()]
+    runs = [r for r in problem.fitted_runs if r.sliding.any()]
     loads = np.array([float(np.mean(r.load[r.sliding])) for r in runs])
     within = np.array([float(np.std(r.load[r.sliding])) for r in runs])
     speeds = np.array([float(np.sqrt(np.mean(r.velocity[r.sliding] ** 2))) for r in runs])
@@ -80,24 +80,24 @@ def _alike(one: float, other: float) -> bool:
     return max(one, other) < (1.0 + _SAME_SPEED) * min(one, other)
 
 
-def _untestable(effect: Effect, problem: Problem) -> str:
+def _untestable(effect: Effect, problem: Objective) -> str:
     """Say what an effect needs first that this campaign has not; "" where it can be tested."""
     return next((effect.without(need) for need in effect.all_needs if not HAS[need](problem)), "")
 
 
-def _sees_buffers(problem: Problem) -> bool:
+def _sees_buffers(problem: Objective) -> bool:
     return bool(problem.specimen.buffer_stiffness) and not {"girder", "pitch"}.isdisjoint(problem.relations)
 
 
-def _one_way(problem: Problem) -> bool:
+def _one_way(problem: Objective) -> bool:
     """Return whether all runs that are fitted slide the same way: one there and one back are both directions."""
-    forth = np.concatenate([r.velocity[r.sliding] > 0.0 for r in (problem.runs[i] for i in problem.fitted)])
+    forth = np.concatenate([r.velocity[r.sliding] > 0.0 for r in problem.fitted_runs])
     return bool(forth.size) and min(float(np.mean(forth)), 1.0 - float(np.mean(forth))) < _RARELY
 
 
-def _load_varies(problem: Problem) -> bool:
+def _load_varies(problem: Objective) -> bool:
     """Return whether the load changes within a run that is fitted, or from one of them to another."""
-    loads = [problem.runs[i].load for i in problem.fitted]
+    loads = [run.load for run in problem.fitted_runs]
     means = np.array([float(np.mean(load)) for load in loads])
     within = any(float(np.std(load)) > _STEADY_LOAD * mean for load, mean in zip(loads, means, strict=True))
     return within or float(np.ptp(means)) > _STEADY_LOAD * float(means.max())
@@ -108,7 +108,7 @@ def _load_varies(problem: Problem) -> bool:
 _LOOKED_AT = ("slip_x", "girder_ax", "girder_az", "table_ax")
 
 #: What effects need -> whether a campaign has it.
-HAS: dict[str, Callable[[Problem], bool]] = {
+HAS: dict[str, Callable[[Objective], bool]] = {
     "command": lambda problem: False,  # every fit is driven by the motion that was measured
     "buffers": _sees_buffers,
     "balances": lambda problem: problem.balanced,
@@ -116,34 +116,34 @@ HAS: dict[str, Callable[[Problem], bool]] = {
     "across": lambda problem: "across" in problem.relations,
     "prescribed slip": lambda problem: not problem.specimen.free,
     "storeys": lambda problem: "storeys" in problem.relations,
-    "several pads": lambda problem: len(problem.runs[0].pads) > 1,
+    "several pads": lambda problem: len(problem.pads) > 1,
     "both directions": lambda problem: not _one_way(problem),
     "changing load": _load_varies,
 }
 
 
-def _aimed(effect: Effect, problem: Problem) -> Iterator[Term]:
+def _aimed(effect: Effect, problem: Objective) -> Iterator[Term]:
     """Yield a gauge's fault on every channel or card on which it means something to the relations of a fit."""
-    places = places_of(effect, problem.runs[0].record)
+    places = places_of(effect, problem.run(0).record)
     for place in sorted(places, key=lambda name: "*" not in name):
         targets = places[place]
         if any(name not in _LOOKED_AT and not name.startswith("pad_") or name.endswith("_Fy") for name in targets):
             continue
         if effect.gauges.sits == "pads":
-            if len(targets) == len(problem.runs[0].pads):
+            if len(targets) == len(problem.pads):
                 yield Term(effect, targets, "pad_*")
         elif problem.balanced or ((place.startswith("pad_") or place == "slip_x") and _alone(effect, targets)):
             yield Term(effect, targets, place)
 
 
-def _unaimed(effect: Effect, problem: Problem) -> str:
+def _unaimed(effect: Effect, problem: Objective) -> str:
     """Say why a gauge's fault is looked for on none: none that it could sit on, or none beside the law of friction."""
-    if any(place.startswith(("pad_", "slip")) for place in places_of(effect, problem.runs[0].record)):
+    if any(place.startswith(("pad_", "slip")) for place in places_of(effect, problem.run(0).record)):
         return "without a girder's balances it is one with the numbers of the friction law"
     return "no gauge was recorded on which it would show"
 
 
-def _on_single_pads(effect: Effect, problem: Problem) -> Iterator[Term]:
+def _on_single_pads(effect: Effect, problem: Objective) -> Iterator[Term]:
     """Yield an effect on each pad alone, where loads tell which: those of three or four pads warp one way or not."""
     if effect.single and WARPS[1] in problem.relations:
         for pad in problem.specimen.pads:

@@ -65,7 +65,7 @@ def shares_that_stay(
     slopes = np.column_stack([on_screen(problem, solution.jacobian[:, kept]), *small]) * weights[:, None]
     precision = np.concatenate([precision, np.full(len(small), _USUAL**-2)])
     places = np.concatenate([places, np.zeros(len(small))])
-    left = weights * on_screen(problem, solution.residuals.stacked(problem.fitted, problem.relations))
+    left = weights * on_screen(problem, solution.residuals.stacked(problem.fitted))
     normal = slopes.T @ slopes
     held = np.diag(precision + 1e-12 * float(np.diag(normal).max()))
     ended = places + np.linalg.solve(normal + held, -(slopes.T @ left) - precision * places)
@@ -92,7 +92,7 @@ def _linear_numbers(found: Hypothesis) -> list[int]:
 
 def _small_columns(found: Hypothesis, screened: Sequence[Screened], limits: Materiality) -> list[Array]:
     """Return what each further fault of a gauge changes in the residual when it is as large as what matters."""
-    run = found.problem.runs[found.problem.fitted[0]]
+    run = found.problem.run(found.problem.fitted[0])
     out: list[Array] = []
     for s in screened:
         if s.term.effect.port != "gauge" or any(at_odds(s.term, t) for t in found.terms):

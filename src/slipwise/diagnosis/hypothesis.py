@@ -10,8 +10,8 @@ from slipwise.diagnosis.initial_grid import REFERENCES, strengths
 from slipwise.effects import Limit
 from slipwise.estimation.base_fit import BaseFit, final_refit
 from slipwise.estimation.least_squares import Solution, slopes_of, solve
-from slipwise.estimation.objective import Problem
-from slipwise.evidence.residual_summary import ResidualSummary, mean_square, summarised
+from slipwise.estimation.objective import Objective
+from slipwise.evidence.residual_summary import ResidualSummary, summarised
 from slipwise.relations.parameters import ZERO, Free, Term, inertia_free, numbers_replaced
 
 Array = NDArray[np.float64]
@@ -36,7 +36,7 @@ class Hypothesis:
     """
 
     terms: tuple[Term, ...]
-    problem: Problem
+    problem: Objective
     solution: Solution
     summary: ResidualSummary
 
@@ -55,7 +55,7 @@ class Hypothesis:
 
     def level_of(self, relation: str, runs: Sequence[int]) -> float:
         """Return the mean squared residual of a relation over some runs [noise variance]."""
-        return mean_square(self.problem, self.solution, relation, runs)
+        return self.solution.residuals.mean_square(relation, runs)
 
 
 def base_hypothesis(base: BaseFit) -> Hypothesis:
@@ -83,7 +83,7 @@ def refit(
     problem = base.problem.adding(*terms)
     values = dict(base.solution.values)
     if before is not None:  # numbers of effects that are no longer there would act, or be begun from
-        kept = values.keys() | set(problem.kinematics.inertias)
+        kept = values.keys() | set(problem.inertias)
         values |= {k: v for k, v in before.solution.values.items() if k in kept}
     labels = {t.label for t in before.terms} if before is not None else set[str]()
     gone = numbers_replaced(t.effect for t in terms) | ({STICK_LENGTH} if problem.has_stick else set())
@@ -98,7 +98,7 @@ def refit(
         values.update({f"{term.label}.{k}": v for k, v in start.items()})
         free += [f for f in term.free(start) if f.key.rsplit(".", 1)[1] not in REFERENCES]
     present = {f.key for f in free}
-    for key in problem.kinematics.inertias:
+    for key in problem.inertias:
         if key not in present:
             free.append(inertia_free(problem.specimen, key))
             values.setdefault(key, free[-1].start)
@@ -116,7 +116,7 @@ def refit(
     return _hypothesis(terms, problem, solution)
 
 
-def _hypothesis(terms: Sequence[Term], problem: Problem, solution: Solution) -> Hypothesis:
+def _hypothesis(terms: Sequence[Term], problem: Objective, solution: Solution) -> Hypothesis:
     return Hypothesis(tuple(terms), problem, solution, summarised(problem, solution))
 
 
@@ -134,9 +134,9 @@ def polished(found: Hypothesis) -> Hypothesis:
     return _hypothesis(found.terms, found.problem, solution)
 
 
-def weighed_as(found: Hypothesis, other: Problem) -> Hypothesis:
+def weighed_as(found: Hypothesis, other: Objective) -> Hypothesis:
     """Return a hypothesis with the noise of another problem, fitted on with that: only so their residuals compare."""
-    if found.problem.sigmas is other.sigmas:
+    if found.problem.weighing is other.weighing:
         return found
     problem = other.having(found.problem.terms)
     solution = solve(problem, found.solution.values, found.solution.free, most=4, enough=_ENOUGH, rough=_ROUGH)
@@ -155,7 +155,7 @@ def final_refit_of(found: Hypothesis) -> Hypothesis:
 
 
 def _several_starts(
-    problem: Problem, values: Mapping[str, float], free: Sequence[Free], terms: Sequence[Term]
+    problem: Objective, values: Mapping[str, float], free: Sequence[Free], terms: Sequence[Term]
 ) -> Solution:
     """Fit one slider from several starts: its material may be far from any rated value.
 
@@ -163,14 +163,14 @@ def _several_starts(
     of slip also at several shares of the stroke.
     """
     bounds = {f.key: f for f in free}
-    force = np.concatenate([problem.runs[i].force.ravel() for i in problem.fitted])
-    load = np.concatenate([problem.runs[i].load.ravel() for i in problem.fitted])
+    force = np.concatenate([run.force.ravel() for run in problem.fitted_runs])
+    load = np.concatenate([run.load.ravel() for run in problem.fitted_runs])
     usual = float(np.quantile(np.abs(force), 0.8) / max(float(np.mean(load)), 1e-12))
     strength = usual * problem.specimen.plastic_pressure
     flat = {"rig.shear_strength": strength}
     for term in (t for t in problem.terms if "flat" in t.effect.hooks):
         flat |= {f"{term.label}.{n}": v for n, v in term.effect.hooks["flat"](coefficient=usual).items()}
-    stroke = max(float(np.ptp(problem.runs[i].slip)) for i in problem.fitted)
+    stroke = max(float(np.ptp(run.slip)) for run in problem.fitted_runs)
     lengths = [f"{t.label}.length" for t in terms if "stick" in t.effect.hooks]
     starts = [dict(values), {**values, **{k: v for k, v in flat.items() if k in values}}]
     for key in lengths:

@@ -177,7 +177,7 @@ def _why(base: BaseFit, effect: Effect | None, identified: Identified) -> str:
 
 def _steady(base: BaseFit) -> str:
     """Say that the load hardly changes, where it does not: within the runs that are fitted, and from one to another."""
-    runs = [base.problem.runs[i] for i in base.problem.fitted]
+    runs = base.problem.fitted_runs
     loads = np.concatenate([r.load[r.sliding] for r in runs])
     if not loads.size:
         return ""
@@ -191,7 +191,7 @@ def _steady(base: BaseFit) -> str:
 
 def _one_speed(base: BaseFit) -> str:
     """Say that all sliding is at about one speed, where it is."""
-    runs = [base.problem.runs[i] for i in base.problem.fitted]
+    runs = base.problem.fitted_runs
     speed = 1e3 * np.concatenate([np.abs(r.velocity[r.sliding]) for r in runs])
     low, high = np.quantile(speed, (0.1, 0.9)) if speed.size else (0.0, np.inf)
     return f"nearly all sliding is at {low:.2g} to {high:.2g} mm/s" if high < _ONE_SPEED * low else ""

@@ -81,12 +81,12 @@ def importance_of_effects(final: BaseFit, terms: Sequence[Term], sizes: Sequence
     for term in terms:
         added.setdefault(term.effect.name, []).append(term)
     problem = final.problem
-    shown = (problem.held_out or [len(problem.runs) - 1])[0]
+    shown = [*problem.held_out, *problem.fitted[-1:]][0]
     places = {name: list(dict.fromkeys([shown, _where_most(final, of)])) for name, of in added.items()}
     asked = [("", place) for place in dict.fromkeys(p for of in places.values() for p in of)]
     asked += [(name, place) for name, of in places.items() for place in of]
     models = _models(final, added)
-    free = problem.specimen.free and "table_ax" in problem.runs[shown].record
+    free = problem.specimen.free and "table_ax" in problem.run(shown).record
     act = _replayed if free else _driven
     answers = dict(
         zip(asked, on_every_core(lambda i: act(models[asked[i][0]], final, asked[i][1]), len(asked)), strict=True)
@@ -99,7 +99,7 @@ def importance_of_effects(final: BaseFit, terms: Sequence[Term], sizes: Sequence
         channels: dict[str, float] = {}
         for place in places[name]:
             one, other = answers["", place].channels, answers[name, place].channels
-            measured = problem.runs[place].record
+            measured = problem.run(place).record
             for c in (c for c in one if c in measured):
                 channels[c] = max(channels.get(c, 0.0), share_of_channel(other[c] - one[c], measured[c]))
         out[name] = Importance(responses, channels, of[0].effect.port == "gauge")
@@ -124,24 +124,22 @@ def _where_most(final: BaseFit, terms: Sequence[Term]) -> int:
     problem, solution = final.problem, final.solution
     absent = {f"{t.label}.{p.name}": p.neutral for t in terms for p in t.effect.parameters if p.neutral is not None}
     try:
-        there = problem.residuals({**solution.values, **absent}).parts
+        there = problem.residuals({**solution.values, **absent})
     except SlipwiseError:
         return problem.fitted[-1]
-    here = solution.residuals.parts
-    moved = [sum(float(np.sum((there[r][i] - here[r][i]) ** 2)) for r in here) for i in range(len(problem.runs))]
-    return int(np.argmax(np.nan_to_num(moved)))
+    return int(np.argmax(np.nan_to_num(solution.residuals.changes_by_run(there))))
 
 
 def _replayed(model: Model, final: BaseFit, place: int) -> _Answer:
     """Replay a run's measured table motion, memory of pads and buffers from the runs before."""
-    run = final.problem.runs[place]
+    run = final.problem.run(place)
     dt = simulation_step(run.dt)
     answer = replay(
         model,
         measured_motion(run.states),
         dt=dt,
         output_dt=run.dt,
-        start=memory_before(model, final.problem.runs[:place]),
+        start=memory_before(model, final.problem.runs_before(place)),
         rest=run.rest_before,
     )
     responses = {
@@ -169,9 +167,9 @@ def memory_before(model: Model, runs: Sequence[FitRun]) -> Memory:
 
 def _driven(model: Model, final: BaseFit, place: int) -> _Answer:
     """Drive a slider's law with measured load and motion; its gauges' faults act on what it answers."""
-    law, run = predictor(model), final.problem.runs[place]
+    law, run = predictor(model), final.problem.run(place)
     force = run.states.pad_velocity  # of the run's own shape, where there is nothing before it
-    for each in final.problem.runs[: place + 1]:
+    for each in final.problem.runs_before(place + 1):
         law.rest(each.rest_before)
         states = each.states
         motion = rig_motion(states) if law.asks_for_motion else None

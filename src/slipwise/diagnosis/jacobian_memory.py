@@ -19,19 +19,18 @@ ROOM = 400 * 2**20
 
 def size_of(solution: Solution) -> int:
     """Return the bytes that slopes and residuals of a solution take."""
-    parts = [*solution.residuals.pad_forces, *(part for of in solution.residuals.parts.values() for part in of)]
-    return solution.jacobian.nbytes + sum(part.nbytes for part in parts)
+    return solution.jacobian.nbytes + solution.residuals.nbytes
 
 
 def light(solution: Solution) -> Solution:
     """Return a solution without slopes and residuals."""
-    return replace(solution, residuals=Residuals({}, []), jacobian=np.empty((0, len(solution.free))))
+    return replace(solution, residuals=Residuals(), jacobian=np.empty((0, len(solution.free))))
 
 
 def whole(found: Hypothesis) -> Hypothesis:
     """Return a hypothesis with slopes and residuals, taken anew where they were not kept."""
     solution = found.solution
-    if solution.residuals.parts:
+    if not solution.residuals.is_empty:
         return found
     solution = replace(solution, residuals=found.problem.residuals(solution.values))
     return replace(found, solution=with_slopes(found.problem, solution))

@@ -81,7 +81,7 @@ def _alike(state: Search, project: Callable[[Array], Array]) -> Iterator[tuple[s
 
 def _beyond_what_was_fitted(base: BaseFit) -> Iterator[tuple[str, str]]:
     for place, reason in not_testable(base.problem).items():
-        yield f"held-out run {base.problem.runs[place].name}", f"not testable here, no fitted run covers it: {reason}"
+        yield f"held-out run {base.problem.run(place).name}", f"not testable here, no fitted run covers it: {reason}"
 
 
 def _storeys_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
@@ -105,7 +105,7 @@ def _turning_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
 
 def _friction_across_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
     """Say that roll is judged at rest only where the girder rolls with its pitch or moves across."""
-    if not base.problem.balanced or not rolls_only_at_rest(base.problem.runs[0].states.has_y, base.campaign.specimen):
+    if not base.problem.balanced or not rolls_only_at_rest(base.problem.run(0).states.has_y, base.campaign.specimen):
         return
     why = "pads that stand unevenly turn pitch into roll" if coupled(base.campaign.specimen) else "it moves across"
     judged = "judged before the motion only" if "roll" in base.problem.relations else "not judged"
@@ -224,5 +224,5 @@ def _failure(base: BaseFit, term: Term) -> str:
         found = base.problem.adding(term).residuals({**base.solution.values, **keyed}, fitted_only=True)
     except SlipwiseError as error:
         return f"it could not be evaluated: {error}"
-    stacked = found.stacked(base.problem.fitted, base.problem.relations)
+    stacked = found.stacked(base.problem.fitted)
     return "" if np.isfinite(stacked).all() else "what it says of these runs is no finite number"

@@ -31,7 +31,7 @@ def leading_pair(
         return None
     problem = base.problem
     project = projector(on_screen(problem, base.solution.inside))
-    residual = project(on_screen(problem, base.solution.residuals.stacked(problem.fitted, problem.relations)))
+    residual = project(on_screen(problem, base.solution.residuals.stacked(problem.fitted)))
     columns = np.stack([s.column for s in pool], axis=1)
     gram, right = columns.T @ columns, -(columns.T @ residual)
     gains: dict[tuple[int, int], float] = {}

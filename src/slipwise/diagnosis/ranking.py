@@ -50,7 +50,7 @@ def _off_rated(found: Hypothesis) -> float:
 
 def has_delay_for_filter(found: Hypothesis) -> bool:
     """Return whether a hypothesis has a filter that takes nothing the logger's own let through: a delay by its name."""
-    run = found.problem.runs[0]
+    run = found.problem.run(0)
     highest = passed(run.filtered, run.dt)
     return any(is_delay(t.effect, found.values_of(t), highest) for t in found.terms)
 

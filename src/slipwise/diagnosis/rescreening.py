@@ -89,7 +89,7 @@ def _beside(before: Hypothesis, weights: Array) -> tuple[Array, Array]:
     """Return a basis of what a hypothesis' numbers can do, and what is left beside it, both weighed."""
     solution, problem = before.solution, before.problem
     basis = basis_of(on_screen(problem, solution.inside) * weights[:, None])
-    left = on_screen(problem, solution.residuals.stacked(problem.fitted, problem.relations))
+    left = on_screen(problem, solution.residuals.stacked(problem.fitted))
     return basis, away_from(basis, weights * left)
 
 

@@ -72,5 +72,5 @@ def residual_with(
         found = problem.residuals({**base.solution.values, **(moved or {}), **keyed}, fitted_only=True)
     except SlipwiseError:
         return None
-    stacked = on_screen(problem, found.stacked(problem.fitted, problem.relations))
+    stacked = on_screen(problem, found.stacked(problem.fitted))
     return stacked if np.isfinite(stacked).all() else None

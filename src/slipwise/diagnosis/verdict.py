@@ -13,7 +13,7 @@ from slipwise.diagnosis.indistinguishable import alike_pairs, distinguishable, k
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import Surface, leftover, structured
 from slipwise.diagnosis.unknown_surface import above_noise as left_above_noise
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
 from slipwise.evidence.acceptance import LEAST
 from slipwise.evidence.calibration import calibration
 from slipwise.evidence.decision import EVEN_ODDS, decide, remains
@@ -178,7 +178,7 @@ def _worst_errors(state: Search, runs: Sequence[int]) -> tuple[float, float]:
     return float(np.sqrt(before)), float(np.sqrt(after))
 
 
-def _testable(problem: Problem) -> list[int]:
+def _testable(problem: Objective) -> list[int]:
     """Return the places of the held-out runs that are not beyond what was fitted."""
     beyond = not_testable(problem)
     return [i for i in problem.held_out if i not in beyond]

@@ -9,8 +9,6 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
 from slipwise.campaign import Campaign, as_campaign
 from slipwise.diagnosis.diagnose import as_fit, diagnose
 from slipwise.diagnosis.result import Diagnosis
@@ -25,7 +23,7 @@ from slipwise.effects import RIG_MOTION, Effect
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import intervals
 from slipwise.estimation.least_squares import Solution, slopes_of, solve, with_slopes
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
 from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
 
@@ -225,13 +223,13 @@ def _without_needless(leaders: list[_Leader], whole: float) -> list[_Leader]:
     return leaders
 
 
-def _leader(found: Found, problem: Problem, whole: float) -> tuple[FittedLaw | None, list[FittedLaw]]:
+def _leader(found: Found, problem: Objective, whole: float) -> tuple[FittedLaw | None, list[FittedLaw]]:
     """Return the law of fewest constants among those that tie, and the others of them."""
     fitted = different(found.fitted)
     if not fitted:
         return None, []
     best = fitted[0].solution
-    samples = sum(int(np.count_nonzero(problem.runs[i].judged[r])) for r in problem.relations for i in problem.fitted)
+    samples = sum(best.residuals.count(r, problem.fitted) for r in problem.relations)
     left = max(best.cost - samples, 0.0)
     within = best.cost + max(_TIE, _TIE_OF_LEFT * left, _TIE_OF_ALL * whole)
     tied = [f for f in fitted if f.solution.cost <= within]

@@ -120,9 +120,8 @@ def _where_it_acts(found: FittedLaw) -> FittedLaw:
     free = tuple(f for f in found.solution.free if f.key != key)
     problem = replace(found.problem, laws=(*found.problem.laws[:-1], law))
     residuals = problem.residuals(values)
-    left = residuals.stacked(problem.fitted, problem.relations)
     there = replace(
-        found.solution, free=free, values=values, residuals=residuals, cost=float(left @ left),
+        found.solution, free=free, values=values, residuals=residuals, cost=residuals.cost(problem.fitted),
         jacobian=found.solution.jacobian[:, kept],
     )  # fmt: skip
     return replace(found, law=law, problem=problem, solution=there)
@@ -148,7 +147,7 @@ def _screened(here: LawProblem, start: Solution) -> list[Candidate]:
     for field in fields:
         if field.relation == "pads":
             places = places_of(here.plain)
-            tried = gates(places, here.plain.runs[0].pads) if here.plain.specimen.free else []
+            tried = gates(places, here.plain.pads) if here.plain.specimen.free else []
             ports = pad_ports(here.every)
             found = screen_states(field, states, ports, tried, places, here.every.states)
             if max((c.share for c in found), default=0.0) < _OF_THE_RIG:
@@ -171,8 +170,7 @@ def _starts(before: LawProblem, solution: Solution, model: Model) -> list[Soluti
     if values == solution.values:
         return [solution]
     residuals = before.residuals(values)
-    left = residuals.stacked(before.fitted, before.relations)
-    there = replace(solution, values=values, residuals=residuals, cost=float(left @ left))
+    there = replace(solution, values=values, residuals=residuals, cost=residuals.cost(before.fitted))
     return [solution, with_slopes(before, there)]
 
 

@@ -10,7 +10,7 @@ from slipwise.campaign.scales import Scales, scales_of
 from slipwise.effects import catalogue, holding, scaled
 from slipwise.errors import InputError
 from slipwise.estimation.least_squares import Solution, jacobian, slopes_of, solve
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective, objective_of
 from slipwise.model import Model, base_model, use_of
 from slipwise.preparation.logger import estimate_logger
 from slipwise.preparation.repairs import InvalidSamples
@@ -62,7 +62,7 @@ class BaseFit:
 
     campaign: Campaign
     model: Model
-    problem: Problem
+    problem: Objective
     free: tuple[Free, ...]
     solution: Solution
 
@@ -86,12 +86,12 @@ def fit_base(
     """
     model = scaled_model(model or base_model(campaign.specimen), scales_of(campaign), typical=model is None)
     campaign, start = with_logger(campaign, model, invalid)
-    problem = Problem(fit_runs(campaign, invalid), model.specimen, terms_of(model), watch=watch)
+    problem = objective_of(fit_runs(campaign, invalid), model.specimen, terms_of(model), watch=watch)
     _refuse_too_short(problem, free_numbers(campaign, model, problem))
     return _fitted(campaign, model, problem, start)
 
 
-def _refuse_too_short(problem: Problem, free: Sequence[Free]) -> None:
+def _refuse_too_short(problem: Objective, free: Sequence[Free]) -> None:
     """Refuse runs that do not hold as many samples as there are numbers to fit, and those of which none counts.
 
     Raises:
@@ -101,7 +101,7 @@ def _refuse_too_short(problem: Problem, free: Sequence[Free]) -> None:
     for run in problem.runs:
         if not run.states.usable.any():
             raise InputError(f"{run.name}: a law can be judged by no sample of it: {reason}; leave this run out")
-    judged = sum(_judged_samples(problem, problem.runs[i]) for i in problem.fitted)
+    judged = sum(_judged_samples(problem, run) for run in problem.fitted_runs)
     if judged < len(free):
         raise InputError(
             f"{len(free)} numbers are to be fitted, and a law can be judged by {judged} samples of the runs that are "
@@ -109,7 +109,7 @@ def _refuse_too_short(problem: Problem, free: Sequence[Free]) -> None:
         )
 
 
-def _judged_samples(problem: Problem, run: FitRun) -> int:
+def _judged_samples(problem: Objective, run: FitRun) -> int:
     """Count the samples of a run by which at least one relation is judged."""
     masks = [run.judged[relation].reshape(len(run.time), -1).any(axis=1) for relation in problem.relations]
     return int(np.count_nonzero(np.any(masks, axis=0)))
@@ -131,8 +131,8 @@ def with_logger(
     fitted = tuple(run for run in campaign.runs if run.role != "holdout")
     estimated = estimate_logger(replace(campaign, runs=fitted)).likeliest
     if estimated is None:  # the usual kind, at the frequency that a fit finds beside the law
-        problem = Problem(fit_runs(campaign, invalid), model.specimen, terms_of(model))
-        start = _roughly(problem, free_numbers(campaign, model, problem), {}).values
+        problem = objective_of(fit_runs(campaign, invalid), model.specimen, terms_of(model))
+        start = _roughly(problem, free_numbers(campaign, model, problem), {})[1].values
         estimated = Logger(LowPass(start["rig.logger"]), known=True)
     return replace(campaign, logger=replace(estimated, thinning=campaign.logger.thinning)), start
 
@@ -165,40 +165,38 @@ def scaled_model(model: Model, scales: Scales, *, typical: bool) -> Model:
     return Model(specimen, tuple(uses))
 
 
-def free_numbers(campaign: Campaign, model: Model, problem: Problem) -> list[Free]:
+def free_numbers(campaign: Campaign, model: Model, problem: Objective) -> list[Free]:
     """Return what a fit of a model may change, with bounds that this campaign's strokes and gauges set."""
-    free = base_free(
-        model, balances=problem.balanced, logger_known=campaign.logger.known, length=problem.runs[0].scales.length
-    )
-    stroke = min(float(np.ptp(problem.runs[i].slip)) for i in problem.fitted)
-    most = max(_STICK_SHARE * stroke, 1e-7 * problem.runs[0].scales.length)
+    free = base_free(model, balances=problem.balanced, logger_known=campaign.logger.known, length=problem.scales.length)
+    stroke = min(float(np.ptp(run.slip)) for run in problem.fitted_runs)
+    most = max(_STICK_SHARE * stroke, 1e-7 * problem.scales.length)
     if not model.specimen.free and ZERO not in numbers_replaced(u.effect for u in model.uses):
-        zero = free_zero([problem.runs[i] for i in problem.fitted])
+        zero = free_zero(problem.fitted_runs)
         free += [zero] if zero else []
     return [
         replace(f, high=min(f.high, most), start=min(f.start, most)) if f.key == "rig.stick_length" else f for f in free
     ]
 
 
-def _roughly(problem: Problem, free: list[Free], start: Mapping[str, float]) -> Solution:
-    """Fit as a beginning, from these numbers where there are any; the problem is weighed by where it begins."""
+def _roughly(problem: Objective, free: list[Free], start: Mapping[str, float]) -> tuple[Objective, Solution]:
+    """Fit as a beginning, from these numbers where there are any, weighed by where it begins."""
     values = {f.key: start.get(f.key, f.start) for f in free}
-    problem.weigh(values)
-    return solve(problem, values, free, most=6, enough=_TO_WEIGH)
+    problem = problem.weigh(values)
+    return problem, solve(problem, values, free, most=6, enough=_TO_WEIGH)
 
 
-def _fitted(campaign: Campaign, model: Model, problem: Problem, start: Mapping[str, float]) -> BaseFit:
+def _fitted(campaign: Campaign, model: Model, problem: Objective, start: Mapping[str, float]) -> BaseFit:
     free = free_numbers(campaign, model, problem)
-    solution = _roughly(problem, free, start)
+    problem, solution = _roughly(problem, free, start)
     weighed = solution.values
     for enough in _ENOUGH:
         weighed = solution.values
-        problem.weigh(weighed)
+        problem = problem.weigh(weighed)
         solution = solve(problem, weighed, free, most=8, enough=enough, rough=_ROUGH)
     for _ in range(_MORE_ROUNDS):
         if not _resonance_moved(weighed, solution.values):
             break
-        again, weighed = problem.weighed_anew(solution.values), solution.values
+        again, weighed = problem.weigh(solution.values), solution.values
         if _cost(again, weighed) > (1.0 - _LOUDER) * solution.cost:
             break
         problem = again
@@ -219,14 +217,14 @@ def _resonance_moved(weighed: Mapping[str, float], found: Mapping[str, float]) -
     return abs(frequency) > _AT_REST * found["rig.pitch_damping"] or abs(damping) > _AT_REST
 
 
-def final_refit(problem: Problem, solution: Solution) -> tuple[Problem, Solution]:
+def final_refit(problem: Objective, solution: Solution) -> tuple[Objective, Solution]:
     """Fit on with the laws evaluated at twice the instants, weighed anew twice, and a stick that may be damped.
 
     What was weighed by another law is off near reversals, where that law was wrong.
     """
-    problem, free, start = problem.weighed_anew(solution.values, finer=True), list(solution.free), solution.values
+    problem, free, start = problem.weigh(solution.values, finer=True), list(solution.free), solution.values
     if any(f.key in DAMPED_STICK for f in free):
-        scale = problem.runs[0].scales
+        scale = problem.scales
         free.append(stick_damping_free(scale.time))
         damped = {f.key: scale.of(f.unit) * DAMPED_STICK[f.key] for f in free if f.key in DAMPED_STICK}
         starts = ({**start, "rig.stick_damping": 0.0}, {**start, **damped})
@@ -234,7 +232,7 @@ def final_refit(problem: Problem, solution: Solution) -> tuple[Problem, Solution
     begin = slopes_of(solution)
     # of the first fit only the numbers are kept: slopes are what takes most memory
     values = solve(problem, start, free, most=4, enough=_TO_WEIGH, rough=_MUCH_LEFT, begin=begin).values
-    problem = problem.weighed_anew(values)
+    problem = problem.weigh(values)
     return problem, solve(problem, values, free, most=3, enough=_FINAL_REFIT, rough=_MUCH_LEFT)
 
 
@@ -257,7 +255,7 @@ def restarted(base: BaseFit, values: Mapping[str, float]) -> BaseFit | None:
     solution = solve(base.problem, start, base.free, most=8, enough=fall, begin=slopes_of(base.solution))
     if solution.cost > (1.0 - _BETTER) * base.solution.cost:
         return None
-    problem = base.problem.weighed_anew(solution.values)
+    problem = base.problem.weigh(solution.values)
     again = solve(problem, solution.values, base.free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
     return replace(base, problem=problem, solution=again)
 
@@ -271,20 +269,18 @@ def at_rated(base: BaseFit) -> BaseFit:
     problem, free = base.problem, base.free
     values = {**base.solution.values, **{f.key: f.start for f in free}}
     residuals = problem.residuals(values)
-    left = residuals.stacked(problem.fitted, problem.relations)
     slopes = jacobian(problem, values, free, residuals)
-    return replace(base, solution=Solution(values, free, residuals, slopes, float(left @ left), len(free) + 1))
+    cost = residuals.cost(problem.fitted)
+    return replace(base, solution=Solution(values, free, residuals, slopes, cost, len(free) + 1))
 
 
-def _cost(problem: Problem, values: Mapping[str, float]) -> float:
-    left = problem.residuals(values, fitted_only=True).stacked(problem.fitted, problem.relations)
-    return float(left @ left)
+def _cost(problem: Objective, values: Mapping[str, float]) -> float:
+    return problem.residuals(values, fitted_only=True).cost(problem.fitted)
 
 
-def _yaw_improves_fit(problem: Problem, solution: Solution) -> bool:
+def _yaw_improves_fit(problem: Objective, solution: Solution) -> bool:
     """Return whether yaw made from the measured forces improves the fit by more than its noise makes it worse."""
-    if not problem.kinematics.yaw_is_computable:
+    if not problem.measurements.yaw_is_computable:
         return False
-    left = problem.with_yaw().residuals(solution.values, fitted_only=True).stacked(problem.fitted, ("pads",))
-    before = solution.residuals.stacked(problem.fitted, ("pads",))
-    return float(left @ left) < (1.0 - _MIN_YAW_GAIN) * float(before @ before)
+    left = problem.with_yaw().residuals(solution.values, fitted_only=True).cost(problem.fitted, "pads")
+    return left < (1.0 - _MIN_YAW_GAIN) * solution.residuals.cost(problem.fitted, "pads")

@@ -107,13 +107,11 @@ def intervals(base: BaseFit) -> Intervals:
     length = _block_length(base)
     for i in problem.fitted:
         offsets[i] = start
-        start += int(len(problem.runs[i].time) * problem.runs[i].dt / length) + 1
-    for relation in problem.relations:
-        for i in problem.fitted:
-            part = solution.residuals.parts[relation][i]
-            of_sample = (np.arange(len(part)) * problem.runs[i].dt / length).astype(np.int64) + offsets[i]
-            rows.append(np.repeat(of_sample, part.size // len(part)))
-    left = solution.residuals.stacked(problem.fitted, problem.relations)
+        start += int(len(problem.run(i).time) * problem.run(i).dt / length) + 1
+    for of in solution.residuals.blocks(runs=problem.fitted):
+        of_sample = (np.arange(len(of.time)) * of.dt / length).astype(np.int64) + offsets[of.run]
+        rows.append(np.repeat(of_sample, of.columns.shape[1]))
+    left = solution.residuals.stacked(problem.fitted)
     block = np.concatenate(rows)
     shared = _shared(base, len(left))
     found = of_fit(solution.free, solution.values, solution.jacobian, left, block, shared)
@@ -132,19 +130,19 @@ def intervals(base: BaseFit) -> Intervals:
 
 
 def _shared(base: BaseFit, count: int) -> Shared:
-    """Return what a run's and pad's own timing of its reversals would do to the residuals; pads come first."""
-    problem, forces = base.problem, base.solution.residuals.pad_forces
+    """Return what a run's and pad's own timing of its reversals would do to the residuals."""
+    problem, residuals = base.problem, base.solution.residuals
     moved, whose = np.zeros((2, count)), np.zeros(count, dtype=np.int64)
-    start = 0
-    for place, i in enumerate(problem.fitted):
-        run = problem.runs[i]
-        rate = np.gradient(forces[i], run.dt, axis=0) / problem.sigmas["pads"][i]
-        rate = _SHARED_TIMING * run.scales.time * np.where(run.judged["pads"], rate, 0.0)
-        rows, pads = slice(start, start + rate.size), rate.shape[1]
+    timing = _SHARED_TIMING * problem.scales.time
+    friction = ((rows, of) for rows, of in residuals.rows(problem.fitted) if of.relation == "pads")
+    for place, (rows, of) in enumerate(friction):
+        force = residuals.pad_forces[of.run]
+        rate = np.gradient(force, of.dt, axis=0) / of.sigma
+        rate = timing * np.where(of.mask, rate, 0.0)
+        pads = rate.shape[1]
         moved[0, rows] = rate.ravel()
-        moved[1, rows] = (np.abs(rate) * np.sign(forces[i])).ravel()
+        moved[1, rows] = (np.abs(rate) * np.sign(force)).ravel()
         whose[rows] = np.tile(place * pads + np.arange(pads), len(rate))
-        start += rate.size
     return moved, whose
 
 
@@ -244,7 +242,7 @@ def bound_of(free: Free, value: float) -> str:
 
 
 def _block_length(base: BaseFit) -> float:
-    seconds = sum(float(base.problem.runs[i].time[-1] - base.problem.runs[i].time[0]) for i in base.problem.fitted)
-    scale = base.problem.runs[0].scales.time
+    seconds = sum(float(run.time[-1] - run.time[0]) for run in base.problem.fitted_runs)
+    scale = base.problem.scales.time
     longest = seconds / (_BLOCKS_EACH * max(len(base.free), 1))
     return min(BLOCK * scale, longest) if seconds < 200.0 * scale else seconds / 400.0

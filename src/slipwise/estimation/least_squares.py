@@ -20,7 +20,7 @@ _STEP = 1e-3
 
 
 class Fittable(Protocol):
-    """What can be fitted: a `Problem`, or one with something added to its residuals."""
+    """What can be fitted: an `Objective`, or one with something added to its residuals."""
 
     @property
     def fitted(self) -> list[int]:
@@ -121,7 +121,7 @@ def jacobian(
 ) -> Array:
     """Return d(residual)/d(value / scale) of the fitted runs, (m, k), by one-sided differences into the bounds."""
     which = problem.fitted
-    base = now.stacked(which, problem.relations)
+    base = now.stacked(which)
     nearby = problem.near(values)
     out = np.empty((len(free), len(base))).T  # column by column
     taken = known or {}
@@ -132,7 +132,7 @@ def jacobian(
         if values[free[j].key] + step > free[j].high:
             step = -step
         there = nearby.residuals({**values, free[j].key: values[free[j].key] + step}, fitted_only=True)
-        return (there.stacked(which, problem.relations) - base) * (free[j].scale / step)
+        return (there.stacked(which) - base) * (free[j].scale / step)
 
     if problem.balanced:  # one slider's laws are so quick that to share them out takes longer
         columns = on_every_core(lambda k: column(missing[k]), len(missing))
@@ -174,7 +174,7 @@ def solve(
 
     def at(values: Mapping[str, float]) -> _Point:
         now = problem.residuals(values, fitted_only=True)
-        return _Point(values, now, now.stacked(which, problem.relations))
+        return _Point(values, now, now.stacked(which))
 
     def linearise(point: _Point) -> Slopes:
         nonlocal evaluations

@@ -12,8 +12,7 @@ twenty numbers, so that what the fit leaves of a run is what a run is missed by.
 Source: Stone (1974), Journal of the Royal Statistical Society B 36:111-147; Hahn & Meeker, Statistical Intervals, 1991.
 """
 
-from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -99,12 +98,11 @@ def predicted_friction(fit: BaseFit) -> tuple[PredictedFriction, ...]:
 
 def _predicted_without(fit: BaseFit, place: int) -> float:
     """Return the mean friction of a run when the law is fitted to the others [N]."""
-    problem = copy(fit.problem)
-    problem.runs = [replace(r, role="holdout") if i == place else r for i, r in enumerate(fit.problem.runs)]
+    problem = fit.problem.with_held_out(place)
     # from rated values: where all runs led, two of them may predict the third exactly (overfit)
     start = fit.solution.values | {f.key: f.start for f in fit.solution.free}
     found = solve(problem, start, fit.solution.free, enough=_ENOUGH)
-    return _mean(problem.runs[place], found.residuals.pad_forces[place])
+    return _mean(problem.run(place), found.residuals.pad_forces[place])
 
 
 def _mean(run: FitRun, force: Array) -> float:

@@ -11,11 +11,11 @@ from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.selection import prepared
 from slipwise.estimation.base_fit import BaseFit, free_numbers, scaled_model, with_logger
 from slipwise.estimation.least_squares import Solution, solve
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective, objective_of
 from slipwise.model import Model, base_model
 from slipwise.preparation.repairs import InvalidSamples
 from slipwise.relations.parameters import Free, inertia_free, stick_damping_free, terms_of
-from slipwise.relations.run_data import FINER, FitRun, fit_runs
+from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.relations.table import Residuals
 from slipwise.session.state import State, Weights
 
@@ -62,26 +62,20 @@ class Evaluator:
     invalid: InvalidSamples
     model: Model
     runs: list[FitRun]
-    _ready: list[tuple[Weights, Problem]] = field(default_factory=list[tuple[Weights, Problem]])
+    _ready: list[tuple[Weights, Objective]] = field(default_factory=list[tuple[Weights, Objective]])
 
-    def problem(self, state: State, watch: Callable[[], None] | None = None) -> Problem:
+    def problem(self, state: State, watch: Callable[[], None] | None = None) -> Objective:
         """Return the relations of a state, weighed as it says."""
         found = next((ready for ready in self._ready if ready[0] == state.weights), None)
         if found is None:
             found = (state.weights, self._weighed(state.weights))
             self._ready = [*self._ready, found][-_READY:]
-        problem = found[1].having(state.terms)
-        problem.watch = watch
-        return problem
+        return replace(found[1], terms=state.terms, watch=watch)
 
-    def _weighed(self, weights: Weights) -> Problem:
-        problem = Problem(self.runs, self.model.specimen, weights.terms)
+    def _weighed(self, weights: Weights) -> Objective:
+        problem = objective_of(self.runs, self.model.specimen, weights.terms)
         problem = problem.with_yaw() if weights.yaw else problem
-        if weights.finer:
-            problem.kinematics.refine(FINER)
-            problem.runs = problem.kinematics.runs
-        problem.weigh(weights.values)
-        return problem
+        return problem.weigh(weights.values, finer=weights.finer)
 
     def coarse(self, state: State) -> State:
         """Return a state that is evaluated at half the instants: in half the time, and nearly as well."""
@@ -104,7 +98,7 @@ class Evaluator:
         free = [f for f in free_numbers(self.campaign, model, problem) if f.key not in single]
         for term in cards:
             free += term.free({n: state.values[f"{term.label}.{n}"] for n in term.effect.parameter_names})
-        free += [inertia_free(problem.specimen, key) for key in problem.kinematics.inertias]
+        free += [inertia_free(problem.specimen, key) for key in problem.inertias]
         if "rig.stick_damping" in state.values and any(f.key == "rig.stick_length" for f in free):
             free.append(stick_damping_free(self.runs[0].scales.time))
         return free
@@ -112,8 +106,8 @@ class Evaluator:
     def as_fit(self, state: State) -> BaseFit:
         """Return a state as a fit without slopes, for replays."""
         problem, free, residuals = self.problem(state), tuple(self.free(state)), self.residuals(state)
-        left = residuals.stacked(problem.fitted, problem.relations)
-        solution = Solution(dict(state.values), free, residuals, np.empty((0, 0)), float(left @ left), 0)
+        cost = residuals.cost(problem.fitted)
+        solution = Solution(dict(state.values), free, residuals, np.empty((0, 0)), cost, 0)
         return BaseFit(self.campaign, self.model_of(state), problem, free, solution)
 
     def with_slopes(self, state: State) -> BaseFit:
@@ -137,22 +131,18 @@ def evaluator(campaign: Campaign, model: Model | None) -> tuple[Evaluator, State
     whole, found = with_logger(whole, begun, invalid)
     ready = Evaluator(whole, invalid, begun, fit_runs(whole, invalid))
     terms = terms_of(begun)
-    problem = Problem(ready.runs, begun.specimen, terms)
+    problem = objective_of(ready.runs, begun.specimen, terms)
     values = {f.key: found.get(f.key, f.start) for f in free_numbers(whole, begun, problem)}
     return ready, State(terms, values, Weights(terms, values, finer=False))
 
 
-def errors_of(problem: Problem, residuals: Residuals) -> tuple[BalanceError, ...]:
+def errors_of(problem: Objective, residuals: Residuals) -> tuple[BalanceError, ...]:
     """Return the error of every relation in floors."""
     out = []
     for relation in problem.relations:
-        squares = [float(np.sum(part**2)) for part in residuals.parts[relation]]
-        counts = [int(np.count_nonzero(run.judged[relation])) for run in problem.runs]
-
-        def rms(places: list[int], squares: list[float] = squares, counts: list[int] = counts) -> float:
-            return float(np.sqrt(sum(squares[i] for i in places) / max(sum(counts[i] for i in places), 1)))
-
-        held = rms(problem.held_out) if any(counts[i] for i in problem.held_out) else None
-        runs = {run.name: rms([i]) for i, run in enumerate(problem.runs) if counts[i]}
-        out.append(BalanceError(relation, NAMES[relation][0], rms(problem.fitted), held, runs))
+        held = residuals.level(relation, problem.held_out) if residuals.count(relation, problem.held_out) else None
+        judged = [of for of in residuals.blocks(relation) if of.count]
+        runs = {of.name: residuals.level(relation, [of.run]) for of in judged}
+        fitted = residuals.level(relation, problem.fitted)
+        out.append(BalanceError(relation, NAMES[relation][0], fitted, held, runs))
     return tuple(out)

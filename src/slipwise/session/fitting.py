@@ -9,7 +9,7 @@ from math import isfinite
 from slipwise.estimation.base_fit import BaseFit, final_refit, fit_base
 from slipwise.estimation.intervals import Interval, intervals
 from slipwise.estimation.least_squares import Solution, solve
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
 from slipwise.session.evaluation import Evaluator
 from slipwise.session.state import Known, State, Weights
 
@@ -89,15 +89,15 @@ def fit_state(ready: Evaluator, state: State, progress: Progress) -> State:
     watch.next("how sure the numbers are", 1.0, 30)
     fit = BaseFit(ready.campaign, ready.model, problem, solution.free, solution)
     known = {e.key: _known(e) for e in intervals(fit).entries}
-    weights = Weights(state.terms, problem.kinematics.weighed_by, finer=True, yaw=problem.kinematics.yaw)
+    weights = Weights(state.terms, problem.weighing.weighed_by, finer=True, yaw=problem.yaw)
     values = {**state.values, **solution.values}
     progress("done", 1.0)
     return replace(state, values=values, weights=weights, fitted=True, known=known, words="fitted", edit="")
 
 
 def _from_here(
-    ready: Evaluator, problem: Problem, state: State, values: Mapping[str, float]
-) -> tuple[Problem, Solution]:
+    ready: Evaluator, problem: Objective, state: State, values: Mapping[str, float]
+) -> tuple[Objective, Solution]:
     free = ready.free(state)
     start = {**values, **{f.key: min(max(values.get(f.key, f.start), f.low), f.high) for f in free}}
     solution = solve(problem, start, free, most=8, enough=_ENOUGH, rough=_ROUGH)

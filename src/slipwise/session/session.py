@@ -137,7 +137,7 @@ class Session(Drawn, Tabular):
         """
         state = state or self.state
         problem = self.ready.problem(state)
-        names = [r.name for r in problem.runs]
+        names = problem.run_names
         if run not in names or relation not in problem.relations:
             raise SettingError(
                 f"no balance {relation!r} of run {run!r}; runs: {', '.join(names)}; "

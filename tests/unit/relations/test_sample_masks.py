@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from slipwise.relations.memo import Recent
 
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.preparation.repairs import for_fits
 from slipwise.preparation.sample_faults import sample_faults
 from slipwise.relations.kinematics import Kinematics
-from slipwise.relations.memo import Recent
 from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.relations.sample_masks import away_from_cuts, before_uplift, ringing_after_uplift, sample_masks
 from slipwise.rig import load_specimen, pad_frequencies

@@ -112,7 +112,7 @@ def loops_figure(found: Diagnosis) -> Figure:
     """Draw pad A's friction against slip in a held-out run: measured, base model and, if it differs, final model."""
     problem = found.search.base.problem
     place = (problem.held_out or [0])[0]
-    run = problem.runs[place]
+    run = problem.run(place)
     models = [("base model", found.search.base, _BEFORE)]
     models += [(_with(found), found.final, _AFTER)] if found.added else []
     figure = new_figure(8.6, 4.2)

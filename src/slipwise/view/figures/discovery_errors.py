@@ -119,9 +119,9 @@ def binned_rms(values: Array, left: Array) -> tuple[Array, Array]:
 def shown_runs(found: Discovery) -> list[int]:
     """Return the places of the runs whose loops are drawn: of the fitted ones the worst before, and a held-out one."""
     problem, relation = found.base.problem, found.worst
-    left = found.base.solution.residuals.parts[relation]
-    worst = max(problem.fitted, key=lambda i: float(np.mean(left[i] ** 2)))
-    return [worst, *problem.held_out[:1]]
+    blocks = found.base.solution.residuals.blocks(relation, problem.fitted)
+    worst = max(blocks, key=lambda of: of.squares / of.value.size)
+    return [worst.run, *problem.held_out[:1]]
 
 
 def loops_figure(found: Discovery) -> Figure:
@@ -130,7 +130,7 @@ def loops_figure(found: Discovery) -> Figure:
     figure = new_figure(10.6, 4.6)
     panels = figure.subplots(1, len(places), sharey=True, squeeze=False)[0]
     for axes, place in zip(panels, places, strict=True):
-        run = found.base.problem.runs[place]
+        run = found.base.problem.run(place)
         _loop(axes, found, place)
         axes.set_title(f"{run.name} ({'held out' if run.role == 'holdout' else 'fitted'})")
         axes.set_xlabel("slip [mm]")
@@ -145,7 +145,7 @@ def loop_words(found: Discovery) -> str:
         return "force on the girder that no pad carries"
     if found.worst == "heave":
         return "load of all pads"
-    return f"friction of pad {found.base.problem.runs[0].pads[_pad(found)]}"
+    return f"friction of pad {found.base.problem.pads[_pad(found)]}"
 
 
 def _pad(found: Discovery) -> int:
@@ -157,7 +157,7 @@ def _pad(found: Discovery) -> int:
 
 
 def _loop(axes: Axes, found: Discovery, place: int) -> None:
-    run, part = found.base.problem.runs[place], widest_loop(found.base.problem.runs[place])
+    run, part = found.base.problem.run(place), widest_loop(found.base.problem.run(place))
     ink, slip = mpl.rcParams["text.color"], 1e3 * run.slip
     measured = _measured(found, place)
     axes.plot(slip, 1e-3 * measured, color=mpl.rcParams["axes.edgecolor"], lw=0.6, rasterized=True, label="whole run")
@@ -171,7 +171,7 @@ def _loop(axes: Axes, found: Discovery, place: int) -> None:
 
 def _measured(found: Discovery, place: int) -> Array:
     """Return the measured force of which a loop is drawn (n,) [N]: see `loop_words`."""
-    run = found.base.problem.runs[place]
+    run = found.base.problem.run(place)
     if found.worst == "girder":
         return _beside_pads(found, place, run.channel("girder_ax"))
     return run.load.sum(axis=1) if found.worst == "heave" else run.force[:, _pad(found)]
@@ -188,7 +188,7 @@ def _predicted(found: Discovery, place: int, with_laws: bool) -> Array:
 
 def _beside_pads(found: Discovery, place: int, acceleration: Array) -> Array:
     """Return what holds the girder back beside its pads (n,) [N]."""
-    run, specimen = found.base.problem.runs[place], found.base.problem.specimen
+    run, specimen = found.base.problem.run(place), found.base.problem.specimen
     mass = found.base.solution.values.get("rig.mass", specimen.mass)
     every = len(specimen.pads) / run.force.shape[1]
     return frame_push(run.record, specimen) - mass * acceleration - every * run.force.sum(axis=1)

@@ -15,7 +15,8 @@ from slipwise.discovery.residual_field import residual_field
 from slipwise.discovery.splines import Spline, columns, spline
 from slipwise.discovery.states import State
 from slipwise.estimation.least_squares import Solution
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
+from slipwise.relations.kinematics import STATES
 
 Array = NDArray[np.float64]
 #: Points of a cloud, and parts of the range of its state that share them evenly: what is rare is seen too.
@@ -99,22 +100,22 @@ def law_heights(law: Law, driving: Sequence[State], place: int) -> tuple[list[Ar
         driving: what `law_states` gives.
         place: of the run.
     """
-    fitted, fine = law.fitted, law.fitted.problem.plain.runs[place].fine
+    fitted, fine = law.fitted, law.fitted.problem.plain.run(place).fine
     states = [s.values[place][::fine] for s in driving]
     form = fitted.values[STRENGTH] * product_at(fitted.law.match.forms, states, fitted.values)
     relation = fitted.law.match.candidate.port.relation
-    left, noise = _wide(fitted.solution.residuals.parts[relation][place]), _seen_noise(law, place)
-    kept = _wide(fitted.problem.plain.runs[place].judged[relation]) & (fitted.law.opened[place][::fine] > _OPEN)
+    of, noise = fitted.solution.residuals.block(relation, place), _seen_noise(law, place)
+    kept = _wide(of.mask) & (fitted.law.opened[place][::fine] > _OPEN)
     kept &= np.abs(noise) < _NOISY * np.nanmedian(np.abs(noise))
-    return states, np.where(kept, form + left * noise, np.nan)
+    return states, np.where(kept, form + of.columns * noise, np.nan)
 
 
 def _seen_noise(law: Law, place: int) -> Array:
     """Return the noise of a run over what a law is multiplied by, (n, q)."""
     port, plain = law.fitted.law.match.candidate.port, law.fitted.problem.plain
-    carrier = port.carrier[place][:: plain.runs[place].fine]
-    noise = np.asarray(plain.sigmas[port.relation][place])
-    return np.reshape(noise, (len(noise), -1)) / np.where(carrier == 0.0, np.nan, carrier)
+    carrier = port.carrier[place][:: plain.run(place).fine]
+    noise = plain.layout.block(port.relation, place).noise
+    return _wide(noise) / np.where(carrier == 0.0, np.nan, carrier)
 
 
 def candidate_cloud(found: Discovery, candidate: Candidate) -> Cloud:
@@ -139,17 +140,16 @@ def candidate_cloud(found: Discovery, candidate: Candidate) -> Cloud:
 
 def _opened(found: Discovery, candidate: Candidate) -> list[Array]:
     problem = found.base.problem
-    states = problem.kinematics.states(found.base.solution.values)
+    states = problem.evaluation(found.base.solution.values).of(STATES)
     return opened(candidate.gate, places_of(problem), states)
 
 
-def left_over(problem: Problem, solution: Solution, relation: str, state: State) -> tuple[Array, Array]:
+def left_over(problem: Objective, solution: Solution, relation: str, state: State) -> tuple[Array, Array]:
     """Return a state and what a fit leaves in a relation [floors], (m,) each, at the judged samples of fitted runs."""
     places, left = [], []
-    for i in problem.fitted:
-        part = _wide(solution.residuals.parts[relation][i])
-        kept = _wide(problem.runs[i].judged[relation])
-        places.append(np.broadcast_to(state.values[i][:: problem.runs[i].fine], part.shape)[kept])
+    for of in solution.residuals.blocks(relation, problem.fitted):
+        part, kept = of.columns, _wide(of.mask)
+        places.append(np.broadcast_to(state.values[of.run][:: problem.run(of.run).fine], part.shape)[kept])
         left.append(part[kept])
     return np.concatenate(places), np.concatenate(left)
 
@@ -168,18 +168,19 @@ def predicted_forces(found: Discovery, place: int, *, with_laws: bool) -> Array:
 
 def predicted_acceleration(found: Discovery, place: int, *, with_laws: bool) -> Array:
     """Return the girder's acceleration along x as its balance predicts it, (n,) [m/s^2]; measured where not judged."""
-    return found.base.problem.runs[place].channel("girder_ax") - _left(found, place, "girder", with_laws)
+    return found.base.problem.run(place).channel("girder_ax") - _left(found, place, "girder", with_laws)
 
 
 def predicted_load(found: Discovery, place: int, *, with_laws: bool) -> Array:
     """Return the load of all pads as the heave balance predicts it, (n,) [N]; measured where not judged."""
-    return found.base.problem.runs[place].load.sum(axis=1) - _left(found, place, "heave", with_laws)
+    return found.base.problem.run(place).load.sum(axis=1) - _left(found, place, "heave", with_laws)
 
 
 def _left(found: Discovery, place: int, relation: str, with_laws: bool) -> Array:
     """Return what a balance leaves of a run (n,), in its own unit."""
     solution = (after(found) if with_laws else None) or found.base.solution
-    return solution.residuals.parts[relation][place] * found.base.problem.sigmas[relation][place]
+    of = solution.residuals.block(relation, place)
+    return of.value * of.sigma
 
 
 def _wide(values: NDArray) -> NDArray:

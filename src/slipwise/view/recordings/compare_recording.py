@@ -27,7 +27,7 @@ def write_compare_recording(found: Comparison, path: Path) -> Path:
         The path; the file is there whole or not at all.
     """
     place = shown_run(found)
-    run = found.base.problem.runs[place]
+    run = found.base.problem.run(place)
     label = "replayed" if found.system else "law at measured N, v"
     measured, simulated = _pair(found, place, run)
     geometry = geometry_of(found.model.built_specimen())

@@ -36,8 +36,8 @@ def replayed_run(found: Diagnosis) -> str:
     """Say in which run slip, energy and load without an effect are told."""
     problem = found.search.base.problem
     if problem.held_out:
-        return f"the held-out run {problem.runs[problem.held_out[0]].name}"
-    return f"the last run, {problem.runs[-1].name}"
+        return f"the held-out run {problem.run(problem.held_out[0]).name}"
+    return f"the last run, {problem.run(problem.fitted[-1]).name}"
 
 
 def _response(of: Importance, name: str, *, intervals: bool) -> str:
