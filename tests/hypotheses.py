@@ -1,6 +1,7 @@
 """Hypotheses of one small campaign whose residuals are chosen: what is judged is real, but nothing has to be fitted."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -19,14 +20,15 @@ from slipwise.diagnosis.verdict import Verdict, confirmed, decide_verdict
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import Solution
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective, objective_of
 from slipwise.evidence.residual_summary import error_of, summarised
 from slipwise.evidence.score import lead, score
 from slipwise.model import base_model
 from slipwise.record import Record
 from slipwise.relations.parameters import Free, Term, base_free, terms_of
 from slipwise.relations.run_data import FitRun, fit_runs
-from slipwise.relations.table import Residuals
+from slipwise.relations.setting import Weighing
+from slipwise.relations.table import Block, Residuals
 from slipwise.signals.filters import LowPass
 
 Array = NDArray[np.float64]
@@ -75,12 +77,25 @@ def measured(*gauges: str, held_out: bool = True) -> Campaign:
 
 
 @cache
-def _problem(*gauges: str, held_out: bool) -> Problem:
+def _problem(*gauges: str, held_out: bool) -> Objective:
     model = base_model("bridge1")
-    problem = Problem(fit_runs(measured(*gauges, held_out=held_out)), model.specimen, terms_of(model))
-    for name in problem.relations:
-        problem.sigmas[name] = [np.full((1,) * run.judged[name].ndim, FORCE_NOISE) for run in problem.runs]
-    return problem
+    problem = objective_of(fit_runs(measured(*gauges, held_out=held_out)), model.specimen, terms_of(model))
+    sigmas = {
+        name: tuple(np.full((1,) * run.judged[name].ndim, FORCE_NOISE) for run in problem.runs)
+        for name in problem.relations
+    }
+    return replace(problem, weighing=Weighing(sigmas))
+
+
+def table_of(parts: Mapping[str, Sequence[Array]], forces: Sequence[Array] = (), dt: float = 0.01) -> Residuals:
+    """Give a table of these residuals, relation -> per run, every sample of which is judged."""
+
+    def block(name: str, place: int, value: Array) -> Block:
+        everywhere = np.ones(value.shape, dtype=bool)
+        time = np.arange(len(value)) * dt
+        return Block(name, place, f"run_{place}", place, "fit", time, dt, value, np.ones(()), everywhere)
+
+    return Residuals(tuple(block(n, i, one) for n, of in parts.items() for i, one in enumerate(of)), tuple(forces))
 
 
 @cache
@@ -254,7 +269,7 @@ def diagnosed(
 
 
 def _solution(
-    problem: Problem,
+    problem: Objective,
     values: dict[str, float],
     free: tuple[Free, ...],
     left: Mapping[str, float],
@@ -268,8 +283,8 @@ def _solution(
             levels[place] = (held_out or {}).get(name, levels[place])
         by = over if name == "pads" else None
         parts[name] = [_residual(run, name, i, levels[i], by) for i, run in enumerate(problem.runs)]
-    residuals = Residuals(parts, [0.9 * run.force for run in problem.runs])
-    stacked = residuals.stacked(problem.fitted, problem.relations)
+    residuals = problem.layout.filled(parts, [0.9 * run.force for run in problem.runs])
+    stacked = residuals.stacked(problem.fitted)
     return Solution(values, free, residuals, np.zeros((len(stacked), len(free))), float(stacked @ stacked), 1)
 
 

@@ -1,6 +1,6 @@
 """What a fit leaves of every relation, as one table: its order when it is stacked, and its sums of squares."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -112,7 +112,7 @@ class Residuals:
         """
         names = self.relations if relations is None else (relations,) if isinstance(relations, str) else relations
         places = sorted({block.run for block in self.table}) if runs is None else runs
-        return [self._at[name, run] for name in names if (name, places[0]) in self._at for run in places]
+        return [self._at[name, run] for name in names if name in self.relations for run in places]
 
     def of(self, relation: str) -> tuple[Array, ...]:
         """Return the residuals of one relation, per run (n,), or (n, p) of pads."""
@@ -165,10 +165,7 @@ class Residuals:
     def changes_by_run(self, other: "Residuals") -> list[float]:
         """Return the sum of the squared differences to other residuals of the same runs, one for each run."""
         return [
-            sum(
-                float(np.sum((other.block(name, run).value - self.block(name, run).value) ** 2))
-                for name in self.relations
-            )
+            sum(float(np.sum((other.block(of.relation, run).value - of.value) ** 2)) for of in self.blocks(runs=[run]))
             for run in sorted({block.run for block in self.table})
         ]
 
@@ -199,9 +196,3 @@ class Residuals:
             for block in self.table
         )
         return replace(self, table=table)
-
-
-def judged_squares(blocks: Iterable[Block]) -> tuple[float, int]:
-    """Return the sum of the squared residuals of some blocks, and by how many samples they are judged."""
-    every = list(blocks)
-    return sum(block.squares for block in every), sum(block.count for block in every)

@@ -6,17 +6,17 @@ from hypotheses import measured
 from slipwise.campaign import Campaign
 from slipwise.diagnosis.held_out_regime import not_testable
 from slipwise.estimation.base_fit import fit_base
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
 
 
-def _problem(campaign: Campaign, factor: float) -> Problem:
+def _problem(campaign: Campaign, factor: float) -> Objective:
     """The held-out run slides this many times as far and as fast."""
     problem = fit_base(campaign).problem
     runs = list(problem.runs)
     for i in problem.held_out:
         states = runs[i].states
         runs[i] = replace(runs[i], states=replace(states, slip=factor * states.slip, velocity=factor * states.velocity))
-    return replace(problem, runs=runs)
+    return replace(problem, measurements=replace(problem.measurements, runs=tuple(runs)))
 
 
 def test_a_run_within_what_was_fitted_can_be_tested():

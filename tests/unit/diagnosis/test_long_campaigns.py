@@ -35,15 +35,15 @@ def test_slopes_of_the_best_are_kept_and_the_others_are_taken_anew_where_they_ar
     again = kept_slopes.whole(tried[0])
     assert again.solution.cost == found.solution.cost
     assert again.summary is found.summary
-    for relation, parts in found.solution.residuals.parts.items():
-        np.testing.assert_array_equal(np.concatenate(again.solution.residuals.parts[relation]), np.concatenate(parts))
+    for one, other in zip(again.solution.residuals.table, found.solution.residuals.table, strict=True):
+        np.testing.assert_array_equal(one.value, other.value)
     length = np.linalg.norm(found.solution.jacobian, axis=0)
     assert again.solution.jacobian == pytest.approx(found.solution.jacobian, abs=0.2 * length.max())
     assert kept_slopes.whole(again) is again
 
 
 def test_an_ordinary_campaign_is_screened_on_all_its_rows(base):
-    left = base.solution.residuals.stacked(base.problem.fitted, base.problem.relations)
+    left = base.solution.residuals.stacked(base.problem.fitted)
     assert screened_rows.on_screen(base.problem, left) is left
     assert sum(screened_rows.rows_of(base.problem).values()) == len(left)
 
@@ -68,7 +68,7 @@ def test_a_held_out_run_of_which_a_stretch_was_judged_is_predicted_over_all_its_
     assert last.role == "holdout" and errors_on_all_samples(whole, {}, whole, [found]) == {}
     both = errors_on_all_samples(whole, {}, cut, [found, found])
     assert list(both) == list(base.problem.relations)
-    again = base.problem.weighed_anew(base.solution.values)
+    again = base.problem.weigh(base.solution.values)
     for error in errors_of(again, again.residuals(base.solution.values)):
         assert both[error.relation][0] == pytest.approx(error.held_out, rel=0.01)
         assert both[error.relation][0] == both[error.relation][1]

@@ -12,9 +12,9 @@ from slipwise.diagnosis.unknown_surface import leftover, structured
 
 def with_left(found: Hypothesis, relation: str, left: list[np.ndarray]) -> Hypothesis:
     """The hypothesis with another residual of one relation in every run."""
-    parts = {**found.solution.residuals.parts, relation: left}
-    residuals = replace(found.solution.residuals, parts=parts)
-    return replace(found, solution=replace(found.solution, residuals=residuals))
+    of = found.solution.residuals
+    more = {relation: [before - now for before, now in zip(of.of(relation), left, strict=True)]}
+    return replace(found, solution=replace(found.solution, residuals=of.less(more)))
 
 
 @pytest.mark.parametrize("state", ["velocity", "slip"])
@@ -42,7 +42,7 @@ def test_a_force_is_found_where_every_run_was_fitted() -> None:
 def test_one_early_reversal_in_each_run_is_no_structure() -> None:
     of = base(pads=1.5)
     noise = left_by(of=of)
-    left = [part.copy() for part in noise.solution.residuals.parts["pads"]]
+    left = [part.copy() for part in noise.solution.residuals.of("pads")]
     for part, run in zip(left, of.problem.runs, strict=True):
         first = np.flatnonzero(run.judged["pads"][:, 0])[:6]
         part[first] = 90.0

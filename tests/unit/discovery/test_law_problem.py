@@ -8,11 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from hypotheses import table_of
 from slipwise.discovery.discover import _without_needless
 from slipwise.discovery.law_problem import LawProblem, PlacedLaw
 from slipwise.estimation.least_squares import Solution, solve, with_slopes
 from slipwise.relations.girder import through_pitch
 from slipwise.relations.parameters import Free
+from slipwise.relations.setting import Weighing
+from slipwise.relations.stages import Evaluation, Memo, Stage
 from slipwise.relations.table import Residuals
 
 TIME = np.arange(400) * 0.005
@@ -24,16 +27,19 @@ def tipped(lever: float, longest: float = 0.0, values: Mapping[str, float] = VAL
     """Columns of a force on the girder at a lever, with noise of 0.1 m/s^2 and 50 N."""
     run = SimpleNamespace(dt=0.005, fine=1, judged={r: np.ones(400, dtype=bool) for r in ("girder", "pitch")})
     specimen = SimpleNamespace(mass=1e3, half_spacing=(1.5, 1.0))
-    sigmas = {"girder": [np.full(400, 0.1)], "pitch": [np.full(400, 50.0)]}
-    plain: Any = SimpleNamespace(
-        runs=[run], specimen=specimen, sigmas=sigmas, ringing={}, relations=("pads", "girder", "pitch")
-    )
+    weighing = Weighing({"girder": (np.full(400, 0.1),), "pitch": (np.full(400, 50.0),)})
+    measurements: Any = SimpleNamespace(runs=(run,), specimen=specimen)
+    plain: Any = SimpleNamespace(run=lambda place: run, relations=("pads", "girder", "pitch"))
     port = SimpleNamespace(relation="girder", carrier=(np.full((400, 1), -1.0 / values["rig.mass"]),))
     state = SimpleNamespace(time_constant=0.0, values=(np.ones((400, 1)),))
     form = SimpleNamespace(constants=(), at=lambda s, c: FORCE[:, None])
     match: Any = SimpleNamespace(candidate=SimpleNamespace(port=port, states=(state,)), forms=(form,), constants={})
     law = PlacedLaw("law", match, (np.ones((400, 1)),), lever, longest)
-    return LawProblem(None, plain, (law,))._columns(law, {**values, "law.strength": 1.0})  # pyright: ignore[reportArgumentType]
+    every: Any = None
+    problem = LawProblem(every, plain, (law,))
+    here = {**values, "law.strength": 1.0}
+    evaluation = Evaluation(measurements, weighing, (), here, 1, False, None, Memo(1))
+    return evaluation.of(Stage("law", lambda inputs: problem.columns(law, inputs)))
 
 
 def test_a_force_at_the_centre_does_not_tip_the_girder() -> None:
@@ -67,7 +73,7 @@ class Lines:
 
     def residuals(self, values: Mapping[str, float], *, fitted_only: bool = False) -> Residuals:
         left = self.measured - sum(values[f"{law.label}.strength"] * law.column for law in self.laws)
-        return Residuals({"pads": [left]}, [])
+        return table_of({"pads": [left]})
 
 
 @dataclass(frozen=True)

@@ -13,10 +13,9 @@ from slipwise.discovery.matching import product_at
 from slipwise.discovery.ports import opened, places_of
 from slipwise.discovery.residual_field import residual_field
 from slipwise.discovery.splines import Spline, columns, spline
-from slipwise.discovery.states import State
+from slipwise.discovery.states import State, pad_instants
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.objective import Objective
-from slipwise.relations.kinematics import STATES
 
 Array = NDArray[np.float64]
 #: Points of a cloud, and parts of the range of its state that share them evenly: what is rare is seen too.
@@ -140,7 +139,7 @@ def candidate_cloud(found: Discovery, candidate: Candidate) -> Cloud:
 
 def _opened(found: Discovery, candidate: Candidate) -> list[Array]:
     problem = found.base.problem
-    states = problem.evaluation(found.base.solution.values).of(STATES)
+    states = pad_instants(problem, found.base.solution.values).states
     return opened(candidate.gate, places_of(problem), states)
 
 

@@ -54,21 +54,21 @@ def found() -> Discovery:
     every = pad_instants(problem, solution.values)
     speed = next(s for s in pad_states(every) if s.name == "speed")
     port = next(p for p in pad_ports(every) if p.name == "adds to mu")
-    noise = solution.residuals.parts["pads"]
+    noise = solution.residuals.of("pads")
     forces, lacking = [], []
     for i, run in enumerate(problem.runs):
         force = (STRENGTH * port.carrier[i] * (speed.values[i] / REFERENCE) ** 2)[:: run.fine]
-        forces.append(run.force - force - np.where(run.judged["pads"], noise[i] * problem.sigmas["pads"][i], 0.0))
-        lacking.append(noise[i] + np.where(run.judged["pads"], force / problem.sigmas["pads"][i], 0.0))
+        of = solution.residuals.block("pads", i)
+        forces.append(run.force - force - np.where(of.mask, noise[i] * of.sigma, 0.0))
+        lacking.append(np.where(of.mask, force / of.sigma, 0.0))
 
-    def with_pads(parts: list[np.ndarray], values: dict[str, float]) -> Solution:
-        residuals = Residuals({**solution.residuals.parts, "pads": parts}, forces)
-        left = residuals.stacked(problem.fitted, problem.relations)
-        return replace(solution, values=values, residuals=residuals, cost=float(left @ left))
+    def with_pads(residuals: Residuals, values: dict[str, float]) -> Solution:
+        residuals = replace(residuals, pad_forces=tuple(forces))
+        return replace(solution, values=values, residuals=residuals, cost=residuals.cost(problem.fitted))
 
-    before = with_pads(lacking, solution.values)
+    before = with_pads(solution.residuals.less({"pads": [-more for more in lacking]}), solution.values)
     before = replace(before, jacobian=jacobian(problem, before.values, before.free, before.residuals))
-    later = with_pads(noise, {**solution.values, "law.strength": STRENGTH})
+    later = with_pads(solution.residuals, {**solution.values, "law.strength": STRENGTH})
     field = residual_field(problem, before, "pads")
     curve = spline(field, field.at_samples(port.carrier), (field.at_samples(speed.values),), (12,))
     candidate = Candidate((speed,), port, EVERYWHERE, curve, 0.97)
