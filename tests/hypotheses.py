@@ -160,7 +160,7 @@ def _inside(free: Free) -> float:
 def searched(of: BaseFit, *tried: Hypothesis) -> Search:
     """Give a search from this base fit that ended at the first of what it tried."""
     terms = {t.label: t for h in tried for t in h.terms}
-    return Search(of, {}, list(terms.values()), list(tried), (base_hypothesis(of), *tried[:1]))
+    return Search(of, {}, list(terms.values()), tuple(tried), (base_hypothesis(of), *tried[:1]))
 
 
 def changing(share: float, *, gauge: bool = False, limits: Materiality | None = None) -> Importance:

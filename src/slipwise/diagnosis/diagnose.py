@@ -72,7 +72,7 @@ def diagnose(
     tell("replaying without each effect", part)
     found = as_fit(base, state.final, with_slopes=not state.final.problem.balanced)
     sizes = intervals(found).entries if state.final.terms else ()
-    evidence = findings(state, importance_of_effects(found, state.final.terms, sizes), measured.materiality)
+    state, evidence = findings(state, importance_of_effects(found, state.final.terms, sizes), measured.materiality)
     decided = decide_verdict(state, evidence, measured.materiality)
     before = final_refit_of(state.path[0])
     shown = state.final if decided.effects else before

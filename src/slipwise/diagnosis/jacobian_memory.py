@@ -4,7 +4,7 @@ An ordinary campaign's are all kept. Of a long one those of the best are, as far
 they found and are told by, and take their slopes anew where a search comes back to them.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -36,8 +36,10 @@ def whole(found: Hypothesis) -> Hypothesis:
     return replace(found, solution=with_slopes(found.problem, solution))
 
 
-def lighten(tried: list[Hypothesis], worth: Callable[[Hypothesis], float], room: int | None = None) -> None:
-    """Keep slopes and residuals of the best as far as there is room, in place.
+def lightened(
+    tried: Sequence[Hypothesis], worth: Callable[[Hypothesis], float], room: int | None = None
+) -> tuple[Hypothesis, ...]:
+    """Return hypotheses of which the best keep slopes and residuals, as far as there is room.
 
     Args:
         tried: hypotheses.
@@ -47,8 +49,10 @@ def lighten(tried: list[Hypothesis], worth: Callable[[Hypothesis], float], room:
     left = ROOM if room is None else room
     sizes = [size_of(h.solution) for h in tried]
     if sum(sizes) <= left:
-        return
+        return tuple(tried)
+    out = list(tried)
     for place in sorted(range(len(tried)), key=lambda i: -worth(tried[i])):
         left -= sizes[place]
         if left < 0:
-            tried[place] = replace(tried[place], solution=light(tried[place].solution))
+            out[place] = replace(tried[place], solution=light(tried[place].solution))
+    return tuple(out)

@@ -30,9 +30,10 @@ def test_slopes_of_the_best_are_kept_and_the_others_are_taken_anew_where_they_ar
     tried = [replace(found, terms=()) for _ in range(3)]
     worth = {id(h): number for h, number in zip(tried, (1.0, 3.0, 2.0), strict=True)}
     monkeypatch.setattr(kept_slopes, "ROOM", int(2.5 * kept_slopes.size_of(found.solution)))
-    kept_slopes.lighten(tried, lambda h: worth[id(h)])
-    assert [kept_slopes.size_of(h.solution) > 0 for h in tried] == [False, True, True]
-    again = kept_slopes.whole(tried[0])
+    kept = kept_slopes.lightened(tried, lambda h: worth[id(h)])
+    assert [kept_slopes.size_of(h.solution) > 0 for h in kept] == [False, True, True]
+    assert all(kept_slopes.size_of(h.solution) > 0 for h in tried)
+    again = kept_slopes.whole(kept[0])
     assert again.solution.cost == found.solution.cost
     assert again.summary is found.summary
     for one, other in zip(again.solution.residuals.table, found.solution.residuals.table, strict=True):
