@@ -77,14 +77,14 @@ def measured(*gauges: str, held_out: bool = True) -> Campaign:
 
 
 @cache
-def _problem(*gauges: str, held_out: bool) -> Objective:
+def _objective(*gauges: str, held_out: bool) -> Objective:
     model = base_model("bridge1")
-    problem = objective_of(fit_runs(measured(*gauges, held_out=held_out)), model.specimen, terms_of(model))
+    objective = objective_of(fit_runs(measured(*gauges, held_out=held_out)), model.specimen, terms_of(model))
     sigmas = {
-        name: tuple(np.full((1,) * run.judged[name].ndim, FORCE_NOISE) for run in problem.runs)
-        for name in problem.relations
+        name: tuple(np.full((1,) * run.judged[name].ndim, FORCE_NOISE) for run in objective.runs)
+        for name in objective.relations
     }
-    return replace(problem, weighing=Weighing(sigmas))
+    return replace(objective, weighing=Weighing(sigmas))
 
 
 def table_of(parts: Mapping[str, Sequence[Array]], forces: Sequence[Array] = (), dt: float = 0.01) -> Residuals:
@@ -107,13 +107,13 @@ def base(*gauges: str, held_out: bool = True, **left: float) -> BaseFit:
         held_out: as in `measured`.
         left: relation -> mean squared residual [noise variance].
     """
-    campaign, model, problem = (
+    campaign, model, objective = (
         measured(*gauges, held_out=held_out),
         base_model("bridge1"),
-        _problem(*gauges, held_out=held_out),
+        _objective(*gauges, held_out=held_out),
     )
-    free = tuple(base_free(model, balances=problem.balanced))
-    return BaseFit(campaign, model, problem, free, _solution(problem, {f.key: f.start for f in free}, free, left))
+    free = tuple(base_free(model, balances=objective.balanced))
+    return BaseFit(campaign, model, objective, free, _solution(objective, {f.key: f.start for f in free}, free, left))
 
 
 def on(name: str, group: str) -> Term:
@@ -140,11 +140,11 @@ def left_by(
         left: relation -> mean squared residual [noise variance].
     """
     every = tuple(t if isinstance(t, Term) else Term(catalogue()[t]) for t in terms)
-    problem = of.problem.adding(*every)
+    objective = of.objective.adding(*every)
     new = [f for t in every for f in t.free(t.effect.typical())]
     start = {**of.solution.values, **{f.key: _inside(f) for f in new}, **(values or {})}
-    solution = _solution(problem, start, (*of.free, *new), left, held_out or {}, over)
-    return Hypothesis(every, problem, solution, summarised(problem, solution))
+    solution = _solution(objective, start, (*of.free, *new), left, held_out or {}, over)
+    return Hypothesis(every, objective, solution, summarised(objective, solution))
 
 
 def _inside(free: Free) -> float:
@@ -269,7 +269,7 @@ def diagnosed(
 
 
 def _solution(
-    problem: Objective,
+    objective: Objective,
     values: dict[str, float],
     free: tuple[Free, ...],
     left: Mapping[str, float],
@@ -277,14 +277,14 @@ def _solution(
     over: Callable[[FitRun], Array] | None = None,
 ) -> Solution:
     parts: dict[str, list[Array]] = {}
-    for name in problem.relations:
-        levels = [left.get(name, 1.0)] * len(problem.runs)
-        for place in problem.held_out:
+    for name in objective.relations:
+        levels = [left.get(name, 1.0)] * len(objective.runs)
+        for place in objective.held_out:
             levels[place] = (held_out or {}).get(name, levels[place])
         by = over if name == "pads" else None
-        parts[name] = [_residual(run, name, i, levels[i], by) for i, run in enumerate(problem.runs)]
-    residuals = problem.layout.filled(parts, [0.9 * run.force for run in problem.runs])
-    stacked = residuals.stacked(problem.fitted)
+        parts[name] = [_residual(run, name, i, levels[i], by) for i, run in enumerate(objective.runs)]
+    residuals = objective.layout.filled(parts, [0.9 * run.force for run in objective.runs])
+    stacked = residuals.stacked(objective.fitted)
     return Solution(values, free, residuals, np.zeros((len(stacked), len(free))), float(stacked @ stacked), 1)
 
 

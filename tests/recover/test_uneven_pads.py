@@ -31,9 +31,9 @@ def test_every_warp_of_six_pads_is_fitted_and_shows_the_pad_that_stands_high(fol
     runs = fit_runs(sw.load_campaign(folder))
     level = {}
     for model in (base_model("six_pads"), one_pad_high()):
-        problem = objective_of(runs, model.specimen, terms_of(model))
+        objective = objective_of(runs, model.specimen, terms_of(model))
         values = {f.key: f.start for f in base_free(model, balances=True)}
-        left = problem.weigh(values).residuals(values)
+        left = objective.weigh(values).residuals(values)
         warps = [name for name in left.relations if "warp" in name]
         level[len(model.uses)] = {n: np.sqrt(np.mean(np.concatenate(left.of(n)) ** 2)) for n in warps}
     plain, with_it = level[min(level)], level[max(level)]

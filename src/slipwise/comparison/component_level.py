@@ -53,9 +53,9 @@ class ComponentError:
 def component_errors(base: BaseFit) -> tuple[ComponentError, ...]:
     """Return the error of every relation in every run."""
     out = []
-    for relation in base.problem.relations:
+    for relation in base.objective.relations:
         for of in base.solution.residuals.blocks(relation):
-            run, part = base.problem.run(of.run), of.value
+            run, part = base.objective.run(of.run), of.value
             judged = part != 0.0
             if not judged.any():
                 continue
@@ -108,7 +108,7 @@ def repeat_errors(base: BaseFit, residuals: Mapping[str, Sequence[Array]]) -> di
     Whatever is the same in both runs drops out, the model's errors included: what stays is noise, and 1 says that the
     floor is right. Empty without a repeated run of the same length and motion.
     """
-    runs = base.problem.runs
+    runs = base.objective.runs
     pairs = [
         (i, j)
         for j, later in enumerate(runs)

@@ -88,7 +88,7 @@ def refine(base: BaseFit, keys: Sequence[str], *, rounds: int = 12, threads: int
             "level fit is all that can be known"
         )
     replayed, _ = replayed_model(base)
-    fitted, held = base.problem.fitted, base.problem.held_out
+    fitted, held = base.objective.fitted, base.objective.held_out
     bounds = Bounds(*(np.array([getattr(f, end) for f in free]) for end in ("low", "high", "scale")))
     first = np.array([base.solution.values[f.key] for f in free])
     begun = _replay(base, [_model(base, replayed, free, first)], threads)[0]
@@ -152,7 +152,7 @@ def _possible(known: Mapping[str, Free]) -> list[str]:
 def _model(base: BaseFit, replayed: Model, free: Sequence[Free], numbers: Array) -> Model:
     """Return the replayed model with other numbers; its springs, inertia and stick stay as they were found."""
     values = {f.key: float(v) for f, v in zip(free, numbers, strict=True)}
-    model = fitted_model(base.problem.specimen, base.problem.terms, {**base.solution.values, **values})
+    model = fitted_model(base.objective.specimen, base.objective.terms, {**base.solution.values, **values})
     kept = replayed.specimen
     specimen = model.specimen.changed(
         pad_stiffness=kept.pad_stiffness, pad_damping=kept.pad_damping, inertia=kept.inertia
@@ -162,7 +162,7 @@ def _model(base: BaseFit, replayed: Model, free: Sequence[Free], numbers: Array)
 
 def _replay(base: BaseFit, models: Sequence[Model], threads: int) -> list[list[SystemRun]]:
     """Replay all runs with all models; also those that are not fitted, for what pads remember goes on through them."""
-    return replay_models(models, [(r.name, r.states, r.rest_before) for r in base.problem.runs], threads=threads)
+    return replay_models(models, [(r.name, r.states, r.rest_before) for r in base.objective.runs], threads=threads)
 
 
 def _judged(
@@ -171,7 +171,7 @@ def _judged(
     """Return channel, simulated minus measured (n,), and which samples count (n,), of every channel of these runs."""
     out = []
     for i in which:
-        usable = base.problem.run(i).states.usable
+        usable = base.objective.run(i).states.usable
         for name, simulated in answer[i].simulated.items():
             out.append((name, simulated - answer[i].measured[name], usable & np.isfinite(simulated)))
     return out
@@ -179,14 +179,14 @@ def _judged(
 
 def _spread(base: BaseFit, answer: Sequence[SystemRun]) -> dict[str, float]:
     errors: dict[str, list[Array]] = {}
-    for name, difference, here in _judged(base, answer, base.problem.fitted):
+    for name, difference, here in _judged(base, answer, base.objective.fitted):
         errors.setdefault(name, []).append(difference[here])
     size: dict[str, float] = {}
-    for i in base.problem.fitted:
+    for i in base.objective.fitted:
         for name, values in answer[i].measured.items():
             unit = channel(name).unit
             size[unit] = max(size.get(unit, 0.0), float(np.std(values)))
-    noise = {n: max(r.noise.get(n, 0.0) for r in base.problem.runs) for n in errors}
+    noise = {n: max(r.noise.get(n, 0.0) for r in base.objective.runs) for n in errors}
     rms = {n: float(np.sqrt(np.mean(np.concatenate(e) ** 2))) for n, e in errors.items()}
     return {n: max(noise[n], rms[n], _LEAST * size[channel(n).unit]) for n in errors}
 

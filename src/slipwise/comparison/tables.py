@@ -73,13 +73,13 @@ def _predicted_friction(found: ComparisonData) -> list[dict[str, Any]]:
 
 
 def _floor(found: ComparisonData) -> list[dict[str, Any]]:
-    problem = found.base.problem
+    objective = found.base.objective
     out = []
     for relation in found.relations:
         sliding, turning = [], []
         for of in found.base.solution.residuals.blocks(relation):
             wide, level = of.columns, of.noise.reshape(len(of.time), -1)
-            turns = np.broadcast_to(problem.run(of.run).states.near_reversal[:, None], wide.shape)
+            turns = np.broadcast_to(objective.run(of.run).states.near_reversal[:, None], wide.shape)
             sliding.append(level[(wide != 0.0) & ~turns])
             turning.append(level[(wide != 0.0) & turns])
         row = {"relation": relation, "floor": _rms(sliding), "near_reversals": _rms(turning)}

@@ -32,12 +32,12 @@ def without(state: Search, found: Hypothesis, terms: Sequence[Term]) -> tuple[Se
     """
     labels = {t.label for t in terms}
     rest = [t for t in found.terms if t.label not in labels]
-    slider = not found.problem.specimen.free
+    slider = not found.objective.specimen.free
     linear = None if any(_needs_refit(t, slider) for t in terms) else _linear(found, terms, labels)
     if linear is None:
         state, left = left_with(state, rest, found)
-        return state, weighed_as(left, found.problem).summary
-    return state, summarised_linear(found.problem, linear, found.summary.held_out, found.summary.counts)
+        return state, weighed_as(left, found.objective).summary
+    return state, summarised_linear(found.objective, linear, found.summary.held_out, found.summary.counts)
 
 
 def _needs_refit(term: Term, slider: bool) -> bool:
@@ -47,19 +47,19 @@ def _needs_refit(term: Term, slider: bool) -> bool:
 
 
 def _linear(found: Hypothesis, terms: Sequence[Term], labels: set[str]) -> LinearFit | None:
-    problem, solution = found.problem, found.solution
+    objective, solution = found.objective, found.solution
     absent = {f"{t.label}.{p.name}": float(p.neutral or 0.0) for t in terms for p in strengths(t.effect)}
     try:
-        there = problem.residuals({**solution.values, **absent}, fitted_only=True)
+        there = objective.residuals({**solution.values, **absent}, fitted_only=True)
     except SlipwiseError:
         return None
-    left = there.stacked(problem.fitted)
+    left = there.stacked(objective.fitted)
     if not np.isfinite(left).all():
         return None
     ends = set(solution.at_bounds)
     inside = [f.key for f in solution.free if f.key not in ends]
     stays = np.array([key.rpartition(".")[0] not in labels for key in inside], dtype=bool)
-    fit = linear_fit(problem, solution)
+    fit = linear_fit(objective, solution)
     slopes, low, high = fit.slopes[:, stays], fit.low[stays], fit.high[stays]
     step = np.clip(-np.linalg.lstsq(slopes.T @ slopes, slopes.T @ left, rcond=1e-12)[0], low, high)
     constants = fit.constants - sum(f.key.rpartition(".")[0] in labels for f in solution.free)

@@ -70,7 +70,7 @@ def diagnose(
     selected = select_effects(measured, start, own, lambda words, share: tell(words, part * share))
     base, state = selected.base, selected.search
     tell("replaying without each effect", part)
-    found = as_fit(base, state.final, with_slopes=not state.final.problem.balanced)
+    found = as_fit(base, state.final, with_slopes=not state.final.objective.balanced)
     sizes = intervals(found).entries if state.final.terms else ()
     state, evidence = findings(state, importance_of_effects(found, state.final.terms, sizes), measured.materiality)
     decided = decide_verdict(state, evidence, measured.materiality)
@@ -83,7 +83,7 @@ def diagnose(
     if system:
         tell("replaying", part)
         try:
-            roles = ("holdout",) if base.problem.held_out else ("fit", "repeat")
+            roles = ("holdout",) if base.objective.held_out else ("fit", "repeat")
             models = [final] if shown is before else [as_fit(base, before), final]
             errors = replayed_errors(models, roles, lambda share: tell("replaying", part + (1.0 - part) * share))
             replayed = {"base": errors[0], "final": errors[-1]}
@@ -117,7 +117,7 @@ def diagnose(
 
 def _predicted_friction(final: BaseFit) -> tuple[PredictedFriction, ...]:
     """Return what is predicted of one slider's held-out runs; a girder's balances judge those sample by sample."""
-    if final.problem.balanced:
+    if final.objective.balanced:
         return ()
     return tuple(found for found in predicted_friction(final) if found.inside is not None)
 
@@ -133,8 +133,8 @@ def as_fit(base: BaseFit, found: Hypothesis, *, with_slopes: bool = True) -> Bas
     if found.solution is base.solution:
         return base
     found = whole(found)
-    solution = take_slopes(found.problem, found.solution) if with_slopes else found.solution
-    return BaseFit(base.campaign, base.model, found.problem, solution.free, solution)
+    solution = take_slopes(found.objective, found.solution) if with_slopes else found.solution
+    return BaseFit(base.campaign, base.model, found.objective, solution.free, solution)
 
 
 def _component(state: Search, verdict: Verdict) -> str:

@@ -80,7 +80,7 @@ def search(
     if state.best.terms:
         tell("weighing", 0.95)
         state = with_final_refit(state)
-    if thinning(base.problem) > 1:  # what was tried is listed from now on, and hardly ever fitted on
+    if thinning(base.objective) > 1:  # what was tried is listed from now on, and hardly ever fitted on
         origin = state.path[0].summary
         state = replace(state, tried=lightened(state.tried, lambda h: score(origin, h.summary), room=0))
     tell("done", 1.0)

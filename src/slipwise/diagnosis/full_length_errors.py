@@ -45,9 +45,11 @@ def errors_on_all_samples(
 
 def _squares(run: FitRun, found: Hypothesis) -> dict[str, float]:
     """Return the squared residuals of a whole run, weighed as those of the hypothesis are, relation -> sum."""
-    values, one = found.solution.values, found.problem.run(0)
+    values, one = found.solution.values, found.objective.run(0)
     # gauges are as noisy as all runs together have shown
-    problem = objective_of([replace(run, fine=one.fine, noise=one.noise)], found.problem.specimen, found.problem.terms)
-    problem = problem.with_yaw() if found.problem.yaw else problem
-    left = problem.weigh(values).residuals(values)
-    return {relation: left.squares(relation, [0]) for relation in problem.relations}
+    objective = objective_of(
+        [replace(run, fine=one.fine, noise=one.noise)], found.objective.specimen, found.objective.terms
+    )
+    objective = objective.with_yaw() if found.objective.yaw else objective
+    left = objective.weigh(values).residuals(values)
+    return {relation: left.squares(relation, [0]) for relation in objective.relations}

@@ -32,8 +32,8 @@ def whole(found: Hypothesis) -> Hypothesis:
     solution = found.solution
     if not solution.residuals.is_empty:
         return found
-    solution = replace(solution, residuals=found.problem.residuals(solution.values))
-    return replace(found, solution=with_slopes(found.problem, solution))
+    solution = replace(solution, residuals=found.objective.residuals(solution.values))
+    return replace(found, solution=with_slopes(found.objective, solution))
 
 
 def lightened(

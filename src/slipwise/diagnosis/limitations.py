@@ -47,7 +47,7 @@ def cannot_tell(state: Search, final: BaseFit) -> list[tuple[str, str]]:
         state: of the search.
         final: its best hypothesis as a fit.
     """
-    project = projector(on_screen(state.base.problem, state.base.solution.jacobian))
+    project = projector(on_screen(state.base.objective, state.base.solution.jacobian))
     return [
         *unidentified(final, state.base),
         *_alike(state, project),
@@ -80,8 +80,8 @@ def _alike(state: Search, project: Callable[[Array], Array]) -> Iterator[tuple[s
 
 
 def _beyond_what_was_fitted(base: BaseFit) -> Iterator[tuple[str, str]]:
-    for place, reason in not_testable(base.problem).items():
-        yield f"held-out run {base.problem.run(place).name}", f"not testable here, no fitted run covers it: {reason}"
+    for place, reason in not_testable(base.objective).items():
+        yield f"held-out run {base.objective.run(place).name}", f"not testable here, no fitted run covers it: {reason}"
 
 
 def _storeys_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
@@ -105,10 +105,11 @@ def _turning_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
 
 def _friction_across_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
     """Say that roll is judged at rest only where the girder rolls with its pitch or moves across."""
-    if not base.problem.balanced or not rolls_only_at_rest(base.problem.run(0).states.has_y, base.campaign.specimen):
+    objective, specimen = base.objective, base.campaign.specimen
+    if not objective.balanced or not rolls_only_at_rest(objective.run(0).states.has_y, specimen):
         return
-    why = "pads that stand unevenly turn pitch into roll" if coupled(base.campaign.specimen) else "it moves across"
-    judged = "judged before the motion only" if "roll" in base.problem.relations else "not judged"
+    why = "pads that stand unevenly turn pitch into roll" if coupled(specimen) else "it moves across"
+    judged = "judged before the motion only" if "roll" in base.objective.relations else "not judged"
     yield "roll balance", f"{why}, and what turns the girder then is not all measured: it is {judged}"
 
 
@@ -159,7 +160,7 @@ def _lacking(runs: Sequence[Run]) -> list[str]:
 def _rests_not_given(state: Search) -> Iterator[tuple[str, str]]:
     runs = state.base.campaign.runs
     unknown = [b.name for a, b in pairwise(runs) if b.rest_before is None and not _goes_on(a, b)]
-    fading = {t.effect.name for t in (*state.base.problem.terms, *state.terms) if "rest" in t.effect.hooks}
+    fading = {t.effect.name for t in (*state.base.objective.terms, *state.terms) if "rest" in t.effect.hooks}
     if unknown and fading:
         more = f" and {len(unknown) - _NAMED} more" if len(unknown) > _NAMED else ""
         named = f"{', '.join(unknown[:_NAMED])}{more}"
@@ -174,13 +175,13 @@ def _goes_on(before: Run, after: Run) -> bool:
 
 
 def _nothing_held_out(base: BaseFit) -> Iterator[tuple[str, str]]:
-    if not base.problem.held_out:
+    if not base.objective.held_out:
         yield "verdict", "no run is held out, so what was found was judged on the runs that were fitted"
 
 
 def _gauges_not_tried(state: Search) -> Iterator[tuple[str, str]]:
     """Name the channels that were recorded and on which no fault was a candidate; "_raw" ones only serve others."""
-    terms = (*state.base.problem.terms, *state.terms)
+    terms = (*state.base.objective.terms, *state.terms)
     tried = {target for t in terms if t.effect.port == "gauge" for target in t.targets}
     recorded = dict.fromkeys(c for r in state.base.campaign.runs for c in r.record.channels)
     alike: dict[str, list[str]] = {}
@@ -189,7 +190,7 @@ def _gauges_not_tried(state: Search) -> Iterator[tuple[str, str]]:
             alike.setdefault(re.sub(r"^(pad|buffer)_[A-D12]_", r"\1_*_", c), []).append(c)
     if alike:
         named = ", ".join(together if len(own) > 1 else own[0] for together, own in alike.items())
-        but = ", but for rails and lost samples" if state.base.problem.specimen.free else ""
+        but = ", but for rails and lost samples" if state.base.objective.specimen.free else ""
         yield f"faults of {named}", f"never tried{but}"
 
 
@@ -221,8 +222,8 @@ def _failure(base: BaseFit, term: Term) -> str:
     """Say what keeps a candidate from being evaluated at its typical size; "" where nothing does."""
     keyed = {f"{term.label}.{k}": v for k, v in term.effect.typical().items()}
     try:
-        found = base.problem.adding(term).residuals({**base.solution.values, **keyed}, fitted_only=True)
+        found = base.objective.adding(term).residuals({**base.solution.values, **keyed}, fitted_only=True)
     except SlipwiseError as error:
         return f"it could not be evaluated: {error}"
-    stacked = found.stacked(base.problem.fitted)
+    stacked = found.stacked(base.objective.fitted)
     return "" if np.isfinite(stacked).all() else "what it says of these runs is no finite number"

@@ -14,25 +14,25 @@ Array = NDArray[np.float64]
 _MOST = 400_000
 
 
-def thinning(problem: Objective) -> int:
+def thinning(objective: Objective) -> int:
     """Return the whole number of samples of which one is screened: 1 for an ordinary campaign."""
-    return -(-sum(of.value.size for of in problem.layout.blocks(runs=problem.fitted)) // _MOST)
+    return -(-sum(of.value.size for of in objective.layout.blocks(runs=objective.fitted)) // _MOST)
 
 
-def on_screen(problem: Objective, stacked: Array) -> Array:
+def on_screen(objective: Objective, stacked: Array) -> Array:
     """Return the screened rows of stacked residuals or slopes of the fitted runs, (m, ...) -> (q, ...), scaled."""
-    step = thinning(problem)
+    step = thinning(objective)
     if step == 1:
         return stacked
-    every = problem.layout.rows(problem.fitted)
+    every = objective.layout.rows(objective.fitted)
     rows = [np.arange(at.start, at.stop).reshape(of.value.shape)[::step].ravel() for at, of in every]
     return stacked[np.concatenate(rows)] * np.sqrt(step)
 
 
-def rows_of(problem: Objective) -> dict[str, int]:
+def rows_of(objective: Objective) -> dict[str, int]:
     """Return how many rows of each relation are screened, in the order in which they are stacked."""
-    step = thinning(problem)
+    step = thinning(objective)
     out = dict[str, int]()
-    for of in problem.layout.blocks(runs=problem.fitted):
+    for of in objective.layout.blocks(runs=objective.fitted):
         out[of.relation] = out.get(of.relation, 0) + of.value[::step].size
     return out

@@ -93,14 +93,14 @@ def try_all(
     Returns:
         the state that keeps them, and the hypotheses, best first.
     """
-    origin, problem = state.path[0].summary, state.base.problem
+    origin, objective = state.path[0].summary, state.base.objective
     before = before and whole(before)
     # what takes longest first, or one core waits for it
     asked = sorted(asked, key=lambda a: -sum(len(t.effect.parameters) for t in a[0]))
     # of a long campaign only what is fitted to the end has slopes: many at once would fill the memory
     keep, takes = len(asked) * size_of(state.base.solution) <= ROOM, state.base.solution.fit_memory
     fits = on_every_core(lambda i: _fit(refit(state.base, *asked[i], before), keep=keep), len(asked), memory=takes)
-    found = [Hypothesis(tuple(a[0]), problem.adding(*a[0]), *fit) for a, fit in zip(asked, fits, strict=True)]
+    found = [Hypothesis(tuple(a[0]), objective.adding(*a[0]), *fit) for a, fit in zip(asked, fits, strict=True)]
     found.sort(key=lambda h: -score(origin, h.summary))
     best: dict[tuple[str, ...], int] = {}
     for place, h in enumerate(found):
@@ -108,7 +108,7 @@ def try_all(
     ended = [place for place in list(best.values())[:_POLISHED] if promising is None or promising(found[place])]
     fits = on_every_core(lambda i: _fit(polished(found[ended[i]])), len(ended), memory=takes)
     for place, fit in zip(ended, fits, strict=True):
-        found[place] = Hypothesis(found[place].terms, found[place].problem, *fit)
+        found[place] = Hypothesis(found[place].terms, found[place].objective, *fit)
     tried = lightened([*state.tried, *found], lambda h: score(origin, h.summary))
     return replace(state, tried=tried), found
 
@@ -140,4 +140,4 @@ def tried_before(state: Search, terms: Sequence[Term]) -> list[Hypothesis]:
 def as_base(state: Search, found: Hypothesis) -> BaseFit:
     """Return a hypothesis as the base of what is to be added to it."""
     found = whole(found)
-    return replace(state.base, problem=found.problem, free=found.solution.free, solution=found.solution)
+    return replace(state.base, objective=found.objective, free=found.solution.free, solution=found.solution)

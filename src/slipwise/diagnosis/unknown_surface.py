@@ -86,9 +86,9 @@ def leftover(found: Hypothesis, relations: tuple[str, ...] | None = None) -> Sur
         found: a fitted hypothesis.
         relations: which to look at; pads, girder and heave when not given.
     """
-    problem = found.problem
+    objective = found.objective
     best: Surface | None = None
-    for name in relations or tuple(r for r in ("pads", "girder", "heave") if r in problem.relations):
+    for name in relations or tuple(r for r in ("pads", "girder", "heave") if r in objective.relations):
         if found.summary.fitted_level(name) < 1.0 + LEVEL:
             continue
         for surface in _surfaces(found, name, _folds(found, name)):
@@ -104,8 +104,8 @@ def above_noise(found: Hypothesis) -> dict[str, float]:
     of the time is left out: a pad that lands leaves much for a moment, a law that is missing leaves it throughout.
     """
     out: dict[str, float] = {}
-    problem = found.problem
-    for relation in (r for r in problem.relations if r not in ("motion", "across")):
+    objective = found.objective
+    for relation in (r for r in objective.relations if r not in ("motion", "across")):
         over = max(_usual_level(found, relation) - max(_NOISE, pure_error(found, relation)), 0.0)
         level = float(np.median(np.concatenate([np.ravel(of.sigma) for of in _fitted(found, relation)])))
         out[relation] = float(np.sqrt(over) * level / max(_size(found, relation), 1e-30))
@@ -148,13 +148,13 @@ def structured(surface: Surface | None) -> bool:
 
 def _fitted(found: Hypothesis, relation: str) -> list[Block]:
     """Return what is left of a relation in the fitted runs."""
-    return found.solution.residuals.blocks(relation, found.problem.fitted)
+    return found.solution.residuals.blocks(relation, found.objective.fitted)
 
 
 def _samples(found: Hypothesis, of: Block) -> dict[str, Array]:
     """Return residual, noise and states of one run's samples, each (m,)."""
     part, sigma, kept = of.value, of.noise, of.mask
-    states = states_of(found.problem.run(of.run))
+    states = states_of(found.objective.run(of.run))
     if kept.ndim == 2:
         wide = {k: np.broadcast_to(v if v.ndim == 2 else v[:, None], part.shape)[kept] for k, v in states.items()}
         return {"left": part[kept], "sigma": sigma[kept], **wide}
@@ -197,7 +197,7 @@ def _surfaces(found: Hypothesis, relation: str, folds: list[dict[str, Array]]) -
 
 def _size(found: Hypothesis, relation: str) -> float:
     """Return rms about its mean of what a balance is made of: friction, load, or acceleration of the girder [SI]."""
-    parts = [_made_of(run, relation) for run in found.problem.fitted_runs]
+    parts = [_made_of(run, relation) for run in found.objective.fitted_runs]
     return float(np.sqrt(np.mean(np.concatenate([((p - p.mean(axis=0)) ** 2).ravel() for p in parts]))))
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.form import FUNCTIONS, Form
-from slipwise.discovery.law_problem import FittedLaw
+from slipwise.discovery.law_objective import FittedLaw
 from slipwise.discovery.matching import name_of
 from slipwise.discovery.states import WORDS
 from slipwise.display import Drawn, Tabular

@@ -55,18 +55,18 @@ class ResidualField:
         return columns - self.basis @ (self.basis.T @ columns)
 
 
-def residual_field(problem: Objective, solution: Solution, relation: str, thinned: int = _THINNED) -> ResidualField:
+def residual_field(objective: Objective, solution: Solution, relation: str, thinned: int = _THINNED) -> ResidualField:
     """Take the residual of a relation.
 
     Args:
-        problem: with its noise.
+        objective: with its noise.
         solution: of a fit, with slopes of its own.
-        relation: of the problem.
+        relation: of the objective.
         thinned: every so manieth sample is taken.
     """
     parts, sigmas, kept, group = [], [], [], []
     picked: dict[int, NDArray[np.bool_]] = {}
-    rows = [(at, of) for at, of in solution.residuals.rows(problem.fitted) if of.relation == relation]
+    rows = [(at, of) for at, of in solution.residuals.rows(objective.fitted) if of.relation == relation]
     alone = len({of.motion for _, of in rows}) == 1
     for _, of in rows:
         wide = of.columns
@@ -83,5 +83,5 @@ def residual_field(problem: Objective, solution: Solution, relation: str, thinne
     residual = np.concatenate(parts)
     return ResidualField(
         relation, residual - basis @ (basis.T @ residual), basis, np.concatenate(sigmas), np.concatenate(group),
-        picked, problem.fitted_runs[0].fine,
+        picked, objective.fitted_runs[0].fine,
     )  # fmt: skip

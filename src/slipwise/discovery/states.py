@@ -85,13 +85,13 @@ class PadInstants:
     area: float
 
 
-def pad_instants(problem: Objective, values: Mapping[str, float]) -> PadInstants:
+def pad_instants(objective: Objective, values: Mapping[str, float]) -> PadInstants:
     """Return all runs at the instants, as a fit's numbers have them."""
-    evaluation = problem.evaluation(values)
+    evaluation = objective.evaluation(values)
     states, forces = evaluation.of(STATES), evaluation.of(LAW_FORCES)
     along = forces_along(evaluation.inputs(LOGGED_FORCES), states, forces)
     runs = evaluation.of(CORRECTED).runs
-    return PadInstants(runs, tuple(states), tuple(forces), tuple(along), problem.specimen.pad_area)
+    return PadInstants(runs, tuple(states), tuple(forces), tuple(along), objective.specimen.pad_area)
 
 
 def pad_states(every: PadInstants) -> list[State]:

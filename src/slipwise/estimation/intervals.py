@@ -100,22 +100,22 @@ class Intervals:
 
 def intervals(base: BaseFit) -> Intervals:
     """Return the intervals of a base fit."""
-    solution, problem = base.solution, base.problem
+    solution, objective = base.solution, base.objective
     rows: list[NDArray[np.int64]] = []
     start = 0
     offsets: dict[int, int] = {}
     length = _block_length(base)
-    for i in problem.fitted:
+    for i in objective.fitted:
         offsets[i] = start
-        start += int(len(problem.run(i).time) * problem.run(i).dt / length) + 1
-    for of in solution.residuals.blocks(runs=problem.fitted):
+        start += int(len(objective.run(i).time) * objective.run(i).dt / length) + 1
+    for of in solution.residuals.blocks(runs=objective.fitted):
         of_sample = (np.arange(len(of.time)) * of.dt / length).astype(np.int64) + offsets[of.run]
         rows.append(np.repeat(of_sample, of.columns.shape[1]))
-    left = solution.residuals.stacked(problem.fitted)
+    left = solution.residuals.stacked(objective.fitted)
     block = np.concatenate(rows)
     shared = _shared(base, len(left))
     found = of_fit(solution.free, solution.values, solution.jacobian, left, block, shared)
-    own_lag = {f"{t.label}.{t.effect.lag}" for t in problem.terms if t.effect.lag}
+    own_lag = {f"{t.label}.{t.effect.lag}" for t in objective.terms if t.effect.lag}
     ends = {f.key: (f.low, f.high) for f in solution.free}
     entries = (_widened_by_card_delay(e, *ends[e.key]) if e.key in own_lag else e for e in found.entries)
     found = replace(found, entries=tuple(entries))
@@ -131,10 +131,10 @@ def intervals(base: BaseFit) -> Intervals:
 
 def _shared(base: BaseFit, count: int) -> Shared:
     """Return what a run's and pad's own timing of its reversals would do to the residuals."""
-    problem, residuals = base.problem, base.solution.residuals
+    objective, residuals = base.objective, base.solution.residuals
     moved, whose = np.zeros((2, count)), np.zeros(count, dtype=np.int64)
-    timing = _SHARED_TIMING * problem.scales.time
-    friction = ((rows, of) for rows, of in residuals.rows(problem.fitted) if of.relation == "pads")
+    timing = _SHARED_TIMING * objective.scales.time
+    friction = ((rows, of) for rows, of in residuals.rows(objective.fitted) if of.relation == "pads")
     for place, (rows, of) in enumerate(friction):
         force = residuals.pad_forces[of.run]
         rate = np.gradient(force, of.dt, axis=0) / of.sigma
@@ -242,7 +242,7 @@ def bound_of(free: Free, value: float) -> str:
 
 
 def _block_length(base: BaseFit) -> float:
-    seconds = sum(float(run.time[-1] - run.time[0]) for run in base.problem.fitted_runs)
-    scale = base.problem.scales.time
+    seconds = sum(float(run.time[-1] - run.time[0]) for run in base.objective.fitted_runs)
+    scale = base.objective.scales.time
     longest = seconds / (_BLOCKS_EACH * max(len(base.free), 1))
     return min(BLOCK * scale, longest) if seconds < 200.0 * scale else seconds / 400.0

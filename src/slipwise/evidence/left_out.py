@@ -29,9 +29,9 @@ _RIDGE = 1e-4
 _REACH = 1.0
 
 
-def _parts(problem: Objective) -> tuple[list[tuple[slice, int]], int]:
+def _parts(objective: Objective) -> tuple[list[tuple[slice, int]], int]:
     """Return rows of the stacked residuals with the number of what is left out, and how many are left out."""
-    every = list(problem.layout.rows(problem.fitted))
+    every = list(objective.layout.rows(objective.fitted))
     groups = len({of.motion for _, of in every})
     if groups > 1:
         return [(rows, of.motion) for rows, of in every], groups
@@ -62,9 +62,9 @@ class LinearFit:
     constants: int
 
 
-def linear_fit(problem: Objective, solution: Solution) -> LinearFit:
+def linear_fit(objective: Objective, solution: Solution) -> LinearFit:
     """Return a solution as a linear fit."""
-    residual = solution.residuals.stacked(problem.fitted)
+    residual = solution.residuals.stacked(objective.fitted)
     ends = set(solution.at_bounds)
     free = [f for f in solution.free if f.key not in ends]
     room = [((f.low - solution.values[f.key]) / f.scale, (f.high - solution.values[f.key]) / f.scale) for f in free]
@@ -73,14 +73,14 @@ def linear_fit(problem: Objective, solution: Solution) -> LinearFit:
     return LinearFit(residual, solution.inside, low, high, len(solution.free))
 
 
-def left_out(problem: Objective, fit: LinearFit) -> Array:
+def left_out(objective: Objective, fit: LinearFit) -> Array:
     """Return what is left of every motion by a fit to the others, (m,) like the stacked residuals [noise].
 
     Args:
-        problem: relations and noise.
+        objective: relations and noise.
         fit: of a hypothesis to all its fitted runs.
     """
-    parts, count = _parts(problem)
+    parts, count = _parts(objective)
     width = fit.slopes.shape[1]
     normal, right = np.zeros((count, width, width)), np.zeros((count, width))
     for rows, number in parts:

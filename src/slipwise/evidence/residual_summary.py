@@ -51,30 +51,30 @@ class ResidualSummary:
         return self.held_out[relation] / max(self.counts[relation][1], 1)
 
 
-def summarised(problem: Objective, solution: Solution) -> ResidualSummary:
+def summarised(objective: Objective, solution: Solution) -> ResidualSummary:
     """Sum up a solution's squared residuals."""
-    left, both = solution.residuals, (problem.fitted, problem.held_out)
-    held_out = {name: left.squares(name, problem.held_out) for name in problem.relations}
-    counts = {name: (left.count(name, both[0]), left.count(name, both[1])) for name in problem.relations}
-    return summarised_linear(problem, linear_fit(problem, solution), held_out, counts)
+    left, both = solution.residuals, (objective.fitted, objective.held_out)
+    held_out = {name: left.squares(name, objective.held_out) for name in objective.relations}
+    counts = {name: (left.count(name, both[0]), left.count(name, both[1])) for name in objective.relations}
+    return summarised_linear(objective, linear_fit(objective, solution), held_out, counts)
 
 
 def summarised_linear(
-    problem: Objective, fit: LinearFit, held_out: dict[str, float], counts: dict[str, tuple[int, int]]
+    objective: Objective, fit: LinearFit, held_out: dict[str, float], counts: dict[str, tuple[int, int]]
 ) -> ResidualSummary:
     """Sum up the squared residuals of a linear fit; what is held out, and the counts, are as given."""
-    fitted = {name: float(of.sum()) for name, of in _in_blocks(problem, fit.residual).items()}
-    blocks = _in_blocks(problem, left_out(problem, fit))
+    fitted = {name: float(of.sum()) for name, of in _in_blocks(objective, fit.residual).items()}
+    blocks = _in_blocks(objective, left_out(objective, fit))
     predicted = {name: float(of.sum()) for name, of in blocks.items()}
     return ResidualSummary(fitted, predicted, held_out, counts, fit.constants, blocks)
 
 
-def _in_blocks(problem: Objective, residual: Array) -> dict[str, Array]:
+def _in_blocks(objective: Objective, residual: Array) -> dict[str, Array]:
     """Sum up squared residuals (m,) of the fitted runs in blocks of time, relation -> (b,)."""
     sums: dict[str, list[Array]] = {}
-    for rows, of in problem.layout.rows(problem.fitted):
+    for rows, of in objective.layout.rows(objective.fitted):
         squares = (residual[rows] ** 2).reshape(len(of.time), -1).sum(axis=1)
-        edges = np.arange(0, len(of.time), max(1, round(BLOCK * problem.scales.time / of.dt)))
+        edges = np.arange(0, len(of.time), max(1, round(BLOCK * objective.scales.time / of.dt)))
         sums.setdefault(of.relation, []).append(np.add.reduceat(squares, edges))
     return {name: np.concatenate(of) for name, of in sums.items()}
 

@@ -19,7 +19,7 @@ from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.relations.table import Residuals
 from slipwise.session.state import State, Weights
 
-#: Problems that stay ready: this state's, that before it, the one it is compared with, each also coarse.
+#: Objectives that stay ready: this state's, that before it, the one it is compared with, each also coarse.
 _READY = 6
 
 
@@ -64,7 +64,7 @@ class Evaluator:
     runs: list[FitRun]
     _ready: list[tuple[Weights, Objective]] = field(default_factory=list[tuple[Weights, Objective]])
 
-    def problem(self, state: State, watch: Callable[[], None] | None = None) -> Objective:
+    def objective(self, state: State, watch: Callable[[], None] | None = None) -> Objective:
         """Return the relations of a state, weighed as it says."""
         found = next((ready for ready in self._ready if ready[0] == state.weights), None)
         if found is None:
@@ -73,9 +73,9 @@ class Evaluator:
         return replace(found[1], terms=state.terms, watch=watch)
 
     def _weighed(self, weights: Weights) -> Objective:
-        problem = objective_of(self.runs, self.model.specimen, weights.terms)
-        problem = problem.with_yaw() if weights.yaw else problem
-        return problem.weigh(weights.values, finer=weights.finer)
+        objective = objective_of(self.runs, self.model.specimen, weights.terms)
+        objective = objective.with_yaw() if weights.yaw else objective
+        return objective.weigh(weights.values, finer=weights.finer)
 
     def coarse(self, state: State) -> State:
         """Return a state that is evaluated at half the instants: in half the time, and nearly as well."""
@@ -83,37 +83,37 @@ class Evaluator:
 
     def residuals(self, state: State) -> Residuals:
         """Evaluate every relation in all runs."""
-        return self.problem(state).residuals(state.values)
+        return self.objective(state).residuals(state.values)
 
     def model_of(self, state: State) -> Model:
         """Return the model that a state describes."""
-        return self.problem(state).model(state.values)
+        return self.objective(state).model(state.values)
 
     def free(self, state: State) -> list[Free]:
         """Return every number of a state that may be changed, with its bounds; an effect on a card has one set."""
-        problem = self.problem(state)
+        objective = self.objective(state)
         model = Model(self.model.specimen, tuple(u for t in state.terms for u in t.uses(state.values)))
         cards = [t for t in state.terms if len(t.targets) > 1]
         single = {f"{u.label}.{n}" for t in cards for u in t.uses(state.values) for n in t.effect.parameter_names}
-        free = [f for f in free_numbers(self.campaign, model, problem) if f.key not in single]
+        free = [f for f in free_numbers(self.campaign, model, objective) if f.key not in single]
         for term in cards:
             free += term.free({n: state.values[f"{term.label}.{n}"] for n in term.effect.parameter_names})
-        free += [inertia_free(problem.specimen, key) for key in problem.inertias]
+        free += [inertia_free(objective.specimen, key) for key in objective.inertias]
         if "rig.stick_damping" in state.values and any(f.key == "rig.stick_length" for f in free):
             free.append(stick_damping_free(self.runs[0].scales.time))
         return free
 
     def as_fit(self, state: State) -> BaseFit:
         """Return a state as a fit without slopes, for replays."""
-        problem, free, residuals = self.problem(state), tuple(self.free(state)), self.residuals(state)
-        cost = residuals.cost(problem.fitted)
+        objective, free, residuals = self.objective(state), tuple(self.free(state)), self.residuals(state)
+        cost = residuals.cost(objective.fitted)
         solution = Solution(dict(state.values), free, residuals, np.empty((0, 0)), cost, 0)
-        return BaseFit(self.campaign, self.model_of(state), problem, free, solution)
+        return BaseFit(self.campaign, self.model_of(state), objective, free, solution)
 
     def with_slopes(self, state: State) -> BaseFit:
         """Return a state that was fitted as a fit with its slopes, for screening."""
         fit = self.as_fit(state)
-        return replace(fit, solution=solve(fit.problem, dict(state.values), list(fit.free), most=1))
+        return replace(fit, solution=solve(fit.objective, dict(state.values), list(fit.free), most=1))
 
 
 def evaluator(campaign: Campaign, model: Model | None) -> tuple[Evaluator, State]:
@@ -131,18 +131,18 @@ def evaluator(campaign: Campaign, model: Model | None) -> tuple[Evaluator, State
     whole, found = with_logger(whole, begun, invalid)
     ready = Evaluator(whole, invalid, begun, fit_runs(whole, invalid))
     terms = terms_of(begun)
-    problem = objective_of(ready.runs, begun.specimen, terms)
-    values = {f.key: found.get(f.key, f.start) for f in free_numbers(whole, begun, problem)}
+    objective = objective_of(ready.runs, begun.specimen, terms)
+    values = {f.key: found.get(f.key, f.start) for f in free_numbers(whole, begun, objective)}
     return ready, State(terms, values, Weights(terms, values, finer=False))
 
 
-def errors_of(problem: Objective, residuals: Residuals) -> tuple[BalanceError, ...]:
+def errors_of(objective: Objective, residuals: Residuals) -> tuple[BalanceError, ...]:
     """Return the error of every relation in floors."""
     out = []
-    for relation in problem.relations:
-        held = residuals.level(relation, problem.held_out) if residuals.count(relation, problem.held_out) else None
+    for relation in objective.relations:
+        held = residuals.level(relation, objective.held_out) if residuals.count(relation, objective.held_out) else None
         judged = [of for of in residuals.blocks(relation) if of.count]
         runs = {of.name: residuals.level(relation, [of.run]) for of in judged}
-        fitted = residuals.level(relation, problem.fitted)
+        fitted = residuals.level(relation, objective.fitted)
         out.append(BalanceError(relation, NAMES[relation][0], fitted, held, runs))
     return tuple(out)

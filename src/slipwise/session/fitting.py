@@ -76,37 +76,37 @@ def fit_state(ready: Evaluator, state: State, progress: Progress) -> State:
     watch = Watch(progress, end=0.0)
     if state.weights.finer:
         watch.next("fitting from here", 0.45, 40)
-        problem, solution = _from_here(ready, ready.problem(ready.coarse(state), watch), state, state.values)
+        objective, solution = _from_here(ready, ready.objective(ready.coarse(state), watch), state, state.values)
     else:
         watch.next("fitting from rated numbers", 0.45, 60)
         base = fit_base(ready.campaign, ready.model, ready.invalid, watch)
-        problem, solution = base.problem, base.solution
-        if state.terms != problem.terms:
+        objective, solution = base.objective, base.solution
+        if state.terms != objective.terms:
             values = {**state.values, **{k: v for k, v in solution.values.items() if k.startswith("rig.")}}
-            problem, solution = _from_here(ready, problem.having(state.terms), state, values)
+            objective, solution = _from_here(ready, objective.having(state.terms), state, values)
     watch.next("fitting on, with the noise that this law leaves", 0.85, 80)
-    problem, solution = final_refit(problem, solution)
+    objective, solution = final_refit(objective, solution)
     watch.next("how sure the numbers are", 1.0, 30)
-    fit = BaseFit(ready.campaign, ready.model, problem, solution.free, solution)
+    fit = BaseFit(ready.campaign, ready.model, objective, solution.free, solution)
     known = {e.key: _known(e) for e in intervals(fit).entries}
-    weights = Weights(state.terms, problem.weighing.weighed_by, finer=True, yaw=problem.yaw)
+    weights = Weights(state.terms, objective.weighing.weighed_by, finer=True, yaw=objective.yaw)
     values = {**state.values, **solution.values}
     progress("done", 1.0)
     return replace(state, values=values, weights=weights, fitted=True, known=known, words="fitted", edit="")
 
 
 def _from_here(
-    ready: Evaluator, problem: Objective, state: State, values: Mapping[str, float]
+    ready: Evaluator, objective: Objective, state: State, values: Mapping[str, float]
 ) -> tuple[Objective, Solution]:
     free = ready.free(state)
     start = {**values, **{f.key: min(max(values.get(f.key, f.start), f.low), f.high) for f in free}}
-    solution = solve(problem, start, free, most=8, enough=_ENOUGH, rough=_ROUGH)
+    solution = solve(objective, start, free, most=8, enough=_ENOUGH, rough=_ROUGH)
     for _ in range(_AGAIN):
         before = solution.cost
-        solution = solve(problem, solution.values, free, most=6, enough=_ENOUGH, rough=_ROUGH)
+        solution = solve(objective, solution.values, free, most=6, enough=_ENOUGH, rough=_ROUGH)
         if before - solution.cost < _FALLS * solution.cost:
             break
-    return problem, solution
+    return objective, solution
 
 
 def _known(entry: Interval) -> Known:

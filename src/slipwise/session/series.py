@@ -47,17 +47,17 @@ class Series:
         return self.measured - self.predicted
 
 
-def series_of(problem: Objective, state: State, residuals: Residuals, place: int, relation: str) -> Series:
+def series_of(objective: Objective, state: State, residuals: Residuals, place: int, relation: str) -> Series:
     """Return one balance of one run.
 
     Args:
-        problem: of the state.
+        objective: of the state.
         state: whose numbers.
         residuals: of the state.
         place: of the run.
-        relation: one of `problem.relations`.
+        relation: one of `objective.relations`.
     """
-    run = problem.run(place)
+    run = objective.run(place)
     of = residuals.block(relation, place)
     part, noise = of.columns, of.noise.reshape(len(run.time), -1)
     floor = tuple(float(np.sqrt(np.mean(column**2))) for column in noise.T)
@@ -69,6 +69,6 @@ def series_of(problem: Objective, state: State, residuals: Residuals, place: int
     if relation not in _TWO_SIDED:
         whole = tuple(1.0 for _ in floor)
         return Series(relation, run.name, labels, "1", run.time, part, np.zeros_like(part), whole)
-    predicted, measured = balance_sides(problem.evaluation(state.values), place)
+    predicted, measured = balance_sides(objective.evaluation(state.values), place)
     sides = (measured[relation][:, None], predicted[relation][:, None])
     return Series(relation, run.name, labels, NAMES[relation][1], run.time, *sides, floor)

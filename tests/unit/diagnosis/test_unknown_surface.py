@@ -43,7 +43,7 @@ def test_one_early_reversal_in_each_run_is_no_structure() -> None:
     of = base(pads=1.5)
     noise = left_by(of=of)
     left = [part.copy() for part in noise.solution.residuals.of("pads")]
-    for part, run in zip(left, of.problem.runs, strict=True):
+    for part, run in zip(left, of.objective.runs, strict=True):
         first = np.flatnonzero(run.judged["pads"][:, 0])[:6]
         part[first] = 90.0
     assert not structured(leftover(with_left(left_by(of=of, pads=1.5), "pads", left)))
@@ -52,7 +52,7 @@ def test_one_early_reversal_in_each_run_is_no_structure() -> None:
 def test_the_noise_of_the_vertical_accelerometer_does_not_predict_itself_in_heave() -> None:
     of = base(heave=2.0)
     left = []
-    for run in of.problem.runs:
+    for run in of.objective.runs:
         gauge = run.states.girder_acceleration[:, 2]
         around = np.convolve(gauge, np.ones(5) / 5.0, mode="same")
         left.append(np.where(run.judged["heave"], -(gauge - around) / np.std(gauge - around), 0.0))

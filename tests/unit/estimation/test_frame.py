@@ -144,9 +144,9 @@ def test_a_storey_that_was_not_measured_leaves_out_what_it_pushes(record: Record
         'name = "b"\nrig = "building"\n[[run]]\nfile = "run.parquet"\nrole = "fit"\n'
     )
     campaign = load_campaign(tmp_path)
-    problem = objective_of(fit_runs(campaign), campaign.specimen, ())
-    assert {"girder", "pitch"}.isdisjoint(problem.relations) is bool(lost)
-    assert {"heave", "warp", "motion"} <= set(problem.relations)
+    objective = objective_of(fit_runs(campaign), campaign.specimen, ())
+    assert {"girder", "pitch"}.isdisjoint(objective.relations) is bool(lost)
+    assert {"heave", "warp", "motion"} <= set(objective.relations)
     audited, cannot = relations(campaign.runs[0].record, campaign.specimen)
     assert ("girder_x" in [relation.name for relation in audited]) is not bool(lost)
     assert any("storey_2_ax" in words for words in cannot) is bool(lost)

@@ -21,5 +21,5 @@ def test_pitch_does_not_ring_with_samples_that_gauges_of_friction_have_lost() ->
     )
     assert {name for f in faults for name in f.channels} == set(gauges)
     base = fit_base(whole, None, invalid)
-    levels = summarised(base.problem, base.solution)
+    levels = summarised(base.objective, base.solution)
     assert max(levels.fitted_level("pitch"), levels.held_out_level("pitch")) < 1.25

@@ -26,7 +26,7 @@ COLUMNS = np.stack([np.ones(COUNT), 1.0 + np.sin(1.7 * TIME) + 0.5 * np.sin(11.0
 @cache
 def only_run() -> list[FitRun]:
     """A run as long as the line, all of whose samples are judged."""
-    run = base().problem.runs[0]
+    run = base().objective.runs[0]
     states = replace(run.states, time=TIME, record=Record(TIME, {"slip_x": 0.0 * TIME}))
     return [replace(run, states=states, judged={"pads": ALL})]
 

@@ -54,7 +54,7 @@ TERMS = {
 @pytest.mark.parametrize("kind", TERMS)
 def test_residuals_are_those_of_an_objective_that_remembers_nothing_whatever_number_was_changed(kind: str) -> None:
     terms = TERMS[kind]
-    objective = base().problem.adding(*terms)
+    objective = base().objective.adding(*terms)
     values = values_of(objective, *terms)
     objective = objective.weigh(values)
     rng, before = np.random.default_rng(7), fresh(objective).residuals(values, fitted_only=True)
@@ -66,7 +66,7 @@ def test_residuals_are_those_of_an_objective_that_remembers_nothing_whatever_num
 
 def test_another_noise_and_other_terms_are_not_answered_by_what_was_made_before() -> None:
     term = on("channel_gain", "pad_B_N")
-    plain = base().problem
+    plain = base().objective
     values = values_of(plain, term)
     for objective in (plain.weigh(values), plain.adding(term).weigh(values), plain.with_yaw(), plain.near(values)):
         here = values | {YAW_INERTIA: objective.specimen.inertia[2]} if objective.makes_yaw else values
@@ -78,7 +78,7 @@ def test_a_number_that_a_stage_begins_to_read_counts_from_then_on(monkeypatch: p
         share = 1.0 + inputs.values.get("rig.new_number", 0.0)
         return [replace(f, force=share * f.force, bound=share * f.bound) for f in inputs.of(LAW_FORCES)]
 
-    objective, values = base().problem, base().solution.values
+    objective, values = base().objective, base().solution.values
     before = objective.residuals(values)
     monkeypatch.setattr(pad_stages, "LAW_FORCES", Stage("stronger law", stronger, acts_on_pads))
     objective = fresh(objective)
@@ -89,7 +89,7 @@ def test_a_number_that_a_stage_begins_to_read_counts_from_then_on(monkeypatch: p
 
 
 def test_a_stage_is_not_made_anew_for_a_number_or_a_term_that_it_does_not_see() -> None:
-    objective, values = base().problem, base().solution.values
+    objective, values = base().objective, base().solution.values
     law, states = objective.evaluation(values).of(LAW_FORCES), objective.evaluation(values).of(STATES)
     heavier = {**values, "rig.mass": 1.1 * values["rig.mass"]}
     assert objective.evaluation(heavier).of(LAW_FORCES) is law
@@ -107,7 +107,7 @@ def test_what_a_stage_asks_another_one_counts_as_its_own_question_also_where_the
     memo = Memo(2)
 
     def evaluation(values: Mapping[str, float]) -> Evaluation:
-        return Evaluation(base().problem.measurements, Weighing(), (), values, 1, False, None, memo)
+        return Evaluation(base().objective.measurements, Weighing(), (), values, 1, False, None, memo)
 
     assert evaluation({"a": 1.0}).of(inner) == 1.0
     assert evaluation({"a": 1.0}).of(outer) == 10.0
@@ -117,7 +117,7 @@ def test_what_a_stage_asks_another_one_counts_as_its_own_question_also_where_the
 def test_a_stage_must_name_the_numbers_that_it_depends_on() -> None:
     greedy = Stage("greedy", lambda inputs: sum(inputs.values.values()))
     with pytest.raises(TypeError, match="by their keys"):
-        base().problem.evaluation({"a": 1.0}).of(greedy)
+        base().objective.evaluation({"a": 1.0}).of(greedy)
 
 
 def test_of_each_stage_the_last_few_results_are_kept() -> None:
@@ -129,12 +129,12 @@ def test_of_each_stage_the_last_few_results_are_kept() -> None:
 
     stage, memo = Stage("a", make), Memo(2)
     for a in (1.0, 2.0, 1.0, 3.0, 1.0, 2.0):
-        Evaluation(base().problem.measurements, Weighing(), (), {"a": a}, 1, False, None, memo).of(stage)
+        Evaluation(base().objective.measurements, Weighing(), (), {"a": a}, 1, False, None, memo).of(stage)
     assert made == [1.0, 2.0, 3.0, 2.0]
 
 
 def test_weighing_gives_a_new_objective_and_leaves_the_first_as_it_is() -> None:
-    objective, values = base().problem, base().solution.values
+    objective, values = base().objective, base().solution.values
     before = objective.residuals(values)
     weighed = objective.weigh({**values, "rig.late_slip": 1e-4})
     assert alike(objective.residuals(values), before) and not alike(weighed.residuals(values), before)

@@ -41,7 +41,7 @@ def test_what_is_added_to_a_prediction_is_taken_from_its_residual_only() -> None
 
 
 def test_a_table_of_the_first_runs_has_no_blocks_of_the_others() -> None:
-    layout = base().problem.layout
+    layout = base().objective.layout
     first = {name: [np.ones_like(layout.of(name)[0])] for name in layout.relations}
     filled = layout.filled(first, [np.zeros(1)])
     assert {block.run for block in filled.table} == {0}
@@ -50,9 +50,11 @@ def test_a_table_of_the_first_runs_has_no_blocks_of_the_others() -> None:
 
 
 def test_a_repeat_is_of_the_motion_that_it_repeats_and_a_held_out_run_of_its_own() -> None:
-    problem = base().problem
-    assert problem.held_out == [1]
-    again = objective_of([*problem.runs, replace(problem.runs[0], role="repeat")], problem.specimen, problem.terms)
+    objective = base().objective
+    assert objective.held_out == [1]
+    again = objective_of(
+        [*objective.runs, replace(objective.runs[0], role="repeat")], objective.specimen, objective.terms
+    )
     by_motion = {motion: [block.run for block in of] for motion, of in again.layout.by_motion("pads").items()}
     assert by_motion == {0: [0, 2]}
     assert {run: block.motion for run, block in again.layout.by_run("pads").items()} == {0: 0, 1: 1, 2: 0}

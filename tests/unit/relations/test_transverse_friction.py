@@ -24,14 +24,14 @@ def campaign():
 @pytest.mark.slow
 def test_a_complete_model_leaves_noise_and_anisotropy_shows_there_only(campaign):
     fit = fit_base(campaign)
-    problem = fit.problem
-    assert "across" in problem.relations
+    objective = fit.objective
+    assert "across" in objective.relations
     left = [part[part != 0.0] for part in fit.solution.residuals.of("across")]
     assert np.mean(np.concatenate(left) ** 2) == pytest.approx(1.0, abs=0.15)
     errors = [e for e in component_errors(fit) if e.relation == "across"]
     assert len(errors) == 5 and all(0.9 < e.error < 1.1 and e.share < 0.1 for e in errors)
     term = Term(catalogue()["anisotropy"])
-    moved = problem.adding(term).residuals({**fit.solution.values, f"{term.label}.ratio": 1.1})
+    moved = objective.adding(term).residuals({**fit.solution.values, f"{term.label}.ratio": 1.1})
     assert np.mean(np.concatenate(moved.of("across")) ** 2) > 5.0
     for run, part in enumerate(moved.of("pads")):
         assert part == pytest.approx(fit.solution.residuals.of("pads")[run])

@@ -49,7 +49,7 @@ def balances_figure(found: Diagnosis, *, narrow: bool = False) -> Figure:
         axes.bar(places + 0.19, after, 0.36, color=_AFTER, label=_with(found))
     axes.axhline(1.0, color=INK, lw=1.0, ls="--", label="noise floor")
     axes.set_xticks(places, [under_axis(n) for n in names], rotation=90 if narrow else 0, fontsize=8.0)
-    held = found.search.base.problem.held_out
+    held = found.search.base.objective.held_out
     axes.set_ylabel(f"{'held-out error' if held else 'error on fitted runs'} / floor")
     figure.legend(loc="outside upper right", ncols=1 if narrow else 3)  # bars may fill the panel
     return figure
@@ -110,9 +110,9 @@ def _change(before: LadderStep, after: LadderStep) -> str:
 
 def loops_figure(found: Diagnosis) -> Figure:
     """Draw pad A's friction against slip in a held-out run: measured, base model and, if it differs, final model."""
-    problem = found.search.base.problem
-    place = (problem.held_out or [0])[0]
-    run = problem.run(place)
+    objective = found.search.base.objective
+    place = (objective.held_out or [0])[0]
+    run = objective.run(place)
     models = [("base model", found.search.base, _BEFORE)]
     models += [(_with(found), found.final, _AFTER)] if found.added else []
     figure = new_figure(8.6, 4.2)

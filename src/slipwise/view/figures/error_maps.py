@@ -85,7 +85,7 @@ def patterns_figure(found: Comparison, relation: str) -> Figure:
 
 def plane_figure(found: Comparison, relation: str) -> Figure:
     """Draw a relation's error over slip and velocity of the runs: where in the motion it is large."""
-    runs = found.base.problem.runs
+    runs = found.base.objective.runs
     slip = np.concatenate([r.slip for r in runs]) * 1e3
     speed = np.concatenate([r.velocity for r in runs]) * 1e2
     parts = [of.columns for of in found.base.solution.residuals.blocks(relation)]

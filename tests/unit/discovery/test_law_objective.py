@@ -10,7 +10,7 @@ import pytest
 
 from hypotheses import table_of
 from slipwise.discovery.discover import _without_needless
-from slipwise.discovery.law_problem import LawProblem, PlacedLaw
+from slipwise.discovery.law_objective import LawObjective, PlacedLaw
 from slipwise.estimation.least_squares import Solution, solve, with_slopes
 from slipwise.relations.girder import through_pitch
 from slipwise.relations.parameters import Free
@@ -36,10 +36,10 @@ def tipped(lever: float, longest: float = 0.0, values: Mapping[str, float] = VAL
     match: Any = SimpleNamespace(candidate=SimpleNamespace(port=port, states=(state,)), forms=(form,), constants={})
     law = PlacedLaw("law", match, (np.ones((400, 1)),), lever, longest)
     every: Any = None
-    problem = LawProblem(every, plain, (law,))
+    objective = LawObjective(every, plain, (law,))
     here = {**values, "law.strength": 1.0}
     evaluation = Evaluation(measurements, weighing, (), here, 1, False, None, Memo(1))
-    return evaluation.of(Stage("law", lambda inputs: problem.columns(law, inputs)))
+    return evaluation.of(Stage("law", lambda inputs: objective.columns(law, inputs)))
 
 
 def test_a_force_at_the_centre_does_not_tip_the_girder() -> None:
@@ -57,7 +57,7 @@ def test_a_force_below_the_centre_tips_the_girder_by_its_lever_whatever_its_mass
 
 @dataclass(frozen=True)
 class Lines:
-    """A problem whose laws are lines: their strengths times columns, held against a measured vector."""
+    """An objective whose laws are lines: their strengths times columns, held against a measured vector."""
 
     measured: np.ndarray
     laws: tuple[Any, ...]
@@ -79,14 +79,14 @@ class Lines:
 @dataclass(frozen=True)
 class Fitted:
     law: Any
-    problem: Any
+    objective: Any
     solution: Solution
 
 
-def fitted(problem: Lines) -> Solution:
-    keys = [f"{law.label}.strength" for law in problem.laws]
+def fitted(objective: Lines) -> Solution:
+    keys = [f"{law.label}.strength" for law in objective.laws]
     free = [Free(k, 0.1, -10.0, 10.0, 1.0, "1") for k in keys]
-    return with_slopes(problem, solve(problem, dict.fromkeys(keys, 0.1), free))
+    return with_slopes(objective, solve(objective, dict.fromkeys(keys, 0.1), free))
 
 
 @pytest.mark.parametrize(("share", "kept"), [(0.0, ["second"]), (1.0, ["first", "second"])])

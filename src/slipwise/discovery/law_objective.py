@@ -82,7 +82,7 @@ class PlacedLaw:
 
 
 @dataclass(frozen=True, eq=False)
-class LawProblem:
+class LawObjective:
     """An objective with laws added.
 
     Attributes:
@@ -110,7 +110,7 @@ class LawProblem:
         """Whether the balances of a girder are there."""
         return self.plain.balanced
 
-    def near(self, values: Mapping[str, float]) -> "LawProblem":
+    def near(self, values: Mapping[str, float]) -> "LawObjective":
         """Return the objective of which slopes at these values are to be taken."""
         plain = self.plain.near(values)
         return self if plain is self.plain else replace(self, plain=plain)
@@ -123,7 +123,7 @@ class LawProblem:
             found = found.less(evaluation.of(stage))
         return found
 
-    def without_results(self) -> "LawProblem":
+    def without_results(self) -> "LawObjective":
         """Return the objective without the results that it keeps at hand: each is as long as all the runs."""
         return replace(self)
 
@@ -154,7 +154,7 @@ class LawProblem:
 
         Args:
             place: of the run.
-            law: any, whether or not it is one of the problem's.
+            law: any, whether or not it is one of the objective's.
             states: what `driving` gives.
             own: the law's numbers by name.
             values: of the fit.
@@ -198,23 +198,23 @@ class FittedLaw:
 
     Attributes:
         law: where it acts.
-        problem: that was fitted.
+        objective: that was fitted.
         solution: of the fit.
     """
 
     law: PlacedLaw
-    problem: LawProblem
+    objective: LawObjective
     solution: Solution
 
     @property
     def rated_load(self) -> float:
         """Mean load of the runs [N]."""
-        return float(np.mean(np.concatenate([s.load for s in self.problem.every.states])))
+        return float(np.mean(np.concatenate([s.load for s in self.objective.every.states])))
 
     @property
     def buffers(self) -> int:
         """How many buffers share a force on the girder."""
-        return max(len(self.problem.plain.specimen.buffer_stiffness), 1)
+        return max(len(self.objective.plain.specimen.buffer_stiffness), 1)
 
     @property
     def values(self) -> dict[str, float]:
@@ -223,27 +223,27 @@ class FittedLaw:
         return {**self.law.match.constants, **own}
 
 
-def fit_law(before: LawProblem, solution: Solution, law: PlacedLaw, strength: float) -> FittedLaw:
+def fit_law(before: LawObjective, solution: Solution, law: PlacedLaw, strength: float) -> FittedLaw:
     """Fit a law's constants with everything else free, led by the slopes of before.
 
     Args:
-        before: the problem that it is added to.
+        before: the objective that it is added to.
         solution: where the fit begins, with its slopes.
         law: the form and where it acts.
         strength: to begin with.
     """
-    problem = replace(before, laws=(*before.laws, law)).without_results()
+    objective = replace(before, laws=(*before.laws, law)).without_results()
     own = law.free(strength)
     values = {**solution.values, **{f.key: f.start for f in own}}
     known = slopes_of(solution)
-    found = solve(problem, values, [*solution.free, *own], most=6, enough=_ENOUGH, rough=_ROUGH, known=known)
-    return FittedLaw(law, problem.without_results(), found)
+    found = solve(objective, values, [*solution.free, *own], most=6, enough=_ENOUGH, rough=_ROUGH, known=known)
+    return FittedLaw(law, objective.without_results(), found)
 
 
 def fit_on(found: FittedLaw) -> FittedLaw:
     """Fit on with slopes of its own."""
     solution = solve(
-        found.problem, found.solution.values, found.solution.free, most=12, enough=_ENOUGH, rough=0.1 * _ROUGH,
+        found.objective, found.solution.values, found.solution.free, most=12, enough=_ENOUGH, rough=0.1 * _ROUGH,
         begin=slopes_of(found.solution),
     )  # fmt: skip
     return replace(found, solution=solution)
