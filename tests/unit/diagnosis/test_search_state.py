@@ -3,12 +3,19 @@
 import pytest
 
 from bench import build_campaign
+from hypotheses import base, left_by, searched
 from measured import as_campaign
 from slipwise.diagnosis import search_state as module
 from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis
-from slipwise.diagnosis.search_state import Search, try_all
+from slipwise.diagnosis.search_state import Search, left_with, try_all
 from slipwise.estimation.base_fit import fit_base
+
+
+def test_what_was_fitted_before_is_not_fitted_again_and_the_state_stays_as_it_is() -> None:
+    found = left_by("heating", of=base())
+    state = searched(base(), found)
+    assert left_with(state, found.terms, found) == (state, found)
 
 
 @pytest.mark.long

@@ -63,9 +63,11 @@ def friction_clouds(found: Comparison) -> list[Html]:
 def friction(found: Comparison) -> Friction:
     """Return friction over load at the samples by which the pads are judged, of all runs."""
     objective, parts = found.base.objective, []
-    for run, said in zip(objective.runs, found.base.solution.residuals.pad_forces, strict=True):
-        speed, measured, predicted = coefficients(run, said)
-        known = run.judged["pads"].reshape(speed.shape) & np.isfinite(measured) & np.isfinite(predicted)
+    residuals = found.base.solution.residuals
+    for of in residuals.blocks("pads"):
+        run = objective.run(of.run)
+        speed, measured, predicted = coefficients(run, residuals.pad_forces[of.run])
+        known = of.mask.reshape(speed.shape) & np.isfinite(measured) & np.isfinite(predicted)
         pressure = run.load / objective.specimen.pad_area
         parts.append(np.stack([each[known] for each in (speed, pressure, measured, predicted)]))
     return Friction(*np.concatenate(parts, axis=1))
