@@ -111,7 +111,7 @@ def recover(term: Term, rng: np.random.Generator, motions: dict[str, str]) -> di
 
 def _unexplained(fitted: BaseFit) -> list[str]:
     """Say which relations keep far more than noise although the effect is in: there the fit's law is at fault."""
-    told = summarised(fitted.problem, fitted.solution)
+    told = summarised(fitted.objective, fitted.solution)
     levels = {r: told.fitted_level(r) ** 0.5 for r in told.fitted}
     return [f"{r} is left at {level:.1f} floors with the effect in" for r, level in levels.items() if level > FAULTY]
 

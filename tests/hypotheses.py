@@ -1,6 +1,7 @@
 """Hypotheses of one small campaign whose residuals are chosen: what is judged is real, but nothing has to be fitted."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -19,14 +20,15 @@ from slipwise.diagnosis.verdict import Verdict, confirmed, decide_verdict
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import Solution
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective, objective_of
 from slipwise.evidence.residual_summary import error_of, summarised
 from slipwise.evidence.score import lead, score
 from slipwise.model import base_model
 from slipwise.record import Record
 from slipwise.relations.parameters import Free, Term, base_free, terms_of
 from slipwise.relations.run_data import FitRun, fit_runs
-from slipwise.relations.table import Residuals
+from slipwise.relations.setting import Weighing
+from slipwise.relations.table import Block, Residuals
 from slipwise.signals.filters import LowPass
 
 Array = NDArray[np.float64]
@@ -75,12 +77,25 @@ def measured(*gauges: str, held_out: bool = True) -> Campaign:
 
 
 @cache
-def _problem(*gauges: str, held_out: bool) -> Problem:
+def _objective(*gauges: str, held_out: bool) -> Objective:
     model = base_model("bridge1")
-    problem = Problem(fit_runs(measured(*gauges, held_out=held_out)), model.specimen, terms_of(model))
-    for name in problem.relations:
-        problem.sigmas[name] = [np.full((1,) * run.judged[name].ndim, FORCE_NOISE) for run in problem.runs]
-    return problem
+    objective = objective_of(fit_runs(measured(*gauges, held_out=held_out)), model.specimen, terms_of(model))
+    sigmas = {
+        name: tuple(np.full((1,) * run.judged[name].ndim, FORCE_NOISE) for run in objective.runs)
+        for name in objective.relations
+    }
+    return replace(objective, weighing=Weighing(sigmas))
+
+
+def table_of(parts: Mapping[str, Sequence[Array]], forces: Sequence[Array] = (), dt: float = 0.01) -> Residuals:
+    """Give a table of these residuals, relation -> per run, every sample of which is judged."""
+
+    def block(name: str, place: int, value: Array) -> Block:
+        everywhere = np.ones(value.shape, dtype=bool)
+        time = np.arange(len(value)) * dt
+        return Block(name, place, f"run_{place}", place, "fit", time, dt, value, np.ones(()), everywhere)
+
+    return Residuals(tuple(block(n, i, one) for n, of in parts.items() for i, one in enumerate(of)), tuple(forces))
 
 
 @cache
@@ -92,13 +107,13 @@ def base(*gauges: str, held_out: bool = True, **left: float) -> BaseFit:
         held_out: as in `measured`.
         left: relation -> mean squared residual [noise variance].
     """
-    campaign, model, problem = (
+    campaign, model, objective = (
         measured(*gauges, held_out=held_out),
         base_model("bridge1"),
-        _problem(*gauges, held_out=held_out),
+        _objective(*gauges, held_out=held_out),
     )
-    free = tuple(base_free(model, balances=problem.balanced))
-    return BaseFit(campaign, model, problem, free, _solution(problem, {f.key: f.start for f in free}, free, left))
+    free = tuple(base_free(model, balances=objective.balanced))
+    return BaseFit(campaign, model, objective, free, _solution(objective, {f.key: f.start for f in free}, free, left))
 
 
 def on(name: str, group: str) -> Term:
@@ -125,11 +140,11 @@ def left_by(
         left: relation -> mean squared residual [noise variance].
     """
     every = tuple(t if isinstance(t, Term) else Term(catalogue()[t]) for t in terms)
-    problem = of.problem.adding(*every)
+    objective = of.objective.adding(*every)
     new = [f for t in every for f in t.free(t.effect.typical())]
     start = {**of.solution.values, **{f.key: _inside(f) for f in new}, **(values or {})}
-    solution = _solution(problem, start, (*of.free, *new), left, held_out or {}, over)
-    return Hypothesis(every, problem, solution, summarised(problem, solution))
+    solution = _solution(objective, start, (*of.free, *new), left, held_out or {}, over)
+    return Hypothesis(every, objective, solution, summarised(objective, solution))
 
 
 def _inside(free: Free) -> float:
@@ -145,7 +160,7 @@ def _inside(free: Free) -> float:
 def searched(of: BaseFit, *tried: Hypothesis) -> Search:
     """Give a search from this base fit that ended at the first of what it tried."""
     terms = {t.label: t for h in tried for t in h.terms}
-    return Search(of, {}, list(terms.values()), list(tried), (base_hypothesis(of), *tried[:1]))
+    return Search(of, {}, list(terms.values()), tuple(tried), (base_hypothesis(of), *tried[:1]))
 
 
 def changing(share: float, *, gauge: bool = False, limits: Materiality | None = None) -> Importance:
@@ -255,7 +270,7 @@ def diagnosed(
 
 
 def _solution(
-    problem: Problem,
+    objective: Objective,
     values: dict[str, float],
     free: tuple[Free, ...],
     left: Mapping[str, float],
@@ -263,14 +278,14 @@ def _solution(
     over: Callable[[FitRun], Array] | None = None,
 ) -> Solution:
     parts: dict[str, list[Array]] = {}
-    for name in problem.relations:
-        levels = [left.get(name, 1.0)] * len(problem.runs)
-        for place in problem.held_out:
+    for name in objective.relations:
+        levels = [left.get(name, 1.0)] * len(objective.runs)
+        for place in objective.held_out:
             levels[place] = (held_out or {}).get(name, levels[place])
         by = over if name == "pads" else None
-        parts[name] = [_residual(run, name, i, levels[i], by) for i, run in enumerate(problem.runs)]
-    residuals = Residuals(parts, [0.9 * run.force for run in problem.runs])
-    stacked = residuals.stacked(problem.fitted, problem.relations)
+        parts[name] = [_residual(run, name, i, levels[i], by) for i, run in enumerate(objective.runs)]
+    residuals = objective.layout.filled(parts, [0.9 * run.force for run in objective.runs])
+    stacked = residuals.stacked(objective.fitted)
     return Solution(values, free, residuals, np.zeros((len(stacked), len(free))), float(stacked @ stacked), 1)
 
 

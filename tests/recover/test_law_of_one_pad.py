@@ -59,7 +59,7 @@ def test_a_fit_finds_the_law_of_one_pad_and_says_how_sure_it_is(tmp_path: Path) 
     assert not own.bound and own.low < WEAK * strength.value < own.high and own.high < 0.95 * strength.low
     plain = fit_base(campaign, rated)
     assert fit.solution.cost < 0.5 * plain.solution.cost, "one law for all pads leaves much"
-    saved = fit.problem.model(fit.solution.values)
+    saved = fit.objective.model(fit.solution.values)
     assert saved["shear_rate"].own["C"]["strength"] == own.value
 
 
@@ -71,6 +71,6 @@ def test_a_value_for_all_pads_that_no_pad_takes_is_not_fitted(tmp_path: Path) ->
     fit = fit_base(campaign, every)
     keys = [f.key for f in fit.solution.free]
     assert "shear_rate.strength" not in keys and all(f"shear_rate.strength[{pad}]" in keys for pad in "ABC")
-    found = fit.problem.model(fit.solution.values)["shear_rate"]
+    found = fit.objective.model(fit.solution.values)["shear_rate"]
     assert found.values["strength"] == strength
     assert [found.own[pad]["strength"] / strength for pad in "ABC"] == pytest.approx([1.0] * 3, abs=0.02)

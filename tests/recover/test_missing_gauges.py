@@ -49,7 +49,7 @@ def test_friction_without_any_load_is_refused_in_words(play: Campaign) -> None:
 
 
 def test_a_pad_without_a_load_is_left_out(play: Campaign) -> None:
-    assert fit_base(_without(play, "pad_B_N")).problem.runs[0].pads == ("A", "C", "D")
+    assert fit_base(_without(play, "pad_B_N")).objective.runs[0].pads == ("A", "C", "D")
 
 
 def test_records_that_begin_in_motion_name_what_whole_ones_do(play: Campaign) -> None:
@@ -61,6 +61,6 @@ def test_records_that_begin_in_motion_name_what_whole_ones_do(play: Campaign) ->
 
     late = replace(play, runs=tuple(replace(run, record=cut(run.record)) for run in play.runs))
     found = diagnose(late)
-    assert not any(run.states.at_rest[0] for run in found.final.problem.runs)
+    assert not any(run.states.at_rest[0] for run in found.final.objective.runs)
     assert found.verdict.effects == ("key_clearance",), found.sentence
     assert found.final_error < 1.15

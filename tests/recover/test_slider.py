@@ -46,7 +46,7 @@ def test_a_slider_is_followed_from_a_record_that_begins_under_friction(tmp_path)
         (tmp_path / f"{name}.csv").write_text(text(rows[rows[:, 0] >= begin], HEADER))
     found = diagnose(load_campaign(tmp_path))
     assert found.verdict.effects == ("presliding",)
-    for run, left in zip(found.final.problem.runs, found.final.solution.residuals.pad_forces, strict=True):
+    for run, left in zip(found.final.objective.runs, found.final.solution.residuals.pad_forces, strict=True):
         off = np.abs(run.force - left)[:, 0]
         assert abs(run.force[0, 0]) > 1000.0
         assert off[: len(off) // 20].max() < 60.0
@@ -68,6 +68,6 @@ def test_the_zero_of_a_sliders_gauge_is_nobodys_effect_unless_it_is_far_off(tmp_
     assert any("gauge's zero" in reason for reason in found.cannot_tell) != named
     off = [
         float(np.std(r.force - f))
-        for r, f in zip(found.final.problem.runs, found.final.solution.residuals.pad_forces, strict=True)
+        for r, f in zip(found.final.objective.runs, found.final.solution.residuals.pad_forces, strict=True)
     ]
     assert max(off) < 30.0

@@ -8,7 +8,7 @@ import pytest
 import slipwise as sw
 from measured import fit_base
 from recover.own_replay import campaign_of
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import objective_of
 from slipwise.model import EffectUse, Model, base_model, use
 from slipwise.relations.parameters import base_free, terms_of
 from slipwise.relations.run_data import fit_runs
@@ -31,11 +31,11 @@ def test_every_warp_of_six_pads_is_fitted_and_shows_the_pad_that_stands_high(fol
     runs = fit_runs(sw.load_campaign(folder))
     level = {}
     for model in (base_model("six_pads"), one_pad_high()):
-        problem = Problem(runs, model.specimen, terms_of(model))
+        objective = objective_of(runs, model.specimen, terms_of(model))
         values = {f.key: f.start for f in base_free(model, balances=True)}
-        problem.weigh(values)
-        parts = problem.residuals(values).parts
-        level[len(model.uses)] = {n: np.sqrt(np.mean(np.concatenate(p) ** 2)) for n, p in parts.items() if "warp" in n}
+        left = objective.weigh(values).residuals(values)
+        warps = [name for name in left.relations if "warp" in name]
+        level[len(model.uses)] = {n: np.sqrt(np.mean(np.concatenate(left.of(n)) ** 2)) for n in warps}
     plain, with_it = level[min(level)], level[max(level)]
     assert list(plain) == ["warp", "warp_2", "warp_3"]
     assert min(plain["warp_2"], plain["warp_3"]) > 3.0 and max(with_it.values()) < 1.1, (plain, with_it)

@@ -66,12 +66,12 @@ def compare(
     tell("fitting base parameters", 0.25)
     base = fit_prepared(prepared, start, finely=True)
     tell("locating errors", 0.5)
-    residuals = {r: base.solution.residuals.parts[r] for r in base.problem.relations}
+    residuals = {r: list(base.solution.residuals.of(r)) for r in base.objective.relations}
     components = component_errors(base)
-    motions = [motion_states(run) for run in base.problem.runs]
-    area = base.problem.specimen.pad_area
+    motions = [motion_states(run) for run in base.objective.runs]
+    area = base.objective.specimen.pad_area
     samples = {
-        r: gather(r, parts, base.problem.runs, motions, area)
+        r: gather(r, parts, base.objective.runs, motions, area)
         for r, parts in residuals.items()
         if any(np.any(p) for p in parts)
     }
@@ -96,7 +96,7 @@ def compare(
     tell("done", 1.0)
     return Comparison(
         campaign=campaign,
-        model=base.problem.model(base.solution.values),
+        model=base.objective.model(base.solution.values),
         base=base,
         corrections=prepared.corrections,
         checks=checks,
@@ -119,16 +119,16 @@ def compare(
 
 def _cannot(base: BaseFit) -> list[str]:
     """Say in words what the channels do not allow."""
-    problem = base.problem
+    objective = base.objective
     out = []
-    if not problem.specimen.free:
+    if not objective.specimen.free:
         out.append("balances of girder, heave, pitch, roll and warp: the slip of this rig is prescribed")
     else:
-        absent = [b for b in balances_of(problem.specimen) if b not in problem.relations]
+        absent = [b for b in balances_of(objective.specimen) if b not in objective.relations]
         out += [f"{b} balance: a channel that it needs is missing" for b in absent]
-    if not problem.held_out:
+    if not objective.held_out:
         out.append("held-out error: no run has the role holdout; errors are those of the fitted runs")
-    if not any(run.role == "repeat" for run in problem.runs):
+    if not any(run.role == "repeat" for run in objective.runs):
         out.append("floor from repeated runs: no run has the role repeat; the floor is that of the gauges' noise")
-    missing = [words for run in problem.runs for words in run.states.missing]
+    missing = [words for run in objective.runs for words in run.states.missing]
     return [*out, *dict.fromkeys(missing)]

@@ -54,13 +54,13 @@ class ComponentError:
 def component_errors(base: BaseFit) -> tuple[ComponentError, ...]:
     """Return the error of every relation in every run."""
     out = []
-    for relation in base.problem.relations:
-        parts = zip(base.problem.runs, base.solution.residuals.parts[relation], strict=True)
-        for i, (run, part) in enumerate(parts):
+    for relation in base.objective.relations:
+        for of in base.solution.residuals.blocks(relation):
+            run, part = base.objective.run(of.run), of.value
             judged = part != 0.0
             if not judged.any():
                 continue
-            sigma = np.broadcast_to(base.problem.sigmas[relation][i], part.shape)[judged]
+            sigma = of.noise[judged]
             left = part[judged] * sigma
             measured = run.force[judged] if relation == "pads" else _measured(relation, run, judged)
             size = float(np.sqrt(np.mean(measured**2))) if measured is not None else float("nan")
@@ -122,7 +122,7 @@ def repeat_errors(base: BaseFit, residuals: Mapping[str, Sequence[Array]]) -> di
     Whatever is the same in both runs drops out, the model's errors included: what stays is noise, and 1 says that the
     floor is right. Empty without a repeated run of the same length and motion.
     """
-    runs = base.problem.runs
+    runs = base.objective.runs
     pairs = [
         (i, j)
         for j, later in enumerate(runs)

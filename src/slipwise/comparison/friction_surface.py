@@ -37,8 +37,8 @@ class Surface:
 
 def surface(base: BaseFit, found: Intervals) -> Surface | None:
     """Return the surface over the pressures and speeds that the campaign has seen; None where no load is known."""
-    runs = base.problem.runs
-    area = base.problem.specimen.pad_area
+    runs = base.objective.runs
+    area = base.objective.specimen.pad_area
     loads = np.concatenate([r.load[r.sliding].ravel() for r in runs])
     speeds = np.concatenate([np.abs(r.velocity[r.sliding]) for r in runs])
     if len(loads) == 0 or not np.isfinite(loads).all():
@@ -66,7 +66,7 @@ def surface(base: BaseFit, found: Intervals) -> Surface | None:
 
 
 def _friction(base: BaseFit, values: Mapping[str, float], pressure: Array, speed: Array) -> Array:
-    model = base.problem.model(values)
+    model = base.objective.model(values)
     law = predictor(model)
     pads = len(model.specimen.pads)
     out = np.empty((len(pressure), len(speed)))

@@ -87,7 +87,7 @@ class SystemLevel:
 def replayed_model(base: BaseFit) -> tuple[Model, tuple[str, ...]]:
     """Return the fitted model as a replay needs it, and in words what was added to it."""
     values = base.solution.values
-    model = base.problem.model(values)
+    model = base.objective.model(values)
     notes = []
     springs = pad_springs(base, model)
     if springs is not None:
@@ -135,8 +135,8 @@ def pad_springs(base: BaseFit, model: Model) -> tuple[float, float] | None:
         return None
     runs = [
         run
-        for i in base.problem.fitted
-        if (run := base.problem.runs[i]).record.has_all("table_az", "girder_az")
+        for i in base.objective.fitted
+        if (run := base.objective.run(i)).record.has_all("table_az", "girder_az")
         and run.noise["table_az"] > 0.0
         and float(np.std(run.record["table_az"])) > _SHAKEN * run.noise["table_az"]
     ]
@@ -183,7 +183,7 @@ def system_level(
     """
     tell = progress or (lambda _: None)
     model, notes = replayed_model(base)
-    runs = base.problem.runs
+    runs = base.objective.runs
     main = replay_runs(model, [(r.name, r.states, r.rest_before) for r in runs])
     tell(0.3)
     finer = replay_runs(model, [(r.name, r.states, r.rest_before) for r in runs], dt=0.5 * DT)

@@ -75,15 +75,17 @@ def _predicted_friction(found: ComparisonData) -> list[dict[str, Any]]:
 
 
 def _floor(found: ComparisonData) -> list[dict[str, Any]]:
-    problem = found.base.problem
+    objective = found.base.objective
     out = []
     for relation in found.relations:
-        parts, residuals, turns = found.residuals[relation], [], []
-        for part, sigma, run in zip(parts, problem.sigmas[relation], problem.runs, strict=True):
-            residuals.append(part * sigma)
-            turns.append(np.broadcast_to(run.states.near_reversal[(...,) + (None,) * (part.ndim - 1)], part.shape))
-        in_floors, residual = (np.concatenate([p.ravel() for p in of]) for of in (parts, residuals))
-        turning = np.concatenate([t.ravel() for t in turns])
+        parts, residuals, turns = [], [], []
+        for of in found.base.solution.residuals.blocks(relation):
+            wide = of.columns
+            parts.append(wide.ravel())
+            residuals.append((wide * of.noise.reshape(wide.shape)).ravel())
+            near = objective.run(of.run).states.near_reversal[:, None]
+            turns.append(np.broadcast_to(near, wide.shape).ravel())
+        in_floors, residual, turning = (np.concatenate(of) for of in (parts, residuals, turns))
         floors = [
             dividing_noise(residual[of], in_floors[of]) if np.any(in_floors[of]) else None
             for of in (np.ones_like(turning), turning)
@@ -95,7 +97,7 @@ def _floor(found: ComparisonData) -> list[dict[str, Any]]:
 
 
 def _noise(found: ComparisonData) -> list[dict[str, Any]]:
-    step = found.base.problem.runs[0].dt
+    step = found.base.objective.run(0).dt
     return [
         {
             "channel": name,

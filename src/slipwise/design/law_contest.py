@@ -66,6 +66,6 @@ def _fitted(found: Diagnosis, told: Discovery, law: Law, name: str, folder: Path
     """Fit a law as an effect beside those that the search for it began with."""
     term = Term(find_effect(str(write_law(law, told.origin, folder, name, ""))))
     base, known = found.search.base, told.base.solution.values
-    beside = [t for t in told.base.problem.terms if t not in base.problem.terms]
+    beside = [t for t in told.base.objective.terms if t not in base.objective.terms]
     starts = {t.label: {n: known[f"{t.label}.{n}"] for n in t.effect.parameter_names} for t in beside}
     return polished(refit(base, [*beside, term], {**starts, term.label: term.effect.typical()}))

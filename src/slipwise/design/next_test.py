@@ -205,7 +205,9 @@ def _later(chances: Sequence[float], separation: float) -> float:
 def _as_shaken(found: Diagnosis, right: Hypothesis) -> Model:
     """Return the model of a hypothesis with the pads' springs and the inertia that a replay needs."""
     base = found.search.base
-    return replayed_model(replace(base, problem=right.problem, free=right.solution.free, solution=right.solution))[0]
+    return replayed_model(replace(base, objective=right.objective, free=right.solution.free, solution=right.solution))[
+        0
+    ]
 
 
 def _separation(
@@ -245,7 +247,7 @@ def _refitted(campaign: Campaign, model: Model, contest: Sequence[Hypothesis]) -
 def _measured(found: Diagnosis, model: Model, text: str) -> Campaign:
     """Shake a model on the computer and measure it as the campaign was measured: channels, filter, step, noise."""
     campaign = found.final.campaign
-    pattern = found.search.base.problem.runs[0]
+    pattern = found.search.base.objective.run(0)
     rng = np.random.default_rng(1)
     dt = simulation_step(pattern.dt)
     every = round(pattern.dt / dt)

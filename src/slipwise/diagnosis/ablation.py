@@ -5,7 +5,7 @@ make up for what it can. An effect that is never absent, or in whose place a num
 by a refit.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from slipwise.diagnosis.hypothesis import Hypothesis, weighed_as
 from slipwise.diagnosis.initial_grid import strengths
+from slipwise.diagnosis.search_state import Search, left_with
 from slipwise.errors import SlipwiseError
 from slipwise.evidence.left_out import LinearFit, linear_fit
 from slipwise.evidence.residual_summary import ResidualSummary, summarised_linear
@@ -21,21 +22,22 @@ from slipwise.relations.parameters import ZERO, Term, numbers_replaced
 Array = NDArray[np.float64]
 
 
-def without(found: Hypothesis, terms: Sequence[Term], refit: Callable[[Sequence[Term]], Hypothesis]) -> ResidualSummary:
-    """Return what a hypothesis leaves without some of its effects.
+def without(state: Search, found: Hypothesis, terms: Sequence[Term]) -> tuple[Search, ResidualSummary]:
+    """Return what a hypothesis leaves without some of its effects, after the state of the search that refitted it.
 
     Args:
+        state: of a search.
         found: the hypothesis.
         terms: that are taken out.
-        refit: fits the hypothesis of the terms that stay.
     """
     labels = {t.label for t in terms}
     rest = [t for t in found.terms if t.label not in labels]
-    slider = not found.problem.specimen.free
+    slider = not found.objective.specimen.free
     linear = None if any(_needs_refit(t, slider) for t in terms) else _linear(found, terms, labels)
     if linear is None:
-        return weighed_as(refit(rest), found.problem).summary
-    return summarised_linear(found.problem, linear, found.summary.held_out, found.summary.counts)
+        state, left = left_with(state, rest, found)
+        return state, weighed_as(left, found.objective).summary
+    return state, summarised_linear(found.objective, linear, found.summary.held_out, found.summary.counts)
 
 
 def _needs_refit(term: Term, slider: bool) -> bool:
@@ -45,19 +47,19 @@ def _needs_refit(term: Term, slider: bool) -> bool:
 
 
 def _linear(found: Hypothesis, terms: Sequence[Term], labels: set[str]) -> LinearFit | None:
-    problem, solution = found.problem, found.solution
+    objective, solution = found.objective, found.solution
     absent = {f"{t.label}.{p.name}": float(p.neutral or 0.0) for t in terms for p in strengths(t.effect)}
     try:
-        there = problem.residuals({**solution.values, **absent}, fitted_only=True)
+        there = objective.residuals({**solution.values, **absent}, fitted_only=True)
     except SlipwiseError:
         return None
-    left = there.stacked(problem.fitted, problem.relations)
+    left = there.stacked(objective.fitted)
     if not np.isfinite(left).all():
         return None
     ends = set(solution.at_bounds)
     inside = [f.key for f in solution.free if f.key not in ends]
     stays = np.array([key.rpartition(".")[0] not in labels for key in inside], dtype=bool)
-    fit = linear_fit(problem, solution)
+    fit = linear_fit(objective, solution)
     slopes, low, high = fit.slopes[:, stays], fit.low[stays], fit.high[stays]
     step = np.clip(-np.linalg.lstsq(slopes.T @ slopes, slopes.T @ left, rcond=1e-12)[0], low, high)
     constants = fit.constants - sum(f.key.rpartition(".")[0] in labels for f in solution.free)

@@ -7,7 +7,7 @@ from slipwise.diagnosis.hypothesis import Hypothesis, final_refit_of
 from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects
 from slipwise.diagnosis.plainer import plainest
 from slipwise.diagnosis.ranking import has_delay_for_filter
-from slipwise.diagnosis.search_state import Search, left_with, tried_before, try_one
+from slipwise.diagnosis.search_state import Search, left_with, tried_before, tried_or_fitted, try_one
 from slipwise.evidence.acceptance import is_kept, least_drop
 from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.evidence.score import score
@@ -21,21 +21,22 @@ def pruned(state: Search) -> Search:
     """Take effects away again that are not worth being kept beside the others, the least first."""
     origin = state.path[0].summary
     while len(state.best.terms) > 1:
-        least = _least_needed(state, state.best, origin)
+        state, least = _least_needed(state, state.best, origin)
         if least is None:
             return state
-        state = state.stepped_to(left_with(state, state.best.without(least), state.best))
+        state, rest = left_with(state, state.best.without(least), state.best)
+        state = state.stepped_to(rest)
     return state
 
 
-def _least_needed(state: Search, whole: Hypothesis, origin: ResidualSummary) -> Term | None:
-    """Return the effect whose loss costs least, where a hypothesis is as good without it."""
+def _least_needed(state: Search, whole: Hypothesis, origin: ResidualSummary) -> tuple[Search, Term | None]:
+    """Return the effect whose loss costs least, where a hypothesis is as good without it; the new state before it."""
     losses: list[tuple[float, Term]] = []
     for term in whole.terms:
-        fewer = without(whole, [term], lambda rest: left_with(state, rest, whole))
+        state, fewer = without(state, whole, [term])
         if not is_kept(origin, fewer, whole.summary, least_drop([term])):
             losses.append((score(fewer, whole.summary), term))
-    return min(losses, key=lambda loss: loss[0])[1] if losses else None
+    return state, min(losses, key=lambda loss: loss[0])[1] if losses else None
 
 
 def with_final_refit(state: Search) -> Search:
@@ -44,15 +45,16 @@ def with_final_refit(state: Search) -> Search:
     A large first effect leaves the noise near reversals wrong until it is weighed anew, and a second one repairs that.
     """
     state = _simplified(_with_rivals_tried(state))
-    plain = plainest(state, state.best)
+    state, plain = plainest(state, state.best)
     state = state if plain is state.best else pruned(state.stepped_to(plain))
     reported = final_refit_of(state.best)
     origin = state.path[0].summary
     while len(reported.terms) > 1:
-        least = _least_needed(state, reported, origin)
+        state, least = _least_needed(state, reported, origin)
         if least is None:
             break
-        state = state.stepped_to(left_with(state, reported.without(least), reported))
+        state, rest = left_with(state, reported.without(least), reported)
+        state = state.stepped_to(rest)
         reported = final_refit_of(state.best)
     return replace(state, final_refit=reported)
 
@@ -66,9 +68,9 @@ def _with_rivals_tried(state: Search) -> Search:
         rest = best.without(term)
         for equivalent in (t for t in state.terms if t.effect.name in others):
             typical = {equivalent.label: equivalent.effect.typical()}
-            again = tried_before(state, [*rest, equivalent]) or [try_one(state, [*rest, equivalent], typical, best)]
-            if score(origin, again[0].summary) > score(origin, state.best.summary):
-                state = state.stepped_to(again[0])
+            state, again = tried_or_fitted(state, [*rest, equivalent], typical, best)
+            if score(origin, again.summary) > score(origin, state.best.summary):
+                state = state.stepped_to(again)
     return state
 
 
@@ -79,22 +81,27 @@ def _simplified(state: Search) -> Search:
     if has_delay_for_filter(best):
         top = score(origin, best.summary)
         least = (1.0 - _NO_FILTER) * top
-        plain += [h for h in _with_delays(state, best) if score(origin, h.summary) > least]
+        state, found = _with_delays(state, best)
+        plain += [h for h in found if score(origin, h.summary) > least]
     if not plain:
         return state
     return state.stepped_to(max(plain, key=lambda h: score(origin, h.summary)))
 
 
-def _with_delays(state: Search, found: Hypothesis) -> list[Hypothesis]:
-    """Return a hypothesis with delays in the place of its filters, fitted if it was not before."""
+def _with_delays(state: Search, found: Hypothesis) -> tuple[Search, list[Hypothesis]]:
+    """Return a hypothesis with delays in the place of its filters, fitted if it was not before; the new state first."""
     offered = {(t.effect.name, t.group): t for t in state.terms}
     delays = {t.label: d for t in found.terms if (d := offered.get((t.effect.plainer, t.group)))}
     if not delays:
-        return []
+        return state, []
     terms = [delays.get(t.label, t) for t in found.terms]
     starts = {
         d.label: {**d.effect.typical(), d.effect.lag: found.values_of(t)[t.effect.lag]}
         for t in found.terms
         if (d := delays.get(t.label))
     }
-    return tried_before(state, terms) or [try_one(state, terms, starts, found)]
+    known = tried_before(state, terms)
+    if known:
+        return state, known
+    state, fitted = try_one(state, terms, starts, found)
+    return state, [fitted]

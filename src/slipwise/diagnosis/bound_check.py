@@ -31,13 +31,13 @@ def keeps_its_gain(base: BaseFit, found: Screened) -> bool:
     """
     if found.term.effect.port not in _PORTS:
         return True
-    solution, problem = base.solution, base.problem
-    left = on_screen(problem, solution.residuals.stacked(problem.fitted, problem.relations))
+    solution, objective = base.solution, base.objective
+    left = on_screen(objective, solution.residuals.stacked(objective.fitted))
     cost = float(left @ left)
     there = residual_with(base, found.term, found.values)
     if there is None or cost - float(there @ there) > _ENOUGH * found.gain:
         return True
-    step = -np.linalg.lstsq(solution.normal, on_screen(problem, solution.jacobian).T @ (there - left), rcond=1e-12)[0]
+    step = -np.linalg.lstsq(solution.normal, on_screen(objective, solution.jacobian).T @ (there - left), rcond=1e-12)[0]
     off = {p.name: float(p.neutral or 0.0) for p in strengths(found.term.effect)}
     for part in _PARTS:
         moved = {

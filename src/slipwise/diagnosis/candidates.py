@@ -8,7 +8,7 @@ import numpy as np
 
 from slipwise.effects import Effect, catalogue, for_pads, scaled
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
 from slipwise.preparation.gauge_groups import places_of
 from slipwise.relations.parameters import Term
 from slipwise.rig.load_basis import WARPS, has_corners
@@ -30,20 +30,20 @@ def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], d
         base: the base fit.
         own: effects beside those of the catalogue.
     """
-    problem, model = base.problem, base.model
+    objective, model = base.objective, base.model
     terms: list[Term] = []
     cannot: dict[str, str] = {}
-    scales = problem.runs[0].scales
+    scales = objective.scales
     for name, as_rated in (catalogue() | {e.name: e for e in own}).items():
         effect = scaled(as_rated, scales.of, scales.room)
-        effect = for_pads(effect, problem.specimen.pads, corners=has_corners(problem.specimen))
+        effect = for_pads(effect, objective.specimen.pads, corners=has_corners(objective.specimen))
         if effect.base == "springs" or (name in model and not effect.target):
             continue
         if effect.in_samples:
-            if not problem.specimen.free:
+            if not objective.specimen.free:
                 cannot[name] = effect.in_samples
             continue
-        reason = _untestable(effect, problem)
+        reason = _untestable(effect, objective)
         if reason:
             cannot[name] = reason
             continue
@@ -51,19 +51,19 @@ def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], d
             if all(u.effect.replaces != effect.replaces for u in model.uses):
                 terms.append(Term(effect))
         elif effect.target:
-            aimed = list(_aimed(effect, problem))
+            aimed = list(_aimed(effect, objective))
             terms += aimed
             if not aimed:
-                cannot[name] = _unaimed(effect, problem)
+                cannot[name] = _unaimed(effect, objective)
         else:
             terms.append(Term(effect))
-            terms += _on_single_pads(effect, problem)
-    return terms, cannot | _confounded(problem)
+            terms += _on_single_pads(effect, objective)
+    return terms, cannot | _confounded(objective)
 
 
-def _confounded(problem: Problem) -> dict[str, str]:
+def _confounded(objective: Objective) -> dict[str, str]:
     """Say where no two fitted runs of unlike load have like speeds, so that what looks like one may be the other."""
-    runs = [r for r in (problem.runs[i] for i in problem.fitted) if r.sliding.any()]
+    runs = [r for r in objective.fitted_runs if r.sliding.any()]
     loads = np.array([float(np.mean(r.load[r.sliding])) for r in runs])
     within = np.array([float(np.std(r.load[r.sliding])) for r in runs])
     speeds = np.array([float(np.sqrt(np.mean(r.velocity[r.sliding] ** 2))) for r in runs])
@@ -80,24 +80,24 @@ def _alike(one: float, other: float) -> bool:
     return max(one, other) < (1.0 + _SAME_SPEED) * min(one, other)
 
 
-def _untestable(effect: Effect, problem: Problem) -> str:
+def _untestable(effect: Effect, objective: Objective) -> str:
     """Say what an effect needs first that this campaign has not; "" where it can be tested."""
-    return next((effect.without(need) for need in effect.all_needs if not HAS[need](problem)), "")
+    return next((effect.without(need) for need in effect.all_needs if not HAS[need](objective)), "")
 
 
-def _sees_buffers(problem: Problem) -> bool:
-    return bool(problem.specimen.buffer_stiffness) and not {"girder", "pitch"}.isdisjoint(problem.relations)
+def _sees_buffers(objective: Objective) -> bool:
+    return bool(objective.specimen.buffer_stiffness) and not {"girder", "pitch"}.isdisjoint(objective.relations)
 
 
-def _one_way(problem: Problem) -> bool:
+def _one_way(objective: Objective) -> bool:
     """Return whether all runs that are fitted slide the same way: one there and one back are both directions."""
-    forth = np.concatenate([r.velocity[r.sliding] > 0.0 for r in (problem.runs[i] for i in problem.fitted)])
+    forth = np.concatenate([r.velocity[r.sliding] > 0.0 for r in objective.fitted_runs])
     return bool(forth.size) and min(float(np.mean(forth)), 1.0 - float(np.mean(forth))) < _RARELY
 
 
-def _load_varies(problem: Problem) -> bool:
+def _load_varies(objective: Objective) -> bool:
     """Return whether the load changes within a run that is fitted, or from one of them to another."""
-    loads = [problem.runs[i].load for i in problem.fitted]
+    loads = [run.load for run in objective.fitted_runs]
     means = np.array([float(np.mean(load)) for load in loads])
     within = any(float(np.std(load)) > _STEADY_LOAD * mean for load, mean in zip(loads, means, strict=True))
     return within or float(np.ptp(means)) > _STEADY_LOAD * float(means.max())
@@ -108,45 +108,45 @@ def _load_varies(problem: Problem) -> bool:
 _LOOKED_AT = ("slip_x", "girder_ax", "girder_az", "table_ax")
 
 #: What effects need -> whether a campaign has it.
-HAS: dict[str, Callable[[Problem], bool]] = {
-    "command": lambda problem: False,  # every fit is driven by the motion that was measured
+HAS: dict[str, Callable[[Objective], bool]] = {
+    "command": lambda objective: False,  # every fit is driven by the motion that was measured
     "buffers": _sees_buffers,
-    "balances": lambda problem: problem.balanced,
-    "heave": lambda problem: "heave" in problem.relations,
-    "across": lambda problem: "across" in problem.relations,
-    "prescribed slip": lambda problem: not problem.specimen.free,
-    "storeys": lambda problem: "storeys" in problem.relations,
-    "several pads": lambda problem: len(problem.runs[0].pads) > 1,
-    "both directions": lambda problem: not _one_way(problem),
+    "balances": lambda objective: objective.balanced,
+    "heave": lambda objective: "heave" in objective.relations,
+    "across": lambda objective: "across" in objective.relations,
+    "prescribed slip": lambda objective: not objective.specimen.free,
+    "storeys": lambda objective: "storeys" in objective.relations,
+    "several pads": lambda objective: len(objective.pads) > 1,
+    "both directions": lambda objective: not _one_way(objective),
     "changing load": _load_varies,
 }
 
 
-def _aimed(effect: Effect, problem: Problem) -> Iterator[Term]:
+def _aimed(effect: Effect, objective: Objective) -> Iterator[Term]:
     """Yield a gauge's fault on every channel or card on which it means something to the relations of a fit."""
-    places = places_of(effect, problem.runs[0].record)
+    places = places_of(effect, objective.run(0).record)
     for place in sorted(places, key=lambda name: "*" not in name):
         targets = places[place]
         if any(name not in _LOOKED_AT and not name.startswith("pad_") or name.endswith("_Fy") for name in targets):
             continue
         if effect.gauges.sits == "pads":
-            if len(targets) == len(problem.runs[0].pads):
+            if len(targets) == len(objective.pads):
                 yield Term(effect, targets, "pad_*")
-        elif problem.balanced or ((place.startswith("pad_") or place == "slip_x") and _alone(effect, targets)):
+        elif objective.balanced or ((place.startswith("pad_") or place == "slip_x") and _alone(effect, targets)):
             yield Term(effect, targets, place)
 
 
-def _unaimed(effect: Effect, problem: Problem) -> str:
+def _unaimed(effect: Effect, objective: Objective) -> str:
     """Say why a gauge's fault is looked for on none: none that it could sit on, or none beside the law of friction."""
-    if any(place.startswith(("pad_", "slip")) for place in places_of(effect, problem.runs[0].record)):
+    if any(place.startswith(("pad_", "slip")) for place in places_of(effect, objective.run(0).record)):
         return "without a girder's balances it is one with the numbers of the friction law"
     return "no gauge was recorded on which it would show"
 
 
-def _on_single_pads(effect: Effect, problem: Problem) -> Iterator[Term]:
+def _on_single_pads(effect: Effect, objective: Objective) -> Iterator[Term]:
     """Yield an effect on each pad alone, where loads tell which: those of three or four pads warp one way or not."""
-    if effect.single and WARPS[1] in problem.relations:
-        for pad in problem.specimen.pads:
+    if effect.single and WARPS[1] in objective.relations:
+        for pad in objective.specimen.pads:
             yield Term(effect, (f"pad_{pad}_N",), f"pad_{pad}_N")
 
 

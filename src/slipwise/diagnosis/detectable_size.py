@@ -38,7 +38,7 @@ def _least(found: Screened, base: Hypothesis) -> tuple[float, str] | None:
         return None
     size = abs(found.values[leading.name] - float(leading.neutral or 0.0))
     step = (found.length * found.column.astype(np.float64)) ** 2
-    rows = rows_of(base.problem)
+    rows = rows_of(base.objective)
     drops = np.add.reduceat(step, np.concatenate([[0], np.cumsum([*rows.values()])[:-1]]))
     counts = np.array([base.summary.counts[r][0] for r in rows])
     return float(size * np.sqrt(least_drop([found.term]) / np.max(drops / np.maximum(counts, 1)))), leading.unit

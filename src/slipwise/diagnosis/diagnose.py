@@ -71,9 +71,9 @@ def diagnose(
     selected = select_effects(prepared, start, own, lambda words, share: tell(words, part * share))
     base, state = selected.base, selected.search
     tell("replaying without each effect", part)
-    found = as_fit(base, state.final, with_slopes=not state.final.problem.balanced)
+    found = as_fit(base, state.final, with_slopes=not state.final.objective.balanced)
     sizes = intervals(found).entries if state.final.terms else ()
-    evidence = findings(state, importance_of_effects(found, state.final.terms, sizes), measured.materiality)
+    state, evidence = findings(state, importance_of_effects(found, state.final.terms, sizes), measured.materiality)
     decided = decide_verdict(state, evidence, measured.materiality)
     before = final_refit_of(state.path[0])
     shown = state.final if decided.effects else before
@@ -85,7 +85,7 @@ def diagnose(
     if system:
         tell("replaying", part)
         try:
-            roles = ("holdout",) if base.problem.held_out else ("fit", "repeat")
+            roles = ("holdout",) if base.objective.held_out else ("fit", "repeat")
             models = [final] if shown is before else [as_fit(base, before), final]
             errors = replayed_errors(models, roles, lambda share: tell("replaying", part + (1.0 - part) * share))
             replayed = {"base": errors[0], "final": errors[-1]}
@@ -135,7 +135,7 @@ def _unmended(prepared: Prepared, model: Model | None) -> ResidualSummary | None
 
 def _predicted_friction(final: BaseFit) -> tuple[PredictedFriction, ...]:
     """Return what is predicted of one slider's held-out runs; a girder's balances judge those sample by sample."""
-    if final.problem.balanced:
+    if final.objective.balanced:
         return ()
     return tuple(found for found in predicted_friction(final) if found.inside is not None)
 

@@ -11,7 +11,7 @@ from slipwise.diagnosis.hypothesis import Hypothesis, at_limit, parameters_at_bo
 from slipwise.diagnosis.importance import Importance
 from slipwise.diagnosis.plainer import holds_as_limit
 from slipwise.diagnosis.ranking import has_delay_for_filter
-from slipwise.diagnosis.search_state import Search, left_with
+from slipwise.diagnosis.search_state import Search
 from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.evidence.score import lead, score
 from slipwise.relations.parameters import Term
@@ -69,8 +69,10 @@ class Finding:
         return self.terms[0].effect.component == "instrument"
 
 
-def findings(state: Search, importances: dict[str, Importance], limits: Materiality) -> list[Finding]:
+def findings(state: Search, importances: dict[str, Importance], limits: Materiality) -> tuple[Search, list[Finding]]:
     """Return the evidence for every effect of a search's final model, most important first.
+
+    Before it stands the state of the search that keeps what was refitted without an effect.
 
     Args:
         state: of the finished search.
@@ -80,7 +82,9 @@ def findings(state: Search, importances: dict[str, Importance], limits: Material
     final, origin = state.final, state.path[0].summary
     names = [n for n in final.names if n in importances]
     parts = {name: tuple(t for t in final.terms if t.effect.name == name) for name in names}
-    left = {n: without(final, parts[n], lambda rest: left_with(state, rest, final)) for n in names}
+    left = dict[str, ResidualSummary]()
+    for name in names:
+        state, left[name] = without(state, final, parts[name])
     rivals = _rivals(state, {n: parts[n] for n in names})
     bounds, nameless = parameters_at_bound(final), at_limit(final)
     base, end = above_noise(origin, final.summary), above_noise(final.summary, final.summary)
@@ -102,7 +106,7 @@ def findings(state: Search, importances: dict[str, Importance], limits: Material
         )
         for n in names
     ]
-    return sorted(out, key=lambda f: -f.material)
+    return state, sorted(out, key=lambda f: -f.material)
 
 
 def above_noise(summary: ResidualSummary, best: ResidualSummary) -> float:

@@ -12,7 +12,7 @@ from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.hypothesis import Hypothesis, at_limit, base_hypothesis, strength_at_bound
 from slipwise.diagnosis.initial_grid import places
 from slipwise.diagnosis.initial_guesses import longer_stick, starting_points, starts_of
-from slipwise.diagnosis.jacobian_memory import lighten, whole
+from slipwise.diagnosis.jacobian_memory import lightened, whole
 from slipwise.diagnosis.pairs import leading_pair
 from slipwise.diagnosis.plainer import plainest, with_plainer
 from slipwise.diagnosis.ranking import best_of, kept_alone, limit_per_effect
@@ -67,23 +67,22 @@ def search(
     """
     terms, cannot = candidates(base, own)
     tell = progress or _silent
-    state = Search(base, cannot, terms, [], (base_hypothesis(base),))
+    state = Search(base, cannot, terms, (), (base_hypothesis(base),))
     state = _screened(state, lambda share: tell("screening", 0.15 + 0.45 * share))
     tell("refitting", 0.6)
     state = _first(state, next((h for h in before.path if len(h.terms) == 1), None) if before else None)
     state = _onward(_reshaped(state), tell)
     anew = _restarted_from_nominal(state)
-    if anew is not None:
-        state = _onward(anew, tell)
+    state = _onward(anew, tell) if _has_moved(state, anew) else anew
     state = pruned(state)
-    exchanged = _exchanged(state) if state.best.terms else None
-    if exchanged is not None:
-        state = pruned(exchanged)
+    exchanged = _exchanged(state) if state.best.terms else state
+    state = pruned(exchanged) if _has_moved(state, exchanged) else exchanged
     if state.best.terms:
         tell("weighing", 0.95)
         state = with_final_refit(state)
-    if thinning(base.problem) > 1:  # what was tried is listed from now on, and hardly ever fitted on
-        lighten(state.tried, lambda h: score(state.path[0].summary, h.summary), room=0)
+    if thinning(base.objective) > 1:  # what was tried is listed from now on, and hardly ever fitted on
+        origin = state.path[0].summary
+        state = replace(state, tried=lightened(state.tried, lambda h: score(origin, h.summary), room=0))
     tell("done", 1.0)
     return state
 
@@ -96,26 +95,30 @@ def _onward(state: Search, tell: Callable[[str, float], None]) -> Search:
     """Add effects to the first while one is material."""
     while len(state.path) - 1 and len(state.best.terms) < MOST_EFFECTS:
         tell("refitting", 0.7 + 0.2 * len(state.best.terms) / MOST_EFFECTS)
-        further = _further(state)
-        if further is None:
+        before, state = state, _further(state)
+        if not _has_moved(before, state):
             break
-        state = further
     return state
 
 
-def _restarted_from_nominal(state: Search) -> Search | None:
-    """Begin anew from the rated numbers where very much is left; None unless that leads to something better.
+def _has_moved(before: Search, after: Search) -> bool:
+    """Return whether a search has stepped to another hypothesis, and not only tried some."""
+    return after.path is not before.path
+
+
+def _restarted_from_nominal(state: Search) -> Search:
+    """Begin anew from the rated numbers where very much is left; no step unless that leads to something better.
 
     With a base so far from the data a straight line through an effect's column leads elsewhere.
     """
     origin, best = state.path[0], state.best
     worst, left = (max(h.summary.fitted_level(r) for r in h.summary.fitted) for h in (origin, best))
     if worst < _BASE_MISFIT or left < _FAR_FROM_NOISE:
-        return None
+        return state
     anew = _reshaped(_first(_screened(replace(state, base=at_rated(state.base), path=(origin,)))))
     if score(origin.summary, anew.best.summary) <= score(origin.summary, best.summary):
-        return None
-    return state.stepped_to(anew.best)
+        return replace(state, tried=anew.tried)
+    return replace(state, tried=anew.tried).stepped_to(anew.best)
 
 
 def _screened(state: Search, progress: Callable[[float], None] | None = None) -> Search:
@@ -139,17 +142,22 @@ def _first(state: Search, start_hypothesis: Hypothesis | None = None) -> Search:
     chosen += [s for s in physics[:_REFITTED_PHYSICS] if all(s is not c for c in chosen)]
     least = _least_refitted(origin)
     asked = starts_of([s for s in chosen if s.gain > least]) + longer_stick(state, origin)
-    tried = try_all(state, with_plainer(state, asked))
+    state, tried = try_all(state, with_plainer(state, asked))
     if start_hypothesis is not None:
-        tried.append(try_one(state, start_hypothesis.terms, {}, start_hypothesis))
+        state, again = try_one(state, start_hypothesis.terms, {}, start_hypothesis)
+        tried.append(again)
     best = best_of(origin, tried)
-    best = best and plainest(state, best)
+    if best is not None:
+        state, best = plainest(state, best)
     pair = leading_pair(state.base, state.screened, best, least)
     if pair is not None:
-        both = try_one(state, [p.term for p in pair], {p.term.label: p.values for p in pair})
+        state, both = try_one(state, [p.term for p in pair], {p.term.label: p.values for p in pair})
         if kept_alone(origin, both):
             # a fit hides an effect behind the base less than a screen does: one of the two may do alone
-            alone = [try_one(state, [p.term], {}, both) for p in pair if not tried_before(state, [p.term])]
+            alone = list[Hypothesis]()
+            for p in (p for p in pair if not tried_before(state, [p.term])):
+                state, one = try_one(state, [p.term], {}, both)
+                alone.append(one)
             best = best_of(origin, [*alone, *([best] if best else [])])
             single = best or origin
             least = least_drop(both.terms)
@@ -172,41 +180,47 @@ def _reshaped(state: Search) -> Search:
         if not grid:
             continue
         rest = best.without(term)
-        before = whole(left_with(state, rest, best)) if rest else origin
-        found = screen_shapes(as_base(state, before), term, grid)[:_RESHAPED]
-        again = try_all(state, [([*rest, term], {term.label: s.values}) for s in found], before if rest else None)
+        before = None
+        if rest:
+            state, before = left_with(state, rest, best)
+            before = whole(before)
+        found = screen_shapes(as_base(state, before or origin), term, grid)[:_RESHAPED]
+        state, again = try_all(state, [([*rest, term], {term.label: s.values}) for s in found], before)
         better = [h for h in again if score(origin.summary, h.summary) > score(origin.summary, state.best.summary)]
         if better:
             state = replace(state, path=(*state.path[:-1], better[0]))
     return state
 
 
-def _further(state: Search) -> Search | None:
-    """Add what helps most beside the effects found, several small ones at once; None where nothing is worth it."""
+def _further(state: Search) -> Search:
+    """Add what helps most beside the effects found, several small ones at once; no step where nothing is worth it."""
     before, origin = state.best, state.path[0]
     if all_down(before.summary):
-        return None
+        return state
     found = rescreen(state.all_screened, before)
     several = worth_refitting(found, before, _AT_ONCE, together=True)
     several = [s for s in with_bounds_checked(as_base(state, before), several, 0.0) if s.gain > 0.0]
     if len(several) > 1:
         starts = {s.term.label: s.values for s in several}
-        together = try_one(state, [*before.terms, *(s.term for s in several)], starts, before)
+        state, together = try_one(state, [*before.terms, *(s.term for s in several)], starts, before)
         if _is_kept(origin, before, together) and not _new_at_bound(together, before):
             further = pruned(state.stepped_to(together))
             if not _been_there(state, further.best):  # what goes again at once would come back for ever
                 return further
+            state = replace(state, tried=further.tried)
     chosen = limit_per_effect(worth_refitting(found, before, 2 * _REFITTED_PAIRS, together=False), _REFITTED_PAIRS + 1)
     chosen = [s for s in with_bounds_checked(as_base(state, before), chosen, 0.0) if s.gain > 0.0]
     tried = list[Hypothesis]()
     for asked in starting_points(state, chosen, tried):
         asked = with_plainer(state, asked)
-        tried += try_all(state, asked, before, lambda h: _is_kept(origin, before, h, _NEAR))
+        state, found = try_all(state, asked, before, lambda h: _is_kept(origin, before, h, _NEAR))
+        tried += found
         sound = [h for h in tried if not at_limit(h) and (strength_at_bound(before) or not strength_at_bound(h))]
         good = [h for h in sound if _is_kept(origin, before, h)]
         if good:
-            return state.stepped_to(plainest(state, max(good, key=lambda h: score(before.summary, h.summary))))
-    return None
+            state, plain = plainest(state, max(good, key=lambda h: score(before.summary, h.summary)))
+            return state.stepped_to(plain)
+    return state
 
 
 def _been_there(state: Search, found: Hypothesis) -> bool:
@@ -230,8 +244,8 @@ def _least_refitted(before: Hypothesis) -> float:
     return _MIN_REFIT_SHARE * LEAST.law * min(n for n, _ in before.summary.counts.values())
 
 
-def _exchanged(state: Search) -> Search | None:
-    """Fit what could stand in the place of an effect, and its likes on other gauges; None if nothing there is better.
+def _exchanged(state: Search) -> Search:
+    """Fit what could stand in the place of an effect, and its likes on other gauges; no step if nothing is better.
 
     What was best alone may only have stood for two others: two gauges that read less for pads that differ.
     """
@@ -245,10 +259,13 @@ def _exchanged(state: Search) -> Search | None:
         chosen = [s for s in chosen if not tried_before(state, [*rest, s.term])][:left]
         left -= len(chosen)
         if chosen:
-            found = try_all(state, starts_of(chosen, rest), left_with(state, rest, best) if rest else None)
+            others = None
+            if rest:
+                state, others = left_with(state, rest, best)
+            state, found = try_all(state, starts_of(chosen, rest), others)
             sound = [h for h in found if not at_limit(h) and not _accuses_for_little(best, h)]
             better += [h for h in sound if score(origin, h.summary) > top]
-    return state.stepped_to(max(better, key=lambda h: score(origin, h.summary))) if better else None
+    return state.stepped_to(max(better, key=lambda h: score(origin, h.summary))) if better else state
 
 
 def _accuses_for_little(best: Hypothesis, found: Hypothesis) -> bool:

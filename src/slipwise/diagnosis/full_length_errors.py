@@ -12,7 +12,7 @@ import numpy as np
 from slipwise.campaign import Campaign
 from slipwise.campaign.invalid_samples import InvalidSamples
 from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import objective_of
 from slipwise.relations.run_data import FitRun, fit_runs
 
 
@@ -45,11 +45,11 @@ def errors_on_all_samples(
 
 def _squares(run: FitRun, found: Hypothesis) -> dict[str, float]:
     """Return the squared residuals of a whole run, weighed as those of the hypothesis are, relation -> sum."""
-    values, one = found.solution.values, found.problem.runs[0]
+    values, one = found.solution.values, found.objective.run(0)
     # gauges are as noisy as all runs together have shown
-    problem = Problem([replace(run, fine=one.fine, noise=one.noise)], found.problem.specimen, found.problem.terms)
-    if found.problem.kinematics.yaw:
-        problem = problem.with_yaw()
-    problem.weigh(values)
-    parts = problem.residuals(values).parts
-    return {relation: float(np.sum(parts[relation][0] ** 2)) for relation in problem.relations}
+    objective = objective_of(
+        [replace(run, fine=one.fine, noise=one.noise)], found.objective.specimen, found.objective.terms
+    )
+    objective = objective.with_yaw() if found.objective.yaw else objective
+    left = objective.weigh(values).residuals(values)
+    return {relation: left.squares(relation, [0]) for relation in objective.relations}

@@ -48,7 +48,7 @@ def shares_that_stay(
         screened: candidates with their columns.
         limits: what matters.
     """
-    if not found.problem.balanced:
+    if not found.objective.balanced:
         return dict.fromkeys(importances, 1.0)
     solution, weights = found.solution, row_weights(found) * np.sqrt(_COUNTED / _samples_for_one(found))
     kept = _linear_numbers(found)
@@ -63,11 +63,11 @@ def shares_that_stay(
         width = max(_USUAL, importances[name])  # what was found may well be as large as it was found
         precision[own] = (max(importances[name], 1e-6) / (width * max(size, 1e-12))) ** 2
     small = _small_columns(found, screened, limits)
-    problem = found.problem
-    slopes = np.column_stack([on_screen(problem, solution.jacobian[:, kept]), *small]) * weights[:, None]
+    objective = found.objective
+    slopes = np.column_stack([on_screen(objective, solution.jacobian[:, kept]), *small]) * weights[:, None]
     precision = np.concatenate([precision, np.full(len(small), _USUAL**-2)])
     places = np.concatenate([places, np.zeros(len(small))])
-    left = weights * on_screen(problem, solution.residuals.stacked(problem.fitted, problem.relations))
+    left = weights * on_screen(objective, solution.residuals.stacked(objective.fitted))
     normal = slopes.T @ slopes
     held = np.diag(precision + 1e-12 * float(np.diag(normal).max()))
     ended = places + np.linalg.solve(normal + held, -(slopes.T @ left) - precision * places)
@@ -76,9 +76,9 @@ def shares_that_stay(
 
 def _samples_for_one(found: Hypothesis) -> Array:
     """Return how many screened rows stand for one independent one, row by row (q,): neighbours share their errors."""
-    problem, parts = found.problem, found.solution.residuals.parts
-    sums = {r: correlation_sum([parts[r][i] for i in problem.fitted]) for r in problem.relations}
-    return np.concatenate([np.full(rows, sums[r]) for r, rows in rows_of(problem).items()])
+    objective, left = found.objective, found.solution.residuals
+    sums = {r: correlation_sum([b.value for b in left.blocks(r, objective.fitted)]) for r in objective.relations}
+    return np.concatenate([np.full(rows, sums[r]) for r, rows in rows_of(objective).items()])
 
 
 def _share(fitted: Array, ended: Array) -> float:
@@ -101,7 +101,7 @@ def _linear_numbers(found: Hypothesis) -> list[int]:
 
 def _small_columns(found: Hypothesis, screened: Sequence[Screened], limits: Materiality) -> list[Array]:
     """Return what each further fault of a gauge changes in the residual when it is as large as what matters."""
-    run = found.problem.runs[found.problem.fitted[0]]
+    run = found.objective.run(found.objective.fitted[0])
     out: list[Array] = []
     for s in screened:
         if s.term.effect.port != "gauge" or any(at_odds(s.term, t) for t in found.terms):

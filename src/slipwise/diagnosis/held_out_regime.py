@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
 from slipwise.relations.run_data import FitRun
 
 #: A held-out run may go beyond the fitted ones by this factor [1]: laws are smooth, and no test repeats another.
@@ -23,13 +23,13 @@ _REGIMES: dict[str, tuple[Callable[[FitRun], float], str, float]] = {
 }
 
 
-def not_testable(problem: Problem) -> dict[int, str]:
+def not_testable(objective: Objective) -> dict[int, str]:
     """Return the held-out runs that no fitted run covers: place of the run -> why, in words."""
     out: dict[int, str] = {}
-    for i in problem.held_out:
+    for i in objective.held_out:
         reasons = []
         for name, (size, unit, factor) in _REGIMES.items():
-            here, most = size(problem.runs[i]), max(size(problem.runs[k]) for k in problem.fitted)
+            here, most = size(objective.run(i)), max(map(size, objective.fitted_runs))
             if here > _BEYOND * most:
                 reasons.append(
                     f"{name} reach {here * factor:.3g} {unit}, in the fitted runs {most * factor:.3g} {unit}"

@@ -10,8 +10,8 @@ from slipwise.diagnosis.initial_grid import REFERENCES, strengths
 from slipwise.effects import Limit
 from slipwise.estimation.base_fit import BaseFit, final_refit
 from slipwise.estimation.least_squares import Solution, slopes_of, solve
-from slipwise.estimation.objective import Problem
-from slipwise.evidence.residual_summary import ResidualSummary, mean_square, summarised
+from slipwise.estimation.objective import Objective
+from slipwise.evidence.residual_summary import ResidualSummary, summarised
 from slipwise.relations.parameters import ZERO, Free, Term, inertia_free, numbers_replaced
 
 Array = NDArray[np.float64]
@@ -30,13 +30,13 @@ class Hypothesis:
 
     Attributes:
         terms: the effects.
-        problem: base and effects.
+        objective: base and effects.
         solution: of the fit.
         summary: of its residuals.
     """
 
     terms: tuple[Term, ...]
-    problem: Problem
+    objective: Objective
     solution: Solution
     summary: ResidualSummary
 
@@ -55,12 +55,12 @@ class Hypothesis:
 
     def level_of(self, relation: str, runs: Sequence[int]) -> float:
         """Return the mean squared residual of a relation over some runs [noise variance]."""
-        return mean_square(self.problem, self.solution, relation, runs)
+        return self.solution.residuals.mean_square(relation, runs)
 
 
 def base_hypothesis(base: BaseFit) -> Hypothesis:
     """Return the base model as a hypothesis without effects."""
-    return _hypothesis((), base.problem, base.solution)
+    return _hypothesis((), base.objective, base.solution)
 
 
 def refit(
@@ -80,13 +80,13 @@ def refit(
         before: a hypothesis whose numbers are a better start than the base's.
         most: Jacobians at most.
     """
-    problem = base.problem.adding(*terms)
+    objective = base.objective.adding(*terms)
     values = dict(base.solution.values)
     if before is not None:  # numbers of effects that are no longer there would act, or be begun from
-        kept = values.keys() | set(problem.kinematics.inertias)
+        kept = values.keys() | set(objective.inertias)
         values |= {k: v for k, v in before.solution.values.items() if k in kept}
     labels = {t.label for t in before.terms} if before is not None else set[str]()
-    gone = numbers_replaced(t.effect for t in terms) | ({STICK_LENGTH} if problem.has_stick else set())
+    gone = numbers_replaced(t.effect for t in terms) | ({STICK_LENGTH} if objective.has_stick else set())
     free: list[Free] = [f for f in base.free if f.key not in gone]
     if ZERO in gone:
         values.pop(ZERO, None)
@@ -98,26 +98,26 @@ def refit(
         values.update({f"{term.label}.{k}": v for k, v in start.items()})
         free += [f for f in term.free(start) if f.key.rsplit(".", 1)[1] not in REFERENCES]
     present = {f.key for f in free}
-    for key in problem.kinematics.inertias:
+    for key in objective.inertias:
         if key not in present:
-            free.append(inertia_free(problem.specimen, key))
+            free.append(inertia_free(objective.specimen, key))
             values.setdefault(key, free[-1].start)
-    if not problem.balanced and before is None:
-        solution = _several_starts(problem, values, free, terms)
+    if not objective.balanced and before is None:
+        solution = _several_starts(objective, values, free, terms)
     else:
         known = None  # a slider's laws change it too much for slopes of before, and are quick
-        if problem.balanced:  # a hypothesis of other runs gives a start, but no slopes
+        if objective.balanced:  # a hypothesis of other runs gives a start, but no slopes
             alike = before is not None and len(before.solution.jacobian) == len(base.solution.jacobian)
             known = slopes_of(before.solution if before is not None and alike else base.solution)
-        solution = solve(problem, values, free, most=most, enough=_ENOUGH, rough=_ROUGH, known=known)
+        solution = solve(objective, values, free, most=most, enough=_ENOUGH, rough=_ROUGH, known=known)
         contained = before if before is not None and labels <= {t.label for t in terms} else base
         if solution.cost > contained.solution.cost:  # the base has moved too far for its slopes of before
-            solution = solve(problem, solution.values, free, most=most, enough=_ENOUGH, rough=_ROUGH)
-    return _hypothesis(terms, problem, solution)
+            solution = solve(objective, solution.values, free, most=most, enough=_ENOUGH, rough=_ROUGH)
+    return _hypothesis(terms, objective, solution)
 
 
-def _hypothesis(terms: Sequence[Term], problem: Problem, solution: Solution) -> Hypothesis:
-    return Hypothesis(tuple(terms), problem, solution, summarised(problem, solution))
+def _hypothesis(terms: Sequence[Term], objective: Objective, solution: Solution) -> Hypothesis:
+    return Hypothesis(tuple(terms), objective, solution, summarised(objective, solution))
 
 
 def polished(found: Hypothesis) -> Hypothesis:
@@ -127,30 +127,30 @@ def polished(found: Hypothesis) -> Hypothesis:
     """
     before, solution = found.solution.cost, found.solution
     for _ in range(_POLISHES):
-        solution = solve(found.problem, solution.values, solution.free, most=6, enough=_ENOUGH, rough=_ROUGH)
+        solution = solve(found.objective, solution.values, solution.free, most=6, enough=_ENOUGH, rough=_ROUGH)
         if before - solution.cost < _FALLS * solution.cost:
             break
         before = solution.cost
-    return _hypothesis(found.terms, found.problem, solution)
+    return _hypothesis(found.terms, found.objective, solution)
 
 
-def weighed_as(found: Hypothesis, other: Problem) -> Hypothesis:
-    """Return a hypothesis with the noise of another problem, fitted on with that: only so their residuals compare."""
-    if found.problem.sigmas is other.sigmas:
+def weighed_as(found: Hypothesis, other: Objective) -> Hypothesis:
+    """Return a hypothesis with the noise of another objective, fitted on with that: only so their residuals compare."""
+    if found.objective.weighing is other.weighing:
         return found
-    problem = other.having(found.problem.terms)
-    solution = solve(problem, found.solution.values, found.solution.free, most=4, enough=_ENOUGH, rough=_ROUGH)
-    return _hypothesis(found.terms, problem, solution)
+    objective = other.having(found.objective.terms)
+    solution = solve(objective, found.solution.values, found.solution.free, most=4, enough=_ENOUGH, rough=_ROUGH)
+    return _hypothesis(found.terms, objective, solution)
 
 
 def final_refit_of(found: Hypothesis) -> Hypothesis:
     """Fit on, weighed by its own law and finer, as what is reported of it should be."""
-    problem, solution = final_refit(found.problem, found.solution)
-    return found if solution is found.solution else _hypothesis(found.terms, problem, solution)
+    objective, solution = final_refit(found.objective, found.solution)
+    return found if solution is found.solution else _hypothesis(found.terms, objective, solution)
 
 
 def _several_starts(
-    problem: Problem, values: Mapping[str, float], free: Sequence[Free], terms: Sequence[Term]
+    objective: Objective, values: Mapping[str, float], free: Sequence[Free], terms: Sequence[Term]
 ) -> Solution:
     """Fit one slider from several starts: its material may be far from any rated value.
 
@@ -158,23 +158,23 @@ def _several_starts(
     of slip also at several shares of the stroke.
     """
     bounds = {f.key: f for f in free}
-    force = np.concatenate([problem.runs[i].force.ravel() for i in problem.fitted])
-    load = np.concatenate([problem.runs[i].load.ravel() for i in problem.fitted])
+    force = np.concatenate([run.force.ravel() for run in objective.fitted_runs])
+    load = np.concatenate([run.load.ravel() for run in objective.fitted_runs])
     usual = float(np.quantile(np.abs(force), 0.8) / max(float(np.mean(load)), 1e-12))
-    strength = usual * problem.specimen.plastic_pressure
+    strength = usual * objective.specimen.plastic_pressure
     flat = {"rig.shear_strength": strength}
-    for term in (t for t in problem.terms if "flat" in t.effect.hooks):
+    for term in (t for t in objective.terms if "flat" in t.effect.hooks):
         flat |= {f"{term.label}.{n}": v for n, v in term.effect.hooks["flat"](coefficient=usual).items()}
-    stroke = max(float(np.ptp(problem.runs[i].slip)) for i in problem.fitted)
+    stroke = max(float(np.ptp(run.slip)) for run in objective.fitted_runs)
     lengths = [f"{t.label}.length" for t in terms if "stick" in t.effect.hooks]
     starts = [dict(values), {**values, **{k: v for k, v in flat.items() if k in values}}]
     for key in lengths:
         starts += [{**starts[1], key: share * stroke} for share in (0.03, 0.1, 0.3)]
     for start in starts:
         start.update({k: float(np.clip(v, bounds[k].low, bounds[k].high)) for k, v in start.items() if k in bounds})
-    tries = [solve(problem, s, free, most=6, enough=100.0) for s in starts]
+    tries = [solve(objective, s, free, most=6, enough=100.0) for s in starts]
     best = min(tries, key=lambda s: s.cost)
-    return solve(problem, best.values, free, most=12, enough=_ENOUGH)
+    return solve(objective, best.values, free, most=12, enough=_ENOUGH)
 
 
 def _inside(term: Term, start: Mapping[str, float]) -> dict[str, float]:

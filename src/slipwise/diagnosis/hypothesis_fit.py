@@ -17,5 +17,5 @@ def as_fit(base: BaseFit, found: Hypothesis, *, with_slopes: bool = True) -> Bas
     if found.solution is base.solution:
         return base
     found = whole(found)
-    solution = take_slopes(found.problem, found.solution) if with_slopes else found.solution
-    return BaseFit(base.campaign, base.model, found.problem, solution.free, solution)
+    solution = take_slopes(found.objective, found.solution) if with_slopes else found.solution
+    return BaseFit(base.campaign, base.model, found.objective, solution.free, solution)

@@ -177,13 +177,13 @@ def _why(base: BaseFit, effect: Effect | None, identified: Identified) -> str:
 
 def _steady(base: BaseFit) -> str:
     """Say that the load hardly changes, where it does not: within the runs that are fitted, and from one to another."""
-    runs = [base.problem.runs[i] for i in base.problem.fitted]
+    runs = base.objective.fitted_runs
     loads = np.concatenate([r.load[r.sliding] for r in runs])
     if not loads.size:
         return ""
     total = loads.sum(axis=1)
     spread, level = float(np.std(loads) / np.mean(loads)), float(np.std(total) / np.mean(total))
-    still = "no run has vertical motion" if base.problem.specimen.free and level < _LEVEL else ""
+    still = "no run has vertical motion" if base.objective.specimen.free and level < _LEVEL else ""
     if spread < _STEADY:
         return f"the load hardly changes ({100.0 * spread:.2g} %{f', {still}' if still else ''})"
     return f"{still}, and rocking changes the loads by {spread:.0%} only" if still else ""
@@ -191,7 +191,7 @@ def _steady(base: BaseFit) -> str:
 
 def _one_speed(base: BaseFit) -> str:
     """Say that all sliding is at about one speed, where it is."""
-    runs = [base.problem.runs[i] for i in base.problem.fitted]
+    runs = base.objective.fitted_runs
     speed = 1e3 * np.concatenate([np.abs(r.velocity[r.sliding]) for r in runs])
     low, high = np.quantile(speed, (0.1, 0.9)) if speed.size else (0.0, np.inf)
     return f"nearly all sliding is at {low:.2g} to {high:.2g} mm/s" if high < _ONE_SPEED * low else ""

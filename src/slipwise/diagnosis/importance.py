@@ -80,13 +80,13 @@ def importance_of_effects(final: BaseFit, terms: Sequence[Term], sizes: Sequence
     added: dict[str, list[Term]] = {}
     for term in terms:
         added.setdefault(term.effect.name, []).append(term)
-    problem = final.problem
-    shown = (problem.held_out or [len(problem.runs) - 1])[0]
+    objective = final.objective
+    shown = [*objective.held_out, *objective.fitted[-1:]][0]
     places = {name: list(dict.fromkeys([shown, _where_most(final, of)])) for name, of in added.items()}
     asked = [("", place) for place in dict.fromkeys(p for of in places.values() for p in of)]
     asked += [(name, place) for name, of in places.items() for place in of]
     models = _models(final, added)
-    free = problem.specimen.free and "table_ax" in problem.runs[shown].record
+    free = objective.specimen.free and "table_ax" in objective.run(shown).record
     act = _replayed if free else _driven
     answers = dict(
         zip(asked, on_every_core(lambda i: act(models[asked[i][0]], final, asked[i][1]), len(asked)), strict=True)
@@ -99,7 +99,7 @@ def importance_of_effects(final: BaseFit, terms: Sequence[Term], sizes: Sequence
         channels: dict[str, float] = {}
         for place in places[name]:
             one, other = answers["", place].channels, answers[name, place].channels
-            measured = problem.runs[place].record
+            measured = objective.run(place).record
             for c in (c for c in one if c in measured):
                 channels[c] = max(channels.get(c, 0.0), share_of_channel(other[c] - one[c], measured[c]))
         out[name] = Importance(responses, channels, of[0].effect.port == "gauge")
@@ -115,33 +115,31 @@ class _Answer:
 def _models(final: BaseFit, added: Mapping[str, Sequence[Term]]) -> dict[str, Model]:
     """Return the final model by "", and by the name of each effect the model without it."""
     values = final.solution.values
-    whole = replayed_model(final)[0] if final.problem.specimen.free else final.problem.model(values)
+    whole = replayed_model(final)[0] if final.objective.specimen.free else final.objective.model(values)
     return {"": whole} | {n: whole.without(*(u.label for t in of for u in t.uses(values))) for n, of in added.items()}
 
 
 def _where_most(final: BaseFit, terms: Sequence[Term]) -> int:
     """Return the place of the run whose balances change most when an effect is set to its absence."""
-    problem, solution = final.problem, final.solution
+    objective, solution = final.objective, final.solution
     absent = {f"{t.label}.{p.name}": p.neutral for t in terms for p in t.effect.parameters if p.neutral is not None}
     try:
-        there = problem.residuals({**solution.values, **absent}).parts
+        there = objective.residuals({**solution.values, **absent})
     except SlipwiseError:
-        return problem.fitted[-1]
-    here = solution.residuals.parts
-    moved = [sum(float(np.sum((there[r][i] - here[r][i]) ** 2)) for r in here) for i in range(len(problem.runs))]
-    return int(np.argmax(np.nan_to_num(moved)))
+        return objective.fitted[-1]
+    return int(np.argmax(np.nan_to_num(solution.residuals.changes_by_run(there))))
 
 
 def _replayed(model: Model, final: BaseFit, place: int) -> _Answer:
     """Replay a run's measured table motion, memory of pads and buffers from the runs before."""
-    run = final.problem.runs[place]
+    run = final.objective.run(place)
     dt = simulation_step(run.dt)
     answer = replay(
         model,
         measured_motion(run.states),
         dt=dt,
         output_dt=run.dt,
-        start=memory_before(model, final.problem.runs[:place]),
+        start=memory_before(model, final.objective.runs_before(place)),
         rest=run.rest_before,
     )
     responses = {
@@ -169,9 +167,9 @@ def memory_before(model: Model, runs: Sequence[FitRun]) -> Memory:
 
 def _driven(model: Model, final: BaseFit, place: int) -> _Answer:
     """Drive a slider's law with measured load and motion; its gauges' faults act on what it answers."""
-    law, run = predictor(model), final.problem.runs[place]
+    law, run = predictor(model), final.objective.run(place)
     force = run.states.pad_velocity  # of the run's own shape, where there is nothing before it
-    for each in final.problem.runs[: place + 1]:
+    for each in final.objective.runs_before(place + 1):
         law.rest(each.rest_before)
         states = each.states
         motion = rig_motion(states) if law.asks_for_motion else None

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 from slipwise.diagnosis.search_state import Search
 from slipwise.effects import Effect, catalogue
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
 
 Pairs = dict[frozenset[str], tuple[str, ...]]
 
@@ -19,12 +19,12 @@ def alike_pairs(known: Iterable[Effect]) -> Pairs:
     return {frozenset({e.name, other}): unless for e in known for other, unless in e.same_unless.items()}
 
 
-def distinguishable(problem: Problem, unless: Iterable[str]) -> bool:
+def distinguishable(objective: Objective, unless: Iterable[str]) -> bool:
     """Return whether two effects that may be one thing are distinguishable in a campaign.
 
     Args:
-        problem: of the campaign.
+        objective: of the campaign.
         unless: what tells the two apart where it was measured: "yaw", or a balance of the girder ("pitch").
     """
-    measured = {*problem.relations, *(("yaw",) if problem.runs[0].states.has_yaw else ())}
+    measured = {*objective.relations, *(("yaw",) if objective.run(0).states.has_yaw else ())}
     return not measured.isdisjoint(unless)

@@ -58,7 +58,7 @@ def _other_part_of_train(state: Search, before: Hypothesis) -> list[Start]:
     """Ask for play beside a machine that gives way, and the other way round: no screen sees play at its absence."""
     if not any("stretch" in t.effect.hooks for t in before.terms):
         return []
-    stroke = max(float(np.ptp(state.base.problem.runs[i].slip)) for i in state.base.problem.fitted)
+    stroke = max(float(np.ptp(run.slip)) for run in state.base.objective.fitted_runs)
     out = []
     for term in state.terms:
         lengths = [p.name for p in strengths(term.effect) if p.unit == "m"]

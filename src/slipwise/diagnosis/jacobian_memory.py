@@ -4,7 +4,7 @@ An ordinary campaign's are all kept. Of a long one those of the best are, as far
 they found and are told by, and take their slopes anew where a search comes back to them.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -19,26 +19,27 @@ ROOM = 400 * 2**20
 
 def size_of(solution: Solution) -> int:
     """Return the bytes that slopes and residuals of a solution take."""
-    parts = [*solution.residuals.pad_forces, *(part for of in solution.residuals.parts.values() for part in of)]
-    return solution.jacobian.nbytes + sum(part.nbytes for part in parts)
+    return solution.jacobian.nbytes + solution.residuals.nbytes
 
 
 def light(solution: Solution) -> Solution:
     """Return a solution without slopes and residuals."""
-    return replace(solution, residuals=Residuals({}, []), jacobian=np.empty((0, len(solution.free))))
+    return replace(solution, residuals=Residuals(), jacobian=np.empty((0, len(solution.free))))
 
 
 def whole(found: Hypothesis) -> Hypothesis:
     """Return a hypothesis with slopes and residuals, taken anew where they were not kept."""
     solution = found.solution
-    if solution.residuals.parts:
+    if not solution.residuals.is_empty:
         return found
-    solution = replace(solution, residuals=found.problem.residuals(solution.values))
-    return replace(found, solution=with_slopes(found.problem, solution))
+    solution = replace(solution, residuals=found.objective.residuals(solution.values))
+    return replace(found, solution=with_slopes(found.objective, solution))
 
 
-def lighten(tried: list[Hypothesis], worth: Callable[[Hypothesis], float], room: int | None = None) -> None:
-    """Keep slopes and residuals of the best as far as there is room, in place.
+def lightened(
+    tried: Sequence[Hypothesis], worth: Callable[[Hypothesis], float], room: int | None = None
+) -> tuple[Hypothesis, ...]:
+    """Return hypotheses of which the best keep slopes and residuals, as far as there is room.
 
     Args:
         tried: hypotheses.
@@ -48,8 +49,10 @@ def lighten(tried: list[Hypothesis], worth: Callable[[Hypothesis], float], room:
     left = ROOM if room is None else room
     sizes = [size_of(h.solution) for h in tried]
     if sum(sizes) <= left:
-        return
+        return tuple(tried)
+    out = list(tried)
     for place in sorted(range(len(tried)), key=lambda i: -worth(tried[i])):
         left -= sizes[place]
         if left < 0:
-            tried[place] = replace(tried[place], solution=light(tried[place].solution))
+            out[place] = replace(tried[place], solution=light(tried[place].solution))
+    return tuple(out)

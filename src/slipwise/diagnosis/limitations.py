@@ -51,7 +51,7 @@ def cannot_tell(state: Search, final: BaseFit, faults: Sequence[SampleFault] = (
         final: its best hypothesis as a fit.
         faults: of samples, found before any fit.
     """
-    project = projector(on_screen(state.base.problem, state.base.solution.jacobian))
+    project = projector(on_screen(state.base.objective, state.base.solution.jacobian))
     lost = _balances_not_judged(state, faults)
     return [
         *unidentified(final, state.base),
@@ -86,8 +86,8 @@ def _alike(state: Search, project: Callable[[Array], Array]) -> Iterator[tuple[s
 
 
 def _beyond_what_was_fitted(base: BaseFit) -> Iterator[tuple[str, str]]:
-    for place, reason in not_testable(base.problem).items():
-        yield f"held-out run {base.problem.runs[place].name}", f"not testable here, no fitted run covers it: {reason}"
+    for place, reason in not_testable(base.objective).items():
+        yield f"held-out run {base.objective.run(place).name}", f"not testable here, no fitted run covers it: {reason}"
 
 
 def _storeys_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
@@ -111,18 +111,19 @@ def _turning_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
 
 def _friction_across_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
     """Say that roll is judged at rest only where the girder rolls with its pitch or moves across."""
-    if not base.problem.balanced or not rolls_only_at_rest(base.problem.runs[0].states.has_y, base.campaign.specimen):
+    objective, specimen = base.objective, base.campaign.specimen
+    if not objective.balanced or not rolls_only_at_rest(objective.run(0).states.has_y, specimen):
         return
-    why = "pads that stand unevenly turn pitch into roll" if coupled(base.campaign.specimen) else "it moves across"
-    judged = "judged before the motion only" if "roll" in base.problem.relations else "not judged"
+    why = "pads that stand unevenly turn pitch into roll" if coupled(specimen) else "it moves across"
+    judged = "judged before the motion only" if "roll" in base.objective.relations else "not judged"
     yield "roll balance", f"{why}, and what turns the girder then is not all measured: it is {judged}"
 
 
 def _balances_not_judged(state: Search, faults: Sequence[SampleFault]) -> str:
     """Say which balances no fitted run shows for want of channels that show nothing; "" where there are none."""
     dead = dict.fromkeys(name for fault in faults if fault.kind in _SHOW_NOTHING for name in fault.channels)
-    problem = state.base.problem
-    lost = [r for r in problem.relations if not any(problem.runs[i].judged[r].any() for i in problem.fitted)]
+    left, fitted = state.base.solution.residuals, state.base.objective.fitted
+    lost = [relation for relation in left.relations if not left.count(relation, fitted)]
     if not dead or not lost:
         return ""
     return f"{', '.join(dead)} shows nothing, and without it no fitted run shows the balance of {', '.join(lost)}"
@@ -175,7 +176,7 @@ def _lacking(runs: Sequence[Run]) -> list[str]:
 def _rests_not_given(state: Search) -> Iterator[tuple[str, str]]:
     runs = state.base.campaign.runs
     unknown = [b.name for a, b in pairwise(runs) if b.rest_before is None and not _goes_on(a, b)]
-    fading = {t.effect.name for t in (*state.base.problem.terms, *state.terms) if "rest" in t.effect.hooks}
+    fading = {t.effect.name for t in (*state.base.objective.terms, *state.terms) if "rest" in t.effect.hooks}
     if unknown and fading:
         more = f" and {len(unknown) - _NAMED} more" if len(unknown) > _NAMED else ""
         named = f"{', '.join(unknown[:_NAMED])}{more}"
@@ -190,13 +191,13 @@ def _goes_on(before: Run, after: Run) -> bool:
 
 
 def _nothing_held_out(base: BaseFit) -> Iterator[tuple[str, str]]:
-    if not base.problem.held_out:
+    if not base.objective.held_out:
         yield "verdict", "no run is held out, so what was found was judged on the runs that were fitted"
 
 
 def _gauges_not_tried(state: Search) -> Iterator[tuple[str, str]]:
     """Name the channels that were recorded and on which no fault was a candidate; "_raw" ones only serve others."""
-    terms = (*state.base.problem.terms, *state.terms)
+    terms = (*state.base.objective.terms, *state.terms)
     tried = {target for t in terms if t.effect.port == "gauge" for target in t.targets}
     recorded = dict.fromkeys(c for r in state.base.campaign.runs for c in r.record.channels)
     alike: dict[str, list[str]] = {}
@@ -206,7 +207,7 @@ def _gauges_not_tried(state: Search) -> Iterator[tuple[str, str]]:
             alike.setdefault(c.replace(f"{kind}_{place}_", f"{kind}_*_", 1) if place else c, []).append(c)
     if alike:
         named = ", ".join(together if len(own) > 1 else own[0] for together, own in alike.items())
-        but = ", but for rails and lost samples" if state.base.problem.specimen.free else ""
+        but = ", but for rails and lost samples" if state.base.objective.specimen.free else ""
         yield f"faults of {named}", f"never tried{but}"
 
 
@@ -242,8 +243,8 @@ def _failure(base: BaseFit, term: Term) -> str:
     """Say what keeps a candidate from being evaluated at its typical size; "" where nothing does."""
     keyed = {f"{term.label}.{k}": v for k, v in term.effect.typical().items()}
     try:
-        found = base.problem.adding(term).residuals({**base.solution.values, **keyed}, fitted_only=True)
+        found = base.objective.adding(term).residuals({**base.solution.values, **keyed}, fitted_only=True)
     except SlipwiseError as error:
         return f"it could not be evaluated: {error}"
-    stacked = found.stacked(base.problem.fitted, base.problem.relations)
+    stacked = found.stacked(base.objective.fitted)
     return "" if np.isfinite(stacked).all() else "what it says of these runs is no finite number"

@@ -46,7 +46,7 @@ def at_full_size(
         parameters and the residual (m,) with them, base not projected out; None where nothing helps.
     """
     sizes, whole = _nonlinear_strengths(term.effect, shape, adds_yaw), float(residual @ residual)
-    samples = thinning(base.problem) * len(residual)
+    samples = thinning(base.objective) * len(residual)
     if not sizes or whole < (_MODERATE_RESIDUAL if promising else _LARGE_RESIDUAL) * samples:
         return None
     best: tuple[float, dict[str, float], Array] | None = None

@@ -29,9 +29,9 @@ def leading_pair(
     pool = screened[:_PAIR_POOL]
     if len(pool) < 2:
         return None
-    problem = base.problem
-    project = projector(on_screen(problem, base.solution.inside))
-    residual = project(on_screen(problem, base.solution.residuals.stacked(problem.fitted, problem.relations)))
+    objective = base.objective
+    project = projector(on_screen(objective, base.solution.inside))
+    residual = project(on_screen(objective, base.solution.residuals.stacked(objective.fitted)))
     columns = np.stack([s.column for s in pool], axis=1)
     gram, right = columns.T @ columns, -(columns.T @ residual)
     gains: dict[tuple[int, int], float] = {}

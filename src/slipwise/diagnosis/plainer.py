@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from slipwise.diagnosis.hypothesis import Hypothesis, at_limit
 from slipwise.diagnosis.initial_guesses import Start
-from slipwise.diagnosis.search_state import Search, tried_before, try_one
+from slipwise.diagnosis.search_state import Search, tried_before, tried_or_fitted
 from slipwise.evidence.acceptance import is_kept, least_drop
 from slipwise.relations.parameters import Term
 
@@ -35,8 +35,10 @@ def with_plainer(state: Search, asked: Sequence[Start]) -> list[Start]:
     return out
 
 
-def plainest(state: Search, found: Hypothesis) -> Hypothesis:
+def plainest(state: Search, found: Hypothesis) -> tuple[Search, Hypothesis]:
     """Return a hypothesis with plainer effects in the place of those that explain no more; fitted if they were not.
+
+    Before it stands the state of the search that keeps what was fitted.
 
     Args:
         state: of a search.
@@ -47,10 +49,10 @@ def plainest(state: Search, found: Hypothesis) -> Hypothesis:
         rest = found.without(term)
         for plain in _plainer(state, term, rest):
             starts = {plain.label: _start(state, plain)}
-            other = (tried_before(state, [*rest, plain]) or [try_one(state, [*rest, plain], starts, found)])[0]
+            state, other = tried_or_fitted(state, [*rest, plain], starts, found)
             if not is_kept(origin, other.summary, found.summary, least_drop([term])) and not at_limit(other):
                 return plainest(state, other)
-    return found
+    return state, found
 
 
 def holds_as_limit(found: Hypothesis, plain: Hypothesis) -> bool:

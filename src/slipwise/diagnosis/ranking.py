@@ -44,13 +44,13 @@ def best_of(origin: Hypothesis, tried: Sequence[Hypothesis]) -> Hypothesis | Non
 
 def _off_rated(found: Hypothesis) -> float:
     """Return how far a hypothesis takes the girder's mass from its rated value [1]."""
-    rated = found.problem.specimen.mass
+    rated = found.objective.specimen.mass
     return abs(np.log(found.solution.values.get("rig.mass", rated) / rated))
 
 
 def has_delay_for_filter(found: Hypothesis) -> bool:
     """Return whether a hypothesis has a filter that takes nothing the logger's own let through: a delay by its name."""
-    run = found.problem.runs[0]
+    run = found.objective.run(0)
     highest = passed(run.filtered, run.dt)
     return any(is_delay(t.effect, found.values_of(t), highest) for t in found.terms)
 

@@ -24,8 +24,8 @@ _PROMISED = 0.5
 
 def row_weights(found: Hypothesis) -> Array:
     """Return the weight (q,) of every screened row: one over the level that is left in its relation."""
-    levels = {r: max(found.summary.fitted_level(r), FLOOR) for r in found.problem.relations}
-    return np.concatenate([np.full(rows, levels[r] ** -0.5) for r, rows in rows_of(found.problem).items()])
+    levels = {r: max(found.summary.fitted_level(r), FLOOR) for r in found.objective.relations}
+    return np.concatenate([np.full(rows, levels[r] ** -0.5) for r, rows in rows_of(found.objective).items()])
 
 
 def rescreen(screened: Sequence[Screened], before: Hypothesis) -> list[Screened]:
@@ -87,15 +87,15 @@ def worth_refitting(found: Sequence[Screened], before: Hypothesis, most: int, *,
 
 def _beside(before: Hypothesis, weights: Array) -> tuple[Array, Array]:
     """Return a basis of what a hypothesis' numbers can do, and what is left beside it, both weighed."""
-    solution, problem = before.solution, before.problem
-    basis = basis_of(on_screen(problem, solution.inside) * weights[:, None])
-    left = on_screen(problem, solution.residuals.stacked(problem.fitted, problem.relations))
+    solution, objective = before.solution, before.objective
+    basis = basis_of(on_screen(objective, solution.inside) * weights[:, None])
+    left = on_screen(objective, solution.residuals.stacked(objective.fitted))
     return basis, away_from(basis, weights * left)
 
 
 def _relations(before: Hypothesis) -> tuple[NDArray[np.int64], Array]:
     """Return where each relation begins among the screened rows, and how many samples of it are judged."""
-    rows = rows_of(before.problem)
+    rows = rows_of(before.objective)
     begins = np.concatenate([[0], np.cumsum([*rows.values()])[:-1]])
     return begins, np.array([before.summary.counts[r][0] for r in rows])
 

@@ -114,12 +114,12 @@ class Diagnosis(Drawn, Tabular):
     @property
     def held_out(self) -> bool:
         """Whether the campaign has a run that no fit has seen."""
-        return bool(self.search.base.problem.held_out)
+        return bool(self.search.base.objective.held_out)
 
     @property
     def model(self) -> Model:
         """The model with the named effects, fitted."""
-        return self.final.problem.model(self.final.solution.values)
+        return self.final.objective.model(self.final.solution.values)
 
     @property
     def discriminating_tests(self) -> tuple[str, ...]:
@@ -156,7 +156,7 @@ class Diagnosis(Drawn, Tabular):
         """The verdict in one sentence."""
         chance = f"{100 * self.verdict.probability:.0f} %"
         names = " and ".join(self.verdict.effects)
-        error = "held-out error" if self.search.base.problem.held_out else "error on the runs that were fitted"
+        error = "held-out error" if self.search.base.objective.held_out else "error on the runs that were fitted"
         fall = f"{error} {_short(self.recorded_error)} -> {_short(self.final_error)} times the noise floor"
         match self.verdict.kind:
             case "complete":

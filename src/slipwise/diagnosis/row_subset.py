@@ -7,39 +7,32 @@ much; its rows are scaled so that sums of squares stay what they are. What is fo
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
 
 Array = NDArray[np.float64]
 #: Rows on which hundreds of columns may stand.
 _MOST = 400_000
 
 
-def thinning(problem: Problem) -> int:
+def thinning(objective: Objective) -> int:
     """Return the whole number of samples of which one is screened: 1 for an ordinary campaign."""
-    rows = sum(problem.runs[i].judged[r].size for r in problem.relations for i in problem.fitted)
-    return -(-rows // _MOST)
+    return -(-sum(of.value.size for of in objective.layout.blocks(runs=objective.fitted)) // _MOST)
 
 
-def on_screen(problem: Problem, stacked: Array) -> Array:
+def on_screen(objective: Objective, stacked: Array) -> Array:
     """Return the screened rows of stacked residuals or slopes of the fitted runs, (m, ...) -> (q, ...), scaled."""
-    step = thinning(problem)
+    step = thinning(objective)
     if step == 1:
         return stacked
-    rows, start = list[NDArray[np.intp]](), 0
-    for relation in problem.relations:
-        for i in problem.fitted:
-            shape = problem.runs[i].judged[relation].shape
-            size = int(np.prod(shape, dtype=np.int64))
-            rows.append(start + np.arange(size).reshape(shape)[::step].ravel())
-            start += size
+    every = objective.layout.rows(objective.fitted)
+    rows = [np.arange(at.start, at.stop).reshape(of.value.shape)[::step].ravel() for at, of in every]
     return stacked[np.concatenate(rows)] * np.sqrt(step)
 
 
-def rows_of(problem: Problem) -> dict[str, int]:
+def rows_of(objective: Objective) -> dict[str, int]:
     """Return how many rows of each relation are screened, in the order in which they are stacked."""
-    step = thinning(problem)
+    step = thinning(objective)
     out = dict[str, int]()
-    for relation in problem.relations:
-        judged = [problem.runs[i].judged[relation] for i in problem.fitted]
-        out[relation] = sum(j[::step].size for j in judged)
+    for of in objective.layout.blocks(runs=objective.fitted):
+        out[of.relation] = out.get(of.relation, 0) + of.value[::step].size
     return out

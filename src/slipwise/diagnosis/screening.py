@@ -73,9 +73,9 @@ def screen(base: BaseFit, terms: Sequence[Term], progress: Callable[[float], Non
 
 def _screened_base(base: BaseFit) -> tuple[Array, Callable[[Array], Array]]:
     """Return the screened residual (q,) of a base fit, and the projection away from what its numbers can do."""
-    problem, solution = base.problem, base.solution
-    left = on_screen(problem, solution.residuals.stacked(problem.fitted, problem.relations))
-    return left, projector(on_screen(problem, solution.inside))
+    objective, solution = base.objective, base.solution
+    left = on_screen(objective, solution.residuals.stacked(objective.fitted))
+    return left, projector(on_screen(objective, solution.inside))
 
 
 def _numbers(found: Screened | None) -> dict[str, Any] | None:
@@ -131,8 +131,8 @@ def _at_shapes(
     project: Callable[[Array], Array],
 ) -> list[Screened]:  # fmt: skip
     """Return what a candidate could explain at every point of a grid where it can be evaluated."""
-    problem = base.problem
-    adds_yaw = problem.adding(term).kinematics.makes_yaw != problem.kinematics.makes_yaw
+    objective = base.objective
+    adds_yaw = objective.adding(term).makes_yaw != objective.makes_yaw
     if adds_yaw:  # yaw that is made from measured forces is noise as well
         left = residual_with(base, term, term.effect.neutral())
     out: list[Screened] = []

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from slipwise.diagnosis.hypothesis import Hypothesis, polished, refit
-from slipwise.diagnosis.jacobian_memory import ROOM, light, lighten, size_of, whole
+from slipwise.diagnosis.jacobian_memory import ROOM, light, lightened, size_of, whole
 from slipwise.diagnosis.screening import Screened
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import Solution
@@ -25,7 +25,7 @@ class Search:
         base: the base fit.
         cannot: effects that the campaign cannot test, with the reason.
         terms: every candidate, those that screening sees nothing in included.
-        tried: every hypothesis that was refitted; all states of a selection share the list, `try_all` adds to it.
+        tried: every hypothesis that was refitted.
         path: base first, then the best hypothesis with one, two ... effects.
         screened: candidates by their score against the base.
         wrong_sign: candidates whose strength has the wrong sign where the base's residual is explained best.
@@ -36,7 +36,7 @@ class Search:
     base: BaseFit
     cannot: Mapping[str, str]
     terms: Sequence[Term]
-    tried: list[Hypothesis]
+    tried: tuple[Hypothesis, ...]
     path: tuple[Hypothesis, ...]
     screened: Sequence[Screened] = ()
     wrong_sign: Sequence[Screened] = ()
@@ -68,9 +68,12 @@ def _as_tried(state: Search) -> list[Hypothesis]:
     return [state.path[0], *(kept.get(id(h.summary), h) for h in state.path[1:])]
 
 
-def try_one(state: Search, terms: Sequence[Term], starts: dict, before: Hypothesis | None = None) -> Hypothesis:
-    """Refit one hypothesis; arguments as `refit`."""
-    return try_all(state, [(terms, starts)], before)[0]
+def try_one(
+    state: Search, terms: Sequence[Term], starts: dict, before: Hypothesis | None = None
+) -> tuple[Search, Hypothesis]:
+    """Refit one hypothesis; arguments as `refit`, answer as `try_all`."""
+    state, found = try_all(state, [(terms, starts)], before)
+    return state, found[0]
 
 
 def try_all(
@@ -78,23 +81,26 @@ def try_all(
     asked: Sequence[tuple[Sequence[Term], dict]],
     before: Hypothesis | None = None,
     promising: Callable[[Hypothesis], bool] | None = None,
-) -> list[Hypothesis]:
+) -> tuple[Search, list[Hypothesis]]:
     """Refit hypotheses of one kind, side by side; only the best of them are worth a fit to the end.
 
     Args:
-        state: of the search, which keeps them.
+        state: of the search.
         asked: terms and starting values of each.
         before: as of `refit`.
         promising: tells which of the best are; all, if not given.
+
+    Returns:
+        the state that keeps them, and the hypotheses, best first.
     """
-    origin, problem = state.path[0].summary, state.base.problem
+    origin, objective = state.path[0].summary, state.base.objective
     before = before and whole(before)
     # what takes longest first, or one core waits for it
     asked = sorted(asked, key=lambda a: -sum(len(t.effect.parameters) for t in a[0]))
     # of a long campaign only what is fitted to the end has slopes: many at once would fill the memory
     keep, takes = len(asked) * size_of(state.base.solution) <= ROOM, state.base.solution.fit_memory
     fits = on_every_core(lambda i: _fit(refit(state.base, *asked[i], before), keep=keep), len(asked), memory=takes)
-    found = [Hypothesis(tuple(a[0]), problem.adding(*a[0]), *fit) for a, fit in zip(asked, fits, strict=True)]
+    found = [Hypothesis(tuple(a[0]), objective.adding(*a[0]), *fit) for a, fit in zip(asked, fits, strict=True)]
     found.sort(key=lambda h: -score(origin, h.summary))
     best: dict[tuple[str, ...], int] = {}
     for place, h in enumerate(found):
@@ -102,10 +108,9 @@ def try_all(
     ended = [place for place in list(best.values())[:_POLISHED] if promising is None or promising(found[place])]
     fits = on_every_core(lambda i: _fit(polished(found[ended[i]])), len(ended), memory=takes)
     for place, fit in zip(ended, fits, strict=True):
-        found[place] = Hypothesis(found[place].terms, found[place].problem, *fit)
-    state.tried.extend(found)
-    lighten(state.tried, lambda h: score(origin, h.summary))
-    return found
+        found[place] = Hypothesis(found[place].terms, found[place].objective, *fit)
+    tried = lightened([*state.tried, *found], lambda h: score(origin, h.summary))
+    return replace(state, tried=tried), found
 
 
 def _fit(found: Hypothesis, *, keep: bool = True) -> tuple[Solution, ResidualSummary]:
@@ -113,9 +118,17 @@ def _fit(found: Hypothesis, *, keep: bool = True) -> tuple[Solution, ResidualSum
     return found.solution if keep else light(found.solution), found.summary
 
 
-def left_with(state: Search, rest: Sequence[Term], whole: Hypothesis) -> Hypothesis:
+def left_with(state: Search, rest: Sequence[Term], whole: Hypothesis) -> tuple[Search, Hypothesis]:
     """Return the hypothesis of the rest of a whole: as it was fitted before, or from where the whole ended."""
-    return (tried_before(state, rest) or [try_one(state, rest, {}, whole)])[0]
+    return tried_or_fitted(state, rest, {}, whole)
+
+
+def tried_or_fitted(
+    state: Search, terms: Sequence[Term], starts: dict, before: Hypothesis
+) -> tuple[Search, Hypothesis]:
+    """Return the hypothesis of some terms as it was fitted before, or refit it; arguments and answer as `try_one`."""
+    known = tried_before(state, terms)
+    return (state, known[0]) if known else try_one(state, terms, starts, before)
 
 
 def tried_before(state: Search, terms: Sequence[Term]) -> list[Hypothesis]:
@@ -127,4 +140,4 @@ def tried_before(state: Search, terms: Sequence[Term]) -> list[Hypothesis]:
 def as_base(state: Search, found: Hypothesis) -> BaseFit:
     """Return a hypothesis as the base of what is to be added to it."""
     found = whole(found)
-    return replace(state.base, problem=found.problem, free=found.solution.free, solution=found.solution)
+    return replace(state.base, objective=found.objective, free=found.solution.free, solution=found.solution)

@@ -66,11 +66,11 @@ def residual_with(
         values: of its parameters.
         moved: base parameters that are not as the base fit left them.
     """
-    problem = base.problem.adding(term)
+    objective = base.objective.adding(term)
     keyed = {f"{term.label}.{k}": v for k, v in values.items()}
     try:
-        found = problem.residuals({**base.solution.values, **(moved or {}), **keyed}, fitted_only=True)
+        found = objective.residuals({**base.solution.values, **(moved or {}), **keyed}, fitted_only=True)
     except SlipwiseError:
         return None
-    stacked = on_screen(problem, found.stacked(problem.fitted, problem.relations))
+    stacked = on_screen(objective, found.stacked(objective.fitted))
     return stacked if np.isfinite(stacked).all() else None

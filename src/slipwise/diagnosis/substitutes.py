@@ -31,7 +31,7 @@ def substitutes(whole: Hypothesis, name: str, screened: Sequence[Screened]) -> l
     if stays.all():
         return []
     weights = row_weights(whole)
-    slopes = on_screen(whole.problem, solution.jacobian)
+    slopes = on_screen(whole.objective, solution.jacobian)
     basis = basis_of(slopes[:, stays] * weights[:, None])
     absent = {f"{t.label}.{p.name}": float(p.neutral or 0.0) for t in terms for p in strengths(t.effect)}
     own = [f for f, kept in zip(solution.free, stays, strict=True) if not kept]

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.evidence.left_out import motions
 from slipwise.noise.independent_samples import SHORTEST_BLOCK
 from slipwise.relations.run_data import FitRun
+from slipwise.relations.table import Block
 
 Array = NDArray[np.float64]
 #: Bins of a curve and of each side of a surface.
@@ -86,9 +86,9 @@ def leftover(found: Hypothesis, relations: tuple[str, ...] | None = None) -> Sur
         found: a fitted hypothesis.
         relations: which to look at; pads, girder and heave when not given.
     """
-    problem = found.problem
+    objective = found.objective
     best: Surface | None = None
-    for name in relations or tuple(r for r in ("pads", "girder", "heave") if r in problem.relations):
+    for name in relations or tuple(r for r in ("pads", "girder", "heave") if r in objective.relations):
         if found.summary.fitted_level(name) < 1.0 + LEVEL:
             continue
         for surface in _surfaces(found, name, _folds(found, name)):
@@ -104,10 +104,10 @@ def above_noise(found: Hypothesis) -> dict[str, float]:
     of the time is left out: a pad that lands leaves much for a moment, a law that is missing leaves it throughout.
     """
     out: dict[str, float] = {}
-    problem = found.problem
-    for relation in (r for r in problem.relations if r not in ("motion", "across")):
+    objective = found.objective
+    for relation in (r for r in objective.relations if r not in ("motion", "across")):
         over = max(_usual_level(found, relation) - max(_NOISE, pure_error(found, relation)), 0.0)
-        level = float(np.median(np.concatenate([np.ravel(problem.sigmas[relation][i]) for i in problem.fitted])))
+        level = float(np.median(np.concatenate([np.ravel(of.sigma) for of in _fitted(found, relation)])))
         out[relation] = float(np.sqrt(over) * level / max(_size(found, relation), 1e-30))
     return out
 
@@ -115,11 +115,10 @@ def above_noise(found: Hypothesis) -> dict[str, float]:
 def _usual_level(found: Hypothesis, relation: str) -> float:
     """Return the mean squared residual of the blocks of time without the worst tenth [noise variance]."""
     blocks: list[tuple[float, int]] = []
-    for i in found.problem.fitted:
-        run, part = found.problem.runs[i], found.solution.residuals.parts[relation][i]
-        edges = np.arange(0, len(part), max(1, round(SHORTEST_BLOCK * run.scales.time / run.dt)))
-        squares = np.add.reduceat((part**2).reshape(len(part), -1).sum(axis=1), edges)
-        counts = np.add.reduceat(run.judged[relation].reshape(len(part), -1).sum(axis=1), edges)
+    for of in _fitted(found, relation):
+        edges = np.arange(0, len(of.time), max(1, round(SHORTEST_BLOCK * found.objective.scales.time / of.dt)))
+        squares = np.add.reduceat((of.columns**2).sum(axis=1), edges)
+        counts = np.add.reduceat(of.mask.reshape(len(of.time), -1).sum(axis=1), edges)
         blocks += [(float(s), int(c)) for s, c in zip(squares, counts, strict=True) if c]
     blocks.sort(key=lambda b: b[0] / b[1])
     kept = blocks[: max(1, round(_USUAL * len(blocks)))]
@@ -131,13 +130,13 @@ def pure_error(found: Hypothesis, relation: str) -> float:
 
     Source: Draper, Smith (1998), Applied Regression Analysis, section 2.1 (pure error).
     """
-    parts, total, count = found.solution.residuals.parts[relation], 0.0, 0
-    for group in motions(found.problem):
+    total, count = 0.0, 0
+    for group in found.solution.residuals.by_motion(relation).values():
         for one, other in zip(group[:-1], group[1:], strict=True):
-            if parts[one].shape != parts[other].shape:
+            if one.value.shape != other.value.shape:
                 continue
-            judged = found.problem.runs[one].judged[relation] & found.problem.runs[other].judged[relation]
-            total += 0.5 * float(np.sum((parts[one] - parts[other])[judged] ** 2))
+            judged = one.mask & other.mask
+            total += 0.5 * float(np.sum((one.value - other.value)[judged] ** 2))
             count += int(np.count_nonzero(judged))
     return total / count if count else 0.0
 
@@ -147,13 +146,15 @@ def structured(surface: Surface | None) -> bool:
     return surface is not None and surface.explained > SHARE and surface.level > LEVEL
 
 
-def _samples(found: Hypothesis, relation: str, place: int) -> dict[str, Array]:
+def _fitted(found: Hypothesis, relation: str) -> list[Block]:
+    """Return what is left of a relation in the fitted runs."""
+    return found.solution.residuals.blocks(relation, found.objective.fitted)
+
+
+def _samples(found: Hypothesis, of: Block) -> dict[str, Array]:
     """Return residual, noise and states of one run's samples, each (m,)."""
-    run = found.problem.runs[place]
-    part = found.solution.residuals.parts[relation][place]
-    sigma = np.broadcast_to(found.problem.sigmas[relation][place], part.shape)
-    states = states_of(run)
-    kept = run.judged[relation]
+    part, sigma, kept = of.value, of.noise, of.mask
+    states = states_of(found.objective.run(of.run))
     if kept.ndim == 2:
         wide = {k: np.broadcast_to(v if v.ndim == 2 else v[:, None], part.shape)[kept] for k, v in states.items()}
         return {"left": part[kept], "sigma": sigma[kept], **wide}
@@ -196,7 +197,7 @@ def _surfaces(found: Hypothesis, relation: str, folds: list[dict[str, Array]]) -
 
 def _size(found: Hypothesis, relation: str) -> float:
     """Return rms about its mean of what a balance is made of: friction, load, or acceleration of the girder [SI]."""
-    parts = [_made_of(found.problem.runs[i], relation) for i in found.problem.fitted]
+    parts = [_made_of(run, relation) for run in found.objective.fitted_runs]
     return float(np.sqrt(np.mean(np.concatenate([((p - p.mean(axis=0)) ** 2).ravel() for p in parts]))))
 
 
@@ -208,8 +209,8 @@ def _made_of(run: FitRun, relation: str) -> Array:
 
 def _folds(found: Hypothesis, relation: str) -> list[dict[str, Array]]:
     """Return the samples of each motion; those of every other eighth of the time where there is one motion only."""
-    problem = found.problem
-    groups = [_joined([_samples(found, relation, i) for i in group]) for group in motions(problem)]
+    by_motion = found.solution.residuals.by_motion(relation).values()
+    groups = [_joined([_samples(found, of) for of in group]) for group in by_motion]
     if len(groups) > 1:
         return groups
     time = groups[0]["time"]

@@ -13,7 +13,7 @@ from slipwise.diagnosis.indistinguishable import alike_pairs, distinguishable, k
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import Surface, leftover, structured
 from slipwise.diagnosis.unknown_surface import above_noise as left_above_noise
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
 from slipwise.evidence.acceptance import LEAST
 from slipwise.evidence.calibration import calibration
 from slipwise.evidence.decision import EVEN_ODDS, decide, remains
@@ -109,7 +109,7 @@ def decide_verdict(state: Search, found: Sequence[Finding], limits: Materiality)
         every = dict.fromkeys([*decided.named, *(n for f, _ in rivals for n in _in_place(state, f))])
         return replace(verdict, effects=tuple(every), rivals=tuple(rival.hypothesis for _, rival in rivals))
     for pair, unless in alike_pairs(known_effects(state).values()).items():
-        if len(pair & set(decided.named)) == 1 and not distinguishable(final.problem, unless):
+        if len(pair & set(decided.named)) == 1 and not distinguishable(final.objective, unless):
             every = (*sorted(pair), *(n for n in decided.named if n not in pair))
             return replace(verdict, kind="ambiguous", effects=every)
     return verdict
@@ -154,11 +154,11 @@ def evidence_of_rest(origin: Hypothesis, final: Hypothesis, surface: Surface | N
 
 def _confirmed(state: Search, probability: float, rest: Mapping[str, float]) -> float:
     """Return the probability of a verdict, less where the model leaves much or no held-out run has confirmed it."""
-    problem = state.final.problem
-    judged = _testable(problem) or problem.fitted
+    objective = state.final.objective
+    judged = _testable(objective) or objective.fitted
     if state.final.terms and leaves_much(*_worst_errors(state, judged)):
         probability = min(probability, calibration().family(rest))
-    return probability if problem.held_out else _UNCONFIRMED * probability
+    return probability if objective.held_out else _UNCONFIRMED * probability
 
 
 def leaves_much(before: float, after: float) -> bool:
@@ -178,10 +178,10 @@ def _worst_errors(state: Search, runs: Sequence[int]) -> tuple[float, float]:
     return float(np.sqrt(before)), float(np.sqrt(after))
 
 
-def _testable(problem: Problem) -> list[int]:
+def _testable(objective: Objective) -> list[int]:
     """Return the places of the held-out runs that are not beyond what was fitted."""
-    beyond = not_testable(problem)
-    return [i for i in problem.held_out if i not in beyond]
+    beyond = not_testable(objective)
+    return [i for i in objective.held_out if i not in beyond]
 
 
 def confirmed(state: Search) -> bool | None:
@@ -193,7 +193,7 @@ def confirmed(state: Search) -> bool | None:
     """
     base, found = state.path[0], state.final
     origin, final = base.summary, found.summary
-    runs = _testable(found.problem)
+    runs = _testable(found.objective)
     improved = [r for r in origin.fitted if relative_drop(origin, final, r) >= LEAST.law and origin.counts[r][1]]
     if not found.terms or not improved or not runs:
         return None

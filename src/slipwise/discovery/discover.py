@@ -9,15 +9,13 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import numpy as np
-
 from slipwise.campaign import Campaign
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.hypothesis_fit import as_fit
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.law import Law
-from slipwise.discovery.law_problem import FittedLaw, LawProblem
+from slipwise.discovery.law_objective import FittedLaw, LawObjective
 from slipwise.discovery.law_summary import told_law
 from slipwise.discovery.levels import excess, held_out_level, level
 from slipwise.discovery.result import Discovery
@@ -27,7 +25,7 @@ from slipwise.effects import RIG_MOTION, Effect
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import intervals
 from slipwise.estimation.least_squares import Solution, slopes_of, solve, with_slopes
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
 from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
 from slipwise.noise.level import is_at_floor
@@ -150,41 +148,42 @@ def diagnose_with_law(
 
 def _from(base: BaseFit) -> _Answer:
     """Search from one fit on."""
-    problem, solution = base.problem, base.solution
+    objective, solution = base.objective, base.solution
     if len(solution.jacobian) == 0 or solution.jacobian.shape[1] != len(solution.free):
-        solution = with_slopes(problem, solution)
-    whole = excess(problem, solution)
-    now, here = LawProblem(pad_instants(problem, solution.values), problem, ()), solution
+        solution = with_slopes(objective, solution)
+    whole = excess(objective, solution)
+    now, here = LawObjective(pad_instants(objective, solution.values), objective, ()), solution
     leaders: list[_Leader] = []
     organised: Candidate | None = None
     looked_at: tuple[Candidate, ...] = ()
     acted: set[str] = set()
     for number in range(_MOST_LAWS):
-        if all(is_at_floor(level(problem, here, r, problem.fitted)) for r in problem.relations):
+        if all(is_at_floor(level(objective, here, r, objective.fitted)) for r in objective.relations):
             break
         found = find_law(now, here, base.model, _name(number))  # a label of its own, whatever has been dropped
         organised = organised or (found.candidates[0] if found.candidates else None)
         looked_at = looked_at or _looked_at(found.candidates)
-        leader, tied = _leader(found, problem, whole)
+        leader, tied = _leader(found, objective, whole)
         if leader is None or not _earned(leader, here, whole, first=not leaders):
             break
-        leader = replace(leader, solution=with_slopes(leader.problem, leader.solution))
+        leader = replace(leader, solution=with_slopes(leader.objective, leader.solution))
         leaders.append((leader, tied, (here.cost - leader.solution.cost) / max(whole, 1e-9)))
         leaders = _without_needless(leaders, whole)
         acted = {f.law.match.candidate.port.relation for f, _, _ in leaders}
-        now, here = leaders[-1][0].problem, leaders[-1][0].solution
+        now, here = leaders[-1][0].objective, leaders[-1][0].solution
     cannot, start = tuple(_cannot_judge(now)), replace(base, solution=solution)
-    worst = max(sorted(acted) or problem.relations, key=lambda r: level(problem, solution, r, problem.fitted))
-    before = max(level(problem, solution, r, problem.fitted) for r in problem.relations)
+    worst = max(sorted(acted) or objective.relations, key=lambda r: level(objective, solution, r, objective.fitted))
+    before = max(level(objective, solution, r, objective.fitted) for r in objective.relations)
 
     def answer(kept: list[_Leader]) -> _Answer:
         end = kept[-1][0].solution if kept else solution
         fit = replace(base, free=end.free, solution=end)
         known = {i.key: i for i in intervals(fit).entries} if kept else {}
-        every = [told_law(replace(f, solution=end), tied, problem.fitted, share, known) for f, tied, share in kept]
+        every = [told_law(replace(f, solution=end), tied, objective.fitted, share, known) for f, tied, share in kept]
         laws = tuple(replace(law, name=_name(number)) for number, law in enumerate(every))
         share = (solution.cost - end.cost) / max(whole, 1e-9)
-        evidence = _evidence(laws, share, before if whole > 0.0 else 0.0, level(problem, end, worst, problem.fitted))
+        after = level(objective, end, worst, objective.fitted)
+        evidence = _evidence(laws, share, before if whole > 0.0 else 0.0, after)
         seen = share if laws or organised is None else organised.share
         return _Answer(start, end, laws, seen, evidence, organised, looked_at, worst, cannot)
 
@@ -196,13 +195,13 @@ def _from(base: BaseFit) -> _Answer:
 
 def _held_against_the_others(name: str, found: _Answer) -> Discovery:
     """Look at the held-out runs: what they do not bear is taken back."""
-    base, problem = found.base, found.base.problem
-    held_out = [{r: held_out_level(problem, x, r) for r in problem.relations} for x in (base.solution, found.end)]
-    errors = {r: (held_out[0][r], held_out[1][r]) for r in problem.relations}
+    base, objective = found.base, found.base.objective
+    held_out = [{r: held_out_level(objective, x, r) for r in objective.relations} for x in (base.solution, found.end)]
+    errors = {r: (held_out[0][r], held_out[1][r]) for r in objective.relations}
     borne = _evidence(found.laws, found.share, max(held_out[0].values()), held_out[1][found.worst])
     evidence = min(found.evidence, borne, key=_ORDER.index)
     nearest = None if evidence == "nothing" else found.organised
-    added = dict.fromkeys(t.effect.name for t in problem.terms)
+    added = dict.fromkeys(t.effect.name for t in objective.terms)
     return Discovery(
         campaign=name,
         evidence=evidence,
@@ -265,27 +264,27 @@ def _without_needless(leaders: list[_Leader], whole: float) -> list[_Leader]:
     for needless in leaders[:-1]:
         last, tied, share = leaders[-1]
         label = needless[0].law.label
-        laws = tuple(law for law in last.problem.laws if law.label != label)
-        problem = replace(last.problem, laws=laws).without_results()
+        laws = tuple(law for law in last.objective.laws if law.label != label)
+        objective = replace(last.objective, laws=laws).without_results()
         free = [f for f in last.solution.free if not f.key.startswith(f"{label}.")]
         values = {k: v for k, v in last.solution.values.items() if not k.startswith(f"{label}.")}
         slopes = slopes_of(last.solution)
         known = {f.key: slopes[f.key] for f in free}
-        solution = solve(problem, values, free, begin=known)
+        solution = solve(objective, values, free, begin=known)
         if solution.cost <= last.solution.cost + max(_TIE, _TIE_OF_ALL * whole):
-            solution = with_slopes(problem, solution)
+            solution = with_slopes(objective, solution)
             kept = [one for one in leaders[:-1] if one is not needless]
-            leaders = [*kept, (replace(last, problem=problem, solution=solution), tied, share + needless[2])]
+            leaders = [*kept, (replace(last, objective=objective, solution=solution), tied, share + needless[2])]
     return leaders
 
 
-def _leader(found: Found, problem: Problem, whole: float) -> tuple[FittedLaw | None, list[FittedLaw]]:
+def _leader(found: Found, objective: Objective, whole: float) -> tuple[FittedLaw | None, list[FittedLaw]]:
     """Return the law of fewest constants among those that tie, and the others of them."""
     fitted = different(found.fitted)
     if not fitted:
         return None, []
     best = fitted[0].solution
-    samples = sum(int(np.count_nonzero(problem.runs[i].judged[r])) for r in problem.relations for i in problem.fitted)
+    samples = sum(best.residuals.count(r, objective.fitted) for r in objective.relations)
     left = max(best.cost - samples, 0.0)
     within = best.cost + max(_TIE, _TIE_OF_LEFT * left, _TIE_OF_ALL * whole)
     tied = [f for f in fitted if f.solution.cost <= within]
@@ -298,7 +297,7 @@ def _constants(f: FittedLaw) -> int:
     return len(match.free) + bool(f.law.lag) + 2 * (len(match.forms) - 1) + (match.candidate.gate.name != "all")
 
 
-def _cannot_judge(here: LawProblem) -> list[str]:
+def _cannot_judge(here: LawObjective) -> list[str]:
     """Say which states hardly vary, and where there is one motion only."""
     free = here.plain.specimen.free
     there = {s.name for s in (*pad_states(here.every), *rig_states(here.every))}

@@ -7,7 +7,7 @@ from pathlib import Path
 import slipwise
 from slipwise.discovery.form import FUNCTIONS
 from slipwise.discovery.law import Law, LawConstant, Origin, with_names
-from slipwise.discovery.law_problem import STRENGTH, TIME_CONSTANT
+from slipwise.discovery.law_objective import STRENGTH, TIME_CONSTANT
 from slipwise.discovery.matching import constants_of
 from slipwise.discovery.states import UNITS
 from slipwise.effects import LAGGING, WrittenEffect, WrittenHook, write_effect

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from slipwise.discovery.form import FUNCTIONS, Form
-from slipwise.discovery.law_problem import FittedLaw
+from slipwise.discovery.law_objective import FittedLaw
 from slipwise.discovery.matching import name_of
 from slipwise.discovery.states import WORDS
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.law import Law, LawConstant, TiedForm
-from slipwise.discovery.law_problem import STRENGTH, TIME_CONSTANT, FittedLaw
+from slipwise.discovery.law_objective import STRENGTH, TIME_CONSTANT, FittedLaw
 from slipwise.discovery.matching import constants_of, place_of
 from slipwise.discovery.states import UNITS
 from slipwise.estimation.intervals import Interval
@@ -101,8 +101,7 @@ def _lags_by_nothing(other: FittedLaw, leader: FittedLaw) -> bool:
     mine, theirs = ([s.name for s in f.law.match.candidate.states] for f in (other, leader))
     if mine == theirs or [n.removeprefix("lagged_") for n in mine] != theirs:
         return False
-    runs = other.problem.plain.runs
-    return other.values.get(TIME_CONSTANT, other.law.lag) < min(runs[i].dt for i in other.problem.fitted)
+    return other.values.get(TIME_CONSTANT, other.law.lag) < min(run.dt for run in other.objective.plain.fitted_runs)
 
 
 def _ends(values: Sequence[np.ndarray], fitted: Sequence[int]) -> tuple[float, float]:

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.discovery.states import PadInstants, State
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
 from slipwise.relations.evaluation_times import Instants
 
 Array = NDArray[np.float64]
@@ -92,10 +92,10 @@ def gates(places: Sequence[tuple[float, float]], names: Sequence[str]) -> list[G
     return out
 
 
-def places_of(problem: Problem) -> list[tuple[float, float]]:
+def places_of(objective: Objective) -> list[tuple[float, float]]:
     """Return the places of the measured pads, from the middle [m]."""
-    specimen = problem.specimen
-    places = [specimen.pad_places[specimen.pads.index(p)] for p in problem.runs[0].pads]
+    specimen = objective.specimen
+    places = [specimen.pad_places[specimen.pads.index(p)] for p in objective.pads]
     return [(float(place[0]), float(place[1])) for place in places]
 
 
@@ -118,10 +118,10 @@ def pad_ports(here: PadInstants) -> list[Port]:
     ]
 
 
-def girder_ports(problem: Problem, values: Mapping[str, float], here: PadInstants) -> list[Port]:
+def girder_ports(objective: Objective, values: Mapping[str, float], here: PadInstants) -> list[Port]:
     """Return the ports of the girder's balance, a force against its motion being an acceleration the other way."""
-    mass = values.get("rig.mass", problem.specimen.mass)
-    stiffness = values.get("rig.buffer_stiffness", sum(problem.specimen.buffer_stiffness))
+    mass = values.get("rig.mass", objective.specimen.mass)
+    stiffness = values.get("rig.buffer_stiffness", sum(objective.specimen.buffer_stiffness))
     against = tuple(-np.tanh(s.velocity[:, :1, 0] / _SLOW) / mass for s in here.states)
     always = tuple(np.full((len(s.time), 1), -1.0 / mass) for s in here.states)
     spring = tuple(-stiffness * s.slip[:, :1, 0] / mass for s in here.states)

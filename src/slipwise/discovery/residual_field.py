@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 
 from slipwise.diagnosis.screening import basis_of
 from slipwise.estimation.least_squares import Solution
-from slipwise.estimation.objective import Problem
-from slipwise.evidence.left_out import motions
+from slipwise.estimation.objective import Objective
 
 Array = NDArray[np.float64]
 #: Every so manieth sample is screened; blocks into which a single motion is cut to be left out by turns.
@@ -56,46 +55,33 @@ class ResidualField:
         return columns - self.basis @ (self.basis.T @ columns)
 
 
-def residual_field(problem: Problem, solution: Solution, relation: str, thinned: int = _THINNED) -> ResidualField:
+def residual_field(objective: Objective, solution: Solution, relation: str, thinned: int = _THINNED) -> ResidualField:
     """Take the residual of a relation.
 
     Args:
-        problem: with its noise.
+        objective: with its noise.
         solution: of a fit, with slopes of its own.
-        relation: of the problem.
+        relation: of the objective.
         thinned: every so manieth sample is taken.
     """
     parts, sigmas, kept, group = [], [], [], []
     picked: dict[int, NDArray[np.bool_]] = {}
-    groups = {i: g for g, members in enumerate(motions(problem)) for i in members}
-    alone = len(set(groups.values())) == 1
-    for i in problem.fitted:
-        part = solution.residuals.parts[relation][i]
-        wide = part.reshape(len(part), -1)
-        judged = problem.runs[i].judged[relation].reshape(len(part), -1)
+    rows = [(at, of) for at, of in solution.residuals.rows(objective.fitted) if of.relation == relation]
+    alone = len({of.motion for _, of in rows}) == 1
+    for _, of in rows:
+        wide = of.columns
+        judged = of.mask.reshape(wide.shape)
         taken = np.zeros_like(judged)
         taken[::thinned] = judged[::thinned]
-        sigma = np.asarray(problem.sigmas[relation][i])
-        sigmas.append(np.broadcast_to(sigma[:, None] if sigma.ndim == 1 else sigma, wide.shape)[taken])
-        block = np.linspace(0.0, _BLOCKS * (1.0 - 1e-9), len(part)).astype(np.int64) if alone else groups[i]
+        sigmas.append(of.noise.reshape(wide.shape)[taken])
+        block = np.linspace(0.0, _BLOCKS * (1.0 - 1e-9), len(wide)).astype(np.int64) if alone else of.motion
         group.append(np.broadcast_to(np.reshape(block, (-1, 1)), wide.shape)[taken])
         parts.append(wide[taken])
         kept.append(taken.ravel())
-        picked[i] = taken
-    basis = basis_of(solution.inside[_rows(problem, solution, relation)][np.concatenate(kept)])
+        picked[of.run] = taken
+    basis = basis_of(solution.inside[rows[0][0].start : rows[-1][0].stop][np.concatenate(kept)])
     residual = np.concatenate(parts)
     return ResidualField(
         relation, residual - basis @ (basis.T @ residual), basis, np.concatenate(sigmas), np.concatenate(group),
-        picked, problem.runs[problem.fitted[0]].fine,
+        picked, objective.fitted_runs[0].fine,
     )  # fmt: skip
-
-
-def _rows(problem: Problem, solution: Solution, relation: str) -> slice:
-    """Return where a relation stands in the stacked residual of the fitted runs."""
-    first = 0
-    for name in problem.relations:
-        size = sum(solution.residuals.parts[name][i].size for i in problem.fitted)
-        if name == relation:
-            return slice(first, first + size)
-        first += size
-    raise KeyError(relation)

@@ -11,7 +11,7 @@ import numpy as np
 
 from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.form import forms
-from slipwise.discovery.law_problem import LEVER, FittedLaw, LawProblem, PlacedLaw, fit_law, fit_on
+from slipwise.discovery.law_objective import LEVER, FittedLaw, LawObjective, PlacedLaw, fit_law, fit_on
 from slipwise.discovery.matching import Match, matched
 from slipwise.discovery.ports import gates, girder_ports, girder_states, load_ports, opened, pad_ports, places_of
 from slipwise.discovery.residual_field import residual_field
@@ -47,11 +47,11 @@ class Found:
     fitted: tuple[FittedLaw, ...]
 
 
-def find_law(before: LawProblem, solution: Solution, model: Model, label: str) -> Found:
+def find_law(before: LawObjective, solution: Solution, model: Model, label: str) -> Found:
     """Search for one more law.
 
     Args:
-        before: the fit's problem, with laws that were found before.
+        before: the fit's objective, with laws that were found before.
         solution: of the fit, with slopes of its own.
         model: the user's model, whose law has rated numbers.
         label: of the law, for the keys of its numbers.
@@ -92,16 +92,16 @@ def _without_slopes(found: FittedLaw) -> FittedLaw:
 
 def _carried_by_its_fit(found: FittedLaw) -> FittedLaw:
     """Return a fit whose law multiplies what the fit makes of the base law's friction, not what its start made."""
-    problem, values = found.problem, found.solution.values
-    every = pad_instants(problem.plain, values)
+    objective, values = found.objective, found.solution.values
+    every = pad_instants(objective.plain, values)
     ports = [*pad_ports(every), *load_ports(every)]
-    if "girder" in problem.relations:
-        ports += girder_ports(problem.plain, values, every)
+    if "girder" in objective.relations:
+        ports += girder_ports(objective.plain, values, every)
     match = found.law.match
     port = next(p for p in ports if p.name == match.candidate.port.name)
     law = replace(found.law, match=replace(match, candidate=replace(match.candidate, port=port)))
     return replace(
-        found, law=law, problem=replace(problem, every=every, laws=(*problem.laws[:-1], law)).without_results()
+        found, law=law, objective=replace(objective, every=every, laws=(*objective.laws[:-1], law)).without_results()
     )
 
 
@@ -110,24 +110,23 @@ def _where_it_acts(found: FittedLaw) -> FittedLaw:
     key = f"{found.law.label}.{LEVER}"
     if key not in found.solution.values:
         return found
-    specimen = found.problem.plain.specimen
+    specimen = found.objective.plain.specimen
     places = [0.0] + [specimen.centre_height - specimen.buffer_height] * bool(specimen.buffer_stiffness)
     values = dict(found.solution.values)
     lever = values.pop(key)
     law = replace(found.law, lever=min(places, key=lambda p: abs(p - lever)), longest_lever=0.0)
     kept = [f.key != key for f in found.solution.free]
     free = tuple(f for f in found.solution.free if f.key != key)
-    problem = replace(found.problem, laws=(*found.problem.laws[:-1], law))
-    residuals = problem.residuals(values)
-    left = residuals.stacked(problem.fitted, problem.relations)
+    objective = replace(found.objective, laws=(*found.objective.laws[:-1], law))
+    residuals = objective.residuals(values)
     there = replace(
-        found.solution, free=free, values=values, residuals=residuals, cost=float(left @ left),
+        found.solution, free=free, values=values, residuals=residuals, cost=residuals.cost(objective.fitted),
         jacobian=found.solution.jacobian[:, kept],
     )  # fmt: skip
-    return replace(found, law=law, problem=problem, solution=there)
+    return replace(found, law=law, objective=objective, solution=there)
 
 
-def _placed(label: str, match: Match, here: LawProblem) -> PlacedLaw:
+def _placed(label: str, match: Match, here: LawObjective) -> PlacedLaw:
     runs = here.every.states
     if match.candidate.port.relation != "pads":
         everywhere = tuple(np.ones((len(s.time), 1)) for s in runs)
@@ -137,7 +136,7 @@ def _placed(label: str, match: Match, here: LawProblem) -> PlacedLaw:
     return PlacedLaw(label, match, tuple(opened(match.candidate.gate, places_of(here.plain), runs)))
 
 
-def _screened(here: LawProblem, start: Solution) -> list[Candidate]:
+def _screened(here: LawObjective, start: Solution) -> list[Candidate]:
     """Screen every relation with more than noise; shares are of what all of them leave."""
     states = pad_states(here.every)
     fields = [residual_field(here.plain, start, r) for r in ("pads", "girder", "heave") if r in here.relations]
@@ -147,7 +146,7 @@ def _screened(here: LawProblem, start: Solution) -> list[Candidate]:
     for field in fields:
         if field.relation == "pads":
             places = places_of(here.plain)
-            tried = gates(places, here.plain.runs[0].pads) if here.plain.specimen.free else []
+            tried = gates(places, here.plain.pads) if here.plain.specimen.free else []
             ports = pad_ports(here.every)
             found = screen_states(field, states, ports, tried, places, here.every.states)
             if max((c.share for c in found), default=0.0) < _OF_THE_RIG:
@@ -160,7 +159,7 @@ def _screened(here: LawProblem, start: Solution) -> list[Candidate]:
     return sorted(out, key=lambda c: -weighed(c))
 
 
-def _starts(before: LawProblem, solution: Solution, model: Model) -> list[Solution]:
+def _starts(before: LawObjective, solution: Solution, model: Model) -> list[Solution]:
     """Return the fit, and the fit with the base law's own numbers as rated where they are others."""
     own = {f"{u.label}.{name}": value for u in model.uses for name, value in u.numbers.items()}
     rated = {k: v for k, v in own.items() if k in solution.values}
@@ -170,8 +169,7 @@ def _starts(before: LawProblem, solution: Solution, model: Model) -> list[Soluti
     if values == solution.values:
         return [solution]
     residuals = before.residuals(values)
-    left = residuals.stacked(before.fitted, before.relations)
-    there = replace(solution, values=values, residuals=residuals, cost=float(left @ left))
+    there = replace(solution, values=values, residuals=residuals, cost=residuals.cost(before.fitted))
     return [solution, with_slopes(before, there)]
 
 

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from slipwise.campaign.rig_motion import rig_motion
 from slipwise.effects import DERIVED, LAGGING, PAD_INPUTS, RIG_MOTION
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
 from slipwise.relations.evaluation_times import Instants
-from slipwise.relations.pad_law import PadLaw
+from slipwise.relations.kinematics import CORRECTED, STATES
+from slipwise.relations.pad_stages import LAW_FORCES, LOGGED_FORCES, forces_along
 from slipwise.relations.run_data import FitRun, refined
 from slipwise.simulation.kernel import derived_states
 from slipwise.simulation.predict import PadForces
@@ -84,13 +85,13 @@ class PadInstants:
     area: float
 
 
-def pad_instants(problem: Problem, values: Mapping[str, float]) -> PadInstants:
+def pad_instants(objective: Objective, values: Mapping[str, float]) -> PadInstants:
     """Return all runs at the instants, as a fit's numbers have them."""
-    runs, _ = problem.kinematics.corrected(values)
-    states = problem.kinematics.states(values)
-    forces = PadLaw(problem.model(values)).at_instants(runs, states)
-    along = problem.along(values, states, forces)
-    return PadInstants(tuple(runs), tuple(states), tuple(forces), tuple(along), problem.specimen.pad_area)
+    evaluation = objective.evaluation(values)
+    states, forces = evaluation.of(STATES), evaluation.of(LAW_FORCES)
+    along = forces_along(evaluation.inputs(LOGGED_FORCES), states, forces)
+    runs = evaluation.of(CORRECTED).runs
+    return PadInstants(runs, tuple(states), tuple(forces), tuple(along), objective.specimen.pad_area)
 
 
 def pad_states(every: PadInstants) -> list[State]:

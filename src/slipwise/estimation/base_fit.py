@@ -11,7 +11,7 @@ from slipwise.campaign.scales import Scales, scales_of
 from slipwise.effects import catalogue, holding, scaled
 from slipwise.errors import InputError
 from slipwise.estimation.least_squares import Solution, jacobian, slopes_of, solve
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective, objective_of
 from slipwise.model import Model, base_model, use_of
 from slipwise.relations.force_offset import free_zero
 from slipwise.relations.parameters import (
@@ -53,14 +53,14 @@ class BaseFit:
     Attributes:
         campaign: that was fitted.
         model: where the fit began.
-        problem: relations and noise.
+        objective: relations and noise.
         free: base parameters.
         solution: the fit.
     """
 
     campaign: Campaign
     model: Model
-    problem: Problem
+    objective: Objective
     free: tuple[Free, ...]
     solution: Solution
 
@@ -86,22 +86,22 @@ def fit_base(
         InputError: a run lacks what every fit needs, or the runs are too short for one.
     """
     model = scaled_model(model or base_model(campaign.specimen), scales_of(campaign), typical=model is None)
-    problem = Problem(fit_runs(campaign, invalid), model.specimen, terms_of(model), watch=watch)
-    _refuse_too_short(problem, free_numbers(campaign, model, problem))
-    return _fitted(campaign, model, problem, start or {})
+    objective = objective_of(fit_runs(campaign, invalid), model.specimen, terms_of(model), watch=watch)
+    _refuse_too_short(objective, free_numbers(campaign, model, objective))
+    return _fitted(campaign, model, objective, start or {})
 
 
-def _refuse_too_short(problem: Problem, free: Sequence[Free]) -> None:
+def _refuse_too_short(objective: Objective, free: Sequence[Free]) -> None:
     """Refuse runs that do not hold as many samples as there are numbers to fit, and those of which none counts.
 
     Raises:
         InputError: there are too few samples by which a law can be judged.
     """
     reason = "samples near the ends of a run, in a gap and where a pad lifts do not count"
-    for run in problem.runs:
+    for run in objective.runs:
         if not run.states.usable.any():
             raise InputError(f"{run.name}: a law can be judged by no sample of it: {reason}; leave this run out")
-    judged = sum(_judged_samples(problem, problem.runs[i]) for i in problem.fitted)
+    judged = sum(_judged_samples(objective, run) for run in objective.fitted_runs)
     if judged < len(free):
         raise InputError(
             f"{len(free)} numbers are to be fitted, and a law can be judged by {judged} samples of the runs that are "
@@ -109,9 +109,9 @@ def _refuse_too_short(problem: Problem, free: Sequence[Free]) -> None:
         )
 
 
-def _judged_samples(problem: Problem, run: FitRun) -> int:
+def _judged_samples(objective: Objective, run: FitRun) -> int:
     """Count the samples of a run by which at least one relation is judged."""
-    masks = [run.judged[relation].reshape(len(run.time), -1).any(axis=1) for relation in problem.relations]
+    masks = [run.judged[relation].reshape(len(run.time), -1).any(axis=1) for relation in objective.relations]
     return int(np.count_nonzero(np.any(masks, axis=0)))
 
 
@@ -126,8 +126,8 @@ def fit_roughly(campaign: Campaign, invalid: InvalidSamples | None = None) -> Ma
         InputError: a run lacks what every fit needs.
     """
     model = scaled_model(base_model(campaign.specimen), scales_of(campaign), typical=True)
-    problem = Problem(fit_runs(campaign, invalid), model.specimen, terms_of(model))
-    return _roughly(problem, free_numbers(campaign, model, problem), {}).values
+    objective = objective_of(fit_runs(campaign, invalid), model.specimen, terms_of(model))
+    return _roughly(objective, free_numbers(campaign, model, objective), {})[1].values
 
 
 def scaled_model(model: Model, scales: Scales, *, typical: bool) -> Model:
@@ -158,50 +158,49 @@ def scaled_model(model: Model, scales: Scales, *, typical: bool) -> Model:
     return Model(specimen, tuple(uses))
 
 
-def free_numbers(campaign: Campaign, model: Model, problem: Problem) -> list[Free]:
+def free_numbers(campaign: Campaign, model: Model, objective: Objective) -> list[Free]:
     """Return what a fit of a model may change, with bounds that this campaign's strokes and gauges set."""
-    free = base_free(
-        model, balances=problem.balanced, logger_known=campaign.logger.known, length=problem.runs[0].scales.length
-    )
-    stroke = min(float(np.ptp(problem.runs[i].slip)) for i in problem.fitted)
-    most = max(_STICK_SHARE * stroke, 1e-7 * problem.runs[0].scales.length)
+    length, known = objective.scales.length, campaign.logger.known
+    free = base_free(model, balances=objective.balanced, logger_known=known, length=length)
+    stroke = min(float(np.ptp(run.slip)) for run in objective.fitted_runs)
+    most = max(_STICK_SHARE * stroke, 1e-7 * length)
     if not model.specimen.free and ZERO not in numbers_replaced(u.effect for u in model.uses):
-        zero = free_zero([problem.runs[i] for i in problem.fitted])
+        zero = free_zero(objective.fitted_runs)
         free += [zero] if zero else []
     return [
         replace(f, high=min(f.high, most), start=min(f.start, most)) if f.key == "rig.stick_length" else f for f in free
     ]
 
 
-def _roughly(problem: Problem, free: list[Free], start: Mapping[str, float]) -> Solution:
-    """Fit as a beginning, from these numbers where there are any; the problem is weighed by where it begins."""
+def _roughly(objective: Objective, free: list[Free], start: Mapping[str, float]) -> tuple[Objective, Solution]:
+    """Fit as a beginning, from these numbers where there are any, weighed by where it begins."""
     values = {f.key: start.get(f.key, f.start) for f in free}
-    problem.weigh(values)
-    return solve(problem, values, free, most=6, enough=_TO_WEIGH)
+    objective = objective.weigh(values)
+    return objective, solve(objective, values, free, most=6, enough=_TO_WEIGH)
 
 
-def _fitted(campaign: Campaign, model: Model, problem: Problem, start: Mapping[str, float]) -> BaseFit:
-    free = free_numbers(campaign, model, problem)
-    solution = _roughly(problem, free, start)
+def _fitted(campaign: Campaign, model: Model, objective: Objective, start: Mapping[str, float]) -> BaseFit:
+    free = free_numbers(campaign, model, objective)
+    objective, solution = _roughly(objective, free, start)
     weighed = solution.values
     for enough in _ENOUGH:
         weighed = solution.values
-        problem.weigh(weighed)
-        solution = solve(problem, weighed, free, most=8, enough=enough, rough=_ROUGH)
+        objective = objective.weigh(weighed)
+        solution = solve(objective, weighed, free, most=8, enough=enough, rough=_ROUGH)
     for _ in range(_MORE_ROUNDS):
         if not _resonance_moved(weighed, solution.values):
             break
-        again, weighed = problem.weighed_anew(solution.values), solution.values
+        again, weighed = objective.weigh(solution.values), solution.values
         if _cost(again, weighed) > (1.0 - _LOUDER) * solution.cost:
             break
-        problem = again
-        solution = solve(problem, weighed, free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
-    if _yaw_improves_fit(problem, solution):
-        problem = problem.with_yaw()
+        objective = again
+        solution = solve(objective, weighed, free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
+    if _yaw_improves_fit(objective, solution):
+        objective = objective.with_yaw()
         free.append(inertia_free(model.specimen, YAW_INERTIA))
         start = {**solution.values, free[-1].key: free[-1].start}
-        solution = solve(problem, start, free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
-    return BaseFit(campaign, model, problem, tuple(free), solution)
+        solution = solve(objective, start, free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
+    return BaseFit(campaign, model, objective, tuple(free), solution)
 
 
 def _resonance_moved(weighed: Mapping[str, float], found: Mapping[str, float]) -> bool:
@@ -212,27 +211,27 @@ def _resonance_moved(weighed: Mapping[str, float], found: Mapping[str, float]) -
     return abs(frequency) > _AT_REST * found["rig.pitch_damping"] or abs(damping) > _AT_REST
 
 
-def final_refit(problem: Problem, solution: Solution) -> tuple[Problem, Solution]:
+def final_refit(objective: Objective, solution: Solution) -> tuple[Objective, Solution]:
     """Fit on with the laws evaluated at twice the instants, weighed anew twice, and a stick that may be damped.
 
     What was weighed by another law is off near reversals, where that law was wrong. A slider's fit stays as it is: its
     gauges are often so quiet that nearly all its floor is what the base law's reversals leave unsure, and another floor
     would make its error before and after two different things.
     """
-    if not problem.balanced:
-        return problem, solution
-    problem, free, start = problem.weighed_anew(solution.values, finer=True), list(solution.free), solution.values
+    if not objective.balanced:
+        return objective, solution
+    objective, free, start = objective.weigh(solution.values, finer=True), list(solution.free), solution.values
     if any(f.key in DAMPED_STICK for f in free):
-        scale = problem.runs[0].scales
+        scale = objective.scales
         free.append(stick_damping_free(scale.time))
         damped = {f.key: scale.of(f.unit) * DAMPED_STICK[f.key] for f in free if f.key in DAMPED_STICK}
         starts = ({**start, "rig.stick_damping": 0.0}, {**start, **damped})
-        start = min(starts, key=lambda values: _cost(problem, values))
+        start = min(starts, key=lambda values: _cost(objective, values))
     begin = slopes_of(solution)
     # of the first fit only the numbers are kept: slopes are what takes most memory
-    values = solve(problem, start, free, most=4, enough=_TO_WEIGH, rough=_MUCH_LEFT, begin=begin).values
-    problem = problem.weighed_anew(values)
-    return problem, solve(problem, values, free, most=3, enough=_FINAL_REFIT, rough=_MUCH_LEFT)
+    values = solve(objective, start, free, most=4, enough=_TO_WEIGH, rough=_MUCH_LEFT, begin=begin).values
+    objective = objective.weigh(values)
+    return objective, solve(objective, values, free, most=3, enough=_FINAL_REFIT, rough=_MUCH_LEFT)
 
 
 def fit_finely(
@@ -244,8 +243,8 @@ def fit_finely(
 ) -> BaseFit:
     """Fit a campaign's base parameters as all that is reported is; arguments and errors as `fit_base`."""
     base = fit_base(campaign, model, invalid, start, watch)
-    problem, solution = final_refit(base.problem, base.solution)
-    return replace(base, problem=problem, free=solution.free, solution=solution)
+    objective, solution = final_refit(base.objective, base.solution)
+    return replace(base, objective=objective, free=solution.free, solution=solution)
 
 
 def restarted(base: BaseFit, values: Mapping[str, float]) -> BaseFit | None:
@@ -257,12 +256,12 @@ def restarted(base: BaseFit, values: Mapping[str, float]) -> BaseFit | None:
     """
     start = {**base.solution.values, **{f.key: values[f.key] for f in base.free if f.key in values}}
     fall = 0.1 * _BETTER * base.solution.cost
-    solution = solve(base.problem, start, base.free, most=8, enough=fall, begin=slopes_of(base.solution))
+    solution = solve(base.objective, start, base.free, most=8, enough=fall, begin=slopes_of(base.solution))
     if solution.cost > (1.0 - _BETTER) * base.solution.cost:
         return None
-    problem = base.problem.weighed_anew(solution.values)
-    again = solve(problem, solution.values, base.free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
-    return replace(base, problem=problem, solution=again)
+    objective = base.objective.weigh(solution.values)
+    again = solve(objective, solution.values, base.free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
+    return replace(base, objective=objective, solution=again)
 
 
 def at_rated(base: BaseFit) -> BaseFit:
@@ -271,23 +270,21 @@ def at_rated(base: BaseFit) -> BaseFit:
     Args:
         base: the base fit, whose weights are kept.
     """
-    problem, free = base.problem, base.free
+    objective, free = base.objective, base.free
     values = {**base.solution.values, **{f.key: f.start for f in free}}
-    residuals = problem.residuals(values)
-    left = residuals.stacked(problem.fitted, problem.relations)
-    slopes = jacobian(problem, values, free, residuals)
-    return replace(base, solution=Solution(values, free, residuals, slopes, float(left @ left), len(free) + 1))
+    residuals = objective.residuals(values)
+    slopes = jacobian(objective, values, free, residuals)
+    cost = residuals.cost(objective.fitted)
+    return replace(base, solution=Solution(values, free, residuals, slopes, cost, len(free) + 1))
 
 
-def _cost(problem: Problem, values: Mapping[str, float]) -> float:
-    left = problem.residuals(values, fitted_only=True).stacked(problem.fitted, problem.relations)
-    return float(left @ left)
+def _cost(objective: Objective, values: Mapping[str, float]) -> float:
+    return objective.residuals(values, fitted_only=True).cost(objective.fitted)
 
 
-def _yaw_improves_fit(problem: Problem, solution: Solution) -> bool:
+def _yaw_improves_fit(objective: Objective, solution: Solution) -> bool:
     """Return whether yaw made from the measured forces improves the fit by more than its noise makes it worse."""
-    if not problem.kinematics.yaw_is_computable:
+    if not objective.measurements.yaw_is_computable:
         return False
-    left = problem.with_yaw().residuals(solution.values, fitted_only=True).stacked(problem.fitted, ("pads",))
-    before = solution.residuals.stacked(problem.fitted, ("pads",))
-    return float(left @ left) < (1.0 - _MIN_YAW_GAIN) * float(before @ before)
+    left = objective.with_yaw().residuals(solution.values, fitted_only=True).cost(objective.fitted, "pads")
+    return left < (1.0 - _MIN_YAW_GAIN) * solution.residuals.cost(objective.fitted, "pads")

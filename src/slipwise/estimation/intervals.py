@@ -101,24 +101,22 @@ class Intervals:
 
 def intervals(base: BaseFit) -> Intervals:
     """Return the intervals of a base fit."""
-    solution, problem = base.solution, base.problem
+    solution, objective = base.solution, base.objective
     rows: list[NDArray[np.int64]] = []
     start = 0
     offsets: dict[int, int] = {}
     length = _block_length(base)
-    for group in by_motion(problem.runs, problem.fitted):  # runs of one motion repeat what the model lacks
+    for group in by_motion(objective.runs, objective.fitted):  # runs of one motion repeat what the model lacks
         offsets |= dict.fromkeys(group, start)
-        start += max(int(len(problem.runs[i].time) * problem.runs[i].dt / length) + 1 for i in group)
-    for relation in problem.relations:
-        for i in problem.fitted:
-            part = solution.residuals.parts[relation][i]
-            of_sample = (np.arange(len(part)) * problem.runs[i].dt / length).astype(np.int64) + offsets[i]
-            rows.append(np.repeat(of_sample, part.size // len(part)))
-    left = solution.residuals.stacked(problem.fitted, problem.relations)
+        start += max(int(len(objective.run(i).time) * objective.run(i).dt / length) + 1 for i in group)
+    for of in solution.residuals.blocks(runs=objective.fitted):
+        of_sample = (np.arange(len(of.time)) * of.dt / length).astype(np.int64) + offsets[of.run]
+        rows.append(np.repeat(of_sample, of.columns.shape[1]))
+    left = solution.residuals.stacked(objective.fitted)
     block = np.concatenate(rows)
     shared = _shared(base, len(left))
     found = of_fit(solution.free, solution.values, solution.jacobian, left, block, shared)
-    own_lag = {f"{t.label}.{t.effect.lag}" for t in problem.terms if t.effect.lag}
+    own_lag = {f"{t.label}.{t.effect.lag}" for t in objective.terms if t.effect.lag}
     ends = {f.key: (f.low, f.high) for f in solution.free}
     entries = (_widened_by_card_delay(e, *ends[e.key]) if e.key in own_lag else e for e in found.entries)
     found = replace(found, entries=tuple(entries))
@@ -133,19 +131,19 @@ def intervals(base: BaseFit) -> Intervals:
 
 
 def _shared(base: BaseFit, count: int) -> Shared:
-    """Return what a run's and pad's own timing of its reversals would do to the residuals; pads come first."""
-    problem, forces = base.problem, base.solution.residuals.pad_forces
+    """Return what a run's and pad's own timing of its reversals would do to the residuals."""
+    objective, residuals = base.objective, base.solution.residuals
     moved, whose = np.zeros((2, count)), np.zeros(count, dtype=np.int64)
-    start = 0
-    for place, i in enumerate(problem.fitted):
-        run = problem.runs[i]
-        rate = np.gradient(forces[i], run.dt, axis=0) / problem.sigmas["pads"][i]
-        rate = _SHARED_TIMING * run.scales.time * np.where(run.judged["pads"], rate, 0.0)
-        rows, pads = slice(start, start + rate.size), rate.shape[1]
+    timing = _SHARED_TIMING * objective.scales.time
+    friction = ((rows, of) for rows, of in residuals.rows(objective.fitted) if of.relation == "pads")
+    for place, (rows, of) in enumerate(friction):
+        force = residuals.pad_forces[of.run]
+        rate = np.gradient(force, of.dt, axis=0) / of.sigma
+        rate = timing * np.where(of.mask, rate, 0.0)
+        pads = rate.shape[1]
         moved[0, rows] = rate.ravel()
-        moved[1, rows] = (np.abs(rate) * np.sign(forces[i])).ravel()
+        moved[1, rows] = (np.abs(rate) * np.sign(force)).ravel()
         whose[rows] = np.tile(place * pads + np.arange(pads), len(rate))
-        start += rate.size
     return moved, whose
 
 
@@ -246,9 +244,8 @@ def bound_of(free: Free, value: float) -> str:
 
 def _block_length(base: BaseFit) -> float:
     """Return how long a block must be for blocks to be as good as independent [s]."""
-    problem, parts = base.problem, base.solution.residuals.parts
-    run, fitted = problem.runs[0], problem.fitted
-    independent = run.dt * max(block_length([parts[r][i] for i in fitted]) for r in problem.relations)
-    independent = max(independent, SHORTEST_BLOCK * run.scales.time)
-    seconds = sum(float(problem.runs[i].time[-1] - problem.runs[i].time[0]) for i in fitted)
+    objective, left = base.objective, base.solution.residuals
+    longest = max(block_length([b.value for b in left.blocks(r, objective.fitted)]) for r in objective.relations)
+    independent = max(objective.fitted_runs[0].dt * longest, SHORTEST_BLOCK * objective.scales.time)
+    seconds = sum(float(run.time[-1] - run.time[0]) for run in objective.fitted_runs)
     return min(independent, seconds / (_BLOCKS_EACH * max(len(base.free), 1)))

@@ -1,4 +1,4 @@
-"""Bounded least squares on a problem: Levenberg-Marquardt with finite differences into the bounds."""
+"""Bounded least squares on an objective: Levenberg-Marquardt with finite differences into the bounds."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -20,7 +20,7 @@ _STEP = 1e-3
 
 
 class Fittable(Protocol):
-    """What can be fitted: a `Problem`, or one with something added to its residuals."""
+    """What can be fitted: an `Objective`, or one with something added to its residuals."""
 
     @property
     def fitted(self) -> list[int]:
@@ -56,7 +56,7 @@ class Solution:
         residuals: at the solution.
         jacobian: (m, k) of the stacked residuals of the fitted runs per unit of `scale` of each free number.
         cost: sum of squared residuals of the fitted runs.
-        evaluations: of the problem.
+        evaluations: of the objective.
     """
 
     values: dict[str, float]
@@ -101,9 +101,9 @@ class _Point:
         return float(self.stacked @ self.stacked)
 
 
-def with_slopes(problem: Fittable, solution: Solution) -> Solution:
+def with_slopes(objective: Fittable, solution: Solution) -> Solution:
     """Return a solution with slopes taken at its own numbers."""
-    slopes = jacobian(problem, solution.values, solution.free, solution.residuals)
+    slopes = jacobian(objective, solution.values, solution.free, solution.residuals)
     return replace(solution, jacobian=slopes)
 
 
@@ -113,16 +113,16 @@ def slopes_of(solution: Solution) -> dict[str, Array]:
 
 
 def jacobian(
-    problem: Fittable,
+    objective: Fittable,
     values: Mapping[str, float],
     free: Sequence[Free],
     now: Residuals,
     known: Mapping[str, Array] | None = None,
 ) -> Array:
     """Return d(residual)/d(value / scale) of the fitted runs, (m, k), by one-sided differences into the bounds."""
-    which = problem.fitted
-    base = now.stacked(which, problem.relations)
-    nearby = problem.near(values)
+    which = objective.fitted
+    base = now.stacked(which)
+    nearby = objective.near(values)
     out = np.empty((len(free), len(base))).T  # column by column
     taken = known or {}
     missing = [j for j, f in enumerate(free) if f.key not in taken]
@@ -132,9 +132,9 @@ def jacobian(
         if values[free[j].key] + step > free[j].high:
             step = -step
         there = nearby.residuals({**values, free[j].key: values[free[j].key] + step}, fitted_only=True)
-        return (there.stacked(which, problem.relations) - base) * (free[j].scale / step)
+        return (there.stacked(which) - base) * (free[j].scale / step)
 
-    if problem.balanced:  # one slider's laws are so quick that to share them out takes longer
+    if objective.balanced:  # one slider's laws are so quick that to share them out takes longer
         columns = on_every_core(lambda k: column(missing[k]), len(missing))
     else:
         columns = map(column, missing)
@@ -144,7 +144,7 @@ def jacobian(
 
 
 def solve(
-    problem: Fittable,
+    objective: Fittable,
     start: Mapping[str, float],
     free: Sequence[Free],
     *,
@@ -157,7 +157,7 @@ def solve(
     """Fit the free numbers to the runs that may be fitted.
 
     Args:
-        problem: relations and noise.
+        objective: relations and noise.
         start: key -> value of everything.
         free: what may change.
         most: Jacobians at most.
@@ -166,21 +166,21 @@ def solve(
         known: columns of the Jacobian that a fit nearby has found, by key; they are used as they are.
         begin: the same, but until a step does not keep what they promise.
     """
-    which = problem.fitted
+    which = objective.fitted
     bounds = Bounds(*(np.array([getattr(f, end) for f in free]) for end in ("low", "high", "scale")))
     rule = LevenbergMarquardt(bounds)
     evaluations = 1
     taken = [begin or known]
 
     def at(values: Mapping[str, float]) -> _Point:
-        now = problem.residuals(values, fitted_only=True)
-        return _Point(values, now, now.stacked(which, problem.relations))
+        now = objective.residuals(values, fitted_only=True)
+        return _Point(values, now, now.stacked(which))
 
     def linearise(point: _Point) -> Slopes:
         nonlocal evaluations
         columns = taken.pop() if taken else known
         evaluations += len(free) - len(columns or ())
-        slopes = jacobian(problem, point.values, free, point.residuals, columns)
+        slopes = jacobian(objective, point.values, free, point.residuals, columns)
         return Slopes(slopes, slopes.T @ slopes)
 
     def move(point: _Point, slopes: Slopes) -> Move[_Point]:
@@ -199,5 +199,5 @@ def solve(
         return Move(end, finished=gained < enough + rough * above, keep_slopes=good)
 
     end, slopes = gauss_newton(at(dict(start)), linearise, move, most=most)
-    residuals = problem.residuals(end.values)
+    residuals = objective.residuals(end.values)
     return Solution(dict(end.values), tuple(free), residuals, slopes.jacobian, end.cost, evaluations)

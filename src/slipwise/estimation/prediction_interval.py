@@ -12,8 +12,7 @@ twenty numbers, so that what the fit leaves of a run is what a run is missed by.
 Source: Stone (1974), Journal of the Royal Statistical Society B 36:111-147; Hahn & Meeker, Statistical Intervals, 1991.
 """
 
-from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,13 +74,13 @@ def predicted_friction(fit: BaseFit) -> tuple[PredictedFriction, ...]:
     Args:
         fit: of any model.
     """
-    problem = fit.problem
-    measured = [_mean(run, run.force) for run in problem.runs]
-    predicted = [_mean(*both) for both in zip(problem.runs, fit.solution.residuals.pad_forces, strict=True)]
-    slid = [i for i in problem.fitted if np.isfinite(measured[i])]
+    objective = fit.objective
+    measured = [_mean(run, run.force) for run in objective.runs]
+    predicted = [_mean(*both) for both in zip(objective.runs, fit.solution.residuals.pad_forces, strict=True)]
+    slid = [i for i in objective.fitted if np.isfinite(measured[i])]
     half = float("nan")
-    if problem.held_out and len(slid) >= _LEAST_RUNS:
-        alone = not problem.balanced
+    if objective.held_out and len(slid) >= _LEAST_RUNS:
+        alone = not objective.balanced
         misses = [measured[i] - (_predicted_without(fit, i) if alone else predicted[i]) for i in slid]
         half = float(student.ppf(0.5 + COVERAGE / 2.0, len(misses)) * np.sqrt(np.mean(np.square(misses))))
     return tuple(
@@ -92,19 +91,18 @@ def predicted_friction(fit: BaseFit) -> tuple[PredictedFriction, ...]:
             predicted[i],
             *((predicted[i] - half, predicted[i] + half) if run.role == "holdout" else (float("nan"),) * 2),
         )
-        for i, run in enumerate(problem.runs)
+        for i, run in enumerate(objective.runs)
         if np.isfinite(measured[i])
     )
 
 
 def _predicted_without(fit: BaseFit, place: int) -> float:
     """Return the mean friction of a run when the law is fitted to the others [N]."""
-    problem = copy(fit.problem)
-    problem.runs = [replace(r, role="holdout") if i == place else r for i, r in enumerate(fit.problem.runs)]
+    objective = fit.objective.with_held_out(place)
     # from rated values: where all runs led, two of them may predict the third exactly (overfit)
     start = fit.solution.values | {f.key: f.start for f in fit.solution.free}
-    found = solve(problem, start, fit.solution.free, enough=_ENOUGH)
-    return _mean(problem.runs[place], found.residuals.pad_forces[place])
+    found = solve(objective, start, fit.solution.free, enough=_ENOUGH)
+    return _mean(objective.run(place), found.residuals.pad_forces[place])
 
 
 def _mean(run: FitRun, force: Array) -> float:

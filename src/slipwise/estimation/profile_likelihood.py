@@ -22,7 +22,7 @@ _NEAR, _MOST = 0.03, 10
 
 def is_strength(base: BaseFit, free: Free) -> bool:
     """Return whether a free number is an effect's strength that is absent at its lower bound."""
-    for term in base.problem.terms:
+    for term in base.objective.terms:
         if p := term.parameters.get(free.key):
             return p.neutral is not None and p.neutral == p.low
     return False
@@ -51,7 +51,7 @@ def _profiled(base: BaseFit, free: Free, value: float) -> float:
     slopes = slopes_of(base.solution)
     known = {f.key: slopes[f.key] for f in others}
     values = {**base.solution.values, free.key: value}
-    return solve(base.problem, values, others, most=4, enough=0.1, known=known).cost
+    return solve(base.objective, values, others, most=4, enough=0.1, known=known).cost
 
 
 def _reached(rising: Callable[[float], float], goal: float, first: float, furthest: float) -> float:

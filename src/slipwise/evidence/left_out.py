@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.estimation.least_squares import Solution
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
 from slipwise.relations.motions import by_motion
 
 Array = NDArray[np.float64]
@@ -30,29 +30,23 @@ _RIDGE = 1e-4
 _REACH = 1.0
 
 
-def motions(problem: Problem) -> list[list[int]]:
+def motions(objective: Objective) -> list[list[int]]:
     """Return the places of the fitted runs by motion."""
-    return by_motion(problem.runs, problem.fitted)
+    return by_motion(objective.runs, objective.fitted)
 
 
-def _parts(problem: Problem) -> tuple[list[tuple[slice, int]], int]:
+def _parts(objective: Objective) -> tuple[list[tuple[slice, int]], int]:
     """Return rows of the stacked residuals with the number of what is left out, and how many are left out."""
-    groups = motions(problem)
-    group_of = {i: number for number, group in enumerate(groups) for i in group}
+    every = list(objective.layout.rows(objective.fitted))
+    groups = len({of.motion for _, of in every})
+    if groups > 1:
+        return [(rows, of.motion) for rows, of in every], groups
     out: list[tuple[slice, int]] = []
-    row = 0
-    for relation in problem.relations:
-        for i in problem.fitted:
-            shape = problem.runs[i].judged[relation].shape
-            width = int(np.prod(shape[1:], dtype=np.int64))
-            if len(groups) > 1:
-                out.append((slice(row, row + shape[0] * width), group_of[i]))
-            else:
-                edges = np.linspace(0, shape[0], _STRETCHES + 1).astype(int)
-                for number, (start, end) in enumerate(zip(edges[:-1], edges[1:], strict=True)):
-                    out.append((slice(row + start * width, row + end * width), number))
-            row += shape[0] * width
-    return out, len(groups) if len(groups) > 1 else _STRETCHES
+    for rows, of in every:
+        samples, width = of.columns.shape
+        edges = rows.start + width * np.linspace(0, samples, _STRETCHES + 1).astype(int)
+        out += [(slice(*ends), n) for n, ends in enumerate(zip(edges[:-1], edges[1:], strict=True))]
+    return out, _STRETCHES
 
 
 @dataclass(frozen=True)
@@ -74,9 +68,9 @@ class LinearFit:
     constants: int
 
 
-def linear_fit(problem: Problem, solution: Solution) -> LinearFit:
+def linear_fit(objective: Objective, solution: Solution) -> LinearFit:
     """Return a solution as a linear fit."""
-    residual = solution.residuals.stacked(problem.fitted, problem.relations)
+    residual = solution.residuals.stacked(objective.fitted)
     ends = set(solution.at_bounds)
     free = [f for f in solution.free if f.key not in ends]
     room = [((f.low - solution.values[f.key]) / f.scale, (f.high - solution.values[f.key]) / f.scale) for f in free]
@@ -85,14 +79,14 @@ def linear_fit(problem: Problem, solution: Solution) -> LinearFit:
     return LinearFit(residual, solution.inside, low, high, len(solution.free))
 
 
-def left_out(problem: Problem, fit: LinearFit) -> Array:
+def left_out(objective: Objective, fit: LinearFit) -> Array:
     """Return what is left of every motion by a fit to the others, (m,) like the stacked residuals [noise].
 
     Args:
-        problem: relations and noise.
+        objective: relations and noise.
         fit: of a hypothesis to all its fitted runs.
     """
-    parts, count = _parts(problem)
+    parts, count = _parts(objective)
     width = fit.slopes.shape[1]
     normal, right = np.zeros((count, width, width)), np.zeros((count, width))
     for rows, number in parts:

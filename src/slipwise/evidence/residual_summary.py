@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.estimation.least_squares import Solution
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
 from slipwise.evidence.left_out import LinearFit, left_out, linear_fit, motions
 from slipwise.noise.independent_samples import SHORTEST_BLOCK
 
@@ -52,48 +52,33 @@ class ResidualSummary:
         return self.held_out[relation] / max(self.counts[relation][1], 1)
 
 
-def mean_square(problem: Problem, solution: Solution, relation: str, runs: Sequence[int]) -> float:
-    """Return the mean squared residual of a relation over some runs [noise variance]."""
-    left = sum(float(np.sum(solution.residuals.parts[relation][i] ** 2)) for i in runs)
-    return left / max(sum(int(np.count_nonzero(problem.runs[i].judged[relation])) for i in runs), 1)
-
-
-def summarised(problem: Problem, solution: Solution) -> ResidualSummary:
+def summarised(objective: Objective, solution: Solution) -> ResidualSummary:
     """Sum up a solution's squared residuals."""
-    held_out, counts = {}, {}
-    for name in problem.relations:
-        samples = [int(np.count_nonzero(run.judged[name])) for run in problem.runs]
-        held_out[name] = sum(float(np.sum(solution.residuals.parts[name][i] ** 2)) for i in problem.held_out)
-        counts[name] = (sum(samples[i] for i in problem.fitted), sum(samples[i] for i in problem.held_out))
-    return summarised_linear(problem, linear_fit(problem, solution), held_out, counts)
+    left, both = solution.residuals, (objective.fitted, objective.held_out)
+    held_out = {name: left.squares(name, objective.held_out) for name in objective.relations}
+    counts = {name: (left.count(name, both[0]), left.count(name, both[1])) for name in objective.relations}
+    return summarised_linear(objective, linear_fit(objective, solution), held_out, counts)
 
 
 def summarised_linear(
-    problem: Problem, fit: LinearFit, held_out: dict[str, float], counts: dict[str, tuple[int, int]]
+    objective: Objective, fit: LinearFit, held_out: dict[str, float], counts: dict[str, tuple[int, int]]
 ) -> ResidualSummary:
     """Sum up the squared residuals of a linear fit; what is held out, and the counts, are as given."""
-    fitted = {name: float(of.sum()) for name, of in _in_blocks(problem, fit.residual).items()}
-    blocks = _in_blocks(problem, left_out(problem, fit))
+    fitted = {name: float(of.sum()) for name, of in _in_blocks(objective, fit.residual).items()}
+    blocks = _in_blocks(objective, left_out(objective, fit))
     predicted = {name: float(of.sum()) for name, of in blocks.items()}
     return ResidualSummary(fitted, predicted, held_out, counts, fit.constants, blocks)
 
 
-def _in_blocks(problem: Problem, residual: Array) -> dict[str, Array]:
+def _in_blocks(objective: Objective, residual: Array) -> dict[str, Array]:
     """Sum up squared residuals (m,) of the fitted runs in blocks of time, relation -> (b,)."""
-    out: dict[str, Array] = {}
-    groups, start = motions(problem), 0
-    for name in problem.relations:
-        sums: dict[int, Array] = {}
-        for i in problem.fitted:
-            run = problem.runs[i]
-            shape = run.judged[name].shape
-            end = start + int(np.prod(shape, dtype=np.int64))
-            squares = (residual[start:end] ** 2).reshape(shape[0], -1).sum(axis=1)
-            edges = np.arange(0, shape[0], max(1, round(SHORTEST_BLOCK * run.scales.time / run.dt)))
-            sums[i] = np.add.reduceat(squares, edges)
-            start = end
-        out[name] = np.concatenate([_added([sums[i] for i in group]) for group in groups])
-    return out
+    sums: dict[str, dict[int, Array]] = {}
+    for rows, of in objective.layout.rows(objective.fitted):
+        squares = (residual[rows] ** 2).reshape(len(of.time), -1).sum(axis=1)
+        edges = np.arange(0, len(of.time), max(1, round(SHORTEST_BLOCK * objective.scales.time / of.dt)))
+        sums.setdefault(of.relation, {})[of.run] = np.add.reduceat(squares, edges)
+    groups = motions(objective)
+    return {name: np.concatenate([_added([of[i] for i in group]) for group in groups]) for name, of in sums.items()}
 
 
 def _added(parts: Sequence[Array]) -> Array:

@@ -115,7 +115,7 @@ def find_wrong_rig(base: BaseFit) -> WrongRig | None:
         base: the base fit, on the balances of a girder.
     """
     values, declared = base.solution.values, base.model.specimen
-    if not base.problem.balanced or not declared.buffer_stiffness:
+    if not base.objective.balanced or not declared.buffer_stiffness:
         return None
     found = {name: values[f"rig.{name}"] for name in HELD_AGAINST}
     off = _distance(found, declared)

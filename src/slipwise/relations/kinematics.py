@@ -1,227 +1,157 @@
 """What moved: the runs without their gauges' faults, the girder's yaw, and the states of every pad."""
 
-from collections.abc import Mapping, Sequence
-from copy import copy
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.campaign.rig_motion import rig_motion
 from slipwise.relations.evaluation_times import Instants, instants
 from slipwise.relations.girder import buffers_along, rigid_rotation_acceleration
 from slipwise.relations.inverse_filter import Spectrum
 from slipwise.relations.measurement import acts_on_force, noise_scale, raised_noise, without
-from slipwise.relations.memo import Key, Recent
-from slipwise.relations.parameters import PITCH_INERTIA, YAW_INERTIA, Term, fitted_model
-from slipwise.relations.run_data import FitRun
+from slipwise.relations.parameters import YAW_INERTIA, Term, fitted_model
+from slipwise.relations.run_data import FitRun, refined
+from slipwise.relations.setting import Measurements
+from slipwise.relations.stages import Inputs, Stage
 from slipwise.relations.yaw import yaw_of
-from slipwise.rig import Specimen, pad_frequencies
+from slipwise.rig import Specimen
 from slipwise.rig.frame import frame_push
-from slipwise.rig.load_basis import basis_of
-from slipwise.rig.load_modes import load_modes
-from slipwise.signals.ends import in_frequency
 from slipwise.simulation.predict import predictor
 
 Array = NDArray[np.float64]
-#: Numbers of the rig on which yaw depends.
-_YAW_KEYS = ("rig.mass", "rig.buffer_stiffness", YAW_INERTIA)
-#: Above this frequency, over that at which the girder pitches on its pads, what is left of the pitch load is noise [1].
-_PITCHING = 1.56
+#: Numbers of the rig on which yaw depends, and on which the table's pitch moves the girder.
+_YAW_NUMBERS = ("rig.mass", "rig.buffer_stiffness", YAW_INERTIA)
+_TABLE_PITCH_NUMBERS = ("rig.centre_height",)
 
 
-@dataclass
-class Kinematics:
-    """The measured motion of a campaign's runs, as the terms of a hypothesis understand it.
+def is_fault_of_motion(term: Term) -> bool:
+    """Return whether a term is a fault of a gauge that is taken out of what was measured."""
+    return term.effect.port == "gauge" and not acts_on_force(term)
+
+
+def pitches_table(term: Term) -> bool:
+    """Return whether a term moves the girder over the table without slip."""
+    return term.effect.port == "table" and "balance" in term.effect.hooks
+
+
+def changes_torque(term: Term) -> bool:
+    """Return whether the yaw depends on a term's numbers: how much pads differ is in the forces that were measured."""
+    return term.effect.port == "buffer" or (bool(term.effect.turns) and "rig" in term.effect.hooks)
+
+
+@dataclass(frozen=True, eq=False)
+class Corrected:
+    """Runs without their gauges' faults, but for those of friction.
 
     Attributes:
-        runs: as measured.
-        specimen: rated values.
-        terms: of the hypothesis.
-        yaw: whether the girder's yaw is made from the measured forces even if no term asks for it.
-        yaw_is_computable: whether all pads' forces were measured, and yaw was not.
-        recent: results, shared with others that look at the same runs.
-        lost: per run (f, p) velocity that the logger's filter took at reversals [m/s].
-        bounds: per run (n, p) friction of the pads whichever way they slide [N]; what was measured until it is known.
-        slip_delay: by which the slip gauge lags behind the accelerometers, as the fit was weighed [s].
-        weighed_by: numbers with which the noise was weighed last.
-        around: values from which slopes are taken, where faults move noise in time; see `measurement_model.without`.
+        runs: with what the table's pitch adds taken out too.
+        scale: relation or channel -> by how much the noise has grown with the correction, where it has [1].
     """
 
-    runs: list[FitRun]
-    specimen: Specimen
-    terms: tuple[Term, ...]
-    yaw: bool
-    yaw_is_computable: bool
-    recent: Recent
-    lost: list[Array] = field(default_factory=list[Array])
-    bounds: list[Array] = field(default_factory=list[Array])
-    slip_delay: float = 0.0
-    weighed_by: Mapping[str, float] = field(default_factory=dict[str, float])
-    around: Mapping[str, float] | None = None
-
-    def __post_init__(self) -> None:
-        """Make ready what never changes."""
-        self._pitching = [_pitch_rate(r) for r in self.runs]
-        self._here = [self.specimen.pads.index(p) for p in self.runs[0].pads]
-        self._sort()
-
-    def of(self, terms: tuple[Term, ...], *, yaw: bool) -> "Kinematics":
-        """Return the same motion as other terms understand it."""
-        other = copy(self)
-        other.terms, other.yaw = terms, yaw
-        other._sort()
-        return other
-
-    def near(self, values: Mapping[str, float]) -> "Kinematics":
-        """Return the same motion for slopes at these values."""
-        other = copy(self)
-        other.around, other.recent = values, self.recent.another()
-        return other
-
-    def refine(self, fine: int) -> list[FitRun]:
-        """Let the laws be evaluated at so many instants per sample, if they are not yet; gives the runs then."""
-        if self.runs[0].fine < fine:
-            self.runs = [replace(r, fine=fine) for r in self.runs]
-            self.lost = []
-        return self.runs
-
-    def _sort(self) -> None:
-        self._faults = [t for t in self.terms if t.effect.port == "gauge" and not acts_on_force(t)]
-        self._table_pitch_terms = [t for t in self.terms if t.effect.port == "table" and "balance" in t.effect.hooks]
-        yaw_terms = [t for t in self.terms if t.effect.turns]
-        self.makes_yaw = (self.yaw or bool(yaw_terms)) and self.yaw_is_computable
-        # whose numbers the yaw depends on: how much the pads differ is in the forces that were measured
-        yaw_terms_of_rig = [t for t in yaw_terms if "rig" in t.effect.hooks]
-        self._buffers = [t for t in self.terms if t.effect.port == "buffer" or t in yaw_terms_of_rig]
-
-    @property
-    def inertias(self) -> tuple[str, ...]:
-        """Keys of the inertias of the girder that these terms speak of."""
-        return (YAW_INERTIA,) * self.makes_yaw + (PITCH_INERTIA,) * bool(self._table_pitch_terms)
-
-    def fault_key(self, values: Mapping[str, float]) -> Key:
-        """Return what the runs without their gauges' faults depend on."""
-        height = (values.get("rig.centre_height", 0.0),) if self._table_pitch_terms else ()
-        return (*values_of([*self._faults, *self._table_pitch_terms], values), *height)
-
-    def key(self, values: Mapping[str, float]) -> Key:
-        """Return what the states of the pads depend on."""
-        return (*self.fault_key(values), values.get("rig.pitch_slip", 0.0), *self.yaw_key(values))
-
-    def yaw_key(self, values: Mapping[str, float]) -> Key:
-        """Return what the girder's yaw depends on but for faults; nothing where no yaw is made."""
-        if not self.makes_yaw:
-            return ()
-        return ("yaw", *values_of(self._buffers, values), *(values.get(k, 0.0) for k in _YAW_KEYS))
-
-    def corrected(self, values: Mapping[str, float], count: int | None = None) -> tuple[list[FitRun], dict[str, float]]:
-        """Take the faults of all gauges but those of friction out of the runs; noise scales with it.
-
-        Args:
-            values: key -> value of everything.
-            count: of runs from the first on; all, if not given.
-
-        Returns:
-            runs, and relation -> by how much the noise of its channels has grown, where it has.
-        """
-        if not self._faults and not self._table_pitch_terms and self.slip_delay == 0.0:
-            return self.runs[:count], {}
-
-        def make() -> tuple[list[FitRun], dict[str, float]]:
-            runs = self._synchronised()[:count]
-            for term in self._faults:
-                runs = [without(term, values, r, self.around) for r in runs]
-            if self._table_pitch_terms:
-                model = fitted_model(self.specimen, self.terms, values)
-                runs = [r.without_table_pitch(rigid_rotation_acceleration(model, r)) for r in runs]
-            return runs, noise_scale(self._faults, values, self.runs[0])
-
-        return self.recent.get("corrected", (len(self.runs[:count]), *self.fault_key(values)), make)
-
-    def raised(self, values: Mapping[str, float]) -> dict[str, Spectrum]:
-        """Return the channels whose noise is raised by taking their faults out, and by how much: see `raised_noise`."""
-        if all("undo" in t.effect.hooks for t in self._faults):
-            return {}
-        key = self.fault_key(values)
-        return self.recent.get("raised", key, lambda: raised_noise(self._faults, values, self.runs[0]))
-
-    def _synchronised(self) -> list[FitRun]:
-        """Return the runs with slip and accelerations synchronised."""
-        if self.slip_delay == 0.0:
-            return self.runs
-        delay = self.slip_delay
-        return self.recent.get("synchronised", (delay,), lambda: [r.slip_delay_corrected(delay) for r in self.runs])
-
-    def yaw_of_runs(self, values: Mapping[str, float], count: int | None = None) -> list[tuple[Array, Array]]:
-        """Return yaw [rad] and its rate [rad/s] of the runs, (n,) each: measured, made from the forces, or none."""
-        runs, _ = self.corrected(values, count)
-        if not self.makes_yaw:
-            return [(r.states.yaw, r.states.yaw_rate) for r in runs]
-
-        def make() -> list[tuple[Array, Array]]:
-            model = fitted_model(self.specimen, self.terms, values)
-            specimen, law = model.built_specimen(), predictor(model)
-            found = []
-            for i, run in enumerate(runs):
-                law.rest(run.rest_before)
-                still = np.zeros(len(run.time))
-                buffers = buffers_along(law, run, still, still)
-                force = _whole(run, specimen, buffers)
-                bound = self.bounds[i] if self.bounds else np.abs(force)
-                found.append(yaw_of(run, specimen, force, bound, buffers))
-            return found
-
-        return self.recent.get("yaw", (len(self.runs[:count]), *self.key(values)), make)
-
-    def compliance(self, specimen: Specimen) -> Array:
-        """Return the acceleration of pad i for a force along x on pad j, (p, p) [1/kg], with yaw where it is known.
-
-        A pad that was not measured is taken to hold the girder as the measured ones do.
-        """
-        places = np.array(specimen.pad_places)[self._here, 1] - specimen.centre_y
-        by_yaw = np.outer(places, places) / specimen.inertia[2]
-        has_yaw = self.makes_yaw or self.runs[0].states.has_yaw
-        every = len(specimen.pads) / len(self._here)
-        return every / specimen.mass + (by_yaw if has_yaw else np.zeros_like(by_yaw))
-
-    def states(self, values: Mapping[str, float], count: int | None = None) -> list[Instants]:
-        """Return the states of every pad in the runs, as many of them as asked for."""
-        key = (len(self.runs[:count]), *self.key(values))
-        return self.recent.get("states", key, lambda: self.states_with_velocity_error(values, count=count))
-
-    def states_with_velocity_error(
-        self, values: Mapping[str, float], by: float = 0.0, count: int | None = None
-    ) -> list[Instants]:
-        """Return the states of every pad, their velocities raised by so many times their expected errors.
-
-        Args:
-            values: key -> value of everything.
-            by: number of expected errors of the velocity that are added [1].
-            count: of runs from the first on; all, if not given.
-        """
-        runs, _ = self.corrected(values, count)
-        pads = np.array(self.specimen.pad_places)[self._here]
-        round_about = np.stack([-pads[:, 1], pads[:, 0]], axis=1)[None]
-        alike = not (self.makes_yaw or runs[0].states.has_yaw)
-        here = slice(1 if alike else None)  # a girder without yaw moves over every pad alike
-        out = []
-        for place, run in enumerate(runs):
-            velocity = run.states.pad_velocity[:, here].copy()
-            velocity[:, :, 0] += values.get("rig.pitch_slip", 0.0) * self._pitching[place][:, None]
-            velocity[:, :, 0] += by * run.states.pad_velocity_errors[:, here]
-            slip = run.states.pad_slip[:, here]
-            if self.makes_yaw:
-                angle, rate = self.yaw_of_runs(values, count)[place]
-                velocity = velocity + rate[:, None, None] * round_about
-                slip = slip + angle[:, None, None] * round_about
-            lost = self.lost[place][:, here] if self.lost else None
-            out.append(instants(run, velocity, slip, lost))
-        return out
+    runs: tuple[FitRun, ...]
+    scale: Mapping[str, float]
 
 
-def values_of(terms: Sequence[Term], values: Mapping[str, float]) -> Key:
-    """Return the terms' labels and the values of their parameters."""
-    return tuple(x for t in terms for key in t.parameters for x in (key, values[key]))
+def _correct(inputs: Inputs) -> Corrected:
+    faults = [term for term in inputs.terms if is_fault_of_motion(term)]
+    table_pitch = [term for term in inputs.terms if pitches_table(term)]
+    runs, values, around = inputs.of(SYNCHRONISED), inputs.values, inputs.around
+    for term in faults:
+        runs = tuple(without(term, values, run, around) for run in runs)
+    if table_pitch:
+        model = fitted_model(inputs.measurements.specimen, table_pitch, values, _TABLE_PITCH_NUMBERS)
+        runs = tuple(run.without_table_pitch(rigid_rotation_acceleration(model, run)) for run in runs)
+    return Corrected(runs, noise_scale(faults, values, inputs.runs[0]) if faults else {})
+
+
+def _synchronise(inputs: Inputs) -> tuple[FitRun, ...]:
+    delay = inputs.weighed("slip_delay")
+    return inputs.runs if delay == 0.0 else tuple(run.slip_delay_corrected(delay) for run in inputs.runs)
+
+
+def _raise_noise(inputs: Inputs) -> dict[str, Spectrum]:
+    return raised_noise(inputs.terms, inputs.values, inputs.runs[0])
+
+
+def _make_yaw(inputs: Inputs) -> list[tuple[Array, Array]]:
+    runs = inputs.of(CORRECTED).runs
+    if not inputs.makes_yaw:
+        return [(run.states.yaw, run.states.yaw_rate) for run in runs]
+    model = fitted_model(inputs.measurements.specimen, inputs.terms, inputs.values, _YAW_NUMBERS)
+    specimen, law, bounds = model.built_specimen(), predictor(model), inputs.weighed("bounds")
+    found = []
+    for i, run in enumerate(runs):
+        law.rest(run.rest_before)
+        still = np.zeros(len(run.time))
+        buffers = buffers_along(law, run, still, still)
+        force = _whole(run, specimen, buffers)
+        found.append(yaw_of(run, specimen, force, bounds[i] if bounds else np.abs(force), buffers))
+    return found
+
+
+def states_of_pads(inputs: Inputs, velocity_errors: float = 0.0) -> list[Instants]:
+    """Return the states of every pad in the runs.
+
+    Args:
+        inputs: of a stage.
+        velocity_errors: number of expected errors of the velocity that are added [1].
+    """
+    runs, measurements, lost = inputs.of(CORRECTED).runs, inputs.measurements, inputs.weighed("lost")
+    pads = np.array(measurements.specimen.pad_places)[measurements.pads_here]
+    round_about = np.stack([-pads[:, 1], pads[:, 0]], axis=1)[None]
+    alike = not (inputs.makes_yaw or runs[0].states.has_yaw)
+    here = slice(1 if alike else None)  # a girder without yaw moves over every pad alike
+    pitch_slip = inputs.values.get("rig.pitch_slip", 0.0)
+    out = []
+    for place, run in enumerate(runs):
+        velocity = run.states.pad_velocity[:, here].copy()
+        velocity[:, :, 0] += pitch_slip * measurements.pitch_rates[place][:, None]
+        velocity[:, :, 0] += velocity_errors * run.states.pad_velocity_errors[:, here]
+        slip = run.states.pad_slip[:, here]
+        if inputs.makes_yaw:
+            angle, rate = inputs.of(YAW)[place]
+            velocity = velocity + rate[:, None, None] * round_about
+            slip = slip + angle[:, None, None] * round_about
+        out.append(instants(run, velocity, slip, lost[place][:, here] if lost else None))
+    return out
+
+
+def _rig_motions(inputs: Inputs) -> list[Array]:
+    return [refined(rig_motion(run.states), run.fine) for run in inputs.of(CORRECTED).runs]
+
+
+#: The runs with slip and accelerations synchronised.
+SYNCHRONISED = Stage("synchronised runs", _synchronise)
+#: The runs without the faults of their gauges, but for those of friction.
+CORRECTED = Stage("corrected runs", _correct, lambda t: is_fault_of_motion(t) or pitches_table(t))
+#: Channel -> by how much taking its fault out has raised the power of its noise; see `raised_noise`.
+RAISED = Stage("raised noise", _raise_noise, is_fault_of_motion)
+#: Yaw [rad] and its rate [rad/s] of every run, (n,) each: measured, made from the forces, or none.
+YAW = Stage("yaw", _make_yaw, changes_torque)
+#: States of every pad at the instants at which the laws are evaluated, one `Instants` of every run.
+STATES = Stage("states of the pads", states_of_pads)
+#: Motion of the rig at the instants, (f, 3) of every run.
+RIG_MOTIONS = Stage("motion of the rig", _rig_motions)
+
+
+def compliance(measurements: Measurements, specimen: Specimen, *, makes_yaw: bool) -> Array:
+    """Return the acceleration of pad i for a force along x on pad j, (p, p) [1/kg], with yaw where it is known.
+
+    A pad that was not measured is taken to hold the girder as the measured ones do.
+
+    Args:
+        measurements: which pads were measured, and whether yaw was.
+        specimen: as built.
+        makes_yaw: whether yaw is made from the measured forces.
+    """
+    here = measurements.pads_here
+    places = np.array(specimen.pad_places)[here, 1] - specimen.centre_y
+    by_yaw = np.outer(places, places) / specimen.inertia[2]
+    has_yaw = makes_yaw or measurements.runs[0].states.has_yaw
+    every = len(specimen.pads) / len(here)
+    return every / specimen.mass + (by_yaw if has_yaw else np.zeros_like(by_yaw))
 
 
 def _whole(run: FitRun, specimen: Specimen, buffers: Array) -> Array:
@@ -235,15 +165,3 @@ def _whole(run: FitRun, specimen: Specimen, buffers: Array) -> Array:
     push = frame_push(run.record, specimen) - buffers.sum(axis=1)
     rest = push - specimen.mass * run.channel("girder_ax") - others
     return np.where(alone, rest[:, None], force)
-
-
-def _pitch_rate(run: FitRun) -> Array:
-    """Return rate of the pitch load (n,) [N/s], by which the sliding plane moves against the gauge; 0 if unknown."""
-    loads, specimen = run.all_loads, run.states.specimen
-    if loads is None or not specimen.free:
-        return np.zeros(len(run.time))
-    highest = _PITCHING * pad_frequencies(specimen)["pitch"]
-    smooth = in_frequency(
-        load_modes(loads, basis_of(specimen)).pitch, run.dt, lambda f: 1.0 / (1.0 + (f / highest) ** 8), 64
-    )
-    return np.gradient(smooth, run.dt)

@@ -1,19 +1,17 @@
 """Pads' forces as a logger would have written them: the law at every instant, then the logger's filter."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
 from math import sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 
-from slipwise.campaign.rig_motion import rig_motion
 from slipwise.jobs.machine_code import kept
-from slipwise.model import Model
 from slipwise.relations.evaluation_times import Instants
-from slipwise.relations.run_data import FitRun, refined
+from slipwise.relations.run_data import FitRun
 from slipwise.signals.filters import LowPass, folded, response
-from slipwise.simulation.predict import PadForces, predictor
+from slipwise.simulation.predict import PadForces, Predictor
 
 Array = NDArray[np.float64]
 #: Samples by which a force is carried on at both ends before it is filtered.
@@ -79,41 +77,26 @@ def stick_share(state: Instants, stick_length: float, stick_damping: float) -> A
     return np.broadcast_to(share, along.shape)
 
 
-@dataclass
-class PadLaw:
-    """A model's pad laws driven through a campaign's runs, one after another, memory included."""
+def drive_law(
+    law: Predictor, runs: Sequence[FitRun], states: Sequence[Instants], motions: Sequence[Array] | None
+) -> list[PadForces]:
+    """Return force (f, p, 2) and bound (f, p) of every pad at the instants [N], of one run after another.
 
-    model: Model
-
-    def __post_init__(self) -> None:
-        """Make the law ready."""
-        self._predictor = predictor(self.model)
-        self._motions: dict[int, Array] = {}
-
-    def set(self, model: Model) -> None:
-        """Take other parameter values of the same effects."""
-        self.model = model
-        self._predictor.model = model
-
-    def at_instants(self, runs: list[FitRun], states: list[Instants]) -> list[PadForces]:
-        """Drive the law through the runs; gives force (f, p, 2) and bound (f, p) of every pad at the instants [N]."""
-        law = self._predictor
-        law.reset()
-        out = []
-        for run, state in zip(runs, states, strict=True):
-            law.rest(run.rest_before)
-            if not self.model.specimen.free:  # a slider's actuator may have left it bent either way
-                force = np.stack([run.force[0], np.zeros(len(run.pads))], axis=1)
-                law.begin(state.load[0], state.velocity[0], state.slip[0], force)
-            motion = self._motion(run) if law.asks_for_motion else None
-            out.append(law.pads(state.time, state.load, state.velocity, state.slip, run.pads, motion))
-        return out
-
-    def _motion(self, run: FitRun) -> Array:
-        """Return the motion of the rig at the instants, (f, 3): no number of a fit changes it."""
-        if id(run.states) not in self._motions:
-            self._motions[id(run.states)] = refined(rig_motion(run.states), run.fine)
-        return self._motions[id(run.states)]
+    Args:
+        law: a model's laws, nothing slid yet; their memory goes on from run to run.
+        runs: in the order in which they were made.
+        states: of the pads, per run.
+        motions: per run motion of the rig at the instants (f, 3), where the law asks for it.
+    """
+    out = []
+    for i, (run, state) in enumerate(zip(runs, states, strict=True)):
+        law.rest(run.rest_before)
+        if not law.model.specimen.free:  # a slider's actuator may have left it bent either way
+            force = np.stack([run.force[0], np.zeros(len(run.pads))], axis=1)
+            law.begin(state.load[0], state.velocity[0], state.slip[0], force)
+        motion = motions[i] if motions is not None else None
+        out.append(law.pads(state.time, state.load, state.velocity, state.slip, run.pads, motion))
+    return out
 
 
 def force_along(found: PadForces, state: Instants, share: Array | None) -> Array:

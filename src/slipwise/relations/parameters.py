@@ -1,6 +1,6 @@
 """What a fit may change: numbers of the rig, and parameters of effects, each with a key, a start and bounds."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from slipwise.effects import Effect
@@ -225,24 +225,38 @@ def _around(key: str, value: float, low: float, high: float, unit: str) -> Free:
     return Free(key, value, low * value, high * value, 0.1 * value, unit)
 
 
-def fitted_specimen(specimen: Specimen, values: Mapping[str, float]) -> Specimen:
-    """Return the specimen with the numbers of a fit."""
-    changes: dict[str, object] = {}
-    if "rig.mass" in values:
-        changes["mass"] = values["rig.mass"]
-        changes["centre_height"] = values["rig.centre_height"]
-    if "rig.shear_strength" in values:
-        changes["shear_strength"] = values["rig.shear_strength"]
-    if "rig.buffer_stiffness" in values:
-        share = values["rig.buffer_stiffness"] / sum(specimen.buffer_stiffness)
+#: Numbers of the rig that change its rated values.
+RIG_NUMBERS: tuple[str, ...] = (
+    "rig.mass", "rig.centre_height", "rig.shear_strength", "rig.buffer_stiffness", *_INERTIAS,
+)  # fmt: skip
+
+
+def fitted_specimen(specimen: Specimen, values: Mapping[str, float], numbers: Sequence[str] = RIG_NUMBERS) -> Specimen:
+    """Return the specimen with the numbers of a fit.
+
+    Args:
+        specimen: rated values.
+        values: key -> value.
+        numbers: of `RIG_NUMBERS`, those that take the place of rated values; the others stay rated.
+    """
+    fitted = {key: values[key] for key in numbers if key in values}
+    changes: dict[str, object] = {
+        key.removeprefix("rig."): fitted[key]
+        for key in ("rig.mass", "rig.centre_height", "rig.shear_strength")
+        if key in fitted
+    }
+    if "rig.buffer_stiffness" in fitted:
+        share = fitted["rig.buffer_stiffness"] / sum(specimen.buffer_stiffness)
         changes["buffer_stiffness"] = tuple(share * k for k in specimen.buffer_stiffness)
     inertia = list(specimen.inertia)
     for key, (axis, _) in _INERTIAS.items():
-        inertia[axis] = values.get(key, inertia[axis])
+        inertia[axis] = fitted.get(key, inertia[axis])
     changes["inertia"] = tuple(inertia)
     return specimen.changed(**changes)
 
 
-def fitted_model(specimen: Specimen, terms: Iterable[Term], values: Mapping[str, float]) -> Model:
-    """Return the model that a fit's numbers describe."""
-    return Model(fitted_specimen(specimen, values), tuple(u for t in terms for u in t.uses(values)))
+def fitted_model(
+    specimen: Specimen, terms: Iterable[Term], values: Mapping[str, float], numbers: Sequence[str] = RIG_NUMBERS
+) -> Model:
+    """Return the model that a fit's numbers describe; `numbers` as for `fitted_specimen`."""
+    return Model(fitted_specimen(specimen, values, numbers), tuple(u for t in terms for u in t.uses(values)))

@@ -10,16 +10,16 @@ from slipwise.campaign.scales import scales_of
 from slipwise.comparison.component_level import NAMES
 from slipwise.estimation.base_fit import BaseFit, free_numbers, scaled_model
 from slipwise.estimation.least_squares import Solution, solve
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective, objective_of
 from slipwise.model import Model, base_model
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared
 from slipwise.relations.parameters import Free, inertia_free, stick_damping_free, terms_of
-from slipwise.relations.run_data import FINER, FitRun, fit_runs
+from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.relations.table import Residuals
 from slipwise.session.state import State, Weights
 
-#: Problems that stay ready: this state's, that before it, the one it is compared with, each also coarse.
+#: Objectives that stay ready: this state's, that before it, the one it is compared with, each also coarse.
 _READY = 6
 
 
@@ -60,28 +60,22 @@ class Evaluator:
     prepared: Prepared
     model: Model
     runs: list[FitRun]
-    _ready: list[tuple[Weights, Problem]] = field(default_factory=list[tuple[Weights, Problem]])
+    _ready: list[tuple[Weights, Objective]] = field(default_factory=list[tuple[Weights, Objective]])
 
-    def problem(self, state: State, watch: Callable[[], None] | None = None) -> Problem:
+    def objective(self, state: State, watch: Callable[[], None] | None = None) -> Objective:
         """Return the relations of a state, weighed as it says."""
         found = next((ready for ready in self._ready if ready[0] == state.weights), None)
         if found is None:
             found = (state.weights, self._weighed(state.weights))
             self._ready = [*self._ready, found][-_READY:]
-        problem = found[1].having(state.terms)
-        problem.watch = watch
-        return problem
+        return replace(found[1], terms=state.terms, watch=watch)
 
-    def _weighed(self, weights: Weights) -> Problem:
-        problem = Problem(self.runs, self.model.specimen, weights.terms)
-        problem = problem.with_yaw() if weights.yaw else problem
-        if weights.finer:
-            problem.kinematics.refine(FINER)
-            problem.runs = problem.kinematics.runs
-        for values in (weights.before, weights.values):
-            if values:
-                problem.weigh(values)
-        return problem
+    def _weighed(self, weights: Weights) -> Objective:
+        objective = objective_of(self.runs, self.model.specimen, weights.terms)
+        objective = objective.with_yaw() if weights.yaw else objective
+        if weights.before:
+            objective = objective.weigh(weights.before, finer=weights.finer)
+        return objective.weigh(weights.values, finer=weights.finer)
 
     def coarse(self, state: State) -> State:
         """Return a state that is evaluated at half the instants: in half the time, and nearly as well."""
@@ -89,37 +83,37 @@ class Evaluator:
 
     def residuals(self, state: State) -> Residuals:
         """Evaluate every relation in all runs."""
-        return self.problem(state).residuals(state.values)
+        return self.objective(state).residuals(state.values)
 
     def model_of(self, state: State) -> Model:
         """Return the model that a state describes."""
-        return self.problem(state).model(state.values)
+        return self.objective(state).model(state.values)
 
     def free(self, state: State) -> list[Free]:
         """Return every number of a state that may be changed, with its bounds; an effect on a card has one set."""
-        problem = self.problem(state)
+        objective = self.objective(state)
         model = Model(self.model.specimen, tuple(u for t in state.terms for u in t.uses(state.values)))
         cards = [t for t in state.terms if len(t.targets) > 1]
         single = {f"{u.label}.{n}" for t in cards for u in t.uses(state.values) for n in t.effect.parameter_names}
-        free = [f for f in free_numbers(self.prepared.campaign, model, problem) if f.key not in single]
+        free = [f for f in free_numbers(self.prepared.campaign, model, objective) if f.key not in single]
         for term in cards:
             free += term.free({n: state.values[f"{term.label}.{n}"] for n in term.effect.parameter_names})
-        free += [inertia_free(problem.specimen, key) for key in problem.kinematics.inertias]
+        free += [inertia_free(objective.specimen, key) for key in objective.inertias]
         if "rig.stick_damping" in state.values and any(f.key == "rig.stick_length" for f in free):
             free.append(stick_damping_free(self.runs[0].scales.time))
         return free
 
     def as_fit(self, state: State) -> BaseFit:
         """Return a state as a fit without slopes, for replays."""
-        problem, free, residuals = self.problem(state), tuple(self.free(state)), self.residuals(state)
-        left = residuals.stacked(problem.fitted, problem.relations)
-        solution = Solution(dict(state.values), free, residuals, np.empty((0, 0)), float(left @ left), 0)
-        return BaseFit(self.prepared.campaign, self.model_of(state), problem, free, solution)
+        objective, free, residuals = self.objective(state), tuple(self.free(state)), self.residuals(state)
+        cost = residuals.cost(objective.fitted)
+        solution = Solution(dict(state.values), free, residuals, np.empty((0, 0)), cost, 0)
+        return BaseFit(self.prepared.campaign, self.model_of(state), objective, free, solution)
 
     def with_slopes(self, state: State) -> BaseFit:
         """Return a state that was fitted as a fit with its slopes, for screening."""
         fit = self.as_fit(state)
-        return replace(fit, solution=solve(fit.problem, dict(state.values), list(fit.free), most=1))
+        return replace(fit, solution=solve(fit.objective, dict(state.values), list(fit.free), most=1))
 
 
 def evaluator(campaign: Campaign, model: Model | None) -> tuple[Evaluator, State]:
@@ -137,22 +131,18 @@ def evaluator(campaign: Campaign, model: Model | None) -> tuple[Evaluator, State
     begun = scaled_model(stated or base_model(whole.specimen), scales_of(whole), typical=model is None)
     ready = Evaluator(prepared, begun, fit_runs(whole, prepared.invalid))
     terms = terms_of(begun)
-    problem = Problem(ready.runs, begun.specimen, terms)
-    values = {f.key: prepared.start.get(f.key, f.start) for f in free_numbers(whole, begun, problem)}
+    objective = objective_of(ready.runs, begun.specimen, terms)
+    values = {f.key: prepared.start.get(f.key, f.start) for f in free_numbers(whole, begun, objective)}
     return ready, State(terms, values, Weights(terms, values, finer=False))
 
 
-def errors_of(problem: Problem, residuals: Residuals) -> tuple[BalanceError, ...]:
+def errors_of(objective: Objective, residuals: Residuals) -> tuple[BalanceError, ...]:
     """Return the error of every relation in floors."""
     out = []
-    for relation in problem.relations:
-        squares = [float(np.sum(part**2)) for part in residuals.parts[relation]]
-        counts = [int(np.count_nonzero(run.judged[relation])) for run in problem.runs]
-
-        def rms(places: list[int], squares: list[float] = squares, counts: list[int] = counts) -> float:
-            return float(np.sqrt(sum(squares[i] for i in places) / max(sum(counts[i] for i in places), 1)))
-
-        held = rms(problem.held_out) if any(counts[i] for i in problem.held_out) else None
-        runs = {run.name: rms([i]) for i, run in enumerate(problem.runs) if counts[i]}
-        out.append(BalanceError(relation, NAMES[relation][0], rms(problem.fitted), held, runs))
+    for relation in objective.relations:
+        held = residuals.level(relation, objective.held_out) if residuals.count(relation, objective.held_out) else None
+        judged = [of for of in residuals.blocks(relation) if of.count]
+        runs = {of.name: residuals.level(relation, [of.run]) for of in judged}
+        fitted = residuals.level(relation, objective.fitted)
+        out.append(BalanceError(relation, NAMES[relation][0], fitted, held, runs))
     return tuple(out)

@@ -9,7 +9,7 @@ from math import isfinite
 from slipwise.estimation.base_fit import BaseFit, final_refit
 from slipwise.estimation.intervals import Interval, intervals
 from slipwise.estimation.least_squares import Solution, solve
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
 from slipwise.preparation.prepared import fit_prepared
 from slipwise.session.evaluation import Evaluator
 from slipwise.session.state import Known, State, Weights
@@ -77,39 +77,39 @@ def fit_state(ready: Evaluator, state: State, progress: Progress) -> State:
     watch = Watch(progress, end=0.0)
     if state.weights.fitted:
         watch.next("fitting from here", 0.45, 40)
-        problem, solution = _from_here(ready, ready.problem(ready.coarse(state), watch), state, state.values)
+        objective, solution = _from_here(ready, ready.objective(ready.coarse(state), watch), state, state.values)
     else:
         watch.next("fitting from rated numbers", 0.45, 60)
         base = fit_prepared(ready.prepared, ready.model, watch)
-        problem, solution = base.problem, base.solution
-        if state.terms != problem.terms:
+        objective, solution = base.objective, base.solution
+        if state.terms != objective.terms:
             values = {**state.values, **{k: v for k, v in solution.values.items() if k.startswith("rig.")}}
-            problem, solution = _from_here(ready, problem.having(state.terms), state, values)
+            objective, solution = _from_here(ready, objective.having(state.terms), state, values)
     watch.next("fitting on, with the noise that this law leaves", 0.85, 80)
     before = solution.values
-    problem, solution = final_refit(problem, solution)
+    objective, solution = final_refit(objective, solution)
     watch.next("how sure the numbers are", 1.0, 30)
-    fit = BaseFit(ready.prepared.campaign, ready.model, problem, solution.free, solution)
+    fit = BaseFit(ready.prepared.campaign, ready.model, objective, solution.free, solution)
     known = {e.key: _known(e) for e in intervals(fit).entries}
-    weighed = problem.kinematics
-    weights = Weights(state.terms, weighed.weighed_by, finer=problem.balanced, yaw=weighed.yaw, before=before)
+    weighed = objective.weighing.weighed_by
+    weights = Weights(state.terms, weighed, finer=objective.balanced, yaw=objective.yaw, before=before)
     values = {**state.values, **solution.values}
     progress("done", 1.0)
     return replace(state, values=values, weights=weights, fitted=True, known=known, words="fitted", edit="")
 
 
 def _from_here(
-    ready: Evaluator, problem: Problem, state: State, values: Mapping[str, float]
-) -> tuple[Problem, Solution]:
+    ready: Evaluator, objective: Objective, state: State, values: Mapping[str, float]
+) -> tuple[Objective, Solution]:
     free = ready.free(state)
     start = {**values, **{f.key: min(max(values.get(f.key, f.start), f.low), f.high) for f in free}}
-    solution = solve(problem, start, free, most=8, enough=_ENOUGH, rough=_ROUGH)
+    solution = solve(objective, start, free, most=8, enough=_ENOUGH, rough=_ROUGH)
     for _ in range(_AGAIN):
         before = solution.cost
-        solution = solve(problem, solution.values, free, most=6, enough=_ENOUGH, rough=_ROUGH)
+        solution = solve(objective, solution.values, free, most=6, enough=_ENOUGH, rough=_ROUGH)
         if before - solution.cost < _FALLS * solution.cost:
             break
-    return problem, solution
+    return objective, solution
 
 
 def _known(entry: Interval) -> Known:

@@ -139,7 +139,7 @@ def _check_errors(ready: Evaluator, state: State) -> None:
     """Refuse a step that predicts nothing."""
     try:
         with np.errstate(all="ignore"):
-            errors = errors_of(ready.problem(state), ready.residuals(state))
+            errors = errors_of(ready.objective(state), ready.residuals(state))
     except _NONSENSE as error:
         raise _impossible(state, error) from None
     if not all(isfinite(e.fitted) for e in errors):

@@ -82,18 +82,17 @@ def replay_run(ready: Evaluator, state: State, name: str = "") -> RunReplay:
     _check_free(ready)
     fit = ready.as_fit(state)
     model, _ = replayed_model(fit)
-    runs = fit.problem.runs
-    names = [r.name for r in runs]
+    names = fit.objective.run_names
     if name not in names:
         raise SettingError(f"no run {name!r}; runs: {', '.join(names)}")
     place = names.index(name)
-    run = runs[place]
+    run = fit.objective.run(place)
     answer = replay(
         model,
         measured_motion(run.states),
         dt=simulation_step(run.dt),
         output_dt=run.dt,
-        start=memory_before(model, runs[:place]),
+        start=memory_before(model, fit.objective.runs_before(place)),
         rest=run.rest_before,
     )
     responses = {

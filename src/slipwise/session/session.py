@@ -133,7 +133,7 @@ class Session(Drawn, Tabular):
     def errors(self, state: State | None = None) -> tuple[BalanceError, ...]:
         """Return the error of every balance, component level, in floors: of the model as it is now, or of a state."""
         state = state or self.state
-        return errors_of(self.ready.problem(state), self.ready.residuals(state))
+        return errors_of(self.ready.objective(state), self.ready.residuals(state))
 
     def series(self, run: str, relation: str = "pads", state: State | None = None) -> Series:
         """Return one balance of one run, measured and predicted: of the model as it is now, or of a state.
@@ -142,14 +142,14 @@ class Session(Drawn, Tabular):
             SettingError: no such run or balance.
         """
         state = state or self.state
-        problem = self.ready.problem(state)
-        names = [r.name for r in problem.runs]
-        if run not in names or relation not in problem.relations:
+        objective = self.ready.objective(state)
+        names = objective.run_names
+        if run not in names or relation not in objective.relations:
             raise SettingError(
                 f"no balance {relation!r} of run {run!r}; runs: {', '.join(names)}; "
-                f"balances: {', '.join(problem.relations)}"
+                f"balances: {', '.join(objective.relations)}"
             )
-        return series_of(problem, state, self.ready.residuals(state), names.index(run), relation)
+        return series_of(objective, state, self.ready.residuals(state), names.index(run), relation)
 
     @one_thread_algebra()
     def fit(self, progress: Progress | None = None) -> State:

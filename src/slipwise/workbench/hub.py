@@ -115,7 +115,7 @@ class Room:
     async def look(self, page: Page, run: str, relation: str, beside: str, *, watches: bool = False) -> None:
         """Let a page look at something else."""
         names = [r.name for r in self.session.ready.runs]
-        relations = await self._do(lambda: self.session.ready.problem(self.session.state).relations)
+        relations = await self._do(lambda: self.session.ready.objective(self.session.state).relations)
         if run in names and relation in relations:
             page.view = View(run, relation, beside, watches)
             await self.show(page)

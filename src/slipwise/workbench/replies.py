@@ -23,16 +23,16 @@ def campaign_told(session: Session) -> dict[str, Any]:
     ready, record = session.ready, session.ready.runs[0].record
     testable, cannot = candidates(ready.as_fit(session.state))
     names = {term.effect.name for term in testable}
-    problem = ready.problem(session.state)
+    objective = ready.objective(session.state)
     return {
         "kind": "campaign",
         "name": session.campaign.name,
         "rig": session.campaign.rig,
         "notes": [*ready.prepared.campaign.notes, *(one.words for one in session.corrections), *session.notes],
         "runs": [{"name": r.name, "role": r.role, "seconds": float(r.time[-1] - r.time[0])} for r in ready.runs],
-        "relations": {r: {"name": NAMES[r][0], "unit": _unit(NAMES[r][1])} for r in problem.relations},
+        "relations": {r: {"name": NAMES[r][0], "unit": _unit(NAMES[r][1])} for r in objective.relations},
         "pads": list(ready.runs[0].pads),
-        "pad_area": problem.specimen.pad_area,
+        "pad_area": objective.specimen.pad_area,
         "channels": {name: {"unit": _shown(channel(name).unit, channel(name).shown_in)} for name in record.channels},
         "effects": [
             {

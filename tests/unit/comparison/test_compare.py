@@ -77,7 +77,7 @@ def test_the_floor_that_is_printed_times_the_error_is_the_residual_in_newtons(co
     base = complete.base
     printed = {(row["relation"], row["run"]): row for row in complete.rows("components")}
     predicted = base.solution.residuals.pad_forces
-    for run, force in zip(base.problem.runs, predicted, strict=True):
+    for run, force in zip(base.objective.runs, predicted, strict=True):
         left = (run.force - force)[run.judged["pads"]]
         row = printed["pads", run.name]
         assert row["floor"] * row["error"] == pytest.approx(np.sqrt(np.mean(left**2)), rel=1e-6)
@@ -95,7 +95,7 @@ def test_the_floor_of_all_runs_lies_between_those_of_single_runs(complete):
 def test_the_noise_of_a_gauge_that_is_printed_is_what_divides_and_what_was_planted(made, complete):
     noise = made.truth.logger.noise
     rows = {row["channel"]: row for row in complete.rows("noise")}
-    assert all(run.noise[name] == row["level"] for run in complete.base.problem.runs for name, row in rows.items())
+    assert all(run.noise[name] == row["level"] for run in complete.base.objective.runs for name, row in rows.items())
     for name, kind in (("slip_x", "slip"), ("girder_ax", "girder"), ("pad_C_N", "load"), ("pad_B_Fx", "force")):
         assert rows[name]["basis"] == "rest before the motion"
         assert rows[name]["level"] == pytest.approx(noise[kind], rel=0.15), name

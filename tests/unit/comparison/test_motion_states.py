@@ -16,7 +16,7 @@ AMPLITUDE, FREQUENCY, DT = 0.02, 1.0, 0.002
 @pytest.fixture
 def sine() -> FitRun:
     """A run of bridge 1 that slides as a sine from its first sample on, and never sticks."""
-    run, time = base().problem.runs[0], np.arange(5000) * DT
+    run, time = base().objective.runs[0], np.arange(5000) * DT
     phase = 2.0 * np.pi * FREQUENCY * time
     slip = AMPLITUDE * np.cos(phase)
     velocity = -AMPLITUDE * 2.0 * np.pi * FREQUENCY * np.sin(phase)

@@ -1,6 +1,6 @@
 """The end of a search: what is not worth being kept once it is weighed by its own law goes, what is worth it stays."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import pytest
@@ -9,6 +9,7 @@ from hypotheses import base, left_by, searched
 from slipwise.diagnosis import backward_elimination as module
 from slipwise.diagnosis.backward_elimination import with_final_refit
 from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.diagnosis.search_state import Search
 from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.relations.parameters import Term
 
@@ -26,11 +27,11 @@ def test_a_second_effect_stays_only_where_it_is_worth_it_as_reported(
     def refitted(found: Hypothesis) -> Hypothesis:
         return left_by(*found.terms, of=of, pads=weighed[found.names])
 
-    def without(found: Hypothesis, terms: Sequence[Term], refit: Callable) -> ResidualSummary:
+    def without(state: Search, found: Hypothesis, terms: Sequence[Term]) -> tuple[Search, ResidualSummary]:
         gone = {t.label for t in terms}
-        return refitted(left_by(*(t for t in found.terms if t.label not in gone), of=of)).summary
+        return state, refitted(left_by(*(t for t in found.terms if t.label not in gone), of=of)).summary
 
     monkeypatch.setattr(module, "final_refit_of", refitted)
     monkeypatch.setattr(module, "without", without)
-    ended = with_final_refit(replace(searched(of, both), tried=singles))
+    ended = with_final_refit(replace(searched(of, both), tried=tuple(singles)))
     assert ended.final.names == ended.best.names == kept

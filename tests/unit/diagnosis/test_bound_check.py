@@ -24,7 +24,7 @@ def complete() -> BaseFit:
 
 def test_a_gauge_at_midspan_of_a_girder_that_does_not_bend_hides_noise_only(complete: BaseFit) -> None:
     found = screened(complete, "girder_bending")["girder_bending"]
-    samples = len(complete.solution.residuals.parts["heave"][0])
+    samples = len(complete.solution.residuals.of("heave")[0])
     assert found.gain > 0.1 * samples and found.values["midspan"] == 1.0
     assert not keeps_its_gain(complete, found)
     assert with_bounds_checked(complete, [found], 0.1 * samples)[0].gain == 0.0

@@ -57,7 +57,7 @@ def campaign_of(*runs: Run) -> Campaign:
 
 
 def term(base: BaseFit, name: str, target: str = "") -> Term:
-    scales = base.problem.runs[0].scales
+    scales = base.objective.runs[0].scales
     effect = scaled(catalogue()[name], scales.of, scales.room)
     return Term(effect, (target,), target)
 
@@ -74,7 +74,7 @@ def columns(base: BaseFit, of: Term) -> list[np.ndarray]:
 
 def left(base: BaseFit, of: Term, *beside: Term) -> float:
     """The largest share of a column that neither the base's numbers nor what stands beside can make [1]."""
-    own = on_screen(base.problem, base.solution.inside)
+    own = on_screen(base.objective, base.solution.inside)
     project = projector(np.column_stack([own, *(c for t in beside for c in columns(base, t))]))
     found = [float(np.linalg.norm(project(c)) / np.linalg.norm(c)) for c in columns(base, of)]
     assert found, f"{of.label} changes nothing here"

@@ -33,7 +33,7 @@ def test_a_fit_never_ends_worse_than_what_it_contains(base: BaseFit) -> None:
 
 def test_a_longer_stick_is_asked_for_where_that_of_the_base_is_at_its_bound(base: BaseFit) -> None:
     found = base_hypothesis(base)
-    state = Search(base, {}, candidates(base)[0], [], (found,))
+    state = Search(base, {}, candidates(base)[0], (), (found,))
     most = next(f.high for f in base.free if f.key == STICK_LENGTH)
     for share, asked in ((0.5, 0), (1.0, 1)):
         values = {**found.solution.values, STICK_LENGTH: share * most}
@@ -46,7 +46,7 @@ def test_a_longer_stick_is_asked_for_where_that_of_the_base_is_at_its_bound(base
 
 def test_a_law_whose_strength_ran_against_its_bound_is_begun_again_from_every_shape(base: BaseFit) -> None:
     found, term = base_hypothesis(base), Term(catalogue()["buffer_softening"])
-    state = Search(base, {}, [term], [], (found,))
+    state = Search(base, {}, [term], (), (found,))
     fit = refit(base, [term], {term.label: term.effect.typical()}, most=1)
     for rise, begun in ((1.0, len(shapes(term.effect))), (0.2, 0)):
         values = {**fit.solution.values, f"{term.label}.rise": rise}

@@ -6,26 +6,26 @@ from hypotheses import measured
 from slipwise.campaign import Campaign
 from slipwise.diagnosis.held_out_regime import not_testable
 from slipwise.estimation.base_fit import fit_base
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
 
 
-def _problem(campaign: Campaign, factor: float) -> Problem:
+def _objective(campaign: Campaign, factor: float) -> Objective:
     """The held-out run slides this many times as far and as fast."""
-    problem = fit_base(campaign).problem
-    runs = list(problem.runs)
-    for i in problem.held_out:
+    objective = fit_base(campaign).objective
+    runs = list(objective.runs)
+    for i in objective.held_out:
         states = runs[i].states
         runs[i] = replace(runs[i], states=replace(states, slip=factor * states.slip, velocity=factor * states.velocity))
-    return replace(problem, runs=runs)
+    return replace(objective, measurements=replace(objective.measurements, runs=tuple(runs)))
 
 
 def test_a_run_within_what_was_fitted_can_be_tested():
-    assert not_testable(_problem(measured(), 1.0)) == {}
+    assert not_testable(_objective(measured(), 1.0)) == {}
 
 
 def test_a_run_that_goes_beyond_is_told_with_what_it_reaches():
-    problem = _problem(measured(), 3.0)
-    found = not_testable(problem)
-    assert list(found) == problem.held_out
-    assert "speeds reach" in found[problem.held_out[0]] and "strokes reach" in found[problem.held_out[0]]
-    assert "loads" not in found[problem.held_out[0]]
+    objective = _objective(measured(), 3.0)
+    found = not_testable(objective)
+    assert list(found) == objective.held_out
+    assert "speeds reach" in found[objective.held_out[0]] and "strokes reach" in found[objective.held_out[0]]
+    assert "loads" not in found[objective.held_out[0]]

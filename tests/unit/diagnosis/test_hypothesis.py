@@ -57,14 +57,14 @@ def test_a_least_size_is_one_at_which_a_relation_falls_by_what_is_material(base)
     found = screen(base, [term])
     size, unit = least_sizes(found, base_hypothesis(base))["buffer_damping"]
     assert unit == "N*s/m"
-    left = base.solution.residuals.stacked(base.problem.fitted, base.problem.relations)
+    left = base.solution.residuals.stacked(base.objective.fitted)
     shape = {f"buffer_damping.{k}": v for k, v in found[0].values.items()}
     moved = {**base.solution.values, **shape, "buffer_damping.damping": size}
-    there = base.problem.adding(term).residuals(moved, fitted_only=True)
-    step = projector(base.solution.jacobian)(there.stacked(base.problem.fitted, base.problem.relations) - left)
-    start, drops = 0, []
-    for relation in base.problem.relations:
-        rows = sum(base.solution.residuals.parts[relation][i].size for i in base.problem.fitted)
-        drops.append(float(np.sum(step[start : start + rows] ** 2)) / base_hypothesis(base).summary.counts[relation][0])
-        start += rows
+    there = base.objective.adding(term).residuals(moved, fitted_only=True)
+    step = projector(base.solution.jacobian)(there.stacked(base.objective.fitted) - left)
+    fallen = dict.fromkeys(base.objective.relations, 0.0)
+    for rows, block in base.solution.residuals.rows(base.objective.fitted):
+        fallen[block.relation] += float(np.sum(step[rows] ** 2))
+    counts = base_hypothesis(base).summary.counts
+    drops = [fall / counts[relation][0] for relation, fall in fallen.items()]
     assert max(drops) == pytest.approx(LEAST.law, rel=0.1)

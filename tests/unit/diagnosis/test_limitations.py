@@ -60,7 +60,7 @@ def reasons(base: BaseFit, terms: list[Term] = FADES_AND_LASTS, *, screened: boo
     """Say what is cannot_tell after a search that has seen something in every term, or in none."""
     nothing = np.zeros(0)
     found = [Screened(t, {}, 0.0, 0.0, nothing, 0.0) for t in terms] if screened else []
-    return dict(cannot_tell(Search(base, {}, terms, [], (base_hypothesis(base),), screened=found), base))
+    return dict(cannot_tell(Search(base, {}, terms, (), (base_hypothesis(base),), screened=found), base))
 
 
 def test_cells_of_pads_of_any_name_are_told_as_one_card() -> None:

@@ -29,32 +29,33 @@ def test_slopes_of_the_best_are_kept_and_the_others_are_taken_anew_where_they_ar
     tried = [replace(found, terms=()) for _ in range(3)]
     worth = {id(h): number for h, number in zip(tried, (1.0, 3.0, 2.0), strict=True)}
     monkeypatch.setattr(kept_slopes, "ROOM", int(2.5 * kept_slopes.size_of(found.solution)))
-    kept_slopes.lighten(tried, lambda h: worth[id(h)])
-    assert [kept_slopes.size_of(h.solution) > 0 for h in tried] == [False, True, True]
-    again = kept_slopes.whole(tried[0])
+    kept = kept_slopes.lightened(tried, lambda h: worth[id(h)])
+    assert [kept_slopes.size_of(h.solution) > 0 for h in kept] == [False, True, True]
+    assert all(kept_slopes.size_of(h.solution) > 0 for h in tried)
+    again = kept_slopes.whole(kept[0])
     assert again.solution.cost == found.solution.cost
     assert again.summary is found.summary
-    for relation, parts in found.solution.residuals.parts.items():
-        np.testing.assert_array_equal(np.concatenate(again.solution.residuals.parts[relation]), np.concatenate(parts))
+    for one, other in zip(again.solution.residuals.table, found.solution.residuals.table, strict=True):
+        np.testing.assert_array_equal(one.value, other.value)
     length = np.linalg.norm(found.solution.jacobian, axis=0)
     assert again.solution.jacobian == pytest.approx(found.solution.jacobian, abs=0.2 * length.max())
     assert kept_slopes.whole(again) is again
 
 
 def test_an_ordinary_campaign_is_screened_on_all_its_rows(base):
-    left = base.solution.residuals.stacked(base.problem.fitted, base.problem.relations)
-    assert screened_rows.on_screen(base.problem, left) is left
-    assert sum(screened_rows.rows_of(base.problem).values()) == len(left)
+    left = base.solution.residuals.stacked(base.objective.fitted)
+    assert screened_rows.on_screen(base.objective, left) is left
+    assert sum(screened_rows.rows_of(base.objective).values()) == len(left)
 
 
 def test_a_thinned_screen_sees_the_same_candidates_with_nearly_the_same_gains(base, monkeypatch):
     terms = [Term(catalogue()[name]) for name in ("breakaway", "buffer_damping", "run_in")]
     whole = {s.term.label: s.gain for s in screen(base, terms)}
-    problem, rows = base.problem, len(base.solution.jacobian)
+    objective, rows = base.objective, len(base.solution.jacobian)
     monkeypatch.setattr(screened_rows, "_MOST", rows // 3 + 1)
-    assert screened_rows.thinning(problem) == 3
+    assert screened_rows.thinning(objective) == 3
     thinned = screen(base, terms)
-    assert len(thinned[0].column) == sum(screened_rows.rows_of(problem).values()) < 0.35 * rows
+    assert len(thinned[0].column) == sum(screened_rows.rows_of(objective).values()) < 0.35 * rows
     assert max(whole, key=lambda label: whole[label]) == thinned[0].term.label
     assert thinned[0].gain == pytest.approx(max(whole.values()), rel=0.1)
 
@@ -66,8 +67,8 @@ def test_a_held_out_run_of_which_a_stretch_was_judged_is_predicted_over_all_its_
     cut = replace(whole, runs=(*whole.runs[:-1], replace(last, record=record)))
     assert last.role == "holdout" and errors_on_all_samples(whole, {}, whole, [found]) == {}
     both = errors_on_all_samples(whole, {}, cut, [found, found])
-    assert list(both) == list(base.problem.relations)
-    again = base.problem.weighed_anew(base.solution.values)
+    assert list(both) == list(base.objective.relations)
+    again = base.objective.weigh(base.solution.values)
     for error in errors_of(again, again.residuals(base.solution.values)):
         assert both[error.relation][0] == pytest.approx(error.held_out, rel=0.01)
         assert both[error.relation][0] == both[error.relation][1]

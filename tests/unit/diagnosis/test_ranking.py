@@ -8,7 +8,7 @@ from slipwise.estimation.base_fit import BaseFit
 
 def with_mass(share: float, fault: str, group: str, of: BaseFit, pads: float) -> Hypothesis:
     """A fault of gauges beside which the fit gave the girder this share of its rated mass."""
-    return left_by(on(fault, group), of=of, pads=pads, values={"rig.mass": share * of.problem.specimen.mass})
+    return left_by(on(fault, group), of=of, pads=pads, values={"rig.mass": share * of.objective.specimen.mass})
 
 
 def test_a_gauge_keeps_its_best_law_though_another_is_nearer_to_the_rated_mass() -> None:

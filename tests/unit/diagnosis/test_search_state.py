@@ -3,11 +3,18 @@
 import pytest
 
 from bench import build_campaign
+from hypotheses import base, left_by, searched
 from measured import as_campaign, fit_base
 from slipwise.diagnosis import search_state as module
 from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis
-from slipwise.diagnosis.search_state import Search, try_all
+from slipwise.diagnosis.search_state import Search, left_with, try_all
+
+
+def test_what_was_fitted_before_is_not_fitted_again_and_the_state_stays_as_it_is() -> None:
+    found = left_by("heating", of=base())
+    state = searched(base(), found)
+    assert left_with(state, found.terms, found) == (state, found)
 
 
 @pytest.mark.long
@@ -23,11 +30,12 @@ def test_only_the_promising_are_fitted_to_the_end(monkeypatch: pytest.MonkeyPatc
     base = fit_base(as_campaign(build_campaign(7005, effects=("run_in",), size="medium")))
     terms = {t.label: t for t in candidates(base)[0]}
     asked = [([terms[name]], {name: terms[name].effect.typical()}) for name in ("run_in", "pad_spread", "heating")]
-    state = Search(base, {}, [], [], (base_hypothesis(base),))
-    every = try_all(state, asked)
+    begun = Search(base, {}, [], (), (base_hypothesis(base),))
+    state, every = try_all(begun, asked)
+    assert begun.tried == () and len(state.tried) == len(asked)
     assert [h.names for h in every[:2]] == ended and every[0].names == ("run_in",)
     ended.clear()
-    some = try_all(state, asked, promising=lambda h: h.names != ("run_in",))
+    state, some = try_all(state, asked, promising=lambda h: h.names != ("run_in",))
     assert ended == [every[1].names]
     assert [h.names for h in some] == [h.names for h in every] and len(state.tried) == 2 * len(asked)
     assert some[0].solution.cost == every[0].solution.cost

@@ -1,6 +1,5 @@
 """Structure can be predicted on motions that it was not made from; noise, and one early reversal, cannot."""
 
-from copy import copy
 from dataclasses import replace
 
 import numpy as np
@@ -14,9 +13,9 @@ from slipwise.record import Record
 
 def with_left(found: Hypothesis, relation: str, left: list[np.ndarray]) -> Hypothesis:
     """The hypothesis with another residual of one relation in every run."""
-    parts = {**found.solution.residuals.parts, relation: left}
-    residuals = replace(found.solution.residuals, parts=parts)
-    return replace(found, solution=replace(found.solution, residuals=residuals))
+    of = found.solution.residuals
+    more = {relation: [before - now for before, now in zip(of.of(relation), left, strict=True)]}
+    return replace(found, solution=replace(found.solution, residuals=of.less(more)))
 
 
 @pytest.mark.parametrize("state", ["velocity", "slip"])
@@ -43,13 +42,16 @@ def test_a_force_is_found_where_every_run_was_fitted() -> None:
 
 def slowed(found: Hypothesis, factor: float) -> Hypothesis:
     """The hypothesis of a test that was run so many times slower on a rig that is as slow."""
-    problem = copy(found.problem)
-    problem.runs = []
-    for run in found.problem.runs:
+    objective, left = found.objective, found.solution.residuals
+    runs = []
+    for run in objective.runs:
         record = Record(run.record.time * factor, run.record.channels)
         scales = replace(run.scales, speed=run.scales.speed / factor)
-        problem.runs.append(replace(run, states=replace(run.states, record=record, scales=scales)))
-    return replace(found, problem=problem)
+        runs.append(replace(run, states=replace(run.states, record=record, scales=scales)))
+    table = tuple(replace(b, time=b.time * factor, dt=b.dt * factor) for b in left.table)
+    slower = replace(objective, measurements=replace(objective.measurements, runs=tuple(runs)))
+    solution = replace(found.solution, residuals=replace(left, table=table))
+    return replace(found, objective=slower, solution=solution)
 
 
 def test_what_is_left_above_the_noise_does_not_change_with_the_unit_of_time() -> None:
@@ -60,8 +62,8 @@ def test_what_is_left_above_the_noise_does_not_change_with_the_unit_of_time() ->
 def test_one_early_reversal_in_each_run_is_no_structure() -> None:
     of = base(pads=1.5)
     noise = left_by(of=of)
-    left = [part.copy() for part in noise.solution.residuals.parts["pads"]]
-    for part, run in zip(left, of.problem.runs, strict=True):
+    left = [part.copy() for part in noise.solution.residuals.of("pads")]
+    for part, run in zip(left, of.objective.runs, strict=True):
         first = np.flatnonzero(run.judged["pads"][:, 0])[:6]
         part[first] = 90.0
     assert not structured(leftover(with_left(left_by(of=of, pads=1.5), "pads", left)))
@@ -70,7 +72,7 @@ def test_one_early_reversal_in_each_run_is_no_structure() -> None:
 def test_the_noise_of_the_vertical_accelerometer_does_not_predict_itself_in_heave() -> None:
     of = base(heave=2.0)
     left = []
-    for run in of.problem.runs:
+    for run in of.objective.runs:
         gauge = run.states.girder_acceleration[:, 2]
         around = np.convolve(gauge, np.ones(5) / 5.0, mode="same")
         left.append(np.where(run.judged["heave"], -(gauge - around) / np.std(gauge - around), 0.0))

@@ -32,7 +32,7 @@ def _speed(run: FitRun) -> np.ndarray:
 def test_a_model_that_leaves_noise_is_complete():
     of = base()
     assert _decided(of).kind == "complete"
-    assert decided(replace(searched(of), tried=[left_by("heating", of=of, pads=0.99)])).kind == "complete"
+    assert decided(replace(searched(of), tried=(left_by("heating", of=of, pads=0.99),))).kind == "complete"
 
 
 def test_what_is_above_the_noise_but_does_not_matter_leaves_a_model_complete() -> None:

@@ -58,8 +58,8 @@ def told(unknown: tuple[Diagnosis, BaseFit], monkeypatch: pytest.MonkeyPatch) ->
             )
             match = SimpleNamespace(candidate=candidate, free=(), forms=("form",))
             placed = SimpleNamespace(match=match, lag=0.0, label=name)
-            problem = SimpleNamespace(problem=law.problem, every=None, fitted=diagnosis.final.problem.fitted)
-            return Found((), (Fit(placed, problem, law.solution),))  # pyright: ignore[reportArgumentType]
+            objective = SimpleNamespace(objective=law.objective, every=None, fitted=diagnosis.final.objective.fitted)
+            return Found((), (Fit(placed, objective, law.solution),))  # pyright: ignore[reportArgumentType]
 
         monkeypatch.setattr(module, "find_law", found)
         monkeypatch.setattr(module, "different", list)

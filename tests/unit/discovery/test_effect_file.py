@@ -13,7 +13,7 @@ from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.effect_file import can_be_written, write_law
 from slipwise.discovery.form import forms
 from slipwise.discovery.law import Law, LawConstant
-from slipwise.discovery.law_problem import FittedLaw, LawProblem, PlacedLaw
+from slipwise.discovery.law_objective import FittedLaw, LawObjective, PlacedLaw
 from slipwise.discovery.matching import Match, constants_of, product_at
 from slipwise.discovery.ports import EVERYWHERE, Gate, Port
 from slipwise.discovery.result import Discovery
@@ -40,7 +40,7 @@ def law_of(port: str, states: tuple[str, ...], form_names: tuple[str, ...], gate
     constants = [LawConstant("strength", 0.2, 0.1, 0.3, "1")]
     constants += [LawConstant(n, v, NAN, NAN, "1") for n, v in numbers.items()]
     constants += [LawConstant("time_constant", lag, NAN, NAN, "s")] if lag else []
-    fitted = Fitted(PlacedLaw("law", match, ()), LawProblem(None, None, ()), None)  # pyright: ignore[reportArgumentType]
+    fitted = Fitted(PlacedLaw("law", match, ()), LawObjective(None, None, ()), None)  # pyright: ignore[reportArgumentType]
     return Law(
         "law", states, port, gate.name, "odd", " x ".join(form_names), (), (), tuple(constants), 0.97, False, False,
         {s: (0.0, 1.0) for s in states}, fitted, (),

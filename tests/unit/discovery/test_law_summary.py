@@ -11,10 +11,10 @@ from slipwise.discovery.law_summary import _lags_by_nothing, parity_of
 def fitted(state: str, lag: float = 0.0) -> Any:
     """A law over one state, fitted to samples of 2 ms."""
     candidate = SimpleNamespace(states=(SimpleNamespace(name=state),))
-    problem = SimpleNamespace(plain=SimpleNamespace(runs=[SimpleNamespace(dt=0.002)]), fitted=[0])
+    objective = SimpleNamespace(plain=SimpleNamespace(fitted_runs=[SimpleNamespace(dt=0.002)]), fitted=[0])
     values = {"time_constant": lag} if lag else {}
     return SimpleNamespace(
-        law=SimpleNamespace(match=SimpleNamespace(candidate=candidate), lag=lag), problem=problem, values=values
+        law=SimpleNamespace(match=SimpleNamespace(candidate=candidate), lag=lag), objective=objective, values=values
     )
 
 

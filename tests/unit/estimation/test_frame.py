@@ -12,7 +12,7 @@ from slipwise.campaign import Campaign, Logger, Run, load_campaign
 from slipwise.comparison.component_level import component_errors, pooled
 from slipwise.comparison.system_level import pad_springs
 from slipwise.errors import InputError
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import objective_of
 from slipwise.model import base_model, use
 from slipwise.record import Record, write_record
 from slipwise.relations.rigid_balances import relations
@@ -144,9 +144,9 @@ def test_a_storey_that_was_not_measured_leaves_out_what_it_pushes(record: Record
         'name = "b"\nrig = "building"\n[[run]]\nfile = "run.parquet"\nrole = "fit"\n'
     )
     campaign = load_campaign(tmp_path)
-    problem = Problem(fit_runs(campaign), campaign.specimen, ())
-    assert {"girder", "pitch"}.isdisjoint(problem.relations) is bool(lost)
-    assert {"heave", "warp", "motion"} <= set(problem.relations)
+    objective = objective_of(fit_runs(campaign), campaign.specimen, ())
+    assert {"girder", "pitch"}.isdisjoint(objective.relations) is bool(lost)
+    assert {"heave", "warp", "motion"} <= set(objective.relations)
     audited, cannot = relations(campaign.runs[0].record, campaign.specimen)
     assert ("girder_x" in [relation.name for relation in audited]) is not bool(lost)
     assert any("storey_2_ax" in words for words in cannot) is bool(lost)

@@ -34,7 +34,7 @@ def test_a_strong_filter_of_the_girder_is_put_on_what_the_balance_predicts(made:
     term, lag = Term(catalogue()["channel_filter"], ("girder_ax",), "girder_ax"), np.sqrt(2.0) / (2.0 * np.pi * CUTOFF)
     found = final_refit_of(polished(refit(base, [term], {term.label: {"lag": lag, "order": 2.0}})))
     before, after = (
-        np.sqrt(of.held_out_level("girder")) for of in (summarised(base.problem, base.solution), found.summary)
+        np.sqrt(of.held_out_level("girder")) for of in (summarised(base.objective, base.solution), found.summary)
     )
     assert before > 5.0 and after < 1.1
     assert found.solution.values[f"{term.label}.lag"] == pytest.approx(lag, rel=0.02)

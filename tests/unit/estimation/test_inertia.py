@@ -66,4 +66,4 @@ def test_pitch_is_weighed_with_the_resonance_that_is_there_however_far_from_the_
     stated = Logger(LowPass(chain.lowpass, chain.order, chain.phase), known=True)
     base = fit_base(replace(as_campaign(made), logger=stated))
     assert made.truth.base.inertia_pitch == 1.6e4
-    assert summarised(base.problem, base.solution).held_out_level("pitch") < 1.1
+    assert summarised(base.objective, base.solution).held_out_level("pitch") < 1.1

@@ -19,5 +19,5 @@ def test_pitch_does_not_ring_with_samples_that_gauges_of_friction_have_lost() ->
     ready = prepare(as_campaign(with_faults(made, [Fault("dropped_samples", gauges, 0.06, "held")], 5)))
     assert {name for fault in ready.faults for name in fault.channels} == set(gauges)
     base = fit_prepared(ready)
-    levels = summarised(base.problem, base.solution)
+    levels = summarised(base.objective, base.solution)
     assert max(levels.fitted_level("pitch"), levels.held_out_level("pitch")) < 1.25

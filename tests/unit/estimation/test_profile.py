@@ -6,7 +6,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from hypotheses import base
+from hypotheses import base, table_of
+from slipwise.campaign.scales import Scales
 from slipwise.effects import find_effect
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import intervals
@@ -14,7 +15,6 @@ from slipwise.estimation.least_squares import jacobian, solve
 from slipwise.record import Record
 from slipwise.relations.parameters import Free, Term
 from slipwise.relations.run_data import FitRun
-from slipwise.relations.table import Residuals
 
 DT, COUNT, SIGMA = 0.01, 4000, 1.0
 LEVEL = Free("rig.mass", 0.0, -9.0, 9.0, 0.1, "kg")
@@ -26,7 +26,7 @@ COLUMNS = np.stack([np.ones(COUNT), 1.0 + np.sin(1.7 * TIME) + 0.5 * np.sin(11.0
 @cache
 def only_run() -> list[FitRun]:
     """A run as long as the line, all of whose samples are judged."""
-    run = base().problem.runs[0]
+    run = base().objective.runs[0]
     states = replace(run.states, time=TIME, record=Record(TIME, {"slip_x": 0.0 * TIME}))
     return [replace(run, states=states, judged={"pads": ALL})]
 
@@ -41,8 +41,18 @@ class Line:
     fitted: tuple[int, ...] = (0,)
     relations: tuple[str, ...] = ("pads",)
     runs: list[FitRun] = field(default_factory=only_run)
-    sigmas: dict[str, list[np.ndarray]] = field(default_factory=lambda: {"pads": [np.ones((COUNT, 1))]})
     balanced: bool = False
+
+    @property
+    def fitted_runs(self) -> list[FitRun]:
+        return self.runs
+
+    @property
+    def scales(self) -> Scales:
+        return self.runs[0].scales
+
+    def run(self, place: int) -> FitRun:
+        return self.runs[place]
 
     @property
     def terms(self) -> tuple[Term, ...]:
@@ -55,7 +65,7 @@ class Line:
         strength = values["heating.share"]
         predicted = COLUMNS @ [values["rig.mass"], strength + self.bent * strength**2]
         steady = np.zeros((COUNT, 1))  # a force that does not change knows no timing
-        return Residuals({"pads": [(self.measured - predicted)[:, None]]}, [steady])
+        return table_of({"pads": [(self.measured - predicted)[:, None]]}, [steady], DT)
 
 
 def fitted(rng: np.random.Generator, truth: float, bent: float = 0.0) -> BaseFit:

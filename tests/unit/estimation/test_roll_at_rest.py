@@ -48,12 +48,12 @@ def test_motion_across_leaves_roll_to_the_rest_before_it() -> None:
 def test_a_centre_of_gravity_off_across_shows_before_the_motion_and_its_effect_takes_it_away() -> None:
     stated = load_specimen("bridge1")
     base = fit_base(campaign(measured(replace(stated, centre_y=0.05)), stated))
-    assert "roll" in base.problem.relations and "across" in base.problem.relations
-    (left,) = base.solution.residuals.parts["roll"]
+    assert "roll" in base.objective.relations and "across" in base.objective.relations
+    (left,) = base.solution.residuals.of("roll")
     assert abs(left[left != 0.0].mean()) > 10.0
     term = Term(catalogue()["mass_eccentricity"])
     off = {"mass_eccentricity.along": 0.0, "mass_eccentricity.across": 0.05}
-    (left,) = base.problem.adding(term).residuals({**base.solution.values, **off}).parts["roll"]
+    (left,) = base.objective.adding(term).residuals({**base.solution.values, **off}).of("roll")
     assert abs(left[left != 0.0].mean()) < 0.5
 
 

@@ -6,62 +6,55 @@ import numpy as np
 import pytest
 
 from hypotheses import base
-from slipwise.estimation.objective import Problem
-from slipwise.evidence.left_out import LinearFit, left_out, motions
+from slipwise.estimation.objective import Objective, objective_of
+from slipwise.evidence.left_out import LinearFit, left_out
 
 
 @pytest.fixture(scope="module")
-def problem() -> Problem:
-    return base(held_out=False).problem
+def objective() -> Objective:
+    return base(held_out=False).objective
 
 
-def linear(problem: Problem, numbers: int) -> LinearFit:
+def linear(objective: Objective, numbers: int) -> LinearFit:
     """A straight-line model of random slopes, fitted to noise."""
     rng = np.random.default_rng(3)
-    count = sum(problem.runs[i].judged[r].size for r in problem.relations for i in problem.fitted)
+    count = len(objective.layout.stacked(objective.fitted))
     slopes, wanted = rng.normal(size=(count, numbers)), rng.normal(size=count)
     wide = np.full(numbers, 1e9)
     residual = wanted - slopes @ np.linalg.lstsq(slopes, wanted, rcond=None)[0]
     return LinearFit(residual, slopes, -wide, wide, numbers)
 
 
-def test_it_is_what_a_refit_without_the_motion_leaves_of_it(problem: Problem) -> None:
-    fit = linear(problem, 5)
-    predicted = left_out(problem, fit)
-    place = 0
-    rows = []
-    for relation in problem.relations:
-        for i in problem.fitted:
-            size = problem.runs[i].judged[relation].size
-            rows.append((i, slice(place, place + size)))
-            place += size
+def test_it_is_what_a_refit_without_the_motion_leaves_of_it(objective: Objective) -> None:
+    fit = linear(objective, 5)
+    predicted = left_out(objective, fit)
     first = np.zeros(len(fit.residual), dtype=bool)
-    for i, here in rows:
-        first[here] = i == problem.fitted[0]
+    for here, block in objective.layout.rows(objective.fitted):
+        first[here] = block.run == objective.fitted[0]
     step = np.linalg.lstsq(fit.slopes[~first], -fit.residual[~first], rcond=None)[0]
     expected = fit.residual[first] + fit.slopes[first] @ step
     assert predicted[first] == pytest.approx(expected, abs=1e-3)
 
 
-def test_a_number_that_only_one_motion_tells_keeps_its_value_without_it(problem: Problem) -> None:
-    fit = linear(problem, 3)
+def test_a_number_that_only_one_motion_tells_keeps_its_value_without_it(objective: Objective) -> None:
+    fit = linear(objective, 3)
     only = np.zeros_like(fit.slopes)
-    only[: problem.runs[problem.fitted[0]].judged["pads"].size, 0] = 1.0  # the pads of the first run
+    only[: objective.runs[objective.fitted[0]].judged["pads"].size, 0] = 1.0  # the pads of the first run
     alone = replace(fit, slopes=only[:, :1], low=fit.low[:1], high=fit.high[:1])
-    assert np.isfinite(left_out(problem, alone)).all()
-    assert np.abs(left_out(problem, alone) - alone.residual).max() < 1.0
+    assert np.isfinite(left_out(objective, alone)).all()
+    assert np.abs(left_out(objective, alone) - alone.residual).max() < 1.0
 
 
-def test_a_repeat_is_left_out_with_the_run_that_it_repeats(problem: Problem) -> None:
-    runs = [*problem.runs, replace(problem.runs[1], role="repeat")]
-    again = Problem(runs, problem.specimen, problem.terms)
-    assert motions(again) == [[0], [1, 2]]
+def test_a_repeat_is_left_out_with_the_run_that_it_repeats(objective: Objective) -> None:
+    runs = [*objective.runs, replace(objective.runs[1], role="repeat")]
+    again = objective_of(runs, objective.specimen, objective.terms)
+    assert again.measurements.motions == [[0], [1, 2]]
 
 
 def test_of_one_motion_stretches_of_time_are_left_out() -> None:
-    single = base().problem  # the other run is held out
+    single = base().objective  # the other run is held out
     fit = linear(single, 4)
     predicted = left_out(single, fit)
-    assert motions(single) == [[0]]
+    assert single.measurements.motions == [[0]]
     assert not np.array_equal(predicted, fit.residual)
     assert float(predicted @ predicted) > float(fit.residual @ fit.residual)

@@ -6,14 +6,16 @@ import numpy as np
 import pytest
 
 from hypotheses import base
+from slipwise.estimation.objective import objective_of
 from slipwise.evidence.residual_summary import summarised
 from slipwise.relations.motions import by_motion
 from slipwise.relations.run_data import FitRun
+from slipwise.relations.setting import Weighing
 
 
 @pytest.fixture
 def runs() -> list[FitRun]:
-    return base(held_out=False).problem.runs
+    return list(base(held_out=False).objective.runs)
 
 
 def test_a_run_that_is_given_twice_is_of_one_motion(runs) -> None:
@@ -29,23 +31,24 @@ def test_runs_of_two_motions_are_apart_unless_one_is_said_to_repeat_the_other(ru
 
 def test_runs_that_are_given_twice_add_no_independent_block() -> None:
     once = base(held_out=False)
-    problem, solution = once.problem.adding(), once.solution
-    residuals = solution.residuals
-    problem.runs = [*problem.runs, *problem.runs]
-    problem.sigmas = {name: [*of, *of] for name, of in problem.sigmas.items()}
-    parts = {name: [*of, *of] for name, of in residuals.parts.items()}
-    doubled = replace(residuals, parts=parts, pad_forces=[*residuals.pad_forces, *residuals.pad_forces])
+    objective, solution = once.objective, once.solution
+    runs = (*objective.runs, *objective.runs)
+    sigmas = {name: (*of, *of) for name, of in objective.weighing.sigmas.items()}
+    again = replace(objective_of(runs, objective.specimen, objective.terms), weighing=Weighing(sigmas))
+    left = solution.residuals
+    values = {name: [*left.of(name), *left.of(name)] for name in left.relations}
+    doubled = again.layout.filled(values, [*left.pad_forces, *left.pad_forces])
     slopes = rows_twice(once, solution.jacobian)
-    twice = summarised(problem, replace(solution, residuals=doubled, jacobian=slopes))
-    single = summarised(once.problem, solution)
+    twice = summarised(again, replace(solution, residuals=doubled, jacobian=slopes))
+    single = summarised(objective, solution)
     assert all(len(twice.blocks[name]) == len(blocks) for name, blocks in single.blocks.items())
 
 
 def rows_twice(once, jacobian):
     """Slopes of all runs of a relation, then again, relation after relation."""
-    problem, start, out = once.problem, 0, []
-    for name in problem.relations:
-        size = sum(problem.runs[i].judged[name].size for i in problem.fitted)
+    objective, start, out = once.objective, 0, []
+    for name in objective.relations:
+        size = sum(block.value.size for block in once.solution.residuals.blocks(name, objective.fitted))
         out += [jacobian[start : start + size]] * 2
         start += size
     return np.concatenate(out)

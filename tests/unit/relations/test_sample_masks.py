@@ -7,9 +7,9 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign, mended_for_fits
+from slipwise.estimation.objective import objective_of
 from slipwise.preparation.sample_faults import find_sample_faults
-from slipwise.relations.kinematics import Kinematics
-from slipwise.relations.memo import Recent
+from slipwise.relations.kinematics import YAW
 from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.relations.sample_masks import away_from_cuts, before_uplift, ringing_after_uplift, sample_masks
 from slipwise.rig import load_specimen, pad_frequencies
@@ -55,7 +55,7 @@ def test_the_yaw_of_unequal_pads_is_seen_though_one_of_their_gauges_is_clipped()
     fitted = {"rig.mass": truth["mass"], "rig.centre_height": truth["h"], "rig.buffer_stiffness": 2.0 * truth["Kb"]}
 
     def yaw(runs: list[FitRun]) -> list[np.ndarray]:
-        return [angle for angle, _ in Kinematics(runs, specimen, (), True, True, Recent()).yaw_of_runs(fitted)]
+        return [angle for angle, _ in objective_of(runs, specimen, ()).with_yaw().evaluation(fitted).of(YAW)]
 
     for seen, true in zip(yaw(ready), yaw(fit_runs(campaign)), strict=True):
         assert np.std(true) > 1e-4, "it must be seen at all"

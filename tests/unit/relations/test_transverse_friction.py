@@ -9,7 +9,7 @@ from bench import build_campaign
 from measured import as_campaign, fit_base
 from slipwise.comparison.component_level import component_errors
 from slipwise.effects import catalogue
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import objective_of
 from slipwise.record import Record
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import fit_runs
@@ -23,17 +23,17 @@ def campaign():
 @pytest.mark.slow
 def test_a_complete_model_leaves_noise_and_anisotropy_shows_there_only(campaign):
     fit = fit_base(campaign)
-    problem = fit.problem
-    assert "across" in problem.relations
-    left = [part[part != 0.0] for part in fit.solution.residuals.parts["across"]]
+    objective = fit.objective
+    assert "across" in objective.relations
+    left = [part[part != 0.0] for part in fit.solution.residuals.of("across")]
     assert np.mean(np.concatenate(left) ** 2) == pytest.approx(1.0, abs=0.15)
     errors = [e for e in component_errors(fit) if e.relation == "across"]
     assert len(errors) == 5 and all(0.9 < e.error < 1.1 and e.share < 0.1 for e in errors)
     term = Term(catalogue()["anisotropy"])
-    moved = problem.adding(term).residuals({**fit.solution.values, f"{term.label}.ratio": 1.1})
-    assert np.mean(np.concatenate(moved.parts["across"]) ** 2) > 5.0
-    for run, part in enumerate(moved.parts["pads"]):
-        assert part == pytest.approx(fit.solution.residuals.parts["pads"][run])
+    moved = objective.adding(term).residuals({**fit.solution.values, f"{term.label}.ratio": 1.1})
+    assert np.mean(np.concatenate(moved.of("across")) ** 2) > 5.0
+    for run, part in enumerate(moved.of("pads")):
+        assert part == pytest.approx(fit.solution.residuals.of("pads")[run])
 
 
 def test_without_gauges_across_there_is_no_such_relation(campaign):
@@ -42,4 +42,4 @@ def test_without_gauges_across_there_is_no_such_relation(campaign):
 
     runs = tuple(replace(r, record=without(r.record)) for r in campaign.runs)
     plain = replace(campaign, runs=runs)
-    assert "across" not in Problem(fit_runs(plain), plain.specimen, ()).relations
+    assert "across" not in objective_of(fit_runs(plain), plain.specimen, ()).relations

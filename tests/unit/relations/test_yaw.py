@@ -11,6 +11,7 @@ from measured import as_campaign, fit_base
 from slipwise.diagnosis.hypothesis import refit
 from slipwise.effects import catalogue, load_effect
 from slipwise.model import base_model, use
+from slipwise.relations.kinematics import YAW
 from slipwise.relations.parameters import YAW_INERTIA, Term
 
 
@@ -24,7 +25,7 @@ def test_unequal_buffers_turn_the_made_girder_as_far_as_the_true_one(seed: int) 
     base = fit_base(campaign, model)
     values = {**base.solution.values, "buffer_mismatch.difference": difference, YAW_INERTIA: true.inertia_yaw}
     values |= {"rig.buffer_stiffness": true.buffer_stiffness, "rig.mass": true.mass}
-    for name, (angle, rate) in zip(made.true, base.problem.kinematics.yaw_of_runs(values), strict=True):
+    for name, (angle, rate) in zip(made.true, base.objective.evaluation(values).of(YAW), strict=True):
         there = made.at_samples(name)["yaw"]
         there = there - there[0]
         np.testing.assert_allclose(angle @ there / (there @ there), 1.0, atol=0.015)

@@ -95,10 +95,11 @@ def test_an_effect_at_its_absence_changes_nothing(back):
 
 @pytest.mark.parametrize("relation", ["pads", "girder", "roll", "warp", "motion"])
 def test_the_residual_of_a_series_is_what_the_error_is_made_of(back, relation):
-    problem, part = back.ready.problem(back.state), back.ready.residuals(back.state).parts[relation][1]
+    of = back.ready.residuals(back.state).block(relation, 1)
+    part = of.value
     shown, judged = back.series("quake_hv", relation), part != 0.0
     assert shown.measured.shape == shown.predicted.shape == (len(shown.time), len(shown.labels))
-    noise = np.broadcast_to(problem.sigmas[relation][1], part.shape) if shown.unit != "1" else np.ones(part.shape)
+    noise = of.noise if shown.unit != "1" else np.ones(part.shape)
     assert shown.residual.reshape(part.shape)[judged] == pytest.approx((part * noise)[judged], abs=1e-6 * noise.max())
 
 

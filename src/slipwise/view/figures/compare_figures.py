@@ -25,8 +25,8 @@ _MEASURED, _MODEL, _HELD = INK, "#e69f00", "#0072b2"
 
 def shown_run(found: Comparison) -> int:
     """Return the place of the run that pictures show: the first held out, else the last."""
-    held = found.base.problem.held_out
-    return held[0] if held else len(found.base.problem.runs) - 1
+    objective = found.base.objective
+    return [*objective.held_out, *objective.fitted[-1:]][0]
 
 
 def errors_figure(found: Comparison, *, narrow: bool = False) -> Figure:
@@ -105,7 +105,7 @@ def errors_figure(found: Comparison, *, narrow: bool = False) -> Figure:
 def histories_figure(found: Comparison) -> Figure:
     """Draw measured channels with what the model makes of them over it, and their difference below."""
     place = shown_run(found)
-    run = found.base.problem.runs[place]
+    run = found.base.objective.run(place)
     series: list[tuple[str, str, Array, Array]] = []
     if found.system:
         one = found.system.runs[place]
@@ -142,7 +142,7 @@ def histories_figure(found: Comparison) -> Figure:
 def loops_figure(found: Comparison) -> Figure:
     """Draw measured and predicted friction over slip, every pad as seen from above, and their sum."""
     place = shown_run(found)
-    run = found.base.problem.runs[place]
+    run = found.base.objective.run(place)
     said = found.base.solution.residuals.pad_forces[place]
     part = widest_loop(run)
     with styled():

@@ -44,7 +44,7 @@ def balances_figure(found: Diagnosis, *, narrow: bool = False) -> Figure:
     errors = [(before, after if found.added else None) for before, after in found.relations.values()]
     places = error_bars(axes, errors, ("base model", _with(found)))
     axes.set_xticks(places, [under_axis(n) for n in found.relations], rotation=90 if narrow else 0, fontsize=8.0)
-    held = found.search.base.problem.held_out
+    held = found.search.base.objective.held_out
     axes.set_ylabel(f"{'held-out error' if held else 'error on fitted runs'} / floor")
     figure.legend(loc="outside upper right", ncols=1 if narrow else 3)  # bars may fill the panel
     return figure
@@ -105,9 +105,9 @@ def _change(before: LadderStep, after: LadderStep) -> str:
 
 def loops_figure(found: Diagnosis) -> Figure:
     """Draw pad A's friction against slip in a held-out run: measured, base model and, if it differs, final model."""
-    problem = found.search.base.problem
-    place = (problem.held_out or [0])[0]
-    run = problem.runs[place]
+    objective = found.search.base.objective
+    place = (objective.held_out or [0])[0]
+    run = objective.run(place)
     models = [("base model", found.search.base, BEFORE)]
     models += [(_with(found), found.final, AFTER)] if found.added else []
     figure = new_figure(8.6, 4.2)

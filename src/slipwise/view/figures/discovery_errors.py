@@ -33,15 +33,15 @@ _FEWEST = 8
 
 def errors(found: Discovery) -> dict[str, dict[str, tuple[float, float | None]]]:
     """Return the rms error of every balance [floors]: runs -> balance -> before, and after where there is a law."""
-    problem, solution = found.base.problem, after(found)
-    groups = {"fitted runs": problem.fitted, "held-out runs": problem.held_out}
+    objective, solution = found.base.objective, after(found)
+    groups = {"fitted runs": objective.fitted, "held-out runs": objective.held_out}
     return {
         words: {
             r: (
-                level(problem, found.base.solution, r, places),
-                level(problem, solution, r, places) if solution else None,
+                level(objective, found.base.solution, r, places),
+                level(objective, solution, r, places) if solution else None,
             )
-            for r in problem.relations
+            for r in objective.relations
         }
         for words, places in groups.items()
         if places
@@ -83,7 +83,7 @@ def states_figure(found: Discovery) -> Figure:
     for axes, state in zip(panels.ravel(), states, strict=False):
         factor = 1.0
         for words, solution, colour in fits:
-            values, left = left_over(found.base.problem, solution, found.worst, state)
+            values, left = left_over(found.base.objective, solution, found.worst, state)
             label, factor = state_axis(state.name, float(np.abs(values).max()))
             middles, rms = binned_rms(values, left)
             axes.plot(factor * middles, rms, "o-", color=colour, ms=3.0, lw=1.6, label=words)
@@ -110,10 +110,10 @@ def binned_rms(values: Array, left: Array) -> tuple[Array, Array]:
 
 def shown_runs(found: Discovery) -> list[int]:
     """Return the places of the runs whose loops are drawn: of the fitted ones the worst before, and a held-out one."""
-    problem, relation = found.base.problem, found.worst
-    left = found.base.solution.residuals.parts[relation]
-    worst = max(problem.fitted, key=lambda i: float(np.mean(left[i] ** 2)))
-    return [worst, *problem.held_out[:1]]
+    objective, relation = found.base.objective, found.worst
+    blocks = found.base.solution.residuals.blocks(relation, objective.fitted)
+    worst = max(blocks, key=lambda of: of.squares / of.value.size)
+    return [worst.run, *objective.held_out[:1]]
 
 
 def loops_figure(found: Discovery) -> Figure:
@@ -122,7 +122,7 @@ def loops_figure(found: Discovery) -> Figure:
     figure = new_figure(10.6, 4.6)
     panels = figure.subplots(1, len(places), sharey=True, squeeze=False)[0]
     for axes, place in zip(panels, places, strict=True):
-        run = found.base.problem.runs[place]
+        run = found.base.objective.run(place)
         _loop(axes, found, place)
         axes.set_title(f"{run.name} ({'held out' if run.role == 'holdout' else 'fitted'})")
         axes.set_xlabel("slip [mm]")
@@ -137,7 +137,7 @@ def loop_words(found: Discovery) -> str:
         return "force on the girder that no pad carries"
     if found.worst == "heave":
         return "load of all pads"
-    return f"friction of pad {found.base.problem.runs[0].pads[_pad(found)]}"
+    return f"friction of pad {found.base.objective.pads[_pad(found)]}"
 
 
 def _pad(found: Discovery) -> int:
@@ -149,7 +149,7 @@ def _pad(found: Discovery) -> int:
 
 
 def _loop(axes: Axes, found: Discovery, place: int) -> None:
-    run, part = found.base.problem.runs[place], widest_loop(found.base.problem.runs[place])
+    run, part = found.base.objective.run(place), widest_loop(found.base.objective.run(place))
     ink, slip = mpl.rcParams["text.color"], 1e3 * run.slip
     measured = _measured(found, place)
     axes.plot(slip, 1e-3 * measured, color=mpl.rcParams["axes.edgecolor"], lw=0.6, rasterized=True, label="whole run")
@@ -163,7 +163,7 @@ def _loop(axes: Axes, found: Discovery, place: int) -> None:
 
 def _measured(found: Discovery, place: int) -> Array:
     """Return the measured force of which a loop is drawn (n,) [N]: see `loop_words`."""
-    run = found.base.problem.runs[place]
+    run = found.base.objective.run(place)
     if found.worst == "girder":
         return _beside_pads(found, place, run.channel("girder_ax"))
     return run.load.sum(axis=1) if found.worst == "heave" else run.force[:, _pad(found)]
@@ -180,7 +180,7 @@ def _predicted(found: Discovery, place: int, with_laws: bool) -> Array:
 
 def _beside_pads(found: Discovery, place: int, acceleration: Array) -> Array:
     """Return what holds the girder back beside its pads (n,) [N]."""
-    run, specimen = found.base.problem.runs[place], found.base.problem.specimen
+    run, specimen = found.base.objective.run(place), found.base.objective.specimen
     mass = found.base.solution.values.get("rig.mass", specimen.mass)
     every = len(specimen.pads) / run.force.shape[1]
     return frame_push(run.record, specimen) - mass * acceleration - every * run.force.sum(axis=1)

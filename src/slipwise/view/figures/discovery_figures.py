@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.form import Form
 from slipwise.discovery.law import Law
-from slipwise.discovery.law_problem import STRENGTH
+from slipwise.discovery.law_objective import STRENGTH
 from slipwise.discovery.matching import product_at
 from slipwise.discovery.result import Discovery
 from slipwise.discovery.splines import columns

@@ -8,15 +8,15 @@ from numpy.typing import NDArray
 
 from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.law import Law
-from slipwise.discovery.law_problem import STRENGTH, FittedLaw
+from slipwise.discovery.law_objective import STRENGTH, FittedLaw
 from slipwise.discovery.matching import product_at
 from slipwise.discovery.ports import opened, places_of
 from slipwise.discovery.residual_field import residual_field
 from slipwise.discovery.result import Discovery
 from slipwise.discovery.splines import Spline, columns, spline
-from slipwise.discovery.states import State
+from slipwise.discovery.states import State, pad_instants
 from slipwise.estimation.least_squares import Solution
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
 
 Array = NDArray[np.float64]
 #: Points of a cloud, and parts of the range of its state that share them evenly: what is rare is seen too.
@@ -66,7 +66,7 @@ def after(found: Discovery) -> Solution | None:
 
 def law_states(law: FittedLaw) -> list[State]:
     """Return the states that drive a law with the lag that was fitted."""
-    return law.problem.driving(law.law, law.values)
+    return law.objective.driving(law.law, law.values)
 
 
 def law_cloud(law: Law) -> Cloud:
@@ -75,9 +75,9 @@ def law_cloud(law: Law) -> Cloud:
     The curve has the knots of the screen, and everything else is as the fit with the law has it: what other numbers
     can do for a law leaves the screen's own curve open.
     """
-    problem, knots = law.fitted.problem.plain, law.fitted.law.match.candidate.spline.knots
+    objective, knots = law.fitted.objective.plain, law.fitted.law.match.candidate.spline.knots
     driving = law_states(law.fitted)
-    found = [(*law_heights(law, driving, i), _seen_noise(law, i)) for i in problem.fitted]
+    found = [(*law_heights(law, driving, i), _seen_noise(law, i)) for i in objective.fitted]
     kept = [np.isfinite(heights) for _, heights, _ in found]
     over = tuple(
         np.concatenate([states[k][chosen] for (states, _, _), chosen in zip(found, kept, strict=True)])
@@ -100,22 +100,22 @@ def law_heights(law: Law, driving: Sequence[State], place: int) -> tuple[list[Ar
         driving: what `law_states` gives.
         place: of the run.
     """
-    fitted, fine = law.fitted, law.fitted.problem.plain.runs[place].fine
+    fitted, fine = law.fitted, law.fitted.objective.plain.run(place).fine
     states = [s.values[place][::fine] for s in driving]
     form = fitted.values[STRENGTH] * product_at(fitted.law.match.forms, states, fitted.values)
     relation = fitted.law.match.candidate.port.relation
-    left, noise = _wide(fitted.solution.residuals.parts[relation][place]), _seen_noise(law, place)
-    kept = _wide(fitted.problem.plain.runs[place].judged[relation]) & (fitted.law.opened[place][::fine] > _OPEN)
+    of, noise = fitted.solution.residuals.block(relation, place), _seen_noise(law, place)
+    kept = _wide(of.mask) & (fitted.law.opened[place][::fine] > _OPEN)
     kept &= np.abs(noise) < _NOISY * np.nanmedian(np.abs(noise))
-    return states, np.where(kept, form + left * noise, np.nan)
+    return states, np.where(kept, form + of.columns * noise, np.nan)
 
 
 def _seen_noise(law: Law, place: int) -> Array:
     """Return the noise of a run over what a law is multiplied by, (n, q)."""
-    port, plain = law.fitted.law.match.candidate.port, law.fitted.problem.plain
-    carrier = port.carrier[place][:: plain.runs[place].fine]
-    noise = np.asarray(plain.sigmas[port.relation][place])
-    return np.reshape(noise, (len(noise), -1)) / np.where(carrier == 0.0, np.nan, carrier)
+    port, plain = law.fitted.law.match.candidate.port, law.fitted.objective.plain
+    carrier = port.carrier[place][:: plain.run(place).fine]
+    noise = plain.layout.block(port.relation, place).noise
+    return _wide(noise) / np.where(carrier == 0.0, np.nan, carrier)
 
 
 def candidate_cloud(found: Discovery, candidate: Candidate) -> Cloud:
@@ -123,8 +123,8 @@ def candidate_cloud(found: Discovery, candidate: Candidate) -> Cloud:
 
     The curve is made once more where the search began, for a screen may have begun elsewhere.
     """
-    problem, port = found.base.problem, candidate.port
-    field = residual_field(problem, found.base.solution, port.relation)
+    objective, port = found.base.objective, candidate.port
+    field = residual_field(objective, found.base.solution, port.relation)
     carrier = field.at_samples(port.carrier)
     if candidate.gate.name != "all":
         carrier = carrier * field.at_samples(_opened(found, candidate))
@@ -139,18 +139,17 @@ def candidate_cloud(found: Discovery, candidate: Candidate) -> Cloud:
 
 
 def _opened(found: Discovery, candidate: Candidate) -> list[Array]:
-    problem = found.base.problem
-    states = problem.kinematics.states(found.base.solution.values)
-    return opened(candidate.gate, places_of(problem), states)
+    objective = found.base.objective
+    states = pad_instants(objective, found.base.solution.values).states
+    return opened(candidate.gate, places_of(objective), states)
 
 
-def left_over(problem: Problem, solution: Solution, relation: str, state: State) -> tuple[Array, Array]:
+def left_over(objective: Objective, solution: Solution, relation: str, state: State) -> tuple[Array, Array]:
     """Return a state and what a fit leaves in a relation [floors], (m,) each, at the judged samples of fitted runs."""
     places, left = [], []
-    for i in problem.fitted:
-        part = _wide(solution.residuals.parts[relation][i])
-        kept = _wide(problem.runs[i].judged[relation])
-        places.append(np.broadcast_to(state.values[i][:: problem.runs[i].fine], part.shape)[kept])
+    for of in solution.residuals.blocks(relation, objective.fitted):
+        part, kept = of.columns, _wide(of.mask)
+        places.append(np.broadcast_to(state.values[of.run][:: objective.run(of.run).fine], part.shape)[kept])
         left.append(part[kept])
     return np.concatenate(places), np.concatenate(left)
 
@@ -163,24 +162,25 @@ def predicted_forces(found: Discovery, place: int, *, with_laws: bool) -> Array:
     force = solution.residuals.pad_forces[place]
     for law in (law.fitted for law in found.laws):
         if law.law.match.candidate.port.relation == "pads":
-            force = force + law.problem.force(place, law.law, law_states(law), law.values, solution.values)
+            force = force + law.objective.force(place, law.law, law_states(law), law.values, solution.values)
     return force
 
 
 def predicted_acceleration(found: Discovery, place: int, *, with_laws: bool) -> Array:
     """Return the girder's acceleration along x as its balance predicts it, (n,) [m/s^2]; measured where not judged."""
-    return found.base.problem.runs[place].channel("girder_ax") - _left(found, place, "girder", with_laws)
+    return found.base.objective.run(place).channel("girder_ax") - _left(found, place, "girder", with_laws)
 
 
 def predicted_load(found: Discovery, place: int, *, with_laws: bool) -> Array:
     """Return the load of all pads as the heave balance predicts it, (n,) [N]; measured where not judged."""
-    return found.base.problem.runs[place].load.sum(axis=1) - _left(found, place, "heave", with_laws)
+    return found.base.objective.run(place).load.sum(axis=1) - _left(found, place, "heave", with_laws)
 
 
 def _left(found: Discovery, place: int, relation: str, with_laws: bool) -> Array:
     """Return what a balance leaves of a run (n,), in its own unit."""
     solution = (after(found) if with_laws else None) or found.base.solution
-    return solution.residuals.parts[relation][place] * found.base.problem.sigmas[relation][place]
+    of = solution.residuals.block(relation, place)
+    return of.value * of.sigma
 
 
 def _wide(values: NDArray) -> NDArray:

@@ -85,10 +85,11 @@ def patterns_figure(found: Comparison, relation: str) -> Figure:
 
 def plane_figure(found: Comparison, relation: str) -> Figure:
     """Draw a relation's error over slip and velocity of the runs: where in the motion it is large."""
-    runs = found.base.problem.runs
+    blocks = found.base.solution.residuals.blocks(relation)
+    runs = [found.base.objective.run(of.run) for of in blocks]
     slip = np.concatenate([r.slip for r in runs]) * 1e3
     speed = np.concatenate([r.velocity for r in runs]) * 1e2
-    parts = [p if p.ndim == 2 else p[:, None] for p in found.residuals[relation]]
+    parts = [of.columns for of in blocks]
     squares = np.concatenate([(p**2).sum(axis=1) for p in parts])
     counts = np.concatenate([(p != 0.0).sum(axis=1) for p in parts]).astype(float)
     reach = [np.quantile(np.abs(v), 0.998) * 1.05 for v in (slip, speed)]

@@ -46,11 +46,13 @@ class Friction:
 
 def friction(found: Comparison) -> Friction:
     """Return friction over load at the samples by which the pads are judged, of all runs."""
-    problem, parts = found.base.problem, []
-    for run, said in zip(problem.runs, found.base.solution.residuals.pad_forces, strict=True):
-        speed, measured, predicted = coefficients(run, said)
-        known = run.judged["pads"].reshape(speed.shape) & np.isfinite(measured) & np.isfinite(predicted)
-        pressure = run.load / problem.specimen.pad_area
+    objective, parts = found.base.objective, []
+    residuals = found.base.solution.residuals
+    for of in residuals.blocks("pads"):
+        run = objective.run(of.run)
+        speed, measured, predicted = coefficients(run, residuals.pad_forces[of.run])
+        known = of.mask.reshape(speed.shape) & np.isfinite(measured) & np.isfinite(predicted)
+        pressure = run.load / objective.specimen.pad_area
         parts.append(np.stack([each[known] for each in (speed, pressure, measured, predicted)]))
     return Friction(*np.concatenate(parts, axis=1))
 

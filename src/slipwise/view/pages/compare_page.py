@@ -169,7 +169,7 @@ def _cell_row(cell: Cell) -> dict[str, Any]:
 
 
 def _histories(found: Comparison) -> list[Any]:
-    run = found.base.problem.runs[figures.shown_run(found)]
+    run = found.base.objective.run(figures.shown_run(found))
     how = (
         "replayed from the measured table motion in windows that restart from measured states"
         if found.system
@@ -180,7 +180,7 @@ def _histories(found: Comparison) -> list[Any]:
 
 
 def _loops(found: Comparison) -> list[Any]:
-    run = found.base.problem.runs[figures.shown_run(found)]
+    run = found.base.objective.run(figures.shown_run(found))
     caption = (
         f"Run {run.name} ({_role_words(run.role)}): friction over slip, measured and as the law has it at the measured "
         "load and speed; the widest loop stands out, the rest of the run is grey."

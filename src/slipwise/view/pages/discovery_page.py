@@ -41,7 +41,7 @@ def discovery_page(found: Discovery) -> str:
 
 def _summary(found: Discovery) -> list[Html]:
     before, after = found.relations[found.worst]
-    held = bool(found.base.problem.held_out)
+    held = bool(found.base.objective.held_out)
     facts = {"explained of what the model lacks": f"{100.0 * found.share:.0f} %"} if found.evidence != "nothing" else {}
     error = f"{'held-out error' if held else 'error of fitted runs'}, {found.worst} [noise floors]"
     facts[error] = f"{floors(before)} before, {floors(after)} with the law" if found.laws else floors(before)

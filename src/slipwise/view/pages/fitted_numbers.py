@@ -51,7 +51,7 @@ def _of_effects(found: Comparison) -> dict[str, tuple[str, str]]:
     """Return what the parameters of the model's effects are called, in their files' own words and units."""
     return {
         key: (f"{term.label}, {p.meaning}", p.shown_in or p.unit)
-        for term in found.base.problem.terms
+        for term in found.base.objective.terms
         for key, p in term.parameters.items()
     }
 

@@ -27,7 +27,7 @@ def write_compare_recording(found: Comparison, path: Path) -> Path:
         The path; the file is there whole or not at all.
     """
     place = shown_run(found)
-    run = found.base.problem.runs[place]
+    run = found.base.objective.run(place)
     label = "replayed" if found.system else "law at measured N, v"
     measured, simulated = _pair(found, place, run)
     geometry = geometry_of(found.model.built_specimen())
@@ -46,7 +46,7 @@ def _boards(found: Comparison, place: int, run: FitRun) -> list[Board]:
         drawn = clouds_figure(known)
     said = found.base.solution.residuals.pad_forces[place]
     speed, measured, _ = coefficients(run, said)
-    pressure = run.load / found.base.problem.specimen.pad_area
+    pressure = run.load / found.base.objective.specimen.pad_area
     dots = [
         Dots(axes, {pad: np.stack([over[:, i], measured[:, i]], axis=1) for i, pad in enumerate(run.pads)})
         for axes, over in zip(drawn.axes, (1e3 * speed, 1e-6 * pressure), strict=True)

@@ -34,10 +34,10 @@ def write_discovery_recording(found: Discovery, path: Path) -> Path:
         The path; the file is there whole or not at all.
     """
     place = shown_runs(found)[-1]
-    run = found.base.problem.runs[place]
+    run = found.base.objective.run(place)
     fits = [("before", _record(found, place, with_laws=False))]
     fits += [("with the law", _record(found, place, with_laws=True))] if found.laws else []
-    specimen = found.base.problem.specimen
+    specimen = found.base.objective.specimen
     geometry = geometry_of(specimen)
     if not specimen.free:
         geometry = replace(geometry, buffer_places=())
@@ -46,10 +46,10 @@ def write_discovery_recording(found: Discovery, path: Path) -> Path:
 
 
 def _record(found: Discovery, place: int, *, with_laws: bool) -> Record:
-    run = found.base.problem.runs[place]
+    run = found.base.objective.run(place)
     forces = predicted_forces(found, place, with_laws=with_laws)
     new = {f"pad_{pad}_Fx": forces[:, i] for i, pad in enumerate(run.pads)}
-    if found.base.problem.balanced:
+    if found.base.objective.balanced:
         new["girder_ax"] = predicted_acceleration(found, place, with_laws=with_laws)
     return run.record.replaced(**new)
 
@@ -69,7 +69,7 @@ def _boards(found: Discovery, place: int) -> list[Board]:
 
 def _law_board(law: Law, place: int) -> Board:
     """Draw a law; the dots are what the run that is shown measured."""
-    figure, pads = law_figure(law), law.fitted.problem.plain.runs[place].pads
+    figure, pads = law_figure(law), law.fitted.objective.plain.run(place).pads
     states, heights = law_heights(law, law_states(law.fitted), place)
     dots = []
     for axes, name, values in zip(figure.axes, law.states, states, strict=True):

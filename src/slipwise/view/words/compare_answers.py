@@ -11,7 +11,7 @@ from slipwise.view.colours import Tone
 def headline(found: Comparison) -> tuple[str, str, Tone]:
     """Return the answer in a few words, in a sentence, and its tone."""
     relation, error = found.worst
-    where = "on the held-out runs" if found.base.problem.held_out else "on the fitted runs (none is held out)"
+    where = "on the held-out runs" if found.base.objective.held_out else "on the fitted runs (none is held out)"
     if not found.places:
         return (
             "Nothing above the noise floor is left",
@@ -67,7 +67,7 @@ def _floor_words(found: Comparison) -> str:
 
 
 def _error_words(found: Comparison) -> str:
-    held = bool(found.base.problem.held_out)
+    held = bool(found.base.objective.held_out)
     errors = {r: found.error(r, held_out=held) for r in found.relations}
     known = {r: e for r, e in errors.items() if e is not None}
     good = [r for r, e in known.items() if is_at_floor(e)]

@@ -34,10 +34,10 @@ def importance_rows(found: Diagnosis, *, brief: bool = False) -> list[dict[str, 
 
 def replayed_run(found: Diagnosis) -> str:
     """Say in which run slip, energy and load without an effect are told."""
-    problem = found.search.base.problem
-    if problem.held_out:
-        return f"the held-out run {problem.runs[problem.held_out[0]].name}"
-    return f"the last run, {problem.runs[-1].name}"
+    objective = found.search.base.objective
+    if objective.held_out:
+        return f"the held-out run {objective.run(objective.held_out[0]).name}"
+    return f"the last run, {objective.run(objective.fitted[-1]).name}"
 
 
 def _response(of: Importance, name: str, *, intervals: bool) -> str:

@@ -10,7 +10,7 @@ from hypotheses import base
 from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.form import forms
 from slipwise.discovery.law import Law, LawConstant, TiedForm
-from slipwise.discovery.law_problem import FittedLaw, LawProblem, PlacedLaw
+from slipwise.discovery.law_objective import FittedLaw, LawObjective, PlacedLaw
 from slipwise.discovery.matching import Match
 from slipwise.discovery.ports import EVERYWHERE, pad_ports
 from slipwise.discovery.residual_field import residual_field
@@ -51,31 +51,31 @@ def _law(candidate: Candidate, fitted: FittedLaw) -> Law:
 def found() -> Discovery:
     """A law mu += 0.02 (V / 100 mm/s)^2 that a base fit lacks, and a fit with it that leaves noise."""
     of = base(pads=1.0)
-    problem, solution = of.problem, of.solution
-    every = pad_instants(problem, solution.values)
+    objective, solution = of.objective, of.solution
+    every = pad_instants(objective, solution.values)
     speed = next(s for s in pad_states(every) if s.name == "speed")
     port = next(p for p in pad_ports(every) if p.name == "adds to mu")
-    noise = solution.residuals.parts["pads"]
+    noise = solution.residuals.of("pads")
     forces, lacking = [], []
-    for i, run in enumerate(problem.runs):
+    for i, run in enumerate(objective.runs):
         force = (STRENGTH * port.carrier[i] * (speed.values[i] / REFERENCE) ** 2)[:: run.fine]
-        forces.append(run.force - force - np.where(run.judged["pads"], noise[i] * problem.sigmas["pads"][i], 0.0))
-        lacking.append(noise[i] + np.where(run.judged["pads"], force / problem.sigmas["pads"][i], 0.0))
+        block = solution.residuals.block("pads", i)
+        forces.append(run.force - force - np.where(block.mask, noise[i] * block.sigma, 0.0))
+        lacking.append(np.where(block.mask, force / block.sigma, 0.0))
 
-    def with_pads(parts: list[np.ndarray], values: dict[str, float]) -> Solution:
-        residuals = Residuals({**solution.residuals.parts, "pads": parts}, forces)
-        left = residuals.stacked(problem.fitted, problem.relations)
-        return replace(solution, values=values, residuals=residuals, cost=float(left @ left))
+    def with_pads(residuals: Residuals, values: dict[str, float]) -> Solution:
+        residuals = replace(residuals, pad_forces=tuple(forces))
+        return replace(solution, values=values, residuals=residuals, cost=residuals.cost(objective.fitted))
 
-    before = with_pads(lacking, solution.values)
-    before = replace(before, jacobian=jacobian(problem, before.values, before.free, before.residuals))
-    later = with_pads(noise, {**solution.values, "law.strength": STRENGTH})
-    field = residual_field(problem, before, "pads")
+    before = with_pads(solution.residuals.less({"pads": [-more for more in lacking]}), solution.values)
+    before = replace(before, jacobian=jacobian(objective, before.values, before.free, before.residuals))
+    later = with_pads(solution.residuals, {**solution.values, "law.strength": STRENGTH})
+    field = residual_field(objective, before, "pads")
     curve = spline(field, field.at_samples(port.carrier), (field.at_samples(speed.values),), (12,))
     candidate = Candidate((speed,), port, EVERYWHERE, curve, 0.97)
     match = Match(candidate, (forms()["square"],), {"reference": REFERENCE}, 1.0, STRENGTH)
     placed = PlacedLaw("law", match, tuple(np.ones_like(s.load) for s in every.states))
-    fitted = FittedLaw(placed, LawProblem(every, problem, (placed,)), later)
+    fitted = FittedLaw(placed, LawObjective(every, objective, (placed,)), later)
     start = replace(of, solution=before)
     return Discovery(
         "made up", "state", (_law(candidate, fitted),), candidate, (candidate,), 0.99, {"pads": (9.0, 1.0)}, "pads",
@@ -120,8 +120,8 @@ def test_where_no_form_is_claimed_the_curve_goes_through_what_the_base_fit_leave
 
 
 def test_the_law_adds_to_the_predicted_force_what_its_equation_says(found):
-    place = found.base.problem.held_out[0]
-    run = found.base.problem.runs[place]
+    place = found.base.objective.held_out[0]
+    run = found.base.objective.runs[place]
     before, later = (predicted_forces(found, place, with_laws=w) for w in (False, True))
     fast = run.judged["pads"] & (np.abs(run.velocity) > 0.08)[:, None]
     added = STRENGTH * (run.velocity[:, None] / REFERENCE) ** 2 * np.sign(run.velocity)[:, None] * run.load

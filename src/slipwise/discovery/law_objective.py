@@ -4,7 +4,8 @@ Nothing has to be compiled for it, and base parameters, named effects and the la
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,12 +13,13 @@ from numpy.typing import NDArray
 from slipwise.discovery.matching import Match, constants_of, limits, place_of, product_at
 from slipwise.discovery.states import PadInstants, State, derived
 from slipwise.estimation.least_squares import Solution, slopes_of, solve
-from slipwise.estimation.objective import Problem
+from slipwise.estimation.objective import Objective
 from slipwise.relations.girder import through_pitch
-from slipwise.relations.memo import Recent
 from slipwise.relations.noise import whitened
 from slipwise.relations.pad_law import as_logged
+from slipwise.relations.pad_stages import in_noise
 from slipwise.relations.parameters import Free
+from slipwise.relations.stages import Inputs, Memo, Stage, memo_for
 from slipwise.relations.table import Residuals
 from slipwise.signals.filters import LowPass
 
@@ -27,10 +29,6 @@ _ENOUGH, _ROUGH = 10.0, 5e-4
 #: Largest strength, as a multiple of the one that was matched [1], and factor by which a time constant may change.
 _STRONGEST, _LAG = 30.0, 8.0
 STRENGTH, TIME_CONSTANT, LEVER = "strength", "time_constant", "lever"
-#: Numbers of the rig that change what is recorded of a law.
-_RECORDING = (
-    "rig.logger", "rig.late_force", "rig.mass", "rig.pitch_frequency", "rig.pitch_damping",
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -56,6 +54,11 @@ class PlacedLaw:
         """Time constant of its states [s]; 0 where none lags."""
         return max(s.time_constant for s in self.match.candidate.states)
 
+    def own(self, values: Mapping[str, float]) -> dict[str, float]:
+        """Return its numbers by name: strength, constants, time constant and lever, as far as they are there."""
+        names = (STRENGTH, *constants_of(self.match.forms), TIME_CONSTANT, LEVER)
+        return {name: values[key] for name in names if (key := f"{self.label}.{name}") in values}
+
     def free(self, strength: float) -> list[Free]:
         """Return its numbers as free ones, strength first."""
         port, states = self.match.candidate.port, self.match.candidate.states
@@ -78,20 +81,19 @@ class PlacedLaw:
         return out
 
 
-@dataclass
-class LawProblem:
-    """A problem with laws added.
+@dataclass(frozen=True, eq=False)
+class LawObjective:
+    """An objective with laws added.
 
     Attributes:
         every: all runs at the instants, for states that lag by another time.
-        plain: the problem without them.
+        plain: the objective without them.
         laws: what is added.
     """
 
     every: PadInstants
-    plain: Problem
+    plain: Objective
     laws: tuple[PlacedLaw, ...]
-    _recent: Recent = field(default_factory=Recent)
 
     @property
     def fitted(self) -> list[int]:
@@ -108,54 +110,42 @@ class LawProblem:
         """Whether the balances of a girder are there."""
         return self.plain.balanced
 
-    def near(self, values: Mapping[str, float]) -> "LawProblem":
-        """Return the problem of which slopes at these values are to be taken."""
-        return replace(self, plain=self.plain.near(values))
+    def near(self, values: Mapping[str, float]) -> "LawObjective":
+        """Return the objective of which slopes at these values are to be taken."""
+        plain = self.plain.near(values)
+        return self if plain is self.plain else replace(self, plain=plain)
 
     def residuals(self, values: Mapping[str, float], *, fitted_only: bool = False) -> Residuals:
-        """Evaluate every relation; arguments as `Problem.residuals`."""
+        """Evaluate every relation; arguments as `Objective.residuals`."""
         found = self.plain.residuals(values, fitted_only=fitted_only)
-        parts = {name: list(of) for name, of in found.parts.items()}
-        for law in self.laws:
-            for relation, columns in self._columns(law, values).items():
-                for i, column in enumerate(columns[: len(parts[relation])]):
-                    parts[relation][i] = parts[relation][i] - column
-        return Residuals(parts, found.pad_forces)
+        evaluation = replace(self.plain.evaluation(values), memo=self._memo)
+        for stage in self._stages:
+            found = found.less(evaluation.of(stage))
+        return found
 
-    def without_results(self) -> "LawProblem":
-        """Return the problem without the results that it keeps at hand: each is as long as all the runs."""
-        return replace(self, _recent=Recent())
+    def without_results(self) -> "LawObjective":
+        """Return the objective without the results that it keeps at hand: each is as long as all the runs."""
+        return replace(self)
 
-    def _columns(self, law: PlacedLaw, values: Mapping[str, float]) -> dict[str, list[Array]]:
+    @cached_property
+    def _memo(self) -> Memo:
+        return memo_for(self.plain.measurements)
+
+    @cached_property
+    def _stages(self) -> list[Stage[dict[str, list[Array]]]]:
+        return [Stage(law.label, partial(self.columns, law)) for law in self.laws]
+
+    def columns(self, law: PlacedLaw, inputs: Inputs) -> dict[str, list[Array]]:
         """Return what a law adds to the predictions, relation -> of every run, in noise, shaped as its residual."""
-        own = {k.removeprefix(f"{law.label}."): v for k, v in values.items() if k.startswith(f"{law.label}.")}
-        key = (*(own[k] for k in sorted(own)), *(values.get(k, 0.0) for k in _RECORDING))
-        return self._recent.get(law.label, key, lambda: self._made(law, own, values))
-
-    def _made(
-        self, law: PlacedLaw, own: Mapping[str, float], values: Mapping[str, float]
-    ) -> dict[str, list[Array]]:  # fmt: skip
-        relation, states = law.match.candidate.port.relation, self.driving(law, own)
-        forces = [self.force(i, law, states, own, values) for i in range(len(self.plain.runs))]
-        out = {relation: [self._seen(relation, i, force) for i, force in enumerate(forces)]}
+        values, relation = inputs.values, law.match.candidate.port.relation
+        own = law.own(values)
+        states, places = self.driving(law, own), range(len(inputs.measurements.runs))
+        forces = [self.force(i, law, states, own, values) for i in places]
+        out = {relation: [_seen(inputs, relation, i, force) for i, force in enumerate(forces)]}
         lever = own.get(LEVER, law.lever)
         if relation == "girder" and lever and "pitch" in self.relations:
-            out["pitch"] = [self._seen("pitch", i, self._tipping(i, f, lever, values)) for i, f in enumerate(forces)]
+            out["pitch"] = [_seen(inputs, "pitch", i, _tipping(inputs, i, f, lever)) for i, f in enumerate(forces)]
         return out
-
-    def _tipping(self, place: int, acceleration: Array, lever: float, values: Mapping[str, float]) -> Array:
-        """Return the pitch load (n,) [N] of a force that accelerates the girder so [m/s^2], as `girder_balances`."""
-        specimen, run = self.plain.specimen, self.plain.runs[place]
-        load = -values.get("rig.mass", specimen.mass) * acceleration * lever / specimen.half_spacing[0]
-        return through_pitch(load, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
-
-    def _seen(self, relation: str, place: int, column: Array) -> Array:
-        """Return what is added to a prediction as its residual shows it: whitened alike, in noise."""
-        problem, run = self.plain, self.plain.runs[place]
-        sigma = problem.sigmas[relation][place]
-        if relation in problem.ringing:
-            column = whitened(column, run, float(np.min(sigma)), problem.ringing[relation][place])
-        return np.where(run.judged[relation], column / sigma, 0.0)
 
     def force(
         self, place: int, law: PlacedLaw, states: Sequence[State], own: Mapping[str, float], values: Mapping[str, float]
@@ -164,12 +154,12 @@ class LawProblem:
 
         Args:
             place: of the run.
-            law: any, whether or not it is one of the problem's.
+            law: any, whether or not it is one of the objective's.
             states: what `driving` gives.
             own: the law's numbers by name.
             values: of the fit.
         """
-        run, port = self.plain.runs[place], law.match.candidate.port
+        run, port = self.plain.run(place), law.match.candidate.port
         form = product_at(law.match.forms, [s.values[place] for s in states], {**law.match.constants, **own})
         force = own[STRENGTH] * port.carrier[place] * law.opened[place] * form
         if port.relation != "pads":
@@ -187,29 +177,44 @@ class LawProblem:
         return [replace(s, time_constant=now, values=tuple(found[s.name])) if s.time_constant else s for s in states]
 
 
+def _tipping(inputs: Inputs, place: int, acceleration: Array, lever: float) -> Array:
+    """Return the pitch load (n,) [N] of a force that accelerates the girder so [m/s^2], as `predicted_balances`."""
+    values, specimen, run = inputs.values, inputs.measurements.specimen, inputs.measurements.runs[place]
+    load = -values.get("rig.mass", specimen.mass) * acceleration * lever / specimen.half_spacing[0]
+    return through_pitch(load, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
+
+
+def _seen(inputs: Inputs, relation: str, place: int, column: Array) -> Array:
+    """Return what is added to a prediction as its residual shows it: whitened alike, in noise."""
+    run, sigmas, ringing = inputs.measurements.runs[place], inputs.weighed("sigmas"), inputs.weighed("ringing")
+    if relation in ringing:
+        column = whitened(column, run, float(np.min(sigmas[relation][place])), ringing[relation][place])
+    return in_noise(inputs, relation, place, column, run)
+
+
 @dataclass(frozen=True)
 class FittedLaw:
     """A law with its constants, everything else free beside it.
 
     Attributes:
         law: where it acts.
-        problem: that was fitted.
+        objective: that was fitted.
         solution: of the fit.
     """
 
     law: PlacedLaw
-    problem: LawProblem
+    objective: LawObjective
     solution: Solution
 
     @property
     def rated_load(self) -> float:
         """Mean load of the runs [N]."""
-        return float(np.mean(np.concatenate([s.load for s in self.problem.every.states])))
+        return float(np.mean(np.concatenate([s.load for s in self.objective.every.states])))
 
     @property
     def buffers(self) -> int:
         """How many buffers share a force on the girder."""
-        return max(len(self.problem.plain.specimen.buffer_stiffness), 1)
+        return max(len(self.objective.plain.specimen.buffer_stiffness), 1)
 
     @property
     def values(self) -> dict[str, float]:
@@ -218,27 +223,27 @@ class FittedLaw:
         return {**self.law.match.constants, **own}
 
 
-def fit_law(before: LawProblem, solution: Solution, law: PlacedLaw, strength: float) -> FittedLaw:
+def fit_law(before: LawObjective, solution: Solution, law: PlacedLaw, strength: float) -> FittedLaw:
     """Fit a law's constants with everything else free, led by the slopes of before.
 
     Args:
-        before: the problem that it is added to.
+        before: the objective that it is added to.
         solution: where the fit begins, with its slopes.
         law: the form and where it acts.
         strength: to begin with.
     """
-    problem = replace(before, laws=(*before.laws, law)).without_results()
+    objective = replace(before, laws=(*before.laws, law)).without_results()
     own = law.free(strength)
     values = {**solution.values, **{f.key: f.start for f in own}}
     known = slopes_of(solution)
-    found = solve(problem, values, [*solution.free, *own], most=6, enough=_ENOUGH, rough=_ROUGH, known=known)
-    return FittedLaw(law, problem.without_results(), found)
+    found = solve(objective, values, [*solution.free, *own], most=6, enough=_ENOUGH, rough=_ROUGH, known=known)
+    return FittedLaw(law, objective.without_results(), found)
 
 
 def fit_on(found: FittedLaw) -> FittedLaw:
     """Fit on with slopes of its own."""
     solution = solve(
-        found.problem, found.solution.values, found.solution.free, most=12, enough=_ENOUGH, rough=0.1 * _ROUGH,
+        found.objective, found.solution.values, found.solution.free, most=12, enough=_ENOUGH, rough=0.1 * _ROUGH,
         begin=slopes_of(found.solution),
     )  # fmt: skip
     return replace(found, solution=solution)

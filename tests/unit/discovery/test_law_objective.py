@@ -8,11 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from hypotheses import table_of
 from slipwise.discovery.discover import _without_needless
-from slipwise.discovery.law_problem import LawProblem, PlacedLaw
+from slipwise.discovery.law_objective import LawObjective, PlacedLaw
 from slipwise.estimation.least_squares import Solution, solve, with_slopes
 from slipwise.relations.girder import through_pitch
 from slipwise.relations.parameters import Free
+from slipwise.relations.setting import Weighing
+from slipwise.relations.stages import Evaluation, Memo, Stage
 from slipwise.relations.table import Residuals
 
 TIME = np.arange(400) * 0.005
@@ -24,16 +27,19 @@ def tipped(lever: float, longest: float = 0.0, values: Mapping[str, float] = VAL
     """Columns of a force on the girder at a lever, with noise of 0.1 m/s^2 and 50 N."""
     run = SimpleNamespace(dt=0.005, fine=1, judged={r: np.ones(400, dtype=bool) for r in ("girder", "pitch")})
     specimen = SimpleNamespace(mass=1e3, half_spacing=(1.5, 1.0))
-    sigmas = {"girder": [np.full(400, 0.1)], "pitch": [np.full(400, 50.0)]}
-    plain: Any = SimpleNamespace(
-        runs=[run], specimen=specimen, sigmas=sigmas, ringing={}, relations=("pads", "girder", "pitch")
-    )
+    weighing = Weighing({"girder": (np.full(400, 0.1),), "pitch": (np.full(400, 50.0),)})
+    measurements: Any = SimpleNamespace(runs=(run,), specimen=specimen)
+    plain: Any = SimpleNamespace(run=lambda place: run, relations=("pads", "girder", "pitch"))
     port = SimpleNamespace(relation="girder", carrier=(np.full((400, 1), -1.0 / values["rig.mass"]),))
     state = SimpleNamespace(time_constant=0.0, values=(np.ones((400, 1)),))
     form = SimpleNamespace(constants=(), at=lambda s, c: FORCE[:, None])
     match: Any = SimpleNamespace(candidate=SimpleNamespace(port=port, states=(state,)), forms=(form,), constants={})
     law = PlacedLaw("law", match, (np.ones((400, 1)),), lever, longest)
-    return LawProblem(None, plain, (law,))._columns(law, {**values, "law.strength": 1.0})  # pyright: ignore[reportArgumentType]
+    every: Any = None
+    objective = LawObjective(every, plain, (law,))
+    here = {**values, "law.strength": 1.0}
+    evaluation = Evaluation(measurements, weighing, (), here, 1, False, None, Memo(1))
+    return evaluation.of(Stage("law", lambda inputs: objective.columns(law, inputs)))
 
 
 def test_a_force_at_the_centre_does_not_tip_the_girder() -> None:
@@ -51,7 +57,7 @@ def test_a_force_below_the_centre_tips_the_girder_by_its_lever_whatever_its_mass
 
 @dataclass(frozen=True)
 class Lines:
-    """A problem whose laws are lines: their strengths times columns, held against a measured vector."""
+    """An objective whose laws are lines: their strengths times columns, held against a measured vector."""
 
     measured: np.ndarray
     laws: tuple[Any, ...]
@@ -67,20 +73,20 @@ class Lines:
 
     def residuals(self, values: Mapping[str, float], *, fitted_only: bool = False) -> Residuals:
         left = self.measured - sum(values[f"{law.label}.strength"] * law.column for law in self.laws)
-        return Residuals({"pads": [left]}, [])
+        return table_of({"pads": [left]})
 
 
 @dataclass(frozen=True)
 class Fitted:
     law: Any
-    problem: Any
+    objective: Any
     solution: Solution
 
 
-def fitted(problem: Lines) -> Solution:
-    keys = [f"{law.label}.strength" for law in problem.laws]
+def fitted(objective: Lines) -> Solution:
+    keys = [f"{law.label}.strength" for law in objective.laws]
     free = [Free(k, 0.1, -10.0, 10.0, 1.0, "1") for k in keys]
-    return with_slopes(problem, solve(problem, dict.fromkeys(keys, 0.1), free))
+    return with_slopes(objective, solve(objective, dict.fromkeys(keys, 0.1), free))
 
 
 @pytest.mark.parametrize(("share", "kept"), [(0.0, ["second"]), (1.0, ["first", "second"])])

@@ -1,0 +1,76 @@
+"""The noise of every relation as a model has it: errors of the velocity near reversals, and what filters took."""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.relations.kinematics import CORRECTED, RIG_MOTIONS, STATES, compliance, states_of_pads
+from slipwise.relations.measurement import changed_by, on_force
+from slipwise.relations.noise import noise_across, pad_noise, reversal_noise, ringing_noise, weighed_balances
+from slipwise.relations.pad_law import drive_law, lost_velocity
+from slipwise.relations.pad_stages import (
+    LAW_FORCES,
+    LOGGED_FORCES,
+    forces_along,
+    is_fault_of_friction,
+    logged_forces,
+    logger_filter,
+)
+from slipwise.relations.parameters import fitted_model
+from slipwise.relations.setting import Weighing
+from slipwise.relations.stages import Evaluation
+from slipwise.simulation.predict import predictor
+
+Array = NDArray[np.float64]
+
+
+def weigh(evaluation: Evaluation) -> Weighing:
+    """Return the noise of every relation with the numbers of an evaluation, of all runs.
+
+    What the logger's filter took from the velocity at reversals is what the law makes of the motion, so that is found
+    first, from the motion as it was weighed before.
+    """
+    values = evaluation.values
+    begun = replace(evaluation.weighing, slip_delay=values.get("rig.late_slip", 0.0), weighed_by=dict(values))
+    evaluation = evaluation.weighed(begun)
+    if evaluation.measurements.specimen.free:
+        begun = _with_lost_velocity(evaluation)
+        evaluation = evaluation.weighed(begun)
+    measurements, runs = evaluation.measurements, evaluation.of(CORRECTED).runs
+    model = fitted_model(measurements.specimen, evaluation.terms, values)
+    states, law_forces = evaluation.of(STATES), evaluation.of(LAW_FORCES)
+    faults = tuple(term for term in evaluation.terms if is_fault_of_friction(term))
+    inputs, law = evaluation.inputs(LOGGED_FORCES), predictor(model)
+    faster = states_of_pads(inputs, 1.0)
+    motions = evaluation.of(RIG_MOTIONS) if law.asks_for_motion else None
+    plain = logged_forces(inputs, states, law_forces, 0.0)
+    shifted = logged_forces(inputs, faster, drive_law(law, runs, faster, motions), 0.0)
+    for forces in (plain, shifted):  # a delayed gauge shows its reversals, and their noise, later too
+        for i, run in enumerate(runs):
+            forces[i] = forces[i] + on_force(faults, values, run, forces[i])[1]
+    reversal = [reversal_noise(*each) for each in zip(runs, plain, shifted, strict=True)]
+    sigmas = {"pads": tuple(pad_noise(*each) for each in zip(runs, plain, reversal, strict=True))}
+    ringing: dict[str, tuple[Array, ...]] = {}
+    if measurements.balanced:
+        changed = [changed_by(faults, values, run) for run in runs] if faults else []
+        levels = weighed_balances(model, runs, values, reversal, changed)
+        sigmas |= {name: tuple(levels[name]) for name in measurements.relations if name in levels}
+        rung = ringing_noise(model, runs, values).items()
+        ringing = {name: tuple(of) for name, of in rung if name in measurements.relations}
+    if "across" in measurements.relations:
+        sigmas["across"] = tuple(noise_across(*each) for each in zip(runs, states, law_forces, strict=True))
+    return replace(begun, sigmas=sigmas, ringing=ringing)
+
+
+def _with_lost_velocity(evaluation: Evaluation) -> Weighing:
+    """Return the weighing with what the filter took from the velocity, and with the bounds of the pads' friction."""
+    measurements, runs = evaluation.measurements, evaluation.of(CORRECTED).runs
+    states, law_forces = evaluation.of(STATES), evaluation.of(LAW_FORCES)
+    inputs = evaluation.inputs(LOGGED_FORCES)
+    specimen = fitted_model(measurements.specimen, evaluation.terms, evaluation.values).built_specimen()
+    soft, by = compliance(measurements, specimen, makes_yaw=evaluation.makes_yaw), logger_filter(inputs)
+    pairs = zip(forces_along(inputs, states, law_forces), runs, strict=True)
+    lost = tuple(lost_velocity(force, run, soft, by) for force, run in pairs)
+    bounds = tuple(force.bound[:: run.fine] for force, run in zip(law_forces, runs, strict=True))
+    return replace(evaluation.weighing, lost=lost, bounds=bounds)
