@@ -16,7 +16,7 @@ from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.law import Discovery, Law
 from slipwise.discovery.law_objective import FittedLaw, LawObjective
 from slipwise.discovery.law_summary import told_law
-from slipwise.discovery.levels import excess, held_out_level, level
+from slipwise.discovery.levels import excess, held_out_level
 from slipwise.discovery.search import LEVEL, Found, different, find_law
 from slipwise.discovery.states import WORDS, pad_instants, pad_states, rig_states
 from slipwise.effects import RIG_MOTION, Effect
@@ -130,7 +130,7 @@ def _from(name: str, base: BaseFit) -> Discovery:
     looked_at: tuple[Candidate, ...] = ()
     acted: set[str] = set()
     for number in range(_MOST_LAWS):
-        if not any(level(objective, here, r, objective.fitted) > LEVEL for r in objective.relations):
+        if not any(here.residuals.level(r, objective.fitted) > LEVEL for r in objective.relations):
             break
         found = find_law(now, here, base.model, _name(number))  # a label of its own, whatever has been dropped
         organised = organised or (found.candidates[0] if found.candidates else None)
@@ -146,7 +146,7 @@ def _from(name: str, base: BaseFit) -> Discovery:
     added = dict.fromkeys(t.effect.name for t in objective.terms)
     beside = tuple(effect for effect in added if effect not in base.model)
     cannot, start = tuple(_cannot_judge(now)), replace(base, solution=solution)
-    worst = max(sorted(acted) or objective.relations, key=lambda r: level(objective, solution, r, objective.fitted))
+    worst = max(sorted(acted) or objective.relations, key=lambda r: solution.residuals.level(r, objective.fitted))
 
     def answer(kept: list[_Leader]) -> Discovery:
         end = kept[-1][0].solution if kept else solution
