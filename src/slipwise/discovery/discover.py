@@ -17,7 +17,7 @@ from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.law import Law
 from slipwise.discovery.law_objective import FittedLaw, LawObjective
 from slipwise.discovery.law_summary import told_law
-from slipwise.discovery.levels import excess, held_out_level, level
+from slipwise.discovery.levels import excess, held_out_level
 from slipwise.discovery.result import Discovery
 from slipwise.discovery.search import Found, different, find_law
 from slipwise.discovery.states import WORDS, pad_instants, pad_states, rig_states
@@ -158,7 +158,7 @@ def _from(base: BaseFit) -> _Answer:
     looked_at: tuple[Candidate, ...] = ()
     acted: set[str] = set()
     for number in range(_MOST_LAWS):
-        if all(is_at_floor(level(objective, here, r, objective.fitted)) for r in objective.relations):
+        if all(is_at_floor(here.residuals.level(r, objective.fitted)) for r in objective.relations):
             break
         found = find_law(now, here, base.model, _name(number))  # a label of its own, whatever has been dropped
         organised = organised or (found.candidates[0] if found.candidates else None)
@@ -172,8 +172,8 @@ def _from(base: BaseFit) -> _Answer:
         acted = {f.law.match.candidate.port.relation for f, _, _ in leaders}
         now, here = leaders[-1][0].objective, leaders[-1][0].solution
     cannot, start = tuple(_cannot_judge(now)), replace(base, solution=solution)
-    worst = max(sorted(acted) or objective.relations, key=lambda r: level(objective, solution, r, objective.fitted))
-    before = max(level(objective, solution, r, objective.fitted) for r in objective.relations)
+    worst = max(sorted(acted) or objective.relations, key=lambda r: solution.residuals.level(r, objective.fitted))
+    before = max(solution.residuals.level(r, objective.fitted) for r in objective.relations)
 
     def answer(kept: list[_Leader]) -> _Answer:
         end = kept[-1][0].solution if kept else solution
@@ -182,7 +182,7 @@ def _from(base: BaseFit) -> _Answer:
         every = [told_law(replace(f, solution=end), tied, objective.fitted, share, known) for f, tied, share in kept]
         laws = tuple(replace(law, name=_name(number)) for number, law in enumerate(every))
         share = (solution.cost - end.cost) / max(whole, 1e-9)
-        after = level(objective, end, worst, objective.fitted)
+        after = end.residuals.level(worst, objective.fitted)
         evidence = _evidence(laws, share, before if whole > 0.0 else 0.0, after)
         seen = share if laws or organised is None else organised.share
         return _Answer(start, end, laws, seen, evidence, organised, looked_at, worst, cannot)

@@ -1,7 +1,5 @@
 """What a fit leaves: squared residuals above noise, and levels in noise floors."""
 
-from collections.abc import Sequence
-
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.objective import Objective
 
@@ -15,11 +13,6 @@ def excess(objective: Objective, solution: Solution) -> float:
     return out
 
 
-def level(objective: Objective, solution: Solution, relation: str, runs: Sequence[int]) -> float:
-    """Return the rms of a relation's residual over some runs, in noise floors."""
-    return solution.residuals.level(relation, runs)
-
-
 def held_out_level(objective: Objective, solution: Solution, relation: str) -> float:
-    """Return the same over the held-out runs; over the fitted ones where none is held out."""
-    return level(objective, solution, relation, objective.held_out or objective.fitted)
+    """Return the rms of a residual over the held-out runs, or the fitted ones where none is held out [noise floors]."""
+    return solution.residuals.level(relation, objective.held_out or objective.fitted)

@@ -240,6 +240,8 @@ def fitted_specimen(specimen: Specimen, values: Mapping[str, float], numbers: Se
         numbers: of `RIG_NUMBERS`, those that take the place of rated values; the others stay rated.
     """
     fitted = {key: values[key] for key in numbers if key in values}
+    if not fitted:
+        return specimen
     changes: dict[str, object] = {
         key.removeprefix("rig."): fitted[key]
         for key in ("rig.mass", "rig.centre_height", "rig.shear_strength")

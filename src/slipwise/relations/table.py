@@ -129,10 +129,6 @@ class Residuals:
             yield slice(start, start + block.value.size), block
             start += block.value.size
 
-    def by_run(self, relation: str) -> dict[int, Block]:
-        """Return the blocks of one relation by the place of their run."""
-        return {block.run: block for block in self.blocks(relation)}
-
     def by_motion(self, relation: str) -> dict[int, list[Block]]:
         """Return the blocks of one relation in the fitted runs by the number of their motion."""
         out: dict[int, list[Block]] = {}

@@ -14,14 +14,14 @@ RIM, SPRING = Term(catalogue()["restrainer"]), Term(catalogue()["slide_curvature
 def test_a_rim_must_explain_a_share_of_what_a_spring_leaves(with_gap: float, named: Term) -> None:
     of = base(pads=400.0)
     rim, spring = left_by(RIM, of=of, pads=with_gap), left_by(SPRING, of=of, pads=9.0)
-    assert plainest(searched(of, rim, spring), rim).terms == (named,)
-    assert plainest(searched(of, spring, rim), spring).names == ("slide_curvature",), "a spring is no rim"
+    assert plainest(searched(of, rim, spring), rim)[1].terms == (named,)
+    assert plainest(searched(of, spring, rim), spring)[1].names == ("slide_curvature",), "a spring is no rim"
 
 
 def test_beside_another_effect_the_same_is_asked() -> None:
     of = base(pads=400.0, girder=100.0)
     both, plain = left_by("buffer_damping", RIM, of=of), left_by("buffer_damping", SPRING, of=of)
-    assert set(plainest(searched(of, both, plain), both).names) == {"buffer_damping", "slide_curvature"}
+    assert set(plainest(searched(of, both, plain), both)[1].names) == {"buffer_damping", "slide_curvature"}
 
 
 def test_a_plainer_effect_is_asked_for_once_beside_the_one_that_holds_it() -> None:

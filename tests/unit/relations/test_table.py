@@ -57,7 +57,7 @@ def test_a_repeat_is_of_the_motion_that_it_repeats_and_a_held_out_run_of_its_own
     )
     by_motion = {motion: [block.run for block in of] for motion, of in again.layout.by_motion("pads").items()}
     assert by_motion == {0: [0, 2]}
-    assert {run: block.motion for run, block in again.layout.by_run("pads").items()} == {0: 0, 1: 1, 2: 0}
+    assert {block.run: block.motion for block in again.layout.blocks("pads")} == {0: 0, 1: 1, 2: 0}
 
 
 def test_noise_has_the_shape_of_the_residual_it_belongs_to() -> None:

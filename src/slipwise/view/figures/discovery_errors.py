@@ -6,7 +6,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from slipwise.discovery.levels import level
 from slipwise.discovery.result import Discovery
 from slipwise.discovery.splines import knots_of
 from slipwise.discovery.states import State
@@ -38,8 +37,8 @@ def errors(found: Discovery) -> dict[str, dict[str, tuple[float, float | None]]]
     return {
         words: {
             r: (
-                level(objective, found.base.solution, r, places),
-                level(objective, solution, r, places) if solution else None,
+                found.base.solution.residuals.level(r, places),
+                solution.residuals.level(r, places) if solution else None,
             )
             for r in objective.relations
         }
