@@ -48,7 +48,7 @@ class EstimatedLoad:
         warp = "the warp that it shows in other runs" if self.warp_seen else "a warp of zero"
         return (
             f"in its place the load that a rigid girder leaves to it by {', '.join(self.made_of)} and {warp}, "
-            f"within {self.error:.2g} N; no balance of loads is judged there"
+            f"within {self.error / 1e3:.2g} kN; no balance of loads is judged there"
         )
 
 

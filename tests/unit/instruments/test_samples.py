@@ -55,8 +55,8 @@ def test_a_gauge_wired_the_wrong_way_round_is_named_and_turned_back(name: str) -
     assert named(faults) == [("channel_sign", name)]
     whole, _ = mended_for_fits(broken, faults)
     assert np.array_equal(whole.runs[0].record[name], campaign.runs[0].record[name])
-    records, _ = mended_for_balances(broken, faults)
-    assert np.array_equal(records["only"][name], campaign.runs[0].record[name])
+    (run,) = mended_for_balances(broken, faults).campaign.runs
+    assert np.array_equal(run.record[name], campaign.runs[0].record[name])
 
 
 def test_four_cells_that_are_wired_the_wrong_way_round_are_one_card() -> None:
