@@ -24,8 +24,8 @@ from slipwise.diagnosis.initial_grid import strengths
 from slipwise.diagnosis.screening import screen
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit, fit_base, fit_finely
-from slipwise.estimation.intervals import Intervals, intervals
-from slipwise.evidence.residual_summary import summarised
+from slipwise.estimation.intervals import Intervals, compute_intervals
+from slipwise.evidence.residual_summary import summarise_residuals
 from slipwise.model import EffectUse, Model, base_model
 from slipwise.motion import load_motion
 from slipwise.record import Record, write_json
@@ -93,7 +93,7 @@ def recover(term: Term, rng: np.random.Generator, motions: dict[str, str]) -> di
     start = {**values, **half}
     uses = [EffectUse(term.effect, start, target) for target in ((card,) if card else term.targets)]
     fitted = fit_finely(campaign, base.adding(*uses))
-    known = intervals(fitted)
+    known = compute_intervals(fitted)
     found = {i.key: i for i in known.entries}
     plain = fit_base(campaign)
     hidden = next((s.absorbed for s in screen(plain, [term])), float("nan"))
@@ -111,7 +111,7 @@ def recover(term: Term, rng: np.random.Generator, motions: dict[str, str]) -> di
 
 def _unexplained(fitted: BaseFit) -> list[str]:
     """Say which relations keep far more than noise although the effect is in: there the fit's law is at fault."""
-    told = summarised(fitted.objective, fitted.solution)
+    told = summarise_residuals(fitted.objective, fitted.solution)
     levels = {r: told.fitted_level(r) ** 0.5 for r in told.fitted}
     return [f"{r} is left at {level:.1f} floors with the effect in" for r, level in levels.items() if level > FAULTY]
 

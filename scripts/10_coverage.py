@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from slipwise.estimation.base_fit import fit_base
-from slipwise.estimation.intervals import intervals
+from slipwise.estimation.intervals import compute_intervals
 from slipwise.record import write_json
 
 TESTS = Path(__file__).parents[1] / "tests"
@@ -60,7 +60,7 @@ def main() -> None:
             chain = replace(made.truth.logger, correlation=CORRELATION, stated=True)
             made = replace(made, truth=replace(made.truth, logger=chain))
         fit = fit_base(as_campaign(with_faults(made, (), chosen.seed + 1000 + repeat)))
-        found = {i.key: i for i in intervals(fit).entries}
+        found = {i.key: i for i in compute_intervals(fit).entries}
         for key, true in truth_of(made).items():
             i = found[key]
             inside.setdefault(key, []).append(i.low <= true <= i.high)

@@ -21,11 +21,11 @@ from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.objective import Objective, objective_of
-from slipwise.evidence.residual_summary import error_of, summarised
-from slipwise.evidence.score import lead, score
+from slipwise.evidence.residual_summary import get_error, summarise_residuals
+from slipwise.evidence.score import compute_lead, compute_score
 from slipwise.model import base_model
 from slipwise.record import Record
-from slipwise.relations.parameters import Free, Term, base_free, terms_of
+from slipwise.relations.parameters import Free, Term, list_base_numbers, make_terms
 from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.relations.setting import Weighing
 from slipwise.relations.table import Block, Residuals
@@ -79,7 +79,7 @@ def measured(*gauges: str, held_out: bool = True) -> Campaign:
 @cache
 def _objective(*gauges: str, held_out: bool) -> Objective:
     model = base_model("bridge1")
-    objective = objective_of(fit_runs(measured(*gauges, held_out=held_out)), model.specimen, terms_of(model))
+    objective = objective_of(fit_runs(measured(*gauges, held_out=held_out)), model.specimen, make_terms(model))
     sigmas = {
         name: tuple(np.full((1,) * run.judged[name].ndim, FORCE_NOISE) for run in objective.runs)
         for name in objective.relations
@@ -112,7 +112,7 @@ def base(*gauges: str, held_out: bool = True, **left: float) -> BaseFit:
         base_model("bridge1"),
         _objective(*gauges, held_out=held_out),
     )
-    free = tuple(base_free(model, balances=objective.balanced))
+    free = tuple(list_base_numbers(model, balances=objective.balanced))
     return BaseFit(campaign, model, objective, free, _solution(objective, {f.key: f.start for f in free}, free, left))
 
 
@@ -144,7 +144,7 @@ def left_by(
     new = [f for t in every for f in t.free(t.effect.typical())]
     start = {**of.solution.values, **{f.key: _inside(f) for f in new}, **(values or {})}
     solution = _solution(objective, start, (*of.free, *new), left, held_out or {}, over)
-    return Hypothesis(every, objective, solution, summarised(objective, solution))
+    return Hypothesis(every, objective, solution, summarise_residuals(objective, solution))
 
 
 def _inside(free: Free) -> float:
@@ -205,8 +205,8 @@ def findings_of(
             Finding(
                 name=name,
                 terms=terms,
-                worth=score(left, final.summary),
-                lead=min(lead(final.summary, left), 30.0),
+                worth=compute_score(left, final.summary),
+                lead=min(compute_lead(final.summary, left), 30.0),
                 share=float(np.clip((above_noise(left, final.summary) - end) / base_over, 0.0, 1.0)),
                 rival=rivals.get(name),
                 at_bound=tuple(p for label, p in bounds if label in {t.label for t in terms}),
@@ -241,7 +241,7 @@ def diagnosed(
     """
     verdict = verdict or decided(state, material)
     shown = state.final if verdict.effects else state.path[0]
-    errors = {r: tuple(error_of(h.summary, r) for h in (state.path[0], shown)) for r in shown.summary.fitted}
+    errors = {r: tuple(get_error(h.summary, r) for h in (state.path[0], shown)) for r in shown.summary.fitted}
     listed = tuple(
         Candidate(" + ".join(t.label for t in h.terms), chance, *errors["pads"], 0.0, {})
         for h, chance in zip(state.tried, probabilities, strict=False)

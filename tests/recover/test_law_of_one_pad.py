@@ -9,7 +9,7 @@ import slipwise as sw
 from measured import fit_base
 from recover.own_replay import campaign_of
 from shaking import shaken
-from slipwise.estimation.intervals import intervals
+from slipwise.estimation.intervals import compute_intervals
 from slipwise.model import Model, base_model
 from slipwise.simulation.predict import predictor
 
@@ -53,7 +53,7 @@ def test_a_fit_finds_the_law_of_one_pad_and_says_how_sure_it_is(tmp_path: Path) 
     rated = base_model(campaign.specimen)
     begun = rated.setting("shear_rate", **{"strength[C]": rated["shear_rate"].values["strength"]})
     fit = fit_base(campaign, begun)
-    found = {entry.key: entry for entry in intervals(fit).entries}
+    found = {entry.key: entry for entry in compute_intervals(fit).entries}
     strength, own = found["shear_rate.strength"], found["shear_rate.strength[C]"]
     assert own.value / strength.value == pytest.approx(WEAK, rel=0.01)
     assert not own.bound and own.low < WEAK * strength.value < own.high and own.high < 0.95 * strength.low

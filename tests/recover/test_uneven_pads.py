@@ -10,7 +10,7 @@ from measured import fit_base
 from recover.own_replay import campaign_of
 from slipwise.estimation.objective import objective_of
 from slipwise.model import EffectUse, Model, base_model, use
-from slipwise.relations.parameters import base_free, terms_of
+from slipwise.relations.parameters import list_base_numbers, make_terms
 from slipwise.relations.run_data import fit_runs
 
 HIGH = "pad_E_N"
@@ -31,8 +31,8 @@ def test_every_warp_of_six_pads_is_fitted_and_shows_the_pad_that_stands_high(fol
     runs = fit_runs(sw.load_campaign(folder))
     level = {}
     for model in (base_model("six_pads"), one_pad_high()):
-        objective = objective_of(runs, model.specimen, terms_of(model))
-        values = {f.key: f.start for f in base_free(model, balances=True)}
+        objective = objective_of(runs, model.specimen, make_terms(model))
+        values = {f.key: f.start for f in list_base_numbers(model, balances=True)}
         left = objective.weigh(values).residuals(values)
         warps = [name for name in left.relations if "warp" in name]
         level[len(model.uses)] = {n: np.sqrt(np.mean(np.concatenate(left.of(n)) ** 2)) for n in warps}

@@ -14,7 +14,7 @@ from slipwise.campaign.materiality import Materiality
 from slipwise.campaign.wild_samples import WildSamples
 from slipwise.display import Drawn, Tabular
 from slipwise.errors import SettingError
-from slipwise.noise.gauges import Gauge, noise_of_gauges
+from slipwise.noise.gauges import Gauge, measure_gauge_noise
 from slipwise.record import Record
 from slipwise.rig import Specimen
 from slipwise.signals.filters import LowPass
@@ -176,4 +176,4 @@ class Campaign(Drawn, Tabular):
 
 
 def _noise_in(runs: Sequence[Run]) -> dict[str, Gauge]:
-    return noise_of_gauges([run.record for run in runs], [run.invalid for run in runs])
+    return measure_gauge_noise([run.record for run in runs], [run.invalid for run in runs])

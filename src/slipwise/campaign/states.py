@@ -18,7 +18,7 @@ from slipwise.campaign.campaign import Campaign, Run
 from slipwise.campaign.motion_phases import is_at_rest, is_inside, is_lifted, is_slow, is_stuck
 from slipwise.campaign.scales import Scales, scales_of
 from slipwise.errors import InputError
-from slipwise.noise.gauges import Gauge, noise_of_slip
+from slipwise.noise.gauges import Gauge, measure_slip_noise
 from slipwise.record import Record
 from slipwise.rig import Specimen
 from slipwise.rig.load_basis import basis_of
@@ -270,7 +270,7 @@ def _along(
         slip = np.where(measured, record["slip_x"], np.nan)
         return fuse_scaled(record.time, slip, recorded, scales.time, scales.length)
     relative = record["girder_ax"] - record["table_ax"]
-    levels = noise_of_slip(gauges, "x")
+    levels = measure_slip_noise(gauges, "x")
     pitch = girder_pitch(record, specimen)
     if pitch is None:
         return fuse(record.time, record["slip_x"], relative, recorded, levels, undersampled=unfiltered)
@@ -296,4 +296,4 @@ def _across(record: Record, gauges: Mapping[str, Gauge], missing: list[str]) -> 
         return None
     recorded = record["slip_vy"] if "slip_vy" in record else None
     relative = record["girder_ay"] - record["table_ay"] if record.has_all("girder_ay", "table_ay") else None
-    return fuse(record.time, record["slip_y"], relative, recorded, noise_of_slip(gauges, "y"))
+    return fuse(record.time, record["slip_y"], relative, recorded, measure_slip_noise(gauges, "y"))

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from slipwise.channels import channel
 from slipwise.rig import Specimen
-from slipwise.signals.short_bursts import bridged, short_bursts, stretches
+from slipwise.signals.short_bursts import bridge_samples, short_bursts, stretches
 from slipwise.units import convert
 
 Array = NDArray[np.float64]
@@ -75,7 +75,7 @@ def without_wild_samples(
         specimen: whose girder ties the channels together.
     """
     bad = not_motion({name: short_bursts(values) for name, values in channels.items()}, channels, specimen)
-    bridges = {name: bridged(channels[name], marks) for name, marks in bad.items()}
+    bridges = {name: bridge_samples(channels[name], marks) for name, marks in bad.items()}
     wild = (WildSamples(name, marks, time[marks], channels[name][marks]) for name, marks in bad.items())
     return {**channels, **bridges}, tuple(wild)
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.stats import chi2, false_discovery_control
 
 from slipwise.comparison.motion_states import STATES, MotionStates
-from slipwise.noise.independent_samples import correlation_sum
+from slipwise.noise.independent_samples import sum_correlations
 from slipwise.noise.level import AT_FLOOR
 from slipwise.relations.run_data import FitRun
 
@@ -142,8 +142,8 @@ def gather(
     return Samples(relation, residual**2, residual, values, labels, spread, min(spread, _LONGEST * pads), spectrum)
 
 
-def cells_of(samples: Samples) -> list[Cell]:
-    """Sort a relation's samples in every way and test each cell; `above` is left to `corrected`."""
+def test_cells(samples: Samples) -> list[Cell]:
+    """Sort a relation's samples in every way and test each cell; `above` is left to `correct_for_many_tests`."""
     out = []
     for kind, values in samples.values.items():
         known = np.isfinite(values)
@@ -160,7 +160,7 @@ def cells_of(samples: Samples) -> list[Cell]:
     return [c for c in out if c.samples > 0]
 
 
-def corrected(cells: Iterable[Cell]) -> tuple[Cell, ...]:
+def correct_for_many_tests(cells: Iterable[Cell]) -> tuple[Cell, ...]:
     """Mark the cells above the floor, at a false discovery rate over all of them (Benjamini and Hochberg)."""
     cells = list(cells)
     tested = [i for i, c in enumerate(cells) if c.effective >= _FEWEST]
@@ -228,7 +228,7 @@ def _spread(parts: Sequence[Array]) -> float:
             likeness.append(float(np.mean(together[np.triu_indices(wide.shape[1], 1)])))
     pads = parts[0].shape[1] if parts[0].ndim == 2 else 1
     across = 1.0 + (pads - 1) * max(float(np.mean(likeness)), 0.0) if likeness else 1.0
-    return correlation_sum(centred) * across
+    return sum_correlations(centred) * across
 
 
 def _spectrum(parts: Sequence[Array], steps: Sequence[float]) -> tuple[Array, Array]:

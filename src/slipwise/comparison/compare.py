@@ -7,26 +7,26 @@ from pathlib import Path
 import numpy as np
 
 from slipwise.campaign import Campaign
-from slipwise.comparison.cells import cells_of, corrected, gather
-from slipwise.comparison.component_level import component_errors, repeat_errors
-from slipwise.comparison.friction_surface import surface
-from slipwise.comparison.motion_states import motion_states
-from slipwise.comparison.odd_even import parity
-from slipwise.comparison.patterns import patterns_of
+from slipwise.comparison.cells import correct_for_many_tests, gather, test_cells
+from slipwise.comparison.component_level import compute_component_errors, compute_repeat_errors
+from slipwise.comparison.friction_surface import compute_friction_surface
+from slipwise.comparison.motion_states import classify_motion_states
+from slipwise.comparison.odd_even import split_odd_and_even
+from slipwise.comparison.patterns import find_patterns
 from slipwise.comparison.result import Comparison
-from slipwise.comparison.sentences import places
-from slipwise.comparison.system_level import SystemLevel, system_level
+from slipwise.comparison.sentences import describe_places
+from slipwise.comparison.system_level import SystemLevel, compare_system_level
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.intervals import intervals
-from slipwise.estimation.prediction_interval import predicted_friction
+from slipwise.estimation.intervals import compute_intervals
+from slipwise.estimation.prediction_interval import predict_friction
 from slipwise.instruments.checks import Checks, check_instruments
 from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
 from slipwise.model.file import as_model
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared, fit_prepared
-from slipwise.relations.girder import balances_of
+from slipwise.relations.girder import list_balances
 
 #: Noise that the replay is fed with is the same in every comparison, so that two of them can be compared.
 _SEED = 1
@@ -67,21 +67,21 @@ def compare(
     base = fit_prepared(prepared, start, finely=True)
     tell("locating errors", 0.5)
     residuals = {r: list(base.solution.residuals.of(r)) for r in base.objective.relations}
-    components = component_errors(base)
-    motions = [motion_states(run) for run in base.objective.runs]
+    components = compute_component_errors(base)
+    motions = [classify_motion_states(run) for run in base.objective.runs]
     area = base.objective.specimen.pad_area
     samples = {
         r: gather(r, parts, base.objective.runs, motions, area)
         for r, parts in residuals.items()
         if any(np.any(p) for p in parts)
     }
-    cells = corrected(cell for one in samples.values() for cell in cells_of(one))
-    parities = {r: found for r, one in samples.items() if (found := parity(one)) is not None}
-    patterns = tuple(pattern for one in samples.values() for pattern in patterns_of(one))
+    cells = correct_for_many_tests(cell for one in samples.values() for cell in test_cells(one))
+    parities = {r: found for r, one in samples.items() if (found := split_odd_and_even(one)) is not None}
+    patterns = tuple(pattern for one in samples.values() for pattern in find_patterns(one))
     errors = {r: float(np.sqrt(one.squared.mean())) for r, one in samples.items()}
-    found = intervals(base)
+    found = compute_intervals(base)
     tell("drawing the friction surface", 0.6)
-    friction = surface(base, found)
+    friction = compute_friction_surface(base, found)
     cannot = _cannot(base)
     level: SystemLevel | None = None
     if system:
@@ -90,7 +90,7 @@ def compare(
             if not campaign.specimen.free:
                 raise InputError("the slip of this rig is prescribed: there is nothing to replay")
             rng = np.random.default_rng(_SEED)
-            level = system_level(base, rng, lambda done: tell("replaying", 0.65 + 0.35 * done))
+            level = compare_system_level(base, rng, lambda done: tell("replaying", 0.65 + 0.35 * done))
         except InputError as error:
             cannot.append(f"system level: {error}")
     tell("done", 1.0)
@@ -102,15 +102,15 @@ def compare(
         checks=checks,
         residuals=residuals,
         components=components,
-        repeats=repeat_errors(base, residuals),
+        repeats=compute_repeat_errors(base, residuals),
         system=level,
         intervals=found,
         surface=friction,
-        predicted_friction=predicted_friction(base),
+        predicted_friction=predict_friction(base),
         cells=cells,
         patterns=patterns,
         parities=parities,
-        places=places(cells, patterns, parities, errors),
+        places=describe_places(cells, patterns, parities, errors),
         cannot=(*cannot, *(f"audit: {words}" for words in checks.cannot)),
         notes=tuple(dict.fromkeys([*campaign.notes, *(level.notes if level else ())])),
         seconds=time.perf_counter() - began,
@@ -124,7 +124,7 @@ def _cannot(base: BaseFit) -> list[str]:
     if not objective.specimen.free:
         out.append("balances of girder, heave, pitch, roll and warp: the slip of this rig is prescribed")
     else:
-        absent = [b for b in balances_of(objective.specimen) if b not in objective.relations]
+        absent = [b for b in list_balances(objective.specimen) if b not in objective.relations]
         out += [f"{b} balance: a channel that it needs is missing" for b in absent]
     if not objective.held_out:
         out.append("held-out error: no run has the role holdout; errors are those of the fitted runs")

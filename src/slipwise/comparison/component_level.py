@@ -51,7 +51,7 @@ class ComponentError:
     samples: int
 
 
-def component_errors(base: BaseFit) -> tuple[ComponentError, ...]:
+def compute_component_errors(base: BaseFit) -> tuple[ComponentError, ...]:
     """Return the error of every relation in every run."""
     out = []
     for relation in base.objective.relations:
@@ -107,7 +107,7 @@ def _measured(relation: str, run, judged: NDArray[np.bool_]) -> Array | None:
     return None
 
 
-def pooled(errors: Sequence[ComponentError], relation: str, *, held_out: bool) -> float | None:
+def pool_errors(errors: Sequence[ComponentError], relation: str, *, held_out: bool) -> float | None:
     """Return the error of a relation over all fitted, or all held-out, runs; None where there is none."""
     chosen = [e for e in errors if e.relation == relation and (e.role == "holdout") == held_out]
     count = sum(e.samples for e in chosen)
@@ -116,7 +116,7 @@ def pooled(errors: Sequence[ComponentError], relation: str, *, held_out: bool) -
     return float(np.sqrt(sum(e.samples * e.error**2 for e in chosen) / count))
 
 
-def repeat_errors(base: BaseFit, residuals: Mapping[str, Sequence[Array]]) -> dict[str, float]:
+def compute_repeat_errors(base: BaseFit, residuals: Mapping[str, Sequence[Array]]) -> dict[str, float]:
     """Hold a repeated run against its first: rms of the difference of both residuals over sqrt(2), in floors.
 
     Whatever is the same in both runs drops out, the model's errors included: what stays is noise, and 1 says that the

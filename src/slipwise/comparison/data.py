@@ -6,7 +6,7 @@ from typing import Any
 
 from slipwise.campaign import Campaign
 from slipwise.comparison.cells import Cell
-from slipwise.comparison.component_level import ComponentError, pooled
+from slipwise.comparison.component_level import ComponentError, pool_errors
 from slipwise.comparison.friction_surface import Surface
 from slipwise.comparison.odd_even import Parity
 from slipwise.comparison.patterns import Pattern
@@ -79,7 +79,7 @@ class ComparisonData:
 
     def error(self, relation: str, *, held_out: bool) -> float | None:
         """Return the error of a relation over all fitted, or all held-out, runs [floors]; None without such runs."""
-        return pooled(self.components, relation, held_out=held_out)
+        return pool_errors(self.components, relation, held_out=held_out)
 
     @property
     def worst(self) -> tuple[str, float]:

@@ -35,7 +35,7 @@ class Surface:
     deviation: Array
 
 
-def surface(base: BaseFit, found: Intervals) -> Surface | None:
+def compute_friction_surface(base: BaseFit, found: Intervals) -> Surface | None:
     """Return the surface over the pressures and speeds that the campaign has seen; None where no load is known."""
     runs = base.objective.runs
     area = base.objective.specimen.pad_area

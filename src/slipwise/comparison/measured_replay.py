@@ -50,7 +50,7 @@ class SystemRun:
     error: Mapping[str, float]
 
 
-def measured_motion(states: States) -> TableMotion:
+def get_measured_motion(states: States) -> TableMotion:
     """Return the table's measured motion of a run.
 
     Raises:
@@ -90,7 +90,7 @@ def replay_runs(model: Model, runs: Sequence[tuple[str, States, float]], *, dt: 
 def _replayed(law: Predictor, name: str, states: States, dt: float) -> SystemRun:
     step = states.dt
     every = max(1, round(step / dt))
-    fine = resample(measured_motion(states), step / every).acceleration
+    fine = resample(get_measured_motion(states), step / every).acceleration
     length = min(round((WINDOW + SETTLE + _END) / step), len(states.time))
     stride = max(1, length - round((SETTLE + _END) / step))
     starts = list(range(0, len(states.time) - length + 1, stride))

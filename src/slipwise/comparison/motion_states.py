@@ -36,7 +36,7 @@ class MotionStates:
     way: float
 
 
-def motion_states(run: FitRun) -> MotionStates:
+def classify_motion_states(run: FitRun) -> MotionStates:
     """Sort the samples of a run."""
     velocity, states = run.velocity, run.states
     speed = np.abs(velocity)

@@ -32,7 +32,7 @@ class Parity:
     minus: float
 
 
-def parity(samples: Samples) -> Parity | None:
+def split_odd_and_even(samples: Samples) -> Parity | None:
     """Split a relation's residual, averaged in bins of speed and way since the last reversal; None without motion."""
     direction = samples.values["direction"] - 1.0
     speed, way = samples.values["speed"], samples.values["since reversal"]

@@ -93,7 +93,7 @@ class Pattern:
         return "both directions, unequal" if unequal else "both directions, equal"
 
 
-def patterns_of(samples: Samples) -> list[Pattern]:
+def find_patterns(samples: Samples) -> list[Pattern]:
     """Return the patterns of a relation over every state that it has."""
     direction = samples.values["direction"] - 1.0
     total = float(samples.squared.sum())

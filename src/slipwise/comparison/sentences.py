@@ -60,7 +60,7 @@ class Place:
     direction: str
 
 
-def places(
+def describe_places(
     cells: Sequence[Cell],
     patterns: Sequence[Pattern],
     parities: Mapping[str, Parity],

@@ -84,7 +84,7 @@ class SystemLevel:
     notes: tuple[str, ...]
 
 
-def replayed_model(base: BaseFit) -> tuple[Model, tuple[str, ...]]:
+def build_replayed_model(base: BaseFit) -> tuple[Model, tuple[str, ...]]:
     """Return the fitted model as a replay needs it, and in words what was added to it."""
     values = base.solution.values
     model = base.objective.model(values)
@@ -168,7 +168,7 @@ def pad_springs(base: BaseFit, model: Model) -> tuple[float, float] | None:
     return stiffness, ratio * stiffness
 
 
-def system_level(
+def compare_system_level(
     base: BaseFit, rng: np.random.Generator, progress: Callable[[float], None] | None = None
 ) -> SystemLevel:
     """Replay all runs in windows and hold every channel against its floor.
@@ -182,7 +182,7 @@ def system_level(
         InputError: table_ax was not recorded, or no channel was measured where a replay can be judged.
     """
     tell = progress or (lambda _: None)
-    model, notes = replayed_model(base)
+    model, notes = build_replayed_model(base)
     runs = base.objective.runs
     main = replay_runs(model, [(r.name, r.states, r.rest_before) for r in runs])
     tell(0.3)

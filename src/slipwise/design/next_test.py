@@ -22,7 +22,7 @@ import numpy as np
 
 from slipwise.campaign import Campaign, Run
 from slipwise.comparison.measured_replay import simulation_step
-from slipwise.comparison.system_level import replayed_model
+from slipwise.comparison.system_level import build_replayed_model
 from slipwise.design.law_contest import Contest, law_contest
 from slipwise.design.motions import LIBRARY, Limits, motions_for
 from slipwise.design.result import NextTest, Proposal
@@ -36,7 +36,7 @@ from slipwise.errors import InputError, SimulationError, SlipwiseError
 from slipwise.estimation.base_fit import fit_base
 from slipwise.evidence.acceptance import LEAST
 from slipwise.evidence.residual_summary import ResidualSummary
-from slipwise.evidence.score import largest_drop, score
+from slipwise.evidence.score import compute_score, find_largest_drop
 from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
 from slipwise.motion import parse_motion
@@ -147,7 +147,7 @@ def rivals(found: Diagnosis) -> tuple[Hypothesis, ...]:
     if verdict.kind == "complete" or (not best.terms and verdict.leftover == "none"):
         return base, _strongest(state, ())
     if verdict.kind == "ambiguous":
-        near = sorted(verdict.rivals, key=lambda h: score(base.summary, h.summary))
+        near = sorted(verdict.rivals, key=lambda h: compute_score(base.summary, h.summary))
         unlike = {frozenset(h.names): h for h in (*near, best)}  # the same effects in another order are no rival
         others = [h for h in reversed(unlike.values()) if h is not best] or _partner(state)
         if others:
@@ -161,7 +161,7 @@ def _strongest(state: Search, beside: Sequence[str]) -> Hypothesis:
     base, named = state.path[0], set(beside)
     tried = [h for h in state.tried if len(h.terms) <= max(len(named), 1) and not set(h.names) <= named]
     if tried:
-        return max(tried, key=lambda h: score(base.summary, h.summary))
+        return max(tried, key=lambda h: compute_score(base.summary, h.summary))
     fresh = [s.term for s in state.screened if s.term.effect.name not in named]
     if not fresh:
         raise InputError(
@@ -205,9 +205,9 @@ def _later(chances: Sequence[float], separation: float) -> float:
 def _as_shaken(found: Diagnosis, right: Hypothesis) -> Model:
     """Return the model of a hypothesis with the pads' springs and the inertia that a replay needs."""
     base = found.search.base
-    return replayed_model(replace(base, objective=right.objective, free=right.solution.free, solution=right.solution))[
-        0
-    ]
+    return build_replayed_model(
+        replace(base, objective=right.objective, free=right.solution.free, solution=right.solution)
+    )[0]
 
 
 def _separation(
@@ -269,7 +269,7 @@ def _words(found: Diagnosis, contest: Sequence[Hypothesis], most: float) -> str:
     sentences = []
     if found.verdict.kind == "ambiguous" and not found.verdict.rivals:
         # effects that the verdict takes for one thing to the rig are one only if the rig is not known well
-        more, where = largest_drop(contest[1].summary, contest[0].summary)
+        more, where = find_largest_drop(contest[1].summary, contest[0].summary)
         if more >= LEAST.everywhere:
             sentences.append(
                 f"Refitted to the campaign, {' + '.join(contest[0].names)} leaves {100.0 * more:.0f} % less of the "

@@ -15,9 +15,9 @@ from slipwise.diagnosis.hypothesis import Hypothesis, weighed_as
 from slipwise.diagnosis.initial_grid import strengths
 from slipwise.diagnosis.search_state import Search, left_with
 from slipwise.errors import SlipwiseError
-from slipwise.evidence.left_out import LinearFit, linear_fit
-from slipwise.evidence.residual_summary import ResidualSummary, summarised_linear
-from slipwise.relations.parameters import ZERO, Term, numbers_replaced
+from slipwise.evidence.left_out import LinearFit, fit_linearly
+from slipwise.evidence.residual_summary import ResidualSummary, summarise_linear_fit
+from slipwise.relations.parameters import ZERO, Term, list_replaced_numbers
 
 Array = NDArray[np.float64]
 
@@ -37,12 +37,12 @@ def without(state: Search, found: Hypothesis, terms: Sequence[Term]) -> tuple[Se
     if linear is None:
         state, left = left_with(state, rest, found)
         return state, weighed_as(left, found.objective).summary
-    return state, summarised_linear(found.objective, linear, found.summary.held_out, found.summary.counts)
+    return state, summarise_linear_fit(found.objective, linear, found.summary.held_out, found.summary.counts)
 
 
 def _needs_refit(term: Term, slider: bool) -> bool:
     effect = term.effect
-    replaced = numbers_replaced([effect]) - (set[str]() if slider else {ZERO})  # which only a slider's base has
+    replaced = list_replaced_numbers([effect]) - (set[str]() if slider else {ZERO})  # which only a slider's base has
     return not strengths(effect) or bool(replaced) or effect.reverses
 
 
@@ -59,7 +59,7 @@ def _linear(found: Hypothesis, terms: Sequence[Term], labels: set[str]) -> Linea
     ends = set(solution.at_bounds)
     inside = [f.key for f in solution.free if f.key not in ends]
     stays = np.array([key.rpartition(".")[0] not in labels for key in inside], dtype=bool)
-    fit = linear_fit(objective, solution)
+    fit = fit_linearly(objective, solution)
     slopes, low, high = fit.slopes[:, stays], fit.low[stays], fit.high[stays]
     step = np.clip(-np.linalg.lstsq(slopes.T @ slopes, slopes.T @ left, rcond=1e-12)[0], low, high)
     constants = fit.constants - sum(f.key.rpartition(".")[0] in labels for f in solution.free)

@@ -7,7 +7,7 @@ from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.verdict import Verdict, explained_share
 from slipwise.effects import Effect
-from slipwise.evidence.score import score
+from slipwise.evidence.score import compute_score
 
 Explanation = tuple[str, ...]
 #: A law that explains less is not near [1].
@@ -21,7 +21,7 @@ def nearest_family(state: Search) -> tuple[str, float] | None:
     """
     origin = state.path[0]
     laws = [h for h in state.tried if len(h.terms) == 1 and h.terms[0].effect.component != "instrument"]
-    best = max(laws, key=lambda h: score(origin.summary, h.summary), default=None)
+    best = max(laws, key=lambda h: compute_score(origin.summary, h.summary), default=None)
     share = explained_share(origin, best) if best is not None else 0.0
     return (best.names[0], share) if best is not None and share >= _LEAST_SHARE else None
 

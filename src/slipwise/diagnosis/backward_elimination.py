@@ -8,9 +8,9 @@ from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects
 from slipwise.diagnosis.plainer import plainest
 from slipwise.diagnosis.ranking import has_delay_for_filter
 from slipwise.diagnosis.search_state import Search, left_with, tried_before, tried_or_fitted, try_one
-from slipwise.evidence.acceptance import is_kept, least_drop
+from slipwise.evidence.acceptance import compute_least_drop, is_kept
 from slipwise.evidence.residual_summary import ResidualSummary
-from slipwise.evidence.score import score
+from slipwise.evidence.score import compute_score
 from slipwise.relations.parameters import Term
 
 #: Share by which a delay may lie behind a filter that takes nothing: true delays lay 0.0024 behind, filters 0.015 [1].
@@ -34,8 +34,8 @@ def _least_needed(state: Search, whole: Hypothesis, origin: ResidualSummary) -> 
     losses: list[tuple[float, Term]] = []
     for term in whole.terms:
         state, fewer = without(state, whole, [term])
-        if not is_kept(origin, fewer, whole.summary, least_drop([term])):
-            losses.append((score(fewer, whole.summary), term))
+        if not is_kept(origin, fewer, whole.summary, compute_least_drop([term])):
+            losses.append((compute_score(fewer, whole.summary), term))
     return state, min(losses, key=lambda loss: loss[0])[1] if losses else None
 
 
@@ -69,7 +69,7 @@ def _with_rivals_tried(state: Search) -> Search:
         for equivalent in (t for t in state.terms if t.effect.name in others):
             typical = {equivalent.label: equivalent.effect.typical()}
             state, again = tried_or_fitted(state, [*rest, equivalent], typical, best)
-            if score(origin, again.summary) > score(origin, state.best.summary):
+            if compute_score(origin, again.summary) > compute_score(origin, state.best.summary):
                 state = state.stepped_to(again)
     return state
 
@@ -79,13 +79,13 @@ def _simplified(state: Search) -> Search:
     origin, best = state.path[0].summary, state.best
     plain: list[Hypothesis] = []
     if has_delay_for_filter(best):
-        top = score(origin, best.summary)
+        top = compute_score(origin, best.summary)
         least = (1.0 - _NO_FILTER) * top
         state, found = _with_delays(state, best)
-        plain += [h for h in found if score(origin, h.summary) > least]
+        plain += [h for h in found if compute_score(origin, h.summary) > least]
     if not plain:
         return state
-    return state.stepped_to(max(plain, key=lambda h: score(origin, h.summary)))
+    return state.stepped_to(max(plain, key=lambda h: compute_score(origin, h.summary)))
 
 
 def _with_delays(state: Search, found: Hypothesis) -> tuple[Search, list[Hypothesis]]:

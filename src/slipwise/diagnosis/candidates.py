@@ -9,7 +9,7 @@ import numpy as np
 from slipwise.effects import Effect, catalogue, for_pads, scaled
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.objective import Objective
-from slipwise.preparation.gauge_groups import places_of
+from slipwise.preparation.gauge_groups import find_places_of_gauges
 from slipwise.relations.parameters import Term
 from slipwise.rig.load_basis import WARPS, has_corners
 
@@ -124,7 +124,7 @@ HAS: dict[str, Callable[[Objective], bool]] = {
 
 def _aimed(effect: Effect, objective: Objective) -> Iterator[Term]:
     """Yield a gauge's fault on every channel or card on which it means something to the relations of a fit."""
-    places = places_of(effect, objective.run(0).record)
+    places = find_places_of_gauges(effect, objective.run(0).record)
     for place in sorted(places, key=lambda name: "*" not in name):
         targets = places[place]
         if any(name not in _LOOKED_AT and not name.startswith("pad_") or name.endswith("_Fy") for name in targets):
@@ -138,7 +138,7 @@ def _aimed(effect: Effect, objective: Objective) -> Iterator[Term]:
 
 def _unaimed(effect: Effect, objective: Objective) -> str:
     """Say why a gauge's fault is looked for on none: none that it could sit on, or none beside the law of friction."""
-    if any(place.startswith(("pad_", "slip")) for place in places_of(effect, objective.run(0).record)):
+    if any(place.startswith(("pad_", "slip")) for place in find_places_of_gauges(effect, objective.run(0).record)):
         return "without a girder's balances it is one with the numbers of the friction law"
     return "no gauge was recorded on which it would show"
 

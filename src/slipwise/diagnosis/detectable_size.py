@@ -8,7 +8,7 @@ from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.initial_grid import strengths
 from slipwise.diagnosis.row_subset import rows_of
 from slipwise.diagnosis.screening import Screened
-from slipwise.evidence.acceptance import least_drop
+from slipwise.evidence.acceptance import compute_least_drop
 
 
 def least_sizes(screened: Sequence[Screened], base: Hypothesis) -> dict[str, tuple[float, str]]:
@@ -41,4 +41,4 @@ def _least(found: Screened, base: Hypothesis) -> tuple[float, str] | None:
     rows = rows_of(base.objective)
     drops = np.add.reduceat(step, np.concatenate([[0], np.cumsum([*rows.values()])[:-1]]))
     counts = np.array([base.summary.counts[r][0] for r in rows])
-    return float(size * np.sqrt(least_drop([found.term]) / np.max(drops / np.maximum(counts, 1)))), leading.unit
+    return float(size * np.sqrt(compute_least_drop([found.term]) / np.max(drops / np.maximum(counts, 1)))), leading.unit

@@ -24,10 +24,10 @@ from slipwise.diagnosis.verdict import Verdict, confirmed, decide_verdict, with_
 from slipwise.effects import Effect
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit, fit_base
-from slipwise.estimation.intervals import Interval, intervals
-from slipwise.estimation.prediction_interval import PredictedFriction, predicted_friction
-from slipwise.evidence.residual_summary import ResidualSummary, error_of
-from slipwise.evidence.score import largest_drop, score
+from slipwise.estimation.intervals import Interval, compute_intervals
+from slipwise.estimation.prediction_interval import PredictedFriction, predict_friction
+from slipwise.evidence.residual_summary import ResidualSummary, get_error
+from slipwise.evidence.score import compute_score, find_largest_drop
 from slipwise.instruments.suspects import effect_of
 from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
@@ -72,7 +72,7 @@ def diagnose(
     base, state = selected.base, selected.search
     tell("replaying without each effect", part)
     found = as_fit(base, state.final, with_slopes=not state.final.objective.balanced)
-    sizes = intervals(found).entries if state.final.terms else ()
+    sizes = compute_intervals(found).entries if state.final.terms else ()
     state, evidence = findings(state, importance_of_effects(found, state.final.terms, sizes), measured.materiality)
     decided = decide_verdict(state, evidence, measured.materiality)
     before = final_refit_of(state.path[0])
@@ -92,7 +92,7 @@ def diagnose(
         except InputError as error:
             cannot.append(f"system level: {error}")
     judged_at_all = (r for r, counts in before.summary.counts.items() if any(counts))
-    relations = {r: (error_of(before.summary, r), error_of(shown.summary, r)) for r in judged_at_all}
+    relations = {r: (get_error(before.summary, r), get_error(shown.summary, r)) for r in judged_at_all}
     judged = (before,) if shown is before else (before, shown)
     whole = errors_on_all_samples(prepared.uncut, prepared.unjudged, base.campaign, judged)
     recorded = _unmended(prepared, start) or before.summary
@@ -101,7 +101,7 @@ def diagnose(
         campaign=measured.name,
         verdict=verdict,
         component=_component(state, verdict),
-        recorded_error=max(error_of(recorded, r) for r in recorded.fitted),
+        recorded_error=max(get_error(recorded, r) for r in recorded.fitted),
         base_error=max(a for a, _ in relations.values()),
         final_error=max(b for _, b in relations.values()),
         relations=relations,
@@ -137,7 +137,7 @@ def _predicted_friction(final: BaseFit) -> tuple[PredictedFriction, ...]:
     """Return what is predicted of one slider's held-out runs; a girder's balances judge those sample by sample."""
     if final.objective.balanced:
         return ()
-    return tuple(found for found in predicted_friction(final) if found.inside is not None)
+    return tuple(found for found in predict_friction(final) if found.inside is not None)
 
 
 def _component(state: Search, verdict: Verdict) -> str:
@@ -162,8 +162,8 @@ def _listed(
 ) -> tuple[Candidate, ...]:
     """Return hypotheses, and faults of samples: before them where they alone are what is missing."""
     hypotheses = _candidates(selected.search, before, decided, sizes)
-    where = max(recorded.fitted, key=lambda relation: error_of(recorded, relation))
-    with_fault, without = error_of(recorded, where), error_of(before, where)
+    where = max(recorded.fitted, key=lambda relation: get_error(recorded, relation))
+    with_fault, without = get_error(recorded, where), get_error(before, where)
     faults = selected.prepared.gauge_faults
     labels = dict.fromkeys(f"{effect_of(f.kind).name}[{name}]" for f in faults for name in f.channels)
     told = tuple(Candidate(label, verdict.probability, with_fault, without, 0.0, {}) for label in labels)
@@ -175,8 +175,8 @@ def _candidates(
 ) -> tuple[Candidate, ...]:
     origin = state.path[0]
     unique: dict[tuple[str, ...], Hypothesis] = {}
-    for h in sorted(state.tried, key=lambda h: -score(origin.summary, h.summary)):
-        if h.terms and score(origin.summary, h.summary) > 0.0:
+    for h in sorted(state.tried, key=lambda h: -compute_score(origin.summary, h.summary)):
+        if h.terms and compute_score(origin.summary, h.summary) > 0.0:
             unique.setdefault(h.names, h)
     best = state.best
     unique |= {h.names: h for h in verdict.rivals}
@@ -186,15 +186,15 @@ def _candidates(
     shares = _shares(state, verdict, listed)
     out = []
     for h, probability in zip(listed, shares, strict=True):
-        _, where = largest_drop(origin.summary, h.summary)
+        _, where = find_largest_drop(origin.summary, h.summary)
         where = where or "pads"
         shown = state.final if h is best else h
         out.append(
             Candidate(
                 effect=" + ".join(t.label for t in h.terms),
                 probability=probability,
-                holdout_before=error_of(before, where),
-                holdout_after=error_of(shown.summary, where),
+                holdout_before=get_error(before, where),
+                holdout_after=get_error(shown.summary, where),
                 absorbed_by_base=max(absorbed.get(t.label, 0.0) for t in h.terms),
                 parameters=named_sizes(shown, sizes if verdict.effects and h is best else ()),
             )
@@ -208,7 +208,7 @@ def _shares(state: Search, verdict: Verdict, listed: list[Hypothesis]) -> list[f
     if not listed:
         return []
     origin = state.path[0]
-    weights = np.array([max(score(origin.summary, h.summary), 1e-9) for h in listed])
+    weights = np.array([max(compute_score(origin.summary, h.summary), 1e-9) for h in listed])
     if not named:
         return [float(x) for x in (1.0 - verdict.probability) * weights / weights.sum()]
     rivals = verdict.rivals or [h for h in listed if _is_one_thing(h, state.best)]

@@ -13,7 +13,7 @@ from slipwise.diagnosis.plainer import holds_as_limit
 from slipwise.diagnosis.ranking import has_delay_for_filter
 from slipwise.diagnosis.search_state import Search
 from slipwise.evidence.residual_summary import ResidualSummary
-from slipwise.evidence.score import lead, score
+from slipwise.evidence.score import compute_lead, compute_score
 from slipwise.relations.parameters import Term
 
 #: Nothing is surer than this many standard errors.
@@ -94,8 +94,8 @@ def findings(state: Search, importances: dict[str, Importance], limits: Material
         Finding(
             name=n,
             terms=parts[n],
-            worth=score(left[n], final.summary),
-            lead=min(lead(final.summary, left[n]), _SUREST),
+            worth=compute_score(left[n], final.summary),
+            lead=min(compute_lead(final.summary, left[n]), _SUREST),
             share=float(np.clip((above_noise(left[n], final.summary) - end) / max(base, 1e-12), 0.0, 1.0)),
             rival=rivals.get(n),
             at_bound=tuple(p for label, p in bounds if label in {t.label for t in parts[n]}),
@@ -131,7 +131,7 @@ def _rivals(state: Search, parts: dict[str, tuple[Term, ...]]) -> dict[str, Riva
         others = [h for h in others if not holds_as_limit(h, best)]  # that is as good by what it is at a bound
         if not has_delay_for_filter(best):  # a filter that takes nothing is a delay by another name
             others = [h for h in others if not has_delay_for_filter(h)]
-        rival = max(others, key=lambda h: score(best.summary, h.summary), default=None)
+        rival = max(others, key=lambda h: compute_score(best.summary, h.summary), default=None)
         if rival is not None:
-            out[name] = Rival(rival, float(np.clip(lead(best.summary, rival.summary), -_SUREST, _SUREST)))
+            out[name] = Rival(rival, float(np.clip(compute_lead(best.summary, rival.summary), -_SUREST, _SUREST)))
     return out

@@ -12,7 +12,7 @@ from slipwise.diagnosis.candidates import candidates
 from slipwise.diagnosis.hypothesis import Hypothesis, at_limit, base_hypothesis, strength_at_bound
 from slipwise.diagnosis.initial_grid import places
 from slipwise.diagnosis.initial_guesses import longer_stick, starting_points, starts_of
-from slipwise.diagnosis.jacobian_memory import lightened, whole
+from slipwise.diagnosis.jacobian_memory import complete_jacobian, lightened
 from slipwise.diagnosis.pairs import leading_pair
 from slipwise.diagnosis.plainer import plainest, with_plainer
 from slipwise.diagnosis.ranking import best_of, kept_alone, limit_per_effect
@@ -22,9 +22,9 @@ from slipwise.diagnosis.screening import screen, screen_shapes
 from slipwise.diagnosis.search_state import Search, as_base, left_with, tried_before, try_all, try_one
 from slipwise.diagnosis.substitutes import substitutes
 from slipwise.effects import Effect
-from slipwise.estimation.base_fit import BaseFit, at_rated
-from slipwise.evidence.acceptance import LEAST, all_down, is_kept, least_drop
-from slipwise.evidence.score import lead, score
+from slipwise.estimation.base_fit import BaseFit, evaluate_at_rated
+from slipwise.evidence.acceptance import LEAST, are_all_at_floor, compute_least_drop, is_kept
+from slipwise.evidence.score import compute_lead, compute_score
 
 Array = NDArray[np.float64]
 #: Share of what is worth a name from which on a screen's gain is worth a refit [1].
@@ -82,7 +82,7 @@ def search(
         state = with_final_refit(state)
     if thinning(base.objective) > 1:  # what was tried is listed from now on, and hardly ever fitted on
         origin = state.path[0].summary
-        state = replace(state, tried=lightened(state.tried, lambda h: score(origin, h.summary), room=0))
+        state = replace(state, tried=lightened(state.tried, lambda h: compute_score(origin, h.summary), room=0))
     tell("done", 1.0)
     return state
 
@@ -115,8 +115,8 @@ def _restarted_from_nominal(state: Search) -> Search:
     worst, left = (max(h.summary.fitted_level(r) for r in h.summary.fitted) for h in (origin, best))
     if worst < _BASE_MISFIT or left < _FAR_FROM_NOISE:
         return state
-    anew = _reshaped(_first(_screened(replace(state, base=at_rated(state.base), path=(origin,)))))
-    if score(origin.summary, anew.best.summary) <= score(origin.summary, best.summary):
+    anew = _reshaped(_first(_screened(replace(state, base=evaluate_at_rated(state.base), path=(origin,)))))
+    if compute_score(origin.summary, anew.best.summary) <= compute_score(origin.summary, best.summary):
         return replace(state, tried=anew.tried)
     return replace(state, tried=anew.tried).stepped_to(anew.best)
 
@@ -160,7 +160,7 @@ def _first(state: Search, start_hypothesis: Hypothesis | None = None) -> Search:
                 alone.append(one)
             best = best_of(origin, [*alone, *([best] if best else [])])
             single = best or origin
-            least = least_drop(both.terms)
+            least = compute_least_drop(both.terms)
             if single is origin or is_kept(origin.summary, single.summary, both.summary, least):
                 return state.stepped_to(both)
     return state if best is None else state.stepped_to(best)
@@ -173,7 +173,7 @@ def _reshaped(state: Search) -> Search:
     from new starts, of 15 laws of a length or time none more than 5 % more.
     """
     best, origin = state.best, state.path[0]
-    if not best.terms or all_down(best.summary):
+    if not best.terms or are_all_at_floor(best.summary):
         return state
     for term in best.terms:
         grid = places(term.effect)
@@ -183,10 +183,14 @@ def _reshaped(state: Search) -> Search:
         before = None
         if rest:
             state, before = left_with(state, rest, best)
-            before = whole(before)
+            before = complete_jacobian(before)
         found = screen_shapes(as_base(state, before or origin), term, grid)[:_RESHAPED]
         state, again = try_all(state, [([*rest, term], {term.label: s.values}) for s in found], before)
-        better = [h for h in again if score(origin.summary, h.summary) > score(origin.summary, state.best.summary)]
+        better = [
+            h
+            for h in again
+            if compute_score(origin.summary, h.summary) > compute_score(origin.summary, state.best.summary)
+        ]
         if better:
             state = replace(state, path=(*state.path[:-1], better[0]))
     return state
@@ -195,7 +199,7 @@ def _reshaped(state: Search) -> Search:
 def _further(state: Search) -> Search:
     """Add what helps most beside the effects found, several small ones at once; no step where nothing is worth it."""
     before, origin = state.best, state.path[0]
-    if all_down(before.summary):
+    if are_all_at_floor(before.summary):
         return state
     found = rescreen(state.all_screened, before)
     several = worth_refitting(found, before, _AT_ONCE, together=True)
@@ -218,7 +222,7 @@ def _further(state: Search) -> Search:
         sound = [h for h in tried if not at_limit(h) and (strength_at_bound(before) or not strength_at_bound(h))]
         good = [h for h in sound if _is_kept(origin, before, h)]
         if good:
-            state, plain = plainest(state, max(good, key=lambda h: score(before.summary, h.summary)))
+            state, plain = plainest(state, max(good, key=lambda h: compute_score(before.summary, h.summary)))
             return state.stepped_to(plain)
     return state
 
@@ -235,7 +239,7 @@ def _new_at_bound(found: Hypothesis, before: Hypothesis) -> bool:
 def _is_kept(origin: Hypothesis, before: Hypothesis, found: Hypothesis, share: float = 1.0) -> bool:
     """Return whether the terms that a hypothesis has beside one before are worth being kept, or nearly so."""
     labels = {t.label for t in before.terms}
-    least = share * least_drop(t for t in found.terms if t.label not in labels)
+    least = share * compute_least_drop(t for t in found.terms if t.label not in labels)
     return is_kept(origin.summary, before.summary, found.summary, least)
 
 
@@ -250,7 +254,7 @@ def _exchanged(state: Search) -> Search:
     What was best alone may only have stood for two others: two gauges that read less for pads that differ.
     """
     best, origin = state.best, state.path[0].summary
-    top = score(origin, best.summary)
+    top = compute_score(origin, best.summary)
     better: list[Hypothesis] = []
     left = _EXCHANGED
     for name in best.names:
@@ -264,14 +268,14 @@ def _exchanged(state: Search) -> Search:
                 state, others = left_with(state, rest, best)
             state, found = try_all(state, starts_of(chosen, rest), others)
             sound = [h for h in found if not at_limit(h) and not _accuses_for_little(best, h)]
-            better += [h for h in sound if score(origin, h.summary) > top]
-    return state.stepped_to(max(better, key=lambda h: score(origin, h.summary))) if better else state
+            better += [h for h in sound if compute_score(origin, h.summary) > top]
+    return state.stepped_to(max(better, key=lambda h: compute_score(origin, h.summary))) if better else state
 
 
 def _accuses_for_little(best: Hypothesis, found: Hypothesis) -> bool:
     """Return whether a hypothesis blames more gauges than another, and is hardly better for it."""
     more = _gauges(found) > _gauges(best)
-    return more and lead(found.summary, best.summary) < _SURE_ENOUGH
+    return more and compute_lead(found.summary, best.summary) < _SURE_ENOUGH
 
 
 def _gauges(found: Hypothesis) -> int:

@@ -24,8 +24,8 @@ from slipwise.diagnosis.rescreening import row_weights
 from slipwise.diagnosis.row_subset import on_screen, rows_of
 from slipwise.diagnosis.screening import Screened
 from slipwise.errors import SlipwiseError
-from slipwise.noise.independent_samples import correlation_sum
-from slipwise.relations.measurement import faulted
+from slipwise.noise.independent_samples import sum_correlations
+from slipwise.relations.measurement import apply_gauge_faults
 from slipwise.relations.parameters import Free
 from slipwise.relations.run_data import FitRun
 
@@ -77,7 +77,7 @@ def shares_that_stay(
 def _samples_for_one(found: Hypothesis) -> Array:
     """Return how many screened rows stand for one independent one, row by row (q,): neighbours share their errors."""
     objective, left = found.objective, found.solution.residuals
-    sums = {r: correlation_sum([b.value for b in left.blocks(r, objective.fitted)]) for r in objective.relations}
+    sums = {r: sum_correlations([b.value for b in left.blocks(r, objective.fitted)]) for r in objective.relations}
     return np.concatenate([np.full(rows, sums[r]) for r, rows in rows_of(objective).items()])
 
 
@@ -116,7 +116,7 @@ def _share_changed(candidate: Screened, run: FitRun) -> float:
     """Return by how much a fault changes the channel that it changes most, see `share_of_channel` [1]."""
     values = {f"{candidate.term.label}.{k}": v for k, v in candidate.values.items()}
     try:
-        changed = faulted([candidate.term], values, run.record)
+        changed = apply_gauge_faults([candidate.term], values, run.record)
     except SlipwiseError:
         return 0.0
     shares = [

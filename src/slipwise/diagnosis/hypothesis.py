@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 
 from slipwise.diagnosis.initial_grid import REFERENCES, strengths
 from slipwise.effects import Limit
-from slipwise.estimation.base_fit import BaseFit, final_refit
-from slipwise.estimation.least_squares import Solution, slopes_of, solve
+from slipwise.estimation.base_fit import BaseFit, refit_finally
+from slipwise.estimation.least_squares import Solution, get_slopes, solve
 from slipwise.estimation.objective import Objective
-from slipwise.evidence.residual_summary import ResidualSummary, summarised
-from slipwise.relations.parameters import ZERO, Free, Term, inertia_free, numbers_replaced
+from slipwise.evidence.residual_summary import ResidualSummary, summarise_residuals
+from slipwise.relations.parameters import ZERO, Free, Term, list_replaced_numbers, make_free_inertia
 
 Array = NDArray[np.float64]
 #: A fit is over when a step lowers the squared residual by less than this, and by less than this share of what is left
@@ -86,7 +86,7 @@ def refit(
         kept = values.keys() | set(objective.inertias)
         values |= {k: v for k, v in before.solution.values.items() if k in kept}
     labels = {t.label for t in before.terms} if before is not None else set[str]()
-    gone = numbers_replaced(t.effect for t in terms) | ({STICK_LENGTH} if objective.has_stick else set())
+    gone = list_replaced_numbers(t.effect for t in terms) | ({STICK_LENGTH} if objective.has_stick else set())
     free: list[Free] = [f for f in base.free if f.key not in gone]
     if ZERO in gone:
         values.pop(ZERO, None)
@@ -100,7 +100,7 @@ def refit(
     present = {f.key for f in free}
     for key in objective.inertias:
         if key not in present:
-            free.append(inertia_free(objective.specimen, key))
+            free.append(make_free_inertia(objective.specimen, key))
             values.setdefault(key, free[-1].start)
     if not objective.balanced and before is None:
         solution = _several_starts(objective, values, free, terms)
@@ -108,7 +108,7 @@ def refit(
         known = None  # a slider's laws change it too much for slopes of before, and are quick
         if objective.balanced:  # a hypothesis of other runs gives a start, but no slopes
             alike = before is not None and len(before.solution.jacobian) == len(base.solution.jacobian)
-            known = slopes_of(before.solution if before is not None and alike else base.solution)
+            known = get_slopes(before.solution if before is not None and alike else base.solution)
         solution = solve(objective, values, free, most=most, enough=_ENOUGH, rough=_ROUGH, known=known)
         contained = before if before is not None and labels <= {t.label for t in terms} else base
         if solution.cost > contained.solution.cost:  # the base has moved too far for its slopes of before
@@ -117,7 +117,7 @@ def refit(
 
 
 def _hypothesis(terms: Sequence[Term], objective: Objective, solution: Solution) -> Hypothesis:
-    return Hypothesis(tuple(terms), objective, solution, summarised(objective, solution))
+    return Hypothesis(tuple(terms), objective, solution, summarise_residuals(objective, solution))
 
 
 def polished(found: Hypothesis) -> Hypothesis:
@@ -145,7 +145,7 @@ def weighed_as(found: Hypothesis, other: Objective) -> Hypothesis:
 
 def final_refit_of(found: Hypothesis) -> Hypothesis:
     """Fit on, weighed by its own law and finer, as what is reported of it should be."""
-    objective, solution = final_refit(found.objective, found.solution)
+    objective, solution = refit_finally(found.objective, found.solution)
     return found if solution is found.solution else _hypothesis(found.terms, objective, solution)
 
 

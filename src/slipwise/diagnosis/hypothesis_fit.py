@@ -1,7 +1,7 @@
 """A hypothesis as a fit of its own, as intervals, the table of errors and replays take it."""
 
 from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.diagnosis.jacobian_memory import whole
+from slipwise.diagnosis.jacobian_memory import complete_jacobian
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import with_slopes as take_slopes
 
@@ -16,6 +16,6 @@ def as_fit(base: BaseFit, found: Hypothesis, *, with_slopes: bool = True) -> Bas
     """
     if found.solution is base.solution:
         return base
-    found = whole(found)
+    found = complete_jacobian(found)
     solution = take_slopes(found.objective, found.solution) if with_slopes else found.solution
     return BaseFit(base.campaign, base.model, found.objective, solution.free, solution)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.intervals import intervals
+from slipwise.estimation.intervals import compute_intervals
 from slipwise.relations.parameters import Free
 from slipwise.units import convert
 
@@ -95,7 +95,7 @@ def _inside(final: BaseFit) -> BaseFit:
 
 def how_identified(fit: BaseFit) -> dict[str, Identified]:
     """Say of every number of a fit on which a residual depends how well it is identified."""
-    found = intervals(fit)
+    found = compute_intervals(fit)
     scale = {f.key: f.scale for f in fit.solution.free}
     inside = [j for j, f in enumerate(fit.solution.free) if f.key in found.keys]
     own, tie = alone(fit.solution.normal[np.ix_(inside, inside)])

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from slipwise.campaign.materiality import Materiality
 from slipwise.campaign.rig_motion import rig_motion
-from slipwise.comparison.measured_replay import measured_motion, simulation_step
-from slipwise.comparison.system_level import replayed_model
+from slipwise.comparison.measured_replay import get_measured_motion, simulation_step
+from slipwise.comparison.system_level import build_replayed_model
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Interval
@@ -115,7 +115,7 @@ class _Answer:
 def _models(final: BaseFit, added: Mapping[str, Sequence[Term]]) -> dict[str, Model]:
     """Return the final model by "", and by the name of each effect the model without it."""
     values = final.solution.values
-    whole = replayed_model(final)[0] if final.objective.specimen.free else final.objective.model(values)
+    whole = build_replayed_model(final)[0] if final.objective.specimen.free else final.objective.model(values)
     return {"": whole} | {n: whole.without(*(u.label for t in of for u in t.uses(values))) for n, of in added.items()}
 
 
@@ -136,7 +136,7 @@ def _replayed(model: Model, final: BaseFit, place: int) -> _Answer:
     dt = simulation_step(run.dt)
     answer = replay(
         model,
-        measured_motion(run.states),
+        get_measured_motion(run.states),
         dt=dt,
         output_dt=run.dt,
         start=memory_before(model, final.objective.runs_before(place)),

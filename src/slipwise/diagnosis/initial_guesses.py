@@ -8,7 +8,7 @@ from slipwise.diagnosis.hypothesis import STICK_LENGTH, Hypothesis, strength_at_
 from slipwise.diagnosis.initial_grid import shapes, strengths, variants
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.search_state import Search, tried_before
-from slipwise.evidence.score import score
+from slipwise.evidence.score import compute_score
 from slipwise.relations.parameters import Term
 
 #: What a refit needs: terms, and label -> parameters to start from.
@@ -75,7 +75,7 @@ def _as_alone(state: Search, chosen: Sequence[Screened], beside: Sequence[Term])
     for term in (s.term for s in chosen):
         alone = tried_before(state, [term])
         if alone:
-            best = max(alone, key=lambda h: score(state.path[0].summary, h.summary))
+            best = max(alone, key=lambda h: compute_score(state.path[0].summary, h.summary))
             out.append(([*beside, term], {term.label: best.values_of(term)}))
     return out
 

@@ -22,12 +22,12 @@ def size_of(solution: Solution) -> int:
     return solution.jacobian.nbytes + solution.residuals.nbytes
 
 
-def light(solution: Solution) -> Solution:
+def drop_jacobian(solution: Solution) -> Solution:
     """Return a solution without slopes and residuals."""
     return replace(solution, residuals=Residuals(), jacobian=np.empty((0, len(solution.free))))
 
 
-def whole(found: Hypothesis) -> Hypothesis:
+def complete_jacobian(found: Hypothesis) -> Hypothesis:
     """Return a hypothesis with slopes and residuals, taken anew where they were not kept."""
     solution = found.solution
     if not solution.residuals.is_empty:
@@ -54,5 +54,5 @@ def lightened(
     for place in sorted(range(len(tried)), key=lambda i: -worth(tried[i])):
         left -= sizes[place]
         if left < 0:
-            out[place] = replace(tried[place], solution=light(tried[place].solution))
+            out[place] = replace(tried[place], solution=drop_jacobian(tried[place].solution))
     return tuple(out)

@@ -22,7 +22,7 @@ from slipwise.display import Drawn, Tabular
 from slipwise.effects import Effect, find_effect
 from slipwise.errors import InputError, SettingError
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.evidence.residual_summary import ResidualSummary, error_of
+from slipwise.evidence.residual_summary import ResidualSummary, get_error
 from slipwise.jobs.parallel import on_every_core, one_thread_algebra
 from slipwise.model import Model
 from slipwise.model.file import as_model
@@ -225,7 +225,7 @@ def _why(state: Search) -> str:
     if not state.screened:
         return "no effect of the catalogue can be tested here"
     account = state.final.summary
-    worst = max(error_of(account, relation) for relation in account.fitted)
+    worst = max(get_error(account, relation) for relation in account.fitted)
     if is_at_floor(worst):
         return "nothing above the noise floor is left"
     if len(state.best.terms) >= MOST_EFFECTS:
@@ -242,7 +242,7 @@ def _step(found: Hypothesis, replayed: float) -> LadderStep:
         holdout_error=max(held.values(), default=float("nan")),
         system_holdout_error=replayed,
         floor=1.0,
-        relations={r: error_of(found.summary, r) for r in found.summary.fitted},
+        relations={r: get_error(found.summary, r) for r in found.summary.fitted},
     )
 
 

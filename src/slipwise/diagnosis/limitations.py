@@ -21,7 +21,7 @@ from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.preparation.sample_fault import SampleFault
 from slipwise.relations.parameters import ZERO, Term
-from slipwise.relations.sample_masks import rolls_only_at_rest
+from slipwise.relations.sample_masks import is_rolling_only_at_rest
 from slipwise.rig.frame import storey_channels
 from slipwise.rig.load_basis import buffers_off_centre
 from slipwise.rig.rocking import coupled
@@ -112,7 +112,7 @@ def _turning_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
 def _friction_across_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
     """Say that roll is judged at rest only where the girder rolls with its pitch or moves across."""
     objective, specimen = base.objective, base.campaign.specimen
-    if not objective.balanced or not rolls_only_at_rest(objective.run(0).states.has_y, specimen):
+    if not objective.balanced or not is_rolling_only_at_rest(objective.run(0).states.has_y, specimen):
         return
     why = "pads that stand unevenly turn pitch into roll" if coupled(specimen) else "it moves across"
     judged = "judged before the motion only" if "roll" in base.objective.relations else "not judged"

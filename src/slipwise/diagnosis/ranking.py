@@ -6,8 +6,8 @@ import numpy as np
 
 from slipwise.diagnosis.hypothesis import Hypothesis, at_limit
 from slipwise.diagnosis.screening import Screened
-from slipwise.evidence.acceptance import is_kept, least_drop
-from slipwise.evidence.score import score
+from slipwise.evidence.acceptance import compute_least_drop, is_kept
+from slipwise.evidence.score import compute_score
 from slipwise.instruments.delay_or_filter import is_delay, passed
 
 #: Share of the best explanation from which on another gauge's ties with it [1].
@@ -30,7 +30,7 @@ def best_of(origin: Hypothesis, tried: Sequence[Hypothesis]) -> Hypothesis | Non
 
     Cells of load that all read 4 % less under a girder of 4 % more mass are cells of friction that all read 4 % more.
     """
-    ranked = sorted(((score(origin.summary, h.summary), h) for h in tried), key=lambda pair: -pair[0])
+    ranked = sorted(((compute_score(origin.summary, h.summary), h) for h in tried), key=lambda pair: -pair[0])
     good = [(gain, h) for gain, h in ranked if kept_alone(origin, h)]
     if not good:
         return None
@@ -57,4 +57,6 @@ def has_delay_for_filter(found: Hypothesis) -> bool:
 
 def kept_alone(origin: Hypothesis, found: Hypothesis) -> bool:
     """Return whether effects are worth being kept as a first step from the base model, and are what they are called."""
-    return not at_limit(found) and is_kept(origin.summary, origin.summary, found.summary, least_drop(found.terms))
+    return not at_limit(found) and is_kept(
+        origin.summary, origin.summary, found.summary, compute_least_drop(found.terms)
+    )

@@ -5,8 +5,8 @@ from collections.abc import Callable, Collection, Sequence
 import numpy as np
 
 from slipwise.campaign import measured_states
-from slipwise.comparison.measured_replay import measured_motion, simulation_step
-from slipwise.comparison.system_level import replayed_model, system_level
+from slipwise.comparison.measured_replay import get_measured_motion, simulation_step
+from slipwise.comparison.system_level import build_replayed_model, compare_system_level
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.jobs.parallel import on_every_core
 from slipwise.model import Model
@@ -36,7 +36,7 @@ def replays(base: BaseFit, final: BaseFit, added: Sequence[str]) -> tuple[Record
     campaign = final.campaign
     run = next((r for r in campaign.runs if r.role == "holdout"), campaign.runs[0])
     states = measured_states(run, campaign)
-    motion = measured_motion(states)
+    motion = get_measured_motion(states)
     models = [("base model", base)]
     if added:
         models.append((f"with {' and '.join(added)}", final))
@@ -61,7 +61,7 @@ def replayed_errors(
     """
 
     def error_of(place: int) -> float:
-        level = system_level(fits[place], np.random.default_rng(_SEED))
+        level = compare_system_level(fits[place], np.random.default_rng(_SEED))
         counted = [e for e in level.errors if e.role in roles and (e.channel == "slip_x" or "_Fx" in e.channel)]
         return float(np.sqrt(np.mean([e.error**2 for e in counted]))) if counted else float("nan")
 
@@ -74,6 +74,6 @@ def replayed_errors(
 
 
 def _mechanics(fit: BaseFit) -> Model:
-    model, _ = replayed_model(fit)
+    model, _ = build_replayed_model(fit)
     gauges = [u.label for u in model.on_port("gauge")]
     return model.without(*gauges)

@@ -14,7 +14,7 @@ from slipwise.diagnosis.initial_grid import strengths, two_sided
 from slipwise.diagnosis.pairs import at_odds
 from slipwise.diagnosis.row_subset import on_screen, rows_of
 from slipwise.diagnosis.screening import Screened, away_from, basis_of
-from slipwise.evidence.acceptance import least_drop
+from slipwise.evidence.acceptance import compute_least_drop
 from slipwise.evidence.score import FLOOR
 
 Array = NDArray[np.float64]
@@ -76,7 +76,7 @@ def worth_refitting(found: Sequence[Screened], before: Hypothesis, most: int, *,
             continue
         moved = residual + amount * column
         drops = np.add.reduceat(residual**2 - moved**2, edges) / np.maximum(counts, 1)
-        if float(np.max(drops)) < _PROMISED * least_drop([s.term]):
+        if float(np.max(drops)) < _PROMISED * compute_least_drop([s.term]):
             continue
         out.append(s)
         if together:

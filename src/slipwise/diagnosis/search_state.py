@@ -4,12 +4,12 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from slipwise.diagnosis.hypothesis import Hypothesis, polished, refit
-from slipwise.diagnosis.jacobian_memory import ROOM, light, lightened, size_of, whole
+from slipwise.diagnosis.jacobian_memory import ROOM, complete_jacobian, drop_jacobian, lightened, size_of
 from slipwise.diagnosis.screening import Screened
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import Solution
 from slipwise.evidence.residual_summary import ResidualSummary
-from slipwise.evidence.score import score
+from slipwise.evidence.score import compute_score
 from slipwise.jobs.parallel import on_every_core
 from slipwise.relations.parameters import Term
 
@@ -59,7 +59,7 @@ class Search:
 
     def stepped_to(self, found: Hypothesis) -> "Search":
         """Return the state after a step to another hypothesis, which has its slopes then."""
-        return replace(self, path=(*_as_tried(self), whole(found)))
+        return replace(self, path=(*_as_tried(self), complete_jacobian(found)))
 
 
 def _as_tried(state: Search) -> list[Hypothesis]:
@@ -94,14 +94,14 @@ def try_all(
         the state that keeps them, and the hypotheses, best first.
     """
     origin, objective = state.path[0].summary, state.base.objective
-    before = before and whole(before)
+    before = before and complete_jacobian(before)
     # what takes longest first, or one core waits for it
     asked = sorted(asked, key=lambda a: -sum(len(t.effect.parameters) for t in a[0]))
     # of a long campaign only what is fitted to the end has slopes: many at once would fill the memory
     keep, takes = len(asked) * size_of(state.base.solution) <= ROOM, state.base.solution.fit_memory
     fits = on_every_core(lambda i: _fit(refit(state.base, *asked[i], before), keep=keep), len(asked), memory=takes)
     found = [Hypothesis(tuple(a[0]), objective.adding(*a[0]), *fit) for a, fit in zip(asked, fits, strict=True)]
-    found.sort(key=lambda h: -score(origin, h.summary))
+    found.sort(key=lambda h: -compute_score(origin, h.summary))
     best: dict[tuple[str, ...], int] = {}
     for place, h in enumerate(found):
         best.setdefault(h.names, place)
@@ -109,13 +109,13 @@ def try_all(
     fits = on_every_core(lambda i: _fit(polished(found[ended[i]])), len(ended), memory=takes)
     for place, fit in zip(ended, fits, strict=True):
         found[place] = Hypothesis(found[place].terms, found[place].objective, *fit)
-    tried = lightened([*state.tried, *found], lambda h: score(origin, h.summary))
+    tried = lightened([*state.tried, *found], lambda h: compute_score(origin, h.summary))
     return replace(state, tried=tried), found
 
 
 def _fit(found: Hypothesis, *, keep: bool = True) -> tuple[Solution, ResidualSummary]:
     """Return a hypothesis without its terms, whose functions cannot be sent from one process to another."""
-    return found.solution if keep else light(found.solution), found.summary
+    return found.solution if keep else drop_jacobian(found.solution), found.summary
 
 
 def left_with(state: Search, rest: Sequence[Term], whole: Hypothesis) -> tuple[Search, Hypothesis]:
@@ -139,5 +139,5 @@ def tried_before(state: Search, terms: Sequence[Term]) -> list[Hypothesis]:
 
 def as_base(state: Search, found: Hypothesis) -> BaseFit:
     """Return a hypothesis as the base of what is to be added to it."""
-    found = whole(found)
+    found = complete_jacobian(found)
     return replace(state.base, objective=found.objective, free=found.solution.free, solution=found.solution)

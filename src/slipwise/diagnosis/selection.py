@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from slipwise.diagnosis.forward_selection import search
 from slipwise.diagnosis.search_state import Search
 from slipwise.effects import Effect
-from slipwise.estimation.base_fit import BaseFit, restarted
+from slipwise.estimation.base_fit import BaseFit, restart_base_fit
 from slipwise.model import Model
 from slipwise.preparation.prepared import Prepared, fit_prepared
 
@@ -47,7 +47,7 @@ def select_effects(
     base = fit_prepared(prepared, model)
     state = search(base, own, progress)
     # what an effect seems to explain may be a local minimum that the base fit has missed
-    better = restarted(base, state.best.solution.values) if state.best.terms else None
+    better = restart_base_fit(base, state.best.solution.values) if state.best.terms else None
     if better is not None:
         base = better
         state = search(base, own, progress, state)

@@ -17,7 +17,7 @@ from slipwise.estimation.objective import Objective
 from slipwise.evidence.acceptance import LEAST
 from slipwise.evidence.calibration import calibration
 from slipwise.evidence.decision import EVEN_ODDS, decide, remains
-from slipwise.evidence.score import relative_drop
+from slipwise.evidence.score import compute_relative_drop
 from slipwise.instruments.suspects import effect_of
 from slipwise.preparation.sample_fault import SampleFault
 from slipwise.relations.parameters import Term
@@ -194,7 +194,9 @@ def confirmed(state: Search) -> bool | None:
     base, found = state.path[0], state.final
     origin, final = base.summary, found.summary
     runs = _testable(found.objective)
-    improved = [r for r in origin.fitted if relative_drop(origin, final, r) >= LEAST.law and origin.counts[r][1]]
+    improved = [
+        r for r in origin.fitted if compute_relative_drop(origin, final, r) >= LEAST.law and origin.counts[r][1]
+    ]
     if not found.terms or not improved or not runs:
         return None
     carried = all(_carries_over(base, found, relation, runs) for relation in improved)

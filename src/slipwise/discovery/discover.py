@@ -16,15 +16,15 @@ from slipwise.diagnosis.result import Diagnosis
 from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.law import Law
 from slipwise.discovery.law_objective import FittedLaw, LawObjective
-from slipwise.discovery.law_summary import told_law
+from slipwise.discovery.law_summary import summarise_law
 from slipwise.discovery.levels import excess, held_out_level
 from slipwise.discovery.result import Discovery
 from slipwise.discovery.search import Found, different, find_law
 from slipwise.discovery.states import WORDS, pad_instants, pad_states, rig_states
 from slipwise.effects import RIG_MOTION, Effect
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.intervals import intervals
-from slipwise.estimation.least_squares import Solution, slopes_of, solve, with_slopes
+from slipwise.estimation.intervals import compute_intervals
+from slipwise.estimation.least_squares import Solution, get_slopes, solve, with_slopes
 from slipwise.estimation.objective import Objective
 from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
@@ -178,8 +178,10 @@ def _from(base: BaseFit) -> _Answer:
     def answer(kept: list[_Leader]) -> _Answer:
         end = kept[-1][0].solution if kept else solution
         fit = replace(base, free=end.free, solution=end)
-        known = {i.key: i for i in intervals(fit).entries} if kept else {}
-        every = [told_law(replace(f, solution=end), tied, objective.fitted, share, known) for f, tied, share in kept]
+        known = {i.key: i for i in compute_intervals(fit).entries} if kept else {}
+        every = [
+            summarise_law(replace(f, solution=end), tied, objective.fitted, share, known) for f, tied, share in kept
+        ]
         laws = tuple(replace(law, name=_name(number)) for number, law in enumerate(every))
         share = (solution.cost - end.cost) / max(whole, 1e-9)
         after = end.residuals.level(worst, objective.fitted)
@@ -268,7 +270,7 @@ def _without_needless(leaders: list[_Leader], whole: float) -> list[_Leader]:
         objective = replace(last.objective, laws=laws).without_results()
         free = [f for f in last.solution.free if not f.key.startswith(f"{label}.")]
         values = {k: v for k, v in last.solution.values.items() if not k.startswith(f"{label}.")}
-        slopes = slopes_of(last.solution)
+        slopes = get_slopes(last.solution)
         known = {f.key: slopes[f.key] for f in free}
         solution = solve(objective, values, free, begin=known)
         if solution.cost <= last.solution.cost + max(_TIE, _TIE_OF_ALL * whole):

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from slipwise.discovery.matching import Match, constants_of, limits, place_of, product_at
 from slipwise.discovery.states import PadInstants, State, derived
-from slipwise.estimation.least_squares import Solution, slopes_of, solve
+from slipwise.estimation.least_squares import Solution, get_slopes, solve
 from slipwise.estimation.objective import Objective
 from slipwise.relations.girder import through_pitch
-from slipwise.relations.noise import whitened
+from slipwise.relations.noise import whiten_residual
 from slipwise.relations.pad_law import as_logged
 from slipwise.relations.pad_stages import in_noise
 from slipwise.relations.parameters import Free
@@ -188,7 +188,7 @@ def _seen(inputs: Inputs, relation: str, place: int, column: Array) -> Array:
     """Return what is added to a prediction as its residual shows it: whitened alike, in noise."""
     run, sigmas, ringing = inputs.measurements.runs[place], inputs.weighed("sigmas"), inputs.weighed("ringing")
     if relation in ringing:
-        column = whitened(column, run, float(np.min(sigmas[relation][place])), ringing[relation][place])
+        column = whiten_residual(column, run, float(np.min(sigmas[relation][place])), ringing[relation][place])
     return in_noise(inputs, relation, place, column, run)
 
 
@@ -235,7 +235,7 @@ def fit_law(before: LawObjective, solution: Solution, law: PlacedLaw, strength: 
     objective = replace(before, laws=(*before.laws, law)).without_results()
     own = law.free(strength)
     values = {**solution.values, **{f.key: f.start for f in own}}
-    known = slopes_of(solution)
+    known = get_slopes(solution)
     found = solve(objective, values, [*solution.free, *own], most=6, enough=_ENOUGH, rough=_ROUGH, known=known)
     return FittedLaw(law, objective.without_results(), found)
 
@@ -244,6 +244,6 @@ def fit_on(found: FittedLaw) -> FittedLaw:
     """Fit on with slopes of its own."""
     solution = solve(
         found.objective, found.solution.values, found.solution.free, most=12, enough=_ENOUGH, rough=0.1 * _ROUGH,
-        begin=slopes_of(found.solution),
+        begin=get_slopes(found.solution),
     )  # fmt: skip
     return replace(found, solution=solution)

@@ -12,7 +12,7 @@ from slipwise.discovery.states import UNITS
 from slipwise.estimation.intervals import Interval
 
 
-def told_law(
+def summarise_law(
     leader: FittedLaw, tied: Sequence[FittedLaw], fitted: Sequence[int], share: float, known: Mapping[str, Interval]
 ) -> Law:
     """Tell a law that leads, with those that tie with it.
@@ -46,7 +46,7 @@ def told_law(
         valid={s.name: _ends(s.values, fitted) for s in candidate.states},
         fitted=leader,
         tied_forms=tuple(TiedForm(f.law.match.forms, f.values) for f in alike),
-        alternatives=tuple(told_law(f, (), fitted, share, {}) for f in (*alike, *others)),
+        alternatives=tuple(summarise_law(f, (), fitted, share, {}) for f in (*alike, *others)),
     )
 
 

@@ -15,7 +15,7 @@ from slipwise.estimation.objective import Objective
 from slipwise.relations.evaluation_times import Instants
 from slipwise.relations.kinematics import CORRECTED, STATES
 from slipwise.relations.pad_stages import LAW_FORCES, LOGGED_FORCES, forces_along
-from slipwise.relations.run_data import FitRun, refined
+from slipwise.relations.run_data import FitRun, interpolate_finely
 from slipwise.simulation.kernel import derived_states
 from slipwise.simulation.predict import PadForces
 
@@ -119,7 +119,7 @@ def rig_states(every: PadInstants) -> list[State]:
     """Return the states of the rig over all runs, alike for every pad; those that hardly vary are left out."""
     out = []
     for place, name in enumerate(RIG_MOTION):
-        of_runs = (refined(rig_motion(run.states)[:, place : place + 1], run.fine) for run in every.runs)
+        of_runs = (interpolate_finely(rig_motion(run.states)[:, place : place + 1], run.fine) for run in every.runs)
         values = (np.broadcast_to(v, s.load.shape) for v, s in zip(of_runs, every.states, strict=True))
         out.append(State(name, 0.0, tuple(values)))
     return [s for s in out if _varies(s)]

@@ -10,7 +10,7 @@ from slipwise.campaign.invalid_samples import InvalidSamples
 from slipwise.campaign.scales import Scales, scales_of
 from slipwise.effects import catalogue, holding, scaled
 from slipwise.errors import InputError
-from slipwise.estimation.least_squares import Solution, jacobian, slopes_of, solve
+from slipwise.estimation.least_squares import Solution, compute_jacobian, get_slopes, solve
 from slipwise.estimation.objective import Objective, objective_of
 from slipwise.model import Model, base_model, use_of
 from slipwise.relations.force_offset import free_zero
@@ -19,11 +19,11 @@ from slipwise.relations.parameters import (
     YAW_INERTIA,
     ZERO,
     Free,
-    base_free,
-    inertia_free,
-    numbers_replaced,
-    stick_damping_free,
-    terms_of,
+    list_base_numbers,
+    list_replaced_numbers,
+    make_free_inertia,
+    make_stick_damping,
+    make_terms,
 )
 from slipwise.relations.run_data import FitRun, fit_runs
 
@@ -85,8 +85,8 @@ def fit_base(
     Raises:
         InputError: a run lacks what every fit needs, or the runs are too short for one.
     """
-    model = scaled_model(model or base_model(campaign.specimen), scales_of(campaign), typical=model is None)
-    objective = objective_of(fit_runs(campaign, invalid), model.specimen, terms_of(model), watch=watch)
+    model = scale_model(model or base_model(campaign.specimen), scales_of(campaign), typical=model is None)
+    objective = objective_of(fit_runs(campaign, invalid), model.specimen, make_terms(model), watch=watch)
     _refuse_too_short(objective, free_numbers(campaign, model, objective))
     return _fitted(campaign, model, objective, start or {})
 
@@ -125,12 +125,12 @@ def fit_roughly(campaign: Campaign, invalid: InvalidSamples | None = None) -> Ma
     Raises:
         InputError: a run lacks what every fit needs.
     """
-    model = scaled_model(base_model(campaign.specimen), scales_of(campaign), typical=True)
-    objective = objective_of(fit_runs(campaign, invalid), model.specimen, terms_of(model))
+    model = scale_model(base_model(campaign.specimen), scales_of(campaign), typical=True)
+    objective = objective_of(fit_runs(campaign, invalid), model.specimen, make_terms(model))
     return _roughly(objective, free_numbers(campaign, model, objective), {})[1].values
 
 
-def scaled_model(model: Model, scales: Scales, *, typical: bool) -> Model:
+def scale_model(model: Model, scales: Scales, *, typical: bool) -> Model:
     """Return a model whose effects may have the values that a record of these scales asks for.
 
     Of the plastic pressure and the shear strength only the ratio counts, s/H: both go with the pressure.
@@ -161,10 +161,10 @@ def scaled_model(model: Model, scales: Scales, *, typical: bool) -> Model:
 def free_numbers(campaign: Campaign, model: Model, objective: Objective) -> list[Free]:
     """Return what a fit of a model may change, with bounds that this campaign's strokes and gauges set."""
     length, known = objective.scales.length, campaign.logger.known
-    free = base_free(model, balances=objective.balanced, logger_known=known, length=length)
+    free = list_base_numbers(model, balances=objective.balanced, logger_known=known, length=length)
     stroke = min(float(np.ptp(run.slip)) for run in objective.fitted_runs)
     most = max(_STICK_SHARE * stroke, 1e-7 * length)
-    if not model.specimen.free and ZERO not in numbers_replaced(u.effect for u in model.uses):
+    if not model.specimen.free and ZERO not in list_replaced_numbers(u.effect for u in model.uses):
         zero = free_zero(objective.fitted_runs)
         free += [zero] if zero else []
     return [
@@ -197,7 +197,7 @@ def _fitted(campaign: Campaign, model: Model, objective: Objective, start: Mappi
         solution = solve(objective, weighed, free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
     if _yaw_improves_fit(objective, solution):
         objective = objective.with_yaw()
-        free.append(inertia_free(model.specimen, YAW_INERTIA))
+        free.append(make_free_inertia(model.specimen, YAW_INERTIA))
         start = {**solution.values, free[-1].key: free[-1].start}
         solution = solve(objective, start, free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
     return BaseFit(campaign, model, objective, tuple(free), solution)
@@ -211,7 +211,7 @@ def _resonance_moved(weighed: Mapping[str, float], found: Mapping[str, float]) -
     return abs(frequency) > _AT_REST * found["rig.pitch_damping"] or abs(damping) > _AT_REST
 
 
-def final_refit(objective: Objective, solution: Solution) -> tuple[Objective, Solution]:
+def refit_finally(objective: Objective, solution: Solution) -> tuple[Objective, Solution]:
     """Fit on with the laws evaluated at twice the instants, weighed anew twice, and a stick that may be damped.
 
     What was weighed by another law is off near reversals, where that law was wrong. A slider's fit stays as it is: its
@@ -223,11 +223,11 @@ def final_refit(objective: Objective, solution: Solution) -> tuple[Objective, So
     objective, free, start = objective.weigh(solution.values, finer=True), list(solution.free), solution.values
     if any(f.key in DAMPED_STICK for f in free):
         scale = objective.scales
-        free.append(stick_damping_free(scale.time))
+        free.append(make_stick_damping(scale.time))
         damped = {f.key: scale.of(f.unit) * DAMPED_STICK[f.key] for f in free if f.key in DAMPED_STICK}
         starts = ({**start, "rig.stick_damping": 0.0}, {**start, **damped})
         start = min(starts, key=lambda values: _cost(objective, values))
-    begin = slopes_of(solution)
+    begin = get_slopes(solution)
     # of the first fit only the numbers are kept: slopes are what takes most memory
     values = solve(objective, start, free, most=4, enough=_TO_WEIGH, rough=_MUCH_LEFT, begin=begin).values
     objective = objective.weigh(values)
@@ -243,11 +243,11 @@ def fit_finely(
 ) -> BaseFit:
     """Fit a campaign's base parameters as all that is reported is; arguments and errors as `fit_base`."""
     base = fit_base(campaign, model, invalid, start, watch)
-    objective, solution = final_refit(base.objective, base.solution)
+    objective, solution = refit_finally(base.objective, base.solution)
     return replace(base, objective=objective, free=solution.free, solution=solution)
 
 
-def restarted(base: BaseFit, values: Mapping[str, float]) -> BaseFit | None:
+def restart_base_fit(base: BaseFit, values: Mapping[str, float]) -> BaseFit | None:
     """Fit the base once more from where a hypothesis has led its parameters; None where that is no better.
 
     Args:
@@ -256,7 +256,7 @@ def restarted(base: BaseFit, values: Mapping[str, float]) -> BaseFit | None:
     """
     start = {**base.solution.values, **{f.key: values[f.key] for f in base.free if f.key in values}}
     fall = 0.1 * _BETTER * base.solution.cost
-    solution = solve(base.objective, start, base.free, most=8, enough=fall, begin=slopes_of(base.solution))
+    solution = solve(base.objective, start, base.free, most=8, enough=fall, begin=get_slopes(base.solution))
     if solution.cost > (1.0 - _BETTER) * base.solution.cost:
         return None
     objective = base.objective.weigh(solution.values)
@@ -264,7 +264,7 @@ def restarted(base: BaseFit, values: Mapping[str, float]) -> BaseFit | None:
     return replace(base, objective=objective, solution=again)
 
 
-def at_rated(base: BaseFit) -> BaseFit:
+def evaluate_at_rated(base: BaseFit) -> BaseFit:
     """Return a base model that was not fitted: every number where its fit began.
 
     Args:
@@ -273,7 +273,7 @@ def at_rated(base: BaseFit) -> BaseFit:
     objective, free = base.objective, base.free
     values = {**base.solution.values, **{f.key: f.start for f in free}}
     residuals = objective.residuals(values)
-    slopes = jacobian(objective, values, free, residuals)
+    slopes = compute_jacobian(objective, values, free, residuals)
     cost = residuals.cost(objective.fitted)
     return replace(base, solution=Solution(values, free, residuals, slopes, cost, len(free) + 1))
 

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from scipy.stats import t as student
 
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.profile_likelihood import is_strength, upper_limit
+from slipwise.estimation.profile_likelihood import find_upper_limit, is_strength
 from slipwise.jobs.parallel import on_every_core
 from slipwise.noise.independent_samples import SHORTEST_BLOCK, block_length
 from slipwise.relations.motions import by_motion
@@ -99,7 +99,7 @@ class Intervals:
         return [(self.keys[i[o]], self.keys[j[o]], float(self.correlation[i[o], j[o]])) for o in order]
 
 
-def intervals(base: BaseFit) -> Intervals:
+def compute_intervals(base: BaseFit) -> Intervals:
     """Return the intervals of a base fit."""
     solution, objective = base.solution, base.objective
     rows: list[NDArray[np.int64]] = []
@@ -164,7 +164,7 @@ def _limited(
     reach = float(student.ppf(COVERAGE, freedom))
     inflation = float(robust[here, here] / plain[here, here]) if plain[here, here] > 0.0 else 1.0
     guess = reach * float(np.sqrt(robust[here, here])) * free.scale or free.scale
-    high = upper_limit(base, free, guess, reach**2 * inflation)
+    high = find_upper_limit(base, free, guess, reach**2 * inflation)
     return replace(entries[place], low=free.low, high=high, limit="upper")
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.jobs.parallel import on_every_core
-from slipwise.regression.least_squares import Bounds, LevenbergMarquardt, Move, Slopes, gauss_newton
+from slipwise.regression.least_squares import Bounds, LevenbergMarquardt, Move, Slopes, step_by_gauss_newton
 from slipwise.relations.parameters import Free
 from slipwise.relations.table import Residuals
 
@@ -103,16 +103,16 @@ class _Point:
 
 def with_slopes(objective: Fittable, solution: Solution) -> Solution:
     """Return a solution with slopes taken at its own numbers."""
-    slopes = jacobian(objective, solution.values, solution.free, solution.residuals)
+    slopes = compute_jacobian(objective, solution.values, solution.free, solution.residuals)
     return replace(solution, jacobian=slopes)
 
 
-def slopes_of(solution: Solution) -> dict[str, Array]:
+def get_slopes(solution: Solution) -> dict[str, Array]:
     """Return the columns of a solution's Jacobian by the keys of its free numbers; none where it was not kept."""
     return {f.key: solution.jacobian[:, j] for j, f in enumerate(solution.free) if len(solution.jacobian)}
 
 
-def jacobian(
+def compute_jacobian(
     objective: Fittable,
     values: Mapping[str, float],
     free: Sequence[Free],
@@ -180,7 +180,7 @@ def solve(
         nonlocal evaluations
         columns = taken.pop() if taken else known
         evaluations += len(free) - len(columns or ())
-        slopes = jacobian(objective, point.values, free, point.residuals, columns)
+        slopes = compute_jacobian(objective, point.values, free, point.residuals, columns)
         return Slopes(slopes, slopes.T @ slopes)
 
     def move(point: _Point, slopes: Slopes) -> Move[_Point]:
@@ -198,6 +198,6 @@ def solve(
         above = max(end.cost - len(end.stacked), 0.0)
         return Move(end, finished=gained < enough + rough * above, keep_slopes=good)
 
-    end, slopes = gauss_newton(at(dict(start)), linearise, move, most=most)
+    end, slopes = step_by_gauss_newton(at(dict(start)), linearise, move, most=most)
     residuals = objective.residuals(end.values)
     return Solution(dict(end.values), tuple(free), residuals, slopes.jacobian, end.cost, evaluations)

@@ -17,7 +17,7 @@ from slipwise.relations.girder_stages import BALANCES_LEFT
 from slipwise.relations.kinematics import pitches_table
 from slipwise.relations.measurement import shifts
 from slipwise.relations.pad_stages import ACROSS, PADS, reverses
-from slipwise.relations.parameters import PITCH_INERTIA, YAW_INERTIA, Term, fitted_model
+from slipwise.relations.parameters import PITCH_INERTIA, YAW_INERTIA, Term, build_fitted_model
 from slipwise.relations.run_data import FINER, FitRun
 from slipwise.relations.setting import Measurements, Weighing
 from slipwise.relations.stages import Evaluation, Memo, memo_for
@@ -159,7 +159,7 @@ class Objective:
 
     def model(self, values: Mapping[str, float]) -> Model:
         """Return the model that these numbers describe."""
-        return fitted_model(self.specimen, self.terms, values)
+        return build_fitted_model(self.specimen, self.terms, values)
 
     def evaluation(self, values: Mapping[str, float], count: int | None = None) -> Evaluation:
         """Return an evaluation with these numbers, of which stages can be asked.

@@ -68,7 +68,7 @@ class PredictedFriction:
         return f"{found}, {where} what was predicted, {value} {unit} ({low} to {high} {unit})"
 
 
-def predicted_friction(fit: BaseFit) -> tuple[PredictedFriction, ...]:
+def predict_friction(fit: BaseFit) -> tuple[PredictedFriction, ...]:
     """Return measured and predicted mean friction of every run that slides.
 
     Args:

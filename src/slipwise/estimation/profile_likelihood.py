@@ -13,7 +13,7 @@ from collections.abc import Callable
 import numpy as np
 
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.least_squares import slopes_of, solve
+from slipwise.estimation.least_squares import get_slopes, solve
 from slipwise.relations.parameters import Free
 
 #: The limit is found when its cost is this near to what was asked for, as a share [1], or after this many fits.
@@ -28,7 +28,7 @@ def is_strength(base: BaseFit, free: Free) -> bool:
     return False
 
 
-def upper_limit(base: BaseFit, free: Free, first: float, rise: float) -> float:
+def find_upper_limit(base: BaseFit, free: Free, first: float, rise: float) -> float:
     """Return the strength [SI] at which the profile has risen so far, or its upper bound.
 
     Args:
@@ -48,7 +48,7 @@ def upper_limit(base: BaseFit, free: Free, first: float, rise: float) -> float:
 
 def _profiled(base: BaseFit, free: Free, value: float) -> float:
     others = [f for f in base.solution.free if f.key != free.key]
-    slopes = slopes_of(base.solution)
+    slopes = get_slopes(base.solution)
     known = {f.key: slopes[f.key] for f in others}
     values = {**base.solution.values, free.key: value}
     return solve(base.objective, values, others, most=4, enough=0.1, known=known).cost

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from slipwise.evidence.residual_summary import ResidualSummary
-from slipwise.evidence.score import FLOOR, score
+from slipwise.evidence.score import FLOOR, compute_score
 from slipwise.relations.parameters import Term
 from slipwise.rig.load_basis import WARPS
 
@@ -41,7 +41,7 @@ LEAST = Acceptance()
 _EVERYWHERE = ("gauge", "girder", "table")
 
 
-def least_drop(terms: Iterable[Term]) -> float:
+def compute_least_drop(terms: Iterable[Term]) -> float:
     """Return the share of a relation's mean squared residual that effects must take away to be kept [1]."""
     return LEAST.everywhere if any(t.effect.port in _EVERYWHERE for t in terms) else LEAST.law
 
@@ -56,15 +56,15 @@ def is_kept(base: ResidualSummary, before: ResidualSummary, after: ResidualSumma
         base: of the base model.
         before: without the effect.
         after: with it.
-        least: of `least_drop`.
+        least: of `compute_least_drop`.
     """
-    if score(before, after) <= 0.0 or worsens(before, after):
+    if compute_score(before, after) <= 0.0 or does_worsen(before, after):
         return False
     lower = {r: max(min(base.left_out_level(r), before.left_out_level(r)), FLOOR) for r in base.fitted}
     return any(of > 1.0 and 1.0 - max(after.left_out_level(r), FLOOR) / of >= least for r, of in lower.items())
 
 
-def worsens(before: ResidualSummary, after: ResidualSummary) -> bool:
+def does_worsen(before: ResidualSummary, after: ResidualSummary) -> bool:
     """Return whether a step repairs some relation at the cost of another.
 
     Where something else is still hidden in that relation a right effect may cost some, if the score gains far more. The
@@ -76,7 +76,7 @@ def worsens(before: ResidualSummary, after: ResidualSummary) -> bool:
     if 1.0 - there / here <= LEAST.spoilt:
         return False
     lost = 0.5 * samples * float(np.log(here / there))
-    return there < LEAST.hidden or score(before, after) < LEAST.gained * lost
+    return there < LEAST.hidden or compute_score(before, after) < LEAST.gained * lost
 
 
 def _levels(summary: ResidualSummary) -> dict[str, tuple[float, int]]:
@@ -89,6 +89,6 @@ def _levels(summary: ResidualSummary) -> dict[str, tuple[float, int]]:
     return {name: (max(total / max(samples, 1), FLOOR), samples) for name, (total, samples) in sums.items()}
 
 
-def all_down(summary: ResidualSummary) -> bool:
+def are_all_at_floor(summary: ResidualSummary) -> bool:
     """Return whether nothing is left that could be worth a step."""
     return all(summary.left_out_level(r) < 1.0 + LEAST.law for r in summary.fitted)

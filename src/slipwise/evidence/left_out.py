@@ -68,7 +68,7 @@ class LinearFit:
     constants: int
 
 
-def linear_fit(objective: Objective, solution: Solution) -> LinearFit:
+def fit_linearly(objective: Objective, solution: Solution) -> LinearFit:
     """Return a solution as a linear fit."""
     residual = solution.residuals.stacked(objective.fitted)
     ends = set(solution.at_bounds)
@@ -79,7 +79,7 @@ def linear_fit(objective: Objective, solution: Solution) -> LinearFit:
     return LinearFit(residual, solution.inside, low, high, len(solution.free))
 
 
-def left_out(objective: Objective, fit: LinearFit) -> Array:
+def leave_motions_out(objective: Objective, fit: LinearFit) -> Array:
     """Return what is left of every motion by a fit to the others, (m,) like the stacked residuals [noise].
 
     Args:

@@ -1,7 +1,7 @@
 """Squared residuals of a fit by relation: what every judgement of evidence rests on.
 
-Three kinds: of the runs as they were fitted, of each motion by a fit to the others (see `left_out`), and of the
-held-out runs, which are looked at once, at the end, to report.
+Three kinds: of the runs as they were fitted, of each motion by a fit to the others (see `leave_motions_out`), and of
+the held-out runs, which are looked at once, at the end, to report.
 """
 
 from collections.abc import Sequence
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.objective import Objective
-from slipwise.evidence.left_out import LinearFit, left_out, linear_fit, motions
+from slipwise.evidence.left_out import LinearFit, fit_linearly, leave_motions_out, motions
 from slipwise.noise.independent_samples import SHORTEST_BLOCK
 
 Array = NDArray[np.float64]
@@ -28,8 +28,8 @@ class ResidualSummary:
         held_out: relation -> sum over the held-out runs; no choice may depend on it.
         counts: relation -> (samples fitted, samples held out).
         constants: numbers that were fitted.
-        blocks: relation -> (b,) sums as in `left_out` over blocks of `SHORTEST_BLOCK` seconds and over all runs of one
-            motion, those of all relations alike.
+        blocks: relation -> (b,) sums as in `leave_motions_out` over blocks of `SHORTEST_BLOCK` seconds and over all
+            runs of one motion, those of all relations alike.
     """
 
     fitted: dict[str, float]
@@ -52,20 +52,20 @@ class ResidualSummary:
         return self.held_out[relation] / max(self.counts[relation][1], 1)
 
 
-def summarised(objective: Objective, solution: Solution) -> ResidualSummary:
+def summarise_residuals(objective: Objective, solution: Solution) -> ResidualSummary:
     """Sum up a solution's squared residuals."""
     left, both = solution.residuals, (objective.fitted, objective.held_out)
     held_out = {name: left.squares(name, objective.held_out) for name in objective.relations}
     counts = {name: (left.count(name, both[0]), left.count(name, both[1])) for name in objective.relations}
-    return summarised_linear(objective, linear_fit(objective, solution), held_out, counts)
+    return summarise_linear_fit(objective, fit_linearly(objective, solution), held_out, counts)
 
 
-def summarised_linear(
+def summarise_linear_fit(
     objective: Objective, fit: LinearFit, held_out: dict[str, float], counts: dict[str, tuple[int, int]]
 ) -> ResidualSummary:
     """Sum up the squared residuals of a linear fit; what is held out, and the counts, are as given."""
     fitted = {name: float(of.sum()) for name, of in _in_blocks(objective, fit.residual).items()}
-    blocks = _in_blocks(objective, left_out(objective, fit))
+    blocks = _in_blocks(objective, leave_motions_out(objective, fit))
     predicted = {name: float(of.sum()) for name, of in blocks.items()}
     return ResidualSummary(fitted, predicted, held_out, counts, fit.constants, blocks)
 
@@ -87,7 +87,7 @@ def _added(parts: Sequence[Array]) -> Array:
     return np.sum([np.pad(part, (0, longest - len(part))) for part in parts], axis=0)
 
 
-def error_of(summary: ResidualSummary, relation: str) -> float:
+def get_error(summary: ResidualSummary, relation: str) -> float:
     """Return the held-out error of a relation in floors; that of the fitted runs where none is held out."""
     held = summary.counts[relation][1] > 0
     return float(np.sqrt(summary.held_out_level(relation) if held else summary.fitted_level(relation)))

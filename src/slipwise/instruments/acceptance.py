@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from slipwise.instruments.joint_fit import EVIDENCE, Case, Fit, predicted
 from slipwise.instruments.suspects import Suspect
 from slipwise.noise.level import AT_FLOOR
-from slipwise.regression.normal_equations import inverse, parts_of, weighed
+from slipwise.regression.normal_equations import build_equations, invert_regularised, weigh_equations
 
 Array = NDArray[np.float64]
 #: A fault explains at least this part of what its relations show above their floors, and of what they showed at first.
@@ -102,9 +102,9 @@ def _alone(after: Fit, number: int) -> dict[str, Array]:
     own = {n: columns[:, 0] for n, columns in after.columns[number].items()}
     others = [block for i, block in enumerate(after.columns) if i != number]
     whole = {n: own.get(n, np.zeros(len(left))) for n, left in after.left.items()}
-    parts, starts = parts_of(others, whole)
-    squares, along = weighed(parts, {n: 1.0 / s for n, s in after.scale.items()}, int(starts[-1]))
-    solution = inverse(squares) @ along
+    parts, starts = build_equations(others, whole)
+    squares, along = weigh_equations(parts, {n: 1.0 / s for n, s in after.scale.items()}, int(starts[-1]))
+    solution = invert_regularised(squares) @ along
     return {n: rows - predicted(others, n, solution, starts) for n, rows in whole.items()}
 
 

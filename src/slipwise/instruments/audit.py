@@ -22,11 +22,17 @@ from slipwise.instruments.suspects import Suspect, effect_of
 from slipwise.instruments.zeros import values_of_zero, with_refined_zeros
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared
-from slipwise.preparation.rounding import coarse
+from slipwise.preparation.rounding import is_coarse
 from slipwise.preparation.sample_fault import RAILS, SampleFault
 from slipwise.preparation.wrong_units import WrongUnit
-from slipwise.relations.balance_rows import constants_of, noise_of_channels, noise_of_runs, prepare_runs, stack
-from slipwise.relations.rigid_balances import relations
+from slipwise.relations.balance_rows import (
+    list_constants,
+    measure_channel_noise,
+    measure_run_noise,
+    prepare_runs,
+    stack_rows,
+)
+from slipwise.relations.rigid_balances import list_rigid_balances
 from slipwise.signals.noise import quantum, white_level
 
 #: Nobody is surer than this.
@@ -55,8 +61,8 @@ def audit(campaign: Campaign | Path | str | Prepared, own: Iterable[Effect] = ()
         return AuditReport(campaign.name, (), (), (), {}, None, (NOTHING_MAPPED,))
     clean, rig = prepared.balances.campaign, prepared.campaign.specimen
     runs, band = prepare_runs(clean, prepared.balances.left_out)
-    allowed, cannot = relations(runs[0].record, rig)
-    noise = noise_of_runs(runs, noise_of_channels(clean, runs, band), band)
+    allowed, cannot = list_rigid_balances(runs[0].record, rig)
+    noise = measure_run_noise(runs, measure_channel_noise(clean, runs, band), band)
     mass_error = KNOWN_MASS if "mass" in campaign.known else RATED_MASS
     logger = prepared.logger
     findings = [_of_samples(fault) for fault in prepared.faults]
@@ -65,7 +71,7 @@ def audit(campaign: Campaign | Path | str | Prepared, own: Iterable[Effect] = ()
     plain = AuditReport(campaign.name, tuple(findings), (), (), {}, logger, tuple(cannot), tuple(notes))
     if not any(relation.accuses and relation.rows in ("moving", "inner") for relation in allowed):
         return plain
-    if not stack(runs, allowed, rig, dict.fromkeys(constants_of(allowed), 0.0)).residual:
+    if not stack_rows(runs, allowed, rig, dict.fromkeys(list_constants(allowed), 0.0)).residual:
         why = "balances: no run has a sample at which they hold; the runs are too short, or the rig is at rest in them"
         return replace(plain, cannot=(*plain.cannot, why))
     likeliest = campaign.logger if logger is None else logger.likeliest
@@ -188,8 +194,8 @@ def _rounded(campaign: Campaign) -> list[str]:
         if step > _COARSE * noise > 0.0:
             found.append(f"{name} is rounded to steps of {step:.3g} {channel(name).unit}, more than its noise")
         moves = np.abs(np.diff(values))
-        if coarse(values) and step > 0.0 and float(np.median(moves[moves > 0.0])) < _FEW_STEPS * step:
+        if is_coarse(values) and step > 0.0 and float(np.median(moves[moves > 0.0])) < _FEW_STEPS * step:
             found.append(f"{name} is rounded so coarsely that repeated samples cannot be told")
-        elif coarse(values):
+        elif is_coarse(values):
             found.append(f"{name} has no noise, or moves evenly: repeated samples cannot be told from its motion")
     return found

@@ -6,7 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.instruments.joint_fit import EVIDENCE, LEAST_FLOOR, PER_NUMBER, Case, Fit, off_rated
-from slipwise.regression.normal_equations import Block, inverse, left_of, parts_of, weighed
+from slipwise.regression.normal_equations import (
+    Block,
+    build_equations,
+    get_left_over,
+    invert_regularised,
+    weigh_equations,
+)
 
 Array = NDArray[np.float64]
 #: Part of a column's power below which what is left of it is rounding [1].
@@ -29,14 +35,14 @@ def supports(
         itself: for each candidate what `noise_with_itself` gives.
         one_sided: whether its size cannot be below zero.
     """
-    parts, first = parts_of([*fitted.columns, *candidates], fitted.left)
+    parts, first = build_equations([*fitted.columns, *candidates], fitted.left)
     known, count = int(first[len(fitted.columns)]), int(first[-1])
     weight = {n: 1.0 / s for n, s in fitted.scale.items()}
-    squares, along = weighed(parts, weight, count)
+    squares, along = weigh_equations(parts, weight, count)
     if "mass" in fitted.stack.base:
         number = list(fitted.stack.base).index("mass")
         squares[number, number] += 1.0 / (case.mass_error * case.specimen.mass) ** 2 / EVIDENCE
-    free = inverse(squares[:known, :known])
+    free = invert_regularised(squares[:known, :known])
     carried = free @ squares[:known, known:]
     apart, found = off_rated(case, fitted.constants), np.zeros(len(candidates))
     least = {n: LEAST_FLOOR * floor for n, floor in fitted.floor.items()}
@@ -51,14 +57,14 @@ def supports(
             continue
         left[known_already], left[:, known_already] = 0.0, 0.0
         noise = sum(weight[n] ** 2 * power for n, power in itself[k].items())
-        step = inverse(left) @ (along[own] - carried[:, mine].T @ along[:known] - noise)
+        step = invert_regularised(left) @ (along[own] - carried[:, mine].T @ along[:known] - noise)
         if one_sided[k] and step[0] < 0.0:
             continue
         solution = np.zeros(count)
         solution[own] = step
         solution[:known] = free @ along[:known] - carried[:, mine] @ step
         for name, part in parts.items():
-            after = max(float(np.sqrt(left_of(part, solution))), least[name])
+            after = max(float(np.sqrt(get_left_over(part, solution))), least[name])
             found[k] += EVIDENCE * part.count * np.log(now[name] / after)
         if "mass" in fitted.stack.base:
             moved = solution[list(fitted.stack.base).index("mass")] / (case.mass_error * case.specimen.mass)

@@ -14,9 +14,16 @@ from numpy.typing import NDArray
 from slipwise.effects import Effect
 from slipwise.instruments.disturbances import Alternative
 from slipwise.instruments.suspects import Suspect
-from slipwise.regression.least_squares import Move, gauss_newton
-from slipwise.regression.normal_equations import Block, Part, inverse, left_of, parts_of, weighed
-from slipwise.relations.balance_rows import PreparedRun, Stack, adding, change, constants_of, stack, with_records
+from slipwise.regression.least_squares import Move, step_by_gauss_newton
+from slipwise.regression.normal_equations import (
+    Block,
+    Part,
+    build_equations,
+    get_left_over,
+    invert_regularised,
+    weigh_equations,
+)
+from slipwise.relations.balance_rows import PreparedRun, Stack, adding, change, list_constants, stack_rows, with_records
 from slipwise.relations.rigid_balances import Relation
 from slipwise.rig import Specimen
 
@@ -81,7 +88,7 @@ class Case:
 
     def stacked(self, runs: Sequence[PreparedRun], constants: Mapping[str, float]) -> Stack:
         """Evaluate the relations."""
-        return stack(runs, self.relations, self.specimen, constants)
+        return stack_rows(runs, self.relations, self.specimen, constants)
 
 
 @dataclass(frozen=True)
@@ -121,7 +128,7 @@ class Fit:
 
 def start(case: Case) -> Fit:
     """Fit the rig's constants alone."""
-    constants = dict.fromkeys(constants_of(case.relations), 0.0)
+    constants = dict.fromkeys(list_constants(case.relations), 0.0)
     constants["mass"] = case.specimen.mass
     return fit(case, Model(), constants)
 
@@ -129,7 +136,7 @@ def start(case: Case) -> Fit:
 def fit(case: Case, model: Model, constants: Mapping[str, float]) -> Fit:
     """Fit constants, sizes and physics jointly."""
     start = _Point(model, dict(constants), {})
-    point, found = gauss_newton(
+    point, found = step_by_gauss_newton(
         start, lambda here: _linearised(case, here), _moved, most=_STEPS, linearised_end=True
     )  # fmt: skip
     # constants and sizes stay as they were when the records were corrected: what is left must belong to them
@@ -176,9 +183,9 @@ def _linearised(case: Case, point: _Point) -> _Linear:
     floor = _floor(case, model, here, constants)
     signatures = [signature(case, suspect, corrected, here, constants) for suspect, _ in model.sizes]
     columns: list[Block] = [*here.base.values(), *signatures, *(a.columns for a in model.physics)]
-    parts, first = parts_of(columns, here.residual)
+    parts, first = build_equations(columns, here.residual)
     weight = {n: 1.0 / max(point.scale.get(n, 0.0), floor[n]) for n in floor}
-    squares, along = weighed(parts, weight, int(first[-1]))
+    squares, along = weigh_equations(parts, weight, int(first[-1]))
     for k, (suspect, _) in enumerate(model.sizes, start=len(here.base)):
         itself = noise_with_itself(case, suspect, corrected, here, constants)
         along[k] -= sum(weight[n] ** 2 * power for n, power in itself.items())
@@ -186,9 +193,9 @@ def _linearised(case: Case, point: _Point) -> _Linear:
         number = list(here.base).index("mass")
         squares[number, number] += 1.0 / (case.mass_error * case.specimen.mass) ** 2 / EVIDENCE
         along[number] += off_rated(case, constants) / (case.mass_error * case.specimen.mass) / EVIDENCE
-    spread = inverse(squares)
+    spread = invert_regularised(squares)
     solution = spread @ along
-    scale = {n: max(LEAST_FLOOR * floor[n], float(np.sqrt(left_of(part, solution)))) for n, part in parts.items()}
+    scale = {n: max(LEAST_FLOOR * floor[n], float(np.sqrt(get_left_over(part, solution)))) for n, part in parts.items()}
     return _Linear(corrected, here, floor, columns, parts, first, spread, solution, scale)
 
 

@@ -63,14 +63,16 @@ class Gauge:
         return float(np.sqrt(self.colour)) * self.level
 
 
-def noise_of_gauges(records: Sequence[Record], invalid: Sequence[Mapping[str, Mask]] | None = None) -> dict[str, Gauge]:
+def measure_gauge_noise(
+    records: Sequence[Record], invalid: Sequence[Mapping[str, Mask]] | None = None
+) -> dict[str, Gauge]:
     """Return the noise of every channel of a campaign's runs.
 
     Args:
         records: of the runs.
         invalid: of each run, channel -> samples (n,) at which it is no measurement.
     """
-    quiet = [before_motion(r) for r in records]
+    quiet = [find_rest_before_motion(r) for r in records]
     channels = dict.fromkeys(c for r in records for c in r.channels)
     bad = invalid or [{} for _ in records]
     found = {
@@ -88,11 +90,11 @@ def _with_contact(gauge: Gauge, records: Sequence[Record], channel: str) -> Gaug
     """Return the noise of a slider's gauge as steady sliding shows it, that of the contact included."""
     if not channel.startswith("pad_"):
         return gauge
-    steady = steady_level(records, channel)
+    steady = measure_steady_level(records, channel)
     return replace(gauge, level=steady, basis="steady sliding") if steady > gauge.level else gauge
 
 
-def noise_of_slip(gauges: Mapping[str, Gauge], axis: str) -> tuple[float, float] | None:
+def measure_slip_noise(gauges: Mapping[str, Gauge], axis: str) -> tuple[float, float] | None:
     """Return the noise of slip gauge [m] and relative acceleration [m/s^2] where the rests have shown all three gauges.
 
     What a gauge hums at rest it may hum less when it moves, but noise that is slow must be known: the likelihood of a
@@ -163,7 +165,7 @@ def _colour(still: list[Array]) -> float:
     return total
 
 
-def before_motion(record: Record) -> Mask | None:
+def find_rest_before_motion(record: Record) -> Mask | None:
     """Tell which samples at the start of a run are at rest (n,): the table has not moved yet; None without table_ax."""
     if "table_ax" not in record:
         return None
@@ -183,7 +185,7 @@ _OF_STROKE = 0.1
 _CHANGE, _MOVED = 0.1, 20.0
 
 
-def steady_level(records: Sequence[Record], channel: str) -> float:
+def measure_steady_level(records: Sequence[Record], channel: str) -> float:
     """Return the scatter of one sample of a channel while a slider is drawn steadily; 0 where none ever is.
 
     Args:

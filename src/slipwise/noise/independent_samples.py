@@ -25,7 +25,7 @@ _BLOCK = 10.0
 SHORTEST_BLOCK = 0.5
 
 
-def correlation_sum(parts: Sequence[Array]) -> float:
+def sum_correlations(parts: Sequence[Array]) -> float:
     """Return S, the samples of a series for one independent one [1]; 1 for white noise, and where nothing is known.
 
     Args:
@@ -52,9 +52,9 @@ def block_length(parts: Sequence[Array]) -> int:
     """Return the samples of a block of time so long that blocks of a series are as good as independent.
 
     Args:
-        parts: as of `correlation_sum`.
+        parts: as of `sum_correlations`.
     """
-    return int(np.ceil(_BLOCK * correlation_sum(parts)))
+    return int(np.ceil(_BLOCK * sum_correlations(parts)))
 
 
 def _products(wide: Array, size: int) -> Array:

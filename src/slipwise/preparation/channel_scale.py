@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.preparation.gauge_groups import gauge_groups
-from slipwise.relations.balance_rows import PreparedRun, Stack, change, constants_of, stack, with_records
+from slipwise.preparation.gauge_groups import group_gauges
+from slipwise.relations.balance_rows import PreparedRun, Stack, change, list_constants, stack_rows, with_records
 from slipwise.relations.rigid_balances import Relation
 from slipwise.rig import Specimen
 
@@ -75,8 +75,8 @@ class System:
 
     def divided(self, names: Sequence[str], factor: float, *, centred: bool) -> "System":
         """Return the system with channels divided by a factor."""
-        runs = divided(self.runs, names, factor)
-        stacked = stack(runs, self.usable, self.specimen, _rated(self.usable, self.specimen))
+        runs = divide_channels(self.runs, names, factor)
+        stacked = stack_rows(runs, self.usable, self.specimen, _rated(self.usable, self.specimen))
         sizes = {
             relation: {name: size / factor if name in names else size for name, size in of.items()}
             for relation, of in self.sizes.items()
@@ -84,11 +84,11 @@ class System:
         return replace(self, runs=runs, stacked=stacked, sizes=sizes, centred=centred)
 
 
-def system_of(runs: list[PreparedRun], usable: Sequence[Relation], specimen: Specimen) -> System:
+def find_system(runs: list[PreparedRun], usable: Sequence[Relation], specimen: Specimen) -> System:
     """Evaluate the relations, centred."""
-    stacked = stack(runs, usable, specimen, _rated(usable, specimen))
+    stacked = stack_rows(runs, usable, specimen, _rated(usable, specimen))
     bare = System(runs, usable, specimen, stacked, {}, centred=True)
-    single = [names[0] for names in gauge_groups(runs[0].record).values() if len(names) == 1]
+    single = [names[0] for names in group_gauges(runs[0].record).values() if len(names) == 1]
     sizes: dict[str, dict[str, float]] = {name: {} for name in stacked.residual}
     for channel in single:
         for name, rows in bare.part((channel,)).items():
@@ -96,12 +96,12 @@ def system_of(runs: list[PreparedRun], usable: Sequence[Relation], specimen: Spe
     return replace(bare, sizes=sizes)
 
 
-def divided(runs: Sequence[PreparedRun], names: Sequence[str], factor: float) -> list[PreparedRun]:
+def divide_channels(runs: Sequence[PreparedRun], names: Sequence[str], factor: float) -> list[PreparedRun]:
     """Return runs with channels divided by a factor."""
     return with_records(runs, lambda r: r.replaced(**{name: r[name] / factor for name in names}))
 
 
-def channel_scale(system: System, names: Sequence[str], *, mass_known: bool) -> ChannelScale:
+def estimate_channel_scale(system: System, names: Sequence[str], *, mass_known: bool) -> ChannelScale:
     """Fit the constants, and the scale of channels by what they put into each relation.
 
     Args:
@@ -140,7 +140,7 @@ def channel_scale(system: System, names: Sequence[str], *, mass_known: bool) -> 
 
 
 def _rated(usable: Sequence[Relation], specimen: Specimen) -> dict[str, float]:
-    return {**dict.fromkeys(constants_of(usable), 0.0), "mass": specimen.mass}
+    return {**dict.fromkeys(list_constants(usable), 0.0), "mass": specimen.mass}
 
 
 def _usual(sizes: Iterable[float]) -> float:

@@ -26,7 +26,7 @@ _UNIFORM = 0.1
 _HALVED, _ORDER = 1.15, 16
 
 
-def thinning(run: Run, specimen: Specimen) -> int:
+def choose_thinning(run: Run, specimen: Specimen) -> int:
     """Return the whole number of samples of which one is kept: 1 where nothing is to be thinned out."""
     if not specimen.free:  # how fast things go there only its record knows
         steps = np.diff(run.record.time)
@@ -42,7 +42,7 @@ def decimate(campaign: Campaign, invalid: InvalidSamples) -> tuple[Campaign, Inv
         campaign: as recorded.
         invalid: run -> channel -> samples (n,) at which it is no measurement.
     """
-    every = {run.name: thinning(run, campaign.specimen) for run in campaign.runs}
+    every = {run.name: choose_thinning(run, campaign.specimen) for run in campaign.runs}
     if max(every.values()) == 1:
         return campaign, invalid
     records = {run.name: _thinned(run.record, every[run.name]) for run in campaign.runs}

@@ -12,7 +12,7 @@ _SINGLE = ("slip_x", "slip_y", "girder_a", "table_a", "yaw")
 _CELLS = ("N", "Fx", "Fy")
 
 
-def gauge_groups(record: Record) -> dict[str, tuple[str, ...]]:
+def group_gauges(record: Record) -> dict[str, tuple[str, ...]]:
     """Return the channels, and the cards as patterns, "pad_*_Fx", that a fault may touch together."""
     single = [n for n in record.channels if n.startswith(_SINGLE)]
     single += [n for n in record.channels if part_of(n)[0] == "pad" and n.rpartition("_")[2] in _CELLS]
@@ -24,7 +24,7 @@ def gauge_groups(record: Record) -> dict[str, tuple[str, ...]]:
     return groups
 
 
-def places_of(effect: Effect, record: Record) -> dict[str, tuple[str, ...]]:
+def find_places_of_gauges(effect: Effect, record: Record) -> dict[str, tuple[str, ...]]:
     """Return the groups on which a gauge's fault may sit: what it can move, alone or on a card as it declares.
 
     Zeros do not move alike, a clock belongs to a card, and a reading of another gauge needs that one recorded. What
@@ -40,7 +40,7 @@ def places_of(effect: Effect, record: Record) -> dict[str, tuple[str, ...]]:
     moved = moved_channels(effect, record.channels)
     return {
         place: channels
-        for place, channels in gauge_groups(record).items()
+        for place, channels in group_gauges(record).items()
         if moved.issuperset(channels) and _sits(effect, place, channels) and record.has_all(*_read(effect, channels))
     }
 

@@ -7,7 +7,7 @@ from slipwise.campaign.wild_samples import not_motion
 from slipwise.record import Record
 from slipwise.rig import Specimen
 from slipwise.signals.outliers import outliers
-from slipwise.signals.short_bursts import bridged
+from slipwise.signals.short_bursts import bridge_samples
 
 
 def bridge_outliers(campaign: Campaign) -> Campaign:
@@ -20,4 +20,4 @@ def bridge_outliers_of(record: Record, specimen: Specimen) -> Record:
     """Return a record with the outliers of its channels bridged, but for those that a balance confirms as a motion."""
     channels = record.channels
     found = not_motion({name: outliers(values) for name, values in channels.items()}, channels, specimen)
-    return record.replaced(**{name: bridged(channels[name], bad) for name, bad in found.items()})
+    return record.replaced(**{name: bridge_samples(channels[name], bad) for name, bad in found.items()})

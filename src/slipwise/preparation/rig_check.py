@@ -19,8 +19,8 @@ from slipwise.campaign.invalid_samples import InvalidSamples
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit, fit_base
 from slipwise.preparation.balance_records import BalanceRecords
-from slipwise.relations.balance_rows import Stack, constants_of, prepare_runs, stack
-from slipwise.relations.rigid_balances import relations
+from slipwise.relations.balance_rows import Stack, list_constants, prepare_runs, stack_rows
+from slipwise.relations.rigid_balances import list_rigid_balances
 from slipwise.rig import load_specimen
 from slipwise.rig.files import RIGS
 from slipwise.rig.known import better_known
@@ -82,8 +82,8 @@ def on_rig_shaken(campaign: Campaign, other: WrongRig) -> Campaign:
 def _numbers_of_balances(balances: BalanceRecords, rig: Specimen) -> dict[str, float]:
     """Return height and stiffness by linear least squares of two balances, as far as the channels show them."""
     runs, _ = prepare_runs(balances.campaign, balances.left_out)
-    allowed = [r for r in relations(runs[0].record, rig)[0] if r.name in ("girder_x", "pitch")]
-    stacked = stack(runs, allowed, rig, {**dict.fromkeys(constants_of(allowed), 0.0), "mass": rig.mass})
+    allowed = [r for r in list_rigid_balances(runs[0].record, rig)[0] if r.name in ("girder_x", "pitch")]
+    stacked = stack_rows(runs, allowed, rig, {**dict.fromkeys(list_constants(allowed), 0.0), "mass": rig.mass})
     stiffness, lever = _constants(stacked, "girder_x").get("stiffness_x"), _constants(stacked, "pitch").get("lever")
     height = None if lever is None else lever / rig.mass
     found = {"centre_height": height, "buffer_stiffness": stiffness}

@@ -14,7 +14,7 @@ NEAR = 51
 _NEIGHBOURS = 32
 
 
-def coarse(values: Array) -> bool:
+def is_coarse(values: Array) -> bool:
     """Return whether steps between neighbours come in few sizes, so that equal neighbours say nothing."""
     steps = np.abs(np.diff(values))
     steps = steps[steps > 0.0]

@@ -11,7 +11,7 @@ from slipwise.campaign.wild_samples_of_runs import FAULTY, faulty_share
 from slipwise.channels import pads_in
 from slipwise.preparation.outliers import bridge_outliers
 from slipwise.preparation.put_right import put_right
-from slipwise.preparation.rounding import NEAR, chance_of_equal, coarse
+from slipwise.preparation.rounding import NEAR, chance_of_equal, is_coarse
 from slipwise.preparation.sample_fault import SampleFault
 from slipwise.preparation.signs import find_wrong_signs
 from slipwise.preparation.synchronisation import LateChannels, find_late_cells, find_late_motion
@@ -205,7 +205,7 @@ def _cut(name: str, runs: Sequence[Run], bad: dict[str, Mask], side: float) -> b
 def _held(name: str, runs: Sequence[Run]) -> SampleFault | None:
     # what was computed from coarse channels repeats with them
     computed = name.startswith("slip_v") or any(f"{name}_raw" in run.record for run in runs)
-    if computed or any(coarse(run.record[name]) for run in runs):
+    if computed or any(is_coarse(run.record[name]) for run in runs):
         return None
     bad: dict[str, Mask] = {}
     equal = expected = count = 0.0
@@ -233,7 +233,7 @@ def _lost(name: str, runs: Sequence[Run], cut: Mapping[str, int]) -> SampleFault
     tails = {run.name: _tail(run.record[name]) - cut[run.name] for run in runs}
     ends = {run.name: chance_of_equal(run.record[name])[-NEAR - tails[run.name] - cut[run.name] :] for run in runs}
     shown = [n for n, tail in tails.items() if tail >= _TAIL and float(np.mean(ends[n])) < _RARE]
-    if sum(tails[n] for n in shown) < _TAILS or any(coarse(run.record[name]) for run in runs):
+    if sum(tails[n] for n in shown) < _TAILS or any(is_coarse(run.record[name]) for run in runs):
         return None
     bad = {run.name: np.ones(len(run.record), dtype=bool) for run in runs if run.name in shown}
     count = sum(len(run.record) for run in runs)

@@ -52,7 +52,7 @@ class LateChannels:
     delay: float
 
 
-def agreed(lags: Sequence[float], dt: float) -> float | None:
+def find_agreed_lag(lags: Sequence[float], dt: float) -> float | None:
     """Return the lag on which runs agree [s]; None where they do not, or it is too short to be looked for."""
     if not lags or abs(float(np.median(lags))) < LEAST or float(np.ptp(lags)) > _AGREED * dt:
         return None
@@ -72,14 +72,14 @@ def without_partner(count: int, dt: float, delay: float) -> NDArray[np.bool_]:
     return out
 
 
-def strongest(late: Array, state: Array, most: int) -> int:
+def find_strongest_lag(late: Array, state: Array, most: int) -> int:
     """Return the lag of the largest correlation [samples]."""
     along = np.abs(correlate(late - late.mean(), state - state.mean(), method="fft"))
     middle = len(state) - 1
     return int(np.argmax(along[middle - most : middle + most + 1])) - most
 
 
-def explained(late: Array, states: Sequence[Array], lag: int) -> float:
+def compute_explained_share(late: Array, states: Sequence[Array], lag: int) -> float:
     """Return the share of a late channel's variance that states explain, for a lag [samples]."""
     there, early = slice(max(lag, 0), len(late) + min(lag, 0)), slice(max(-lag, 0), len(late) - max(lag, 0))
     target = late[there]
@@ -88,7 +88,7 @@ def explained(late: Array, states: Sequence[Array], lag: int) -> float:
     return 1.0 - float(np.var(left)) / max(float(np.var(target)), 1e-300)
 
 
-def vertex(before: float, here: float, after: float) -> float:
+def locate_vertex(before: float, here: float, after: float) -> float:
     """Return where the parabola through three values at -1, 0 and 1 is highest, within half a sample."""
     bend = before - 2.0 * here + after
     return float(np.clip(0.5 * (before - after) / bend, -0.5, 0.5)) if bend < 0.0 else 0.0
@@ -105,7 +105,7 @@ def find_late_cells(campaign: Campaign) -> LateChannels | None:
     if not campaign.specimen.free:
         return None
     lags = [lag for run in campaign.runs if (lag := _lag(run, campaign.specimen)) is not None]
-    delay = agreed(lags, campaign.runs[0].record.dt)
+    delay = find_agreed_lag(lags, campaign.runs[0].record.dt)
     if delay is None:
         return None
     names = dict.fromkeys(n for run in campaign.runs for n in run.record.channels if n.startswith("pad_"))
@@ -125,14 +125,16 @@ def _lag(run: Run, specimen: Specimen) -> float | None:
         return None
     most = min(round(MOST / dt), len(force) // 2)
     near = range(-_BESIDE, _BESIDE + 1)
-    tried = {0, *(strongest(force, x, most) + beside for x in states for beside in near)}
-    shares = {lag: explained(force, states, lag) for lag in sorted(tried)}
+    tried = {0, *(find_strongest_lag(force, x, most) + beside for x in states for beside in near)}
+    shares = {lag: compute_explained_share(force, states, lag) for lag in sorted(tried)}
     best = max(shares, key=lambda lag: shares[lag])
     if shares[best] < EXPLAINED:
         return None
     if shares[best] < shares[0] + MORE:
         return 0.0
-    return dt * (best + vertex(*(explained(force, states, best + beside) for beside in (-1, 0, 1))))
+    return dt * (
+        best + locate_vertex(*(compute_explained_share(force, states, best + beside) for beside in (-1, 0, 1)))
+    )
 
 
 #: What is compared is slower than this: rigid, and above the noise of a differentiated slip [Hz].
@@ -161,7 +163,7 @@ class _Asked:
     expected: Array
 
     def explained(self, lag: int) -> float:
-        return explained(self.late, self.states, lag)
+        return compute_explained_share(self.late, self.states, lag)
 
 
 def find_late_motion(campaign: Campaign) -> LateChannels | None:
@@ -174,7 +176,7 @@ def find_late_motion(campaign: Campaign) -> LateChannels | None:
     if not found or len({logger for logger, _ in found}) > 1:
         return None
     logger = found[0][0]
-    delay = agreed([dt * lag for _, lag in found], dt)
+    delay = find_agreed_lag([dt * lag for _, lag in found], dt)
     if delay is None or any(_contradicts(asked[logger], round(delay / dt)) for asked in runs):
         return None
     if logger == "accelerometers" and _slip_is_out_of_step(campaign.runs, campaign.specimen.pads, delay):
@@ -204,14 +206,14 @@ def _best(asked: Mapping[str, _Asked], most: int) -> tuple[str, float] | None:
     """Return the logger that is late in a run, and by how many samples; None where none is, or the run cannot tell."""
     shares: dict[tuple[str, int], float] = {}
     for logger, one in asked.items():
-        middle = strongest(one.late, one.expected, min(most, len(one.late) // 2))
+        middle = find_strongest_lag(one.late, one.expected, min(most, len(one.late) // 2))
         for lag in {0, *range(middle - _BESIDE_MOTION, middle + _BESIDE_MOTION + 1)}:
             shares[logger, lag] = one.explained(lag)
     logger, lag = max(shares, key=lambda key: shares[key])
     in_step_now = max(shares[name, 0] for name in asked)
     if shares[logger, lag] < max(EXPLAINED, in_step_now + MORE):  # a single tone is explained at any lag
         return None
-    return logger, lag + vertex(*(asked[logger].explained(lag + beside) for beside in (-1, 0, 1)))
+    return logger, lag + locate_vertex(*(asked[logger].explained(lag + beside) for beside in (-1, 0, 1)))
 
 
 def _contradicts(one: _Asked, lag: int) -> bool:
@@ -233,4 +235,4 @@ def _follows(record: Record, pads: Sequence[str], slip: Array) -> float:
     """Return the share of the pads' friction that a slip explains."""
     force = np.sum([record[f"pad_{p}_Fx"] for p in pads], axis=0)
     rate = np.gradient(slip, record.dt)
-    return explained(force, [np.tanh(rate / max(float(np.std(rate)), 1e-12)), slip], 0)
+    return compute_explained_share(force, [np.tanh(rate / max(float(np.std(rate)), 1e-12)), slip], 0)

@@ -11,11 +11,17 @@ import numpy as np
 
 from slipwise.campaign import Campaign
 from slipwise.channels import channel
-from slipwise.preparation.channel_scale import ChannelScale, System, channel_scale, divided, system_of
-from slipwise.preparation.gauge_groups import gauge_groups
+from slipwise.preparation.channel_scale import (
+    ChannelScale,
+    System,
+    divide_channels,
+    estimate_channel_scale,
+    find_system,
+)
+from slipwise.preparation.gauge_groups import group_gauges
 from slipwise.record import Record
 from slipwise.relations.balance_rows import PreparedRun, prepare_runs
-from slipwise.relations.rigid_balances import Relation, relations
+from slipwise.relations.rigid_balances import Relation, list_rigid_balances
 from slipwise.rig import Specimen
 from slipwise.units import parse_unit
 
@@ -71,7 +77,7 @@ def find_wrong_units(campaign: Campaign) -> list[WrongUnit]:
     if not campaign.specimen.free:
         return []
     runs, _ = prepare_runs(campaign)
-    usable, _ = relations(runs[0].record, campaign.specimen)
+    usable, _ = list_rigid_balances(runs[0].record, campaign.specimen)
     usable = [r for r in usable if r.accuses and r.rows in ("moving", "inner")]
     found: list[WrongUnit] = []
     for _ in range(_MOST if usable else 0):
@@ -79,7 +85,7 @@ def find_wrong_units(campaign: Campaign) -> list[WrongUnit]:
         if wrong is None:
             break
         found.append(wrong)
-        runs = divided(runs, wrong.channels, wrong.factor)
+        runs = divide_channels(runs, wrong.channels, wrong.factor)
     return found
 
 
@@ -90,13 +96,13 @@ def convert_units(record: Record, factors: Mapping[str, float]) -> Record:
 
 def _clearest(runs: list[PreparedRun], usable: Sequence[Relation], specimen: Specimen) -> WrongUnit | None:
     """Return the channel or card whose scaling lets all relations hold best, where its factor is one of units."""
-    system = system_of(runs, usable, specimen)
+    system = find_system(runs, usable, specimen)
     if not system.stacked.residual:
         return None
-    untouched = channel_scale(system, (), mass_known=True)
+    untouched = estimate_channel_scale(system, (), mass_known=True)
     best: tuple[float, WrongUnit] | None = None
-    for names in gauge_groups(runs[0].record).values():
-        found = channel_scale(system, names, mass_known=True)
+    for names in group_gauges(runs[0].record).values():
+        found = estimate_channel_scale(system, names, mass_known=True)
         if not _helps(untouched, found):
             continue
         factor, left = _refined(system, names, found.factor)
@@ -112,7 +118,7 @@ def _unlike_its_card(runs: Sequence[PreparedRun]) -> WrongUnit | None:
 
     Where a balance fails for other reasons it cannot tell; pads that stand unevenly differ by less than such a factor.
     """
-    for place, card in gauge_groups(runs[0].record).items():
+    for place, card in group_gauges(runs[0].record).items():
         if "*" not in place or len(card) <= _LIKE_IT:
             continue
         values = {n: np.concatenate([r.record[n] - np.mean(r.record[n]) for r in runs]) for n in card}
@@ -142,7 +148,7 @@ def _refined(system: System, names: Sequence[str], factor: float) -> tuple[float
     """
     left = 0.0
     for centred in (True, True, False):
-        again = channel_scale(system.divided(names, factor, centred=centred), names, mass_known=False)
+        again = estimate_channel_scale(system.divided(names, factor, centred=centred), names, mass_known=False)
         if again.factor <= 0.0 or (not centred and abs(np.log(again.factor)) > _NEAR):
             break
         factor *= again.factor
@@ -155,7 +161,7 @@ def _is_possible(factor: float, names: Sequence[str], runs: Sequence[PreparedRun
     if len(names) > 1:
         return min(factor, 1.0 / factor) < 1.0 / _OF_CARD
     kind = names[0].rpartition("_")[2]
-    card = gauge_groups(runs[0].record).get(f"pad_*_{kind}", ()) if names[0].startswith("pad_") else ()
+    card = group_gauges(runs[0].record).get(f"pad_*_{kind}", ()) if names[0].startswith("pad_") else ()
     if len(card) < _LIKE_IT + 1:
         return True
     moved = {name: float(np.median([np.std(run.record[name]) for run in runs])) for name in card}

@@ -42,7 +42,7 @@ class Move(Generic[Point]):
     keep_slopes: bool = False
 
 
-def gauss_newton(
+def step_by_gauss_newton(
     start: Point,
     linearise: Callable[[Point], Linear],
     move: Callable[[Point, Linear], Move[Point]],
@@ -136,7 +136,7 @@ class LevenbergMarquardt:
         gradient = slopes.jacobian.T @ residual
         nearest, farthest = self.bounds.near(here)
         for _ in range(_TRIALS):
-            step = bounded_step(slopes.normal, gradient, self.damping, here, nearest, farthest, self.bounds.scale)
+            step = step_within_bounds(slopes.normal, gradient, self.damping, here, nearest, farthest, self.bounds.scale)
             point, left = evaluate(np.clip(here + step * self.bounds.scale, nearest, farthest))
             gained = cost - float(left @ left)
             if gained > 0.0:
@@ -147,7 +147,7 @@ class LevenbergMarquardt:
         return None
 
 
-def bounded_step(
+def step_within_bounds(
     normal: Array, gradient: Array, damping: float, here: Array, low: Array, high: Array, scale: Array
 ) -> Array:
     """Solve the damped normal equations (k,); numbers that would leave their bounds are put on them and left out."""

@@ -34,7 +34,9 @@ class Part:
     count: int
 
 
-def parts_of(blocks: Sequence[Block], residual: Mapping[str, Array]) -> tuple[dict[str, Part], NDArray[np.int64]]:
+def build_equations(
+    blocks: Sequence[Block], residual: Mapping[str, Array]
+) -> tuple[dict[str, Part], NDArray[np.int64]]:
     """Make the products of all blocks' columns; give them and the number of the first column of each block."""
     widths = [next((columns.shape[1] for columns in block.values()), 0) for block in blocks]
     first = np.cumsum([0, *widths])
@@ -47,7 +49,7 @@ def parts_of(blocks: Sequence[Block], residual: Mapping[str, Array]) -> tuple[di
     return parts, first
 
 
-def weighed(parts: Mapping[str, Part], weight: Mapping[str, float], count: int) -> tuple[Array, Array]:
+def weigh_equations(parts: Mapping[str, Part], weight: Mapping[str, float], count: int) -> tuple[Array, Array]:
     """Return the normal equations (count, count), (count,) of all rows, weighed by their relations' weights."""
     squares, along = np.zeros((count, count)), np.zeros(count)
     for name, part in parts.items():
@@ -57,13 +59,13 @@ def weighed(parts: Mapping[str, Part], weight: Mapping[str, float], count: int) 
     return squares, along
 
 
-def left_of(part: Part, solution: Array) -> float:
+def get_left_over(part: Part, solution: Array) -> float:
     """Return the mean square that a solution leaves in one relation."""
     own = solution[part.index]
     return max(part.power - 2.0 * float(own @ part.along) + float(own @ part.squares @ own), 0.0) / max(part.count, 1)
 
 
-def inverse(squares: Array) -> Array:
+def invert_regularised(squares: Array) -> Array:
     """Invert normal equations; directions that the data do not determine get no step."""
     norm = np.sqrt(np.diag(squares))
     norm[norm == 0.0] = 1.0

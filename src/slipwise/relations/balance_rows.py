@@ -136,17 +136,17 @@ class Stack:
     run_of: dict[str, NDArray[np.int64]]
 
 
-def constants_of(relations: Sequence[Relation]) -> tuple[str, ...]:
+def list_constants(relations: Sequence[Relation]) -> tuple[str, ...]:
     """Return the names of all constants."""
     return tuple(dict.fromkeys(name for relation in relations for name in relation.terms))
 
 
-def stack(
+def stack_rows(
     runs: Sequence[PreparedRun], relations: Sequence[Relation], specimen: Specimen, constants: Mapping[str, float]
 ) -> Stack:
     """Evaluate the relations with the constants as they are; relations without rows are left out."""
     residual: dict[str, Array] = {}
-    base: dict[str, dict[str, Array]] = {name: {} for name in constants_of(relations)}
+    base: dict[str, dict[str, Array]] = {name: {} for name in list_constants(relations)}
     run_of: dict[str, NDArray[np.int64]] = {}
     for relation in relations:
         parts = [_evaluate(run, relation, specimen, constants) for run in runs]
@@ -198,7 +198,7 @@ def change(
     return found
 
 
-def noise_of_channels(campaign: Campaign, runs: Sequence[PreparedRun], band: float) -> dict[str, float]:
+def measure_channel_noise(campaign: Campaign, runs: Sequence[PreparedRun], band: float) -> dict[str, float]:
     """Return noise of each smoothed channel: white part within the band, or what quiet stretches show, if larger."""
     levels: dict[str, list[float]] = {}
     for run, prepared in zip(campaign.runs, runs, strict=True):
@@ -221,7 +221,7 @@ def _still_level(run: PreparedRun, name: str) -> float:
     return min(found, default=0.0)
 
 
-def noise_of_runs(runs: Sequence[PreparedRun], levels: Mapping[str, float], band: float) -> list[dict[str, Array]]:
+def measure_run_noise(runs: Sequence[PreparedRun], levels: Mapping[str, float], band: float) -> list[dict[str, Array]]:
     """Return a sample of each run's noise, channel by channel, of the levels given and of the band's colour."""
     rng = np.random.default_rng(0)
     by = LowPass(band, 6, "aligned")

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.relations.run_data import FitRun, refined
+from slipwise.relations.run_data import FitRun, interpolate_finely
 
 Array = NDArray[np.float64]
 
@@ -27,7 +27,7 @@ class Instants:
     slip: Array
 
 
-def instants(run: FitRun, velocity: Array, slip: Array, lost: Array | None = None) -> Instants:
+def evaluate_states_at_instants(run: FitRun, velocity: Array, slip: Array, lost: Array | None = None) -> Instants:
     """Refine the states of a run.
 
     Args:
@@ -37,11 +37,11 @@ def instants(run: FitRun, velocity: Array, slip: Array, lost: Array | None = Non
         lost: (f, p) or (f, 1) what the logger's filter took from the velocity, see `lost_velocity` [m/s].
     """
     time = np.linspace(run.time[0], run.time[-1], run.fine * (len(run.time) - 1) + 1)
-    fine = refined(velocity, run.fine)
+    fine = interpolate_finely(velocity, run.fine)
     if lost is not None:
         fine[:, :, 0] += lost
     still = np.repeat(run.states.at_rest, run.fine)[: len(time)]
     fine[still & np.roll(still, 1 - run.fine)] = 0.0
     every = (*run.fine_load.shape, 2)  # views: a long record's states of pads that move alike are kept once
-    fine, slip = (np.broadcast_to(x, every) for x in (fine, refined(slip, run.fine)))
+    fine, slip = (np.broadcast_to(x, every) for x in (fine, interpolate_finely(slip, run.fine)))
     return Instants(time, run.fine_load, fine, slip)

@@ -26,9 +26,9 @@ from slipwise.model import Model
 from slipwise.relations.inverse_filter import Spectrum
 from slipwise.relations.pad_law import as_logged
 from slipwise.relations.parameters import SEAT_STIFFNESS
-from slipwise.relations.run_data import FitRun, refined
-from slipwise.relations.sample_masks import rolls_only_at_rest
-from slipwise.relations.storeys import predicted_push
+from slipwise.relations.run_data import FitRun, interpolate_finely
+from slipwise.relations.sample_masks import is_rolling_only_at_rest
+from slipwise.relations.storeys import predict_push
 from slipwise.rig import Specimen
 from slipwise.rig.curved_faces import rise_rate, risen
 from slipwise.rig.frame import frame_moment, frame_push, storey_channels
@@ -48,13 +48,13 @@ _SIGNIFICANT = 4.0
 _REST = 60
 
 
-def balances_of(specimen: Specimen) -> tuple[str, ...]:
+def list_balances(specimen: Specimen) -> tuple[str, ...]:
     """Return the balances that a girder on these pads has, whatever was recorded."""
     left_out = {*WARPS, *(() if specimen.storeys else ("storeys",))} - {*warps(specimen)}
     return tuple(name for name in BALANCES if name not in left_out)
 
 
-def available(run: FitRun, specimen: Specimen) -> tuple[str, ...]:
+def list_available_balances(run: FitRun, specimen: Specimen) -> tuple[str, ...]:
     """Tell which balances a run's channels allow."""
     out = []
     if not specimen.free or run.pads != specimen.pads or not np.isfinite(run.load).all():
@@ -64,7 +64,7 @@ def available(run: FitRun, specimen: Specimen) -> tuple[str, ...]:
         out.append("girder")
     if np.isfinite(run.states.girder_acceleration[:, 2]).all():
         out.append("heave")
-    rests = not rolls_only_at_rest(run.states.has_y, specimen) or np.count_nonzero(run.judged["roll"]) >= _REST
+    rests = not is_rolling_only_at_rest(run.states.has_y, specimen) or np.count_nonzero(run.judged["roll"]) >= _REST
     out += (["pitch"] if framed else []) + (["roll"] if rests else [])
     out += warps(specimen)
     if specimen.storeys and "girder" in out:
@@ -104,7 +104,7 @@ def _rocked(
     return out[0], out[1]
 
 
-def buffers_along(law: Predictor, run: FitRun, yaw: Array, yaw_rate: Array) -> Array:
+def compute_buffer_forces(law: Predictor, run: FitRun, yaw: Array, yaw_rate: Array) -> Array:
     """Return the force of the girder on each buffer along x, (n, n_buffers) [N]; yaw moves the buffers apart.
 
     Args:
@@ -120,20 +120,20 @@ def buffers_along(law: Predictor, run: FitRun, yaw: Array, yaw_rate: Array) -> A
     slip = run.slip[:, None] - sides * yaw[:, None]
     if not any(u.effect.port == "buffer" for u in law.model.uses) and not any(b.gap for b in specimen.buffers):
         return slip * np.array(specimen.buffer_stiffness)
-    slip = refined(slip, run.fine)
-    velocity = refined(run.velocity[:, None] - sides * yaw_rate[:, None], run.fine)
+    slip = interpolate_finely(slip, run.fine)
+    velocity = interpolate_finely(run.velocity[:, None] - sides * yaw_rate[:, None], run.fine)
     time = np.linspace(run.time[0], run.time[-1], len(slip))
     deflection = np.stack([slip, np.zeros_like(slip)], axis=2)
     rate = np.stack([velocity, np.zeros_like(velocity)], axis=2)
     return as_logged(law.buffers(time, deflection, rate)[:, :, 0], run, None, averaged=False)
 
 
-def heave_rate(total: Array, dt: float, specimen: Specimen) -> Array:
+def compute_heave_rate(total: Array, dt: float, specimen: Specimen) -> Array:
     """Return the girder's vertical rate over its pads (n,) [m/s]: their shortening under their measured load [N]."""
     return -shortening_rate(total, dt, sum(specimen.springs), specimen.pad_damping / specimen.pad_stiffness)
 
 
-def predicted_balances(
+def predict_balances(
     model: Model,
     run: FitRun,
     force: Array,
@@ -183,9 +183,9 @@ def predicted_balances(
     }
     measured = {"girder": run.channel("girder_ax"), "heave": heave, "pitch": modes.pitch, "roll": modes.roll}
     measured |= by_warp(specimen, run.load)
-    if rated.storeys and "storeys" in available(run, rated):
-        predicted["storeys"], measured["storeys"] = predicted_push(run, specimen), frame
-    added = effects_in(model, run, specimen, force, buffers)
+    if rated.storeys and "storeys" in list_available_balances(run, rated):
+        predicted["storeys"], measured["storeys"] = predict_push(run, specimen), frame
+    added = compute_effects(model, run, specimen, force, buffers)
     rocking = [added.pop(name, None) for name in ("roll", "pitch")]
     if any(one is not None for one in rocking):
         added |= dict(zip(("roll", "pitch"), _rocked((rocking[0], rocking[1]), specimen, run, values), strict=True))
@@ -215,7 +215,7 @@ def _delayed(values: Array, dt: float, lag: float) -> Array:
     return values - lag * np.gradient(values, dt)
 
 
-def effects_in(
+def compute_effects(
     model: Model, run: FitRun, specimen: Specimen, force: Array, buffers: Array | None = None,
     acceleration: Array | None = None, table: Array | None = None, rising: float = 0.0,
 ) -> dict[str, Array]:  # fmt: skip
@@ -249,7 +249,7 @@ def effects_in(
         table_acceleration=np.nan_to_num(run.states.table_acceleration) if table is None else table,
         buffer_force=np.stack([buffers.sum(axis=1), zero], axis=1),
         buffer_size=np.abs(buffers),
-        heave_rate=heave_rate(run.load.sum(axis=1), run.dt, specimen)
+        heave_rate=compute_heave_rate(run.load.sum(axis=1), run.dt, specimen)
         + rise_rate(run.states.slip, run.states.velocity, specimen)
         + rising,
     )
@@ -260,12 +260,12 @@ def effects_in(
     return out
 
 
-def rigid_rotation_acceleration(model: Model, run: FitRun) -> Array:
+def compute_rigid_rotation(model: Model, run: FitRun) -> Array:
     """Return girder's acceleration over the table that is no slip (n,) [m/s^2]: girder and table rotate together."""
-    return effects_in(model, run, model.built_specimen(), run.force).get("motion", np.zeros(len(run.time)))
+    return compute_effects(model, run, model.built_specimen(), run.force).get("motion", np.zeros(len(run.time)))
 
 
-def motion_residual(
+def compute_motion_residual(
     run: FitRun, slip_delay: float, scale: Mapping[str, float], raised: Mapping[str, Spectrum]
 ) -> Array:
     """Return a_x - a_x,table - d2(slip)/dt2, whitened by the noise of the three gauges: (n,) of unit variance.

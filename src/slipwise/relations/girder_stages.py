@@ -5,13 +5,19 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.relations.girder import BALANCES, buffers_along, motion_residual, predicted_balances
-from slipwise.relations.inverse_filter import rewhitened
+from slipwise.relations.girder import BALANCES, compute_buffer_forces, compute_motion_residual, predict_balances
+from slipwise.relations.inverse_filter import whiten_again
 from slipwise.relations.kinematics import CORRECTED, RAISED, YAW, pitches_table
-from slipwise.relations.measurement import faulted
-from slipwise.relations.noise import driven_noise_in_pitch, heave_level, shares_of_noise, whitened, with_masked_noise
+from slipwise.relations.measurement import apply_gauge_faults
+from slipwise.relations.noise import (
+    compute_driven_noise_in_pitch,
+    compute_heave_level,
+    compute_noise_shares,
+    whiten_residual,
+    with_masked_noise,
+)
 from slipwise.relations.pad_stages import MEASURED_FRICTION, in_noise
-from slipwise.relations.parameters import PITCH_INERTIA, ROLL_INERTIA, YAW_INERTIA, Term, fitted_model
+from slipwise.relations.parameters import PITCH_INERTIA, ROLL_INERTIA, YAW_INERTIA, Term, build_fitted_model
 from slipwise.relations.stages import Evaluation, Inputs, Stage
 from slipwise.simulation.predict import predictor
 
@@ -34,7 +40,7 @@ def acts_on_girder(term: Term) -> bool:
 
 def _leave_of_motion(inputs: Inputs) -> list[Array]:
     corrected, raised, delay = inputs.of(CORRECTED), inputs.of(RAISED), inputs.values["rig.late_slip"]
-    return [motion_residual(run, delay, corrected.scale, raised) for run in corrected.runs]
+    return [compute_motion_residual(run, delay, corrected.scale, raised) for run in corrected.runs]
 
 
 def _leave_of_balances(inputs: Inputs) -> dict[str, list[Array]]:
@@ -43,32 +49,32 @@ def _leave_of_balances(inputs: Inputs) -> dict[str, list[Array]]:
     measurements, values, corrected = inputs.measurements, inputs.values, inputs.of(CORRECTED)
     runs, scale, yaw, raised = corrected.runs, corrected.scale, inputs.of(YAW), inputs.of(RAISED)
     sigmas, ringing = inputs.weighed("sigmas"), inputs.weighed("ringing")
-    shares = shares_of_noise(measurements.specimen, runs[0]) if raised else {}
-    model = fitted_model(measurements.specimen, own, values, _GIRDER_NUMBERS)
+    shares = compute_noise_shares(measurements.specimen, runs[0]) if raised else {}
+    model = build_fitted_model(measurements.specimen, own, values, _GIRDER_NUMBERS)
     law = predictor(model)
     out: dict[str, list[Array]] = {name: [] for name in measurements.relations if name in BALANCES}
     masked = 0.0
     if "heave" in out and sigmas:
-        masked = 1.0 - (heave_level(model, runs[0], scale) / float(np.min(sigmas["heave"][0]))) ** 2
+        masked = 1.0 - (compute_heave_level(model, runs[0], scale) / float(np.min(sigmas["heave"][0]))) ** 2
     driven: list[Array | None] = [None] * len(runs)
     if sigmas and any(pitches_table(term) for term in own):
-        driven = [*driven_noise_in_pitch(model, runs, values)]
+        driven = [*compute_driven_noise_in_pitch(model, runs, values)]
     for i, (run, (force, _)) in enumerate(zip(runs, inputs.of(MEASURED_FRICTION), strict=True)):
         law.rest(run.rest_before)
-        predicted, measured = predicted_balances(model, run, force, buffers_along(law, run, *yaw[i]), values)
+        predicted, measured = predict_balances(model, run, force, compute_buffer_forces(law, run, *yaw[i]), values)
         for name in out:
             if name == "motion":
                 left = inputs.of(MOTION)[i]
             elif name == "girder" and faults:  # put on what is predicted: a filter has no inverse
                 shown = run.record.replaced(girder_ax=predicted[name])
-                left = inputs.runs[i].channel("girder_ax") - faulted(faults, values, shown)["girder_ax"]
+                left = inputs.runs[i].channel("girder_ax") - apply_gauge_faults(faults, values, shown)["girder_ax"]
             else:
                 left = (measured[name] - predicted[name]) / scale.get(name, 1.0)
-                left = rewhitened(left, run, raised, shares.get(name, {}))
+                left = whiten_again(left, run, raised, shares.get(name, {}))
             if name in ringing:
                 left = np.where(run.ringing, 0.0, left)  # whitening looks both ways: not at what a lifted pad does
                 more = driven[i] if name == "pitch" else None
-                left = whitened(left, run, float(np.min(sigmas[name][i])), ringing[name][i], more)
+                left = whiten_residual(left, run, float(np.min(sigmas[name][i])), ringing[name][i], more)
             left = in_noise(inputs, name, i, left, run)
             out[name].append(with_masked_noise(left, masked) if name == "heave" else left)
     return out
@@ -83,13 +89,13 @@ def balance_sides(evaluation: Evaluation, place: int) -> tuple[dict[str, Array],
     """
     inputs = evaluation.inputs(BALANCES_LEFT)
     own = [term for term in inputs.terms if not is_fault_of_girder_gauge(term)]
-    model = fitted_model(inputs.measurements.specimen, own, inputs.values, _GIRDER_NUMBERS)
+    model = build_fitted_model(inputs.measurements.specimen, own, inputs.values, _GIRDER_NUMBERS)
     law, runs, yaw = predictor(model), inputs.of(CORRECTED).runs, inputs.of(YAW)
     buffers = np.zeros((0, 0))
     for i in range(place + 1):  # what a buffer remembers goes on from run to run
         law.rest(runs[i].rest_before)
-        buffers = buffers_along(law, runs[i], *yaw[i])
-    return predicted_balances(model, runs[place], inputs.of(MEASURED_FRICTION)[place][0], buffers, inputs.values)
+        buffers = compute_buffer_forces(law, runs[i], *yaw[i])
+    return predict_balances(model, runs[place], inputs.of(MEASURED_FRICTION)[place][0], buffers, inputs.values)
 
 
 #: Residual of the girder's motion against the slip, per run (n,), whitened.

@@ -37,7 +37,7 @@ def without_filter(values: Array, pulse: Array, run: FitRun) -> Array:
     return values + in_frequency(smooth, run.dt, inverse, min(middle, 256)) - smooth
 
 
-def spectrum_without_filter(pulse: Array, run: FitRun) -> Spectrum:
+def remove_filter_from_spectrum(pulse: Array, run: FitRun) -> Spectrum:
     """Tell by how much `without_filter` raises the power of white noise."""
     impulse = np.zeros(len(pulse))
     impulse[len(impulse) // 2] = 1.0
@@ -45,7 +45,7 @@ def spectrum_without_filter(pulse: Array, run: FitRun) -> Spectrum:
     return np.asarray(np.fft.rfftfreq(len(pulse), run.dt), dtype=np.float64), np.asarray(power, dtype=np.float64)
 
 
-def rewhitened(left: Array, run: FitRun, raised: Mapping[str, Spectrum], shares: Mapping[str, float]) -> Array:
+def whiten_again(left: Array, run: FitRun, raised: Mapping[str, Spectrum], shares: Mapping[str, float]) -> Array:
     """Bring a residual (n,) to white noise again.
 
     Args:

@@ -7,15 +7,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.rig_motion import rig_motion
-from slipwise.relations.evaluation_times import Instants, instants
-from slipwise.relations.girder import buffers_along, rigid_rotation_acceleration
+from slipwise.relations.evaluation_times import Instants, evaluate_states_at_instants
+from slipwise.relations.girder import compute_buffer_forces, compute_rigid_rotation
 from slipwise.relations.inverse_filter import Spectrum
-from slipwise.relations.measurement import acts_on_force, noise_scale, raised_noise, without
-from slipwise.relations.parameters import YAW_INERTIA, Term, fitted_model
-from slipwise.relations.run_data import FitRun, refined
+from slipwise.relations.measurement import compute_noise_scale, compute_raised_noise, is_on_force_gauge, without
+from slipwise.relations.parameters import YAW_INERTIA, Term, build_fitted_model
+from slipwise.relations.run_data import FitRun, interpolate_finely
 from slipwise.relations.setting import Measurements
 from slipwise.relations.stages import Inputs, Stage
-from slipwise.relations.yaw import yaw_of
+from slipwise.relations.yaw import compute_yaw
 from slipwise.rig import Specimen
 from slipwise.rig.frame import frame_push
 from slipwise.simulation.predict import predictor
@@ -28,7 +28,7 @@ _TABLE_PITCH_NUMBERS = ("rig.centre_height",)
 
 def is_fault_of_motion(term: Term) -> bool:
     """Return whether a term is a fault of a gauge that is taken out of what was measured."""
-    return term.effect.port == "gauge" and not acts_on_force(term)
+    return term.effect.port == "gauge" and not is_on_force_gauge(term)
 
 
 def pitches_table(term: Term) -> bool:
@@ -61,9 +61,9 @@ def _correct(inputs: Inputs) -> Corrected:
     for term in faults:
         runs = tuple(without(term, values, run, around) for run in runs)
     if table_pitch:
-        model = fitted_model(inputs.measurements.specimen, table_pitch, values, _TABLE_PITCH_NUMBERS)
-        runs = tuple(run.without_table_pitch(rigid_rotation_acceleration(model, run)) for run in runs)
-    return Corrected(runs, noise_scale(faults, values, inputs.runs[0]) if faults else {})
+        model = build_fitted_model(inputs.measurements.specimen, table_pitch, values, _TABLE_PITCH_NUMBERS)
+        runs = tuple(run.without_table_pitch(compute_rigid_rotation(model, run)) for run in runs)
+    return Corrected(runs, compute_noise_scale(faults, values, inputs.runs[0]) if faults else {})
 
 
 def _synchronise(inputs: Inputs) -> tuple[FitRun, ...]:
@@ -72,22 +72,22 @@ def _synchronise(inputs: Inputs) -> tuple[FitRun, ...]:
 
 
 def _raise_noise(inputs: Inputs) -> dict[str, Spectrum]:
-    return raised_noise(inputs.terms, inputs.values, inputs.runs[0])
+    return compute_raised_noise(inputs.terms, inputs.values, inputs.runs[0])
 
 
 def _make_yaw(inputs: Inputs) -> list[tuple[Array, Array]]:
     runs = inputs.of(CORRECTED).runs
     if not inputs.makes_yaw:
         return [(run.states.yaw, run.states.yaw_rate) for run in runs]
-    model = fitted_model(inputs.measurements.specimen, inputs.terms, inputs.values, _YAW_NUMBERS)
+    model = build_fitted_model(inputs.measurements.specimen, inputs.terms, inputs.values, _YAW_NUMBERS)
     specimen, law, bounds = model.built_specimen(), predictor(model), inputs.weighed("bounds")
     found = []
     for i, run in enumerate(runs):
         law.rest(run.rest_before)
         still = np.zeros(len(run.time))
-        buffers = buffers_along(law, run, still, still)
+        buffers = compute_buffer_forces(law, run, still, still)
         force = _whole(run, specimen, buffers)
-        found.append(yaw_of(run, specimen, force, bounds[i] if bounds else np.abs(force), buffers))
+        found.append(compute_yaw(run, specimen, force, bounds[i] if bounds else np.abs(force), buffers))
     return found
 
 
@@ -114,19 +114,19 @@ def states_of_pads(inputs: Inputs, velocity_errors: float = 0.0) -> list[Instant
             angle, rate = inputs.of(YAW)[place]
             velocity = velocity + rate[:, None, None] * round_about
             slip = slip + angle[:, None, None] * round_about
-        out.append(instants(run, velocity, slip, lost[place][:, here] if lost else None))
+        out.append(evaluate_states_at_instants(run, velocity, slip, lost[place][:, here] if lost else None))
     return out
 
 
 def _rig_motions(inputs: Inputs) -> list[Array]:
-    return [refined(rig_motion(run.states), run.fine) for run in inputs.of(CORRECTED).runs]
+    return [interpolate_finely(rig_motion(run.states), run.fine) for run in inputs.of(CORRECTED).runs]
 
 
 #: The runs with slip and accelerations synchronised.
 SYNCHRONISED = Stage("synchronised runs", _synchronise)
 #: The runs without the faults of their gauges, but for those of friction.
 CORRECTED = Stage("corrected runs", _correct, lambda t: is_fault_of_motion(t) or pitches_table(t))
-#: Channel -> by how much taking its fault out has raised the power of its noise; see `raised_noise`.
+#: Channel -> by how much taking its fault out has raised the power of its noise; see `compute_raised_noise`.
 RAISED = Stage("raised noise", _raise_noise, is_fault_of_motion)
 #: Yaw [rad] and its rate [rad/s] of every run, (n,) each: measured, made from the forces, or none.
 YAW = Stage("yaw", _make_yaw, changes_torque)

@@ -9,7 +9,7 @@ from slipwise.channels import VELOCITY_CHANNELS, channels_like
 from slipwise.effects import Effect
 from slipwise.model import EffectUse
 from slipwise.record import Record
-from slipwise.relations.inverse_filter import Spectrum, spectrum_without_filter, without_filter
+from slipwise.relations.inverse_filter import Spectrum, remove_filter_from_spectrum, without_filter
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import FitRun, smoothed
 from slipwise.rig.load_basis import warps
@@ -17,14 +17,14 @@ from slipwise.rig.load_basis import warps
 Array = NDArray[np.float64]
 
 
-def acts_on_force(term: Term) -> bool:
+def is_on_force_gauge(term: Term) -> bool:
     """Return whether a gauge's fault shows on friction only: it then acts on the prediction."""
     if term.effect.target:
         return all(t.endswith(("_Fx", "_Fy")) for t in term.targets)
     return "undo" not in term.effect.hooks or all("_F" in c for c in term.effect.moves)
 
 
-def faulted(terms: Sequence[Term], values: Mapping[str, float], record: Record) -> Record:
+def apply_gauge_faults(terms: Sequence[Term], values: Mapping[str, float], record: Record) -> Record:
     """Put the faults of gauges on a record."""
     for term in terms:
         for entry in term.uses(values):
@@ -64,19 +64,19 @@ def on_force(
     clean = np.where(run.sliding[:, None], force, stuck)
     record = run.record.replaced(**{n: clean[:, i] for i, n in enumerate(names)})
     record = record.replaced(**{f"pad_{p}_N": run.load[:, i] for i, p in enumerate(run.pads)})
-    faulty = faulted(terms, values, record)
+    faulty = apply_gauge_faults(terms, values, record)
     offset = np.stack([faulty[n] for n in names], axis=1) - clean
     return run.force - offset, offset
 
 
-def changed_by(terms: Sequence[Term], values: Mapping[str, float], run: FitRun) -> Array:
+def compute_change_by_faults(terms: Sequence[Term], values: Mapping[str, float], run: FitRun) -> Array:
     """Return by how much faults change a pulse of friction, (p,) [1]: 0 without faults, 0.03 for a gain of 1.03."""
     names = [f"pad_{p}_Fx" for p in run.pads]
     nothing = run.record.replaced(**{n: np.zeros(len(run.record)) for n in run.record.channels})
     pulse = np.zeros(len(run.record))
     pulse[len(pulse) // 2] = 1.0
     without_pulse, with_pulse = (
-        faulted(terms, values, r) for r in (nothing, nothing.replaced(**{n: pulse for n in names}))
+        apply_gauge_faults(terms, values, r) for r in (nothing, nothing.replaced(**{n: pulse for n in names}))
     )
     return np.array([float(np.linalg.norm(with_pulse[n] - without_pulse[n] - pulse)) for n in names])
 
@@ -122,7 +122,7 @@ def _fault_impulse_response(term: Term, entry: EffectUse, record: Record, names:
     return _call(term.effect, "gauge", record.replaced(**{n: pulse for n in names}), entry.target, entry.values)
 
 
-def raised_noise(terms: Sequence[Term], values: Mapping[str, float], run: FitRun) -> dict[str, Spectrum]:
+def compute_raised_noise(terms: Sequence[Term], values: Mapping[str, float], run: FitRun) -> dict[str, Spectrum]:
     """Tell by how much taking out faults that have no inverse raises the power of their channels' noise.
 
     Returns:
@@ -134,12 +134,12 @@ def raised_noise(terms: Sequence[Term], values: Mapping[str, float], run: FitRun
             names = channels_like(entry.target, run.record.channels)
             shown = _fault_impulse_response(term, entry, run.record, names)
             for n in names:
-                at, factor = spectrum_without_filter(shown[n], run)
+                at, factor = remove_filter_from_spectrum(shown[n], run)
                 out[n] = (at, factor * out[n][1] if n in out else factor)
     return out
 
 
-def noise_scale(terms: Sequence[Term], values: Mapping[str, float], run: FitRun) -> dict[str, float]:
+def compute_noise_scale(terms: Sequence[Term], values: Mapping[str, float], run: FitRun) -> dict[str, float]:
     """Tell by how much undoing the faults has scaled the noise of the balances and of their gauges.
 
     Returns:

@@ -14,10 +14,10 @@ from scipy.signal import fftconvolve
 
 from slipwise.model import Model
 from slipwise.relations.evaluation_times import Instants
-from slipwise.relations.girder import buffers_along, effects_in, heave_rate, through_pitch
+from slipwise.relations.girder import compute_buffer_forces, compute_effects, compute_heave_rate, through_pitch
 from slipwise.relations.run_data import FAST, FitRun
-from slipwise.relations.storeys import noise_in_push
-from slipwise.relations.unsampled_reversals import jump_noise_in_pitch, jump_noise_in_push
+from slipwise.relations.storeys import compute_noise_in_push
+from slipwise.relations.unsampled_reversals import compute_jump_noise_in_pitch, compute_jump_noise_in_push
 from slipwise.rig import Specimen
 from slipwise.rig.frame import frame_noise
 from slipwise.rig.load_basis import basis_of, warps
@@ -31,7 +31,7 @@ TIMING = 1e-4
 _SPREAD = 0.5
 
 
-def reversal_noise(run: FitRun, plain: Array, shifted: Array) -> Array:
+def compute_reversal_noise(run: FitRun, plain: Array, shifted: Array) -> Array:
     """Return the uncertainty of friction where pads reverse (n, p) [N]: errors of velocity and timing.
 
     Args:
@@ -48,20 +48,20 @@ def reversal_noise(run: FitRun, plain: Array, shifted: Array) -> Array:
     return np.sqrt(squared)
 
 
-def pad_noise(run: FitRun, plain: Array, reversal: Array) -> Array:
+def compute_pad_noise(run: FitRun, plain: Array, reversal: Array) -> Array:
     """Return the noise of measured less predicted friction (n, p) [N]: of gauges, loads and reversals.
 
     Args:
         run: its gauges.
         plain: (n, p) predicted by the law [N].
-        reversal: (n, p) of `reversal_noise` [N].
+        reversal: (n, p) of `compute_reversal_noise` [N].
     """
     gauge, loads = run.gauge_noise
     friction = np.abs(plain) / np.maximum(run.load, 0.05 * run.load.mean())
     return np.sqrt(np.maximum(gauge**2 + (0.6 * friction * loads) ** 2 + reversal**2, 1e-24))
 
 
-def noise_across(run: FitRun, state: Instants, law_forces: PadForces) -> Array:
+def compute_noise_across(run: FitRun, state: Instants, law_forces: PadForces) -> Array:
     """Return the noise of measured less predicted force along y (n, p) [N]: gauges, loads, direction, timing."""
     gauge = np.array([run.noise[f"pad_{p}_Fy"] for p in run.pads])
     loads = run.gauge_noise[1]
@@ -73,7 +73,7 @@ def noise_across(run: FitRun, state: Instants, law_forces: PadForces) -> Array:
     return np.sqrt(gauge**2 + (0.6 * friction * loads) ** 2 + direction**2 + timing**2)
 
 
-def whitened(left: Array, run: FitRun, level: float, ringing: Array, driven: Array | None = None) -> Array:
+def whiten_residual(left: Array, run: FitRun, level: float, ringing: Array, driven: Array | None = None) -> Array:
     """Bring the residual (n,) of a balance to white noise of its gauges' own level, at every frequency.
 
     Args:
@@ -113,11 +113,11 @@ def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
     basis = basis_of(specimen)
     rows = {"pitch": basis.rigid[1], "roll": basis.rigid[2], **dict(zip(warps(specimen), basis.warp, strict=True))}
     levels = {
-        **{name: np.sqrt(np.sum((row * loads) ** 2)) for name, row in rows.items()},  # and see `whitened`
+        **{name: np.sqrt(np.sum((row * loads) ** 2)) for name, row in rows.items()},  # and see `whiten_residual`
         "girder": np.hypot(run.noise.get("girder_ax", 0.0), np.hypot(beside, pushed / specimen.mass)),
         "roll": np.linalg.norm([*(rows["roll"] * loads), *_across_in_roll(specimen, run)]),
         "heave": np.hypot(total, specimen.carried_mass * run.noise.get("girder_az", 0.0)),
-        "storeys": pushed,  # and see `noise_in_push`
+        "storeys": pushed,  # and see `compute_noise_in_push`
         "motion": 1.0,
     }
     return {name: max(float(level), 1e-12) for name, level in levels.items()}
@@ -130,7 +130,7 @@ def _across_in_roll(specimen: Specimen, run: FitRun) -> Array:
     return specimen.centre_height / specimen.half_spacing[1] * np.array([run.noise[f"pad_{p}_Fy"] for p in run.pads])
 
 
-def shares_of_noise(specimen: Specimen, run: FitRun) -> dict[str, dict[str, float]]:
+def compute_noise_shares(specimen: Specimen, run: FitRun) -> dict[str, dict[str, float]]:
     """Return share of single channels in the variance of the balances of loads: relation -> channel -> share [1]."""
     basis, cells = basis_of(specimen), [f"pad_{p}_N" for p in run.pads]
     names = ("heave", "pitch", "roll", *warps(specimen))
@@ -145,7 +145,7 @@ def shares_of_noise(specimen: Specimen, run: FitRun) -> dict[str, dict[str, floa
     }
 
 
-def weighed_balances(
+def compute_balance_noise(
     model: Model, runs: Sequence[FitRun], values: Mapping[str, float], reversal: Sequence[Array],
     changed: Sequence[Array],
 ) -> dict[str, list[Array]]:  # fmt: skip
@@ -155,7 +155,7 @@ def weighed_balances(
         model: with the numbers of the fit.
         runs: their gauges.
         values: of the fit, for the girder's pitch.
-        reversal: per run (n, p) of `reversal_noise` [N].
+        reversal: per run (n, p) of `compute_reversal_noise` [N].
         changed: per run (p,) of `changed_by` [1]; empty without faults of the gauges of friction.
     """
     springs = predictor(model) if model.with_hook("balance") else None
@@ -168,18 +168,20 @@ def weighed_balances(
                 model.specimen, reversal[i], changed[i], pitch_impulse_response(run, values)
             )
         if springs is not None:
-            more |= vertical_friction_noise(model, run, buffers_along(springs, run, *np.zeros((2, len(run.time)))))
+            more |= vertical_friction_noise(
+                model, run, compute_buffer_forces(springs, run, *np.zeros((2, len(run.time))))
+            )
         if run.filtered is None and "rig.logger" not in values:
             pitch = (values["rig.pitch_frequency"], values["rig.pitch_damping"])
-            more["pitch"] = np.hypot(more.get("pitch", 0.0), jump_noise_in_pitch(model.specimen, run, *pitch))
+            more["pitch"] = np.hypot(more.get("pitch", 0.0), compute_jump_noise_in_pitch(model.specimen, run, *pitch))
             if model.specimen.storeys:
-                more["storeys"] = jump_noise_in_push(model.specimen, run)
+                more["storeys"] = compute_jump_noise_in_push(model.specimen, run)
         for name, level in levels.items():
             out.setdefault(name, []).append(np.hypot(level, more[name]) if name in more else level)
     return out
 
 
-def heave_level(model: Model, run: FitRun, scale: Mapping[str, float]) -> float:
+def compute_heave_level(model: Model, run: FitRun, scale: Mapping[str, float]) -> float:
     """Return the noise of the heave balance as the model's mass and effects pass it on [N].
 
     Less mass multiplies the accelerometer's noise by less: without this the fit would trade mass for a smaller
@@ -232,7 +234,7 @@ def _more_heave(model: Model, run: FitRun, upward: Array) -> Array | None:
     """Return what effects add to the load for an acceleration (n,) upward alone, (n,) [N]; None where none adds any."""
     acceleration = np.zeros((2, len(run.time), 3))
     acceleration[1, :, 2] = upward
-    added = (effects_in(model, run, model.specimen, run.force, acceleration=a) for a in acceleration)
+    added = (compute_effects(model, run, model.specimen, run.force, acceleration=a) for a in acceleration)
     without_acceleration, with_acceleration = (a.get("heave") for a in added)
     if without_acceleration is None or with_acceleration is None:
         return None
@@ -252,9 +254,9 @@ def vertical_friction_noise(model: Model, run: FitRun, buffers: Array) -> dict[s
     """
     impulse = np.zeros(len(run.time))
     impulse[len(impulse) // 2] = np.linalg.norm(run.gauge_noise[1])
-    error = float(np.linalg.norm(heave_rate(impulse, run.dt, model.specimen)))
+    error = float(np.linalg.norm(compute_heave_rate(impulse, run.dt, model.specimen)))
     specimen = model.built_specimen()
-    up, down = (effects_in(model, run, specimen, run.force, buffers, rising=w) for w in (error, -error))
+    up, down = (compute_effects(model, run, specimen, run.force, buffers, rising=w) for w in (error, -error))
     return {name: 0.5 * np.abs(up[name] - down[name]) for name in ("heave", "roll") if name in up}
 
 
@@ -270,7 +272,7 @@ def force_noise_in_pitch(run: FitRun, specimen: Specimen, values: Mapping[str, f
     return squared * np.abs(np.fft.rfft(ringing)) ** 2
 
 
-def driven_noise_in_pitch(model: Model, runs: Sequence[FitRun], values: Mapping[str, float]) -> list[Array]:
+def compute_driven_noise_in_pitch(model: Model, runs: Sequence[FitRun], values: Mapping[str, float]) -> list[Array]:
     """Return what accelerometers' noise adds to the predicted pitch load through effects that are driven by it.
 
     A table that rocks is driven by a measured acceleration, and its pitch acceleration grows with frequency: its noise
@@ -286,7 +288,7 @@ def driven_noise_in_pitch(model: Model, runs: Sequence[FitRun], values: Mapping[
     for place, channel in enumerate(("girder_ax", "table_ax")):
         impulse = np.zeros((2, len(run.time), 3))
         impulse[place, len(run.time) // 2, 0] = 1.0
-        response = effects_in(model, run, specimen, run.force, acceleration=impulse[0], table=impulse[1])
+        response = compute_effects(model, run, specimen, run.force, acceleration=impulse[0], table=impulse[1])
         pitch = response.get("pitch")
         if pitch is not None and pitch.any():
             size = np.abs(np.fft.rfft(through_pitch(pitch, run.dt, frequency, damping))) ** 2
@@ -307,7 +309,7 @@ def noise_of_fault_correction(specimen: Specimen, reversal: Array, changed: Arra
 
     Args:
         specimen: its mass, and the lever of friction in pitch.
-        reversal: (n, p) of `reversal_noise` [N].
+        reversal: (n, p) of `compute_reversal_noise` [N].
         changed: (p,) share of such an error that the fault lets through [1].
         ringing: (n,) what the girder's pitch makes of a pulse in the middle [1].
 
@@ -320,11 +322,11 @@ def noise_of_fault_correction(specimen: Specimen, reversal: Array, changed: Arra
     return {"girder": np.sqrt(squared) / specimen.mass, "pitch": lever * np.sqrt(pitch)}
 
 
-def ringing_noise(model: Model, runs: Sequence[FitRun], values: Mapping[str, float]) -> dict[str, list[Array]]:
+def compute_ringing_noise(model: Model, runs: Sequence[FitRun], values: Mapping[str, float]) -> dict[str, list[Array]]:
     """Return what rings with gauges' noise in pitch and heave: relation -> per run spectrum (m,) [N^2]."""
     ringing = {"pitch": [force_noise_in_pitch(r, model.specimen, values) for r in runs]}
     if model.specimen.storeys:
-        ringing["storeys"] = [noise_in_push(r, model.specimen) for r in runs]
+        ringing["storeys"] = [compute_noise_in_push(r, model.specimen) for r in runs]
     if model.with_hook("balance"):
         ringing["heave"] = [bent_noise_in_heave(model, r) for r in runs]
     return ringing

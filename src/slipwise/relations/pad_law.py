@@ -60,7 +60,7 @@ def _smoothed_reversal(force, bound, velocity, share, out):  # pragma: no cover 
             out[i, pad] = force[i, pad, 0] + bound[i, pad] * (share[i, pad] * share_along - sharp)
 
 
-def stick_share(state: Instants, stick_length: float, stick_damping: float) -> Array:
+def compute_stick_share(state: Instants, stick_length: float, stick_damping: float) -> Array:
     """Return mean share of the bound that acts along x, half an instant before to half an instant after, (f, p) [1].
 
     A spring and a damper side by side, (z + t_d dz/dt) / u, and no more than the bound.
@@ -99,13 +99,13 @@ def drive_law(
     return out
 
 
-def force_along(found: PadForces, state: Instants, share: Array | None) -> Array:
+def sum_forces_along(found: PadForces, state: Instants, share: Array | None) -> Array:
     """Return the force of every pad along x at the instants, (f, p) [N].
 
     Args:
         found: of the law.
         state: of the pads, for which the law was evaluated.
-        share: of the bound that acts, see `stick_share`; None for a law that knows itself how a pad sticks.
+        share: of the bound that acts, see `compute_stick_share`; None for a law that knows itself how a pad sticks.
     """
     if share is None:
         return found.force[:, :, 0]
@@ -114,7 +114,7 @@ def force_along(found: PadForces, state: Instants, share: Array | None) -> Array
     return out
 
 
-def lost_velocity(force: Array, run: FitRun, compliance: Array, by: LowPass | None) -> Array:
+def estimate_lost_velocity(force: Array, run: FitRun, compliance: Array, by: LowPass | None) -> Array:
     """Return what the logger's filter takes from the pads' velocity where friction reverses, (f, p) [m/s].
 
     dv_i/dt = -sum_j C_ij F_j + (what has no kinks), so the kinks of v that the filter H rounds off are those of F's

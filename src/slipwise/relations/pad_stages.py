@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 
 from slipwise.relations.evaluation_times import Instants
 from slipwise.relations.kinematics import CORRECTED, RIG_MOTIONS, STATES
-from slipwise.relations.measurement import acts_on_force, on_force
-from slipwise.relations.pad_law import as_logged, drive_law, force_along, stick_share
-from slipwise.relations.parameters import ZERO, Term, fitted_model
+from slipwise.relations.measurement import is_on_force_gauge, on_force
+from slipwise.relations.pad_law import as_logged, compute_stick_share, drive_law, sum_forces_along
+from slipwise.relations.parameters import ZERO, Term, build_fitted_model
 from slipwise.relations.run_data import FitRun
 from slipwise.relations.stages import Inputs, Stage
-from slipwise.relations.transverse_friction import logged_across
+from slipwise.relations.transverse_friction import predict_logged_across
 from slipwise.signals.filters import LowPass
 from slipwise.simulation.predict import PadForces, predictor
 
@@ -36,7 +36,7 @@ def reverses(term: Term) -> bool:
 
 def is_fault_of_friction(term: Term) -> bool:
     """Return whether a term is a fault of gauges of friction: it is put on what is predicted."""
-    return term.effect.port == "gauge" and acts_on_force(term)
+    return term.effect.port == "gauge" and is_on_force_gauge(term)
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +59,7 @@ def logger_filter(inputs: Inputs) -> LowPass | None:
 
 
 def _drive_law(inputs: Inputs) -> list[PadForces]:
-    model = fitted_model(inputs.measurements.specimen, inputs.terms, inputs.values, _LAW_NUMBERS)
+    model = build_fitted_model(inputs.measurements.specimen, inputs.terms, inputs.values, _LAW_NUMBERS)
     law = predictor(model)
     motions = inputs.of(RIG_MOTIONS) if law.asks_for_motion else None
     return drive_law(law, inputs.of(CORRECTED).runs, inputs.of(STATES), motions)
@@ -75,8 +75,8 @@ def forces_along(inputs: Inputs, states: Sequence[Instants], law_forces: Sequenc
     """
     length = inputs.values.get("rig.stick_length", inputs.measurements.runs[0].scales.length * _SHORT_STICK)
     damping = inputs.values.get("rig.stick_damping", 0.0)
-    shares = [None if inputs.terms else stick_share(state, length, damping) for state in states]
-    return [force_along(*each) for each in zip(law_forces, states, shares, strict=True)]
+    shares = [None if inputs.terms else compute_stick_share(state, length, damping) for state in states]
+    return [sum_forces_along(*each) for each in zip(law_forces, states, shares, strict=True)]
 
 
 def logged_forces(
@@ -120,7 +120,7 @@ def _leave_of_pads(inputs: Inputs) -> PadResiduals:
 def _leave_across(inputs: Inputs) -> list[Array]:
     by = logger_filter(inputs)
     pairs = zip(inputs.of(CORRECTED).runs, inputs.of(LAW_FORCES), strict=True)
-    sides = ((run, run.across - logged_across(run, force, by)) for run, force in pairs)
+    sides = ((run, run.across - predict_logged_across(run, force, by)) for run, force in pairs)
     return [in_noise(inputs, "across", i, side, run) for i, (run, side) in enumerate(sides)]
 
 

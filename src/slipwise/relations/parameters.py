@@ -131,7 +131,7 @@ class Term:
         return out
 
 
-def terms_of(model: Model) -> tuple[Term, ...]:
+def make_terms(model: Model) -> tuple[Term, ...]:
     """Return the effects of a model as terms, those of several targets one by one."""
     pads = model.specimen.pads
     return tuple(
@@ -140,7 +140,7 @@ def terms_of(model: Model) -> tuple[Term, ...]:
     )
 
 
-def base_free(model: Model, *, balances: bool, logger_known: bool = True, length: float = 1.0) -> list[Free]:
+def list_base_numbers(model: Model, *, balances: bool, logger_known: bool = True, length: float = 1.0) -> list[Free]:
     """Return the base parameters: those of the model's effects, and the rig's numbers where balances can see them.
 
     Args:
@@ -157,9 +157,9 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True, length
             scale = abs(value) or abs(p.typical) or 0.1 * (p.high - p.low)
             out.append(Free(f"{entry.label}.{p.name}", value, p.low, p.high, scale, p.unit))
     if not model.reverses:
-        out.append(stick_free(length))
+        out.append(list_stick_numbers(length))
     specimen = model.specimen
-    if "rig.shear_strength" not in numbers_replaced(u.effect for u in model.uses):
+    if "rig.shear_strength" not in list_replaced_numbers(u.effect for u in model.uses):
         out.append(_around("rig.shear_strength", specimen.shear_strength, 1e-3, 1e3, "Pa"))
     if balances:
         rated = {"rig.mass": specimen.mass, "rig.centre_height": specimen.centre_height}
@@ -168,7 +168,7 @@ def base_free(model: Model, *, balances: bool, logger_known: bool = True, length
         units = {"rig.mass": "kg", "rig.centre_height": "m", "rig.buffer_stiffness": "N/m"}
         out += [_around(key, value, *_RIG_SHARES[key], units[key]) for key, value in rated.items()]
         out += [_small(key, specimen) for key in _SMALL]
-        out += [inertia_free(specimen, ROLL_INERTIA)] if rolls(specimen) else []
+        out += [make_free_inertia(specimen, ROLL_INERTIA)] if rolls(specimen) else []
         if is_uneven(specimen):
             out.append(_around(SEAT_STIFFNESS, 1.0, *_RIG_SHARES[SEAT_STIFFNESS], "1"))
     elif specimen.free:  # the sliding plane moves against the gauge all the same
@@ -193,13 +193,13 @@ def _small(key: str, specimen: Specimen) -> Free:
     return Free(key, start, low, high, scale, unit)
 
 
-def stick_free(length: float) -> Free:
+def list_stick_numbers(length: float) -> Free:
     """Return the slip over which a pad's friction reverses, for a scale of lengths [1]."""
     start, low, high, scale = (length * x for x in _STICK_LENGTH)
     return Free("rig.stick_length", start, low, high, scale, "m")
 
 
-def stick_damping_free(time: float) -> Free:
+def make_stick_damping(time: float) -> Free:
     """Return how that is damped, for a scale of times [1]."""
     start, low, high, scale = (time * x for x in _STICK_DAMPING)
     return Free("rig.stick_damping", start, low, high, scale, "s")
@@ -210,12 +210,12 @@ def _covered(channels: str, delayed: set[str], specimen: Specimen) -> bool:
     return channels in delayed or {channels.replace("*", pad) for pad in specimen.pads} <= delayed
 
 
-def numbers_replaced(effects: Iterable[Effect]) -> set[str]:
+def list_replaced_numbers(effects: Iterable[Effect]) -> set[str]:
     """Return keys of the base fit's numbers in whose place effects come: beside one of them it is the same number."""
     return {key for effect in effects for key in effect.stands_for}
 
 
-def inertia_free(specimen: Specimen, key: str) -> Free:
+def make_free_inertia(specimen: Specimen, key: str) -> Free:
     """Return an inertia of the girder: free where the motion that it resists is made from what was measured."""
     axis, shares = _INERTIAS[key]
     return _around(key, specimen.inertia[axis], *shares, "kg*m^2")
@@ -231,7 +231,9 @@ RIG_NUMBERS: tuple[str, ...] = (
 )  # fmt: skip
 
 
-def fitted_specimen(specimen: Specimen, values: Mapping[str, float], numbers: Sequence[str] = RIG_NUMBERS) -> Specimen:
+def build_fitted_specimen(
+    specimen: Specimen, values: Mapping[str, float], numbers: Sequence[str] = RIG_NUMBERS
+) -> Specimen:
     """Return the specimen with the numbers of a fit.
 
     Args:
@@ -257,8 +259,8 @@ def fitted_specimen(specimen: Specimen, values: Mapping[str, float], numbers: Se
     return specimen.changed(**changes)
 
 
-def fitted_model(
+def build_fitted_model(
     specimen: Specimen, terms: Iterable[Term], values: Mapping[str, float], numbers: Sequence[str] = RIG_NUMBERS
 ) -> Model:
-    """Return the model that a fit's numbers describe; `numbers` as for `fitted_specimen`."""
-    return Model(fitted_specimen(specimen, values, numbers), tuple(u for t in terms for u in t.uses(values)))
+    """Return the model that a fit's numbers describe; `numbers` as for `build_fitted_specimen`."""
+    return Model(build_fitted_specimen(specimen, values, numbers), tuple(u for t in terms for u in t.uses(values)))

@@ -68,7 +68,7 @@ class Relation:
         return frozenset((*self.needs, *(name for name in extra if name in record)))
 
 
-def relations(record: Record, specimen: Specimen) -> tuple[list[Relation], list[str]]:
+def list_rigid_balances(record: Record, specimen: Specimen) -> tuple[list[Relation], list[str]]:
     """Return the relations that these channels allow, and in words those that they do not.
 
     Args:
@@ -77,7 +77,7 @@ def relations(record: Record, specimen: Specimen) -> tuple[list[Relation], list[
     """
     possible = [*_rest(record)]
     if specimen.free:
-        loads = loads_of(specimen)
+        loads = list_loads(specimen)
         possible += [
             _heave(record, loads),
             *(_warp(name, loads) for name in warps(specimen)),
@@ -97,7 +97,7 @@ def relations(record: Record, specimen: Specimen) -> tuple[list[Relation], list[
     return kept, cannot
 
 
-def loads_of(specimen: Specimen) -> tuple[str, ...]:
+def list_loads(specimen: Specimen) -> tuple[str, ...]:
     """Return the channels of the loads of all pads."""
     return tuple(f"pad_{pad}_N" for pad in specimen.pads)
 
@@ -164,7 +164,7 @@ def _tilting(axis: str, record: Record, specimen: Specimen) -> Relation:
         terms["lever"] = lambda r, s: r[f"girder_a{axis}"]
     if f"slip_{axis}" in record:
         terms[f"buffer_lever_{axis}"] = lambda r, s: r[f"slip_{axis}"]
-    loads, storeys = loads_of(specimen), tuple(f"{storey}_a{axis}" for storey in storey_names(specimen.storeys))
+    loads, storeys = list_loads(specimen), tuple(f"{storey}_a{axis}" for storey in storey_names(specimen.storeys))
     # friction across holds a girder that rolls with its pitch
     across = ("girder_ay",) if axis == "y" and coupled(specimen) else ()
     needs = (*loads, *storeys, "girder_ax", "slip_x") if axis == "x" else (*loads, *storeys, *across)
@@ -218,7 +218,7 @@ def _upright(record: Record, specimen: Specimen) -> Relation:
 
     return Relation(
         "upright",
-        (*loads_of(specimen), "table_az", *needs, *slips),
+        (*list_loads(specimen), "table_az", *needs, *slips),
         known,
         {
             "sag": lambda r, s: _twice(_sum(r, s, "N"), r.dt),

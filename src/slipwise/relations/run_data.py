@@ -14,7 +14,7 @@ from slipwise.campaign.states import States, measured_states
 from slipwise.errors import InputError
 from slipwise.jobs.machine_code import kept
 from slipwise.record import Record
-from slipwise.relations.sample_masks import judged_and_ringing, without_estimated_loads
+from slipwise.relations.sample_masks import mask_judged_and_ringing, without_estimated_loads
 from slipwise.signals.ends import in_frequency
 from slipwise.signals.filters import LowPass, lowpass
 from slipwise.signals.shift import shift
@@ -112,7 +112,7 @@ class FitRun:
     @cached_property
     def fine_load(self) -> Array:
         """Load at the instants at which the laws are evaluated, (f, p) [N]."""
-        return np.maximum(refined(self.load, self.fine), 0.0)
+        return np.maximum(interpolate_finely(self.load, self.fine), 0.0)
 
     @property
     def all_loads(self) -> Array | None:
@@ -242,7 +242,7 @@ def _fit_run(run: Run, campaign: Campaign, invalid: Mapping[str, Mask]) -> FitRu
     fast = np.hypot(*states.velocity.T) > FAST * states.scales.speed
     # samples were looked at as recorded; a gap of theirs is filled on the axis of the states
     bad = {c: np.interp(states.time, run.record.time, m.astype(float)) > 0.0 for c, m in invalid.items()}
-    kept, ringing = judged_and_ringing(states, grounded, sliding, fast, pads, bad)
+    kept, ringing = mask_judged_and_ringing(states, grounded, sliding, fast, pads, bad)
     kept = without_estimated_loads(kept) if run.estimated else kept
     unseen = campaign.logger.unseen(f"pad_{pads[0]}_Fx")
     more = {"unseen": unseen, "ringing": ringing}
@@ -269,7 +269,7 @@ def _widened(flags: Mask, reach: int) -> Mask:
     return count[high] > count[low]
 
 
-def refined(values: Array, fine: int) -> Array:
+def interpolate_finely(values: Array, fine: int) -> Array:
     """Return the values (n, ...) at the instants, (fine (n - 1) + 1, ...), by cubics through four neighbours."""
     out = np.empty((fine * (len(values) - 1) + 1, *values.shape[1:]))
     flat = np.ascontiguousarray(values).reshape(len(values), -1)

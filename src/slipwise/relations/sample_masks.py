@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from slipwise.campaign.aligned import spread
 from slipwise.campaign.states import States
 from slipwise.channels import VELOCITY_CHANNELS
-from slipwise.noise.gauges import before_motion
+from slipwise.noise.gauges import find_rest_before_motion
 from slipwise.record import Record
 from slipwise.rig import Specimen, pad_frequencies
 from slipwise.rig.load_basis import WARPS
@@ -36,27 +36,27 @@ _CUT = 0.12
 _DECAYS, _LONGEST = 6.5, 3.0
 
 
-def judged_and_ringing(
+def mask_judged_and_ringing(
     states: States, grounded: Mask, sliding: Mask, fast: Mask, pads: tuple[str, ...], invalid: Mapping[str, Mask]
 ) -> tuple[dict[str, Mask], Mask]:
     """Return the samples by which each relation of a run is judged, and those at which a pad lifts or pitch rings on.
 
     Args:
         states: of the run.
-        grounded: as of `sample_masks`, like what follows.
+        grounded: as of `make_sample_masks`, like what follows.
         sliding: (n,).
         fast: (n,).
         pads: those measured.
         invalid: channel -> (n,).
     """
-    kept = sample_masks(grounded, sliding, fast, away_from_cuts(states.at_rest, states.dt), pads, invalid)
-    ringing = ringing_after_uplift(states.uplift, states.dt, states.specimen)
+    kept = make_sample_masks(grounded, sliding, fast, mask_away_from_cuts(states.at_rest, states.dt), pads, invalid)
+    ringing = mask_ringing_after_uplift(states.uplift, states.dt, states.specimen)
     kept = without_uplift(kept, ringing, states.uplift, states.dt)
     kept["roll"] = kept["roll"] & roll_is_known(states.record, states.has_y, states.specimen)
     return kept, ringing
 
 
-def sample_masks(
+def make_sample_masks(
     grounded: Mask, sliding: Mask, fast: Mask, whole: Mask, pads: tuple[str, ...], invalid: Mapping[str, Mask]
 ) -> dict[str, Mask]:
     """Return the samples by which each relation is judged: (n,), or (n, p) for pads and friction across.
@@ -65,7 +65,7 @@ def sample_masks(
         grounded: (n,) every pad carries load.
         sliding: (n,) the law gives the force of a pad.
         fast: (n,) the direction of sliding is known.
-        whole: (n,) what was before is known, see `away_from_cuts`.
+        whole: (n,) what was before is known, see `mask_away_from_cuts`.
         pads: those measured.
         invalid: channel -> samples (n,) at which it is no measurement.
     """
@@ -84,7 +84,7 @@ def sample_masks(
     return out
 
 
-def ringing_after_uplift(lifted: Mask, dt: float, specimen: Specimen) -> Mask:
+def mask_ringing_after_uplift(lifted: Mask, dt: float, specimen: Specimen) -> Mask:
     """Return samples at which the girder's pitch is not what its balance predicts: a pad lifts, or it rings from it.
 
     Args:
@@ -99,7 +99,7 @@ def ringing_after_uplift(lifted: Mask, dt: float, specimen: Specimen) -> Mask:
     return spread(lifted, 0, int(min(_DECAYS * decay, _LONGEST) / dt))
 
 
-def rolls_only_at_rest(has_y: bool, specimen: Specimen) -> bool:
+def is_rolling_only_at_rest(has_y: bool, specimen: Specimen) -> bool:
     """Return whether roll is judged before the motion only: with motion across, or with a pitch that turns into roll.
 
     Friction across, which a girder that rolls with its pitch calls up, is in no channel.
@@ -109,9 +109,9 @@ def rolls_only_at_rest(has_y: bool, specimen: Specimen) -> bool:
 
 def roll_is_known(record: Record, has_y: bool, specimen: Specimen) -> Mask:
     """Return the samples (n,) at which what rolls the girder was measured."""
-    if not rolls_only_at_rest(has_y, specimen):
+    if not is_rolling_only_at_rest(has_y, specimen):
         return np.ones(len(record), dtype=bool)
-    resting = before_motion(record)
+    resting = find_rest_before_motion(record)
     return np.zeros(len(record), dtype=bool) if resting is None else resting
 
 
@@ -122,12 +122,12 @@ def without_uplift(
 
     Args:
         kept: relation -> samples.
-        ringing: (n,) of `ringing_after_uplift`.
+        ringing: (n,) of `mask_ringing_after_uplift`.
         lifted: (n,) a pad lifts: its load no longer says how the girder pitches.
         dt: sampling step [s].
     """
     # a frame sways on with what came before
-    spoilt = {"pitch": ringing, "motion": before_uplift(lifted, dt), "storeys": np.logical_or.accumulate(lifted)}
+    spoilt = {"pitch": ringing, "motion": mask_before_uplift(lifted, dt), "storeys": np.logical_or.accumulate(lifted)}
     return {name: mask & ~spoilt[name] if name in spoilt else mask for name, mask in kept.items()}
 
 
@@ -137,12 +137,12 @@ def without_estimated_loads(kept: Mapping[str, Mask]) -> dict[str, Mask]:
     return {name: np.zeros_like(mask) if name in balances else mask for name, mask in kept.items()}
 
 
-def before_uplift(lifted: Mask, dt: float) -> Mask:
+def mask_before_uplift(lifted: Mask, dt: float) -> Mask:
     """Return the samples from which a pad's lifting is felt in slip against accelerometers, which look ahead, (n,)."""
     return spread(lifted, round(_CUT / dt), 0) if lifted.any() else lifted
 
 
-def away_from_cuts(at_rest: Mask, dt: float) -> Mask:
+def mask_away_from_cuts(at_rest: Mask, dt: float) -> Mask:
     """Return the samples whose past and future are known: not those where a record begins or ends in motion.
 
     What whitens the difference of slip and accelerometers reaches over the end of the record, and beyond it nobody

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.relations.girder import BALANCES, available
+from slipwise.relations.girder import BALANCES, list_available_balances
 from slipwise.relations.run_data import FitRun
 from slipwise.rig import Specimen, pad_frequencies
 from slipwise.rig.load_basis import basis_of
@@ -34,7 +34,7 @@ class Measurements:
     @cached_property
     def relations(self) -> tuple[str, ...]:
         """Names of the relations that every run allows, in the order in which their residuals are stacked."""
-        balances = (r for r in BALANCES if all(r in available(x, self.specimen) for x in self.runs))
+        balances = (r for r in BALANCES if all(r in list_available_balances(x, self.specimen) for x in self.runs))
         across = ("across",) if all(r.across.size for r in self.runs) else ()
         return ("pads", *balances, *across)
 

@@ -23,7 +23,7 @@ from slipwise.signals.oscillator import oscillator
 Array = NDArray[np.float64]
 
 
-def predicted_push(run: FitRun, specimen: Specimen) -> Array:
+def predict_push(run: FitRun, specimen: Specimen) -> Array:
     """Return the force of the storeys on the girder along x that its motion calls up (n,) [N].
 
     They begin at rest; where a record begins in motion, as the measured push fits best.
@@ -33,11 +33,13 @@ def predicted_push(run: FitRun, specimen: Specimen) -> Array:
         specimen: as built.
     """
     moment = (run.load @ basis_of(specimen).rigid[1]) * specimen.half_spacing[0]
-    push = push_from_rest(run.record["girder_ax"], (moment - moment[0]) / specimen.pitch_stiffness, run.dt, specimen)
+    push = compute_push_from_rest(
+        run.record["girder_ax"], (moment - moment[0]) / specimen.pitch_stiffness, run.dt, specimen
+    )
     return push if run.states.at_rest[0] else push + _rung_on(frame_push(run.record, specimen) - push, run, specimen)
 
 
-def push_from_rest(acceleration: Array, pitch: Array, dt: float, specimen: Specimen) -> Array:
+def compute_push_from_rest(acceleration: Array, pitch: Array, dt: float, specimen: Specimen) -> Array:
     """Return the force of the storeys on the girder along x (n,) [N].
 
     Args:
@@ -75,7 +77,7 @@ def _rung_on(left: Array, run: FitRun, specimen: Specimen) -> Array:
     return np.asarray(matrix @ np.linalg.lstsq(matrix[kept], left[kept], rcond=None)[0], dtype=np.float64)
 
 
-def noise_in_push(run: FitRun, specimen: Specimen) -> Array:
+def compute_noise_in_push(run: FitRun, specimen: Specimen) -> Array:
     """Return what the noise of the girder's accelerometer adds to the predicted push: the frame rings with it.
 
     Returns:

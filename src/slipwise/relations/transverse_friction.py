@@ -16,7 +16,7 @@ from slipwise.simulation.predict import PadForces
 Array = NDArray[np.float64]
 
 
-def logged_across(run: FitRun, law_forces: PadForces, by: LowPass | None) -> Array:
+def predict_logged_across(run: FitRun, law_forces: PadForces, by: LowPass | None) -> Array:
     """Return the pads' forces along y as the logger would have written them, (n, p) [N].
 
     Args:

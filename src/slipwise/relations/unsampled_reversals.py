@@ -27,7 +27,7 @@ _INSTANTS = 32
 _BESIDE = 24
 
 
-def jump_noise_in_pitch(specimen: Specimen, run: FitRun, frequency: float, damping: float) -> Array:
+def compute_jump_noise_in_pitch(specimen: Specimen, run: FitRun, frequency: float, damping: float) -> Array:
     """Return the error of the predicted pitch load for want of the instants at which friction jumped (n,) [N].
 
     Args:
@@ -39,11 +39,11 @@ def jump_noise_in_pitch(specimen: Specimen, run: FitRun, frequency: float, dampi
     noise = float(np.linalg.norm(run.gauge_noise[0]))
     squared = np.append(squared_jumps(run.force.sum(axis=1), noise), 0.0)
     lever = specimen.centre_height / specimen.half_spacing[0]
-    missed = missed_instant(run.dt, frequency, damping)
+    missed = locate_missed_instant(run.dt, frequency, damping)
     return lever * np.sqrt(np.maximum(fftconvolve(squared, missed, mode="same"), 0.0))
 
 
-def jump_noise_in_push(specimen: Specimen, run: FitRun) -> Array:
+def compute_jump_noise_in_push(specimen: Specimen, run: FitRun) -> Array:
     """Return the error of the predicted push for want of the instants at which friction jumped (n,) [N].
 
     The girder's acceleration jumps with the pads' forces.
@@ -56,12 +56,12 @@ def jump_noise_in_push(specimen: Specimen, run: FitRun) -> Array:
     squared = np.append(squared_jumps(run.force.sum(axis=1), noise), 0.0) / specimen.mass**2
     out = np.zeros(len(squared))
     for mode in frame_modes(specimen.storeys):
-        missed = missed_instant(run.dt, mode.frequency, mode.damping)
+        missed = locate_missed_instant(run.dt, mode.frequency, mode.damping)
         out += mode.share**4 * np.maximum(fftconvolve(squared, missed, mode="same"), 0.0)
     return np.sqrt(out)
 
 
-def missed_instant(dt: float, frequency: float, damping: float) -> Array:
+def locate_missed_instant(dt: float, frequency: float, damping: float) -> Array:
     """Return the mean squared error of the sampled answer around a unit jump after the middle sample, (odd,) [1]."""
     turn = 2.0 * np.pi * frequency
     reach = int(3.0 / (turn * max(damping, 0.01) * dt)) + _BESIDE

@@ -6,9 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.relations.kinematics import CORRECTED, RIG_MOTIONS, STATES, compliance, states_of_pads
-from slipwise.relations.measurement import changed_by, on_force
-from slipwise.relations.noise import noise_across, pad_noise, reversal_noise, ringing_noise, weighed_balances
-from slipwise.relations.pad_law import drive_law, lost_velocity
+from slipwise.relations.measurement import compute_change_by_faults, on_force
+from slipwise.relations.noise import (
+    compute_balance_noise,
+    compute_noise_across,
+    compute_pad_noise,
+    compute_reversal_noise,
+    compute_ringing_noise,
+)
+from slipwise.relations.pad_law import drive_law, estimate_lost_velocity
 from slipwise.relations.pad_stages import (
     LAW_FORCES,
     LOGGED_FORCES,
@@ -17,7 +23,7 @@ from slipwise.relations.pad_stages import (
     logged_forces,
     logger_filter,
 )
-from slipwise.relations.parameters import fitted_model
+from slipwise.relations.parameters import build_fitted_model
 from slipwise.relations.setting import Weighing
 from slipwise.relations.stages import Evaluation
 from slipwise.simulation.predict import predictor
@@ -38,7 +44,7 @@ def weigh(evaluation: Evaluation) -> Weighing:
         begun = _with_lost_velocity(evaluation)
         evaluation = evaluation.weighed(begun)
     measurements, runs = evaluation.measurements, evaluation.of(CORRECTED).runs
-    model = fitted_model(measurements.specimen, evaluation.terms, values)
+    model = build_fitted_model(measurements.specimen, evaluation.terms, values)
     states, law_forces = evaluation.of(STATES), evaluation.of(LAW_FORCES)
     faults = tuple(term for term in evaluation.terms if is_fault_of_friction(term))
     inputs, law = evaluation.inputs(LOGGED_FORCES), predictor(model)
@@ -49,17 +55,17 @@ def weigh(evaluation: Evaluation) -> Weighing:
     for forces in (plain, shifted):  # a delayed gauge shows its reversals, and their noise, later too
         for i, run in enumerate(runs):
             forces[i] = forces[i] + on_force(faults, values, run, forces[i])[1]
-    reversal = [reversal_noise(*each) for each in zip(runs, plain, shifted, strict=True)]
-    sigmas = {"pads": tuple(pad_noise(*each) for each in zip(runs, plain, reversal, strict=True))}
+    reversal = [compute_reversal_noise(*each) for each in zip(runs, plain, shifted, strict=True)]
+    sigmas = {"pads": tuple(compute_pad_noise(*each) for each in zip(runs, plain, reversal, strict=True))}
     ringing: dict[str, tuple[Array, ...]] = {}
     if measurements.balanced:
-        changed = [changed_by(faults, values, run) for run in runs] if faults else []
-        levels = weighed_balances(model, runs, values, reversal, changed)
+        changed = [compute_change_by_faults(faults, values, run) for run in runs] if faults else []
+        levels = compute_balance_noise(model, runs, values, reversal, changed)
         sigmas |= {name: tuple(levels[name]) for name in measurements.relations if name in levels}
-        rung = ringing_noise(model, runs, values).items()
+        rung = compute_ringing_noise(model, runs, values).items()
         ringing = {name: tuple(of) for name, of in rung if name in measurements.relations}
     if "across" in measurements.relations:
-        sigmas["across"] = tuple(noise_across(*each) for each in zip(runs, states, law_forces, strict=True))
+        sigmas["across"] = tuple(compute_noise_across(*each) for each in zip(runs, states, law_forces, strict=True))
     return replace(begun, sigmas=sigmas, ringing=ringing)
 
 
@@ -68,9 +74,9 @@ def _with_lost_velocity(evaluation: Evaluation) -> Weighing:
     measurements, runs = evaluation.measurements, evaluation.of(CORRECTED).runs
     states, law_forces = evaluation.of(STATES), evaluation.of(LAW_FORCES)
     inputs = evaluation.inputs(LOGGED_FORCES)
-    specimen = fitted_model(measurements.specimen, evaluation.terms, evaluation.values).built_specimen()
+    specimen = build_fitted_model(measurements.specimen, evaluation.terms, evaluation.values).built_specimen()
     soft, by = compliance(measurements, specimen, makes_yaw=evaluation.makes_yaw), logger_filter(inputs)
     pairs = zip(forces_along(inputs, states, law_forces), runs, strict=True)
-    lost = tuple(lost_velocity(force, run, soft, by) for force, run in pairs)
+    lost = tuple(estimate_lost_velocity(force, run, soft, by) for force, run in pairs)
     bounds = tuple(force.bound[:: run.fine] for force, run in zip(law_forces, runs, strict=True))
     return replace(evaluation.weighing, lost=lost, bounds=bounds)

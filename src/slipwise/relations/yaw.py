@@ -50,7 +50,7 @@ def _integrate(torque, bound, velocity, places, slow, stiffness, inertia, held, 
         rate[i] = w
 
 
-def yaw_of(run: FitRun, specimen: Specimen, force: Array, bound: Array, buffers: Array) -> tuple[Array, Array]:
+def compute_yaw(run: FitRun, specimen: Specimen, force: Array, bound: Array, buffers: Array) -> tuple[Array, Array]:
     """Return yaw [rad] and its rate [rad/s], (n,) each.
 
     Args:

@@ -6,8 +6,8 @@ from dataclasses import replace
 from slipwise.effects import Effect
 from slipwise.errors import SettingError, unknown_name
 from slipwise.model import Model
-from slipwise.preparation.gauge_groups import places_of
-from slipwise.relations.parameters import Free, Term, terms_of
+from slipwise.preparation.gauge_groups import find_places_of_gauges
+from slipwise.relations.parameters import Free, Term, make_terms
 from slipwise.session.evaluation import Evaluator
 from slipwise.session.state import State
 
@@ -103,7 +103,7 @@ def as_stated(ready: Evaluator, state: State, model: Model) -> State:
         state: whose noise, and whose numbers of the rig that no model file holds, are kept.
         model: with the bounds that its effects have in this campaign.
     """
-    specimen, terms = model.specimen, terms_of(model)
+    specimen, terms = model.specimen, make_terms(model)
     rated = {
         "rig.mass": specimen.mass,
         "rig.centre_height": specimen.centre_height,
@@ -133,7 +133,7 @@ def _aimed(ready: Evaluator, effect: Effect, target: str) -> Term:
         if target:
             raise SettingError(f"{effect.name} acts everywhere; it takes no target ({target!r} was given)")
         return Term(effect)
-    places = places_of(effect, ready.runs[0].record)
+    places = find_places_of_gauges(effect, ready.runs[0].record)
     if target not in places:
         raise SettingError(
             f"{effect.name} acts on one gauge or card; say which ({target or 'nothing'!r} was given): "

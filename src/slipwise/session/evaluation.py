@@ -8,13 +8,13 @@ import numpy as np
 from slipwise.campaign import Campaign
 from slipwise.campaign.scales import scales_of
 from slipwise.comparison.component_level import NAMES
-from slipwise.estimation.base_fit import BaseFit, free_numbers, scaled_model
+from slipwise.estimation.base_fit import BaseFit, free_numbers, scale_model
 from slipwise.estimation.least_squares import Solution, solve
 from slipwise.estimation.objective import Objective, objective_of
 from slipwise.model import Model, base_model
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared
-from slipwise.relations.parameters import Free, inertia_free, stick_damping_free, terms_of
+from slipwise.relations.parameters import Free, make_free_inertia, make_stick_damping, make_terms
 from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.relations.table import Residuals
 from slipwise.session.state import State, Weights
@@ -98,9 +98,9 @@ class Evaluator:
         free = [f for f in free_numbers(self.prepared.campaign, model, objective) if f.key not in single]
         for term in cards:
             free += term.free({n: state.values[f"{term.label}.{n}"] for n in term.effect.parameter_names})
-        free += [inertia_free(objective.specimen, key) for key in objective.inertias]
+        free += [make_free_inertia(objective.specimen, key) for key in objective.inertias]
         if "rig.stick_damping" in state.values and any(f.key == "rig.stick_length" for f in free):
-            free.append(stick_damping_free(self.runs[0].scales.time))
+            free.append(make_stick_damping(self.runs[0].scales.time))
         return free
 
     def as_fit(self, state: State) -> BaseFit:
@@ -128,9 +128,9 @@ def evaluator(campaign: Campaign, model: Model | None) -> tuple[Evaluator, State
     """
     prepared = prepare(campaign)
     whole, stated = prepared.campaign, prepared.on_rig(model)
-    begun = scaled_model(stated or base_model(whole.specimen), scales_of(whole), typical=model is None)
+    begun = scale_model(stated or base_model(whole.specimen), scales_of(whole), typical=model is None)
     ready = Evaluator(prepared, begun, fit_runs(whole, prepared.invalid))
-    terms = terms_of(begun)
+    terms = make_terms(begun)
     objective = objective_of(ready.runs, begun.specimen, terms)
     values = {f.key: prepared.start.get(f.key, f.start) for f in free_numbers(whole, begun, objective)}
     return ready, State(terms, values, Weights(terms, values, finer=False))

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from math import isfinite
 
-from slipwise.estimation.base_fit import BaseFit, final_refit
-from slipwise.estimation.intervals import Interval, intervals
+from slipwise.estimation.base_fit import BaseFit, refit_finally
+from slipwise.estimation.intervals import Interval, compute_intervals
 from slipwise.estimation.least_squares import Solution, solve
 from slipwise.estimation.objective import Objective
 from slipwise.preparation.prepared import fit_prepared
@@ -87,10 +87,10 @@ def fit_state(ready: Evaluator, state: State, progress: Progress) -> State:
             objective, solution = _from_here(ready, objective.having(state.terms), state, values)
     watch.next("fitting on, with the noise that this law leaves", 0.85, 80)
     before = solution.values
-    objective, solution = final_refit(objective, solution)
+    objective, solution = refit_finally(objective, solution)
     watch.next("how sure the numbers are", 1.0, 30)
     fit = BaseFit(ready.prepared.campaign, ready.model, objective, solution.free, solution)
-    known = {e.key: _known(e) for e in intervals(fit).entries}
+    known = {e.key: _known(e) for e in compute_intervals(fit).entries}
     weighed = objective.weighing.weighed_by
     weights = Weights(state.terms, weighed, finer=objective.balanced, yaw=objective.yaw, before=before)
     values = {**state.values, **solution.values}

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.comparison.measured_replay import measured_motion, simulation_step
-from slipwise.comparison.system_level import pooled_system, replayed_model, system_level
+from slipwise.comparison.measured_replay import get_measured_motion, simulation_step
+from slipwise.comparison.system_level import build_replayed_model, compare_system_level, pooled_system
 from slipwise.diagnosis.importance import memory_before
 from slipwise.errors import InputError, SettingError
 from slipwise.record import Record
@@ -59,7 +59,7 @@ def replay_errors(ready: Evaluator, state: State, progress: Callable[[float], No
         InputError: the slip is prescribed, or the table's motion was not recorded.
     """
     _check_free(ready)
-    errors = system_level(ready.as_fit(state), np.random.default_rng(_SEED), progress).errors
+    errors = compare_system_level(ready.as_fit(state), np.random.default_rng(_SEED), progress).errors
     held = any(e.role == "holdout" for e in errors)
     names = dict.fromkeys(re.sub(r"^pad_[^_]+_", "pad_*_", e.channel) for e in errors)
     found = {name: pooled_system(errors, name, held_out=held) for name in names}
@@ -81,7 +81,7 @@ def replay_run(ready: Evaluator, state: State, name: str = "") -> RunReplay:
     name = name or replayed_run(ready)
     _check_free(ready)
     fit = ready.as_fit(state)
-    model, _ = replayed_model(fit)
+    model, _ = build_replayed_model(fit)
     names = fit.objective.run_names
     if name not in names:
         raise SettingError(f"no run {name!r}; runs: {', '.join(names)}")
@@ -89,7 +89,7 @@ def replay_run(ready: Evaluator, state: State, name: str = "") -> RunReplay:
     run = fit.objective.run(place)
     answer = replay(
         model,
-        measured_motion(run.states),
+        get_measured_motion(run.states),
         dt=simulation_step(run.dt),
         output_dt=run.dt,
         start=memory_before(model, fit.objective.runs_before(place)),

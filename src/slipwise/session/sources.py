@@ -6,7 +6,7 @@ from pathlib import Path
 from slipwise.campaign import Campaign
 from slipwise.campaign.scales import scales_of
 from slipwise.effects import Effect, Trust, check_trusted, find_effect, for_pads, scaled
-from slipwise.estimation.base_fit import scaled_model
+from slipwise.estimation.base_fit import scale_model
 from slipwise.model import Model
 from slipwise.model.file import as_model, load_model
 from slipwise.rig.load_basis import has_corners
@@ -36,7 +36,7 @@ class Sources:
 
     def bounded(self, model: Model) -> Model:
         """Return a model as it was stated, its effects with the bounds that they have in this campaign."""
-        return scaled_model(model, scales_of(self.campaign), typical=False)
+        return scale_model(model, scales_of(self.campaign), typical=False)
 
     def effect(self, name: str) -> Effect:
         """Return an effect that a user names, with the bounds that it has in this campaign.

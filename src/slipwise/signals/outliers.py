@@ -11,7 +11,7 @@ Source: trimming by a quantile of the data: Huber, Ronchetti, Robust Statistics,
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.signals.short_bursts import LEAST, LONGEST, bridged, height
+from slipwise.signals.short_bursts import LEAST, LONGEST, bridge_samples, height
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -47,4 +47,4 @@ def outliers(values: Array) -> Mask:
 def without_outliers(values: Array) -> Array:
     """Return the values (n,) with outliers bridged."""
     bad = outliers(values)
-    return bridged(values, bad) if bad.any() else values
+    return bridge_samples(values, bad) if bad.any() else values

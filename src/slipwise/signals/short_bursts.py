@@ -127,7 +127,7 @@ def stretches(mask: Mask) -> list[tuple[int, int]]:
     return [(int(start), int(end)) for start, end in zip(edges[::2], edges[1::2], strict=True)]
 
 
-def bridged(values: Array, bad: Mask) -> Array:
+def bridge_samples(values: Array, bad: Mask) -> Array:
     """Return the values (n,) with each bad stretch on the cubic that fits its neighbours; at an end on the next one."""
     good = np.flatnonzero(~bad & np.isfinite(values))
     out = np.where(bad, np.interp(np.arange(len(values)), good, values[good]), values)

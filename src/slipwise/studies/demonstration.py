@@ -10,7 +10,7 @@ from slipwise.channels import PADS
 from slipwise.effects import BalanceStates, Effect
 from slipwise.model import Model, base_model, use
 from slipwise.record import Record
-from slipwise.relations.storeys import push_from_rest
+from slipwise.relations.storeys import compute_push_from_rest
 from slipwise.rig import Specimen, load_specimen
 from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import LoadModes, pad_loads
@@ -144,7 +144,7 @@ def _frame(effect: Effect) -> Demonstration:
     swing = _ramp(m.time) * _ramp(0.5 * _SECONDS - m.time) * np.sin(2.0 * np.pi * _ALONG[1] * m.time)
     still = np.zeros_like(swing)
     changed = base_model(building).adding(use(effect)).built_specimen()
-    before, after = (push_from_rest(2.0 * swing, still, _DT, rig) for rig in (building, changed))
+    before, after = (compute_push_from_rest(2.0 * swing, still, _DT, rig) for rig in (building, changed))
     return _over("time", "push of the storeys", before, after)
 
 

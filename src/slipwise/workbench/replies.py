@@ -9,7 +9,7 @@ from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.candidates import candidates
 from slipwise.effects import catalogue
 from slipwise.noise.level import AT_FLOOR
-from slipwise.preparation.gauge_groups import places_of
+from slipwise.preparation.gauge_groups import find_places_of_gauges
 from slipwise.relations.parameters import Free
 from slipwise.session.session import Session
 from slipwise.session.state import State
@@ -42,7 +42,7 @@ def campaign_told(session: Session) -> dict[str, Any]:
                 "equation": effect.equation,
                 "signature": effect.signature,
                 "base": effect.base,
-                "targets": list(places_of(effect, record)) if effect.target else [],
+                "targets": list(find_places_of_gauges(effect, record)) if effect.target else [],
                 "cannot": "" if effect.name in names or effect.base else cannot.get(effect.name, ""),
             }
             for effect in catalogue().values()

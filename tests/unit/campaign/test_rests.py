@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from slipwise.noise.gauges import noise_of_gauges
+from slipwise.noise.gauges import measure_gauge_noise
 from slipwise.record import Record
 
 DT = 0.002
@@ -26,7 +26,7 @@ def run(rng: np.random.Generator, rest: int, correlation: float = 0.0, early: in
 
 def test_short_rests_are_put_together():
     rng = np.random.default_rng(1)
-    found = noise_of_gauges([run(rng, 50, correlation=0.6) for _ in range(5)])
+    found = measure_gauge_noise([run(rng, 50, correlation=0.6) for _ in range(5)])
     assert found["table_ax"].rested
     assert found["table_ax"].level == pytest.approx(0.02, rel=0.2)
 
@@ -34,7 +34,7 @@ def test_short_rests_are_put_together():
 @pytest.mark.parametrize("correlation", [0.0, 0.3, 0.6])
 def test_colour_is_the_density_at_low_frequency(correlation):
     rng = np.random.default_rng(2)
-    gauge = noise_of_gauges([run(rng, 500, correlation) for _ in range(5)])["table_ax"]
+    gauge = measure_gauge_noise([run(rng, 500, correlation) for _ in range(5)])["table_ax"]
     assert gauge.level == pytest.approx(0.02, rel=0.06)
     assert gauge.colour == pytest.approx((1.0 + correlation) / (1.0 - correlation), rel=0.2)
     assert gauge.slow_level == pytest.approx(gauge.level * np.sqrt(gauge.colour))
@@ -42,13 +42,13 @@ def test_colour_is_the_density_at_low_frequency(correlation):
 
 def test_a_cell_that_feels_the_girder_before_the_table_moves_is_no_noisier_for_it():
     rng = np.random.default_rng(3)
-    gauge = noise_of_gauges([run(rng, 500, early=45) for _ in range(5)])["pad_A_Fx"]
+    gauge = measure_gauge_noise([run(rng, 500, early=45) for _ in range(5)])["pad_A_Fx"]
     assert gauge.level == pytest.approx(15.0, rel=0.06)
     assert gauge.colour == pytest.approx(1.0, abs=0.2)
 
 
 def test_without_rest_the_top_of_the_spectrum_must_do():
     rng = np.random.default_rng(4)
-    gauge = noise_of_gauges([run(rng, 10)])["table_ax"]
+    gauge = measure_gauge_noise([run(rng, 10)])["table_ax"]
     assert not gauge.rested
     assert gauge.level == pytest.approx(0.02, rel=0.15)

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from slipwise.comparison.cells import Cell, Samples, cells_of, corrected
+from slipwise.comparison.cells import Cell, Samples, correct_for_many_tests, test_cells
 from slipwise.comparison.motion_states import STATES
-from slipwise.comparison.odd_even import parity
-from slipwise.comparison.patterns import patterns_of
-from slipwise.comparison.sentences import places
+from slipwise.comparison.odd_even import split_odd_and_even
+from slipwise.comparison.patterns import find_patterns
+from slipwise.comparison.sentences import describe_places
 
 COUNT = 24000
 
@@ -38,16 +38,16 @@ def motion():
 
 
 def located(one):
-    cells = corrected(cells_of(one))
-    found = {p.relation: p for p in [parity(one)] if p is not None}
-    return cells, places(cells, patterns_of(one), found, {one.relation: float(np.sqrt(one.squared.mean()))})
+    cells = correct_for_many_tests(test_cells(one))
+    found = {p.relation: p for p in [split_odd_and_even(one)] if p is not None}
+    return cells, describe_places(cells, find_patterns(one), found, {one.relation: float(np.sqrt(one.squared.mean()))})
 
 
 def test_at_most_one_in_a_hundred_of_the_cells_named_is_above_by_chance():
     rng = np.random.default_rng(9)
     chances = np.where(rng.random(400) < 0.1, 10.0 ** rng.uniform(-9.0, -1.0, 400), rng.random(400))
     plain = Cell("pads", "speed", "", 0.0, 1.0, 1.2, 100, 50.0, 1.0, False, 1.0)
-    above = [c.chance for c in corrected(replace(plain, chance=float(p)) for p in chances) if c.above]
+    above = [c.chance for c in correct_for_many_tests(replace(plain, chance=float(p)) for p in chances) if c.above]
     # Benjamini and Hochberg (1995): the largest k for which the k-th smallest chance is at most 0.01 k/m
     ordered = np.sort(chances)
     k = np.flatnonzero(ordered <= 0.01 * np.arange(1, 401) / 400)[-1] + 1
@@ -102,8 +102,8 @@ def test_unequal_directions_are_reported_so(motion):
 
 def test_friction_is_odd_and_a_constant_pull_is_even_in_the_direction_of_sliding(motion):
     since, direction, speed, noise = motion
-    friction = parity(samples(noise + 3.0 * direction, since, direction, speed))
-    pull = parity(samples(noise + 3.0, since, direction, speed))
+    friction = split_odd_and_even(samples(noise + 3.0 * direction, since, direction, speed))
+    pull = split_odd_and_even(samples(noise + 3.0, since, direction, speed))
     assert friction.odd == pytest.approx(3.0, rel=0.05) and friction.even < 0.3
     assert pull.even == pytest.approx(3.0, rel=0.05) and pull.odd < 0.3
 

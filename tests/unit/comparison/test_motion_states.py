@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hypotheses import base
-from slipwise.comparison.motion_states import STATES, motion_states
+from slipwise.comparison.motion_states import STATES, classify_motion_states
 from slipwise.record import Record
 from slipwise.relations.run_data import FitRun
 
@@ -33,20 +33,20 @@ def sine() -> FitRun:
 
 
 def test_the_way_since_a_reversal_is_what_the_slip_has_gone(sine):
-    found = motion_states(sine)
+    found = classify_motion_states(sine)
     later = sine.time > 0.6
     turned = np.where(found.direction > 0, sine.slip + AMPLITUDE, AMPLITUDE - sine.slip)
     assert np.abs(found.since_turn - turned)[later].max() < 1e-4
 
 
 def test_a_sine_goes_two_amplitudes_between_turns_and_four_in_a_period(sine):
-    found = motion_states(sine)
+    found = classify_motion_states(sine)
     assert found.way == pytest.approx(2.0 * AMPLITUDE, rel=0.01)
     assert found.path[-1] == pytest.approx(4.0 * AMPLITUDE * FREQUENCY * sine.time[-1], rel=0.01)
 
 
 def test_fast_samples_are_steady_in_their_direction_and_turning_ones_are_reversals(sine):
-    label = motion_states(sine).label
+    label = classify_motion_states(sine).label
     fast = np.abs(sine.velocity) > 0.05
     assert set(label[fast & (sine.velocity > 0)]) == {STATES.index("steady +")}
     assert set(label[fast & (sine.velocity < 0)]) == {STATES.index("steady −")}
@@ -57,7 +57,7 @@ def test_fast_samples_are_steady_in_their_direction_and_turning_ones_are_reversa
 def test_stuck_and_lifted_samples_are_labelled_as_such(sine):
     sine.states.stuck[1000:1200] = True
     sine.states.uplift[3000:3100] = True
-    label = motion_states(sine).label
+    label = classify_motion_states(sine).label
     assert set(label[1000:1200]) == {STATES.index("stick")}
     assert label[1201] == STATES.index("breakaway")
     assert set(label[3000:3100]) == {STATES.index("uplift")}

@@ -13,7 +13,7 @@ from slipwise.diagnosis.initial_guesses import longer_stick, starting_points
 from slipwise.diagnosis.screening import screen_shapes
 from slipwise.diagnosis.search_state import Search
 from slipwise.effects import catalogue
-from slipwise.estimation.base_fit import BaseFit, at_rated
+from slipwise.estimation.base_fit import BaseFit, evaluate_at_rated
 from slipwise.relations.parameters import Term
 
 
@@ -72,7 +72,7 @@ def test_a_table_that_rocks_is_found_from_rated_numbers_where_the_base_is_bent_b
     base = fit_base(as_campaign(build_campaign(61043, effects=("table_pitch",), size="large", rich=True)))
     term = next(t for t in candidates(base)[0] if t.effect.name == "table_pitch")
     left = {}
-    for begun in (base, at_rated(base)):
+    for begun in (base, evaluate_at_rated(base)):
         values = screen_shapes(begun, term, shapes(term.effect))[0].values
         found = polished(refit(begun, [term], {term.label: values}))
         left[begun is base] = found.solution.cost / sum(fitted for fitted, _ in found.summary.counts.values())

@@ -13,7 +13,7 @@ from slipwise.diagnosis.screening import projector, screen
 from slipwise.effects import catalogue
 from slipwise.evidence.acceptance import LEAST
 from slipwise.model import base_model, use
-from slipwise.relations.parameters import Term, base_free
+from slipwise.relations.parameters import Term, list_base_numbers
 
 
 @pytest.fixture(scope="module")
@@ -37,9 +37,9 @@ def test_cards_that_lag_by_effects_of_their_own_have_no_lag_beside_them():
     model = base_model("bridge1")
     for pad in "ABCD":
         model = model.adding(use("channel_delay", f"pad_{pad}_Fx", delay=2e-3))
-    assert "rig.late_force" not in [f.key for f in base_free(model, balances=True)]
+    assert "rig.late_force" not in [f.key for f in list_base_numbers(model, balances=True)]
     one = base_model("bridge1").adding(use("channel_delay", "pad_A_Fx", delay=2e-3))
-    assert "rig.late_force" in [f.key for f in base_free(one, balances=True)]
+    assert "rig.late_force" in [f.key for f in list_base_numbers(one, balances=True)]
 
 
 def test_every_candidate_with_a_strength_has_a_least_size_whichever_way_the_residual_points(base):

@@ -32,14 +32,14 @@ def test_slopes_of_the_best_are_kept_and_the_others_are_taken_anew_where_they_ar
     kept = kept_slopes.lightened(tried, lambda h: worth[id(h)])
     assert [kept_slopes.size_of(h.solution) > 0 for h in kept] == [False, True, True]
     assert all(kept_slopes.size_of(h.solution) > 0 for h in tried)
-    again = kept_slopes.whole(kept[0])
+    again = kept_slopes.complete_jacobian(kept[0])
     assert again.solution.cost == found.solution.cost
     assert again.summary is found.summary
     for one, other in zip(again.solution.residuals.table, found.solution.residuals.table, strict=True):
         np.testing.assert_array_equal(one.value, other.value)
     length = np.linalg.norm(found.solution.jacobian, axis=0)
     assert again.solution.jacobian == pytest.approx(found.solution.jacobian, abs=0.2 * length.max())
-    assert kept_slopes.whole(again) is again
+    assert kept_slopes.complete_jacobian(again) is again
 
 
 def test_an_ordinary_campaign_is_screened_on_all_its_rows(base):

@@ -12,7 +12,7 @@ from slipwise.diagnosis.hypothesis_fit import as_fit
 from slipwise.diagnosis.reported_sizes import named_sizes
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.intervals import intervals
+from slipwise.estimation.intervals import compute_intervals
 from slipwise.relations.parameters import Term
 
 
@@ -28,12 +28,12 @@ def fitted() -> tuple[Hypothesis, BaseFit]:
 def test_an_interval_is_wider_than_that_of_a_true_law(fitted: tuple[Hypothesis, BaseFit]) -> None:
     found, fit = fitted
     key = "buffer_height.height"
-    true = next(i for i in intervals(fit).entries if i.key == key)
-    wide = named_sizes(found, intervals(fit).entries)[key]
+    true = next(i for i in compute_intervals(fit).entries if i.key == key)
+    wide = named_sizes(found, compute_intervals(fit).entries)[key]
     half = np.hypot(1.5 * (true.high - true.value), 0.02 * true.value)
     assert wide.value == true.value
     assert wide.high - wide.value == pytest.approx(half) == wide.value - wide.low
-    assert set(named_sizes(found, intervals(fit).entries)) == {key}, "numbers of the rig are not named"
+    assert set(named_sizes(found, compute_intervals(fit).entries)) == {key}, "numbers of the rig are not named"
 
 
 def test_an_interval_ends_where_a_parameter_does(fitted: tuple[Hypothesis, BaseFit]) -> None:
@@ -41,7 +41,7 @@ def test_an_interval_ends_where_a_parameter_does(fitted: tuple[Hypothesis, BaseF
     value = found.solution.values["buffer_height.height"]
     close = tuple(replace(f, high=1.001 * value) if f.key.startswith("buffer_height") else f for f in fit.free)
     solution = replace(found.solution, free=close)
-    narrowed = intervals(replace(fit, solution=replace(fit.solution, free=close))).entries
+    narrowed = compute_intervals(replace(fit, solution=replace(fit.solution, free=close))).entries
     narrow = named_sizes(replace(found, solution=solution), narrowed)
     assert narrow["buffer_height.height"].high == pytest.approx(1.001 * value)
 

@@ -5,7 +5,7 @@ import pytest
 
 from slipwise.effects import catalogue, for_pads
 from slipwise.model import base_model, use
-from slipwise.relations.parameters import Term, base_free
+from slipwise.relations.parameters import Term, list_base_numbers
 from slipwise.rig import load_specimen
 from slipwise.rig.load_basis import has_corners
 from slipwise.simulation.predict import predictor
@@ -40,7 +40,7 @@ def test_a_hypothesis_gives_the_model_each_pads_own_value():
 def test_what_only_single_pads_have_is_never_free_for_all():
     """It would be one with the law's own strength."""
     model = base_model("six_pads").adding(use("pad_spread", along=0.0, **{"level[E]": 0.04}))
-    keys = [free.key for free in base_free(model, balances=True)]
+    keys = [free.key for free in list_base_numbers(model, balances=True)]
     assert "pad_spread.level[E]" in keys and "pad_spread.level" not in keys
 
 

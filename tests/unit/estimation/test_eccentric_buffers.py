@@ -10,7 +10,7 @@ from slipwise.campaign import Campaign, Logger, Run
 from slipwise.model import Model
 from slipwise.record import Record
 from slipwise.relations.run_data import fit_runs
-from slipwise.relations.yaw import yaw_of
+from slipwise.relations.yaw import compute_yaw
 from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import load_modes
 from slipwise.rig.places import Buffer
@@ -89,6 +89,6 @@ def test_yaw_made_from_measured_forces_knows_the_springs_across() -> None:
     (seen,) = fit_runs(campaign)
     still = seen.slip[:, None] * np.array(specimen.buffer_stiffness)
     bound = np.abs(np.hypot(record.stacked("pad_{}_Fx", specimen.pads), record.stacked("pad_{}_Fy", specimen.pads)))
-    angle, _ = yaw_of(seen, specimen, seen.force, bound, still)
+    angle, _ = compute_yaw(seen, specimen, seen.force, bound, still)
     true = record["yaw"]
     assert np.abs(angle - true).max() < 0.1 * np.abs(true).max()

@@ -9,16 +9,16 @@ import pytest
 from measured import fit_base
 from recover.own_replay import noise_of
 from slipwise.campaign import Campaign, Logger, Run, load_campaign
-from slipwise.comparison.component_level import component_errors, pooled
+from slipwise.comparison.component_level import compute_component_errors, pool_errors
 from slipwise.comparison.system_level import pad_springs
 from slipwise.errors import InputError
 from slipwise.estimation.objective import objective_of
 from slipwise.model import base_model, use
 from slipwise.record import Record, write_record
-from slipwise.relations.rigid_balances import relations
+from slipwise.relations.rigid_balances import list_rigid_balances
 from slipwise.relations.run_data import fit_runs
 from slipwise.relations.sample_masks import without_uplift
-from slipwise.relations.storeys import predicted_push
+from slipwise.relations.storeys import predict_push
 from slipwise.rig import load_specimen
 from slipwise.rig.frame import floor_sway, frame_moment, frame_push
 from slipwise.rig.load_basis import basis_of
@@ -90,10 +90,10 @@ def test_the_frames_push_follows_from_what_its_base_does(record: Record, start: 
     campaign = Campaign("b", "building", building, Logger(None, known=True), (run,), Path())
     (fitted,) = fit_runs(campaign)
     assert bool(fitted.states.at_rest[0]) is (start == 0.0)
-    left = frame_push(fitted.record, building) - predicted_push(fitted, building)
+    left = frame_push(fitted.record, building) - predict_push(fitted, building)
     assert np.std(left) < 0.03 * np.std(frame_push(fitted.record, building))
     softer = base_model(building).adding(use("superstructure", stiffness=0.9)).built_specimen()
-    left = frame_push(fitted.record, building) - predicted_push(fitted, softer)
+    left = frame_push(fitted.record, building) - predict_push(fitted, softer)
     assert np.std(left) > 0.1 * np.std(frame_push(fitted.record, building))
 
 
@@ -112,9 +112,9 @@ def test_a_campaign_of_a_frame_that_is_softer_than_stated_is_fitted_by_its_effec
     run = Run("q", "fit", Record(record.time, noisy), 0.0, None, "q", "q")
     campaign = Campaign("b", "building", stated, Logger(None, known=True), (run,), Path())
     base = fit_base(campaign)
-    assert pooled(component_errors(base), "storeys", held_out=False) > 5.0
+    assert pool_errors(compute_component_errors(base), "storeys", held_out=False) > 5.0
     better = fit_base(campaign, base.model.adding(use("superstructure", stiffness=1.0, damping=0.0)))
-    assert pooled(component_errors(better), "storeys", held_out=False) < 1.2
+    assert pool_errors(compute_component_errors(better), "storeys", held_out=False) < 1.2
     found = better.solution.values
     assert found["superstructure.stiffness"] == pytest.approx(0.8, rel=0.01)
     assert found["superstructure.damping"] == pytest.approx(0.005, abs=0.0015)
@@ -147,6 +147,6 @@ def test_a_storey_that_was_not_measured_leaves_out_what_it_pushes(record: Record
     objective = objective_of(fit_runs(campaign), campaign.specimen, ())
     assert {"girder", "pitch"}.isdisjoint(objective.relations) is bool(lost)
     assert {"heave", "warp", "motion"} <= set(objective.relations)
-    audited, cannot = relations(campaign.runs[0].record, campaign.specimen)
+    audited, cannot = list_rigid_balances(campaign.runs[0].record, campaign.specimen)
     assert ("girder_x" in [relation.name for relation in audited]) is not bool(lost)
     assert any("storey_2_ax" in words for words in cannot) is bool(lost)

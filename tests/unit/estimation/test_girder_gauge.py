@@ -12,9 +12,9 @@ from bench.faults import Fault
 from measured import as_campaign, fit_base
 from slipwise.diagnosis.hypothesis import final_refit_of, polished, refit
 from slipwise.effects import catalogue
-from slipwise.evidence.residual_summary import summarised
+from slipwise.evidence.residual_summary import summarise_residuals
 from slipwise.model import base_model
-from slipwise.relations.noise import heave_level
+from slipwise.relations.noise import compute_heave_level
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import fit_runs
 
@@ -34,7 +34,8 @@ def test_a_strong_filter_of_the_girder_is_put_on_what_the_balance_predicts(made:
     term, lag = Term(catalogue()["channel_filter"], ("girder_ax",), "girder_ax"), np.sqrt(2.0) / (2.0 * np.pi * CUTOFF)
     found = final_refit_of(polished(refit(base, [term], {term.label: {"lag": lag, "order": 2.0}})))
     before, after = (
-        np.sqrt(of.held_out_level("girder")) for of in (summarised(base.objective, base.solution), found.summary)
+        np.sqrt(of.held_out_level("girder"))
+        for of in (summarise_residuals(base.objective, base.solution), found.summary)
     )
     assert before > 5.0 and after < 1.1
     assert found.solution.values[f"{term.label}.lag"] == pytest.approx(lag, rel=0.02)
@@ -47,7 +48,7 @@ def test_less_mass_is_not_bought_with_the_noise_of_the_accelerometer(made: Made)
     for share in (0.5, 1.0, 2.0):
         specimen = replace(model.specimen, mass=share * model.specimen.mass)
         expected = np.hypot(loads, specimen.mass * run.noise["girder_az"])
-        assert heave_level(replace(model, specimen=specimen), run, {}) == pytest.approx(expected)
+        assert compute_heave_level(replace(model, specimen=specimen), run, {}) == pytest.approx(expected)
         # cells that read 4 % less of a girder of 4 % more weight: the same balance, divided by what it was scaled by
         heavier = replace(model, specimen=replace(specimen, mass=1.04 * specimen.mass))
-        assert heave_level(heavier, run, {"loads": 1.04, "heave": 1.04}) == pytest.approx(expected)
+        assert compute_heave_level(heavier, run, {"loads": 1.04, "heave": 1.04}) == pytest.approx(expected)

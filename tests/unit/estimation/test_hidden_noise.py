@@ -8,8 +8,8 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.model import base_model, use
-from slipwise.relations.girder import heave_rate
-from slipwise.relations.noise import bent_noise_in_heave, vertical_friction_noise, whitened, with_masked_noise
+from slipwise.relations.girder import compute_heave_rate
+from slipwise.relations.noise import bent_noise_in_heave, vertical_friction_noise, whiten_residual, with_masked_noise
 from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.signals.oscillator import oscillator
 
@@ -51,7 +51,7 @@ def test_a_girder_that_bends_rings_with_the_noise_of_its_accelerometer(run: FitR
         carried = mass * shaken + 0.4 * mass * oscillator(-shaken, run.dt, 13.0, 0.01, 2)
         left = carried + rng.normal(0.0, 80.0, len(shaken))
         before.append(power(left))
-        after.append(power(whitened(left, run, own, more)))
+        after.append(power(whiten_residual(left, run, own, more)))
     assert np.mean(before) > 5.0 * own**2
     assert np.mean(after) == pytest.approx(own**2, rel=0.2)
 
@@ -61,7 +61,7 @@ def test_what_rubs_against_heave_passes_on_the_noise_of_the_loads(run: FitRun) -
     buffers = np.full((len(run.time), 2), 4e3)
     rng, levels = np.random.default_rng(6), [run.noise[f"pad_{p}_N"] for p in run.pads]
     noisy = replace(run, load=run.load + rng.standard_normal(run.load.shape) * levels)
-    plain, shaken = (np.tanh(heave_rate(r.load.sum(axis=1), r.dt, model.specimen) / 5e-4) for r in (run, noisy))
+    plain, shaken = (np.tanh(compute_heave_rate(r.load.sum(axis=1), r.dt, model.specimen) / 5e-4) for r in (run, noisy))
     made = 0.3 * 8e3 * (shaken - plain)
     expected = vertical_friction_noise(model, run, buffers)["heave"]
     assert np.sqrt(np.mean(expected**2)) == pytest.approx(np.std(made), rel=0.2)

@@ -10,10 +10,10 @@ from measured import as_campaign, fit_base
 from slipwise.campaign import Logger
 from slipwise.diagnosis.hypothesis import final_refit_of, polished, refit
 from slipwise.effects import catalogue
-from slipwise.evidence.residual_summary import summarised
+from slipwise.evidence.residual_summary import summarise_residuals
 from slipwise.model import base_model, use
 from slipwise.relations.girder import through_pitch
-from slipwise.relations.noise import driven_noise_in_pitch
+from slipwise.relations.noise import compute_driven_noise_in_pitch
 from slipwise.relations.parameters import PITCH_INERTIA, YAW_INERTIA, Term
 from slipwise.relations.run_data import fit_runs
 from slipwise.signals.filters import LowPass
@@ -51,7 +51,7 @@ def test_the_noise_that_drives_a_rocking_table_is_counted() -> None:
     rocking = use("table_pitch", compliance=3e-4, frequency=13.0, damping=0.35, gravity=0.0)
     model = base_model("bridge1").adding(rocking)
     values = {"rig.pitch_frequency": 70.0, "rig.pitch_damping": 0.1}
-    power = driven_noise_in_pitch(model, [run], values)[0]
+    power = compute_driven_noise_in_pitch(model, [run], values)[0]
     shaken = np.random.default_rng(3).normal(0.0, run.noise["table_ax"], len(run.time))
     turning = oscillator((2.0 * np.pi * 13.0) ** 2 * 3e-4 * shaken, run.dt, 13.0, 0.35, 2)
     load = through_pitch(-model.specimen.inertia[1] * turning / model.specimen.half_spacing[0], run.dt, 70.0, 0.1)
@@ -66,4 +66,4 @@ def test_pitch_is_weighed_with_the_resonance_that_is_there_however_far_from_the_
     stated = Logger(LowPass(chain.lowpass, chain.order, chain.phase), known=True)
     base = fit_base(replace(as_campaign(made), logger=stated))
     assert made.truth.base.inertia_pitch == 1.6e4
-    assert summarised(base.objective, base.solution).held_out_level("pitch") < 1.1
+    assert summarise_residuals(base.objective, base.solution).held_out_level("pitch") < 1.1

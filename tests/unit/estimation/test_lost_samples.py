@@ -6,7 +6,7 @@ from bench import build_campaign
 from bench.campaign import with_faults
 from bench.faults import Fault
 from measured import as_campaign
-from slipwise.evidence.residual_summary import summarised
+from slipwise.evidence.residual_summary import summarise_residuals
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import fit_prepared
 
@@ -19,5 +19,5 @@ def test_pitch_does_not_ring_with_samples_that_gauges_of_friction_have_lost() ->
     ready = prepare(as_campaign(with_faults(made, [Fault("dropped_samples", gauges, 0.06, "held")], 5)))
     assert {name for fault in ready.faults for name in fault.channels} == set(gauges)
     base = fit_prepared(ready)
-    levels = summarised(base.objective, base.solution)
+    levels = summarise_residuals(base.objective, base.solution)
     assert max(levels.fitted_level("pitch"), levels.held_out_level("pitch")) < 1.25

@@ -7,7 +7,7 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign, fit_base
 from slipwise.campaign import load_campaign
-from slipwise.estimation.prediction_interval import PredictedFriction, predicted_friction
+from slipwise.estimation.prediction_interval import PredictedFriction, predict_friction
 from unit.campaign.slider import write_at_loads
 
 LOADS = {"one": 5.0, "two": 10.0, "three": 20.0, "between": 15.0}  # kN
@@ -16,7 +16,7 @@ LOADS = {"one": 5.0, "two": 10.0, "three": 20.0, "between": 15.0}  # kN
 def slider(folder: Path, power: float) -> PredictedFriction:
     """Predict the run at 15 kN from those at 5, 10 and 20 kN; friction grows with a power of the load."""
     write_at_loads(folder, LOADS, power)
-    return predicted_friction(fit_base(load_campaign(folder)))[-1]
+    return predict_friction(fit_base(load_campaign(folder)))[-1]
 
 
 @pytest.mark.parametrize("power", [1.0, 0.5])
@@ -40,11 +40,11 @@ def test_a_law_that_fits_predicts_more_closely_than_one_that_does_not(tmp_path: 
 
 @pytest.mark.slow
 def test_a_girder_s_held_out_runs_are_inside_what_its_fitted_runs_are_missed_by() -> None:
-    found = predicted_friction(fit_base(as_campaign(build_campaign(45048, effects=()))))
+    found = predict_friction(fit_base(as_campaign(build_campaign(45048, effects=()))))
     assert all(run.inside is (None if run.role != "holdout" else True) for run in found)
     assert all(run.high - run.low < 0.05 * run.value for run in found if run.role == "holdout")
 
 
 def test_one_fitted_run_says_nothing_of_how_runs_differ(tmp_path: Path) -> None:
     write_at_loads(tmp_path, {"one": 5.0, "between": 15.0}, 1.0)
-    assert predicted_friction(fit_base(load_campaign(tmp_path)))[-1].inside is None
+    assert predict_friction(fit_base(load_campaign(tmp_path)))[-1].inside is None

@@ -10,8 +10,8 @@ from hypotheses import base, table_of
 from slipwise.campaign.scales import Scales
 from slipwise.effects import find_effect
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.intervals import intervals
-from slipwise.estimation.least_squares import jacobian, solve
+from slipwise.estimation.intervals import compute_intervals
+from slipwise.estimation.least_squares import compute_jacobian, solve
 from slipwise.record import Record
 from slipwise.relations.parameters import Free, Term
 from slipwise.relations.run_data import FitRun
@@ -75,13 +75,13 @@ def fitted(rng: np.random.Generator, truth: float, bent: float = 0.0) -> BaseFit
     line = Line(predicted + SIGMA * rng.standard_normal(COUNT), term, bent)
     free = (LEVEL, strength)
     found = solve(line, {"rig.mass": 0.0, "heating.share": 0.1}, free, enough=1e-6)
-    slopes = jacobian(line, found.values, free, found.residuals)
+    slopes = compute_jacobian(line, found.values, free, found.residuals)
     found = type(found)(found.values, free, found.residuals, slopes, found.cost, found.evaluations)
     return BaseFit(None, None, line, free, found)
 
 
 def test_a_strength_far_from_zero_keeps_its_two_sided_interval() -> None:
-    entry = intervals(fitted(np.random.default_rng(1), 0.5)).entries[1]
+    entry = compute_intervals(fitted(np.random.default_rng(1), 0.5)).entries[1]
     assert entry.limit == ""
     assert 0.0 < entry.low < 0.5 < entry.high
 
@@ -89,7 +89,7 @@ def test_a_strength_far_from_zero_keeps_its_two_sided_interval() -> None:
 @pytest.mark.parametrize("truth", [0.0, 0.02])
 def test_near_zero_the_limit_lies_above_the_truth_in_ninety_five_of_a_hundred(truth: float) -> None:
     rng = np.random.default_rng(2)
-    found = [intervals(fitted(rng, truth)).entries[1] for _ in range(120)]
+    found = [compute_intervals(fitted(rng, truth)).entries[1] for _ in range(120)]
     near = [e for e in found if e.limit == "upper"]
     assert len(near) > 60
     assert all(e.low == 0.0 for e in near)
@@ -99,13 +99,15 @@ def test_near_zero_the_limit_lies_above_the_truth_in_ninety_five_of_a_hundred(tr
 
 def test_of_a_strength_that_ended_on_its_bound_it_is_said_how_large_it_may_be() -> None:
     rng = np.random.default_rng(3)
-    on_bound = next(e for e in (intervals(fitted(rng, 0.0)).entries[1] for _ in range(20)) if e.bound == "lower")
+    on_bound = next(
+        e for e in (compute_intervals(fitted(rng, 0.0)).entries[1] for _ in range(20)) if e.bound == "lower"
+    )
     assert on_bound.limit == "upper"
     assert 0.0 < on_bound.high < 0.1
 
 
 def test_the_limit_follows_the_likelihood_where_the_strength_acts_more_than_in_proportion() -> None:
-    straight = intervals(fitted(np.random.default_rng(5), 0.0)).entries[1]
-    bent = intervals(fitted(np.random.default_rng(5), 0.0, bent=30.0)).entries[1]
+    straight = compute_intervals(fitted(np.random.default_rng(5), 0.0)).entries[1]
+    bent = compute_intervals(fitted(np.random.default_rng(5), 0.0, bent=30.0)).entries[1]
     assert straight.limit == bent.limit == "upper"
     assert bent.high + 30.0 * bent.high**2 == pytest.approx(straight.high, rel=0.1)

@@ -11,7 +11,7 @@ from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import fit_base
 from slipwise.model import base_model
 from slipwise.record import Record
-from slipwise.relations.parameters import SEAT_STIFFNESS, Term, base_free
+from slipwise.relations.parameters import SEAT_STIFFNESS, Term, list_base_numbers
 from slipwise.relations.sample_masks import roll_is_known
 from slipwise.rig import Specimen, load_specimen
 from slipwise.simulation.replay import replay
@@ -62,5 +62,5 @@ def test_pads_of_stated_unlike_heights_show_their_stiffness_at_rest() -> None:
     stiffer = stated.changed(pad_stiffness=1.08 * stated.pad_stiffness)
     base = fit_base(campaign(measured(stiffer), stated))
     assert base.solution.values[SEAT_STIFFNESS] == pytest.approx(1.08, abs=0.01)
-    level = [f.key for f in base_free(base_model("bridge1"), balances=True)]
+    level = [f.key for f in list_base_numbers(base_model("bridge1"), balances=True)]
     assert SEAT_STIFFNESS not in level

@@ -7,7 +7,7 @@ import pytest
 
 from hypotheses import base
 from slipwise.estimation.objective import Objective, objective_of
-from slipwise.evidence.left_out import LinearFit, left_out
+from slipwise.evidence.left_out import LinearFit, leave_motions_out
 
 
 @pytest.fixture(scope="module")
@@ -27,7 +27,7 @@ def linear(objective: Objective, numbers: int) -> LinearFit:
 
 def test_it_is_what_a_refit_without_the_motion_leaves_of_it(objective: Objective) -> None:
     fit = linear(objective, 5)
-    predicted = left_out(objective, fit)
+    predicted = leave_motions_out(objective, fit)
     first = np.zeros(len(fit.residual), dtype=bool)
     for here, block in objective.layout.rows(objective.fitted):
         first[here] = block.run == objective.fitted[0]
@@ -41,8 +41,8 @@ def test_a_number_that_only_one_motion_tells_keeps_its_value_without_it(objectiv
     only = np.zeros_like(fit.slopes)
     only[: objective.runs[objective.fitted[0]].judged["pads"].size, 0] = 1.0  # the pads of the first run
     alone = replace(fit, slopes=only[:, :1], low=fit.low[:1], high=fit.high[:1])
-    assert np.isfinite(left_out(objective, alone)).all()
-    assert np.abs(left_out(objective, alone) - alone.residual).max() < 1.0
+    assert np.isfinite(leave_motions_out(objective, alone)).all()
+    assert np.abs(leave_motions_out(objective, alone) - alone.residual).max() < 1.0
 
 
 def test_a_repeat_is_left_out_with_the_run_that_it_repeats(objective: Objective) -> None:
@@ -54,7 +54,7 @@ def test_a_repeat_is_left_out_with_the_run_that_it_repeats(objective: Objective)
 def test_of_one_motion_stretches_of_time_are_left_out() -> None:
     single = base().objective  # the other run is held out
     fit = linear(single, 4)
-    predicted = left_out(single, fit)
+    predicted = leave_motions_out(single, fit)
     assert single.measurements.motions == [[0]]
     assert not np.array_equal(predicted, fit.residual)
     assert float(predicted @ predicted) > float(fit.residual @ fit.residual)

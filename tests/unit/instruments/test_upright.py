@@ -4,14 +4,14 @@ import numpy as np
 
 from physics.test_pendulum import pulse
 from shaking import FAST, coulomb, shaken
-from slipwise.relations.rigid_balances import relations
+from slipwise.relations.rigid_balances import list_rigid_balances
 from slipwise.rig.curved_faces import rise_rate, risen
 
 
 def test_the_upright_relation_knows_the_rise_on_a_sphere() -> None:
     model = coulomb("pendulum", FAST)
     record = shaken(model, pulse(6.0, 0.8, 3.0)).record
-    upright = next(r for r in relations(record, model.specimen)[0] if r.name == "upright")
+    upright = next(r for r in list_rigid_balances(record, model.specimen)[0] if r.name == "upright")
     assert {"slip_x", "slip_y"} <= upright.looks_at(record)
     columns = [term(record, model.specimen) for term in upright.terms.values()]
     known = upright.known(record, model.specimen)

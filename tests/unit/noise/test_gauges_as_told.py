@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from slipwise.noise.gauges import noise_of_gauges
+from slipwise.noise.gauges import measure_gauge_noise
 from slipwise.record import Record
 from slipwise.view.words.gauge_rows import gauge_rows
 
@@ -21,7 +21,7 @@ def moved(rest: int, noise: float, step: float = 0.0) -> Record:
 
 
 def test_a_level_is_told_in_the_unit_that_people_read():
-    gauges = noise_of_gauges([moved(800, 5e-5)])
+    gauges = measure_gauge_noise([moved(800, 5e-5)])
     (row,) = [row for row in gauge_rows(gauges) if row["channel"] == "slip_x"]
     assert row["unit"] == "mm" and row["from"] == "rest before the motion"
     assert float(row["noise"]) == pytest.approx(0.05, rel=0.1)
@@ -37,9 +37,11 @@ def test_a_level_is_told_in_the_unit_that_people_read():
     ],
 )
 def test_the_basis_of_a_level_is_told(record, basis):
-    assert noise_of_gauges([record])["slip_x"].basis.startswith((basis, "differences" if basis[0] == "t" else basis))
+    assert measure_gauge_noise([record])["slip_x"].basis.startswith(
+        (basis, "differences" if basis[0] == "t" else basis)
+    )
 
 
 def test_a_constant_is_no_measurement_and_the_reason_is_told():
-    (row,) = [row for row in gauge_rows(noise_of_gauges([moved(800, 5e-5)])) if row["channel"] == "pad_A_N"]
+    (row,) = [row for row in gauge_rows(measure_gauge_noise([moved(800, 5e-5)])) if row["channel"] == "pad_A_N"]
     assert row["noise"] == "unknown" and "constant of the campaign" in row["from"]

@@ -6,7 +6,7 @@ import pytest
 from bench import make_bearing
 from bench.bearing import KINDS, draw_bearing
 from slipwise.campaign import load_campaign
-from slipwise.noise.gauges import noise_of_gauges, steady_level
+from slipwise.noise.gauges import measure_gauge_noise, measure_steady_level
 from slipwise.record import Record
 
 #: Seeds of campaigns that were logged at 20 to 200 Hz: reversals, walls and half a stroke lie within a few samples.
@@ -19,7 +19,7 @@ def test_friction_that_turns_round_between_two_samples_is_no_noise(tmp_path, kin
     make_bearing(tmp_path / "slider", kind=kind, seed=seed)
     fitted = [run.record for run in load_campaign(tmp_path / "slider").runs if run.role == "fit"]
     planted = draw_bearing(kind, seed).noise[0] * np.mean([np.max(np.abs(r["pad_A_Fx"])) for r in fitted])
-    assert noise_of_gauges(fitted)["pad_A_Fx"].level == pytest.approx(planted, rel=0.3)
+    assert measure_gauge_noise(fitted)["pad_A_Fx"].level == pytest.approx(planted, rel=0.3)
 
 
 def drawn(step: float, hum: float) -> Record:
@@ -33,11 +33,11 @@ def drawn(step: float, hum: float) -> Record:
 
 
 def test_noise_of_the_contact_that_is_slower_than_the_gauge_counts_as_noise():
-    assert steady_level([drawn(0.01, hum=0.0)], "pad_A_Fx") == pytest.approx(5.0, rel=0.15)
-    assert steady_level([drawn(0.01, hum=40.0)], "pad_A_Fx") == pytest.approx(
+    assert measure_steady_level([drawn(0.01, hum=0.0)], "pad_A_Fx") == pytest.approx(5.0, rel=0.15)
+    assert measure_steady_level([drawn(0.01, hum=40.0)], "pad_A_Fx") == pytest.approx(
         np.hypot(5.0, 40.0 / np.sqrt(2.0)), rel=0.2
     )
 
 
 def test_a_test_logged_too_coarsely_to_show_a_steady_stretch_shows_none():
-    assert steady_level([drawn(0.5, hum=0.0)], "pad_A_Fx") == 0.0
+    assert measure_steady_level([drawn(0.5, hum=0.0)], "pad_A_Fx") == 0.0

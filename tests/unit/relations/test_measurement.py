@@ -6,7 +6,7 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign
 from slipwise.effects import catalogue
-from slipwise.relations.measurement import noise_scale, without
+from slipwise.relations.measurement import compute_noise_scale, without
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import fit_runs
 
@@ -50,7 +50,7 @@ def test_slopes_of_a_delay_are_those_of_the_signal_not_of_its_noise(run, name: s
 
 def test_noise_grows_by_what_undoing_a_gain_makes_of_it(run):
     gain = Term(catalogue()["channel_gain"], ("girder_ax",), "girder_ax")
-    assert noise_scale([gain], {f"{gain.label}.gain": 0.25}, run) == pytest.approx({"girder_ax": 0.8})
+    assert compute_noise_scale([gain], {f"{gain.label}.gain": 0.25}, run) == pytest.approx({"girder_ax": 0.8})
     cells = Term(catalogue()["channel_gain"], tuple(f"pad_{p}_N" for p in "ABCD"), "pad_*_N")
-    found = noise_scale([cells], {f"{cells.label}.gain": -0.2}, run)
+    found = compute_noise_scale([cells], {f"{cells.label}.gain": -0.2}, run)
     assert found == pytest.approx(dict.fromkeys(("loads", "heave", "pitch", "roll", "warp"), 1.25))

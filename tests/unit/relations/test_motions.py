@@ -7,7 +7,7 @@ import pytest
 
 from hypotheses import base
 from slipwise.estimation.objective import objective_of
-from slipwise.evidence.residual_summary import summarised
+from slipwise.evidence.residual_summary import summarise_residuals
 from slipwise.relations.motions import by_motion
 from slipwise.relations.run_data import FitRun
 from slipwise.relations.setting import Weighing
@@ -39,8 +39,8 @@ def test_runs_that_are_given_twice_add_no_independent_block() -> None:
     values = {name: [*left.of(name), *left.of(name)] for name in left.relations}
     doubled = again.layout.filled(values, [*left.pad_forces, *left.pad_forces])
     slopes = rows_twice(once, solution.jacobian)
-    twice = summarised(again, replace(solution, residuals=doubled, jacobian=slopes))
-    single = summarised(objective, solution)
+    twice = summarise_residuals(again, replace(solution, residuals=doubled, jacobian=slopes))
+    single = summarise_residuals(objective, solution)
     assert all(len(twice.blocks[name]) == len(blocks) for name, blocks in single.blocks.items())
 
 

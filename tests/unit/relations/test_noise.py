@@ -7,8 +7,8 @@ from bench import build_campaign
 from measured import as_campaign
 from slipwise.effects import catalogue
 from slipwise.model import base_model
-from slipwise.relations.measurement import changed_by
-from slipwise.relations.noise import noise_of_fault_correction, reversal_noise
+from slipwise.relations.measurement import compute_change_by_faults
+from slipwise.relations.noise import compute_reversal_noise, noise_of_fault_correction
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import FitRun, fit_runs
 
@@ -22,7 +22,7 @@ def test_a_reversal_is_unsure_for_half_a_period_of_the_logger_before_and_after(r
     assert run.filtered is not None
     turn, reach = len(run.time) // 2, int(np.ceil(0.5 / (run.filtered.frequency * run.dt)))
     plain = np.where(np.arange(len(run.time)) < turn, -1000.0, 1000.0)[:, None]
-    unsure = reversal_noise(run, plain, plain)[:, 0]
+    unsure = compute_reversal_noise(run, plain, plain)[:, 0]
     # the slope of a step is seen on the samples before and after it
     assert np.flatnonzero(unsure).tolist() == list(range(turn - 1 - reach, turn + reach + 1))
     assert unsure.max() == pytest.approx(1e-4 * 1000.0 / run.dt)
@@ -33,10 +33,10 @@ def test_a_fault_lets_through_as_much_of_an_error_as_it_changes_a_pulse(run: Fit
         Term(catalogue()["channel_gain"], ("pad_A_Fx",), "pad_A_Fx"),
         Term(catalogue()["channel_filter"], tuple(f"pad_{p}_Fx" for p in "ABCD"), "pad_*_Fx"),
     )
-    assert changed_by((), {}, run) == pytest.approx(np.zeros(4))
-    by_gain = changed_by([gain], {f"{gain.label}.gain": 0.03}, run)
+    assert compute_change_by_faults((), {}, run) == pytest.approx(np.zeros(4))
+    by_gain = compute_change_by_faults([gain], {f"{gain.label}.gain": 0.03}, run)
     assert by_gain == pytest.approx([0.03, 0.0, 0.0, 0.0])
-    by_filter = changed_by([behind], {f"{behind.label}.lag": 3e-3, f"{behind.label}.order": 2.0}, run)
+    by_filter = compute_change_by_faults([behind], {f"{behind.label}.lag": 3e-3, f"{behind.label}.order": 2.0}, run)
     assert (by_filter > 0.5).all()
 
 

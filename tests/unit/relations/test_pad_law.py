@@ -7,8 +7,8 @@ import pytest
 from scipy.signal import butter, lsim
 
 from slipwise.relations.evaluation_times import Instants
-from slipwise.relations.pad_law import as_logged, force_along, lost_velocity, stick_share
-from slipwise.relations.run_data import FINE, refined
+from slipwise.relations.pad_law import as_logged, compute_stick_share, estimate_lost_velocity, sum_forces_along
+from slipwise.relations.run_data import FINE, interpolate_finely
 from slipwise.signals.filters import LowPass, align, lowpass
 from slipwise.simulation.predict import PadForces
 
@@ -71,7 +71,7 @@ def test_most_of_a_kink_that_the_filter_took_from_the_velocity_is_given_back() -
     sharp = -5e3 * np.abs(fine - 2.0) / mass
     seen = lowpass(sharp, run.dt / FINE, by)[::FINE]
     sharp = sharp[::FINE]
-    by_pad = lost_velocity(force[:, None], run, np.array([[1.0 / mass]]), None)  # type: ignore[arg-type]
+    by_pad = estimate_lost_velocity(force[:, None], run, np.array([[1.0 / mass]]), None)  # type: ignore[arg-type]
     given_back = seen + by_pad[::FINE, 0]
     near = np.abs(run.time - 2.0) < 0.02
     assert np.abs(given_back - sharp)[near].max() < np.abs(seen - sharp)[near].max() / 3.0
@@ -82,7 +82,7 @@ def test_a_force_on_one_side_kicks_the_other_by_what_the_girder_turns() -> None:
     fine = np.linspace(run.time[0], run.time[-1], FINE * (len(run.time) - 1) + 1)
     force = np.stack([5e3 * np.sign(fine - 2.0), np.zeros_like(fine)], axis=1)
     compliance = 1e-4 + 2.5**2 / 3e4 * np.array([[1.0, -1.0], [-1.0, 1.0]])
-    lost = lost_velocity(force, run, compliance, None)  # type: ignore[arg-type]
+    lost = estimate_lost_velocity(force, run, compliance, None)  # type: ignore[arg-type]
     np.testing.assert_allclose(lost[:, 1], lost[:, 0] * compliance[1, 0] / compliance[0, 0], atol=1e-12)
     assert np.abs(lost[:, 0]).max() > 1e-3, "it must be seen at all"
 
@@ -90,7 +90,7 @@ def test_a_force_on_one_side_kicks_the_other_by_what_the_girder_turns() -> None:
 def test_instants_pass_through_the_samples_and_reproduce_a_cubic() -> None:
     place = np.arange(50.0)
     values = 0.01 * place**3 - place
-    fine = refined(values, FINE)
+    fine = interpolate_finely(values, FINE)
     assert np.array_equal(fine[::FINE], values)
     between = np.linspace(0.0, 49.0, FINE * 49 + 1)
     assert np.allclose(fine[FINE:-FINE], (0.01 * between**3 - between)[FINE:-FINE])
@@ -100,7 +100,7 @@ def _share(speed: np.ndarray, length: float, damping: float) -> np.ndarray:
     velocity = np.zeros((len(speed), 1, 2))
     velocity[:, 0, 0] = speed
     state = Instants(1e-3 * np.arange(len(speed)), np.ones((len(speed), 1)), velocity, np.zeros_like(velocity))
-    return stick_share(state, length, damping)[:, 0]
+    return compute_stick_share(state, length, damping)[:, 0]
 
 
 def test_a_spring_turns_friction_round_over_a_slip_and_a_damper_at_once() -> None:
@@ -122,6 +122,6 @@ def test_a_share_of_the_bound_acts_in_the_place_of_a_sharp_turn_along_x_alone() 
     force[:, :, 0] += 1.0
     state = Instants(1e-3 * np.arange(3), np.ones((3, 1)), velocity, np.zeros_like(velocity))
     share = np.array([[0.4], [-0.9], [0.5]])
-    along = force_along(PadForces(force, bound), state, share)[:, 0]
+    along = sum_forces_along(PadForces(force, bound), state, share)[:, 0]
     np.testing.assert_allclose(along, [5.0, -8.0, 1.0 + 5.0 / np.sqrt(2.0)])
-    np.testing.assert_allclose(force_along(PadForces(force, bound), state, None), force[:, :, 0])
+    np.testing.assert_allclose(sum_forces_along(PadForces(force, bound), state, None), force[:, :, 0])

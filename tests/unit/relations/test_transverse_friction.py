@@ -7,7 +7,7 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign, fit_base
-from slipwise.comparison.component_level import component_errors
+from slipwise.comparison.component_level import compute_component_errors
 from slipwise.effects import catalogue
 from slipwise.estimation.objective import objective_of
 from slipwise.record import Record
@@ -27,7 +27,7 @@ def test_a_complete_model_leaves_noise_and_anisotropy_shows_there_only(campaign)
     assert "across" in objective.relations
     left = [part[part != 0.0] for part in fit.solution.residuals.of("across")]
     assert np.mean(np.concatenate(left) ** 2) == pytest.approx(1.0, abs=0.15)
-    errors = [e for e in component_errors(fit) if e.relation == "across"]
+    errors = [e for e in compute_component_errors(fit) if e.relation == "across"]
     assert len(errors) == 5 and all(0.9 < e.error < 1.1 and e.share < 0.1 for e in errors)
     term = Term(catalogue()["anisotropy"])
     moved = objective.adding(term).residuals({**fit.solution.values, f"{term.label}.ratio": 1.1})

@@ -7,7 +7,7 @@ from typing import Any
 from scipy.stats import norm
 
 from slipwise.diagnosis.result import Diagnosis, written
-from slipwise.estimation.intervals import COVERAGE, intervals
+from slipwise.estimation.intervals import COVERAGE, compute_intervals
 
 #: Of diagnosis.json.
 _KEPT = (
@@ -69,7 +69,7 @@ def numbers_of(found: Diagnosis) -> dict[str, Any]:
     content = found.as_json()
     added = tuple(f"{term.label}." for term in found.search.best.terms) if found.added else ()
     best = next(iter(content["candidates"]), {"parameters": {}})
-    entries = [entry for entry in intervals(found.final).entries if not entry.key.startswith(added)]
+    entries = [entry for entry in compute_intervals(found.final).entries if not entry.key.startswith(added)]
     return {
         **{name: content[name] for name in _KEPT},
         "rig": found.final.campaign.rig,

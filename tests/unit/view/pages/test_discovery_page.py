@@ -17,7 +17,7 @@ from slipwise.discovery.residual_field import residual_field
 from slipwise.discovery.result import Discovery
 from slipwise.discovery.splines import spline
 from slipwise.discovery.states import pad_instants, pad_states
-from slipwise.estimation.least_squares import Solution, jacobian
+from slipwise.estimation.least_squares import Solution, compute_jacobian
 from slipwise.relations.table import Residuals
 from slipwise.view.figures.discovery_errors import binned_rms, errors, errors_figure, loops_figure, states_figure
 from slipwise.view.figures.discovery_figures import law_figure
@@ -68,7 +68,7 @@ def found() -> Discovery:
         return replace(solution, values=values, residuals=residuals, cost=residuals.cost(objective.fitted))
 
     before = with_pads(solution.residuals.less({"pads": [-more for more in lacking]}), solution.values)
-    before = replace(before, jacobian=jacobian(objective, before.values, before.free, before.residuals))
+    before = replace(before, jacobian=compute_jacobian(objective, before.values, before.free, before.residuals))
     later = with_pads(solution.residuals, {**solution.values, "law.strength": STRENGTH})
     field = residual_field(objective, before, "pads")
     curve = spline(field, field.at_samples(port.carrier), (field.at_samples(speed.values),), (12,))
