@@ -41,6 +41,9 @@ class Plan:
         runs: number of them, 2 to 5.
         short: runs of 4 s.
         uplift: the last fitted run lifts pads; never the only one, for landings hang on the least change.
+        rig: "bridge1", "bridge2", one of `bench.plan_rigs.OWN` with its specimen.toml; "": one of the bridges.
+        maker: who shakes it, a key of `bench.makers.MAKERS`.
+        mass_error: of the mass that campaign.toml says, over the true one [1]; None: a laboratory's.
     """
 
     group: str
@@ -50,6 +53,9 @@ class Plan:
     runs: int
     short: bool
     uplift: bool
+    rig: str = ""
+    maker: str = "ode"
+    mass_error: float | None = None
 
 
 def group_of(seed: int) -> str:
@@ -72,9 +78,9 @@ def draw_plan(seed: int) -> Plan:
     rng = np.random.default_rng([seed, 31])
     group, inside = _place(seed)
     rich = bool(rng.random() < 0.2)
-    effects = _draw_effects(group, rng)
+    effects = draw_effects(group, rng)
     rich = rich or bool(_ACROSS & set(effects))
-    plants = [_hide(effect, rng) for effect in effects]
+    plants = [hide_on_purpose(effect, rng) for effect in effects]
     plants += draw_dirt({plant.name for plant in plants}, rng)
     runs = int(rng.choice([2, 3, 4, 5], p=[0.12, 0.13, 0.15, 0.6]))
     kinds = [KINDS[int(inside * len(KINDS))]]  # every kind as often as the others
@@ -91,7 +97,7 @@ def draw_plan(seed: int) -> Plan:
     )
 
 
-def _draw_effects(group: str, rng: np.random.Generator) -> list[str]:
+def draw_effects(group: str, rng: np.random.Generator) -> list[str]:
     count = {
         "nothing": 0,
         "one or two": int(rng.integers(1, 3)),
@@ -110,7 +116,7 @@ def _draw_effects(group: str, rng: np.random.Generator) -> list[str]:
     return [forms[name] if name in forms and rng.random() < _OTHER else name for name in chosen]
 
 
-def _hide(effect: str, rng: np.random.Generator) -> Plant:
+def hide_on_purpose(effect: str, rng: np.random.Generator) -> Plant:
     """Plant an effect that is mostly material, one time in five near the border."""
     low, high = (0.6, 1.6) if rng.random() < 0.2 else (1.5, 15.0)
     target = float(np.exp(rng.uniform(np.log(low), np.log(high))))
