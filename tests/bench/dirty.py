@@ -22,7 +22,7 @@ from bench.gauges import Logger, measure, recorded_channels
 from bench.makers import MAKERS
 from bench.more_dirt import UNNAMED
 from bench.motions import Motion
-from bench.plan_rigs import OWN, draw_plan_rig
+from bench.plan_rigs import OWN, draw_plan_rig, generators
 from bench.planted import Plant, faults_of, together
 from bench.rig_ode import Memory, Shaker
 from bench.settings import Settings, pad_names
@@ -68,7 +68,7 @@ def build_dirty(seed: int, *, name: str = "", plan: Plan | None = None, logger: 
         plan: what is hidden and how it is shaken; None: what the seed stands for.
         logger: the chain; None: a laboratory's as it is, drawn.
     """
-    rngs = np.random.default_rng([seed, 17]).spawn(6)
+    rngs = generators(seed)
     plan = draw_plan(seed) if plan is None else plan
     specimen = draw_plan_rig(plan.rig, rngs[0])
     rig, own = specimen.name, specimen.name in OWN

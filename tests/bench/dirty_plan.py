@@ -24,7 +24,7 @@ _OTHER = 0.5
 #: How often what matters is large enough to stand above the noise as well [1].
 _SEEN = 0.85
 #: Laws that do not vanish with their size: an impact in a gap, and a bristle instead of the base's stick.
-_NEVER_SMALL = {"key_clearance", "presliding"}
+NEVER_SMALL = {"key_clearance", "presliding"}
 #: Dirt stays below this share of what is material unless it is there on purpose.
 _MOST_DIRT = 0.8
 
@@ -139,7 +139,7 @@ def draw_dirt(taken: set[str], rng: np.random.Generator) -> list[Plant]:
         if there and (effect in GAUGE_DIRT or effect not in taken):
             plants.append(Plant(effect, scale, seed, True, most))
     if rng.random() < 0.4:  # some law of the catalogue is really there, and does not matter
-        left = [name for name in PHYSICS if name not in taken | set(RIG_DIRT) | _CLASH | _ACROSS | _NEVER_SMALL]
+        left = [name for name in PHYSICS if name not in taken | set(RIG_DIRT) | _CLASH | _ACROSS | NEVER_SMALL]
         most = float(rng.uniform(0.1, _MOST_DIRT))
         plants.append(Plant(str(rng.choice(left)), 1.0, int(rng.integers(2**31)), False, most))
     return plants

@@ -38,6 +38,16 @@ class PlanRig:
         return with_cells_for(self.built, logger)
 
 
+def plan_rig_of(seed: int, name: str) -> PlanRig:
+    """Give the specimen that a campaign of this seed has."""
+    return draw_plan_rig(name, generators(seed)[0])
+
+
+def generators(seed: int) -> list[np.random.Generator]:
+    """Give the generators of a campaign: of its specimen, first things, runs, chain, what is said, and noise."""
+    return np.random.default_rng([seed, 17]).spawn(6)
+
+
 def draw_plan_rig(name: str, rng: np.random.Generator) -> PlanRig:
     """Draw a specimen; "" is one of the bridges."""
     if name == DRAWN:
