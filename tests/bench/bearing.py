@@ -184,9 +184,7 @@ def drive_of(bearing: Bearing, rng: np.random.Generator, share: float, speed: fl
     return Drive(time, slip, velocity, load)
 
 
-def record(
-    bearing: Bearing, rng: np.random.Generator, drive: Drive, force_of: Force = Bearing.force
-) -> Array:
+def record(bearing: Bearing, rng: np.random.Generator, drive: Drive, force_of: Force = Bearing.force) -> Array:
     """Give time [s], slip [mm], load [kN], force [kN] as they are read, (n, 4).
 
     Args:
@@ -227,9 +225,7 @@ def _as_dict(bearing: Bearing) -> dict[str, Any]:
     return {name: value for name, value in vars(bearing).items() if name not in ("turning", "varying", "hidden")}
 
 
-def write_bearing(
-    folder: Path, bearing: Bearing, roles: Mapping[str, str], tables: Mapping[str, Array]
-) -> None:
+def write_bearing(folder: Path, bearing: Bearing, roles: Mapping[str, str], tables: Mapping[str, Array]) -> None:
     """Write campaign.toml and a CSV file for each run.
 
     Args:

@@ -78,8 +78,8 @@ def build_dirty(seed: int, *, name: str = "", plan: Plan | None = None, logger: 
     first = [draw_first(kind, names, plan.runs, rngs[1]) for kind in plan.first]
     late = max((one.fault.size for one in first if one.fault is not None and one.kind == "late"), default=0.0)
     motions, roles = draw_dirty_runs(specimen.natural, base, plan, rngs[2])
-    logger = draw_dirty_logger(rngs[3], names) if logger is None else logger
-    logger = specimen.with_cells(logger) if own else logger
+    chain = draw_dirty_logger(rngs[3], names) if logger is None else logger
+    chain = specimen.with_cells(chain) if own else chain
     clock = float(rngs[4].uniform(0.0, 100.0))
 
     def scene(memories: Mapping[str, Memory]) -> Scene:
@@ -90,7 +90,7 @@ def build_dirty(seed: int, *, name: str = "", plan: Plan | None = None, logger: 
             tuple(list(motions).index(run) for run in chosen),
             tuple(memories[run] for run in chosen),
             clock,
-            replace(logger, rate=min(logger.rate, _KEY_RATE)),
+            replace(chain, rate=min(chain.rate, _KEY_RATE)),
             names,
             tuple(one.fault for one in first if one.fault is not None),
             shaker,
@@ -112,12 +112,12 @@ def build_dirty(seed: int, *, name: str = "", plan: Plan | None = None, logger: 
             plants = [p for p in plants if p.name not in large]
     motions = {run: motion.followed_by_rest(late) for run, motion in motions.items()}
     true = shake(base.changed(**together(plants, base).settings), motions, clock, every=_FINE, shaker=shaker)
-    logger = with_ranges(logger, true, names)
+    chain = with_ranges(chain, true, names)
     every = [*faults, *now.first]
-    recorded = {run: measure(one, names, logger, every, rngs[5], i) for i, (run, one) in enumerate(true.items())}
+    recorded = {run: measure(one, names, chain, every, rngs[5], i) for i, (run, one) in enumerate(true.items())}
     said_rig, said_mass = _said(rig, base, first, plan, rngs[4])
     truth = DirtyTruth(
-        name, seed, plan, rig, said_rig, said_mass, base, logger, roles, together(plants, base), key, first
+        name, seed, plan, rig, said_rig, said_mass, base, chain, roles, together(plants, base), key, first
     )
     return DirtyCampaign(truth, motions, true, recorded, specimen_toml(specimen.rated) if own else "")
 

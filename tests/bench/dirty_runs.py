@@ -65,9 +65,7 @@ def _steady(natural: float, base: Settings, plan: Plan, rng: np.random.Generator
     kind = str(rng.choice(["sine", "sweep", "record"], p=[0.5, 0.25, 0.25]))
     if kind == "record" or plan.short:
         return _record(base, plan, rng)
-    motion = (
-        draw_sine(natural, rng, plan.rich) if kind == "sine" else draw_sweep(rng, _length(plan, rng), plan.rich)
-    )
+    motion = draw_sine(natural, rng, plan.rich) if kind == "sine" else draw_sweep(rng, _length(plan, rng), plan.rich)
     return fit_amplitude(base, motion, rng.uniform(0.008, 0.022), 0.12 * GRAVITY, 0.5 * GRAVITY)
 
 

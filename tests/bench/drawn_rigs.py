@@ -12,7 +12,7 @@ from bench.gauges import Logger
 from bench.hidden import PHYSICS
 from bench.parts import Buffer, Pad, pad_table
 from bench.rig_ode import rest_loads
-from bench.settings import GRAVITY, Settings, drawn_law, rated
+from bench.settings import GRAVITY, Settings, drawn_law, pads_of, rated
 
 Array = NDArray[np.float64]
 #: What a campaign of such a rig says of its rig.
@@ -151,7 +151,7 @@ def _table(rig: Settings) -> Array:
 
 def natural_frequency(rig: Settings) -> float:
     """Give the frequency [Hz] on buffers and curved plates round which a sine is drawn."""
-    per_mass = rig.buffer_stiffness / rig.mass + GRAVITY * float(np.mean([pad.curvature for pad in rig.pads]))
+    per_mass = rig.buffer_stiffness / rig.mass + GRAVITY * float(np.mean([pad.curvature for pad in pads_of(rig)]))
     return float(np.clip(np.sqrt(per_mass) / (2.0 * np.pi), _SLOWEST, _FASTEST))
 
 

@@ -1,8 +1,8 @@
 """Families of campaigns, each with its own seeds, made by either maker: what a judge is trained on, and tested on.
 
-A campaign is (family, maker, seed): `build_family(family, maker, seed)` makes it in memory with its answer key. Families
-marked `held_out_family` take no part in any training, nor in any choice of rules: they are reported apart, and tell how
-a judge does on dirt that it has never met.
+A campaign is (family, maker, seed): `build_family(family, maker, seed)` makes it in memory with its answer key.
+Families marked `held_out_family` take no part in any training, nor in any choice of rules: they are reported apart, and
+tell how a judge does on dirt that it has never met.
 
 No seed below 700 000 is used here: those have been looked at.
 """
@@ -15,13 +15,19 @@ from typing import Any
 
 from bench import family_plans as plans
 from bench.bearing import write_bearing
+from bench.code_hash import code_hash
 from bench.dirty import build_dirty, write_dirty
-from bench.family_answer import Facts, answer_of_rig, answer_of_slider
-from bench.family_dirt import NOISE, SOILS, Soiled
+from bench.family_answer import Facts
+from bench.family_dirt import NOISE, Soiled
+from bench.rig_answer import answer_of_rig
+from bench.slider_answer import answer_of_slider
 from bench.sliders import build_slider
 
 #: Who makes campaigns: the second simulator, or the library.
 MAKERS: tuple[str, ...] = ("ode", "replay")
+#: What makes campaigns of rigs, and of single sliders.
+_OF_RIGS = ("bench.family_plans", "bench.dirty", "bench.rig_answer")
+_OF_SLIDERS = ("bench.sliders", "bench.bearing", "bench.slider_answer")
 #: Seeds of a family.
 COUNT = 1000
 
@@ -47,6 +53,11 @@ class Family:
     slider: str = ""
     dirt: bool = False
     held_out_family: bool = False
+
+    def depends_on(self, maker: str) -> str:
+        """Give a hash of the code that makes its campaigns: the bench's own, and the library's where it shakes."""
+        modules = _OF_SLIDERS if self.plan is None else _OF_RIGS
+        return code_hash(modules, ("bench",) if maker == "ode" else ("bench", "slipwise"))
 
     def campaign(self, maker: str, seed: int) -> str:
         """Give the name of a campaign's folder."""
@@ -114,7 +125,6 @@ def _seeds(place: int) -> range:
 
 
 FAMILIES: dict[str, Family] = _table()
-assert {*SOILS, NOISE} == {*_DIRT}
 
 
 def build_family(family: Family, maker: str, seed: int) -> FamilyCampaign:
@@ -129,9 +139,7 @@ def build_family(family: Family, maker: str, seed: int) -> FamilyCampaign:
     if family.plan is None:
         slider = build_slider(family.slider, seed, maker)
         answer = answer_of_slider(facts, slider)
-        return FamilyCampaign(
-            answer, lambda folder: write_bearing(folder, slider.bearing, slider.roles, slider.tables)
-        )
+        return FamilyCampaign(answer, lambda folder: write_bearing(folder, slider.bearing, slider.roles, slider.tables))
     chosen = family.plan(seed, maker)
     made = build_dirty(seed, name=facts.name, plan=chosen.plan, logger=chosen.chain)
     return FamilyCampaign(answer_of_rig(facts, made), lambda folder: write_dirty(folder, made))

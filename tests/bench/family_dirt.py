@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bench.dirty_plan import NEVER_SMALL, Plan
-from bench.first_things import LATE_CELLS
+from bench.first_things import LATE_CELLS, LATE_CHANNEL
 from bench.gauges import Logger
 from bench.hidden import PHYSICS
 from bench.planted import Plant
@@ -56,7 +56,7 @@ def _of(*effects: str) -> Soil:
 
 def _failed(was: Soiled, rng: np.random.Generator) -> Soiled:
     """A channel that is dead, clipped, or late."""
-    kind = str(rng.choice(["dead", "clipped", "late"]))
+    kind = str(rng.choice(["dead", "clipped", LATE_CHANNEL]))
     if kind == "clipped":
         taken = [plant for plant in was.plan.plants if plant.name != "channel_clipping"]
         clipped = Plant("channel_clipping", _log(rng, 0.5, 2.0), int(rng.integers(2**31)), False, 1.0)

@@ -1,7 +1,8 @@
 """What a seed of a family of rigs stands for: the plan of a dirty campaign, and its chain.
 
-Every plan is drawn from the seed alone. A family of dirt has it alone at even seeds, and beside all that is usual at odd
-ones. What only held-out families have is in no other: no late cells, no other clock, no friction that changes between runs.
+Every plan is drawn from the seed alone. A family of dirt has it alone at even seeds, and beside all that is usual at
+odd ones. What held-out families have is in no other: no late cards, no other clock, no friction that changes from run
+to run.
 """
 
 from dataclasses import replace

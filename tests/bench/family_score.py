@@ -1,7 +1,7 @@
 """Whether a verdict on a family's campaign is right, by its answer key.
 
-Right: every planted effect of one limit of materiality and one floor or more is named or listed among the minor ones, and
-nothing is named that is below 0.7 limits.
+Right: every planted effect of one limit of materiality and one floor or more is named or listed among the minor ones,
+and nothing is named that is below 0.7 limits.
 """
 
 from collections import defaultdict

@@ -105,7 +105,6 @@ RIG_EFFECTS = {
 }
 
 
-
 def superstructure(rng: np.random.Generator, scale: float, base: Settings) -> Change:
     """Columns of another stiffness than rated, by 6 to 40 %, in all storeys."""
     factor = 1.0 + _sign(rng) * min(0.15 * scale, 0.4)

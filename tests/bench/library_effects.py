@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from bench import unlisted
 from bench.hidden_pad import Change
 from bench.parts import Use
 from bench.settings import Settings, pad_names
@@ -15,7 +16,7 @@ from slipwise.effects import Effect, find_effect
 from slipwise.params import Parameter
 
 #: Laws outside the catalogue, in the form of the catalogue.
-UNLISTED: dict[str, Path] = {path.stem: path for path in sorted((Path(__file__).parent / "unlisted").glob("*.py"))}
+UNLISTED: dict[str, Path] = {path.stem: path for path in sorted(Path(str(unlisted.__file__)).parent.glob("[a-z]*.py"))}
 #: Dirt of a usual size is this share of what is typical of an effect [1].
 OF_DIRT = 0.1
 #: Constants to which a law is only referred: another value is another size.

@@ -15,11 +15,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-import slipwise as sw
 from bench.motions import Motion
 from bench.rig_ode import Memory, columns
 from bench.settings import Settings, pads_of
 from bench.specimen_text import specimen_toml
+from slipwise.model import Model, base_model, use
+from slipwise.motion import TableMotion
+from slipwise.rig import Specimen, load_specimen
+from slipwise.simulation.replay import replay
 
 Array = NDArray[np.float64]
 #: Step of the library's simulation and of its rows [s]: it divides the interval of any logger.
@@ -42,13 +45,14 @@ def replayed(settings: Settings, motion: Motion, memory: Memory, step: float, ev
     """
     model = library_model(settings)
     rest = _LONG_REST if memory.of_library is not None else 0.0
-    answer = sw.replay(model, _table_motion(motion), dt=STEP, output_dt=STEP, start=memory.of_library, rest=rest)
+    answer = replay(model, _table_motion(motion), dt=STEP, output_dt=STEP, start=memory.of_library, rest=rest)
     memory.of_library = answer.memory
     record = answer.record
     half = 0.5 * settings.spacing_x
     edge = model.specimen.edge_distance
     turn = (record["girder_az_2"] - record["girder_az_1"]) / (2.0 * edge)
-    out = {name: record[name] for name in columns(settings) if name in record.channels}
+    nothing = np.zeros(len(record))  # a buffer without stiffness is no part of the library's rig
+    out = {name: record[name] if name in record.channels else nothing for name in columns(settings)}
     out |= {
         "pitch_acceleration": turn,
         "roll_acceleration": np.gradient(np.gradient(record["roll"], STEP), STEP),
@@ -66,34 +70,32 @@ def replayed(settings: Settings, motion: Motion, memory: Memory, step: float, ev
         out |= {f"pad_{pad.name}_vx": own[:, 0]}
         out |= {f"pad_{pad.name}_F{axis}_base": base[:, i] for i, axis in enumerate("xy")}
     time = STEP * np.arange(len(record), dtype=np.float64)
-    return {"time": time, **{name: out[name] for name in columns(settings) if name in out}}
+    return {"time": time, **{name: out[name] for name in columns(settings)}}
 
 
-def _table_motion(motion: Motion) -> sw.TableMotion:
+def _table_motion(motion: Motion) -> TableMotion:
     acceleration = np.stack([motion.ax, motion.ay, motion.az], axis=1)
-    return sw.TableMotion(motion.step, acceleration, "bench", ("x", "y", "z"))
+    return TableMotion(motion.step, acceleration, "bench", ("x", "y", "z"))
 
 
-def library_model(settings: Settings) -> sw.Model:
+def library_model(settings: Settings) -> Model:
     """Make the library's model of a specimen, with the effects that hide in it."""
-    law = {"strength": settings.s1, "rate": settings.n, "slow": settings.alpha}
-    model = sw.base_model(_specimen(settings._replace(uses=(), run_levels=(), pad_factor=(), clock=0.0)))
-    level = settings.pad_factor[0] if settings.run_levels else 1.0
-    law["strength"] *= level
-    law["slow"] *= level
+    model = base_model(_specimen(settings._replace(uses=(), run_levels=(), pad_factor=(), clock=0.0)))
+    level = settings.pad_factor[0]  # of this run; pads that differ are an effect of the library here
+    law = {"strength": level * settings.s1, "rate": settings.n, "slow": level * settings.alpha}
     model = model.setting("shear_rate", **law).setting("contact_area", saturation=settings.k)
-    return model.adding(*(sw.use(use.effect, **dict(use.values)) for use in settings.uses))
+    return model.adding(*(use(one.effect, "", **dict(one.values)) for one in settings.uses))
 
 
 @cache
-def _specimen(settings: Settings) -> sw.rig.Specimen:
+def _specimen(settings: Settings) -> Specimen:
     # the second simulator turns about each axis alone, and lets a body have inertias that no body can have
     yaw = min(settings.inertia_yaw, 0.999 * (settings.inertia_roll + settings.inertia_pitch))
     settings = settings.changed(inertia_yaw=yaw)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "specimen.toml"
         path.write_text(specimen_toml(settings, _DIGITS), encoding="utf-8")
-        return sw.rig.load_specimen(path)
+        return load_specimen(path)
 
 
 def _base_forces(p: Settings, apparent: float, load: Array, force: Array, speed: Array) -> Array:

@@ -107,9 +107,7 @@ def run(
         # accelerometers feel what contacts do, weight excluded, also on a table that tips
         felt_x = (total[0] + swing_mass * swing_pull) / (p.mass - swing_mass)
         felt_y = total[1] / p.mass
-        felt_z = (total[2] + p.bending_mass * (bend_pull - GRAVITY)) / (
-            p.mass - p.bending_mass + carried
-        ) - GRAVITY
+        felt_z = (total[2] + p.bending_mass * (bend_pull - GRAVITY)) / (p.mass - p.bending_mass + carried) - GRAVITY
         a[0] = felt_x + GRAVITY * tip - ax - p.height * tip_a
         a[1] = felt_y - ay
         a[2] = felt_z - az + g[0] * tip_a

@@ -1,7 +1,7 @@
 """The frame of the step loop: floors that move sideways on columns, each over the one below.
 
-A floor moves with the girder's frame, which turns, and beside it by u. Columns push it with k and c of the difference to
-the floor below; what a floor is pushed by in all is what it pushes the girder back, at its own height:
+A floor moves with the girder's frame, which turns, and beside it by u. Columns push it with k and c of the difference
+to the floor below; what a floor is pushed by in all is what it pushes the girder back, at its own height:
 
     m_i a_i = S_i,    force on the girder -S_i at z_i,    and its weight m_i (g + a_z) stands at u_i.
 

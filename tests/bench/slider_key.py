@@ -30,7 +30,9 @@ def slider_key(bearing: Bearing, drives: Sequence[Drive], force_of: Force) -> di
 
 def _without(bearing: Bearing) -> dict[str, Bearing]:
     """Give name -> the bearing without it; a spring through the middle is a restrainer without a gap."""
-    gone = {name: replace(bearing, hidden=tuple(h for h in bearing.hidden if h[0] != name)) for name, _ in bearing.hidden}
+    gone = {
+        name: replace(bearing, hidden=tuple(h for h in bearing.hidden if h[0] != name)) for name, _ in bearing.hidden
+    }
     if np.isfinite(bearing.radius):
         gone["slide_curvature"] = replace(bearing, radius=np.inf)
     if bearing.wall or bearing.stiffness:

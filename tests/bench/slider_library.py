@@ -1,16 +1,17 @@
 """The force of a single slider by the library's own laws: the other maker of tests with a prescribed slip.
 
-Friction, its hidden effects, a curved face and a wall are effects of the library's catalogue, driven by the slip and the
-load of the test, as its replay drives the pads of a rig.
+Friction, its hidden effects, a curved face and a wall are effects of the library's catalogue, driven by the slip and
+the load of the test, as its replay drives the pads of a rig.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
-import slipwise as sw
 from bench.bearing import PRESSURE, SATURATION, TURNS, Bearing
 from bench.settings import GRAVITY
 from bench.slider_friction import DECAY, Drive, settling_distance
+from slipwise.model import EffectUse, Model, base_model, use
+from slipwise.rig import load_specimen
 from slipwise.simulation.predict import predictor
 
 Array = NDArray[np.float64]
@@ -32,31 +33,31 @@ def library_force(bearing: Bearing, drive: Drive) -> Array:
     return predictor(model).pads(drive.time, drive.load[:, None], velocity, slip).force[:, 0, 0]
 
 
-def _model(bearing: Bearing, drive: Drive) -> sw.Model:
+def _model(bearing: Bearing, drive: Drive) -> Model:
     radius = float(np.sqrt(bearing.load / (np.pi * PRESSURE)))
-    specimen = sw.rig.load_specimen("pad").changed(pad_radius=radius, mass=bearing.load / GRAVITY)
+    specimen = load_specimen("pad").changed(pad_radius=radius, mass=bearing.load / GRAVITY)
     if bearing.mu_fast > 0.0:
         strength = (bearing.mu_fast - bearing.mu_slow) * PRESSURE / -np.expm1(-SATURATION * PRESSURE)
-        model = sw.base_model(specimen).setting("contact_area", saturation=SATURATION)
+        model = base_model(specimen).setting("contact_area", saturation=SATURATION)
         model = model.setting("shear_rate", strength=strength, rate=bearing.rate, slow=bearing.mu_slow)
     else:
-        model = sw.Model(specimen.changed(shear_strength=_NOTHING))
+        model = Model(specimen.changed(shear_strength=_NOTHING))
     uses = [_use(name, size, drive) for name, size in bearing.hidden]
     curvature = 1.0 / bearing.radius + bearing.stiffness / bearing.load
     if curvature:
-        uses.append(sw.use("slide_curvature", curvature=curvature))
+        uses.append(use("slide_curvature", curvature=curvature))
     if bearing.wall:
-        uses.append(sw.use("restrainer", stiffness=bearing.wall, limit=bearing.gap))
+        uses.append(use("restrainer", stiffness=bearing.wall, limit=bearing.gap))
     if bearing.turning > TURNS:
-        uses.append(sw.use("presliding", length=bearing.turning * bearing.stroke))
+        uses.append(use("presliding", length=bearing.turning * bearing.stroke))
     return model.adding(*uses)
 
 
-def _use(name: str, size: float, drive: Drive) -> sw.model.EffectUse:
+def _use(name: str, size: float, drive: Drive) -> EffectUse:
     if name == "direction_asymmetry":
-        return sw.use(name, difference=size)
+        return use(name, difference=size)
     if name == "run_in":
-        return sw.use(name, rise=size, distance=settling_distance(drive))
+        return use(name, rise=size, distance=settling_distance(drive))
     if name == "breakaway":
-        return sw.use(name, rise=size, decay=DECAY)
-    return sw.use("pressure_law", slope=size, rated=PRESSURE)
+        return use(name, rise=size, decay=DECAY)
+    return use("pressure_law", slope=size, rated=PRESSURE)
