@@ -16,6 +16,7 @@ import sys
 import time
 from collections import defaultdict
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
@@ -24,16 +25,19 @@ TESTS = Path(__file__).parents[1] / "tests"
 MOST_WORKERS = 2
 
 
-def make_and_read(order: Any) -> str:
-    """Make one campaign and let the library read it; gives a line about it."""
-    sys.path.insert(0, str(TESTS))
+def make_and_read(order: Any) -> tuple[bool, str]:
+    """Make one campaign and let the library read it; gives whether that was possible, and a line about it."""
     from bench.family_store import make  # pyright: ignore[reportMissingImports]
     from slipwise.campaign import load_campaign
+    from slipwise.errors import SlipwiseError
 
-    answer = make(order)
-    runs = len(load_campaign(order.folder).runs)
+    try:
+        answer = make(order)
+        runs = len(load_campaign(order.folder).runs)
+    except SlipwiseError as error:
+        return False, f"{order.name}: {error}"
     said = ", ".join(answer["missing"]) or "nothing to name"
-    return f"{answer['seconds']:6.1f} s  {runs} runs  {order.name:36s} {said}"
+    return True, f"{answer['seconds']:6.1f} s  {runs} runs  {order.name:36s} {said}"
 
 
 def begin() -> None:
@@ -80,8 +84,17 @@ def main() -> int:
     left = [order for order in wanted if not is_made(order)]
     print(f"{len(wanted) - len(left)} of {len(wanted)} campaigns are there", flush=True)
     with ProcessPoolExecutor(chosen.workers, get_context("spawn"), begin) as pool:
-        for number, job in enumerate(as_completed([pool.submit(make_and_read, order) for order in left]), start=1):
-            print(f"{number:4d} of {len(left)}  {job.result()}", flush=True)
+        jobs = [pool.submit(make_and_read, order) for order in left]
+        failed: list[str] = []
+        try:
+            for number, job in enumerate(as_completed(jobs), start=1):
+                good, line = job.result()
+                print(f"{number:4d} of {len(left)}  {line}", flush=True)
+                failed += [] if good else [line]
+        except (KeyboardInterrupt, BrokenProcessPool):
+            pool.shutdown(wait=False, cancel_futures=True)
+            print("stopped; the same command goes on from here", flush=True)
+            return 1
     rows = table(read_answers(chosen.out))
     path = chosen.out / "families.csv"
     with path.open("w", newline="", encoding="utf-8") as stream:
@@ -91,7 +104,8 @@ def main() -> int:
     for row in rows:
         print(f"{row['family']:24s} {row['maker']:7s} {row['campaigns']:4d} campaigns of {row['seconds']:5.1f} s")
     print(f"wrote {path}, {time.perf_counter() - began:.0f} s")
-    return 0
+    print("\n".join(["could not be made or read:", *failed]) if failed else "all were made and read")
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":

@@ -79,9 +79,10 @@ def make(order: Order) -> dict[str, Any]:
     answer = {**made.answer, "depends_on": order.depends_on, "seconds": round(time.process_time() - began, 2)}
     order.answer.parent.mkdir(parents=True, exist_ok=True)
     whole = order.answer.with_suffix(".part")
-    whole.write_text(json.dumps(answer, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    text = json.dumps(answer, indent=1, allow_nan=False)
+    whole.write_text(text + "\n", encoding="utf-8")
     whole.replace(order.answer)
-    return answer
+    return json.loads(text)
 
 
 def read_answers(out: Path) -> dict[str, dict[str, Any]]:

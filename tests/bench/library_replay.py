@@ -21,8 +21,10 @@ from bench.settings import Settings, pads_of
 from bench.specimen_text import specimen_toml
 from slipwise.model import Model, base_model, use
 from slipwise.motion import TableMotion
+from slipwise.record import Record
 from slipwise.rig import Specimen, load_specimen
 from slipwise.simulation.replay import replay
+from slipwise.simulation.result import SimulationDiverged
 
 Array = NDArray[np.float64]
 #: Step of the library's simulation and of its rows [s]: it divides the interval of any logger.
@@ -32,6 +34,8 @@ _DIGITS = 12
 _LONG_REST = 1800.0
 #: Below this speed of slip a pad counts as stuck [m/s]. Assumed.
 _STUCK = 1.0e-3
+#: Where a girder is that a simulation has lost [m].
+_FAR = 1.0
 
 
 def replayed(settings: Settings, motion: Motion, memory: Memory, step: float, every: int) -> dict[str, Array]:
@@ -45,9 +49,12 @@ def replayed(settings: Settings, motion: Motion, memory: Memory, step: float, ev
     """
     model = library_model(settings)
     rest = _LONG_REST if memory.of_library is not None else 0.0
-    answer = replay(model, _table_motion(motion), dt=STEP, output_dt=STEP, start=memory.of_library, rest=rest)
-    memory.of_library = answer.memory
-    record = answer.record
+    table = _table_motion(motion)
+    try:
+        answer = replay(model, table, dt=STEP, output_dt=STEP, start=memory.of_library, rest=rest)
+        record, memory.of_library = answer.record, answer.memory
+    except SimulationDiverged as error:
+        record = _lost(error.replay.record, int(table.duration / STEP) + 1)
     half = 0.5 * settings.spacing_x
     edge = model.specimen.edge_distance
     turn = (record["girder_az_2"] - record["girder_az_1"]) / (2.0 * edge)
@@ -71,6 +78,14 @@ def replayed(settings: Settings, motion: Motion, memory: Memory, step: float, ev
         out |= {f"pad_{pad.name}_F{axis}_base": base[:, i] for i, axis in enumerate("xy")}
     time = STEP * np.arange(len(record), dtype=np.float64)
     return {"time": time, **{name: out[name] for name in columns(settings)}}
+
+
+def _lost(record: Record, count: int) -> Record:
+    """Give the record of a simulation that was stopped, with a girder that is far away until the motion ends."""
+    missing = (0, max(count - len(record), 0))
+    channels = {name: np.pad(values, missing, mode="edge") for name, values in record.channels.items()}
+    channels["slip_x"][len(record) :] = _FAR
+    return Record(STEP * np.arange(len(record) + missing[1]), channels, record.provenance)
 
 
 def _table_motion(motion: Motion) -> TableMotion:

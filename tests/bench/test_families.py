@@ -139,9 +139,10 @@ def test_both_makers_shake_a_complete_rig_alike(name):
     assert list(runs[0]) == list(runs[1])
     pads = [f"pad_{pad}_{part}" for pad in pad_names(base) for part in ("N", "Fx")]
     floors = [channel for channel in runs[0] if channel.startswith("storey_")]
+    slips = np.hypot(runs[0]["slip_vx"], runs[0]["slip_vy"]) > 0.02  # what a pad that sticks bears is nobody's law
     for channel in ("slip_x", "slip_y", "girder_ax", "girder_az", *pads, *floors):
         ode, replay = runs[0][channel], np.interp(runs[0]["time"], runs[1]["time"], runs[1][channel])
-        assert np.std(ode - replay) < 0.06 * np.std(ode), channel
+        assert np.std((ode - replay)[slips]) < 0.05 * np.std(ode), channel
 
 
 def test_a_girder_and_its_floors_obey_newton():
