@@ -15,7 +15,7 @@ MIX = {"nothing": 0.30, "one or two": 0.35, "three to five": 0.15, "unknown": 0.
 #: Seeds that follow each other meet the mix evenly when they walk through it by the golden section.
 _GOLDEN = 0.6180339887498949
 #: Laws that share a memory in the simulator, and those that need motion across.
-_CLASH = {"breakaway", "rate_and_state"}
+CLASH = {"breakaway", "rate_and_state"}
 _ACROSS = {"anisotropy"}
 #: Effects of the catalogue that a laboratory would not leave in: a wrong sign is one of the first things.
 _NEVER = {"channel_sign"}
@@ -110,7 +110,7 @@ def draw_effects(group: str, rng: np.random.Generator) -> list[str]:
     wanted = count + len(chosen)
     while len(chosen) < wanted:
         name = str(rng.choice(gauges if rng.random() < 0.2 else PHYSICS))
-        if name not in chosen and not _CLASH <= {*chosen, name}:
+        if name not in chosen and not CLASH <= {*chosen, name}:
             chosen.append(name)
     forms = {form.partition(":")[0]: form for form in OTHER_FORMS}
     return [forms[name] if name in forms and rng.random() < _OTHER else name for name in chosen]
@@ -139,7 +139,7 @@ def draw_dirt(taken: set[str], rng: np.random.Generator) -> list[Plant]:
         if there and (effect in GAUGE_DIRT or effect not in taken):
             plants.append(Plant(effect, scale, seed, True, most))
     if rng.random() < 0.4:  # some law of the catalogue is really there, and does not matter
-        left = [name for name in PHYSICS if name not in taken | set(RIG_DIRT) | _CLASH | _ACROSS | NEVER_SMALL]
+        left = [name for name in PHYSICS if name not in taken | set(RIG_DIRT) | CLASH | _ACROSS | NEVER_SMALL]
         most = float(rng.uniform(0.1, _MOST_DIRT))
         plants.append(Plant(str(rng.choice(left)), 1.0, int(rng.integers(2**31)), False, most))
     return plants

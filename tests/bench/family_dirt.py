@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bench.dirty_plan import NEVER_SMALL, Plan
+from bench.dirty_plan import CLASH, NEVER_SMALL, Plan
 from bench.first_things import LATE_CELLS, LATE_CHANNEL
 from bench.gauges import Logger
 from bench.hidden import PHYSICS
@@ -18,7 +18,7 @@ from bench.planted import Plant
 _SCALE, _TARGET = (1.5, 6.0), (0.3, 4.0)
 #: Small effects of a campaign that has them by the dozen, and how large each is [limits].
 _DOZEN, _SMALL = 12, (0.15, 0.8)
-#: Laws of the catalogue that share a memory, or that need motion across.
+#: One of two laws that share a memory, one that needs motion across, and laws that do not vanish with their size.
 _NOT_SMALL = frozenset({"rate_and_state", "anisotropy", *NEVER_SMALL})
 
 
@@ -79,6 +79,7 @@ def _wrong_mass(was: Soiled, rng: np.random.Generator) -> Soiled:
 def _small_effects(was: Soiled, rng: np.random.Generator) -> Soiled:
     """A dozen effects of the catalogue, each below what is material."""
     taken = {plant.name for plant in was.plan.plants if not plant.dirt}
+    taken |= CLASH if taken & CLASH else set()
     names = rng.choice([n for n in PHYSICS if n not in taken | _NOT_SMALL], size=_DOZEN, replace=False)
     small = tuple(Plant(str(n), 1.0, int(rng.integers(2**31)), False, _log(rng, *_SMALL)) for n in names)
     kept = tuple(p for p in was.plan.plants if not (p.dirt and p.name in names))

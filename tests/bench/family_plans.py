@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from bench.dirty_logger import draw_dirty_logger
-from bench.dirty_plan import Plan, draw_dirt, draw_effects, draw_plan, hide_on_purpose
+from bench.dirty_plan import CLASH, Plan, draw_dirt, draw_effects, draw_plan, hide_on_purpose
 from bench.drawn_rigs import DRAWN, possible_on
 from bench.family_dirt import NOISE, SOILS, Soiled, noisy
 from bench.gauges import RICH, USUAL, Logger, draw_logger
@@ -38,7 +38,7 @@ def clean(seed: int, maker: str) -> Soiled:
 def usual(seed: int, maker: str) -> Soiled:
     """All that is usual: a campaign of `bench.dirty_plan`."""
     plan = draw_plan(seed)
-    first = tuple(kind for kind in plan.first if kind != _HELD_OUT_FIRST) or plan.first and ("dead",)
+    first = tuple(dict.fromkeys("dead" if kind == _HELD_OUT_FIRST else kind for kind in plan.first))
     return _for(maker, Soiled(replace(plan, first=first), None))
 
 
@@ -110,7 +110,8 @@ def _purpose(seed: int, rng: np.random.Generator, possible: tuple[str, ...] = ()
     effects = draw_effects(group, rng)
     if possible:  # other rigs: what they can have, and no fault of gauges
         effects = [str(name) for name in rng.choice(possible, size=len(effects), replace=False)]
-    effects = [name for name in effects if name not in _HELD_OUT_NAMES]
+    unwanted = {*_HELD_OUT_NAMES, *({"rate_and_state"} if set(effects) >= CLASH else ())}
+    effects = [name for name in effects if name not in unwanted]
     rich = bool(rng.random() < 0.2) or "anisotropy" in effects
     plants = tuple(hide_on_purpose(effect, rng) for effect in effects)
     runs = int(rng.choice([3, 5], p=[0.25, 0.75]))
