@@ -8,6 +8,8 @@
     details         law and numbers of everything that was planted
     alternatives    name -> what counts for it
 
+Floors of a rig's effect are 0 where it is below half a limit: nobody asks.
+
 A law outside the catalogue is called "unknown". What has no name in any catalogue is `unnamed` and stays immaterial.
 """
 
