@@ -61,8 +61,8 @@ def replayed(settings: Settings, motion: Motion, memory: Memory, step: float, ev
     nothing = np.zeros(len(record))  # a buffer without stiffness is no part of the library's rig
     out = {name: record[name] if name in record.channels else nothing for name in columns(settings)}
     out |= {
-        "pitch_acceleration": turn,
-        "roll_acceleration": np.gradient(np.gradient(record["roll"], STEP), STEP),
+        # relative to the table, which may pitch; the edges' gauges feel the turn in space
+        **{f"{way}_acceleration": np.gradient(np.gradient(record[way], STEP), STEP) for way in ("pitch", "roll")},
         "girder_az_1": record["girder_az"] - (half - settings.centre_x) * turn,
         "girder_az_2": record["girder_az"] + (half + settings.centre_x) * turn,
     }
