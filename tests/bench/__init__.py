@@ -1,4 +1,7 @@
-"""A blind bench: a second simulator of the rig that shares nothing with the library, and campaigns made with it."""
+"""A blind bench: a second simulator of the rig that shares nothing with the library, and campaigns made with it.
+
+`bench.families` has campaigns that the library's own replay makes too, from the same plans.
+"""
 
 from bench.bearing import bearing_plan, is_right, make_bearing, radius_error
 from bench.campaign import Campaign, build_campaign, make_campaign, with_faults

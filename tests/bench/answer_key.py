@@ -9,7 +9,7 @@ base, before and after a linear fit of those parameters; see `bench.floors`.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from bench.faults import Fault
 from bench.floors import sizes_in_floors
@@ -17,7 +17,7 @@ from bench.gauges import Logger, measure, sensor
 from bench.importance import Importance, importance
 from bench.motions import Motion
 from bench.planted import Plant, faults_of, named, only, together, without
-from bench.rig_ode import Memory, simulate
+from bench.rig_ode import Memory, Shaker, simulate
 from bench.score import SMALLEST
 from bench.settings import Settings
 
@@ -41,6 +41,7 @@ class Scene:
         logger: the chain, at a rate that divides that of the simulation.
         names: channels that are recorded.
         first: faults that come before any balance.
+        shaker: what makes true channels: the second simulator, or the library.
     """
 
     base: Settings
@@ -51,15 +52,14 @@ class Scene:
     logger: Logger
     names: tuple[str, ...]
     first: tuple[Fault, ...] = ()
+    shaker: Shaker = simulate
 
     def shaken(self, plants: Sequence[Plant]) -> list[dict]:
         """Give the true channels of the runs with these effects in the specimen."""
         settings = self.base.changed(**together(plants, self.base).settings)
         runs = []
         for motion, number, memory in zip(self.motions, self.numbers, self.memories, strict=True):
-            now = settings.changed(clock=self.clock + 1800.0 * number)
-            own = Memory(memory.distance, memory.largest)
-            runs.append(simulate(now, motion, own, step=COARSE, every=EVERY))
+            runs.append(self.shaker(settings.of_run(number, self.clock), motion, memory.copy(), COARSE, EVERY))
         return runs
 
     def recorded(self, true: Sequence[dict], faults: Sequence[Fault]) -> list[dict]:
@@ -76,8 +76,9 @@ class Scene:
 
     def last(self) -> "Scene":
         """Give the held-out run alone, without faults that come before any balance."""
-        last = (self.motions[-1:], self.numbers[-1:], self.memories[-1:])
-        return Scene(self.base, *last, self.clock, self.logger, self.names)
+        return replace(
+            self, motions=self.motions[-1:], numbers=self.numbers[-1:], memories=self.memories[-1:], first=()
+        )
 
     def noise(self) -> dict[str, float]:
         """Give the standard deviation of every channel's noise [SI]."""

@@ -16,13 +16,15 @@ Engineering 116(2), for mu(V) and 20 to 100 s/m; noise and errors of control ass
 reads.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from bench.slider_friction import FRICTION, Drive
 
 Array = NDArray[np.float64]
 KINDS: tuple[str, ...] = ("pendulum", "spring", "rim", "flat")
@@ -33,12 +35,17 @@ MAY_NAME: dict[str, frozenset[str]] = {
     "rim": frozenset({"restrainer"}),
     "flat": frozenset(),
 }
+#: Mean pressure on a pad [Pa], and how real contact saturates with it [1/Pa]: that of the paper.
+PRESSURE, SATURATION = 30.0e6, 0.102e-6
 #: Slip over which friction turns round, over the stroke: hard faces on a stiff machine [1].
-_TURNS = 2e-5
+TURNS = 2e-5
 #: Steps of the path between two samples.
-_FINE = 40
+FINE = 40
 #: Samples of a record at most: a slow test is logged slowly.
 _SAMPLES = 4000
+
+
+Force = Callable[["Bearing", Drive], Array]
 
 
 @dataclass(frozen=True)
@@ -59,6 +66,9 @@ class Bearing:
         noise: of force, load and slip over what they read at most [1].
         control: slow error of the load over the load [1].
         zero: of the force gauge [N].
+        turning: slip over which friction turns round, over the stroke [1].
+        varying: share by which a programme swings the load about its mean [1]; 0: it is held.
+        hidden: (effect, size) of what friction has beside mu(V); see `bench.slider_friction`.
     """
 
     kind: str
@@ -75,10 +85,20 @@ class Bearing:
     noise: tuple[float, float, float]
     control: float
     zero: float
+    turning: float = TURNS
+    varying: float = 0.0
+    hidden: tuple[tuple[str, float], ...] = ()
 
-    def force(self, load: Array, slip: Array, velocity: Array, turned: Array) -> Array:
-        """Give the force along the table [N]; `turned` is friction over its bound [1]."""
+    def force(self, drive: Drive) -> Array:
+        """Give the force along the table [N] in a test."""
+        load, slip, velocity = drive.load, drive.slip, drive.velocity
+        turned = _turned(slip, self.turning * self.stroke)
         friction = self.mu_fast - (self.mu_fast - self.mu_slow) * np.exp(-self.rate * np.abs(velocity))
+        if self.varying:  # the sheared part goes with the real area of contact, which saturates
+            area = -np.expm1(-SATURATION * PRESSURE * load / self.load) / -np.expm1(-SATURATION * PRESSURE)
+            friction = self.mu_slow + (friction - self.mu_slow) * area * self.load / load
+        for name, size in self.hidden:
+            friction = FRICTION[name](friction, drive, size)
         slope = slip / np.sqrt(self.radius**2 - slip**2) if np.isfinite(self.radius) else np.zeros_like(slip)
         share = friction * turned
         beyond = np.sign(slip) * np.maximum(np.abs(slip) - self.gap, 0.0)
@@ -123,7 +143,7 @@ def draw_bearing(kind: str, seed: int) -> Bearing:
 def _path(rng: np.random.Generator, stroke: float, period: float, step: float) -> tuple[Array, Array]:
     """Give time [s] and slip [m] of three to five cycles, sines or triangles with round corners, eased in and out."""
     whole = int(rng.integers(3, 6)) * period
-    time = np.arange(0.0, whole, max(step, whole / _SAMPLES) / _FINE)
+    time = np.arange(0.0, whole, max(step, whole / _SAMPLES) / FINE)
     phase = 2.0 * np.pi * time / period
     wave = np.sin(phase) if rng.uniform() < 0.6 else np.arcsin(0.98 * np.sin(phase)) / np.arcsin(0.98)
     ends = np.minimum(time, time[-1] - time) / (0.5 * period)
@@ -144,12 +164,12 @@ def _turned(slip: Array, length: float) -> Array:
     return out
 
 
-def record(bearing: Bearing, rng: np.random.Generator, share: float, speed: float) -> Array:
-    """Give time [s], slip [mm], load [kN], force [kN] as they are read, (n, 4).
+def drive_of(bearing: Bearing, rng: np.random.Generator, share: float, speed: float) -> Drive:
+    """Draw what the machine does in a test, at `FINE` steps for a sample.
 
     Args:
         bearing: that is tested.
-        rng: of noise and motion.
+        rng: generator.
         share: of the stroke [1].
         speed: largest of a sine [m/s].
     """
@@ -158,8 +178,23 @@ def record(bearing: Bearing, rng: np.random.Generator, share: float, speed: floa
     velocity = np.gradient(slip, time)
     wave = np.sin(2.0 * np.pi * time / time[-1] * rng.uniform(1.0, 12.0) + rng.uniform(0.0, 6.0))
     load = bearing.load * (1.0 + np.sqrt(2.0) * bearing.control * wave)
-    force = bearing.force(load, slip, velocity, _turned(slip, _TURNS * bearing.stroke))
-    taken = slice(None, None, _FINE)
+    if bearing.varying:
+        swing = np.sin(2.0 * np.pi * time / time[-1] * rng.uniform(2.0, 9.0) + rng.uniform(0.0, 6.0))
+        load = load * (1.0 + bearing.varying * swing)
+    return Drive(time, slip, velocity, load)
+
+
+def record(bearing: Bearing, rng: np.random.Generator, drive: Drive, force_of: Force = Bearing.force) -> Array:
+    """Give time [s], slip [mm], load [kN], force [kN] as they are read, (n, 4).
+
+    Args:
+        bearing: that is tested.
+        rng: of the noise.
+        drive: what the machine does.
+        force_of: what gives the force of a bearing [N]: the closed form, or the library.
+    """
+    time, slip, load, force = drive.time, drive.slip, drive.load, force_of(bearing, drive)
+    taken = slice(None, None, FINE)
     true = np.stack([slip, load, force + bearing.zero], axis=1)[taken]
     of_force, of_load, of_slip = bearing.noise
     sizes = np.array([of_slip * bearing.stroke, of_load * bearing.load, of_force * np.abs(force).max()])
@@ -178,19 +213,37 @@ def make_bearing(folder: Path, kind: str, seed: int) -> dict[str, Any]:
     bearing = draw_bearing(kind, seed)
     rng = np.random.default_rng([seed, 6, KINDS.index(kind)])
     fast = float(np.exp(rng.uniform(np.log(0.05), np.log(0.6))))
+    runs = {"slow": ("fit", 1.0, 0.25 * fast), "fast": ("fit", 0.9, fast), "other": ("holdout", 0.7, 0.5 * fast)}
+    tables = {}
+    for name, (_, share, speed) in runs.items():
+        tables[name] = record(bearing, rng, drive_of(bearing, rng, share, speed))
+    write_bearing(folder, bearing, {name: role for name, (role, *_) in runs.items()}, tables)
+    return {"kind": kind, "seed": seed, "may_name": sorted(MAY_NAME[kind]), **_as_dict(bearing)}
+
+
+def _as_dict(bearing: Bearing) -> dict[str, Any]:
+    return {name: value for name, value in vars(bearing).items() if name not in ("turning", "varying", "hidden")}
+
+
+def write_bearing(folder: Path, bearing: Bearing, roles: Mapping[str, str], tables: Mapping[str, Array]) -> None:
+    """Write campaign.toml and a CSV file for each run.
+
+    Args:
+        folder: of the campaign; its name becomes the campaign's.
+        bearing: that is tested.
+        roles: run -> "fit" or "holdout".
+        tables: run -> what `record` gives.
+    """
     folder.mkdir(parents=True, exist_ok=True)
-    radius = np.sqrt(bearing.load / (np.pi * 30e6))  # a usual pressure, 30 MPa
+    radius = np.sqrt(bearing.load / (np.pi * PRESSURE))
     text = f'name = "{folder.name}"\nrig = "pad"\n\n[specimen]\npad_radius = "{1e3 * radius:.4g} mm"\n\n'
     text += '[logger]\nlowpass = "none"\n'
-    runs = {"slow": ("fit", 1.0, 0.25 * fast), "fast": ("fit", 0.9, fast), "other": ("holdout", 0.7, 0.5 * fast)}
-    for name, (role, share, speed) in runs.items():
-        table = record(bearing, rng, share, speed)
-        rows = "\n".join(",".join(f"{value:.6g}" for value in row) for row in table.tolist())
+    for name, role in roles.items():
+        rows = "\n".join(",".join(f"{value:.6g}" for value in row) for row in tables[name].tolist())
         header = "time [s],slip_x [mm],pad_A_N [kN],pad_A_Fx [kN]"
         (folder / f"{name}.csv").write_text(f"{header}\n{rows}\n", encoding="utf-8")
         text += f'\n[[run]]\nfile = "{name}.csv"\nrole = "{role}"\n'
     (folder / "campaign.toml").write_text(text, encoding="utf-8")
-    return {"kind": kind, "seed": seed, "may_name": sorted(MAY_NAME[kind]), **vars(bearing)}
 
 
 def is_right(truth: Mapping[str, Any], said: Mapping[str, Any]) -> bool:

@@ -7,14 +7,15 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from bench.drawn_rigs import DRAWN, as_built, draw_rig, natural_frequency, possible_on, specimen_toml, with_cells_for
+from bench.drawn_rigs import DRAWN, as_built, draw_rig, natural_frequency, possible_on, with_cells_for
 from bench.faults import Fault, with_rails
 from bench.floors import sizes_in_floors
 from bench.gauges import Logger, draw_logger, measure, recorded_channels
 from bench.hidden import SIZES, Case, Hidden, draw, hide
 from bench.motions import NATURAL, Motion, draw_quake, draw_sine
-from bench.rig_ode import EVERY, STEP, Memory, simulate
+from bench.rig_ode import EVERY, STEP, Memory, Shaker, simulate
 from bench.settings import GRAVITY, Settings, pad_names, random_rig, rated
+from bench.specimen_text import specimen_toml
 from bench.truth import Truth
 from bench.write import write_campaign
 
@@ -88,6 +89,7 @@ def shake(
     step: float = STEP,
     every: int = EVERY,
     memories: dict[str, Memory] | None = None,
+    shaker: Shaker = simulate,
 ) -> dict[str, Run]:
     """Run all motions in order on one specimen: wear stays, heat is gone after the rest.
 
@@ -98,14 +100,14 @@ def shake(
         step: of the integration [s].
         every: steps for a row of the result.
         memories: gets, for each run, what the specimen brings into it.
+        shaker: what makes true channels of a specimen, a motion and its memory: `simulate`, or the library.
     """
     memory = Memory()
     runs = {}
     for number, (name, motion) in enumerate(motions.items()):
         if memories is not None:
-            memories[name] = Memory(memory.distance, memory.largest)
-        now = settings.changed(clock=clock + 1800.0 * number)
-        runs[name] = simulate(now, motion, memory, step, every)
+            memories[name] = memory.copy()
+        runs[name] = shaker(settings.of_run(number, clock), motion, memory, step, every)
     return runs
 
 

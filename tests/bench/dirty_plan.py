@@ -15,7 +15,7 @@ MIX = {"nothing": 0.30, "one or two": 0.35, "three to five": 0.15, "unknown": 0.
 #: Seeds that follow each other meet the mix evenly when they walk through it by the golden section.
 _GOLDEN = 0.6180339887498949
 #: Laws that share a memory in the simulator, and those that need motion across.
-_CLASH = {"breakaway", "rate_and_state"}
+CLASH = {"breakaway", "rate_and_state"}
 _ACROSS = {"anisotropy"}
 #: Effects of the catalogue that a laboratory would not leave in: a wrong sign is one of the first things.
 _NEVER = {"channel_sign"}
@@ -24,7 +24,7 @@ _OTHER = 0.5
 #: How often what matters is large enough to stand above the noise as well [1].
 _SEEN = 0.85
 #: Laws that do not vanish with their size: an impact in a gap, and a bristle instead of the base's stick.
-_NEVER_SMALL = {"key_clearance", "presliding"}
+NEVER_SMALL = {"key_clearance", "presliding"}
 #: Dirt stays below this share of what is material unless it is there on purpose.
 _MOST_DIRT = 0.8
 
@@ -41,6 +41,9 @@ class Plan:
         runs: number of them, 2 to 5.
         short: runs of 4 s.
         uplift: the last fitted run lifts pads; never the only one, for landings hang on the least change.
+        rig: "bridge1", "bridge2", one of `bench.plan_rigs.OWN` with its specimen.toml; "": one of the bridges.
+        maker: who shakes it, a key of `bench.makers.MAKERS`.
+        mass_error: of the mass that campaign.toml says, over the true one [1]; None: a laboratory's.
     """
 
     group: str
@@ -50,6 +53,9 @@ class Plan:
     runs: int
     short: bool
     uplift: bool
+    rig: str = ""
+    maker: str = "ode"
+    mass_error: float | None = None
 
 
 def group_of(seed: int) -> str:
@@ -72,9 +78,9 @@ def draw_plan(seed: int) -> Plan:
     rng = np.random.default_rng([seed, 31])
     group, inside = _place(seed)
     rich = bool(rng.random() < 0.2)
-    effects = _draw_effects(group, rng)
+    effects = draw_effects(group, rng)
     rich = rich or bool(_ACROSS & set(effects))
-    plants = [_hide(effect, rng) for effect in effects]
+    plants = [hide_on_purpose(effect, rng) for effect in effects]
     plants += draw_dirt({plant.name for plant in plants}, rng)
     runs = int(rng.choice([2, 3, 4, 5], p=[0.12, 0.13, 0.15, 0.6]))
     kinds = [KINDS[int(inside * len(KINDS))]]  # every kind as often as the others
@@ -91,7 +97,7 @@ def draw_plan(seed: int) -> Plan:
     )
 
 
-def _draw_effects(group: str, rng: np.random.Generator) -> list[str]:
+def draw_effects(group: str, rng: np.random.Generator) -> list[str]:
     count = {
         "nothing": 0,
         "one or two": int(rng.integers(1, 3)),
@@ -104,13 +110,13 @@ def _draw_effects(group: str, rng: np.random.Generator) -> list[str]:
     wanted = count + len(chosen)
     while len(chosen) < wanted:
         name = str(rng.choice(gauges if rng.random() < 0.2 else PHYSICS))
-        if name not in chosen and not _CLASH <= {*chosen, name}:
+        if name not in chosen and not CLASH <= {*chosen, name}:
             chosen.append(name)
     forms = {form.partition(":")[0]: form for form in OTHER_FORMS}
     return [forms[name] if name in forms and rng.random() < _OTHER else name for name in chosen]
 
 
-def _hide(effect: str, rng: np.random.Generator) -> Plant:
+def hide_on_purpose(effect: str, rng: np.random.Generator) -> Plant:
     """Plant an effect that is mostly material, one time in five near the border."""
     low, high = (0.6, 1.6) if rng.random() < 0.2 else (1.5, 15.0)
     target = float(np.exp(rng.uniform(np.log(low), np.log(high))))
@@ -133,7 +139,7 @@ def draw_dirt(taken: set[str], rng: np.random.Generator) -> list[Plant]:
         if there and (effect in GAUGE_DIRT or effect not in taken):
             plants.append(Plant(effect, scale, seed, True, most))
     if rng.random() < 0.4:  # some law of the catalogue is really there, and does not matter
-        left = [name for name in PHYSICS if name not in taken | set(RIG_DIRT) | _CLASH | _ACROSS | _NEVER_SMALL]
+        left = [name for name in PHYSICS if name not in taken | set(RIG_DIRT) | CLASH | _ACROSS | NEVER_SMALL]
         most = float(rng.uniform(0.1, _MOST_DIRT))
         plants.append(Plant(str(rng.choice(left)), 1.0, int(rng.integers(2**31)), False, most))
     return plants

@@ -4,7 +4,7 @@ import numpy as np
 
 from bench.campaign import fit_amplitude
 from bench.dirty_plan import Plan
-from bench.motions import NATURAL, Motion, draw_sine
+from bench.motions import Motion, draw_sine
 from bench.quakes import draw_pulse, draw_record, draw_sweep
 from bench.settings import GRAVITY, Settings
 
@@ -22,9 +22,15 @@ _LIFTING = (0.85 * GRAVITY, 1.15 * GRAVITY)
 
 
 def draw_dirty_runs(
-    rig: str, base: Settings, plan: Plan, rng: np.random.Generator
+    natural: float, base: Settings, plan: Plan, rng: np.random.Generator
 ) -> tuple[dict[str, Motion], tuple[tuple[str, str], ...]]:
     """Draw motions whose slips of the base rig are about 8 to 32 mm.
+
+    Args:
+        natural: frequency round which a sine is drawn [Hz].
+        base: the rig.
+        plan: of the campaign.
+        rng: generator.
 
     Returns:
         run -> motion, and (run, role) in order.
@@ -35,7 +41,7 @@ def draw_dirty_runs(
         if role == "repeat":
             motions[run] = motions[roles[number - 1][0]]
         elif number == 0 and len(roles) > 2:
-            motions[run] = _steady(rig, base, plan, rng)
+            motions[run] = _steady(natural, base, plan, rng)
         else:
             motions[run] = _record(base, plan, rng, long=number == 1 and role == "fit")
     if len(roles) > 3 and rng.random() < 0.6:
@@ -54,14 +60,12 @@ def _length(plan: Plan, rng: np.random.Generator, long: bool = False) -> float:
     return float(rng.uniform(*(_LONG if long and rng.random() < 0.3 else _LENGTH)))
 
 
-def _steady(rig: str, base: Settings, plan: Plan, rng: np.random.Generator) -> Motion:
+def _steady(natural: float, base: Settings, plan: Plan, rng: np.random.Generator) -> Motion:
     """Draw a sine or a sweep, or a record where a laboratory had no time for either."""
     kind = str(rng.choice(["sine", "sweep", "record"], p=[0.5, 0.25, 0.25]))
     if kind == "record" or plan.short:
         return _record(base, plan, rng)
-    motion = (
-        draw_sine(NATURAL[rig], rng, plan.rich) if kind == "sine" else draw_sweep(rng, _length(plan, rng), plan.rich)
-    )
+    motion = draw_sine(natural, rng, plan.rich) if kind == "sine" else draw_sweep(rng, _length(plan, rng), plan.rich)
     return fit_amplitude(base, motion, rng.uniform(0.008, 0.022), 0.12 * GRAVITY, 0.5 * GRAVITY)
 
 

@@ -12,7 +12,7 @@ from bench.gauges import Logger
 from bench.hidden import PHYSICS
 from bench.parts import Buffer, Pad, pad_table
 from bench.rig_ode import rest_loads
-from bench.settings import GRAVITY, Settings, drawn_law, rated
+from bench.settings import GRAVITY, Settings, drawn_law, pads_of, rated
 
 Array = NDArray[np.float64]
 #: What a campaign of such a rig says of its rig.
@@ -151,7 +151,7 @@ def _table(rig: Settings) -> Array:
 
 def natural_frequency(rig: Settings) -> float:
     """Give the frequency [Hz] on buffers and curved plates round which a sine is drawn."""
-    per_mass = rig.buffer_stiffness / rig.mass + GRAVITY * float(np.mean([pad.curvature for pad in rig.pads]))
+    per_mass = rig.buffer_stiffness / rig.mass + GRAVITY * float(np.mean([pad.curvature for pad in pads_of(rig)]))
     return float(np.clip(np.sqrt(per_mass) / (2.0 * np.pi), _SLOWEST, _FASTEST))
 
 
@@ -169,29 +169,3 @@ def with_cells_for(rig: Settings, logger: Logger) -> Logger:
     """Give a chain with load cells whose range, and noise, is made for the load of a pad."""
     larger = {"load": rig.pad_size, "force": rig.pad_size}
     return replace(logger, noise={kind: level * larger.get(kind, 1.0) for kind, level in logger.noise.items()})
-
-
-def specimen_toml(rig: Settings) -> str:
-    """Write the rig as its laboratory would: rounded, and without what the bench hides."""
-    inertia = ", ".join(f'"{value:.4g} kg m^2"' for value in (rig.inertia_roll, rig.inertia_pitch, rig.inertia_yaw))
-    lines = [
-        f'mass = "{rig.mass:.4g} kg"',
-        f"inertia = [{inertia}]",
-        f'centre_height = "{rig.height:.4g} m"',
-        f'centre_x = "{rig.centre_x:.4g} m"',
-        f'centre_y = "{rig.centre_y:.4g} m"',
-    ]
-    for pad in rig.pads:
-        curved = f', radius_of_curvature = "{1.0 / pad.curvature:.6g} m"' if pad.curvature else ""
-        high = f', z = "{1e3 * pad.height:.4g} mm"' if pad.height else ""
-        lines.append(
-            f'pads.{pad.name} = {{ x = "{pad.x:.5g} m", y = "{pad.y:.5g} m", '
-            f'radius = "{1e3 * np.sqrt(pad.area / np.pi):.5g} mm", stiffness = "{pad.stiffness / 1e6:.4g} kN/mm", '
-            f'damping = "{pad.damping / 1e3:.4g} kN s/m"{high}{curved} }}'
-        )
-    for b in rig.buffers:
-        lines.append(
-            f'buffers.{b.name} = {{ x = "{b.x:.5g} m", y = "{b.y:.5g} m", z = "{b.z:.4g} m", '
-            f'stiffness_x = "{b.stiffness_x / 1e6:.4g} kN/mm", stiffness_y = "{b.stiffness_y / 1e6:.4g} kN/mm" }}'
-        )
-    return "\n".join(lines) + "\n"

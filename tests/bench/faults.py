@@ -16,6 +16,8 @@ from bench.settings import PADS
 Array = NDArray[np.float64]
 #: Samples at rest from which a zero is taken.
 TARE = 50
+#: No digital filter has a corner above this share of the rate [1].
+_NYQUIST = 0.49
 
 
 @dataclass(frozen=True)
@@ -27,7 +29,8 @@ class Fault:
         channels: that it touches.
         size: delay [s], gain [1], offset in the channel's SI unit, drift [unit/s], cut-off [Hz], rail as a share of
             the largest excursion [1], share of samples [1], clock error [1], cross-talk [N/N], cell's mass [kg]; of a
-            dead channel what it shows, of gravity its acceleration [m/s^2].
+            dead channel what it shows, of gravity its acceleration [m/s^2], share
+            of the other axis [1].
         form: variant of the law, in words.
         rails: (low, high) of each channel once the runs are known; see `with_rails`.
         seed: of the places where samples are lost.
@@ -73,12 +76,15 @@ def apply_before_logger(fault: Fault, channels: dict[str, Array], time: Array, t
             channels[name] = np.full_like(channels[name], fault.size)
         elif fault.effect in ("channel_offset", "gravity"):
             channels[name] = channels[name] + fault.size
+        elif fault.effect == "cross_axis":
+            channels[name] = channels[name] + fault.size * true[fault.form]
         elif fault.effect == "channel_drift":
             warm = 3.0 * (1.0 - np.exp(-time / 3.0)) if fault.form == "warming up" else time
             channels[name] = channels[name] + fault.size * warm
         elif fault.effect == "channel_filter":
             order = 2 if fault.form == "second order" else 1
-            sos = butter(order, fault.size, fs=1.0 / (time[1] - time[0]), output="sos")
+            rate = 1.0 / (time[1] - time[0])
+            sos = butter(order, min(fault.size, _NYQUIST * rate), fs=rate, output="sos")
             rest = channels[name][0]
             channels[name] = rest + np.asarray(sosfilt(sos, channels[name] - rest))
         elif fault.effect == "table_gain":

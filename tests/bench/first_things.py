@@ -9,6 +9,8 @@ from bench.faults import Fault
 from bench.settings import GRAVITY, PADS
 
 KINDS = ("dead", "late", "reversed", "tared", "gravity", "wrong_rig")
+#: All cells are on a second logger that was started by hand; or one channel lags behind, for a buffer that is not read.
+LATE_CELLS, LATE_CHANNEL = "late_cells", "late_channel"
 _FORCES = tuple(f"pad_{pad}_Fx" for pad in PADS)
 _LOADS = tuple(f"pad_{pad}_N" for pad in PADS)
 
@@ -37,7 +39,7 @@ def draw_first(kind: str, names: Sequence[str], runs: int, rng: np.random.Genera
     """Draw one.
 
     Args:
-        kind: one of `KINDS`.
+        kind: one of `KINDS`, `LATE_CELLS` or `LATE_CHANNEL`.
         names: channels that the campaign records.
         runs: in the campaign.
         rng: generator.
@@ -47,6 +49,10 @@ def draw_first(kind: str, names: Sequence[str], runs: int, rng: np.random.Genera
     cells = tuple(name for name in names if name.startswith("pad_"))
     where: tuple[int, ...] = ()
     size, form = 0.0, ""
+    if kind in (LATE_CELLS, LATE_CHANNEL):
+        channels = cells if kind == LATE_CELLS else (str(rng.choice(cells)),)
+        late = float(np.exp(rng.uniform(np.log(0.02), np.log(2.0))))
+        return First("late", channels, Fault("late", channels, late))
     if kind == "dead":
         channels = (str(rng.choice([*_FORCES, *_LOADS])),)
         form = str(rng.choice(["constant", "noisy"]))

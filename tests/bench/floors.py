@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.linalg import null_space
 
 from bench.gauges import Logger
+from bench.rig_ode import carried_mass
 from bench.settings import GRAVITY, Settings, buffers_of, pad_names, pads_of
 
 Array = NDArray[np.float64]
@@ -33,6 +34,22 @@ def _springs(p: Settings) -> tuple[float, float, float]:
     turn_x = sum(b.stiffness_x * (p.height - b.z) for b in buffers)
     turn_y = sum(b.stiffness_y * (p.height - b.z) for b in buffers)
     return sum(b.stiffness_x for b in buffers), turn_x, turn_y
+
+
+def _frame(p: Settings, run: dict[str, Array], felt: Array, axis: str) -> tuple[Array, Array]:
+    """Give what the storeys push the girder along an axis [N], and their moment about its centre of gravity [N m].
+
+    The moment is that of this push and of the floors' weight, which stands beside the girder by what the columns carry
+    over their stiffness; damping left out.
+    """
+    push, moment, beside = np.zeros(felt.size), np.zeros(felt.size), np.zeros(felt.size)
+    names = [f"storey_{number}_a{axis}" for number in range(1, len(p.storeys) + 1)]
+    inertia = [floor.mass * run[name] for floor, name in zip(p.storeys, names, strict=True)]
+    for place, floor in enumerate(p.storeys):
+        beside = beside - np.sum(inertia[place:], axis=0) / floor.stiffness
+        push = push - inertia[place]
+        moment += -(floor.z - p.height) * inertia[place] + floor.mass * felt * beside
+    return push, moment
 
 
 def _warps(p: Settings) -> Array:
@@ -87,15 +104,19 @@ def _rigid_balances(
     arm_y = y[:, None] - smooth(true["slip_y"])
     turn, tilt = smooth(true["pitch_acceleration"]), smooth(true["roll_acceleration"])
     nothing = np.zeros((slip.size, 0))
+    floors_y = {n: smooth(true[n]) for n in true if n.startswith("storey_") and n.endswith("_ay")}
+    push, frame_x = _frame(p, clean, GRAVITY + az, "x")
+    _, frame_y = _frame(p, floors_y, GRAVITY + az, "y")
+    carried = carried_mass(p)
     along_x = p.height * force + turn_x * slip
     along_y = p.height * smooth(_stack(p, true, "Fy").sum(axis=0)) + turn_y * smooth(true["slip_y"])
-    pitch = along_x - (arm_x * load).sum(axis=0)
-    roll = (arm_y * load).sum(axis=0) - along_y
+    pitch = along_x + frame_x - (arm_x * load).sum(axis=0)
+    roll = (arm_y * load).sum(axis=0) - along_y - frame_y
     known = np.array([pad.stiffness * pad.height for pad in pads_of(p)])
     warp = (warps @ (load - known[:, None])).ravel()
     return {
-        "girder": (p.mass * ax + force + buffer, np.stack([ax, slip], axis=1)),
-        "heave": (load.sum(axis=0) - p.mass * (GRAVITY + az), (GRAVITY + az)[:, None]),
+        "girder": (p.mass * ax + force + buffer - push, np.stack([ax, slip], axis=1)),
+        "heave": (load.sum(axis=0) - carried * (GRAVITY + az), (GRAVITY + az)[:, None]),
         "pitch": (pitch - p.inertia_pitch * turn, np.stack([along_x, turn], axis=1)),
         "roll": (roll - p.inertia_roll * tilt, np.stack([along_y, tilt], axis=1)),
         **({"warp": (warp, np.repeat(warps @ known, slip.size)[:, None])} if warp.size else {}),

@@ -17,12 +17,14 @@ Array = NDArray[np.float64]
 RATE = 500.0
 
 
-def recorded_channels(pads: Sequence[str], rich: bool) -> tuple[str, ...]:
+def recorded_channels(pads: Sequence[str], rich: bool, storeys: int = 0) -> tuple[str, ...]:
     """Give the channels that a laboratory records of a rig with these pads; rich: with motion across."""
+    floors = (f"storey_{number}_a{axis}" for number in range(1, storeys + 1) for axis in ("xy" if rich else "x"))
     if not rich:
         cells = (f"pad_{pad}_{part}" for pad in pads for part in ("N", "Fx"))
-        return ("table_ax", "table_az", "girder_ax", "girder_az", "slip_x", *cells)
+        return ("table_ax", "table_az", "girder_ax", "girder_az", *floors, "slip_x", *cells)
     return (
+        *floors,
         *("table_ax", "table_ay", "table_az", "girder_ax", "girder_ay", "girder_az", "girder_az_1", "girder_az_2"),
         *("slip_x", "slip_y", "yaw"),
         *(f"pad_{pad}_{part}" for pad in pads for part in ("N", "Fx", "Fy")),
@@ -39,7 +41,8 @@ def sensor(name: str) -> str:
     """Give the kind of sensor that a channel comes from: a key of `NOISE`."""
     if name.startswith("pad_"):
         return "load" if name.endswith("_N") else "force"
-    return name.split("_")[0]
+    kind = name.split("_")[0]
+    return "girder" if kind == "storey" else kind  # accelerometers of one make
 
 
 @cache

@@ -9,7 +9,7 @@ import numpy as np
 from bench.faults import Fault
 from bench.hidden_gauge import GAUGE_EFFECTS, ON_REQUEST
 from bench.hidden_pad import PAD_EFFECTS
-from bench.hidden_rig import RIG_EFFECTS, UNKNOWN_KINDS, unknown
+from bench.hidden_rig import FRAME_EFFECTS, RIG_EFFECTS, UNKNOWN_KINDS, unknown
 from bench.laws import LAWS
 from bench.settings import Settings
 
@@ -100,7 +100,7 @@ def hide_one(name: str, scale: float, base: Settings, rng: np.random.Generator) 
     elif family == "unknown":
         change, form = unknown(kind or str(rng.choice(list(UNKNOWN_KINDS))), rng, scale, base)
     else:
-        change, form = {**PAD_EFFECTS, **RIG_EFFECTS}[family](rng, scale, base)
+        change, form = {**PAD_EFFECTS, **RIG_EFFECTS, **FRAME_EFFECTS}[family](rng, scale, base)
     plain = {key: np.asarray(value).tolist() for key, value in change.items()}
     return Hidden((family,), dict(change), details={family: {"scale": scale, "form": form, **plain}})
 

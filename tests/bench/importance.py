@@ -6,8 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bench.settings import PADS
-
 Array = NDArray[np.float64]
 Run = Mapping[str, Array]
 #: A change of more than this share of a channel's rms about its mean, or of a figure of the held-out run, matters [1].
@@ -50,9 +48,10 @@ class Importance:
 def figures(true: Run) -> Figures:
     """Give the figures of a run from its true channels."""
     slip = np.hypot(true["slip_x"], true["slip_y"])
-    power = sum(true[f"pad_{p}_Fx"] * true[f"pad_{p}_vx"] + true[f"pad_{p}_Fy"] * true["slip_vy"] for p in PADS)
+    pads = [name.removesuffix("_vx") for name in true if name.startswith("pad_") and name.endswith("_vx")]
+    power = sum(true[f"{pad}_Fx"] * true[f"{pad}_vx"] + true[f"{pad}_Fy"] * true["slip_vy"] for pad in pads)
     step = float(true["time"][1] - true["time"][0])
-    largest = max(float(true[f"pad_{p}_N"].max()) for p in PADS)
+    largest = max(float(true[f"{pad}_N"].max()) for pad in pads)
     return Figures(float(slip.max()), step * float(np.sum(power)), largest)
 
 

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 X, Y, AREA, STIFFNESS, DAMPING, HEIGHT, CURVATURE, MASS, FACTOR, PATCH, LAW = range(11)
 #: Columns of a buffer's row; SIDE is +1 at y > 0 and -1 at y < 0.
 BUFFER_X, BUFFER_Y, BUFFER_Z, ALONG, ACROSS, SIDE = range(6)
+#: Columns of a storey's row.
+FLOOR_MASS, FLOOR_Z, COLUMNS, DASHPOTS = range(4)
 
 
 class Pad(NamedTuple):
@@ -53,6 +55,34 @@ class Buffer(NamedTuple):
     stiffness_y: float
 
 
+class Storey(NamedTuple):
+    """A floor of a frame on the girder, on columns that stand on the floor below.
+
+    Attributes:
+        mass: of the floor [kg].
+        z: its height above the sliding plane [m].
+        stiffness: of the columns, along x and along y [N/m].
+        damping: of the columns, along x and along y [N s/m].
+    """
+
+    mass: float
+    z: float
+    stiffness: float
+    damping: float
+
+
+class Use(NamedTuple):
+    """An effect of the library's catalogue, or of a file of the same form, with its numbers.
+
+    Attributes:
+        effect: its name, or the path of the file.
+        values: (parameter, value [SI]) of those that are not typical.
+    """
+
+    effect: str
+    values: tuple[tuple[str, float], ...]
+
+
 def pad_table(
     pads: tuple[Pad, ...], mass: float, seating: tuple[float, ...], hidden: tuple[tuple[float, ...], ...]
 ) -> NDArray[np.float64]:
@@ -77,3 +107,8 @@ def buffer_table(buffers: tuple[Buffer, ...]) -> NDArray[np.float64]:
     """Give the buffers' rows (m, 6)."""
     rows = [(b.x, b.y, b.z, b.stiffness_x, b.stiffness_y, float(np.sign(b.y))) for b in buffers]
     return np.array(rows, dtype=np.float64).reshape(len(buffers), 6)
+
+
+def storey_table(storeys: tuple[Storey, ...]) -> NDArray[np.float64]:
+    """Give the storeys' rows (s, 4)."""
+    return np.array(storeys, dtype=np.float64).reshape(len(storeys), 4)

@@ -9,12 +9,18 @@ import numpy as np
 from bench.dirt import GAUGE_DIRT, RIG_DIRT
 from bench.faults import Fault
 from bench.hidden import Hidden, hide_one
+from bench.library_effects import OF_DIRT, draw_use
+from bench.more_dirt import MORE_GAUGE_DIRT, MORE_RIG_DIRT
 from bench.other_forms import OTHER_FORMS
 from bench.score import INSTRUMENT
 from bench.settings import Settings
 
 #: Beyond it a law is no longer what its author meant (a large effect of the clean bench has 2.5).
 LARGEST = 4.0
+_DIRT_OF_RIG = {name: law for name, (_, law) in RIG_DIRT.items()} | MORE_RIG_DIRT
+_DIRT_OF_GAUGES = {name: law for name, (_, law) in GAUGE_DIRT.items()} | MORE_GAUGE_DIRT
+#: What changes the specimen itself, whoever shakes it.
+BOTH_SHAKE = frozenset({*MORE_RIG_DIRT, "superstructure"})
 
 
 @dataclass(frozen=True)
@@ -29,6 +35,7 @@ class Plant:
         dirt: whether it is one of `bench.dirt`.
         target: size wanted, in multiples of what is material; dirt may be smaller, not larger [1].
         floors: least size wanted after a fit of the base parameters [floors]; the larger of the two sizes counts.
+        of_library: whether what it changes in the rig is an effect of the library, for the maker that replays with it.
     """
 
     effect: str
@@ -37,6 +44,7 @@ class Plant:
     dirt: bool
     target: float
     floors: float = 0.0
+    of_library: bool = False
 
     @property
     def name(self) -> str:
@@ -46,7 +54,7 @@ class Plant:
     @property
     def of_gauge(self) -> bool:
         """Whether it is a fault of a gauge: the rig moves as if it were not there."""
-        return self.name in INSTRUMENT
+        return self.name in INSTRUMENT or self.name in MORE_GAUGE_DIRT
 
     def scaled(self, factor: float) -> "Plant":
         """Give the same law, `factor` times as large where it can be."""
@@ -56,20 +64,29 @@ class Plant:
     def hidden(self, base: Settings) -> Hidden:
         """Give what it changes in the specimen `base`."""
         rng = np.random.default_rng(self.seed)
-        if self.dirt and self.name in GAUGE_DIRT:
-            faults = tuple(GAUGE_DIRT[self.name][1](rng, self.scale))
+        if self.dirt and self.name in _DIRT_OF_GAUGES:
+            faults = tuple(_DIRT_OF_GAUGES[self.name](rng, self.scale))
             said = {"scale": self.scale, "form": "dirt", "faults": [fault.describe() for fault in faults]}
             return Hidden((self.name,), faults=faults, details={self.name: said})
+        if self.of_library and not self.of_gauge and self.name not in BOTH_SHAKE:
+            return self._law(*draw_use(self.effect, rng, self.scale * (OF_DIRT if self.dirt else 1.0), base))
         if self.dirt:
-            return self._law(RIG_DIRT[self.name][1](rng, self.scale, base), "dirt")
+            return self._law(_DIRT_OF_RIG[self.name](rng, self.scale, base), "dirt")
         if self.effect in OTHER_FORMS:
             return self._law(*OTHER_FORMS[self.effect](rng, self.scale, base))
         return hide_one(self.effect, self.scale, base, rng)
 
     def _law(self, change: dict[str, Any], form: str) -> Hidden:
-        plain = {key: np.asarray(value).tolist() for key, value in change.items()}
+        plain = {key: _plain(value) for key, value in change.items()}
         said = {"scale": self.scale, "form": form, **plain}
         return Hidden((self.name,), change, details={self.name: said})
+
+
+def _plain(value: Any) -> Any:
+    """Give the value of a setting as plain data."""
+    if isinstance(value, tuple) and value and hasattr(value[0], "_asdict"):
+        return [one._asdict() for one in value]
+    return np.asarray(value).tolist()
 
 
 def together(plants: Iterable[Plant], base: Settings) -> Hidden:
@@ -80,7 +97,7 @@ def together(plants: Iterable[Plant], base: Settings) -> Hidden:
     for plant in plants:
         one = plant.hidden(base)
         missing += [name for name in one.missing if name not in missing]
-        settings |= one.settings
+        settings |= one.settings | {"uses": (*settings.get("uses", ()), *one.settings.get("uses", ()))}
         faults += one.faults
         details |= {name + (" (dirt)" if plant.dirt else ""): said for name, said in one.details.items()}
     return Hidden(tuple(missing), settings, tuple(faults), details)

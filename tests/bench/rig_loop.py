@@ -16,6 +16,7 @@ from bench.law_drivers import hidden_driver
 from bench.law_force import middle_force
 from bench.rig_buffers import buffer_forces
 from bench.rig_pads import MIDDLE, PER_PAD, pad_forces, stick_table
+from bench.rig_storeys import FELT, frame_forces, frame_mass, sway
 from bench.settings import GRAVITY
 
 GIRDER = 6  # places in the state: x, y, z, roll, pitch, yaw
@@ -23,8 +24,8 @@ GIRDER = 6  # places in the state: x, y, z, roll, pitch, yaw
 
 @njit(cache=True)
 def run(
-    p, pads, buffers, start, table, table_step, step, settle, steps, every, pad_memory, buffer_memory, heat_rates,
-    heat_weights, law, body, out,
+    p, pads, buffers, storeys, start, table, table_step, step, settle, steps, every, pad_memory, buffer_memory,
+    heat_rates, heat_weights, law, body, floors, out,
 ):  # fmt: skip
     """Integrate from rest and fill `out` with one row every `every` steps.
 
@@ -32,6 +33,7 @@ def run(
         p: `Settings` without what each pad has of its own.
         pads: (n, 11) rows of `bench.parts`.
         buffers: (m, 6) rows of `bench.parts`.
+        storeys: (s, 4) rows of `bench.parts`.
         start: (6,) static place of the girder.
         table: (n, 3) accelerations of the table [m/s^2], read linearly between samples.
         table_step: their interval [s].
@@ -45,6 +47,7 @@ def run(
         heat_weights: its weights [K m^2/J].
         law: (n + 1, k) memories of a law outside the catalogue: pads, and the middle.
         body: (k,) memory of a body beside the rig that drives such a law.
+        floors: (s, 6) memory of the storeys.
         out: (rows, columns).
     """
     g = start.copy()
@@ -58,6 +61,10 @@ def run(
     tip_w = 2.0 * math.pi * p.pitch_frequency
     swing_mass = p.unknown_size if p.unknown_form == 7 else 0.0
     count = pads.shape[0]
+    carried = frame_mass(storeys)
+    felt_z = 0.0
+    felt, turns = np.zeros(2), np.zeros(2)
+    first_floor = MIDDLE + PER_PAD * count + 2 * buffers.shape[0]
     sticks = stick_table(p, pads)
     keys = MIDDLE + PER_PAD * count
     swing_w = 2.0 * math.pi * p.unknown_scale
@@ -83,6 +90,8 @@ def run(
             total[0] -= force
         elif p.law_port == 5:
             total[2] += force
+        if carried > 0.0:
+            frame_forces(storeys, floors, p.height, felt_z, total)
         tip_a = 0.0
         if p.pitch_form and s >= 0:
             drive = ax if p.pitch_form == 1 else row[3]
@@ -98,13 +107,19 @@ def run(
         # accelerometers feel what contacts do, weight excluded, also on a table that tips
         felt_x = (total[0] + swing_mass * swing_pull) / (p.mass - swing_mass)
         felt_y = total[1] / p.mass
-        felt_z = (total[2] + p.bending_mass * (bend_pull - GRAVITY)) / (p.mass - p.bending_mass) - GRAVITY
+        felt_z = (total[2] + p.bending_mass * (bend_pull - GRAVITY)) / (p.mass - p.bending_mass + carried) - GRAVITY
         a[0] = felt_x + GRAVITY * tip - ax - p.height * tip_a
         a[1] = felt_y - ay
         a[2] = felt_z - az + g[0] * tip_a
         for j in range(3):
             a[3 + j] = total[3 + j] / inertia[j]
         turn = a[4]
+        if carried > 0.0:
+            felt[0], felt[1], turns[0], turns[1] = felt_x, felt_y, a[3], turn
+            sway(storeys, floors, p.height, felt, turns, step)
+            for i in range(storeys.shape[0]):
+                row[first_floor + 2 * i] = floors[i, FELT]
+                row[first_floor + 2 * i + 1] = floors[i, FELT + 1]
         a[4] -= tip_a
         bend_a = -(felt_z) - bend_pull
         row[0] = ax - GRAVITY * tip

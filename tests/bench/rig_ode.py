@@ -4,7 +4,9 @@ It shares no code with the library: penalty pads instead of contacts with constr
 instead of a friction-loss constraint, explicit 20 us steps instead of a solver.
 """
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +14,7 @@ from numpy.typing import NDArray
 from bench.law_drivers import fresh_driver
 from bench.law_states import fresh_memory
 from bench.motions import Motion
-from bench.parts import HEIGHT, STIFFNESS, X, Y, buffer_table, pad_table
+from bench.parts import HEIGHT, STIFFNESS, X, Y, buffer_table, pad_table, storey_table
 from bench.rig_loop import run
 from bench.rig_pads import MIDDLE, PER_PAD
 from bench.settings import GRAVITY, Settings, buffers_of, pad_names, pads_of
@@ -22,6 +24,10 @@ STEP = 2.0e-5
 EVERY = 10
 SETTLE = 0.3
 _PAD_MEMORY = 8
+#: Settings that the loop reads as tables, or not at all.
+_NOT_IN_LOOP = (
+    "pads", "buffers", "storeys", "seating", "patch", "pad_factor", "law_pads", "run_levels", "uses",
+)  # fmt: skip
 _LONG_REST = 1800.0
 #: Half-space of steel: dT = sqrt(D/pi)/ks * integral of q(t - u)/sqrt(u) du. Source: physics P3.
 DIFFUSIVITY = 4.44e-6
@@ -35,10 +41,23 @@ _GIRDER: tuple[str, ...] = (
 
 @dataclass
 class Memory:
-    """What survives from run to run: slid distance of each pad, largest excursion of each buffer; none: a new one."""
+    """What survives from run to run: slid distance of each pad, largest excursion of each buffer; none: a new one.
+
+    `of_library` is the same where the library shakes the rig.
+    """
 
     distance: Array | None = None
     largest: Array | None = None
+    of_library: Any = None
+
+    def copy(self) -> "Memory":
+        """Give the same, which another run may change."""
+        return replace(self)
+
+
+def carried_mass(settings: Settings) -> float:
+    """Give the mass of all that the pads carry: the girder and its storeys [kg]."""
+    return settings.mass + sum(storey.mass for storey in settings.storeys)
 
 
 def columns(settings: Settings) -> tuple[str, ...]:
@@ -46,7 +65,9 @@ def columns(settings: Settings) -> tuple[str, ...]:
     pads = [
         f"pad_{pad}_{part}" for pad in pad_names(settings) for part in ("N", "Fx", "Fy", "vx", "Fx_base", "Fy_base")
     ]
-    return (*_GIRDER, *pads, *(f"buffer_{buffer.name}_F{axis}" for buffer in buffers_of(settings) for axis in "xy"))
+    buffers = (f"buffer_{buffer.name}_F{axis}" for buffer in buffers_of(settings) for axis in "xy")
+    floors = (f"storey_{number}_a{axis}" for number in range(1, len(settings.storeys) + 1) for axis in "xy")
+    return (*_GIRDER, *pads, *buffers, *floors)
 
 
 def heat_kernel(terms: int = 12) -> tuple[Array, Array]:
@@ -87,6 +108,10 @@ def _lifts(pads: Array, centre: tuple[float, float]) -> Array:
     return np.stack([np.ones(len(pads)), ry, -rx])
 
 
+#: What `simulate` is: specimen, motion, memory, step [s] and steps for a row -> true channels.
+Shaker = Callable[[Settings, Motion, Memory, float, int], dict[str, Array]]
+
+
 def simulate(
     settings: Settings, motion: Motion, memory: Memory | None = None, step: float = STEP, every: int = EVERY
 ) -> dict[str, Array]:
@@ -109,7 +134,9 @@ def simulate(
     """
     memory = Memory() if memory is None else memory
     p = settings
-    pads = pad_table(pads_of(p), p.mass, p.seating, (p.pad_factor, p.patch, p.law_pads))
+    storeys = storey_table(p.storeys)
+    carried = carried_mass(p)
+    pads = pad_table(pads_of(p), carried, p.seating, (p.pad_factor, p.patch, p.law_pads))
     buffers = buffer_table(buffers_of(p))
     rates, weights = heat_kernel()
     of_pads = np.zeros((len(pads), _PAD_MEMORY + rates.size))
@@ -119,13 +146,15 @@ def simulate(
     of_buffers[:, 1] = 0.0 if memory.largest is None else memory.largest
     table = np.ascontiguousarray(np.stack([motion.ax, motion.ay, motion.az], axis=1))
     steps = int(round(motion.duration / step))
-    out = np.zeros((-(-steps // every), MIDDLE + PER_PAD * len(pads) + 2 * len(buffers)))
+    out = np.zeros((-(-steps // every), MIDDLE + PER_PAD * len(pads) + 2 * len(buffers) + 2 * len(storeys)))
     settle = int(round(SETTLE / step))
-    start = rest_place(pads, p.mass, (p.centre_x, p.centre_y))
-    numbers = p._replace(pads=(), buffers=(), seating=(), patch=(), pad_factor=(), law_pads=())
-    memories = (of_pads, of_buffers, rates, weights, fresh_memory(p.mass * GRAVITY / len(pads), len(pads)))
+    start = rest_place(pads, carried, (p.centre_x, p.centre_y))
+    numbers = p._replace(**dict.fromkeys(_NOT_IN_LOOP, ()))
+    memories = (of_pads, of_buffers, rates, weights, fresh_memory(carried * GRAVITY / len(pads), len(pads)))
+    floors = np.zeros((len(storeys), 6))
     run(
-        numbers, pads, buffers, start, table, motion.step, step, settle, steps, every, *memories, fresh_driver(), out
+        numbers, pads, buffers, storeys, start, table, motion.step, step, settle, steps, every, *memories,
+        fresh_driver(), floors, out,
     )  # fmt: skip
     memory.distance = of_pads[:, 6].copy()
     memory.largest = of_buffers[:, 1].copy()

@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from bench.parts import Buffer, Pad
+from bench.parts import Buffer, Pad, Storey, Use
 
 GRAVITY = 9.80665
 PAD_AREA = np.pi * 0.0215**2
@@ -55,6 +55,8 @@ class Settings(NamedTuple):
     # another specimen: its pads and buffers in place of these; their spacing, total stiffness and so on stand above too
     pads: tuple[Pad, ...] = ()
     buffers: tuple[Buffer, ...] = ()
+    # a frame on the girder, its floors from below
+    storeys: tuple[Storey, ...] = ()
     # weight, load of a pad and spans over those of the girder of 10 t: hidden forces and lengths go with them
     size: float = 1.0
     pad_size: float = 1.0
@@ -86,6 +88,8 @@ class Settings(NamedTuple):
     patch_place: float = 0.0
     patch_width: float = 0.005
     pad_factor: Each = ONES
+    # friction of each run over what it should be; none: the same in all
+    run_levels: Each = ()
     tilt: float = 0.0
     curvature: float = 0.0
     # buffers and key
@@ -139,18 +143,33 @@ class Settings(NamedTuple):
     law_time: float = 0.01
     # whether the base law's shadow knows each pad's own slip speed (yaw recorded) or only that of the pads' middle
     yaw_known: int = 0
+    # effects of the library's catalogue, where the library shakes the rig
+    uses: tuple[Use, ...] = ()
 
     def changed(self, **changes: Any) -> "Settings":
         """Give a copy with other values, each of the type that the default has (one compiled loop serves them all)."""
         typed = {name: _like(getattr(_DEFAULT, name), value) for name, value in changes.items()}
         return self._replace(**typed)
 
+    def of_run(self, number: int, clock: float) -> "Settings":
+        """Give the specimen as it is in a run of the campaign: half an hour after the one before, cold or warm.
+
+        Args:
+            number: of the run.
+            clock: of the first run [s].
+        """
+        now = self.changed(clock=clock + 1800.0 * number)
+        if not self.run_levels:
+            return now
+        level = self.run_levels[number % len(self.run_levels)]
+        return now.changed(pad_factor=tuple(level * factor for factor in self.pad_factor))
+
 
 _DEFAULT = Settings()
 
 
 def _like(default: Any, value: Any) -> Any:
-    if default == ():  # pads and buffers
+    if default == ():  # pads, buffers, storeys, levels of runs, uses
         return tuple(value)
     if isinstance(default, tuple):
         return tuple(float(one) for one in value)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from bench.bearing import KINDS, bearing_plan, draw_bearing, is_right, make_bearing, radius_error
+from bench.slider_friction import Drive
 from slipwise.campaign import load_campaign
 from slipwise.diagnosis.diagnose import diagnose
 
@@ -14,15 +15,16 @@ from slipwise.diagnosis.diagnose import diagnose
 def test_a_pendulum_without_friction_is_the_load_on_its_slope() -> None:
     bearing = replace(draw_bearing("pendulum", 1), mu_fast=0.0, mu_slow=0.0)
     slip = np.linspace(-0.2, 0.2, 5) * bearing.radius
-    force = bearing.force(np.full(5, 1e6), slip, np.zeros(5), np.ones(5))
+    force = bearing.force(Drive(np.arange(5.0), slip, np.zeros(5), np.full(5, 1e6)))
     np.testing.assert_allclose(force, 1e6 * np.tan(np.arcsin(slip / bearing.radius)), rtol=1e-12)
 
 
 def test_a_pendulum_that_holds_still_on_its_slope_within_friction_needs_no_force() -> None:
     """Where the slope is the coefficient of friction, friction alone carries the slider."""
     bearing = replace(draw_bearing("pendulum", 1), mu_fast=0.05, mu_slow=0.05)
-    slip = np.array([np.sin(np.arctan(0.05)) * bearing.radius])
-    assert bearing.force(np.array([1e6]), slip, np.array([-1.0]), np.array([-1.0]))[0] == pytest.approx(0.0, abs=1e-6)
+    slip = np.sin(np.arctan(0.05)) * bearing.radius * np.array([2.0, 1.0])  # it comes from above
+    drive = Drive(np.arange(2.0), slip, np.full(2, -1.0), np.full(2, 1e6))
+    assert bearing.force(drive)[-1] == pytest.approx(0.0, abs=1e-6)
 
 
 def test_the_plan_holds_every_kind_and_three_of_each_for_ten_pendulums() -> None:

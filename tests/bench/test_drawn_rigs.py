@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from bench.campaign import make_campaign
-from bench.drawn_rigs import DRAWN, draw_rig, possible_on, specimen_toml
+from bench.drawn_rigs import DRAWN, draw_rig, possible_on
 from bench.hidden import hide
+from bench.specimen_text import specimen_toml
 from slipwise.campaign import load_campaign
 from slipwise.rig import load_specimen
 from slipwise.rig.statics import at_rest

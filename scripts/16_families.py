@@ -1,0 +1,112 @@
+"""Make campaigns of every family and both makers, and keep them with their answer keys.
+
+    python scripts/16_families.py --out out/families --count 12 --workers 2
+    python scripts/16_families.py --out out/families --families gains temperature --makers replay --count 50
+    python scripts/16_families.py --quick
+
+`tests/bench/families.py` says what the families are. Campaigns go to OUT/campaigns, answer keys to OUT/answers. What is
+there and was made by the code as it is now is kept: the same command goes on where it stopped. Every new campaign is
+read once by the library. The table, OUT/families.csv, has a line for each family and maker: campaigns, seconds of
+processor time for one, how many have something that should be named, and whether the family is held out of training.
+"""
+
+import argparse
+import csv
+import sys
+import time
+from collections import defaultdict
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+TESTS = Path(__file__).parents[1] / "tests"
+MOST_WORKERS = 2
+
+
+def make_and_read(order: Any) -> tuple[bool, str]:
+    """Make one campaign and let the library read it; gives whether that was possible, and a line about it."""
+    from bench.family_store import make  # pyright: ignore[reportMissingImports]
+    from slipwise.campaign import load_campaign
+    from slipwise.errors import SlipwiseError
+
+    try:
+        answer = make(order)
+        runs = len(load_campaign(order.folder).runs)
+    except SlipwiseError as error:
+        return False, f"{order.name}: {error}"
+    said = ", ".join(answer["missing"]) or "nothing to name"
+    return True, f"{answer['seconds']:6.1f} s  {runs} runs  {order.name:36s} {said}"
+
+
+def begin() -> None:
+    """Let a worker find the bench."""
+    sys.path.insert(0, str(TESTS))
+
+
+def table(answers: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
+    """Give a row for each family and maker."""
+    groups: dict[tuple[str, str], list[dict[str, Any]]] = defaultdict(list)
+    for answer in answers.values():
+        groups[answer["family"], answer["maker"]].append(answer)
+    return [
+        {
+            "family": family,
+            "maker": maker,
+            "campaigns": len(here),
+            "seconds": round(sum(answer["seconds"] for answer in here) / len(here), 1),
+            "something to name": sum(bool(answer["missing"]) for answer in here),
+            "held out": here[0]["held_out_family"],
+        }
+        for (family, maker), here in groups.items()
+    ]
+
+
+def main() -> int:
+    """Make what is missing, and write the table."""
+    begin()
+    from bench.families import FAMILIES, MAKERS  # pyright: ignore[reportMissingImports]
+    from bench.family_store import is_made, orders, read_answers  # pyright: ignore[reportMissingImports]
+
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", type=Path, default=Path("out/families"))
+    parser.add_argument("--families", nargs="*", choices=list(FAMILIES), default=list(FAMILIES))
+    parser.add_argument("--makers", nargs="*", choices=MAKERS, default=list(MAKERS))
+    parser.add_argument("--count", type=int, default=12, help="campaigns of each family and maker")
+    parser.add_argument("--workers", type=int, choices=range(1, MOST_WORKERS + 1), default=1, help="processes")
+    parser.add_argument("--quick", action="store_true", help="one campaign of each family and maker")
+    chosen = parser.parse_args()
+
+    began = time.perf_counter()
+    chosen_families = [FAMILIES[name] for name in chosen.families]
+    wanted = orders(chosen.out, chosen_families, chosen.makers, 1 if chosen.quick else chosen.count)
+    left = [order for order in wanted if not is_made(order)]
+    print(f"{len(wanted) - len(left)} of {len(wanted)} campaigns are there", flush=True)
+    with ProcessPoolExecutor(chosen.workers, get_context("spawn"), begin) as pool:
+        jobs = [pool.submit(make_and_read, order) for order in left]
+        failed: list[str] = []
+        try:
+            for number, job in enumerate(as_completed(jobs), start=1):
+                good, line = job.result()
+                print(f"{number:4d} of {len(left)}  {line}", flush=True)
+                failed += [] if good else [line]
+        except (KeyboardInterrupt, BrokenProcessPool):
+            pool.shutdown(wait=False, cancel_futures=True)
+            print("stopped; the same command goes on from here", flush=True)
+            return 1
+    rows = table(read_answers(chosen.out))
+    path = chosen.out / "families.csv"
+    with path.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)
+    for row in rows:
+        print(f"{row['family']:24s} {row['maker']:7s} {row['campaigns']:4d} campaigns of {row['seconds']:5.1f} s")
+    print(f"wrote {path}, {time.perf_counter() - began:.0f} s")
+    print("\n".join(["could not be made or read:", *failed]) if failed else "all were made and read")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
