@@ -23,6 +23,8 @@ from typing import Any
 
 TESTS = Path(__file__).parents[1] / "tests"
 MOST_WORKERS = 2
+#: Families whose campaigns are made within some seconds.
+QUICKEST = ("clean", "tribometers", "springs_and_walls", "hum_and_noise")
 
 
 def make_and_read(order: Any) -> tuple[bool, str]:
@@ -75,11 +77,11 @@ def main() -> int:
     parser.add_argument("--makers", nargs="*", choices=MAKERS, default=list(MAKERS))
     parser.add_argument("--count", type=int, default=12, help="campaigns of each family and maker")
     parser.add_argument("--workers", type=int, choices=range(1, MOST_WORKERS + 1), default=1, help="processes")
-    parser.add_argument("--quick", action="store_true", help="one campaign of each family and maker")
+    parser.add_argument("--quick", action="store_true", help="one campaign of the quickest families by each maker")
     chosen = parser.parse_args()
 
     began = time.perf_counter()
-    chosen_families = [FAMILIES[name] for name in chosen.families]
+    chosen_families = [FAMILIES[name] for name in (QUICKEST if chosen.quick else chosen.families)]
     wanted = orders(chosen.out, chosen_families, chosen.makers, 1 if chosen.quick else chosen.count)
     left = [order for order in wanted if not is_made(order)]
     print(f"{len(wanted) - len(left)} of {len(wanted)} campaigns are there", flush=True)

@@ -21,7 +21,7 @@ from slipwise.model import base_model, use
 from slipwise.model.file import load_model, save_model
 from slipwise.simulation.kernel import engine_for
 from slipwise.simulation.predict import predictor
-from slipwise.simulation.windows import Windows, simulate_models
+from slipwise.simulation.windows import Windows, simulate_windows
 from slipwise.view.words.effects import effect_rows
 
 MINE = '''
@@ -130,8 +130,7 @@ def test_an_effect_that_cannot_be_compiled_runs_on_the_python_engine_and_says_so
     assert replayed.engine == "python"
     np.testing.assert_allclose(replayed.record["slip_x"], shaken(compiled, shake).record["slip_x"], atol=1e-9)
     windows = Windows(np.stack([sine(2.0, 4.0, 0.05)] * 2), np.zeros((2, 2)), np.full((2, 2), 0.1), None, np.zeros(2))
-    (one,), (two,) = (simulate_models([m], [windows]) for m in (model, compiled))
-    for slow, fast in zip(one, two, strict=True):
+    for slow, fast in zip(simulate_windows(model, windows), simulate_windows(compiled, windows), strict=True):
         for name in ("slip_x", "slip_y", "pad_A_N", "pad_D_Fx"):
             np.testing.assert_allclose(slow[name], fast[name], rtol=1e-7, atol=1e-7)
 

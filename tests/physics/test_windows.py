@@ -6,7 +6,7 @@ import pytest
 from shaking import G, sine
 from slipwise.model import base_model, use
 from slipwise.simulation.simulator import simulate
-from slipwise.simulation.windows import Windows, simulate_models
+from slipwise.simulation.windows import Windows, simulate_windows
 
 DT = 5e-4
 
@@ -24,7 +24,7 @@ def test_windows_follow_the_free_run_whose_states_they_start_from(effects):
         memory=None,
         start=np.array(starts) * DT,
     )
-    for start, answer in zip(starts, simulate_models([model], [windows], every=1)[0], strict=True):
+    for start, answer in zip(starts, simulate_windows(model, windows, every=1), strict=True):
         true = free["slip_x"][start : start + length]
         # The girder starts upright and nods on its pads; presliding starts with an empty bristle.
         assert np.abs(answer["slip_x"] - true).max() < (0.02 if not effects else 0.05) * np.ptp(free["slip_x"])
@@ -36,6 +36,6 @@ def test_windows_run_alike_on_one_thread_and_on_two():
     windows = Windows(
         np.stack([motion[:3000], motion[1000:4000]]), np.zeros((2, 2)), np.zeros((2, 2)), None, np.zeros(2)
     )
-    one, two = (simulate_models([model], [windows], threads=n)[0] for n in (1, 2))
+    one, two = (simulate_windows(model, windows, threads=n) for n in (1, 2))
     for a, b in zip(one, two, strict=True):
         assert all(np.array_equal(a[name], b[name]) for name in a)
