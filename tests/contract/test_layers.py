@@ -32,44 +32,43 @@ ARROWS: dict[str, str] = {
     "model": "channels display effects errors input_file params record rig units",
     "simulation": "display effects errors jobs model motion record rig",
     "relations": "campaign channels effects errors jobs model noise params record regression rig signals simulation",
-    "estimation": "campaign effects errors jobs model regression relations rig signals simulation",
-    "preparation": (
-        "campaign channels effects errors estimation jobs noise record regression relations rig signals units"
-    ),
-    "instruments": "campaign channels display effects errors preparation record regression relations rig signals",
-    "evidence": "campaign channels errors estimation noise record relations rig signals",
+    "estimation": "campaign effects errors jobs model noise regression relations rig",
+    "evidence": "estimation noise relations rig",
+    "preparation": "campaign channels effects errors estimation jobs model record relations rig signals units",
+    "instruments": "campaign channels display effects errors noise preparation record regression relations rig signals",
     "comparison": (
-        "campaign channels display effects errors estimation evidence instruments jobs model motion noise preparation"
-        " record regression relations rig signals simulation"
+        "campaign channels display effects errors estimation instruments jobs model motion noise preparation record"
+        " relations rig signals simulation"
     ),
     "diagnosis": (
-        "campaign comparison display effects errors estimation evidence instruments jobs model params preparation"
-        " record relations rig simulation units"
+        "campaign channels comparison display effects errors estimation evidence instruments jobs model noise params"
+        " preparation record relations rig simulation units"
     ),
     "discovery": (
-        "campaign diagnosis display effects errors estimation evidence jobs model params relations signals simulation"
-    ),
-    "design": (
-        "campaign comparison diagnosis discovery display effects errors estimation evidence jobs model motion record"
-        " relations signals simulation units"
+        "campaign diagnosis display effects errors estimation jobs model noise params preparation relations signals"
+        " simulation"
     ),
     "studies": (
         "campaign channels diagnosis effects errors estimation jobs model motion record relations rig signals"
         " simulation units"
+    ),
+    "design": (
+        "campaign comparison diagnosis discovery display effects errors estimation evidence jobs model motion"
+        " preparation record relations signals simulation units"
     ),
     "session": (
         "campaign comparison diagnosis discovery display effects errors estimation jobs model preparation record"
         " relations rig simulation units"
     ),
     "view": (
-        "channels comparison diagnosis discovery effects errors estimation evidence jobs params record relations rig"
+        "channels comparison diagnosis discovery effects errors estimation jobs noise params record relations rig"
         " signals studies units"
     ),
+    "cli": "errors jobs preparation view",
     "workbench": (
-        "campaign channels comparison design diagnosis discovery effects errors jobs model preparation relations"
-        " session units view"
+        "campaign channels comparison design diagnosis discovery effects errors jobs model noise preparation"
+        " relations session units view"
     ),
-    "cli": "errors jobs view",
     "__main__": "cli jobs",
 }
 #: Folder of the view -> what it may import of the others.

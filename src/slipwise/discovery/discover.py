@@ -17,7 +17,6 @@ from slipwise.discovery.candidate import Candidate
 from slipwise.discovery.law import Law
 from slipwise.discovery.law_objective import FittedLaw, LawObjective
 from slipwise.discovery.law_summary import summarise_law
-from slipwise.discovery.levels import excess, held_out_level
 from slipwise.discovery.result import Discovery
 from slipwise.discovery.search import Found, different, find_law
 from slipwise.discovery.states import WORDS, pad_instants, pad_states, rig_states
@@ -151,7 +150,7 @@ def _from(base: BaseFit) -> _Answer:
     objective, solution = base.objective, base.solution
     if len(solution.jacobian) == 0 or solution.jacobian.shape[1] != len(solution.free):
         solution = with_slopes(objective, solution)
-    whole = excess(objective, solution)
+    whole = _excess(objective, solution)
     now, here = LawObjective(pad_instants(objective, solution.values), objective, ()), solution
     leaders: list[_Leader] = []
     organised: Candidate | None = None
@@ -198,7 +197,7 @@ def _from(base: BaseFit) -> _Answer:
 def _held_against_the_others(name: str, found: _Answer) -> Discovery:
     """Look at the held-out runs: what they do not bear is taken back."""
     base, objective = found.base, found.base.objective
-    held_out = [{r: held_out_level(objective, x, r) for r in objective.relations} for x in (base.solution, found.end)]
+    held_out = [{r: _held_out_level(objective, x, r) for r in objective.relations} for x in (base.solution, found.end)]
     errors = {r: (held_out[0][r], held_out[1][r]) for r in objective.relations}
     borne = _evidence(found.laws, found.share, max(held_out[0].values()), held_out[1][found.worst])
     evidence = min(found.evidence, borne, key=_ORDER.index)
@@ -308,3 +307,17 @@ def _cannot_judge(here: LawObjective) -> list[str]:
     if len(here.fitted) < 2:
         out.append("whether a law carries over to another motion: there is one fitted run only")
     return out
+
+
+def _excess(objective: Objective, solution: Solution) -> float:
+    """Return the squared residual above noise of the relations that have any, over the fitted runs [1]."""
+    out = 0.0
+    for r in objective.relations:
+        left = solution.residuals
+        out += max(left.squares(r, objective.fitted) - left.count(r, objective.fitted), 0.0)
+    return out
+
+
+def _held_out_level(objective: Objective, solution: Solution, relation: str) -> float:
+    """Return the rms of a residual over the held-out runs, or the fitted ones where none is held out [noise floors]."""
+    return solution.residuals.level(relation, objective.held_out or objective.fitted)

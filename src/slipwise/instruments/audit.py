@@ -19,7 +19,6 @@ from slipwise.instruments.joint_fit import KNOWN_MASS, RATED_MASS, Case, Fit, st
 from slipwise.instruments.report import AuditReport, Balance, Finding
 from slipwise.instruments.sentences import as_sentence, confusable, how_to_settle, nearest, sentence
 from slipwise.instruments.suspects import Suspect, effect_of
-from slipwise.instruments.zeros import values_of_zero, with_refined_zeros
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared
 from slipwise.preparation.rounding import is_coarse
@@ -80,7 +79,7 @@ def audit(campaign: Campaign | Path | str | Prepared, own: Iterable[Effect] = ()
     case = Case(runs, allowed, rig, noise, mass_error, highest, tuple(effects.values()))
     first = start(case)
     selection = select_faults(case, first)
-    findings = with_refined_zeros(findings, [_of_evidence(evidence) for evidence in selection.accepted])
+    findings = _join_zeros(findings, [_of_evidence(evidence) for evidence in selection.accepted])
     notes += [f"{as_sentence(e.suspect, e.size)}: too little to matter" for e in selection.small]
     notes += [f"{as_sentence(e.suspect, e.size)} would explain something, but {e.why_not}" for e in selection.refused]
     return replace(
@@ -145,7 +144,7 @@ def _of_samples(fault: SampleFault) -> Finding:
         place_of_rail = effect.parameters[0 if upper else 1].name
         values = {place_of_rail: (1.0 if upper else -1.0) * fault.size / span(fault.channels[0])}
     elif fault.kind == "shifted":
-        values = values_of_zero(ShiftedZero(fault.channels, fault.size))
+        values = _values_of_zero(ShiftedZero(fault.channels, fault.size))
     else:
         values = {effect.parameters[0].name: size}
     return Finding(
@@ -198,4 +197,29 @@ def _rounded(campaign: Campaign) -> list[str]:
             found.append(f"{name} is rounded so coarsely that repeated samples cannot be told")
         elif is_coarse(values):
             found.append(f"{name} has no noise, or moves evenly: repeated samples cannot be told from its motion")
+    return found
+
+
+def _values_of_zero(zero: ShiftedZero) -> dict[str, float]:
+    """Return the parameters of the effect that a shifted zero is."""
+    return {effect_of("shifted").parameters[0].name: zero.size / span(zero.channels[0])}
+
+
+def _join_zeros(shifted: Iterable[Finding], refined: Iterable[Finding]) -> list[Finding]:
+    """Join what the weight says of a cell's zero with what the balances add to it: one cell has one zero.
+
+    Args:
+        shifted: findings of zeros that are far off, among others.
+        refined: what the balances found once those were put right.
+    """
+    found, offset = list(shifted), effect_of("shifted").name
+    for more in refined:
+        at = next((i for i, first in enumerate(found) if first.name == more.name and more.what == offset), None)
+        if at is None:
+            found.append(more)
+            continue
+        first = found[at]
+        zero = ShiftedZero((first.channel,), first.size + more.size)
+        ends = {"low": first.size + more.low, "high": first.size + more.high}
+        found[at] = replace(first, size=zero.size, words=zero.words, values=_values_of_zero(zero), **ends)
     return found
