@@ -31,7 +31,7 @@ class Drive:
     load: Array
 
     def thinned(self, every: int) -> "Drive":
-        """Give every so manieth sample."""
+        """Give every n-th sample."""
         taken = slice(None, None, every)
         return Drive(self.time[taken], self.slip[taken], self.velocity[taken], self.load[taken])
 

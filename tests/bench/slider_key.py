@@ -12,7 +12,7 @@ from bench.importance import MATERIAL
 from bench.slider_friction import Drive
 
 Array = NDArray[np.float64]
-#: Every so manieth sample of a record decides [1].
+#: Every n-th sample of a record decides [1].
 _EVERY = 4
 
 

@@ -60,7 +60,7 @@ class States:
         velocity_error: (2,) expected standard deviation of the velocity [m/s].
         yaw_rate_error: the same of the yaw rate [rad/s]; 0 where yaw was not measured.
         record: all channels of the run on the same axis, lag taken out, not smoothed.
-        missing: what could not be made for want of a channel, in words.
+        missing: what could not be made for lack of a channel, in words.
         scales: of the campaign.
         velocity_errors: (n,) of the velocity along x where they differ from sample to sample [m/s]; else None.
     """

@@ -42,7 +42,7 @@ class ComparisonData:
         patterns: mean residual over every state of motion.
         parities: relation -> odd and even part.
         places: where the error is, in words, the worst first.
-        cannot: what could not be done, and for want of what.
+        cannot: what could not be done, and for lack of what.
         notes: what was assumed.
         seconds: that it took.
     """

@@ -1,4 +1,4 @@
-"""What `next_test` answers: table motions, ranked by how well they would tell rivals apart."""
+"""What `next_test` answers: table motions, ranked by how well they would separate the rivals."""
 
 from dataclasses import dataclass
 from typing import Any

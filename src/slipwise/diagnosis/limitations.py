@@ -120,7 +120,7 @@ def _friction_across_not_measured(base: BaseFit) -> Iterator[tuple[str, str]]:
 
 
 def _balances_not_judged(state: Search, faults: Sequence[SampleFault]) -> str:
-    """Say which balances no fitted run shows for want of channels that show nothing; "" where there are none."""
+    """Say which balances no fitted run shows for lack of channels that show nothing; "" where there are none."""
     dead = dict.fromkeys(name for fault in faults if fault.kind in _SHOW_NOTHING for name in fault.channels)
     left, fitted = state.base.solution.residuals, state.base.objective.fitted
     lost = [relation for relation in left.relations if not left.count(relation, fitted)]

@@ -184,7 +184,7 @@ class Diagnosis(Drawn, Tabular):
     @property
     def _minor(self) -> str:
         """What is there and does not matter, as the end of a sentence."""
-        return f"; there, but immaterial: {', '.join(self.verdict.minor)}" if self.verdict.minor else ""
+        return f"; present, but not material: {', '.join(self.verdict.minor)}" if self.verdict.minor else ""
 
     @property
     def _bounds(self) -> str:

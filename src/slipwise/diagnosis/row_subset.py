@@ -1,4 +1,4 @@
-"""The rows of the stacked residuals on which candidates are screened: all of them, or every so manieth sample.
+"""The rows of the stacked residuals on which candidates are screened: all of them, or every n-th sample.
 
 Hundreds of columns are kept, and each would be as long as all runs together. Of a long campaign a thinned grid tells as
 much; its rows are scaled so that sums of squares stay what they are. What is found is fitted to all samples.

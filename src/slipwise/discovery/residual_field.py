@@ -15,7 +15,7 @@ from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.objective import Objective
 
 Array = NDArray[np.float64]
-#: Every so manieth sample is screened; blocks into which a single motion is cut to be left out by turns.
+#: Every n-th sample is screened; blocks into which a single motion is cut to be left out by turns.
 _THINNED, _BLOCKS = 5, 8
 
 
@@ -62,7 +62,7 @@ def residual_field(objective: Objective, solution: Solution, relation: str, thin
         objective: with its noise.
         solution: of a fit, with slopes of its own.
         relation: of the objective.
-        thinned: every so manieth sample is taken.
+        thinned: every n-th sample is taken.
     """
     parts, sigmas, kept, group = [], [], [], []
     picked: dict[int, NDArray[np.bool_]] = {}

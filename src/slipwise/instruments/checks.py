@@ -46,7 +46,7 @@ class Checks(Drawn, Tabular):
 
     @property
     def cannot(self) -> tuple[str, ...]:
-        """What could not be tested, and for want of what."""
+        """What could not be tested, and for lack of what."""
         return self.report.cannot
 
     @property
@@ -120,9 +120,9 @@ def _row(finding: Finding) -> dict[str, Any]:
         "finding": finding.name,
         "in words": finding.words,
         "95 % interval": f"{low} to {high}",
-        "sure": f"{finding.probability:.0%}",
+        "probability": f"{finding.probability:.0%}",
         "could be mistaken for": ", ".join(finding.mistaken_for) or "nothing near",
-        "what would settle it": finding.settle_by,
+        "what would separate them": finding.settle_by,
     }
 
 

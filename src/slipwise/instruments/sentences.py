@@ -1,4 +1,4 @@
-"""A finding in words: what it is, what it would be mistaken for, and what would settle it."""
+"""A finding in words: what it is, what it would be mistaken for, and what would separate them."""
 
 from collections.abc import Sequence
 

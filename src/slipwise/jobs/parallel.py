@@ -2,7 +2,7 @@
 
 The slopes of a fit are tens of megabytes. Through a pipe they took as long as a third of a short fit, so answers come
 back through files in memory. Whoever asks works too: its own answers need no way back. What a child has left undone
-that was killed, most often for want of memory, another one does alone.
+that was killed, most often for lack of memory, another one does alone.
 """
 
 import multiprocessing

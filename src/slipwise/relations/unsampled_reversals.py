@@ -28,7 +28,7 @@ _BESIDE = 24
 
 
 def compute_jump_noise_in_pitch(specimen: Specimen, run: FitRun, frequency: float, damping: float) -> Array:
-    """Return the error of the predicted pitch load for want of the instants at which friction jumped (n,) [N].
+    """Return the error of the predicted pitch load for lack of the instants at which friction jumped (n,) [N].
 
     Args:
         specimen: with the lever of friction in pitch.
@@ -44,7 +44,7 @@ def compute_jump_noise_in_pitch(specimen: Specimen, run: FitRun, frequency: floa
 
 
 def compute_jump_noise_in_push(specimen: Specimen, run: FitRun) -> Array:
-    """Return the error of the predicted push for want of the instants at which friction jumped (n,) [N].
+    """Return the error of the predicted push for lack of the instants at which friction jumped (n,) [N].
 
     The girder's acceleration jumps with the pads' forces.
 

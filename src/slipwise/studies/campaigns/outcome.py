@@ -50,7 +50,7 @@ class Outcome:
         """Return whether an effect was found.
 
         Returns:
-            "yes", "minor" (there, but immaterial), "perhaps" (one explanation of an ambiguous verdict), "untested",
+            "yes", "minor" (present, but not material), "perhaps" (one explanation of an ambiguous verdict), "untested",
             "unknown" (something is there that has no name), "failed" or "no".
         """
         if self.failed:

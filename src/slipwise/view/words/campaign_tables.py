@@ -14,7 +14,7 @@ from slipwise.view.words.numbers import counted, usual_unit
 _TOLD = {
     "yes": "has it: {}",
     "perhaps": "may have it, one of several explanations: {}",
-    "minor": "there, but immaterial: {}",
+    "minor": "present, but not material: {}",
     "no": "has it not: {}",
     "unknown": "something without a name instead: {}",
     "untested": "could not test it: {}",

@@ -33,7 +33,7 @@ export function drawStages(campaign, state, ask) {
       ...(discover ? [make("p", {}, discover.words + stale(discover, labels))] : []),
       ...(discover?.files?.length ? [make("button", { id: "do-law", class: "edits", onclick: () => ask({ do: "law" }) }, "Add this law")] : []),
       ...(explain ? [button("discover", "Find a law for what is unknown")] : [])]],
-    ["Next test", next ? "done" : "", [next ? next.words + stale(next, labels) : "Which motion would tell rivals apart.", button("next", "Propose a motion")]],
+    ["Next test", next ? "done" : "", [next ? next.words + stale(next, labels) : "Which motion would separate the rivals.", button("next", "Propose a motion")]],
     ["Report", report ? "done" : "", report ? [link(report.file, "The report" + stale(report, labels))] : ["Written by the button above."]],
   ];
   find("stage-list").replaceChildren(...stages.map(([title, kind, pieces]) => make("li", { class: kind },
