@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.campaign.materiality import Materiality
-from slipwise.diagnosis.findings import Finding, _rivals, above_noise
+from slipwise.diagnosis.findings import EffectFinding, _rivals, above_noise
 from slipwise.diagnosis.hypothesis import Hypothesis, at_limit, base_hypothesis, parameters_at_bound
 from slipwise.diagnosis.hypothesis_fit import as_fit
 from slipwise.diagnosis.importance import Change, Importance
@@ -180,7 +180,7 @@ def changing(share: float, *, gauge: bool = False, limits: Materiality | None = 
 
 def findings_of(
     state: Search, material: Mapping[str, float] | None = None, limits: Materiality | None = None
-) -> list[Finding]:
+) -> list[EffectFinding]:
     """Give the evidence for every effect of a search's final model: residuals are chosen, so nothing is replayed.
 
     What is left without an effect is what the rest was given to leave, or the base where the rest was not tried.
@@ -202,7 +202,7 @@ def findings_of(
         gauge = terms[0].effect.port == "gauge"
         importance = changing((material or {}).get(name, MATERIAL), gauge=gauge, limits=limits)
         out.append(
-            Finding(
+            EffectFinding(
                 name=name,
                 terms=terms,
                 worth=compute_score(left, final.summary),

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.data_files.table import Table
-from slipwise.data_files.table_rows import Block
+from slipwise.data_files.table_rows import RowBlock
 from slipwise.errors import InputError
 
 Array = NDArray[np.float64]
@@ -21,7 +21,7 @@ def time_of_file(
     column: Array | None,
     channels: Mapping[str, Array],
     table: Table,
-    tables: tuple[Block, ...],
+    tables: tuple[RowBlock, ...],
     rate: float | None,
 ) -> tuple[Array, tuple[str, ...]]:
     """Return the times of a file.
@@ -92,7 +92,7 @@ def _checked(name: str, column: Array, stated: float | None, rate: float | None)
     return (f"{words}; the times agree with campaign.toml and are taken",)
 
 
-def check_time(name: str, time: Array, tables: tuple[Block, ...]) -> None:
+def check_time(name: str, time: Array, tables: tuple[RowBlock, ...]) -> None:
     """Refuse times that no record has.
 
     Args:

@@ -7,10 +7,10 @@ from typing import Any
 from slipwise.campaign import Campaign
 from slipwise.comparison.cells import Cell
 from slipwise.comparison.component_level import ComponentError, pool_errors
-from slipwise.comparison.friction_surface import Surface
+from slipwise.comparison.friction_surface import FrictionSurface
 from slipwise.comparison.odd_even import Parity
 from slipwise.comparison.patterns import Pattern
-from slipwise.comparison.sentences import Place
+from slipwise.comparison.sentences import ErrorPlace
 from slipwise.comparison.system_level import SystemLevel, held_out_channels
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Intervals
@@ -57,12 +57,12 @@ class ComparisonData:
     repeats: Mapping[str, float]
     system: SystemLevel | None
     intervals: Intervals
-    surface: Surface | None
+    surface: FrictionSurface | None
     predicted_friction: tuple[PredictedFriction, ...]
     cells: tuple[Cell, ...]
     patterns: tuple[Pattern, ...]
     parities: Mapping[str, Parity]
-    places: tuple[Place, ...]
+    places: tuple[ErrorPlace, ...]
     cannot: tuple[str, ...]
     notes: tuple[str, ...]
     seconds: float

@@ -19,7 +19,7 @@ _STEP = 1e-3
 
 
 @dataclass(frozen=True)
-class Surface:
+class FrictionSurface:
     """Coefficient of friction of the fitted model where the campaign has been.
 
     Attributes:
@@ -35,7 +35,7 @@ class Surface:
     deviation: Array
 
 
-def compute_friction_surface(base: BaseFit, found: Intervals) -> Surface | None:
+def compute_friction_surface(base: BaseFit, found: Intervals) -> FrictionSurface | None:
     """Return the surface over the pressures and speeds that the campaign has seen; None where no load is known."""
     runs = base.objective.runs
     area = base.objective.specimen.pad_area
@@ -62,7 +62,7 @@ def compute_friction_surface(base: BaseFit, found: Intervals) -> Surface | None:
     own = found.covariance[np.ix_(places, places)]
     slope = np.stack(slopes) if slopes else np.zeros((0, *here.shape))
     variance = np.einsum("ipv,ij,jpv->pv", slope, own, slope)
-    return Surface(pressure, speed, here, np.sqrt(np.maximum(variance, 0.0)))
+    return FrictionSurface(pressure, speed, here, np.sqrt(np.maximum(variance, 0.0)))
 
 
 def _friction(base: BaseFit, values: Mapping[str, float], pressure: Array, speed: Array) -> Array:

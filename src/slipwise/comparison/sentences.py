@@ -36,7 +36,7 @@ _NAMED = ("state", "pad", "run")
 
 
 @dataclass(frozen=True)
-class Place:
+class ErrorPlace:
     """Where a relation's error is.
 
     Attributes:
@@ -65,7 +65,7 @@ def describe_places(
     patterns: Sequence[Pattern],
     parities: Mapping[str, Parity],
     errors: Mapping[str, float],
-) -> tuple[Place, ...]:
+) -> tuple[ErrorPlace, ...]:
     """Say for every relation with a cell above the floor where its error is, the worst relation first.
 
     Args:
@@ -89,7 +89,7 @@ def describe_places(
     return tuple(sorted(out, key=lambda p: -p.error))
 
 
-def _place(relation: str, cells: Sequence[Cell], found: Parity | None, error: float) -> Place:
+def _place(relation: str, cells: Sequence[Cell], found: Parity | None, error: float) -> ErrorPlace:
     best: tuple[float, str, list[Cell], list[Cell]] | None = None
     for kind in (*_ORDERED, *_NAMED):
         own = [c for c in cells if c.kind == kind]
@@ -105,7 +105,9 @@ def _place(relation: str, cells: Sequence[Cell], found: Parity | None, error: fl
     called = NAMES[relation][0]
     subject = ", ".join([called, *([direction] if direction else []), *_pads(cells)])
     if best is None or best[0] < _WORTH:
-        return Place(relation, f"{subject}: {error:.1f} floors everywhere alike", error, error, 1.0, 1.0, "", direction)
+        return ErrorPlace(
+            relation, f"{subject}: {error:.1f} floors everywhere alike", error, error, 1.0, 1.0, "", direction
+        )
     _, kind, own, chosen = best
     rest = [c for c in own if c not in chosen]
     here, there = _rms(chosen), _rms(rest)
@@ -116,14 +118,14 @@ def _place(relation: str, cells: Sequence[Cell], found: Parity | None, error: fl
     else:
         most = "most of it" if share >= _MOST else f"{share:.0%} of it"
         words = f"{subject}: {most} {where}: {here:.1f} floors there, {there:.1f} elsewhere"
-    return Place(relation, words, here, there, share, part, kind, direction)
+    return ErrorPlace(relation, words, here, there, share, part, kind, direction)
 
 
 def _telling(relation: str, kind: str) -> float:
     return _TELLING.get(kind, 1.0) if relation == "pads" or kind != "since reversal" else 1.0
 
 
-def _patterned(relation: str, cells: Sequence[Cell], pattern: Pattern) -> Place:
+def _patterned(relation: str, cells: Sequence[Cell], pattern: Pattern) -> ErrorPlace:
     """Say where the mean residual is largest, and what it means: too much or too little, or always one way."""
     bins, is_odd = pattern.strongest()
     part = pattern.odd if is_odd else pattern.even
@@ -147,7 +149,7 @@ def _patterned(relation: str, cells: Sequence[Cell], pattern: Pattern) -> Place:
     else:
         words = f"{subject}: {means}, everywhere alike ({here:.1f} floors rms)"
     share, size = _part(own, chosen, "excess"), _part(own, chosen, "samples")
-    return Place(relation, words, here, elsewhere, share, size, pattern.kind, direction)
+    return ErrorPlace(relation, words, here, elsewhere, share, size, pattern.kind, direction)
 
 
 def _concentrated(cells: Sequence[Cell], *, ordered: bool) -> list[Cell]:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges, unreadable
+from slipwise.data_files.named_columns import NamedColumns, NamedGauge, of_gauges, unreadable
 from slipwise.errors import InputError, missing_library
 
 #: What a catman file begins with, in its versions: a whole number of two bytes.
@@ -37,7 +37,7 @@ def read_catman(path: Path) -> NamedColumns:
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
             channels: list[Any] = Reader(str(path)).Channels
             short = [c for c in channels if len(c.data) != c.length]
-            gauges = [Gauge(c.Name.strip(), c.unit.strip(), np.asarray(c.data, float)) for c in channels]
+            gauges = [NamedGauge(c.Name.strip(), c.unit.strip(), np.asarray(c.data, float)) for c in channels]
     except Exception as error:  # apread lets struct, key and memory errors of damaged files through
         raise unreadable(path, "catman file", error) from None
     if short:

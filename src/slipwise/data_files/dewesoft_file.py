@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges
+from slipwise.data_files.named_columns import NamedColumns, NamedGauge, of_gauges
 from slipwise.errors import InputError, missing_library
 from slipwise.jobs.child_processes import on_a_safe_path
 
@@ -55,7 +55,7 @@ def kept_columns(path: Path, folder: Path) -> NamedColumns:
     gauges = []
     for k, (name, unit) in enumerate(told["channels"]):
         time, values = np.load(folder / f"{k}.npy")
-        gauges.append(Gauge(name, unit, values, time))
+        gauges.append(NamedGauge(name, unit, values, time))
     read, left = of_gauges(path, gauges, "Dewesoft"), told["left"]
     said = (f"{path.name}: left out, for DWDataReader cannot read them: {', '.join(left[:_LISTED])}",) if left else ()
     return NamedColumns(read.columns, read.step, (*read.notes, *said))

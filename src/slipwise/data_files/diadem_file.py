@@ -5,7 +5,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges, one_step, unreadable
+from slipwise.data_files.named_columns import NamedColumns, NamedGauge, of_gauges, one_step, unreadable
 from slipwise.errors import InputError, missing_library
 
 
@@ -31,7 +31,7 @@ def read_tdm(path: Path) -> NamedColumns:
                     values, unit = (values - values[0]) / np.timedelta64(1, "s"), "s"
                 if values.dtype.kind in "fiu":
                     name = file.channel_name(group, k) or f"channel {k + 1}"
-                    gauges.append(Gauge(name, unit, values.astype(float)))
+                    gauges.append(NamedGauge(name, unit, values.astype(float)))
     except FileNotFoundError as error:
         raise InputError(
             f"{path}: its numbers are in {Path(str(error.filename)).name}, which is missing; copy it beside the .tdm"

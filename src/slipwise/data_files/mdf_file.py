@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges, unreadable
+from slipwise.data_files.named_columns import NamedColumns, NamedGauge, of_gauges, unreadable
 from slipwise.errors import InputError, missing_library
 
 #: What a file begins with: one that was closed, and one that was not.
@@ -33,7 +33,7 @@ def read_mdf(path: Path) -> NamedColumns:
                 values = np.asarray(signal.samples)
                 if values.ndim == 1 and values.dtype.kind in "fiu":
                     time = np.asarray(signal.timestamps, dtype=np.float64)
-                    gauges.append(Gauge(str(signal.name), str(signal.unit or ""), values.astype(float), time))
+                    gauges.append(NamedGauge(str(signal.name), str(signal.unit or ""), values.astype(float), time))
     except Exception as error:  # asammdf lets struct, index, zlib and its own errors of damaged files through
         raise unreadable(path, "MDF file", error) from None
     return of_gauges(path, gauges, "MDF")

@@ -32,7 +32,7 @@ class NamedColumns:
 
 
 @dataclass(frozen=True)
-class Gauge:
+class NamedGauge:
     """One channel of a file: values (n,) in its unit, and its times (n,) [s], None where other channels hold them."""
 
     name: str
@@ -61,7 +61,7 @@ def one_step(path: Path, steps: set[float]) -> float | None:
     return next(iter(steps), None)
 
 
-def of_gauges(path: Path, gauges: Sequence[Gauge], kind: str) -> NamedColumns:
+def of_gauges(path: Path, gauges: Sequence[NamedGauge], kind: str) -> NamedColumns:
     """Make columns of the channels that share their times with most others; name those of other times.
 
     Args:
@@ -72,7 +72,7 @@ def of_gauges(path: Path, gauges: Sequence[Gauge], kind: str) -> NamedColumns:
     Raises:
         InputError: there are no channels of numbers.
     """
-    groups: list[list[Gauge]] = []
+    groups: list[list[NamedGauge]] = []
     for gauge in (g for g in gauges if len(g.values) > 1):
         group = next((group for group in groups if _together(group[0], gauge)), None)
         if group is None:
@@ -102,7 +102,7 @@ def of_gauges(path: Path, gauges: Sequence[Gauge], kind: str) -> NamedColumns:
     return NamedColumns(columns, None, (f"{path.name}: {counted} left out: {listed}",))
 
 
-def _together(one: Gauge, other: Gauge) -> bool:
+def _together(one: NamedGauge, other: NamedGauge) -> bool:
     if len(one.values) != len(other.values) or (one.time is None) != (other.time is None):
         return False
     if one.time is None or other.time is None:

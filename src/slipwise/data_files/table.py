@@ -18,7 +18,7 @@ from slipwise.data_files.mdf_file import read_mdf
 from slipwise.data_files.named_columns import NamedColumns, unreadable
 from slipwise.data_files.spreadsheet import inspect_sheet, read_sheet
 from slipwise.data_files.statements import read_statements
-from slipwise.data_files.table_rows import Block
+from slipwise.data_files.table_rows import RowBlock
 from slipwise.data_files.text_file import inspect_text, read_text_columns
 from slipwise.data_files.uff_file import read_uff
 from slipwise.errors import InputError
@@ -43,7 +43,7 @@ class Columns:
     """Columns that were read, each (n,), and the tables of the file where it holds more than one."""
 
     values: list[Array]
-    tables: tuple[Block, ...] = ()
+    tables: tuple[RowBlock, ...] = ()
 
 
 @dataclass(frozen=True)

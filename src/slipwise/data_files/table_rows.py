@@ -23,7 +23,7 @@ _ROW = re.compile(r"^\s*\"?[-+.,\d]")
 
 
 @dataclass(frozen=True)
-class Block:
+class RowBlock:
     """Rows of one table of a file.
 
     Attributes:
@@ -113,7 +113,7 @@ def _first_number(cells: Sequence[str]) -> float | None:
         return None
 
 
-def read_blocks(name: str, text: str, names: str, delimiter: str, width: int, skip: int) -> list[Block]:
+def read_blocks(name: str, text: str, names: str, delimiter: str, width: int, skip: int) -> list[RowBlock]:
     """Cut a file at its repeated headers.
 
     Args:
@@ -127,7 +127,7 @@ def read_blocks(name: str, text: str, names: str, delimiter: str, width: int, sk
     Raises:
         InputError: a line that is neither a row nor part of a header, or a second table with other columns.
     """
-    blocks: list[Block] = []
+    blocks: list[RowBlock] = []
     first, rows = skip + 1, []
     others: list[tuple[int, str]] = []
     for number, line in enumerate(io.StringIO(text, newline=None), 1):
@@ -138,10 +138,10 @@ def read_blocks(name: str, text: str, names: str, delimiter: str, width: int, sk
             continue
         if others:
             _check_header(name, others, names, delimiter, width)
-            blocks += [Block(first, len(rows), "".join(rows))] if rows else []
+            blocks += [RowBlock(first, len(rows), "".join(rows))] if rows else []
             first, rows, others = number, [], []
         rows.append(line)
-    blocks += [Block(first, len(rows), "".join(rows))] if rows else []
+    blocks += [RowBlock(first, len(rows), "".join(rows))] if rows else []
     for number, line in others:
         if _ROW.match(line):  # what stands below the last row has words
             raise _wrong_width(name, number, line, delimiter, width)

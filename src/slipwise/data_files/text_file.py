@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from slipwise.data_files.header_rows import MISSING, NUMBER, Header, find_header, looks_numeric
 from slipwise.data_files.labview_file import is_lvm, lvm_headers
-from slipwise.data_files.table_rows import Block, find_end, read_blocks
+from slipwise.data_files.table_rows import RowBlock, find_end, read_blocks
 from slipwise.data_files.time_stamps import seconds_of_stamps
 from slipwise.errors import InputError
 from slipwise.text_encoding import decoded, encoding_of
@@ -151,7 +151,7 @@ def _header(lines: Sequence[str], delimiter: str) -> Header | None:
 
 def read_text_columns(
     path: Path, layout: TextLayout, wanted: Sequence[int], table: int | None = None
-) -> tuple[list[Array], tuple[Block, ...]]:
+) -> tuple[list[Array], tuple[RowBlock, ...]]:
     """Read columns by number; an empty or NaN cell becomes NaN, time stamps become seconds.
 
     Args:
@@ -173,7 +173,7 @@ def read_text_columns(
 
 def columns_of_text(
     source: Path | str, name: str, layout: TextLayout, wanted: Sequence[int], table: int | None = None
-) -> tuple[list[Array], tuple[Block, ...]]:
+) -> tuple[list[Array], tuple[RowBlock, ...]]:
     """Read columns of a text, or of a file, that ends with the last row; the rest as in `read_text_columns`."""
     if layout.delimiter == BLANKS and isinstance(source, str):
         source = "\n".join(map(_tabbed, re.split(r"\r\n|\n|\r", source))) + "\n"

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from slipwise.data_files.named_columns import Gauge, NamedColumns, of_gauges, unreadable
+from slipwise.data_files.named_columns import NamedColumns, NamedGauge, of_gauges, unreadable
 from slipwise.errors import InputError, missing_library
 
 #: Type of a function that is a time response; 0 is not told, and has times if its abscissa is one of time.
@@ -66,7 +66,7 @@ def _is_time_response(one: Mapping[str, Any]) -> bool:
     return kind == _TIME_RESPONSE or (kind == _NOT_TOLD and int(one.get("abscissa_spec_data_type") or 0) == _TIME)
 
 
-def _gauge(path: Path, one: Mapping[str, Any]) -> Gauge:
+def _gauge(path: Path, one: Mapping[str, Any]) -> NamedGauge:
     values = np.asarray(one["data"])
     if np.iscomplexobj(values):
         raise InputError(f"{path}: {_name(one)} is a time response of complex numbers; export it as real ones")
@@ -75,7 +75,9 @@ def _gauge(path: Path, one: Mapping[str, Any]) -> Gauge:
         raise InputError(
             f"{path}: {_name(one)} states {stated} points and holds {len(values)}: the file was cut; export it again"
         )
-    return Gauge(_name(one), _label(one, "ordinate_axis_units_lab"), values.astype(float), np.asarray(one["x"], float))
+    return NamedGauge(
+        _name(one), _label(one, "ordinate_axis_units_lab"), values.astype(float), np.asarray(one["x"], float)
+    )
 
 
 def _name(one: Mapping[str, Any]) -> str:

@@ -34,7 +34,7 @@ class Rival:
 
 
 @dataclass(frozen=True)
-class Finding:
+class EffectFinding:
     """One effect of a final model, with all gauges on which it acts.
 
     Attributes:
@@ -69,7 +69,9 @@ class Finding:
         return self.terms[0].effect.component == "instrument"
 
 
-def findings(state: Search, importances: dict[str, Importance], limits: Materiality) -> tuple[Search, list[Finding]]:
+def findings(
+    state: Search, importances: dict[str, Importance], limits: Materiality
+) -> tuple[Search, list[EffectFinding]]:
     """Return the evidence for every effect of a search's final model, most important first.
 
     Before it stands the state of the search that keeps what was refitted without an effect.
@@ -91,7 +93,7 @@ def findings(state: Search, importances: dict[str, Importance], limits: Material
     sizes = {n: importances[n].share_of_limit(limits) for n in names}
     stays = shares_that_stay(final, sizes, state.all_screened, limits)
     out = [
-        Finding(
+        EffectFinding(
             name=n,
             terms=parts[n],
             worth=compute_score(left[n], final.summary),

@@ -13,7 +13,7 @@ from slipwise.diagnosis.ladder import Ladder, ladder_of
 from slipwise.diagnosis.replays import replays
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.unknown_surface import Surface
+from slipwise.diagnosis.unknown_surface import ResidualSurface
 from slipwise.diagnosis.verdict import Verdict
 from slipwise.display import Drawn, Tabular
 from slipwise.estimation.base_fit import BaseFit
@@ -293,7 +293,7 @@ def written(found: Interval) -> dict[str, Any]:
     return {**out, "limit": found.limit} if found.limit else out
 
 
-def _surface(found: Surface | None) -> dict[str, Any] | None:
+def _surface(found: ResidualSurface | None) -> dict[str, Any] | None:
     if found is None:
         return None
     return {

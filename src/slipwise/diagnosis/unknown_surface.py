@@ -46,7 +46,7 @@ WORDS: dict[str, str] = {
 
 
 @dataclass(frozen=True)
-class Surface:
+class ResidualSurface:
     """A missing force as a binned surface.
 
     Attributes:
@@ -79,7 +79,7 @@ class Surface:
         return f"{self.relation}: depends on {on}; predicts {share} of the residual of motions left out"
 
 
-def leftover(found: Hypothesis, relations: tuple[str, ...] | None = None) -> Surface | None:
+def leftover(found: Hypothesis, relations: tuple[str, ...] | None = None) -> ResidualSurface | None:
     """Return the surface that predicts most of what a hypothesis leaves of left-out motions; None where none does.
 
     Args:
@@ -87,7 +87,7 @@ def leftover(found: Hypothesis, relations: tuple[str, ...] | None = None) -> Sur
         relations: which to look at; pads, girder and heave when not given.
     """
     objective = found.objective
-    best: Surface | None = None
+    best: ResidualSurface | None = None
     for name in relations or tuple(r for r in ("pads", "girder", "heave") if r in objective.relations):
         if found.summary.fitted_level(name) < 1.0 + LEVEL:
             continue
@@ -141,7 +141,7 @@ def pure_error(found: Hypothesis, relation: str) -> float:
     return total / count if count else 0.0
 
 
-def structured(surface: Surface | None) -> bool:
+def structured(surface: ResidualSurface | None) -> bool:
     """Return whether a surface is more than chance."""
     return surface is not None and surface.explained > SHARE and surface.level > LEVEL
 
@@ -185,7 +185,7 @@ def states_of(run: FitRun) -> Mapping[str, Array]:
     return states
 
 
-def _surfaces(found: Hypothesis, relation: str, folds: list[dict[str, Array]]) -> list[Surface]:
+def _surfaces(found: Hypothesis, relation: str, folds: list[dict[str, Array]]) -> list[ResidualSurface]:
     size = _size(found, relation)
     names = [k for k in folds[0] if k not in ("left", "sigma") and (k, relation) not in _OWN_NOISE]
     ones = [_surface(relation, (n,), folds, size) for n in names]
@@ -258,7 +258,7 @@ def _cells(states: tuple[str, ...], samples: dict[str, Array]) -> _Cells:
     return _Cells(states, edges, count, mean, spread)
 
 
-def _surface(relation: str, states: tuple[str, ...], folds: list[dict[str, Array]], size: float) -> Surface:
+def _surface(relation: str, states: tuple[str, ...], folds: list[dict[str, Array]], size: float) -> ResidualSurface:
     before = after = 0.0
     for i, held in enumerate(folds):
         left = held["left"] - _cells(states, _joined([f for j, f in enumerate(folds) if j != i])).predict(held)
@@ -269,7 +269,7 @@ def _surface(relation: str, states: tuple[str, ...], folds: list[dict[str, Array
     samples, level = len(whole["left"]), float(np.median(whole["sigma"]))
     predicted = max(before - after, 0.0) / max(samples, 1)
     shown = np.where(cells.count >= _LEAST, cells.mean, np.nan) * level
-    return Surface(
+    return ResidualSurface(
         relation,
         states,
         cells.edges,

@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from slipwise.campaign.materiality import Materiality
-from slipwise.diagnosis.findings import Finding, above_noise
+from slipwise.diagnosis.findings import EffectFinding, above_noise
 from slipwise.diagnosis.held_out_regime import not_testable
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.indistinguishable import alike_pairs, distinguishable, known_effects
 from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.unknown_surface import Surface, leftover, structured
+from slipwise.diagnosis.unknown_surface import ResidualSurface, leftover, structured
 from slipwise.diagnosis.unknown_surface import above_noise as left_above_noise
 from slipwise.estimation.objective import Objective
 from slipwise.evidence.acceptance import LEAST
@@ -54,9 +54,9 @@ class Verdict:
     probability: float
     leftover: str
     explained: float
-    surface: Surface | None
+    surface: ResidualSurface | None
     rivals: tuple[Hypothesis, ...]
-    findings: tuple[Finding, ...]
+    findings: tuple[EffectFinding, ...]
 
 
 def explained_share(origin: Hypothesis, found: Hypothesis, relation: str = "") -> float:
@@ -69,7 +69,7 @@ def explained_share(origin: Hypothesis, found: Hypothesis, relation: str = "") -
     return 1.0 - max(after.left_out[relation] - noise, 0.0) / over
 
 
-def decide_verdict(state: Search, found: Sequence[Finding], limits: Materiality) -> Verdict:
+def decide_verdict(state: Search, found: Sequence[EffectFinding], limits: Materiality) -> Verdict:
     """Return the verdict of a search.
 
     Args:
@@ -115,12 +115,12 @@ def decide_verdict(state: Search, found: Sequence[Finding], limits: Materiality)
     return verdict
 
 
-def _in_place(state: Search, finding: Finding) -> list[str]:
+def _in_place(state: Search, finding: EffectFinding) -> list[str]:
     """Return the names that a rival has and the final model has not."""
     return [] if finding.rival is None else [n for n in finding.rival.hypothesis.names if n not in state.best.names]
 
 
-def evidence_of(finding: Finding) -> dict[str, float]:
+def evidence_of(finding: EffectFinding) -> dict[str, float]:
     """Return the numbers on which the probability of an effect rests."""
     behind = finding.rival.behind if finding.rival is not None else 10.0
     return {
@@ -135,7 +135,7 @@ def evidence_of(finding: Finding) -> dict[str, float]:
     }
 
 
-def evidence_of_rest(origin: Hypothesis, final: Hypothesis, surface: Surface | None) -> dict[str, float]:
+def evidence_of_rest(origin: Hypothesis, final: Hypothesis, surface: ResidualSurface | None) -> dict[str, float]:
     """Return the numbers on which rests whether the effects that were found are the right ones, whatever they leave.
 
     Args:

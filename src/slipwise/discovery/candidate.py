@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 from slipwise.discovery.ports import Gate, Port
 from slipwise.discovery.splines import Spline
-from slipwise.discovery.states import State
+from slipwise.discovery.states import DrivingState
 
 
 @dataclass(frozen=True)
-class Candidate:
+class CurveCandidate:
     """A dependence on one state, or on two.
 
     Attributes:
@@ -20,7 +20,7 @@ class Candidate:
             the others ask for [1].
     """
 
-    states: tuple[State, ...]
+    states: tuple[DrivingState, ...]
     port: Port
     gate: Gate
     spline: Spline

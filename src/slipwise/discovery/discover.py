@@ -13,7 +13,7 @@ from slipwise.campaign import Campaign
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.hypothesis_fit import as_fit
 from slipwise.diagnosis.result import Diagnosis
-from slipwise.discovery.candidate import Candidate
+from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.law import Law
 from slipwise.discovery.law_objective import FittedLaw, LawObjective
 from slipwise.discovery.law_summary import summarise_law
@@ -69,8 +69,8 @@ class _Answer:
     laws: tuple[Law, ...]
     share: float
     evidence: str
-    organised: Candidate | None
-    looked_at: tuple[Candidate, ...]
+    organised: CurveCandidate | None
+    looked_at: tuple[CurveCandidate, ...]
     worst: str
     cannot_judge: tuple[str, ...]
 
@@ -153,8 +153,8 @@ def _from(base: BaseFit) -> _Answer:
     whole = _excess(objective, solution)
     now, here = LawObjective(pad_instants(objective, solution.values), objective, ()), solution
     leaders: list[_Leader] = []
-    organised: Candidate | None = None
-    looked_at: tuple[Candidate, ...] = ()
+    organised: CurveCandidate | None = None
+    looked_at: tuple[CurveCandidate, ...] = ()
     acted: set[str] = set()
     for number in range(_MOST_LAWS):
         if all(is_at_floor(here.residuals.level(r, objective.fitted)) for r in objective.relations):
@@ -220,9 +220,9 @@ def _held_against_the_others(name: str, found: _Answer) -> Discovery:
     )
 
 
-def _looked_at(candidates: Sequence[Candidate]) -> tuple[Candidate, ...]:
+def _looked_at(candidates: Sequence[CurveCandidate]) -> tuple[CurveCandidate, ...]:
     """Return the best of each state and port, whichever gate, lag and start, best first."""
-    kept: dict[tuple[tuple[str, ...], str], Candidate] = {}
+    kept: dict[tuple[tuple[str, ...], str], CurveCandidate] = {}
     for c in candidates:
         kept.setdefault((tuple(s.name for s in c.states), c.port.name), c)
     return tuple(kept.values())[:_SHOWN]

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.discovery.matching import Match, constants_of, limits, place_of, product_at
-from slipwise.discovery.states import PadInstants, State, derived
+from slipwise.discovery.states import DrivingState, PadInstants, derived
 from slipwise.estimation.least_squares import Solution, get_slopes, solve
 from slipwise.estimation.objective import Objective
 from slipwise.relations.girder import through_pitch
@@ -148,7 +148,12 @@ class LawObjective:
         return out
 
     def force(
-        self, place: int, law: PlacedLaw, states: Sequence[State], own: Mapping[str, float], values: Mapping[str, float]
+        self,
+        place: int,
+        law: PlacedLaw,
+        states: Sequence[DrivingState],
+        own: Mapping[str, float],
+        values: Mapping[str, float],
     ) -> Array:
         """Return what a law adds to the prediction of one run at its samples, in its relation's unit and shape.
 
@@ -168,7 +173,7 @@ class LawObjective:
         delay = values.get("rig.late_force", 0.0)
         return as_logged(force, run, by, averaged=not self.plain.has_stick, delay=delay)
 
-    def driving(self, law: PlacedLaw, own: Mapping[str, float]) -> list[State]:
+    def driving(self, law: PlacedLaw, own: Mapping[str, float]) -> list[DrivingState]:
         """Return the states that drive a law, with the lag of its own numbers."""
         states, now = law.match.candidate.states, own.get(TIME_CONSTANT, law.lag)
         if now == law.lag:

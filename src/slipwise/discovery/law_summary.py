@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from slipwise.discovery.candidate import Candidate
+from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.law import Law, LawConstant, TiedForm
 from slipwise.discovery.law_objective import STRENGTH, TIME_CONSTANT, FittedLaw
 from slipwise.discovery.matching import constants_of, place_of
@@ -50,7 +50,7 @@ def summarise_law(
     )
 
 
-def parity_of(candidate: Candidate) -> str:
+def parity_of(candidate: CurveCandidate) -> str:
     """Return whether a force turns with the velocity: "outward" turns with it, and so turns what it multiplies."""
     turned = sum(s.name == "outward" for s in candidate.states) % 2 == 1
     return {"odd": "even", "even": "odd"}[candidate.port.parity] if turned else candidate.port.parity
@@ -76,7 +76,7 @@ def _constant(leader: FittedLaw, name: str, known: Mapping[str, Interval]) -> La
     return LawConstant(name, leader.values[name], low, high, unit)
 
 
-def _same_place(one: Candidate, other: Candidate) -> bool:
+def _same_place(one: CurveCandidate, other: CurveCandidate) -> bool:
     return (
         [s.name for s in one.states] == [s.name for s in other.states]
         and one.port.name == other.port.name

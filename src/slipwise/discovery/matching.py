@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
-from slipwise.discovery.candidate import Candidate
+from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.form import Constant, Form
-from slipwise.discovery.states import State
+from slipwise.discovery.states import DrivingState
 
 Array = NDArray[np.float64]
 #: Shares of the samples between which a place must lie: beyond, nothing is known of it [1].
@@ -39,7 +39,7 @@ class Match:
         strength: with which it drops so.
     """
 
-    candidate: Candidate
+    candidate: CurveCandidate
     forms: tuple[Form, ...]
     constants: dict[str, float]
     gain: float
@@ -84,7 +84,7 @@ def product_at(forms: Sequence[Form], states: Sequence[Array], constants: Mappin
     return out
 
 
-def matched(candidate: Candidate, known: Mapping[str, Form]) -> list[Match]:
+def matched(candidate: CurveCandidate, known: Mapping[str, Form]) -> list[Match]:
     """Return every form that makes sense for a candidate, with constants that fit its curve; best first."""
     if len(candidate.states) == 1:
         choices = [(f,) for f in known.values() if _makes_sense(f, candidate.states[0])]
@@ -96,13 +96,13 @@ def matched(candidate: Candidate, known: Mapping[str, Form]) -> list[Match]:
     return sorted(found, key=lambda m: -m.gain)
 
 
-def _makes_sense(form: Form, state: State) -> bool:
+def _makes_sense(form: Form, state: DrivingState) -> bool:
     if state.name == "outward":  # it takes two values
         return form.name == "linear"
     return not (form.sized and state.signed) and not (form.signed and not state.signed)
 
 
-def limits(constant: Constant, state: State) -> tuple[float, float]:
+def limits(constant: Constant, state: DrivingState) -> tuple[float, float]:
     """Return the limits between which a constant makes sense, in the unit of the state."""
     low, high = _range(state)
     if constant.kind == "place":
@@ -114,13 +114,13 @@ def limits(constant: Constant, state: State) -> tuple[float, float]:
     return constant.low, constant.high
 
 
-def _range(state: State) -> tuple[float, float]:
+def _range(state: DrivingState) -> tuple[float, float]:
     whole = np.concatenate([v.ravel()[:: max(1, v.size // 20000)] for v in state.values])
     low, high = np.quantile(whole, _CENTRAL)
     return float(low), float(high)
 
 
-def _starts(constant: Constant, state: State) -> list[float]:
+def _starts(constant: Constant, state: DrivingState) -> list[float]:
     low, high = _range(state)
     if constant.kind == "reference":
         sizes = np.concatenate([np.abs(v.ravel()[:: max(1, v.size // 20000)]) for v in state.values])
@@ -135,7 +135,7 @@ def _starts(constant: Constant, state: State) -> list[float]:
     return list(constant.starts)
 
 
-def _match(candidate: Candidate, forms: tuple[Form, ...]) -> Match | None:
+def _match(candidate: CurveCandidate, forms: tuple[Form, ...]) -> Match | None:
     named = constants_of(forms)
     state_of = {name_of(c.name, i): candidate.states[i] for i, f in enumerate(forms) for c in f.constants}
     grid = [
@@ -164,7 +164,7 @@ def _match(candidate: Candidate, forms: tuple[Form, ...]) -> Match | None:
     return Match(candidate, forms, best, float(gain[0]), float(strength[0]))
 
 
-def heights(candidate: Candidate, forms: Sequence[Form], constants: Mapping[str, float]) -> Array:
+def heights(candidate: CurveCandidate, forms: Sequence[Form], constants: Mapping[str, float]) -> Array:
     """Return what the curve would be at the knots (K,)."""
     knots = candidate.spline.knots
     if len(forms) == 1:

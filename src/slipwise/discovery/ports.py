@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.discovery.states import PadInstants, State
+from slipwise.discovery.states import DrivingState, PadInstants
 from slipwise.estimation.objective import Objective
 from slipwise.relations.evaluation_times import Instants
 
@@ -137,7 +137,7 @@ def load_ports(here: PadInstants) -> list[Port]:
     return [Port("load", "heave", "even", "N", tuple(np.full((len(s.time), 1), -1.0) for s in here.states))]
 
 
-def girder_states(pads: Sequence[State]) -> list[State]:
+def girder_states(pads: Sequence[DrivingState]) -> list[DrivingState]:
     """Return the states of the girder: those of its first pad that do not belong to a pad's load or place."""
     left_out = {"load", "lagged_load", "load_rate", "heat"}
-    return [State(s.name, 0.0, tuple(v[:, :1] for v in s.values)) for s in pads if s.name not in left_out]
+    return [DrivingState(s.name, 0.0, tuple(v[:, :1] for v in s.values)) for s in pads if s.name not in left_out]

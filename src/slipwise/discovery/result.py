@@ -6,7 +6,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from slipwise.discovery.candidate import Candidate
+from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.effect_file import can_be_written, write_law
 from slipwise.discovery.law import Law, Origin
 from slipwise.discovery.states import UNITS
@@ -51,8 +51,8 @@ class Discovery(Drawn, Tabular):
     campaign: str
     evidence: str
     laws: tuple[Law, ...]
-    organised: Candidate | None
-    looked_at: tuple[Candidate, ...]
+    organised: CurveCandidate | None
+    looked_at: tuple[CurveCandidate, ...]
     share: float
     relations: Mapping[str, tuple[float, float]]
     worst: str

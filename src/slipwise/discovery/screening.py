@@ -9,11 +9,11 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.discovery.candidate import Candidate
+from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.ports import EVERYWHERE, Gate, Port, opened
 from slipwise.discovery.residual_field import ResidualField
 from slipwise.discovery.splines import spline
-from slipwise.discovery.states import State
+from slipwise.discovery.states import DrivingState
 from slipwise.relations.evaluation_times import Instants
 
 Array = NDArray[np.float64]
@@ -28,9 +28,9 @@ _ENOUGH = 0.97
 
 
 def screen_states(
-    field: ResidualField, states: Sequence[State], ports: Sequence[Port], gates: Sequence[Gate],
+    field: ResidualField, states: Sequence[DrivingState], ports: Sequence[Port], gates: Sequence[Gate],
     places: Sequence[tuple[float, float]], instants: Sequence[Instants],
-) -> list[Candidate]:  # fmt: skip
+) -> list[CurveCandidate]:  # fmt: skip
     """Screen single states in every port, the best of them with every gate, then pairs; best first.
 
     Args:
@@ -59,18 +59,18 @@ def screen_states(
     return sorted(found, key=lambda c: -weighed(c))
 
 
-def weighed(found: Candidate) -> float:
+def weighed(found: CurveCandidate) -> float:
     """Return the share less what a gate and a second state must earn [1]."""
     return found.share - _MORE * (len(found.states) - 1) - _MORE * (found.gate is not EVERYWHERE)
 
 
 def _pairs(
-    field: ResidualField, singles: Sequence[Candidate], carriers: dict[str, Array], values: dict[str, Array]
-) -> list[Candidate]:
+    field: ResidualField, singles: Sequence[CurveCandidate], carriers: dict[str, Array], values: dict[str, Array]
+) -> list[CurveCandidate]:
     out = []
     for port in dict.fromkeys(c.port.name for c in singles[:_GATED]):
         own = [c for c in singles if c.port.name == port]
-        kept: dict[str, Candidate] = {}
+        kept: dict[str, CurveCandidate] = {}
         for c in own:  # of lags of one state the best only
             kept.setdefault(c.states[0].name, c)
         for one, other in combinations(list(kept.values())[:_PAIRED], 2):
@@ -79,17 +79,22 @@ def _pairs(
     return out
 
 
-def _different(singles: Sequence[Candidate], count: int) -> list[Candidate]:
+def _different(singles: Sequence[CurveCandidate], count: int) -> list[CurveCandidate]:
     """Return the best of each state and port, whichever lag."""
-    kept: dict[tuple[str, str], Candidate] = {}
+    kept: dict[tuple[str, str], CurveCandidate] = {}
     for c in singles:
         kept.setdefault((c.states[0].name, c.port.name), c)
     return list(kept.values())[:count]
 
 
 def _candidate(
-    field: ResidualField, states: Sequence[State], port: Port, gate: Gate, carrier: Array, values: dict[str, Array]
-) -> Candidate:
+    field: ResidualField,
+    states: Sequence[DrivingState],
+    port: Port,
+    gate: Gate,
+    carrier: Array,
+    values: dict[str, Array],
+) -> CurveCandidate:
     if len(states) > 1:
         counts: tuple[int, ...] = (_KNOTS_OF_TWO, _KNOTS_OF_TWO)
     elif states[0].name == "slip":
@@ -97,4 +102,4 @@ def _candidate(
     else:
         counts = (_KNOTS,)
     made = spline(field, carrier, tuple(values[s.label] for s in states), counts)
-    return Candidate(tuple(states), port, gate, made, made.carried_over() / max(field.excess, 1e-9))
+    return CurveCandidate(tuple(states), port, gate, made, made.carried_over() / max(field.excess, 1e-9))

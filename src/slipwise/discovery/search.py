@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from slipwise.discovery.candidate import Candidate
+from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.form import forms
 from slipwise.discovery.law_objective import LEVER, FittedLaw, LawObjective, PlacedLaw, fit_law, fit_on
 from slipwise.discovery.matching import Match, matched
@@ -43,7 +43,7 @@ class Found:
         fitted: laws, that which leaves least first.
     """
 
-    candidates: tuple[Candidate, ...]
+    candidates: tuple[CurveCandidate, ...]
     fitted: tuple[FittedLaw, ...]
 
 
@@ -56,7 +56,7 @@ def find_law(before: LawObjective, solution: Solution, model: Model, label: str)
         model: the user's model, whose law has rated numbers.
         label: of the law, for the keys of its numbers.
     """
-    candidates: list[Candidate] = []
+    candidates: list[CurveCandidate] = []
     tried: list[FittedLaw] = []
     for start in _starts(before, solution, model) if not before.laws else [solution]:
         every = pad_instants(before.plain, start.values)
@@ -74,7 +74,7 @@ def find_law(before: LawObjective, solution: Solution, model: Model, label: str)
     )
 
 
-def _matches(screened: Sequence[Candidate]) -> list[Match]:
+def _matches(screened: Sequence[CurveCandidate]) -> list[Match]:
     """Return the matches to be fitted: the best of the best candidates, and the best of one state each."""
     chosen = [c for c in screened[:_CANDIDATES] if c.share > _LEAST]
     single = [c for c in screened if len(c.states) == 1 and c.share > _LEAST][:_SINGLE_CANDIDATES]
@@ -136,13 +136,13 @@ def _placed(label: str, match: Match, here: LawObjective) -> PlacedLaw:
     return PlacedLaw(label, match, tuple(opened(match.candidate.gate, places_of(here.plain), runs)))
 
 
-def _screened(here: LawObjective, start: Solution) -> list[Candidate]:
+def _screened(here: LawObjective, start: Solution) -> list[CurveCandidate]:
     """Screen every relation with more than noise; shares are of what all of them leave."""
     states = pad_states(here.every)
     fields = [residual_field(here.plain, start, r) for r in ("pads", "girder", "heave") if r in here.relations]
     fields = [f for f in fields if f.residual @ f.residual >= AT_FLOOR**2 * len(f.residual)]
     whole = max(sum(f.excess for f in fields), 1e-9)
-    out: list[Candidate] = []
+    out: list[CurveCandidate] = []
     for field in fields:
         if field.relation == "pads":
             places = places_of(here.plain)

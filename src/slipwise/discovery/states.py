@@ -42,7 +42,7 @@ _VARIES = 1e-3
 
 
 @dataclass(frozen=True)
-class State:
+class DrivingState:
     """One state over all runs.
 
     Attributes:
@@ -94,7 +94,7 @@ def pad_instants(objective: Objective, values: Mapping[str, float]) -> PadInstan
     return PadInstants(runs, tuple(states), tuple(forces), tuple(along), objective.specimen.pad_area)
 
 
-def pad_states(every: PadInstants) -> list[State]:
+def pad_states(every: PadInstants) -> list[DrivingState]:
     """Return the states of the pads over all runs; those that hardly vary are left out.
 
     What lags is there once for each of the usual time constants.
@@ -106,22 +106,22 @@ def pad_states(every: PadInstants) -> list[State]:
         "load": [s.load for s in every.states],
         "time": [np.repeat((s.time - s.time[0])[:, None], s.load.shape[1], axis=1) for s in every.states],
     }
-    out = [State(name, 0.0, tuple(values)) for name, values in plain.items()]
+    out = [DrivingState(name, 0.0, tuple(values)) for name, values in plain.items()]
     for lags, wanted in ((_LAGS, ("lagged_load", "load_rate")), (_COOLING, ("heat",))):
         for lag in (scale * t for t in lags):
             found = derived(every, lag)
-            out += [State(name, lag, tuple(found[name])) for name in wanted]
-    out += [State(name, 0.0, tuple(found[name])) for name in DERIVED if name not in LAGGING]
+            out += [DrivingState(name, lag, tuple(found[name])) for name in wanted]
+    out += [DrivingState(name, 0.0, tuple(found[name])) for name in DERIVED if name not in LAGGING]
     return [s for s in out if _varies(s)]
 
 
-def rig_states(every: PadInstants) -> list[State]:
+def rig_states(every: PadInstants) -> list[DrivingState]:
     """Return the states of the rig over all runs, alike for every pad; those that hardly vary are left out."""
     out = []
     for place, name in enumerate(RIG_MOTION):
         of_runs = (interpolate_finely(rig_motion(run.states)[:, place : place + 1], run.fine) for run in every.runs)
         values = (np.broadcast_to(v, s.load.shape) for v, s in zip(of_runs, every.states, strict=True))
-        out.append(State(name, 0.0, tuple(values)))
+        out.append(DrivingState(name, 0.0, tuple(values)))
     return [s for s in out if _varies(s)]
 
 
@@ -140,6 +140,6 @@ def derived(every: PadInstants, time_constant: float) -> dict[str, list[Array]]:
     return out
 
 
-def _varies(state: State) -> bool:
+def _varies(state: DrivingState) -> bool:
     whole = np.concatenate([v.ravel() for v in state.values])
     return bool(np.isfinite(whole).all()) and float(np.std(whole)) > _VARIES * float(np.max(np.abs(whole)) or np.inf)

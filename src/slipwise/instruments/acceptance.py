@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.instruments.joint_fit import EVIDENCE, Case, Fit, predicted
+from slipwise.instruments.joint_fit import EVIDENCE, Case, JointFit, predicted
 from slipwise.instruments.suspects import Suspect
 from slipwise.noise.level import AT_FLOOR
 from slipwise.regression.normal_equations import build_equations, invert_regularised, weigh_equations
@@ -51,7 +51,7 @@ class Evidence:
     small: bool = False
 
 
-def weigh(case: Case, first: Fit, before: Fit, after: Fit, number: int) -> Evidence:
+def weigh(case: Case, first: JointFit, before: JointFit, after: JointFit, number: int) -> Evidence:
     """Say what speaks for the suspect that a fit has and the one before has not.
 
     Args:
@@ -97,7 +97,7 @@ def _apart(size: float, sizes: Iterable[float], errors: Iterable[float]) -> bool
     )
 
 
-def _alone(after: Fit, number: int) -> dict[str, Array]:
+def _alone(after: JointFit, number: int) -> dict[str, Array]:
     """Return a signature without what constants and the other explanations could imitate, relation -> (n,)."""
     own = {n: columns[:, 0] for n, columns in after.columns[number].items()}
     others = [block for i, block in enumerate(after.columns) if i != number]
@@ -108,7 +108,7 @@ def _alone(after: Fit, number: int) -> dict[str, Array]:
     return {n: rows - predicted(others, n, solution, starts) for n, rows in whole.items()}
 
 
-def _shares(first: Fit, before: Fit, after: Fit, balances: Mapping[str, float]) -> tuple[float, float]:
+def _shares(first: JointFit, before: JointFit, after: JointFit, balances: Mapping[str, float]) -> tuple[float, float]:
     """Return the part of the excess over the floors that the last explanation took: of what was left, and of all."""
     took = was = began = 0.0
     for name in balances:

@@ -15,8 +15,8 @@ from slipwise.effects._gauges import span
 from slipwise.instruments.acceptance import Evidence
 from slipwise.instruments.delay_or_filter import passed
 from slipwise.instruments.fault_selection import select_faults
-from slipwise.instruments.joint_fit import KNOWN_MASS, RATED_MASS, Case, Fit, start
-from slipwise.instruments.report import AuditReport, Balance, Finding
+from slipwise.instruments.joint_fit import KNOWN_MASS, RATED_MASS, Case, JointFit, start
+from slipwise.instruments.report import AuditFinding, AuditReport, Balance
 from slipwise.instruments.sentences import as_sentence, confusable, how_to_settle, nearest, sentence
 from slipwise.instruments.suspects import Suspect, effect_of
 from slipwise.preparation.prepare import prepare
@@ -92,7 +92,7 @@ def audit(campaign: Campaign | Path | str | Prepared, own: Iterable[Effect] = ()
     )
 
 
-def _of_evidence(evidence: Evidence) -> Finding:
+def _of_evidence(evidence: Evidence) -> AuditFinding:
     """Turn a suspect that stands into a finding."""
     suspect, size = evidence.suspect, evidence.size
     # runs that disagree widen the interval: their scatter is misfit that the formula does not know
@@ -101,7 +101,7 @@ def _of_evidence(evidence: Evidence) -> Finding:
     against = [loss for name, loss in evidence.rivals if not _same_fault(name, suspect)]
     odds = sum(float(np.exp(-np.clip(loss, -30.0, 30.0))) for loss in against)
     rivals = nearest(evidence.rivals, evidence.gain)
-    return Finding(
+    return AuditFinding(
         effect=suspect.effect,
         channel=suspect.target if suspect.target != "all" else "pad_*",
         size=size,
@@ -123,7 +123,7 @@ def _same_fault(rival: str, suspect: Suspect) -> bool:
     return effect == suspect.effect.name and place.startswith(suspect.target)
 
 
-def _of_samples(fault: SampleFault) -> Finding:
+def _of_samples(fault: SampleFault) -> AuditFinding:
     """Turn bad samples, a wrong sign or a zero that is far off into a finding."""
     effect = effect_of(fault.kind)
     place = _place(fault.channels)
@@ -147,7 +147,7 @@ def _of_samples(fault: SampleFault) -> Finding:
         values = _values_of_zero(ShiftedZero(fault.channels, fault.size))
     else:
         values = {effect.parameters[0].name: size}
-    return Finding(
+    return AuditFinding(
         effect=effect,
         channel=place,
         size=size,
@@ -173,7 +173,7 @@ def _place(channels: tuple[str, ...]) -> str:
     return channels[0] if len(channels) == 1 else "all"
 
 
-def _balances(first: Fit, last: Fit) -> tuple[Balance, ...]:
+def _balances(first: JointFit, last: JointFit) -> tuple[Balance, ...]:
     rows = []
     for name, left in first.left.items():
         before, after = (float(np.sqrt(np.mean(np.square(f.left[name])))) / f.floor[name] for f in (first, last))
@@ -205,7 +205,7 @@ def _values_of_zero(zero: ShiftedZero) -> dict[str, float]:
     return {effect_of("shifted").parameters[0].name: zero.size / span(zero.channels[0])}
 
 
-def _join_zeros(shifted: Iterable[Finding], refined: Iterable[Finding]) -> list[Finding]:
+def _join_zeros(shifted: Iterable[AuditFinding], refined: Iterable[AuditFinding]) -> list[AuditFinding]:
     """Join what the weight says of a cell's zero with what the balances add to it: one cell has one zero.
 
     Args:

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.instruments.joint_fit import EVIDENCE, LEAST_FLOOR, PER_NUMBER, Case, Fit, off_rated
+from slipwise.instruments.joint_fit import EVIDENCE, LEAST_FLOOR, PER_NUMBER, Case, JointFit, off_rated
 from slipwise.regression.normal_equations import (
     Block,
     build_equations,
@@ -20,7 +20,7 @@ _NOTHING = 1e-6
 
 
 def supports(
-    fitted: Fit,
+    fitted: JointFit,
     case: Case,
     candidates: Sequence[Block],
     itself: Sequence[Mapping[str, float]],

@@ -14,7 +14,7 @@ from slipwise.display import Drawn, Tabular
 from slipwise.effects import Effect
 from slipwise.instruments.audit import NOTHING_MAPPED, audit
 from slipwise.instruments.corrections import correct
-from slipwise.instruments.report import AuditReport, Finding
+from slipwise.instruments.report import AuditFinding, AuditReport
 from slipwise.instruments.sentences import shown
 from slipwise.preparation.logger import LoggerEstimate
 from slipwise.preparation.prepared import Prepared
@@ -114,7 +114,7 @@ def corrected_campaign(campaign: Campaign, checks: Checks, names: Sequence[str])
     return correct(campaign, checks.report, names)[0]
 
 
-def _row(finding: Finding) -> dict[str, Any]:
+def _row(finding: AuditFinding) -> dict[str, Any]:
     low, high = (shown(end, finding.unit, finding.effect) for end in (finding.low, finding.high))
     return {
         "finding": finding.name,

@@ -6,7 +6,7 @@ import numpy as np
 
 from slipwise.campaign import Campaign
 from slipwise.errors import InputError, unknown_name
-from slipwise.instruments.report import AuditReport, Finding
+from slipwise.instruments.report import AuditFinding, AuditReport
 from slipwise.instruments.suspects import declared, effect_of
 from slipwise.preparation.balance_records import bridge_by_splines
 from slipwise.preparation.tare import find_tared_cells
@@ -45,7 +45,7 @@ def correct(campaign: Campaign, report: AuditReport, names: Iterable[str]) -> tu
     return campaign, done
 
 
-def _check_known_weight(finding: Finding, campaign: Campaign) -> None:
+def _check_known_weight(finding: AuditFinding, campaign: Campaign) -> None:
     """Refuse to put back a weight that is only rated.
 
     Raises:
@@ -63,13 +63,13 @@ def _check_known_weight(finding: Finding, campaign: Campaign) -> None:
         )
 
 
-def is_tared(finding: Finding, campaign: Campaign) -> bool:
+def is_tared(finding: AuditFinding, campaign: Campaign) -> bool:
     """Return whether a finding is a load cell, or all four, that was set to zero under the girder."""
     cells = find_tared_cells(campaign)
     return finding.what == effect_of("shifted").name and bool(cells) and finding.channel in (*cells, "pad_*_N")
 
 
-def _corrected(record: Record, finding: Finding, run: str) -> Record:
+def _corrected(record: Record, finding: AuditFinding, run: str) -> Record:
     hooks = finding.effect.hooks
     if declared(finding.effect).scales and finding.size <= -1.0:
         raise InputError(f"{finding.channel} is dead: there is nothing that could be corrected; leave the channel out")
@@ -81,7 +81,7 @@ def _corrected(record: Record, finding: Finding, run: str) -> Record:
     return undo(record, finding.target, **finding.values)
 
 
-def _bridged(record: Record, finding: Finding, run: str) -> Record:
+def _bridged(record: Record, finding: AuditFinding, run: str) -> Record:
     """Interpolate over repeated samples."""
     fault = finding.of_samples
     if fault is not None and fault.kind == "held" and run in fault.bad:

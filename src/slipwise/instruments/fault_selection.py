@@ -10,7 +10,7 @@ from slipwise.instruments.acceptance import Evidence, possible, weigh
 from slipwise.instruments.candidate_gain import supports
 from slipwise.instruments.delay_or_filter import is_delay
 from slipwise.instruments.disturbances import Alternative, alternatives
-from slipwise.instruments.joint_fit import Case, Fit, fit, noise_with_itself, signature, start
+from slipwise.instruments.joint_fit import Case, JointFit, fit, noise_with_itself, signature, start
 from slipwise.instruments.suspects import Suspect, suspects
 from slipwise.relations.balance_rows import Block
 
@@ -38,14 +38,14 @@ class FaultSelection:
         physics: names of physical alternatives that were taken up.
     """
 
-    fit: Fit
+    fit: JointFit
     accepted: tuple[Evidence, ...]
     small: tuple[Evidence, ...]
     refused: tuple[Evidence, ...]
     physics: tuple[str, ...]
 
 
-def select_faults(case: Case, begun: Fit | None = None) -> FaultSelection:
+def select_faults(case: Case, begun: JointFit | None = None) -> FaultSelection:
     """Choose explanations one by one until nothing is worth another.
 
     Args:
@@ -122,12 +122,12 @@ def select_faults(case: Case, begun: Fit | None = None) -> FaultSelection:
 
 def _disturbed(
     case: Case,
-    tried: Fit,
+    tried: JointFit,
     candidates: Sequence[Suspect | Alternative],
     blocks: Sequence[Block],
     itself: Sequence[Mapping[str, float]],
     one_sided: Sequence[bool],
-) -> tuple[int, Fit | None]:
+) -> tuple[int, JointFit | None]:
     """Return the suspect that explains most of what a fit leaves, and the fit with it; none where none is worth it.
 
     Cards that are a tenth of a millisecond apart matter to nobody, but may bend what a balance says of another gauge.
@@ -139,14 +139,19 @@ def _disturbed(
     return number, _with(case, tried, candidates[number])
 
 
-def _as_fitted_last(evidence: Sequence[Evidence], last: Fit) -> tuple[Evidence, ...]:
+def _as_fitted_last(evidence: Sequence[Evidence], last: JointFit) -> tuple[Evidence, ...]:
     """Return evidence with the sizes of the last joint fit: what was named later had disturbed the earlier ones."""
     sizes = {who.key: (size, error) for (who, size), error in zip(last.model.sizes, last.errors, strict=True)}
     return tuple(replace(e, size=sizes[e.suspect.key][0], error=sizes[e.suspect.key][1]) for e in evidence)
 
 
 def _plainer(
-    case: Case, here: Fit, candidates: Sequence[Suspect | Alternative], found: Array, fits: dict[int, Fit], best: int
+    case: Case,
+    here: JointFit,
+    candidates: Sequence[Suspect | Alternative],
+    found: Array,
+    fits: dict[int, JointFit],
+    best: int,
 ) -> int:
     """Take the plainer form where the best explains hardly more, or is no other thing; fit it where it was not.
 
@@ -183,7 +188,7 @@ def _to_try(found: Array) -> list[int]:
     return [int(i) for i in best if found[i] > max(_WORTH, _NEAR * found[best[0]])]
 
 
-def _with(case: Case, here: Fit, who: Suspect | Alternative) -> Fit:
+def _with(case: Case, here: JointFit, who: Suspect | Alternative) -> JointFit:
     if isinstance(who, Alternative):
         model = replace(here.model, physics=(*here.model.physics, who))
     else:

@@ -45,7 +45,7 @@ _STEPS, _RESTED = 4, 0.02
 
 
 @dataclass(frozen=True)
-class Model:
+class JointModel:
     """What the relations are explained by.
 
     Attributes:
@@ -79,7 +79,7 @@ class Case:
     passed: float
     effects: tuple[Effect, ...]
 
-    def corrected(self, model: Model, *, noisier: bool = False) -> list[PreparedRun]:
+    def corrected(self, model: JointModel, *, noisier: bool = False) -> list[PreparedRun]:
         """Return the runs without the faults of a model; with more noise, where noise is to be followed."""
         runs = adding(self.runs, self.noise, self.runs[0].record.channels) if noisier else self.runs
         for suspect, size in reversed(model.sizes):
@@ -92,7 +92,7 @@ class Case:
 
 
 @dataclass(frozen=True)
-class Fit:
+class JointFit:
     """A joint fit.
 
     Attributes:
@@ -108,7 +108,7 @@ class Fit:
         errors: standard errors of the sizes.
     """
 
-    model: Model
+    model: JointModel
     constants: dict[str, float]
     corrected: list[PreparedRun]
     stack: Stack
@@ -126,14 +126,14 @@ class Fit:
         return sum(self.support.values()) - PER_NUMBER * numbers
 
 
-def start(case: Case) -> Fit:
+def start(case: Case) -> JointFit:
     """Fit the rig's constants alone."""
     constants = dict.fromkeys(list_constants(case.relations), 0.0)
     constants["mass"] = case.specimen.mass
-    return fit(case, Model(), constants)
+    return fit(case, JointModel(), constants)
 
 
-def fit(case: Case, model: Model, constants: Mapping[str, float]) -> Fit:
+def fit(case: Case, model: JointModel, constants: Mapping[str, float]) -> JointFit:
     """Fit constants, sizes and physics jointly."""
     start = _Point(model, dict(constants), {})
     point, found = step_by_gauss_newton(
@@ -146,7 +146,7 @@ def fit(case: Case, model: Model, constants: Mapping[str, float]) -> Fit:
     support["rated mass"] = -0.5 * off_rated(case, point.constants) ** 2
     known = len(found.here.base)
     errors = np.sqrt(np.maximum(np.diag(found.spread)[known : known + len(model.sizes)], 0.0) / EVIDENCE)
-    return Fit(
+    return JointFit(
         point.model, point.constants, found.corrected, found.here, found.columns, left, scale, floor, support,
         tuple(errors.tolist()),
     )  # fmt: skip
@@ -156,7 +156,7 @@ def fit(case: Case, model: Model, constants: Mapping[str, float]) -> Fit:
 class _Point:
     """Where a fit stands: model, constants, and the scale of what the step before left in each relation."""
 
-    model: Model
+    model: JointModel
     constants: dict[str, float]
     scale: Mapping[str, float]
 
@@ -209,7 +209,7 @@ def _moved(point: _Point, found: _Linear) -> Move[_Point]:
     moved = {name: float(found.solution[i]) for i, name in enumerate(found.here.base)}
     constants = {name: value - moved.get(name, 0.0) for name, value in point.constants.items()}
     sizes = tuple((s, z + float(more)) for (s, z), more in zip(point.model.sizes, steps, strict=True))
-    return Move(_Point(Model(sizes, point.model.physics), constants, found.scale))
+    return Move(_Point(JointModel(sizes, point.model.physics), constants, found.scale))
 
 
 def off_rated(case: Case, constants: Mapping[str, float]) -> float:
@@ -228,7 +228,7 @@ def predicted(columns: Sequence[Block], name: str, solution: Array, first: NDArr
     return total
 
 
-def _floor(case: Case, model: Model, here: Stack, constants: Mapping[str, float]) -> dict[str, float]:
+def _floor(case: Case, model: JointModel, here: Stack, constants: Mapping[str, float]) -> dict[str, float]:
     """Return what noise alone leaves in each relation, corrected as the records are."""
     noisy = case.stacked(case.corrected(model, noisier=True), constants)
     return {n: max(rms(noisy.residual[n] - r), 1e-12) for n, r in here.residual.items()}

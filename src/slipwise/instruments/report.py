@@ -11,7 +11,7 @@ from slipwise.preparation.sample_fault import SampleFault
 
 
 @dataclass(frozen=True)
-class Finding:
+class AuditFinding:
     """One fault of an instrument.
 
     Attributes:
@@ -92,7 +92,7 @@ class AuditReport(Drawn, Tabular):
     """
 
     campaign: str
-    findings: tuple[Finding, ...]
+    findings: tuple[AuditFinding, ...]
     balances: tuple[Balance, ...]
     physics: tuple[str, ...]
     constants: Mapping[str, float]

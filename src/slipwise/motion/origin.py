@@ -10,7 +10,7 @@ _TIME = re.compile(r"(\d{4})\D?(\d{1,2})\D?(\d{1,2})[\sT_-]+(\d{1,2})\D?(\d{1,2}
 
 
 @dataclass(frozen=True)
-class Origin:
+class MotionOrigin:
     """What a file states of a component's origin; "" and None where it states nothing.
 
     Attributes:
@@ -30,14 +30,14 @@ class Origin:
     exact_start: bool = False
 
 
-def origin_of(stated: Statements) -> Origin:
+def origin_of(stated: Statements) -> MotionOrigin:
     """Return what the header of a text file states of its origin."""
 
     def first(fact: str) -> str:
         return next(iter(stated.texts.get(fact, ())), "")
 
     depth = first("sensor")
-    return Origin(
+    return MotionOrigin(
         station=first("station"),
         sensor=("" if not depth else f"{float(depth):g} m deep" if float(depth) else "surface"),
         event=first("event"),

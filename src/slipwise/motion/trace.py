@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.errors import InputError
-from slipwise.motion.origin import Origin
+from slipwise.motion.origin import MotionOrigin
 from slipwise.motion.source_file import SourceFile
 from slipwise.motion.table_motion import HeaderPeak
 
@@ -44,7 +44,7 @@ class Trace:
     treatment: tuple[str, ...]
     baseline: Baseline = "none"
     header_peak: HeaderPeak | None = None
-    origin: Origin = field(default_factory=Origin)
+    origin: MotionOrigin = field(default_factory=MotionOrigin)
     aliases: tuple[str, ...] = ()
     letter_of_file: bool = False
 

@@ -9,10 +9,10 @@ from slipwise.model import Model
 from slipwise.preparation.gauge_groups import find_places_of_gauges
 from slipwise.relations.parameters import Free, Term, make_terms
 from slipwise.session.evaluation import Evaluator
-from slipwise.session.state import State
+from slipwise.session.state import SessionState
 
 
-def toggled(ready: Evaluator, state: State, effect: Effect, target: str = "") -> State:
+def toggled(ready: Evaluator, state: SessionState, effect: Effect, target: str = "") -> SessionState:
     """Return a state with an effect, or without it where it has it.
 
     Args:
@@ -34,7 +34,9 @@ def toggled(ready: Evaluator, state: State, effect: Effect, target: str = "") ->
     return with_terms(ready, state, [(term, effect.typical())], f"{term.label} added")
 
 
-def with_terms(ready: Evaluator, state: State, added: Sequence[tuple[Term, Mapping[str, float]]], words: str) -> State:
+def with_terms(
+    ready: Evaluator, state: SessionState, added: Sequence[tuple[Term, Mapping[str, float]]], words: str
+) -> SessionState:
     """Return a state with more effects: with the numbers that they had before they were taken out, or with these.
 
     Args:
@@ -51,7 +53,7 @@ def with_terms(ready: Evaluator, state: State, added: Sequence[tuple[Term, Mappi
     return _having(ready, state, (*state.terms, *(term for term, _ in new)), numbers, words)
 
 
-def with_number(ready: Evaluator, state: State, key: str, value: float | str) -> State:
+def with_number(ready: Evaluator, state: SessionState, key: str, value: float | str) -> SessionState:
     """Return a state with one other number.
 
     Args:
@@ -73,7 +75,7 @@ def with_number(ready: Evaluator, state: State, key: str, value: float | str) ->
     return replace(state, values={**state.values, key: found}, fitted=False, words=edited, edit=key)
 
 
-def removed(ready: Evaluator, state: State, effect: str) -> State:
+def removed(ready: Evaluator, state: SessionState, effect: str) -> SessionState:
     """Return a state without an effect.
 
     Args:
@@ -89,13 +91,13 @@ def removed(ready: Evaluator, state: State, effect: str) -> State:
     return _having(ready, state, terms, {}, f"{effect} removed")
 
 
-def without_additions(ready: Evaluator, state: State) -> State:
+def without_additions(ready: Evaluator, state: SessionState) -> SessionState:
     """Return a state without the effects that have no role in the base model, all other numbers as they are."""
     terms = tuple(t for t in state.terms if t.effect.base)
     return state if terms == state.terms else _having(ready, state, terms, {}, "without what was added")
 
 
-def as_stated(ready: Evaluator, state: State, model: Model) -> State:
+def as_stated(ready: Evaluator, state: SessionState, model: Model) -> SessionState:
     """Return the state of another model, as it was stated: its effects and rated values, all else as it is.
 
     Args:
@@ -115,7 +117,9 @@ def as_stated(ready: Evaluator, state: State, model: Model) -> State:
     return _having(ready, replace(state, values={**kept, **numbers}), terms, {}, "another model")
 
 
-def _having(ready: Evaluator, state: State, terms: tuple[Term, ...], numbers: Mapping[str, float], words: str) -> State:
+def _having(
+    ready: Evaluator, state: SessionState, terms: tuple[Term, ...], numbers: Mapping[str, float], words: str
+) -> SessionState:
     """Return a state with other effects, and with the numbers of the rig that belong to these."""
     typical = {f"{t.label}.{n}": v for t in terms for n, v in t.effect.typical().items()}
     values = {**typical, **numbers, **state.values}

@@ -17,7 +17,7 @@ from slipwise.preparation.prepared import Prepared
 from slipwise.relations.parameters import Free, make_free_inertia, make_stick_damping, make_terms
 from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.relations.table import Residuals
-from slipwise.session.state import State, Weights
+from slipwise.session.state import SessionState, Weights
 
 #: Objectives that stay ready: this state's, that before it, the one it is compared with, each also coarse.
 _READY = 6
@@ -62,7 +62,7 @@ class Evaluator:
     runs: list[FitRun]
     _ready: list[tuple[Weights, Objective]] = field(default_factory=list[tuple[Weights, Objective]])
 
-    def objective(self, state: State, watch: Callable[[], None] | None = None) -> Objective:
+    def objective(self, state: SessionState, watch: Callable[[], None] | None = None) -> Objective:
         """Return the relations of a state, weighed as it says."""
         found = next((ready for ready in self._ready if ready[0] == state.weights), None)
         if found is None:
@@ -77,19 +77,19 @@ class Evaluator:
             objective = objective.weigh(weights.before, finer=weights.finer)
         return objective.weigh(weights.values, finer=weights.finer)
 
-    def coarse(self, state: State) -> State:
+    def coarse(self, state: SessionState) -> SessionState:
         """Return a state that is evaluated at half the instants: in half the time, and nearly as well."""
         return replace(state, weights=replace(state.weights, finer=False))
 
-    def residuals(self, state: State) -> Residuals:
+    def residuals(self, state: SessionState) -> Residuals:
         """Evaluate every relation in all runs."""
         return self.objective(state).residuals(state.values)
 
-    def model_of(self, state: State) -> Model:
+    def model_of(self, state: SessionState) -> Model:
         """Return the model that a state describes."""
         return self.objective(state).model(state.values)
 
-    def free(self, state: State) -> list[Free]:
+    def free(self, state: SessionState) -> list[Free]:
         """Return every number of a state that may be changed, with its bounds; an effect on a card has one set."""
         objective = self.objective(state)
         model = Model(self.model.specimen, tuple(u for t in state.terms for u in t.uses(state.values)))
@@ -103,20 +103,20 @@ class Evaluator:
             free.append(make_stick_damping(self.runs[0].scales.time))
         return free
 
-    def as_fit(self, state: State) -> BaseFit:
+    def as_fit(self, state: SessionState) -> BaseFit:
         """Return a state as a fit without slopes, for replays."""
         objective, free, residuals = self.objective(state), tuple(self.free(state)), self.residuals(state)
         cost = residuals.cost(objective.fitted)
         solution = Solution(dict(state.values), free, residuals, np.empty((0, 0)), cost, 0)
         return BaseFit(self.prepared.campaign, self.model_of(state), objective, free, solution)
 
-    def with_slopes(self, state: State) -> BaseFit:
+    def with_slopes(self, state: SessionState) -> BaseFit:
         """Return a state that was fitted as a fit with its slopes, for screening."""
         fit = self.as_fit(state)
         return replace(fit, solution=solve(fit.objective, dict(state.values), list(fit.free), most=1))
 
 
-def evaluator(campaign: Campaign, model: Model | None) -> tuple[Evaluator, State]:
+def evaluator(campaign: Campaign, model: Model | None) -> tuple[Evaluator, SessionState]:
     """Make a campaign ready, and give the state in which a session begins: the model as stated, nothing fitted.
 
     Args:
@@ -133,7 +133,7 @@ def evaluator(campaign: Campaign, model: Model | None) -> tuple[Evaluator, State
     terms = make_terms(begun)
     objective = objective_of(ready.runs, begun.specimen, terms)
     values = {f.key: prepared.start.get(f.key, f.start) for f in free_numbers(whole, begun, objective)}
-    return ready, State(terms, values, Weights(terms, values, finer=False))
+    return ready, SessionState(terms, values, Weights(terms, values, finer=False))
 
 
 def errors_of(objective: Objective, residuals: Residuals) -> tuple[BalanceError, ...]:

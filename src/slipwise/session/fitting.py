@@ -12,7 +12,7 @@ from slipwise.estimation.least_squares import Solution, solve
 from slipwise.estimation.objective import Objective
 from slipwise.preparation.prepared import fit_prepared
 from slipwise.session.evaluation import Evaluator
-from slipwise.session.state import Known, State, Weights
+from slipwise.session.state import Known, SessionState, Weights
 
 #: Called with what is being done and the share done; what it raises ends the fit.
 Progress = Callable[[str, float], None]
@@ -63,7 +63,7 @@ class Watch:
             self.progress(self.stage, self.begin + (self.end - self.begin) * share)
 
 
-def fit_state(ready: Evaluator, state: State, progress: Progress) -> State:
+def fit_state(ready: Evaluator, state: SessionState, progress: Progress) -> SessionState:
     """Fit all numbers of a state to the runs that may be fitted, and say how sure each is.
 
     A state that no fit has been near to begins from rated numbers, as every command does; any other from where it
@@ -99,7 +99,7 @@ def fit_state(ready: Evaluator, state: State, progress: Progress) -> State:
 
 
 def _from_here(
-    ready: Evaluator, objective: Objective, state: State, values: Mapping[str, float]
+    ready: Evaluator, objective: Objective, state: SessionState, values: Mapping[str, float]
 ) -> tuple[Objective, Solution]:
     free = ready.free(state)
     start = {**values, **{f.key: min(max(values.get(f.key, f.start), f.low), f.high) for f in free}}

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from slipwise.errors import SettingError
-from slipwise.session.state import EffectOf, State, as_json, from_json
+from slipwise.session.state import EffectOf, SessionState, as_json, from_json
 
 #: Steps that are kept.
 _MOST = 100
@@ -20,25 +20,25 @@ class History:
         place: of the one that is looked at.
     """
 
-    states: tuple[State, ...]
+    states: tuple[SessionState, ...]
     place: int
 
     @property
-    def state(self) -> State:
+    def state(self) -> SessionState:
         """The step that is looked at."""
         return self.states[self.place]
 
     @property
-    def before(self) -> State | None:
+    def before(self) -> SessionState | None:
         """The step that an undo leads to."""
         return self.states[self.place - 1] if self.place else None
 
     @property
-    def after(self) -> State | None:
+    def after(self) -> SessionState | None:
         """The step that a redo leads to."""
         return self.states[self.place + 1] if self.place + 1 < len(self.states) else None
 
-    def pushed(self, state: State) -> "History":
+    def pushed(self, state: SessionState) -> "History":
         """Return the history with one step more; what was undone before is gone.
 
         A number that is dragged makes one step, not hundreds.

@@ -15,7 +15,7 @@ from slipwise.errors import InputError, SlipwiseError, SlipwiseWarning
 from slipwise.session.evaluation import Evaluator, errors_of
 from slipwise.session.history import History, history_from_json
 from slipwise.session.snapshot import Store, fingerprint
-from slipwise.session.state import EffectOf, State, as_json, from_json
+from slipwise.session.state import EffectOf, SessionState, as_json, from_json
 
 #: What arithmetic says of numbers and names that fit the schema and make no model.
 _NONSENSE = (ArithmeticError, LookupError, TypeError, ValueError)
@@ -38,7 +38,7 @@ class Kept:
     """
 
     history: History
-    reference: State
+    reference: SessionState
     accepted: bool = False
     findings: Mapping[str, dict[str, Any]] = field(default_factory=dict[str, dict[str, Any]])
     notes: tuple[str, ...] = ()
@@ -60,7 +60,7 @@ class Kept:
         }
 
 
-def begun(state: State) -> Kept:
+def begun(state: SessionState) -> Kept:
     """Return a session that begins."""
     return Kept(History((state,), 0), state)
 
@@ -71,7 +71,7 @@ def resumed(
     ready: Evaluator,
     model: Path,
     effect_of: EffectOf,
-    start: State,
+    start: SessionState,
     *,
     given: bool,
 ) -> Kept:
@@ -121,7 +121,7 @@ def _taken_up(content: Mapping[str, Any], ready: Evaluator, effect_of: EffectOf)
     return Kept(history, reference, content["accepted"], content["findings"])
 
 
-def _check_numbers(ready: Evaluator, state: State) -> None:
+def _check_numbers(ready: Evaluator, state: SessionState) -> None:
     """Refuse a step that lacks a number, has one beyond reason, or acts on what the campaign has not."""
     try:
         every = ready.free(state)
@@ -135,7 +135,7 @@ def _check_numbers(ready: Evaluator, state: State) -> None:
             raise InputError(f"its step {state.words!r} has {free.key} = {value:g}, far beyond its bounds")
 
 
-def _check_errors(ready: Evaluator, state: State) -> None:
+def _check_errors(ready: Evaluator, state: SessionState) -> None:
     """Refuse a step that predicts nothing."""
     try:
         with np.errstate(all="ignore"):
@@ -146,7 +146,7 @@ def _check_errors(ready: Evaluator, state: State) -> None:
         raise InputError(f"its step {state.words!r} holds numbers by which nothing can be predicted")
 
 
-def _impossible(state: State, error: Exception) -> InputError:
+def _impossible(state: SessionState, error: Exception) -> InputError:
     return InputError(f"its step {state.words!r} cannot be evaluated ({type(error).__name__}: {error})")
 
 

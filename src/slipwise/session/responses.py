@@ -13,7 +13,7 @@ from slipwise.diagnosis.importance import memory_before
 from slipwise.errors import InputError, SettingError
 from slipwise.record import Record
 from slipwise.session.evaluation import Evaluator
-from slipwise.session.state import State
+from slipwise.session.state import SessionState
 from slipwise.simulation.replay import replay
 
 Array = NDArray[np.float64]
@@ -45,7 +45,9 @@ def replayed_run(ready: Evaluator) -> str:
     return next((r.name for r in ready.runs if r.role == "holdout"), ready.runs[-1].name)
 
 
-def replay_errors(ready: Evaluator, state: State, progress: Callable[[float], None] | None = None) -> dict[str, float]:
+def replay_errors(
+    ready: Evaluator, state: SessionState, progress: Callable[[float], None] | None = None
+) -> dict[str, float]:
     """Return the errors at system level, of held-out runs if there are any: channels -> error in floors.
 
     Replays restart from the measured slip every second, and their floor has the noise of what they are fed with in it.
@@ -66,7 +68,7 @@ def replay_errors(ready: Evaluator, state: State, progress: Callable[[float], No
     return {name: error for name, error in found.items() if error is not None}
 
 
-def replay_run(ready: Evaluator, state: State, name: str = "") -> RunReplay:
+def replay_run(ready: Evaluator, state: SessionState, name: str = "") -> RunReplay:
     """Replay a run, memory carried over from those before.
 
     Args:

@@ -10,7 +10,7 @@ from slipwise.estimation.objective import Objective
 from slipwise.relations.girder_stages import balance_sides
 from slipwise.relations.table import Residuals
 from slipwise.rig.load_basis import WARPS
-from slipwise.session.state import State
+from slipwise.session.state import SessionState
 
 Array = NDArray[np.float64]
 #: Balances whose two sides are channels; of the others only the residual has a meaning, in floors.
@@ -47,7 +47,7 @@ class Series:
         return self.measured - self.predicted
 
 
-def series_of(objective: Objective, state: State, residuals: Residuals, place: int, relation: str) -> Series:
+def series_of(objective: Objective, state: SessionState, residuals: Residuals, place: int, relation: str) -> Series:
     """Return one balance of one run.
 
     Args:

@@ -28,7 +28,7 @@ from slipwise.session.responses import RunReplay, replay_errors, replay_run
 from slipwise.session.series import Series, series_of
 from slipwise.session.snapshot import Store
 from slipwise.session.sources import Sources
-from slipwise.session.state import State, from_json
+from slipwise.session.state import SessionState, from_json
 
 
 class Session(Drawn, Tabular):
@@ -93,7 +93,7 @@ class Session(Drawn, Tabular):
         return self.ready.prepared.corrections
 
     @property
-    def state(self) -> State:
+    def state(self) -> SessionState:
         """The step that is looked at."""
         return self.history.state
 
@@ -102,7 +102,7 @@ class Session(Drawn, Tabular):
         """The model as it is now; `save_model` writes it, and `accept` does so beside the campaign."""
         return self.ready.model_of(self.state)
 
-    def toggle(self, effect: str, target: str = "") -> State:
+    def toggle(self, effect: str, target: str = "") -> SessionState:
         """Put an effect into the model with the size it had last, or a typical one; or take it out.
 
         Args:
@@ -115,7 +115,7 @@ class Session(Drawn, Tabular):
         """
         return self.push(changes.toggled(self.ready, self.state, self.effect(effect), target))
 
-    def set(self, key: str, value: float | str, *, keep: bool = True) -> State:
+    def set(self, key: str, value: float | str, *, keep: bool = True) -> SessionState:
         """Change one number of the model.
 
         Args:
@@ -130,12 +130,12 @@ class Session(Drawn, Tabular):
         """
         return self.push(changes.with_number(self.ready, self.state, key, value), keep=keep)
 
-    def errors(self, state: State | None = None) -> tuple[BalanceError, ...]:
+    def errors(self, state: SessionState | None = None) -> tuple[BalanceError, ...]:
         """Return the error of every balance, component level, in floors: of the model as it is now, or of a state."""
         state = state or self.state
         return errors_of(self.ready.objective(state), self.ready.residuals(state))
 
-    def series(self, run: str, relation: str = "pads", state: State | None = None) -> Series:
+    def series(self, run: str, relation: str = "pads", state: SessionState | None = None) -> Series:
         """Return one balance of one run, measured and predicted: of the model as it is now, or of a state.
 
         Raises:
@@ -152,7 +152,7 @@ class Session(Drawn, Tabular):
         return series_of(objective, state, self.ready.residuals(state), names.index(run), relation)
 
     @one_thread_algebra()
-    def fit(self, progress: Progress | None = None) -> State:
+    def fit(self, progress: Progress | None = None) -> SessionState:
         """Fit all numbers of the model to the runs that may be fitted.
 
         Args:
@@ -161,7 +161,7 @@ class Session(Drawn, Tabular):
         """
         return self.fitted(fit_state(self.ready, self.state, progress or (lambda words, share: None)))
 
-    def fitted(self, state: State) -> State:
+    def fitted(self, state: SessionState) -> SessionState:
         """Take over a state that a fit has found, here or in another process.
 
         The first fit of the model as it was opened is what others are held against.
@@ -170,11 +170,11 @@ class Session(Drawn, Tabular):
             self.reference, self.accepted = state, False
         return self.push(state)
 
-    def replay(self, state: State | None = None, run: str = "") -> RunReplay:
+    def replay(self, state: SessionState | None = None, run: str = "") -> RunReplay:
         """Replay a run, the held-out one if none is named, from the table's motion; see `replay_run`."""
         return replay_run(self.ready, state or self.state, run)
 
-    def replay_errors(self, state: State | None = None) -> dict[str, float]:
+    def replay_errors(self, state: SessionState | None = None) -> dict[str, float]:
         """Return the held-out errors at system level in floors; see `responses.replay_errors`."""
         return replay_errors(self.ready, state or self.state)
 
@@ -200,7 +200,7 @@ class Session(Drawn, Tabular):
         self.findings[kind] = dict(content)
         self.keep()
 
-    def take_suggestion(self) -> State:
+    def take_suggestion(self) -> SessionState:
         """Put in what the last `explain` named, with the size that it found.
 
         Raises:
@@ -223,19 +223,19 @@ class Session(Drawn, Tabular):
         self.keep()
         return target
 
-    def undo(self) -> State:
+    def undo(self) -> SessionState:
         """Go one step back; a SettingError says that there is none."""
         self.history = self.history.undone()
         self.keep()
         return self.state
 
-    def redo(self) -> State:
+    def redo(self) -> SessionState:
         """Go one step forward again; a SettingError says that there is none."""
         self.history = self.history.redone()
         self.keep()
         return self.state
 
-    def beside(self, other: "Session | Model | Path | str") -> State:
+    def beside(self, other: "Session | Model | Path | str") -> SessionState:
         """Return another model as a state of this session, judged by the same noise.
 
         Raises:
@@ -263,7 +263,7 @@ class Session(Drawn, Tabular):
         held = next((u.effect for u in self.ready.model.uses if u.effect.name == name), None)
         return held or self._sources.effect(name)
 
-    def read_state(self, content: Mapping[str, Any], trust: Trust) -> State:
+    def read_state(self, content: Mapping[str, Any], trust: Trust) -> SessionState:
         """Return a state that another process of the same user has written, and whose effect files it runs already."""
         sources = replace(self._sources, trust=trust)
         return from_json(content, lambda name: self._kept_effect(name, sources))
@@ -271,7 +271,7 @@ class Session(Drawn, Tabular):
     def _kept_effect(self, name: str, sources: Sources | None = None) -> Effect:
         return self.effect(name) if name in catalogue() else (sources or self._sources).kept_effect(name)
 
-    def push(self, state: State, *, keep: bool = True) -> State:
+    def push(self, state: SessionState, *, keep: bool = True) -> SessionState:
         """Take a state as the next step."""
         self.history = self.history.pushed(state)
         if keep:

@@ -53,7 +53,7 @@ class Known:
 
 
 @dataclass(frozen=True)
-class State:
+class SessionState:
     """One step of a session.
 
     Attributes:
@@ -85,7 +85,7 @@ class State:
         return next((t for t in self.terms if t.label == label), None)
 
 
-def as_json(state: State) -> dict[str, Any]:
+def as_json(state: SessionState) -> dict[str, Any]:
     """Return a state as JSON holds it."""
     return {
         "terms": terms_json(state.terms),
@@ -104,7 +104,7 @@ def as_json(state: State) -> dict[str, Any]:
     }
 
 
-def from_json(content: Mapping[str, Any], effect_of: EffectOf) -> State:
+def from_json(content: Mapping[str, Any], effect_of: EffectOf) -> SessionState:
     """Return the state that `as_json` wrote.
 
     Args:
@@ -112,7 +112,7 @@ def from_json(content: Mapping[str, Any], effect_of: EffectOf) -> State:
         effect_of: finds effects; it refuses a file that may not be run.
     """
     weights, known = content["weights"], content["known"].items()
-    return State(
+    return SessionState(
         terms_from_json(content["terms"], effect_of),
         dict(content["values"]),
         Weights(

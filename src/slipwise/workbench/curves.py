@@ -9,7 +9,7 @@ import numpy as np
 from slipwise.model import base_model
 from slipwise.session.responses import RESPONSES, RunReplay
 from slipwise.session.session import Session
-from slipwise.session.state import State
+from slipwise.session.state import SessionState
 from slipwise.workbench.frames import frame
 from slipwise.workbench.replies import errors_told, other_models
 
@@ -34,7 +34,7 @@ class View:
     watches: bool = False
 
 
-def beside_of(session: Session, view: View) -> State | None:
+def beside_of(session: Session, view: View) -> SessionState | None:
     """Return the model that stands beside; None where there is none, or no such file in the campaign's folder."""
     if view.beside == BEFORE:
         return session.reference

@@ -14,7 +14,7 @@ from slipwise.session.findings import discovered, explained
 from slipwise.session.fitting import Progress, fit_state
 from slipwise.session.responses import RunReplay, replay_errors
 from slipwise.session.session import Session
-from slipwise.session.state import State, as_json
+from slipwise.session.state import SessionState, as_json
 from slipwise.view.files import save_page
 from slipwise.view.pages.compare_page import compare_page
 from slipwise.view.pages.diagnosis_page import diagnosis_page
@@ -34,7 +34,7 @@ class Task:
     """
 
     session: Session
-    state: State
+    state: SessionState
     run: str = ""
 
 

@@ -12,7 +12,7 @@ from slipwise.noise.level import AT_FLOOR
 from slipwise.preparation.gauge_groups import find_places_of_gauges
 from slipwise.relations.parameters import Free
 from slipwise.session.session import Session
-from slipwise.session.state import State
+from slipwise.session.state import SessionState
 from slipwise.units import parse_unit
 from slipwise.view.words.number_names import called
 from slipwise.view.words.numbers import usual_unit
@@ -75,7 +75,7 @@ def state_told(session: Session) -> dict[str, Any]:
     }
 
 
-def errors_told(session: Session, state: State, beside: State | None = None) -> list[dict[str, Any]]:
+def errors_told(session: Session, state: SessionState, beside: SessionState | None = None) -> list[dict[str, Any]]:
     """Tell the error of every balance of a state, of the reference, and of another model if one stands beside."""
     before = {e.relation: e for e in session.errors(session.reference)}
     other = {e.relation: e for e in session.errors(beside)} if beside is not None else {}

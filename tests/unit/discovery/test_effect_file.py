@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from slipwise.discovery.candidate import Candidate
+from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.effect_file import can_be_written, write_law
 from slipwise.discovery.form import forms
 from slipwise.discovery.law import Law, LawConstant
@@ -17,7 +17,7 @@ from slipwise.discovery.law_objective import FittedLaw, LawObjective, PlacedLaw
 from slipwise.discovery.matching import Match, constants_of, product_at
 from slipwise.discovery.ports import EVERYWHERE, Gate, Port
 from slipwise.discovery.result import Discovery
-from slipwise.discovery.states import UNITS, State
+from slipwise.discovery.states import UNITS, DrivingState
 from slipwise.effects import LAGGING, load_effect
 from slipwise.errors import SettingError
 
@@ -35,8 +35,8 @@ def law_of(port: str, states: tuple[str, ...], form_names: tuple[str, ...], gate
     chosen = tuple(forms()[name] for name in form_names)
     numbers = {name: 0.7 + 0.1 * i for i, name in enumerate(constants_of(chosen))}
     lag = 0.05 if set(states) & LAGGING else 0.0
-    kept = tuple(State(s, lag if s in LAGGING else 0.0, ()) for s in states)
-    match = Match(Candidate(kept, Port(port, "pads", "odd", "1", ()), gate, None, 1.0), chosen, numbers, 1.0, 0.2)  # pyright: ignore[reportArgumentType]
+    kept = tuple(DrivingState(s, lag if s in LAGGING else 0.0, ()) for s in states)
+    match = Match(CurveCandidate(kept, Port(port, "pads", "odd", "1", ()), gate, None, 1.0), chosen, numbers, 1.0, 0.2)  # pyright: ignore[reportArgumentType]
     constants = [LawConstant("strength", 0.2, 0.1, 0.3, "1")]
     constants += [LawConstant(n, v, NAN, NAN, "1") for n, v in numbers.items()]
     constants += [LawConstant("time_constant", lag, NAN, NAN, "s")] if lag else []

@@ -11,7 +11,7 @@ import numpy as np
 
 from slipwise.errors import InputError, UnitError
 from slipwise.motion.fixed_width import check_format, fixed_width, lines_of
-from slipwise.motion.origin import Origin, time_in
+from slipwise.motion.origin import MotionOrigin, time_in
 from slipwise.motion.source_file import SourceFile, header_field, number, positive
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
@@ -123,10 +123,10 @@ def _peak(reals: list[float], text: tuple[str, ...], factor: float) -> HeaderPea
     return HeaderPeak(value * factor, None if time == -999.0 else time, max(rounding, 5e-4) * factor)
 
 
-def _origin(text: tuple[str, ...]) -> Origin:
+def _origin(text: tuple[str, ...]) -> MotionOrigin:
     joined = "\n".join(text)
     station = re.search(r"stat(?:io)?n no:\s*(\S+)", joined, re.IGNORECASE)
     place = re.search(r"location:\s*(.*)", joined, re.IGNORECASE)
     start = re.search(r"start time:\s*(\d+)/(\d+)/(\d+),?\s*([\d:.]+)", joined, re.IGNORECASE)
     begun = time_in(f"{start[3]}-{start[1]}-{start[2]} {start[4]}") if start else None
-    return Origin(station[1] if station else "", "", place[1].strip() if place else "", "", begun)
+    return MotionOrigin(station[1] if station else "", "", place[1].strip() if place else "", "", begun)

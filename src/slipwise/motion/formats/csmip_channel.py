@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from slipwise.motion.fixed_width import fixed_width
-from slipwise.motion.origin import Origin, time_in
+from slipwise.motion.origin import MotionOrigin, time_in
 from slipwise.motion.source_file import SourceFile, header_field, number
 from slipwise.motion.stated import Given, acceleration_factor, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
@@ -20,7 +20,7 @@ _START = re.compile(r"start time:\s*(\d+)/(\d+)/(\d+),\s*([\d:.]+)", re.IGNORECA
 
 
 @dataclass(frozen=True)
-class Channel:
+class CsmipChannel:
     """A channel of a structure or a site.
 
     Attributes:
@@ -55,7 +55,7 @@ class Values:
     width: int
 
 
-def channel_of(source: SourceFile, start: int, end: int) -> Channel:
+def channel_of(source: SourceFile, start: int, end: int) -> CsmipChannel:
     """Read the channel of a header.
 
     Raises:
@@ -67,20 +67,20 @@ def channel_of(source: SourceFile, start: int, end: int) -> Channel:
     place = _PLACE.search(source.lines[at])
     numbers = [found["number"], *_STATION_CHANNEL.findall(source.lines[at])]
     aliases = tuple(dict.fromkeys(alias for n in numbers for alias in (n, f"Chan {n}")))
-    return Channel(found["name"], place[1] if place else "", aliases)
+    return CsmipChannel(found["name"], place[1] if place else "", aliases)
 
 
-def origin_of(source: SourceFile, start: int, end: int, place: str) -> Origin:
+def origin_of(source: SourceFile, start: int, end: int, place: str) -> MotionOrigin:
     """Read station and start of a header's lines."""
     lines = source.lines[start:end]
     station = next((m[1] for line in lines if (m := _STATION.match(line))), "")
     begun = next((m for line in lines if (m := _START.search(line))), None)
     if begun is None:
-        return Origin(station, "", place)
+        return MotionOrigin(station, "", place)
     month, day, year, clock = begun.groups()
     # Years of two digits: a record of 1971 is as old as they come.
     full = int(year) if len(year) > 2 else int(year) + (2000 if int(year) < 70 else 1900)
-    return Origin(station, "", place, "", time_in(f"{full}-{month}-{day} {clock}"))
+    return MotionOrigin(station, "", place, "", time_in(f"{full}-{month}-{day} {clock}"))
 
 
 def stated_peak(size: str, unit: str, time: str, place: str) -> HeaderPeak:
@@ -93,7 +93,7 @@ def channel_trace(
     source: SourceFile,
     given: Given,
     start: int,
-    channel: Channel,
+    channel: CsmipChannel,
     values: Values,
     peak: HeaderPeak | None,
     title: str,

@@ -8,7 +8,7 @@ import re
 
 import numpy as np
 
-from slipwise.motion.origin import Origin, time_in
+from slipwise.motion.origin import MotionOrigin, time_in
 from slipwise.motion.source_file import SourceFile, blank_separated, header_field, number, positive
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
@@ -61,7 +61,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
                 f"{unit_words}; {dt_words}",
             ),
             header_peak=stated,
-            origin=Origin(station=station, event=source.lines[2].strip(), start=time_in(source.lines[1])),
+            origin=MotionOrigin(station=station, event=source.lines[2].strip(), start=time_in(source.lines[1])),
         )
     ]
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from slipwise.errors import InputError
 from slipwise.motion.number_rows import table_of_numbers
-from slipwise.motion.origin import Origin, time_in
+from slipwise.motion.origin import MotionOrigin, time_in
 from slipwise.motion.source_file import SourceFile, check_count, header_field, number, positive
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
@@ -52,7 +52,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
             f"{source.name}: the times do not advance by {dt:g} s, as the header's rate says; fetch it again"
         )
     station = field("StationCode", r"(\S+)")[0][1]
-    origin = Origin(
+    origin = MotionOrigin(
         station=station,
         event=field("Origin Time(GMT+08)", r"(.*\S)")[0][1],
         start=time_in(field("StartTime(GMT+08)", r"(.*\S)")[0][1]),

@@ -13,7 +13,7 @@ import numpy as np
 
 from slipwise.errors import InputError, UnitError
 from slipwise.motion.fixed_width import fixed_width, lines_of
-from slipwise.motion.origin import Origin, time_in
+from slipwise.motion.origin import MotionOrigin, time_in
 from slipwise.motion.source_file import SourceFile, header_field, is_number, number, positive
 from slipwise.motion.stated import Given, acceleration_factor, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
@@ -93,7 +93,7 @@ def _component(source: SourceFile, given: Given, start: int) -> tuple[Trace, int
             f"{unit_words}; {dt_words}; {prepended:g} s before the record were put there by the agency",
         ),
         header_peak=stated,
-        origin=Origin(station=source.lines[start + 1].split()[1], event=event, start=_record_time(source, start)),
+        origin=MotionOrigin(station=source.lines[start + 1].split()[1], event=event, start=_record_time(source, start)),
     )
     return trace, end
 

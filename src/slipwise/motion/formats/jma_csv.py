@@ -6,7 +6,7 @@ Source: the files' own header. JMA files state no number of values and no peak.
 import numpy as np
 
 from slipwise.errors import InputError
-from slipwise.motion.origin import Origin, time_in
+from slipwise.motion.origin import MotionOrigin, time_in
 from slipwise.motion.source_file import SourceFile, header_field, number, positive
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.trace import Trace
@@ -57,7 +57,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
             dt=dt,
             acceleration=values[:, column],
             treatment=(f"read as JMA CSV: {source.name}, component {name}", f"{unit_words}; {dt_words}"),
-            origin=Origin(station=site[1].strip(), start=time_in(started[1])),
+            origin=MotionOrigin(station=site[1].strip(), start=time_in(started[1])),
         )
         for column, name in enumerate(names)
     ]

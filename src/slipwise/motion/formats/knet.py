@@ -8,7 +8,7 @@ import re
 import numpy as np
 
 from slipwise.errors import InputError
-from slipwise.motion.origin import Origin, time_in
+from slipwise.motion.origin import MotionOrigin, time_in
 from slipwise.motion.source_file import SourceFile, blank_separated, header_field, number, positive
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
@@ -68,7 +68,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
                 f"counts times {scale[1]} {scale[2]} / {scale[3]}, {unit_words}; {dt_words}",
             ),
             header_peak=stated,
-            origin=Origin(
+            origin=MotionOrigin(
                 station=station,
                 sensor=_sensor(direction),
                 event=field("Origin Time", r"(\S.*\S)")[0][1],

@@ -12,7 +12,7 @@ import numpy as np
 from slipwise.data_files.statements import NUMBER, read_statements
 from slipwise.errors import InputError
 from slipwise.motion.orientation import name_from_stem, orientation, sensor_of
-from slipwise.motion.origin import Origin
+from slipwise.motion.origin import MotionOrigin
 from slipwise.motion.source_file import SourceFile, blank_separated
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.trace import Trace
@@ -59,7 +59,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
             acceleration=np.array(values) * factor,
             treatment=(f"read as PEER AT2: {source.name}, component {name}", f"{unit_words}; {dt_words}"),
             # "Manjil Iran, 6/20/1990, Abbar": event and station stand around the date.
-            origin=Origin(
+            origin=MotionOrigin(
                 station=parts[-1] if len(parts) > 2 else "",
                 sensor=sensor_of(name),
                 event=" ".join(parts[:-1]) if len(parts) > 2 else "",

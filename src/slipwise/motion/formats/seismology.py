@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.errors import InputError, UnitError, missing_library
-from slipwise.motion.origin import Origin
+from slipwise.motion.origin import MotionOrigin
 from slipwise.motion.source_file import SourceFile
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.trace import Trace
@@ -71,7 +71,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
                 dt=dt,
                 acceleration=values * factor,
                 treatment=(f"read by obspy: {source.name}, {found.id}", f"{unit_words}; {dt_words}"),
-                origin=Origin(
+                origin=MotionOrigin(
                     station=f"{stats.network}.{stats.station}".strip("."),
                     sensor=stats.location,
                     start=_start(stats),

@@ -11,7 +11,7 @@ from slipwise.data_files.words import folded
 from slipwise.errors import InputError
 from slipwise.motion.number_rows import table_of_numbers
 from slipwise.motion.orientation import orientation
-from slipwise.motion.origin import Origin, time_in
+from slipwise.motion.origin import MotionOrigin, time_in
 from slipwise.motion.source_file import SourceFile, check_count, is_number, number, positive
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
@@ -89,7 +89,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
                 acceleration=table[:, column] * factor,
                 treatment=(f"read as UNAM ASA: {source.name}, channel {name}", f"{unit_words}; {dt_words}"),
                 header_peak=peak,
-                origin=Origin(station=station, event=event, start=start),
+                origin=MotionOrigin(station=station, event=event, start=start),
                 aliases=(f"C{column + 1}", str(column + 1)),
             )
         )

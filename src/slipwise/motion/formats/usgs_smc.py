@@ -13,7 +13,7 @@ import numpy as np
 
 from slipwise.errors import InputError, UnitError
 from slipwise.motion.fixed_width import fixed_width
-from slipwise.motion.origin import Origin
+from slipwise.motion.origin import MotionOrigin
 from slipwise.motion.source_file import SourceFile, header_field, number, positive
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.table_motion import HeaderPeak
@@ -70,7 +70,7 @@ def read(source: SourceFile, given: Given) -> list[Trace]:
                 f"{unit_words.replace('the file states', 'the format says')}; {dt_words}",
             ),
             header_peak=stated,
-            origin=Origin(
+            origin=MotionOrigin(
                 station=source.lines[5].partition("component")[0].replace("station =", "").strip(),
                 event=" ".join(source.lines[3].split()),
             ),

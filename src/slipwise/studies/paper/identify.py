@@ -39,7 +39,7 @@ class PadData:
 
 
 @dataclass(frozen=True)
-class Identified:
+class IdentifiedLaw:
     """Parameters of eq. (7), (4,) in the order s' [Pa], n [s/m], k [1/Pa], alpha [1].
 
     Attributes:
@@ -62,7 +62,7 @@ class Identified:
 
 
 def friction_law(load: Array, speed: Array, area: float, values: Array) -> Array:
-    """Return the friction of eq. (7) [N]; loads [N], speeds [m/s], values as in `Identified`.
+    """Return the friction of eq. (7) [N]; loads [N], speeds [m/s], values as in `IdentifiedLaw`.
 
     Source: paper, eq. (7) with exp(-kP).
     """
@@ -86,13 +86,13 @@ def identify(
     start: Array,
     noise: tuple[float, float, float] = (0.0, 0.0, 1.0),
     fixed: tuple[int, ...] = (),
-) -> Identified:
+) -> IdentifiedLaw:
     """Fit the four parameters.
 
     Args:
         data: of one pad.
         area: apparent, of the pad [m^2].
-        start: (4,) first guess, as in `Identified`.
+        start: (4,) first guess, as in `IdentifiedLaw`.
         noise: rms noise of load [N], speed [m/s], friction [N]; only their ratio matters.
         fixed: indices of parameters that keep their start value; their interval is nothing.
     """
@@ -126,7 +126,7 @@ def identify(
     values = np.exp(logs) * _SCALE
     width = np.exp(student.ppf(0.975, degrees) * deviation)
     left = friction - law(logs, load, speed)
-    return Identified(
+    return IdentifiedLaw(
         values,
         values / width,
         values * width,

@@ -11,7 +11,7 @@ from slipwise.motion import TableMotion, load_motion
 from slipwise.record import Record
 from slipwise.simulation.replay import replay
 from slipwise.studies.paper.finding import FAILS, HOLDS, LIMITS, UNCHECKED, Finding, Study
-from slipwise.studies.paper.identify import NAMES, Identified, PadData, friction_law, identify, with_noise
+from slipwise.studies.paper.identify import NAMES, IdentifiedLaw, PadData, friction_law, identify, with_noise
 from slipwise.studies.paper.settings import RATE_UNITS, PaperSettings, paper_model
 
 Array = NDArray[np.float64]
@@ -96,7 +96,7 @@ def noise_of(settings: PaperSettings, model: Model) -> tuple[float, float, float
     return settings.noise_load * load, settings.noise_speed, settings.noise_friction * friction
 
 
-def fit(data: PadData, model: Model, settings: PaperSettings, seed: int) -> Identified:
+def fit(data: PadData, model: Model, settings: PaperSettings, seed: int) -> IdentifiedLaw:
     """Identify from noisy data, starting from values that are off by tens of per cent."""
     noise = noise_of(settings, model)
     noisy = with_noise(data, *noise, np.random.default_rng([settings.seed, 12, seed]))
@@ -242,7 +242,7 @@ def study(settings: PaperSettings) -> Study:
     return Study("identification", "Sine tests and identification (Figs. 12, 13)", findings, tables, curves)
 
 
-def surface_error(found: Identified, model: Model, data: PadData) -> float:
+def surface_error(found: IdentifiedLaw, model: Model, data: PadData) -> float:
     """Return the largest relative error of friction over the tested pressures and speeds [1]."""
     load = np.linspace(np.percentile(data.load, 1), np.percentile(data.load, 99), 40)
     speed = np.linspace(0.02, np.percentile(data.speed, 99), 40)
@@ -256,7 +256,7 @@ def _listed(values: Array) -> dict[str, Any]:
     return dict(zip(NAMES, (float(v) for v in values), strict=True))
 
 
-def _interval(found: Identified, i: int, settings: PaperSettings) -> str:
+def _interval(found: IdentifiedLaw, i: int, settings: PaperSettings) -> str:
     """Print one parameter in the paper's units."""
     factor = (1e-6, 1.0 / RATE_UNITS[settings.n_unit], 1e6, 1.0)[i]
     unit = (" MPa", f" {settings.n_unit}", " /MPa", "")[i]

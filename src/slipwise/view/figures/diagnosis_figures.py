@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.ladder import Ladder, LadderStep
 from slipwise.diagnosis.result import Diagnosis
-from slipwise.diagnosis.unknown_surface import WORDS, Surface
+from slipwise.diagnosis.unknown_surface import WORDS, ResidualSurface
 from slipwise.units import convert
 from slipwise.view.figures.canvas import new_figure
 from slipwise.view.figures.panels import AFTER, BEFORE, error_bars
@@ -127,7 +127,7 @@ def _loop(axes: Axes, slip: Array, force: Array, colour: str, label: str, width:
     axes.plot(slip * 1e3, force / 1e3, color=colour, lw=width, label=label)
 
 
-def surface_figure(surface: Surface) -> Figure:
+def surface_figure(surface: ResidualSurface) -> Figure:
     """Draw the missing force over the one or two states that organise it best, with its band."""
     figure = new_figure(8.0, 4.0)
     axes = figure.subplots()

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from slipwise.discovery.result import Discovery
 from slipwise.discovery.splines import knots_of
-from slipwise.discovery.states import State
+from slipwise.discovery.states import DrivingState
 from slipwise.rig.frame import frame_push
 from slipwise.view.figures.canvas import new_figure
 from slipwise.view.figures.compare_figures import widest_loop
@@ -62,9 +62,9 @@ def errors_figure(found: Discovery, *, narrow: bool = False) -> Figure:
     return figure
 
 
-def shown_states(found: Discovery) -> list[State]:
+def shown_states(found: Discovery) -> list[DrivingState]:
     """Return the states over which the error is drawn: those of the laws, then the best others of the screen."""
-    named: dict[str, State] = {}
+    named: dict[str, DrivingState] = {}
     matched = [law.fitted.law.match.candidate for law in found.laws]
     for candidate in [*matched, *found.looked_at]:
         if candidate.port.relation == found.worst:

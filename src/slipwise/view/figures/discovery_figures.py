@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from slipwise.discovery.candidate import Candidate
+from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.form import Form
 from slipwise.discovery.law import Law
 from slipwise.discovery.law_objective import STRENGTH
@@ -44,12 +44,12 @@ def law_figure(law: Law) -> Figure:
     return _figure(law_cloud(law), candidate, forms)
 
 
-def candidate_figure(found: Discovery, candidate: Candidate) -> Figure:
+def candidate_figure(found: Discovery, candidate: CurveCandidate) -> Figure:
     """Draw the curve of the screen over its data, where no form is called a law."""
     return _figure(candidate_cloud(found, candidate), candidate, [])
 
 
-def _figure(cloud: Cloud, candidate: Candidate, forms: Sequence[_Drawn]) -> Figure:
+def _figure(cloud: Cloud, candidate: CurveCandidate, forms: Sequence[_Drawn]) -> Figure:
     count = len(candidate.states)
     figure = new_figure(8.6 if count == 1 else 10.6, 4.6)
     panels = figure.subplots(1, count, sharey=True, squeeze=False)[0]
@@ -94,7 +94,7 @@ def _one(axes: Axes, cloud: Cloud, over: Array, factor: float, forms: Sequence[t
 
 
 def _slices(
-    axes: Axes, cloud: Cloud, over: Array, factor: float, forms: Sequence[tuple], place: int, candidate: Candidate
+    axes: Axes, cloud: Cloud, over: Array, factor: float, forms: Sequence[tuple], place: int, candidate: CurveCandidate
 ) -> None:
     """Draw curves over one of two states, the other held where a few, half and most of the samples lie."""
     other = cloud.states[1 - place]

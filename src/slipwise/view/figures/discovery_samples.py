@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.discovery.candidate import Candidate
+from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.law import Law
 from slipwise.discovery.law_objective import STRENGTH, FittedLaw
 from slipwise.discovery.matching import product_at
@@ -14,7 +14,7 @@ from slipwise.discovery.ports import opened, places_of
 from slipwise.discovery.residual_field import residual_field
 from slipwise.discovery.result import Discovery
 from slipwise.discovery.splines import Spline, columns, spline
-from slipwise.discovery.states import State, pad_instants
+from slipwise.discovery.states import DrivingState, pad_instants
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.objective import Objective
 
@@ -64,7 +64,7 @@ def after(found: Discovery) -> Solution | None:
     return found.laws[-1].fitted.solution if found.laws else None
 
 
-def law_states(law: FittedLaw) -> list[State]:
+def law_states(law: FittedLaw) -> list[DrivingState]:
     """Return the states that drive a law with the lag that was fitted."""
     return law.objective.driving(law.law, law.values)
 
@@ -90,7 +90,7 @@ def law_cloud(law: Law) -> Cloud:
     return Cloud(over, height, Spline(knots, (weighed.T @ weighed)[None], (weighed.T @ left)[None], left @ left))
 
 
-def law_heights(law: Law, driving: Sequence[State], place: int) -> tuple[list[Array], Array]:
+def law_heights(law: Law, driving: Sequence[DrivingState], place: int) -> tuple[list[Array], Array]:
     """Return the states of a law in a run, and what its curve has to go through there, (n, q) each.
 
     The height is NaN where the law does not act, or the sample is not judged or drowns in noise.
@@ -118,7 +118,7 @@ def _seen_noise(law: Law, place: int) -> Array:
     return _wide(noise) / np.where(carrier == 0.0, np.nan, carrier)
 
 
-def candidate_cloud(found: Discovery, candidate: Candidate) -> Cloud:
+def candidate_cloud(found: Discovery, candidate: CurveCandidate) -> Cloud:
     """Return the same for the curve of a state that is no law: what the base fit leaves, but for what it has swallowed.
 
     The curve is made once more where the search began, for a screen may have begun elsewhere.
@@ -138,13 +138,13 @@ def candidate_cloud(found: Discovery, candidate: Candidate) -> Cloud:
     return Cloud(tuple(s[kept] for s in states), height[kept], curve)
 
 
-def _opened(found: Discovery, candidate: Candidate) -> list[Array]:
+def _opened(found: Discovery, candidate: CurveCandidate) -> list[Array]:
     objective = found.base.objective
     states = pad_instants(objective, found.base.solution.values).states
     return opened(candidate.gate, places_of(objective), states)
 
 
-def left_over(objective: Objective, solution: Solution, relation: str, state: State) -> tuple[Array, Array]:
+def left_over(objective: Objective, solution: Solution, relation: str, state: DrivingState) -> tuple[Array, Array]:
     """Return a state and what a fit leaves in a relation [floors], (m,) each, at the judged samples of fitted runs."""
     places, left = [], []
     for of in solution.residuals.blocks(relation, objective.fitted):

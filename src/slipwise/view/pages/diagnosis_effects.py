@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
-from slipwise.diagnosis.findings import Finding
+from slipwise.diagnosis.findings import EffectFinding
 from slipwise.diagnosis.indistinguishable import known_effects
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.effects import Effect
@@ -109,7 +109,7 @@ def evidence_rows(found: Diagnosis) -> list[dict[str, str]]:
     return [_evidence_row(f, found.search.best.names) for f in found.verdict.findings if f.name in shown]
 
 
-def _evidence_row(of: Finding, final: Sequence[str]) -> dict[str, str]:
+def _evidence_row(of: EffectFinding, final: Sequence[str]) -> dict[str, str]:
     rival = "none comes near"
     if of.rival is not None:
         names = " + ".join(n for n in of.rival.hypothesis.names if n not in final)

@@ -30,7 +30,7 @@ RECENT = 1.5
 
 
 @dataclass(frozen=True)
-class Trace:
+class LoopTrace:
     """One record on the board.
 
     Attributes:
@@ -50,14 +50,14 @@ class Trace:
         return self.colours.get(panel) or pad_colour(panel)
 
 
-def own_colours(record: Record) -> Trace:
+def own_colours(record: Record) -> LoopTrace:
     """Return a record in the pads' own colours."""
-    return Trace("", record, {SUM_PANEL: NIGHT_INK})
+    return LoopTrace("", record, {SUM_PANEL: NIGHT_INK})
 
 
-def one_colour(label: str, record: Record, colour: str, width: float = 2.0) -> Trace:
+def one_colour(label: str, record: Record, colour: str, width: float = 2.0) -> LoopTrace:
     """Return a record in one colour on every panel."""
-    return Trace(label, record, dict.fromkeys((*pads_in(record.channels), SUM_PANEL), colour), width)
+    return LoopTrace(label, record, dict.fromkeys((*pads_in(record.channels), SUM_PANEL), colour), width)
 
 
 def panels_of(record: Record, pads: Sequence[str]) -> dict[str, Array]:
@@ -70,7 +70,7 @@ def panels_of(record: Record, pads: Sequence[str]) -> dict[str, Array]:
     return there
 
 
-def log_loops(stream: rr.RecordingStream, root: str, traces: Sequence[Trace], layout: PadLayout) -> list[str]:
+def log_loops(stream: rr.RecordingStream, root: str, traces: Sequence[LoopTrace], layout: PadLayout) -> list[str]:
     """Put the board into the recording.
 
     Args:
@@ -122,7 +122,7 @@ def _axes(figure: Figure, layout: PadLayout) -> dict[str, Axes]:
     return axes
 
 
-def _log_line(stream: rr.RecordingStream, path: str, trace: Trace, panel: str, places: Array, above: float) -> None:
+def _log_line(stream: rr.RecordingStream, path: str, trace: LoopTrace, panel: str, places: Array, above: float) -> None:
     """Send the past as pieces that add up, once dim and once bright, and the present as a dot."""
     record, colour = trace.record, rgb(trace.colour(panel))
     thin = frames(record, _POINTS)

@@ -1,6 +1,6 @@
 """What a page says of a discovery beside its sentence: states, ports and gates in words, units that people read."""
 
-from slipwise.discovery.candidate import Candidate
+from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.law import Law
 from slipwise.discovery.result import Discovery
 from slipwise.discovery.states import UNITS, WORDS
@@ -120,7 +120,7 @@ def looked_at_rows(found: Discovery) -> list[dict[str, str]]:
     ]
 
 
-def gate_words(candidate: Candidate) -> str:
+def gate_words(candidate: CurveCandidate) -> str:
     """Say on which pads, or which way, something acts."""
     if candidate.port.relation != "pads":
         return "the girder"

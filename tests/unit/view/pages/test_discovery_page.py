@@ -7,7 +7,7 @@ import pytest
 from rerun.chunk import RrdReader
 
 from hypotheses import base
-from slipwise.discovery.candidate import Candidate
+from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.form import forms
 from slipwise.discovery.law import Law, LawConstant, TiedForm
 from slipwise.discovery.law_objective import FittedLaw, LawObjective, PlacedLaw
@@ -34,7 +34,7 @@ STRENGTH, REFERENCE = 0.02, 0.1
 NUMBERS = {"strength": STRENGTH, "reference": REFERENCE}
 
 
-def _law(candidate: Candidate, fitted: FittedLaw) -> Law:
+def _law(candidate: CurveCandidate, fitted: FittedLaw) -> Law:
     constants = (
         LawConstant("strength", STRENGTH, 0.019, 0.021, "1"),
         LawConstant("reference", REFERENCE, NAN, NAN, "m/s"),
@@ -72,7 +72,7 @@ def found() -> Discovery:
     later = with_pads(solution.residuals, {**solution.values, "law.strength": STRENGTH})
     field = residual_field(objective, before, "pads")
     curve = spline(field, field.at_samples(port.carrier), (field.at_samples(speed.values),), (12,))
-    candidate = Candidate((speed,), port, EVERYWHERE, curve, 0.97)
+    candidate = CurveCandidate((speed,), port, EVERYWHERE, curve, 0.97)
     match = Match(candidate, (forms()["square"],), {"reference": REFERENCE}, 1.0, STRENGTH)
     placed = PlacedLaw("law", match, tuple(np.ones_like(s.load) for s in every.states))
     fitted = FittedLaw(placed, LawObjective(every, objective, (placed,)), later)
