@@ -64,7 +64,7 @@ ARROWS: dict[str, str] = {
         "channels comparison diagnosis discovery effects errors estimation jobs noise params record relations rig"
         " signals studies units"
     ),
-    "cli": "errors jobs preparation view",
+    "cli": "errors jobs view",
     "workbench": (
         "campaign channels comparison design diagnosis discovery effects errors jobs model noise preparation"
         " relations session units view"

@@ -2,18 +2,15 @@
 
 import json
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 from rich.console import Console
 
 from slipwise.errors import InputError, visible
 from slipwise.view.pipe_safe_console import PatientConsole, write_out
-
-if TYPE_CHECKING:
-    from slipwise.preparation.data_corrections import DataCorrection
 
 OUT = PatientConsole()
 ERR = PatientConsole(stderr=True)
@@ -62,8 +59,12 @@ def progress(words: str) -> Iterator[Callable[[float], None]]:
         yield lambda fraction: bar.update(task, completed=fraction)
 
 
-def say_corrections(corrections: "Sequence[DataCorrection]") -> None:
-    """Say what was done about the data before any fit, a line each."""
+def say_corrections(corrections: Iterable[Any]) -> None:
+    """Say what was done about the data before any fit, a line each.
+
+    Args:
+        corrections: of a result, each with its `words`.
+    """
     for one in corrections:
         say(f"before any fit: {one.words}")
 

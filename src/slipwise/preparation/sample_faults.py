@@ -174,7 +174,9 @@ def _rails(name: str, runs: Sequence[Run]) -> list[SampleFault]:
         if touched:
             top = max(float((side * run.record[name]).max()) for run in touched)
             found.append(SampleFault(kind, (name,), side * top, bad, tuple(run.name for run in touched)))
-    return found
+    at_either = sum(int(np.count_nonzero(bad)) for fault in found for bad in fault.bad.values())
+    # a signal that knows two values and nothing between is no gauge at its rails: a friction force of one size
+    return found if at_either < sum(len(run.record) for run in runs) else []
 
 
 def _at_rail(name: str, runs: Sequence[Run], side: float) -> dict[str, Mask]:

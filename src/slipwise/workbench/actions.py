@@ -43,7 +43,7 @@ async def _act(room: Room, page: Page, message: said.Message) -> None:
             await room.change(lambda session: session.toggle(effect, target))
         case said.Take():
             await room.change(lambda session: session.take_suggestion())
-        case said.LawMessage():
+        case said.Law():
             await room.add_law()
         case said.Undo():
             await room.change(lambda session: session.undo())
@@ -53,7 +53,7 @@ async def _act(room: Room, page: Page, message: said.Message) -> None:
             await room.change(lambda session: session.accept())
         case said.Cancel():
             room.cancel()
-        case said.FitMessage() | said.Locate() | said.ReportMessage() | said.Explain() | said.Discover() | said.Next():
+        case said.Fit() | said.Locate() | said.Report() | said.Explain() | said.Discover() | said.Next():
             await room.work(type(message).__name__.lower())
 
 

@@ -57,7 +57,7 @@ class Take(_Message, tag="take", frozen=True):
     """Put in what the diagnosis has named."""
 
 
-class LawMessage(_Message, tag="law", frozen=True):
+class Law(_Message, tag="law", frozen=True):
     """Put in the law that was found."""
 
 
@@ -77,7 +77,7 @@ class Cancel(_Message, tag="cancel", frozen=True):
     """Call off the work that is being done."""
 
 
-class FitMessage(_Message, tag="fit", frozen=True):
+class Fit(_Message, tag="fit", frozen=True):
     """Fit all numbers."""
 
 
@@ -85,7 +85,7 @@ class Locate(_Message, tag="locate", frozen=True):
     """Say where the model fails."""
 
 
-class ReportMessage(_Message, tag="report", frozen=True):
+class Report(_Message, tag="report", frozen=True):
     """Write the report of the comparison."""
 
 
@@ -102,8 +102,8 @@ class Next(_Message, tag="next", frozen=True):
 
 
 #: Work that takes long and that a page may ask for; a replay follows by itself.
-Work = FitMessage | Locate | ReportMessage | Explain | Discover | Next
-Message = Look | Drag | Settle | Set | Toggle | Take | LawMessage | Undo | Redo | Accept | Cancel | Work
+Work = Fit | Locate | Report | Explain | Discover | Next
+Message = Look | Drag | Settle | Set | Toggle | Take | Law | Undo | Redo | Accept | Cancel | Work
 
 _DECODER = Decoder(Message)
 

@@ -125,13 +125,11 @@ def test_the_audit_names_each_fault_once_and_correcting_it_leaves_none(slipwise,
     assert code == 0 and "no gauge is accused" in out
 
 
-def test_loads_that_count_compression_negative_are_mended_in_either_way_that_compare_names(slipwise, folder):
+def test_loads_that_count_compression_negative_are_mended_and_told_as_those_whose_sign_is_stated(slipwise, folder):
     here = folder("19_all_loads_compression_negative")
-    plain = ("compare", ".", "--no-recording", "--no-system", "--out", here.parent / "out")
-    err = refused(slipwise(*plain), "pad_*_N has the wrong sign", "write sign = -1 in [columns] of campaign.toml")
-    advised = re.search(r"(--correct) '(.+?)'", err)
-    assert advised
-    assert slipwise(*plain, *advised.groups())[0] == 0
+    plain = ("compare", ".", "--no-recording", "--no-system", "--out", here.parent / "out", "--json")
+    mended = json.loads(slipwise(*plain)[1])
+    assert any("sign reversed before any fit" in one["words"] for one in mended["corrections"])
     text = (here / "campaign.toml").read_text()
     lines = "".join(f'"pad_{pad}_N [kN]" = {{ channel = "pad_{pad}_N", unit = "kN", sign = -1 }}\n' for pad in "ABCD")
     before, mark, after = text.partition("[columns]\n")
@@ -139,6 +137,10 @@ def test_loads_that_count_compression_negative_are_mended_in_either_way_that_com
     (here / "campaign.toml").write_text(text)
     code, out, _ = slipwise("audit", ".")
     assert code == 0 and "no gauge is accused" in out
+    stated = json.loads(slipwise(*plain)[1])
+    assert not stated["corrections"]
+    for relation, error in stated["components"].items():
+        assert mended["components"][relation]["fit"] == pytest.approx(error["fit"], rel=1e-9)
 
 
 @pytest.mark.slow

@@ -66,8 +66,8 @@ def told(unknown: tuple[Diagnosis, BaseFit], monkeypatch: pytest.MonkeyPatch) ->
         monkeypatch.setattr(module, "as_fit", lambda *_: second)
         monkeypatch.setattr(module, "with_slopes", lambda _, solution: solution)
         monkeypatch.setattr(module, "pad_instants", lambda *_: None)
-        monkeypatch.setattr(module, "intervals", lambda _: SimpleNamespace(entries=()))
-        monkeypatch.setattr(module, "told_law", lambda fit, *_: Told(fit.law.label))
+        monkeypatch.setattr(module, "compute_intervals", lambda _: SimpleNamespace(entries=()))
+        monkeypatch.setattr(module, "summarise_law", lambda fit, *_: Told(fit.law.label))
         monkeypatch.setattr(module, "_cannot_judge", lambda _: [])
         return discover(diagnosis.final.campaign, diagnosis=diagnosis)
 
@@ -77,7 +77,7 @@ def told(unknown: tuple[Diagnosis, BaseFit], monkeypatch: pytest.MonkeyPatch) ->
 @dataclass(frozen=True)
 class Fit:
     law: SimpleNamespace
-    problem: SimpleNamespace
+    objective: SimpleNamespace
     solution: object
 
 

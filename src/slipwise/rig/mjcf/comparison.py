@@ -215,4 +215,4 @@ def fields_of(model: mujoco.MjModel, prefix: str) -> Iterator[str]:
 
 
 def _text(value: object) -> str:
-    return " ".join(f"{number:g}" for number in np.ravel(np.asarray(value, dtype=float)))
+    return " ".join(f"{number + 0.0:g}" for number in np.ravel(np.asarray(value, dtype=float)))

@@ -89,7 +89,7 @@ def _hold(file: Mjcf, tendon: str, wanted: Mapping[str, float], also: Mapping[st
         if min(abs(value - right), abs(value - also.get(joint, right))) > _SAME:
             raise file.refused(
                 f"the tendon {tendon!r} has the coefficient {value:g} of the joint {joint}; from the places of girder, "
-                f"pad and buffer it is {right:g}",
+                f"pad and buffer it is {right + 0.0:g}",
                 "tendon",
                 tendon,
             )
