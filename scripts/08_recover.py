@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from slipwise.campaign import Campaign, Logger, Run
-from slipwise.diagnosis.candidates import candidates
+from slipwise.diagnosis.candidates import list_candidates
 from slipwise.diagnosis.initial_grid import strengths
 from slipwise.diagnosis.screening import screen
 from slipwise.errors import SlipwiseError
@@ -152,7 +152,7 @@ def main() -> None:
     chosen = parser.parse_args()
     rng = np.random.default_rng(chosen.seed)
     motions = dict(list(MOTIONS.items())[:1]) if chosen.quick else MOTIONS
-    terms, cannot = candidates(fit_base(measured(base_model("bridge1"), rng, motions)))
+    terms, cannot = list_candidates(fit_base(measured(base_model("bridge1"), rng, motions)))
     first: dict[str, Term] = {}
     for term in terms:
         first.setdefault(term.effect.name, term)

@@ -29,8 +29,8 @@ import numpy as np
 from sklearn.linear_model import LogisticRegression
 
 from slipwise.campaign.materiality import Materiality
-from slipwise.evidence.calibration import Calibration, Logistic, log_odds
-from slipwise.evidence.decision import decide, remains
+from slipwise.evidence.calibration import Calibration, Logistic, compute_log_odds
+from slipwise.evidence.decision import decide, is_left
 
 TESTS = Path(__file__).parents[1] / "tests"
 OUT = Path(__file__).parents[1] / "src" / "slipwise" / "evidence" / "calibration.json"
@@ -67,7 +67,7 @@ def cases_of_matter(result: Result) -> list[Case]:
 def cases_of_family(result: Result) -> list[Case]:
     """Give what is left where that matters, and whether nothing is hidden that the catalogue does not have."""
     rest = result["said"]["evidence"]["rest"]
-    if not remains(rest, Materiality().channel):
+    if not is_left(rest, Materiality().channel):
         return []
     return [(rest, "unknown" not in result["truth"]["missing"])]
 
@@ -160,7 +160,7 @@ def verdict_cases(results: Sequence[Result], chances: Calibration) -> list[Case]
         decided = decide(evidence["effects"], evidence["rest"], Materiality().channel, chances)
         faults = [name for name in result["said"]["effects"] if name not in evidence["effects"]]
         said = {**result["said"], "verdict": decided.kind, "effects": [*decided.named, *faults], "leftover": ""}
-        if decided.kind == "named" and remains(evidence["rest"], Materiality().channel):
+        if decided.kind == "named" and is_left(evidence["rest"], Materiality().channel):
             said["leftover"] = "unknown"
         if decided.kind != "unknown":
             names = set(said["effects"])
@@ -169,7 +169,7 @@ def verdict_cases(results: Sequence[Result], chances: Calibration) -> list[Case]
                 if _is_dirty(result)
                 else _right_of_clean(truth, "instrument" if faults else decided.kind, names)
             )
-            out.append(({"product": log_odds(decided.probability)}, good))
+            out.append(({"product": compute_log_odds(decided.probability)}, good))
     return out
 
 

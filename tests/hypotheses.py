@@ -10,17 +10,17 @@ from numpy.typing import NDArray
 
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.campaign.materiality import Materiality
-from slipwise.diagnosis.findings import EffectFinding, _rivals, above_noise
-from slipwise.diagnosis.hypothesis import Hypothesis, at_limit, base_hypothesis, parameters_at_bound
-from slipwise.diagnosis.hypothesis_fit import as_fit
+from slipwise.diagnosis.findings import EffectFinding, _rivals, compute_excess_over_noise
+from slipwise.diagnosis.hypothesis import Hypothesis, is_at_limit, list_parameters_at_bound, make_base_hypothesis
+from slipwise.diagnosis.hypothesis_fit import make_fit
 from slipwise.diagnosis.importance import Change, Importance
 from slipwise.diagnosis.result import Candidate, Diagnosis
 from slipwise.diagnosis.search_state import Search, tried_before
-from slipwise.diagnosis.verdict import Verdict, confirmed, decide_verdict
+from slipwise.diagnosis.verdict import Verdict, decide_verdict, is_confirmed
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import Solution
-from slipwise.estimation.objective import Objective, objective_of
+from slipwise.estimation.objective import Objective, make_objective
 from slipwise.evidence.residual_summary import get_error, summarise_residuals
 from slipwise.evidence.score import compute_lead, compute_score
 from slipwise.model import base_model
@@ -79,7 +79,7 @@ def measured(*gauges: str, held_out: bool = True) -> Campaign:
 @cache
 def _objective(*gauges: str, held_out: bool) -> Objective:
     model = base_model("bridge1")
-    objective = objective_of(fit_runs(measured(*gauges, held_out=held_out)), model.specimen, make_terms(model))
+    objective = make_objective(fit_runs(measured(*gauges, held_out=held_out)), model.specimen, make_terms(model))
     sigmas = {
         name: tuple(np.full((1,) * run.judged[name].ndim, FORCE_NOISE) for run in objective.runs)
         for name in objective.relations
@@ -160,7 +160,7 @@ def _inside(free: Free) -> float:
 def searched(of: BaseFit, *tried: Hypothesis) -> Search:
     """Give a search from this base fit that ended at the first of what it tried."""
     terms = {t.label: t for h in tried for t in h.terms}
-    return Search(of, {}, list(terms.values()), tuple(tried), (base_hypothesis(of), *tried[:1]))
+    return Search(of, {}, list(terms.values()), tuple(tried), (make_base_hypothesis(of), *tried[:1]))
 
 
 def changing(share: float, *, gauge: bool = False, limits: Materiality | None = None) -> Importance:
@@ -192,9 +192,9 @@ def findings_of(
     """
     final, origin = state.final, state.path[0].summary
     parts = {name: tuple(t for t in final.terms if t.effect.name == name) for name in final.names}
-    rivals, bounds = _rivals(state, parts), parameters_at_bound(final)
-    end = above_noise(final.summary, final.summary)
-    base_over = max(above_noise(origin, final.summary) - end, 1e-12)
+    rivals, bounds = _rivals(state, parts), list_parameters_at_bound(final)
+    end = compute_excess_over_noise(final.summary, final.summary)
+    base_over = max(compute_excess_over_noise(origin, final.summary) - end, 1e-12)
     out = []
     for name, terms in parts.items():
         rest = tried_before(state, [t for t in final.terms if t.effect.name != name])
@@ -207,10 +207,10 @@ def findings_of(
                 terms=terms,
                 worth=compute_score(left, final.summary),
                 lead=min(compute_lead(final.summary, left), 30.0),
-                share=float(np.clip((above_noise(left, final.summary) - end) / base_over, 0.0, 1.0)),
+                share=float(np.clip((compute_excess_over_noise(left, final.summary) - end) / base_over, 0.0, 1.0)),
                 rival=rivals.get(name),
                 at_bound=tuple(p for label, p in bounds if label in {t.label for t in terms}),
-                at_limit=any(t.label in at_limit(final) for t in terms),
+                at_limit=any(t.label in is_at_limit(final) for t in terms),
                 importance=importance,
                 material=importance.share_of_limit(limits or Materiality()),
                 stays=1.0,
@@ -258,13 +258,13 @@ def diagnosed(
         all_samples={},
         system={},
         candidates=listed,
-        confirmed=confirmed(state) if verdict.effects else None,
+        confirmed=is_confirmed(state) if verdict.effects else None,
         predicted_friction=(),
         least={},
         cannot_tell=(),
         corrections=(),
         search=state,
-        final=as_fit(state.base, shown, with_slopes=False),
+        final=make_fit(state.base, shown, with_slopes=False),
         seconds=1.0,
     )
 

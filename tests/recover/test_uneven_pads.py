@@ -8,7 +8,7 @@ import pytest
 import slipwise as sw
 from measured import fit_base
 from recover.own_replay import campaign_of
-from slipwise.estimation.objective import objective_of
+from slipwise.estimation.objective import make_objective
 from slipwise.model import EffectUse, Model, base_model, use
 from slipwise.relations.parameters import list_base_numbers, make_terms
 from slipwise.relations.run_data import fit_runs
@@ -31,7 +31,7 @@ def test_every_warp_of_six_pads_is_fitted_and_shows_the_pad_that_stands_high(fol
     runs = fit_runs(sw.load_campaign(folder))
     level = {}
     for model in (base_model("six_pads"), one_pad_high()):
-        objective = objective_of(runs, model.specimen, make_terms(model))
+        objective = make_objective(runs, model.specimen, make_terms(model))
         values = {f.key: f.start for f in list_base_numbers(model, balances=True)}
         left = objective.weigh(values).residuals(values)
         warps = [name for name in left.relations if "warp" in name]

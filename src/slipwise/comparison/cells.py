@@ -151,7 +151,7 @@ def test_cells(samples: Samples) -> list[Cell]:
             for number, label in enumerate(samples.labels[kind]):
                 out.append(_cell(samples, kind, label, np.nan, np.nan, known & (values == number)))
             continue
-        edges = edges_of(kind, values[known])
+        edges = choose_edges(kind, values[known])
         for low, high in zip(edges[:-1], edges[1:], strict=True):
             last = high == edges[-1]
             inside = known & (values >= low) & ((values <= high) if last else (values < high))
@@ -188,7 +188,7 @@ def _tested(
     return Cell(relation, kind, label, low, high, float(np.sqrt(mean)), count, effective, chance, False, excess)
 
 
-def edges_of(kind: str, values: Array) -> Array:
+def choose_edges(kind: str, values: Array) -> Array:
     """Return the edges of a kind's ranges: round numbers for the way since a reversal, equal counts for the rest."""
     if len(values) == 0:
         return np.zeros(0)

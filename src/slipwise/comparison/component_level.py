@@ -36,7 +36,7 @@ class ComponentError:
         role: "fit", "repeat" or "holdout".
         error: rms of the residual over its floor [1].
         rms: of the residual, in the relation's unit.
-        floor: noise by which the residual is divided, see `dividing_noise`, in the relation's unit: rms over error.
+        floor: noise that divides the residual, see `compute_dividing_noise`, in the relation's unit: rms over error.
         share: rms of the residual over the rms of what was measured; NaN for relations that are zero by nature [1].
         samples: that were judged.
     """
@@ -72,7 +72,7 @@ def compute_component_errors(base: BaseFit) -> tuple[ComponentError, ...]:
                     run.role,
                     error,
                     rms,
-                    dividing_noise(left, part[judged]),
+                    compute_dividing_noise(left, part[judged]),
                     rms / size if size > 0.0 else float("nan"),
                     int(np.count_nonzero(judged)),
                 )
@@ -80,7 +80,7 @@ def compute_component_errors(base: BaseFit) -> tuple[ComponentError, ...]:
     return tuple(out)
 
 
-def dividing_noise(residual: Array, in_floors: Array) -> float:
+def compute_dividing_noise(residual: Array, in_floors: Array) -> float:
     """Return the one noise that divides a residual to the same error as its own noise does sample by sample.
 
     sqrt(sum r^2 / sum (r / sigma)^2): the noise itself where it is the same in all samples. It times an error is the

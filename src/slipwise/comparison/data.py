@@ -11,7 +11,7 @@ from slipwise.comparison.friction_surface import FrictionSurface
 from slipwise.comparison.odd_even import Parity
 from slipwise.comparison.patterns import Pattern
 from slipwise.comparison.sentences import ErrorPlace
-from slipwise.comparison.system_level import SystemLevel, held_out_channels
+from slipwise.comparison.system_level import SystemLevel, list_held_out_channels
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Intervals
 from slipwise.estimation.prediction_interval import PredictedFriction
@@ -94,4 +94,4 @@ class ComparisonData:
     @property
     def system_errors(self) -> Mapping[str, float]:
         """Channel -> error at system level in the held-out runs [floors]; empty without a replay."""
-        return held_out_channels(self.system) if self.system else {}
+        return list_held_out_channels(self.system) if self.system else {}

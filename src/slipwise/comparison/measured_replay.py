@@ -62,7 +62,7 @@ def get_measured_motion(states: States) -> TableMotion:
     return TableMotion(states.dt, columns, "measured table motion", ("table_ax", "table_ay", "table_az"))
 
 
-def simulation_step(sampling: float) -> float:
+def choose_simulation_step(sampling: float) -> float:
     """Return the step of a simulation, the usual one at most, of which the step of a record is a multiple, both [s]."""
     # a step that was read from a file's times is off by rounding
     return sampling / float(np.ceil(sampling / DT * (1.0 - 1e-9)))

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.comparison.cells import Samples, edges_of
+from slipwise.comparison.cells import Samples, choose_edges
 
 Array = NDArray[np.float64]
 #: What a mean residual is drawn and sorted over.
@@ -102,7 +102,7 @@ def find_patterns(samples: Samples) -> list[Pattern]:
         values = samples.values.get(kind)
         if values is None or not np.isfinite(values).any():
             continue
-        edges = edges_of(kind, values[np.isfinite(values)])
+        edges = choose_edges(kind, values[np.isfinite(values)])
         if len(edges) < 3:
             continue
         place = np.clip(np.searchsorted(edges, values, side="right") - 1, 0, len(edges) - 2)

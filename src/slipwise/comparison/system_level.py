@@ -89,7 +89,7 @@ def build_replayed_model(base: BaseFit) -> tuple[Model, tuple[str, ...]]:
     values = base.solution.values
     model = base.objective.model(values)
     notes = []
-    springs = pad_springs(base, model)
+    springs = list_pad_springs(base, model)
     if springs is not None:
         model = replace(model, specimen=model.specimen.changed(pad_stiffness=springs[0], pad_damping=springs[1]))
         notes.append(
@@ -125,7 +125,7 @@ def _pitch_inertia(model: Model, frequency: float) -> float:
     return spring / (2.0 * np.pi * frequency) ** 2
 
 
-def pad_springs(base: BaseFit, model: Model) -> tuple[float, float] | None:
+def list_pad_springs(base: BaseFit, model: Model) -> tuple[float, float] | None:
     """Fit stiffness [N/m] and damping [N s/m] of a pad to the girder's vertical answer to the table.
 
     H = K / (m s^2 + K) exp(-lag s) with K(s) = p (k + c s); the lag between both accelerometers is fitted too, for it
@@ -214,7 +214,7 @@ def compare_system_level(
     return SystemLevel(model, tuple(main), tuple(errors), DT, notes)
 
 
-def pooled_system(errors: tuple[SystemError, ...], channel: str, *, held_out: bool) -> float | None:
+def pool_system_errors(errors: tuple[SystemError, ...], channel: str, *, held_out: bool) -> float | None:
     """Return the error of a channel over all fitted, or all held-out, runs; `channel` may end in a wildcard's part.
 
     Args:
@@ -252,9 +252,9 @@ def _noisier(run: FitRun, rng: np.random.Generator) -> States:
     )
 
 
-def held_out_channels(level: SystemLevel) -> Mapping[str, float]:
+def list_held_out_channels(level: SystemLevel) -> Mapping[str, float]:
     """Return channel -> error over all held-out runs [floors]; fitted runs where none is held out."""
     names = list(dict.fromkeys(e.channel for e in level.errors))
     held = any(e.role == "holdout" for e in level.errors)
-    found = {n: pooled_system(level.errors, n, held_out=held) for n in names}
+    found = {n: pool_system_errors(level.errors, n, held_out=held) for n in names}
     return {n: v for n, v in found.items() if v is not None}

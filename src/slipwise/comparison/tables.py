@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from slipwise.channels import channel
-from slipwise.comparison.component_level import NAMES, dividing_noise
+from slipwise.comparison.component_level import NAMES, compute_dividing_noise
 from slipwise.comparison.data import ComparisonData
-from slipwise.comparison.system_level import pooled_system
+from slipwise.comparison.system_level import pool_system_errors
 
 TABLES: tuple[str, ...] = (
     "audit", "components", "system", "parameters", "correlations", "cells", "places", "parity", "floor",
@@ -87,7 +87,7 @@ def _floor(found: ComparisonData) -> list[dict[str, Any]]:
             turns.append(np.broadcast_to(near, wide.shape).ravel())
         in_floors, residual, turning = (np.concatenate(of) for of in (parts, residuals, turns))
         floors = [
-            dividing_noise(residual[of], in_floors[of]) if np.any(in_floors[of]) else None
+            compute_dividing_noise(residual[of], in_floors[of]) if np.any(in_floors[of]) else None
             for of in (np.ones_like(turning), turning)
         ]
         row = {"relation": relation, "floor": floors[0], "near_reversals": floors[1]}
@@ -161,8 +161,8 @@ def as_json(found: ComparisonData) -> dict[str, Any]:
     if found.system:
         for channel in dict.fromkeys(e.channel for e in found.system.errors):
             system[channel] = {
-                "fit": pooled_system(found.system.errors, channel, held_out=False),
-                "holdout": pooled_system(found.system.errors, channel, held_out=True),
+                "fit": pool_system_errors(found.system.errors, channel, held_out=False),
+                "holdout": pool_system_errors(found.system.errors, channel, held_out=True),
             }
     surface = None
     if found.surface:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from slipwise.diagnosis.hypothesis import Hypothesis, polished, refit
+from slipwise.diagnosis.hypothesis import Hypothesis, polish, refit
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.discovery.discover import discover
 from slipwise.discovery.effect_file import can_be_written, write_law
@@ -68,4 +68,4 @@ def _fitted(found: Diagnosis, told: Discovery, law: Law, name: str, folder: Path
     base, known = found.search.base, told.base.solution.values
     beside = [t for t in told.base.objective.terms if t not in base.objective.terms]
     starts = {t.label: {n: known[f"{t.label}.{n}"] for n in t.effect.parameter_names} for t in beside}
-    return polished(refit(base, [*beside, term], {**starts, term.label: term.effect.typical()}))
+    return polish(refit(base, [*beside, term], {**starts, term.label: term.effect.typical()}))

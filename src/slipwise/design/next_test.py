@@ -21,14 +21,14 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from slipwise.campaign import Campaign, Run
-from slipwise.comparison.measured_replay import simulation_step
+from slipwise.comparison.measured_replay import choose_simulation_step
 from slipwise.comparison.system_level import build_replayed_model
 from slipwise.design.law_contest import Contest, law_contest
 from slipwise.design.motions import LIBRARY, Limits, motions_for
 from slipwise.design.result import NextTest, Proposal
 from slipwise.diagnosis.diagnose import diagnose
-from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, polished, refit
-from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects
+from slipwise.diagnosis.hypothesis import Hypothesis, make_base_hypothesis, polish, refit
+from slipwise.diagnosis.indistinguishable import list_alike_pairs, list_known_effects
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.search_state import Search
 from slipwise.effects import Effect
@@ -174,14 +174,16 @@ def _strongest(state: Search, beside: Sequence[str]) -> Hypothesis:
 def _partner(state: Search) -> list[Hypothesis]:
     """Return the effect that is one thing with the best to this rig, fitted if it was not yet."""
     named = set(state.best.names)
-    names = {name for pair in alike_pairs(known_effects(state).values()) if pair & named for name in pair - named}
+    names = {
+        name for pair in list_alike_pairs(list_known_effects(state).values()) if pair & named for name in pair - named
+    }
     known = [h for h in state.tried if h.terms and set(h.names) <= names]
     return known[:1] or [_fitted(state, term) for term in state.terms if term.effect.name in names]
 
 
 def _fitted(state: Search, term: Term) -> Hypothesis:
     start = next((s.values for s in state.screened if s.term.label == term.label), term.effect.typical())
-    return polished(refit(state.base, [term], {term.label: start}))
+    return polish(refit(state.base, [term], {term.label: start}))
 
 
 def _chances(found: Diagnosis, contest: Sequence[Hypothesis]) -> tuple[float, ...]:
@@ -238,9 +240,9 @@ def _refitted(campaign: Campaign, model: Model, contest: Sequence[Hypothesis]) -
     for h in contest:
         if h.terms:
             known = replace(h, solution=replace(h.solution, values={**base.solution.values, **h.solution.values}))
-            out.append(polished(refit(base, h.terms, {}, known)).summary)
+            out.append(polish(refit(base, h.terms, {}, known)).summary)
         else:
-            out.append(base_hypothesis(base).summary)
+            out.append(make_base_hypothesis(base).summary)
     return out
 
 
@@ -249,7 +251,7 @@ def _measured(found: Diagnosis, model: Model, text: str) -> Campaign:
     campaign = found.final.campaign
     pattern = found.search.base.objective.run(0)
     rng = np.random.default_rng(1)
-    dt = simulation_step(pattern.dt)
+    dt = choose_simulation_step(pattern.dt)
     every = round(pattern.dt / dt)
     record = replay(model, parse_motion(text), dt=dt, output_dt=dt).record
     channels = {}

@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.diagnosis.hypothesis import Hypothesis, weighed_as
+from slipwise.diagnosis.hypothesis import Hypothesis, weigh_as
 from slipwise.diagnosis.initial_grid import strengths
 from slipwise.diagnosis.search_state import Search, left_with
 from slipwise.errors import SlipwiseError
@@ -36,7 +36,7 @@ def without(state: Search, found: Hypothesis, terms: Sequence[Term]) -> tuple[Se
     linear = None if any(_needs_refit(t, slider) for t in terms) else _linear(found, terms, labels)
     if linear is None:
         state, left = left_with(state, rest, found)
-        return state, weighed_as(left, found.objective).summary
+        return state, weigh_as(left, found.objective).summary
     return state, summarise_linear_fit(found.objective, linear, found.summary.held_out, found.summary.counts)
 
 

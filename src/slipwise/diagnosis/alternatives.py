@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from itertools import combinations, product
 
-from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects
+from slipwise.diagnosis.indistinguishable import list_alike_pairs, list_known_effects
 from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.verdict import Verdict, explained_share
+from slipwise.diagnosis.verdict import Verdict, compute_explained_share_of_base
 from slipwise.effects import Effect
 from slipwise.evidence.score import compute_score
 
@@ -14,7 +14,7 @@ Explanation = tuple[str, ...]
 _LEAST_SHARE = 0.05
 
 
-def nearest_family(state: Search) -> tuple[str, float] | None:
+def find_nearest_family(state: Search) -> tuple[str, float] | None:
     """Return the law of the catalogue that alone explains most, and its share of what stands above the noise [1].
 
     None where no law that was fitted explains as much as `_LEAST_SHARE`.
@@ -22,11 +22,11 @@ def nearest_family(state: Search) -> tuple[str, float] | None:
     origin = state.path[0]
     laws = [h for h in state.tried if len(h.terms) == 1 and h.terms[0].effect.component != "instrument"]
     best = max(laws, key=lambda h: compute_score(origin.summary, h.summary), default=None)
-    share = explained_share(origin, best) if best is not None else 0.0
+    share = compute_explained_share_of_base(origin, best) if best is not None else 0.0
     return (best.names[0], share) if best is not None and share >= _LEAST_SHARE else None
 
 
-def explanations(found: Verdict, state: Search) -> tuple[Explanation, ...]:
+def list_explanations(found: Verdict, state: Search) -> tuple[Explanation, ...]:
     """Return what may be missing, each as the names of all its effects: one unless the verdict is ambiguous.
 
     Args:
@@ -42,18 +42,20 @@ def explanations(found: Verdict, state: Search) -> tuple[Explanation, ...]:
             if set(names) not in map(set, unlike):  # the same effects in another order are no other explanation
                 unlike.append(names)
     else:
-        pair = next((p for p in alike_pairs(known_effects(state).values()) if p & set(best)), frozenset(found.effects))
+        pair = next(
+            (p for p in list_alike_pairs(list_known_effects(state).values()) if p & set(best)), frozenset(found.effects)
+        )
         unlike = [(name,) for name in found.effects if name in pair]
     rivals = {name for names in unlike for name in names}
     sure = tuple(name for name in found.effects if name not in rivals)
     return tuple((*names, *sure) for names in unlike)
 
 
-def discriminating_tests(found: Verdict, state: Search) -> tuple[str, ...]:
+def list_discriminating_tests(found: Verdict, state: Search) -> tuple[str, ...]:
     """Say for each two explanations of an ambiguous verdict what would tell them apart; nothing for another verdict."""
-    known = known_effects(state)
+    known = list_known_effects(state)
     out = []
-    for one, other in combinations(explanations(found, state), 2):
+    for one, other in combinations(list_explanations(found, state), 2):
         ours, theirs = (tuple(n for n in a if n not in b) for a, b in ((one, other), (other, one)))
         sentences = [words for pair in product(ours, theirs) if (words := _discriminating_test(*pair, known))]
         swap = f"{' + '.join(theirs) or 'nothing'} instead of {' + '.join(ours) or 'nothing'}"

@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 from slipwise.diagnosis.ablation import without
-from slipwise.diagnosis.hypothesis import Hypothesis, final_refit_of
-from slipwise.diagnosis.indistinguishable import alike_pairs, known_effects
+from slipwise.diagnosis.hypothesis import Hypothesis, refit_for_report
+from slipwise.diagnosis.indistinguishable import list_alike_pairs, list_known_effects
 from slipwise.diagnosis.plainer import plainest
 from slipwise.diagnosis.ranking import has_delay_for_filter
 from slipwise.diagnosis.search_state import Search, left_with, tried_before, tried_or_fitted, try_one
@@ -47,7 +47,7 @@ def with_final_refit(state: Search) -> Search:
     state = _simplified(_with_rivals_tried(state))
     state, plain = plainest(state, state.best)
     state = state if plain is state.best else pruned(state.stepped_to(plain))
-    reported = final_refit_of(state.best)
+    reported = refit_for_report(state.best)
     origin = state.path[0].summary
     while len(reported.terms) > 1:
         state, least = _least_needed(state, reported, origin)
@@ -55,14 +55,14 @@ def with_final_refit(state: Search) -> Search:
             break
         state, rest = left_with(state, reported.without(least), reported)
         state = state.stepped_to(rest)
-        reported = final_refit_of(state.best)
+        reported = refit_for_report(state.best)
     return replace(state, final_refit=reported)
 
 
 def _with_rivals_tried(state: Search) -> Search:
     """Refit what is nearly one thing with an effect in its place: a screen sees little of it beside that effect."""
     best, origin = state.best, state.path[0].summary
-    pairs = alike_pairs(known_effects(state).values())
+    pairs = list_alike_pairs(list_known_effects(state).values())
     for term in best.terms:
         others = {name for pair in pairs if term.effect.name in pair for name in pair} - set(best.names)
         rest = best.without(term)

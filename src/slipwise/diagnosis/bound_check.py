@@ -8,7 +8,7 @@ import numpy as np
 from slipwise.diagnosis.initial_grid import strengths
 from slipwise.diagnosis.row_subset import on_screen
 from slipwise.diagnosis.screening import Screened
-from slipwise.diagnosis.sensitivities import residual_with
+from slipwise.diagnosis.sensitivities import compute_residual_with
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.jobs.parallel import on_every_core
 
@@ -34,7 +34,7 @@ def keeps_its_gain(base: BaseFit, found: Screened) -> bool:
     solution, objective = base.solution, base.objective
     left = on_screen(objective, solution.residuals.stacked(objective.fitted))
     cost = float(left @ left)
-    there = residual_with(base, found.term, found.values)
+    there = compute_residual_with(base, found.term, found.values)
     if there is None or cost - float(there @ there) > _ENOUGH * found.gain:
         return True
     step = -np.linalg.lstsq(solution.normal, on_screen(objective, solution.jacobian).T @ (there - left), rcond=1e-12)[0]
@@ -45,7 +45,7 @@ def keeps_its_gain(base: BaseFit, found: Screened) -> bool:
             for f, s in zip(base.free, step, strict=True)
         }
         values = {k: v + (1.0 - part) * (off.get(k, v) - v) for k, v in found.values.items()}
-        ended = residual_with(base, found.term, values, moved)
+        ended = compute_residual_with(base, found.term, values, moved)
         if ended is None:
             return True
         promised = found.gain * part * (2.0 - part)

@@ -23,7 +23,7 @@ _RARELY = 0.05
 _SAME_SPEED = 0.15
 
 
-def candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], dict[str, str]]:
+def list_candidates(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], dict[str, str]]:
     """Return the candidates, and the effects that this campaign cannot test with the reason.
 
     Args:

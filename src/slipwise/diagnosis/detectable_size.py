@@ -11,7 +11,7 @@ from slipwise.diagnosis.screening import Screened
 from slipwise.evidence.acceptance import compute_least_drop
 
 
-def least_sizes(screened: Sequence[Screened], base: Hypothesis) -> dict[str, tuple[float, str]]:
+def estimate_least_sizes(screened: Sequence[Screened], base: Hypothesis) -> dict[str, tuple[float, str]]:
     """Return for every effect the smallest size that would have been material, by its column: size and unit.
 
     Args:

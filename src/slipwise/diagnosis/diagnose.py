@@ -7,20 +7,20 @@ from pathlib import Path
 import numpy as np
 
 from slipwise.campaign import Campaign
-from slipwise.diagnosis.detectable_size import least_sizes
-from slipwise.diagnosis.findings import findings
-from slipwise.diagnosis.full_length_errors import errors_on_all_samples
-from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, final_refit_of
-from slipwise.diagnosis.hypothesis_fit import as_fit
-from slipwise.diagnosis.importance import importance_of_effects
-from slipwise.diagnosis.indistinguishable import alike_pairs
-from slipwise.diagnosis.limitations import cannot_tell
+from slipwise.diagnosis.detectable_size import estimate_least_sizes
+from slipwise.diagnosis.findings import collect_findings
+from slipwise.diagnosis.full_length_errors import compute_full_length_errors
+from slipwise.diagnosis.hypothesis import Hypothesis, make_base_hypothesis, refit_for_report
+from slipwise.diagnosis.hypothesis_fit import make_fit
+from slipwise.diagnosis.importance import compute_importance
+from slipwise.diagnosis.indistinguishable import list_alike_pairs
+from slipwise.diagnosis.limitations import list_limitations
 from slipwise.diagnosis.replays import replayed_errors
-from slipwise.diagnosis.reported_sizes import named_sizes
+from slipwise.diagnosis.reported_sizes import list_named_sizes
 from slipwise.diagnosis.result import Candidate, Diagnosis
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.selection import SelectionResult, select_effects
-from slipwise.diagnosis.verdict import Verdict, confirmed, decide_verdict, with_faults
+from slipwise.diagnosis.verdict import Verdict, decide_verdict, is_confirmed, with_faults
 from slipwise.effects import Effect
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit, fit_base
@@ -71,22 +71,22 @@ def diagnose(
     selected = select_effects(prepared, start, own, lambda words, share: tell(words, part * share))
     base, state = selected.base, selected.search
     tell("replaying without each effect", part)
-    found = as_fit(base, state.final, with_slopes=not state.final.objective.balanced)
+    found = make_fit(base, state.final, with_slopes=not state.final.objective.balanced)
     sizes = compute_intervals(found).entries if state.final.terms else ()
-    state, evidence = findings(state, importance_of_effects(found, state.final.terms, sizes), measured.materiality)
+    state, evidence = collect_findings(state, compute_importance(found, state.final.terms, sizes), measured.materiality)
     decided = decide_verdict(state, evidence, measured.materiality)
-    before = final_refit_of(state.path[0])
+    before = refit_for_report(state.path[0])
     shown = state.final if decided.effects else before
     verdict = with_faults(decided, prepared.gauge_faults, state.best.terms)
-    final = found if shown is state.final else as_fit(base, shown, with_slopes=True)
-    reasons = [*state.cannot.items(), *cannot_tell(state, final, prepared.faults)]
+    final = found if shown is state.final else make_fit(base, shown, with_slopes=True)
+    reasons = [*state.cannot.items(), *list_limitations(state, final, prepared.faults)]
     cannot = [f"{name}: {reason}" for name, reason in reasons]
     replayed: dict[str, float] = {}
     if system:
         tell("replaying", part)
         try:
             roles = ("holdout",) if base.objective.held_out else ("fit", "repeat")
-            models = [final] if shown is before else [as_fit(base, before), final]
+            models = [final] if shown is before else [make_fit(base, before), final]
             errors = replayed_errors(models, roles, lambda share: tell("replaying", part + (1.0 - part) * share))
             replayed = {"base": errors[0], "final": errors[-1]}
         except InputError as error:
@@ -94,7 +94,7 @@ def diagnose(
     judged_at_all = (r for r, counts in before.summary.counts.items() if any(counts))
     relations = {r: (get_error(before.summary, r), get_error(shown.summary, r)) for r in judged_at_all}
     judged = (before,) if shown is before else (before, shown)
-    whole = errors_on_all_samples(prepared.uncut, prepared.unjudged, base.campaign, judged)
+    whole = compute_full_length_errors(prepared.uncut, prepared.unjudged, base.campaign, judged)
     recorded = _unmended(prepared, start) or before.summary
     tell("done", 1.0)
     return Diagnosis(
@@ -108,9 +108,9 @@ def diagnose(
         all_samples={relation: (errors[0], errors[-1]) for relation, errors in whole.items()},
         system=replayed,
         candidates=_listed(selected, recorded, before.summary, decided, verdict, sizes),
-        confirmed=confirmed(state) if decided.effects else None,
+        confirmed=is_confirmed(state) if decided.effects else None,
         predicted_friction=_predicted_friction(final),
-        least=least_sizes(state.all_screened, state.path[0]),
+        least=estimate_least_sizes(state.all_screened, state.path[0]),
         cannot_tell=tuple(cannot),
         corrections=prepared.corrections,
         search=state,
@@ -130,7 +130,7 @@ def _unmended(prepared: Prepared, model: Model | None) -> ResidualSummary | None
         base = fit_base(prepared.unmended, prepared.on_rig(model), start=prepared.start)
     except InputError:
         return None
-    return final_refit_of(base_hypothesis(base)).summary
+    return refit_for_report(make_base_hypothesis(base)).summary
 
 
 def _predicted_friction(final: BaseFit) -> tuple[PredictedFriction, ...]:
@@ -196,7 +196,7 @@ def _candidates(
                 holdout_before=get_error(before, where),
                 holdout_after=get_error(shown.summary, where),
                 absorbed_by_base=max(absorbed.get(t.label, 0.0) for t in h.terms),
-                parameters=named_sizes(shown, sizes if verdict.effects and h is best else ()),
+                parameters=list_named_sizes(shown, sizes if verdict.effects and h is best else ()),
             )
         )
     return tuple(out)
@@ -222,4 +222,4 @@ def _shares(state: Search, verdict: Verdict, listed: list[Hypothesis]) -> list[f
 
 def _is_one_thing(one: Hypothesis, other: Hypothesis) -> bool:
     apart = frozenset(one.names) ^ frozenset(other.names)
-    return apart in alike_pairs(t.effect for t in (*one.terms, *other.terms))
+    return apart in list_alike_pairs(t.effect for t in (*one.terms, *other.terms))

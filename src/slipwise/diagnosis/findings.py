@@ -7,7 +7,7 @@ import numpy as np
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.ablation import without
 from slipwise.diagnosis.gauge_error_shrinkage import shares_that_stay
-from slipwise.diagnosis.hypothesis import Hypothesis, at_limit, parameters_at_bound
+from slipwise.diagnosis.hypothesis import Hypothesis, is_at_limit, list_parameters_at_bound
 from slipwise.diagnosis.importance import Importance
 from slipwise.diagnosis.plainer import holds_as_limit
 from slipwise.diagnosis.ranking import has_delay_for_filter
@@ -69,7 +69,7 @@ class EffectFinding:
         return self.terms[0].effect.component == "instrument"
 
 
-def findings(
+def collect_findings(
     state: Search, importances: dict[str, Importance], limits: Materiality
 ) -> tuple[Search, list[EffectFinding]]:
     """Return the evidence for every effect of a search's final model, most important first.
@@ -88,8 +88,11 @@ def findings(
     for name in names:
         state, left[name] = without(state, final, parts[name])
     rivals = _rivals(state, {n: parts[n] for n in names})
-    bounds, nameless = parameters_at_bound(final), at_limit(final)
-    base, end = above_noise(origin, final.summary), above_noise(final.summary, final.summary)
+    bounds, nameless = list_parameters_at_bound(final), is_at_limit(final)
+    base, end = (
+        compute_excess_over_noise(origin, final.summary),
+        compute_excess_over_noise(final.summary, final.summary),
+    )
     sizes = {n: importances[n].share_of_limit(limits) for n in names}
     stays = shares_that_stay(final, sizes, state.all_screened, limits)
     out = [
@@ -98,7 +101,9 @@ def findings(
             terms=parts[n],
             worth=compute_score(left[n], final.summary),
             lead=min(compute_lead(final.summary, left[n]), _SUREST),
-            share=float(np.clip((above_noise(left[n], final.summary) - end) / max(base, 1e-12), 0.0, 1.0)),
+            share=float(
+                np.clip((compute_excess_over_noise(left[n], final.summary) - end) / max(base, 1e-12), 0.0, 1.0)
+            ),
             rival=rivals.get(n),
             at_bound=tuple(p for label, p in bounds if label in {t.label for t in parts[n]}),
             at_limit=any(t.label in nameless for t in parts[n]),
@@ -111,7 +116,7 @@ def findings(
     return state, sorted(out, key=lambda f: -f.material)
 
 
-def above_noise(summary: ResidualSummary, best: ResidualSummary) -> float:
+def compute_excess_over_noise(summary: ResidualSummary, best: ResidualSummary) -> float:
     """Return the squared residual that stands above the noise, over all relations.
 
     Args:
@@ -124,12 +129,14 @@ def above_noise(summary: ResidualSummary, best: ResidualSummary) -> float:
 def _rivals(state: Search, parts: dict[str, tuple[Term, ...]]) -> dict[str, Rival]:
     """Return for every effect the best of what was fitted in its place."""
     best = state.best
-    ends = len(parameters_at_bound(best))  # what has run against a bound, a patch wider than the stroke, is no rival
+    ends = len(
+        list_parameters_at_bound(best)
+    )  # what has run against a bound, a patch wider than the stroke, is no rival
     out: dict[str, Rival] = {}
     for name in parts:
         rest = {t.label for t in best.terms if t.effect.name != name}
         others = [h for h in state.tried if name not in h.names and rest < {t.label for t in h.terms}]
-        others = [h for h in others if len(h.terms) <= len(best.terms) and len(parameters_at_bound(h)) <= ends]
+        others = [h for h in others if len(h.terms) <= len(best.terms) and len(list_parameters_at_bound(h)) <= ends]
         others = [h for h in others if not holds_as_limit(h, best)]  # that is as good by what it is at a bound
         if not has_delay_for_filter(best):  # a filter that takes nothing is a delay by another name
             others = [h for h in others if not has_delay_for_filter(h)]

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from slipwise.diagnosis.backward_elimination import pruned, with_final_refit
 from slipwise.diagnosis.bound_check import with_bounds_checked
-from slipwise.diagnosis.candidates import candidates
-from slipwise.diagnosis.hypothesis import Hypothesis, at_limit, base_hypothesis, strength_at_bound
+from slipwise.diagnosis.candidates import list_candidates
+from slipwise.diagnosis.hypothesis import Hypothesis, is_at_limit, is_strength_at_bound, make_base_hypothesis
 from slipwise.diagnosis.initial_grid import places
 from slipwise.diagnosis.initial_guesses import longer_stick, starting_points, starts_of
 from slipwise.diagnosis.jacobian_memory import complete_jacobian, lightened
@@ -65,9 +65,9 @@ def search(
         progress: called with what is being done and the share done.
         before: from a base fit that was left for this one: where its first effect led, no fit may come from here.
     """
-    terms, cannot = candidates(base, own)
+    terms, cannot = list_candidates(base, own)
     tell = progress or _silent
-    state = Search(base, cannot, terms, (), (base_hypothesis(base),))
+    state = Search(base, cannot, terms, (), (make_base_hypothesis(base),))
     state = _screened(state, lambda share: tell("screening", 0.15 + 0.45 * share))
     tell("refitting", 0.6)
     state = _first(state, next((h for h in before.path if len(h.terms) == 1), None) if before else None)
@@ -219,7 +219,9 @@ def _further(state: Search) -> Search:
         asked = with_plainer(state, asked)
         state, found = try_all(state, asked, before, lambda h: _is_kept(origin, before, h, _NEAR))
         tried += found
-        sound = [h for h in tried if not at_limit(h) and (strength_at_bound(before) or not strength_at_bound(h))]
+        sound = [
+            h for h in tried if not is_at_limit(h) and (is_strength_at_bound(before) or not is_strength_at_bound(h))
+        ]
         good = [h for h in sound if _is_kept(origin, before, h)]
         if good:
             state, plain = plainest(state, max(good, key=lambda h: compute_score(before.summary, h.summary)))
@@ -233,7 +235,7 @@ def _been_there(state: Search, found: Hypothesis) -> bool:
 
 
 def _new_at_bound(found: Hypothesis, before: Hypothesis) -> bool:
-    return strength_at_bound(found) and not strength_at_bound(before)
+    return is_strength_at_bound(found) and not is_strength_at_bound(before)
 
 
 def _is_kept(origin: Hypothesis, before: Hypothesis, found: Hypothesis, share: float = 1.0) -> bool:
@@ -267,7 +269,7 @@ def _exchanged(state: Search) -> Search:
             if rest:
                 state, others = left_with(state, rest, best)
             state, found = try_all(state, starts_of(chosen, rest), others)
-            sound = [h for h in found if not at_limit(h) and not _accuses_for_little(best, h)]
+            sound = [h for h in found if not is_at_limit(h) and not _accuses_for_little(best, h)]
             better += [h for h in sound if compute_score(origin, h.summary) > top]
     return state.stepped_to(max(better, key=lambda h: compute_score(origin, h.summary))) if better else state
 

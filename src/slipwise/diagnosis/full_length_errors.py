@@ -12,11 +12,11 @@ import numpy as np
 from slipwise.campaign import Campaign
 from slipwise.campaign.invalid_samples import InvalidSamples
 from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.estimation.objective import objective_of
+from slipwise.estimation.objective import make_objective
 from slipwise.relations.run_data import FitRun, fit_runs
 
 
-def errors_on_all_samples(
+def compute_full_length_errors(
     uncut: Campaign, invalid: InvalidSamples, fitted: Campaign, found: Sequence[Hypothesis]
 ) -> dict[str, tuple[float, ...]]:
     """Return the held-out error of every balance over all samples [floors], relation -> one of each hypothesis.
@@ -47,7 +47,7 @@ def _squares(run: FitRun, found: Hypothesis) -> dict[str, float]:
     """Return the squared residuals of a whole run, weighed as those of the hypothesis are, relation -> sum."""
     values, one = found.solution.values, found.objective.run(0)
     # gauges are as noisy as all runs together have shown
-    objective = objective_of(
+    objective = make_objective(
         [replace(run, fine=one.fine, noise=one.noise)], found.objective.specimen, found.objective.terms
     )
     objective = objective.with_yaw() if found.objective.yaw else objective

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.diagnosis.importance import share_of_channel
+from slipwise.diagnosis.importance import compute_share_of_channel
 from slipwise.diagnosis.initial_grid import strengths
 from slipwise.diagnosis.pairs import at_odds
 from slipwise.diagnosis.rescreening import row_weights
@@ -113,14 +113,14 @@ def _small_columns(found: Hypothesis, screened: Sequence[Screened], limits: Mate
 
 
 def _share_changed(candidate: Screened, run: FitRun) -> float:
-    """Return by how much a fault changes the channel that it changes most, see `share_of_channel` [1]."""
+    """Return by how much a fault changes the channel that it changes most, see `compute_share_of_channel` [1]."""
     values = {f"{candidate.term.label}.{k}": v for k, v in candidate.values.items()}
     try:
         changed = apply_gauge_faults([candidate.term], values, run.record)
     except SlipwiseError:
         return 0.0
     shares = [
-        share_of_channel(changed[n] - run.record[n], run.record[n])
+        compute_share_of_channel(changed[n] - run.record[n], run.record[n])
         for n in candidate.term.targets
         if n in run.record and n in changed
     ]

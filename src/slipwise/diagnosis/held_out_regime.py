@@ -23,7 +23,7 @@ _REGIMES: dict[str, tuple[Callable[[FitRun], float], str, float]] = {
 }
 
 
-def not_testable(objective: Objective) -> dict[int, str]:
+def find_untestable_reason(objective: Objective) -> dict[int, str]:
     """Return the held-out runs that no fitted run covers: place of the run -> why, in words."""
     out: dict[int, str] = {}
     for i in objective.held_out:

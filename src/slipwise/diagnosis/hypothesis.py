@@ -58,7 +58,7 @@ class Hypothesis:
         return self.solution.residuals.mean_square(relation, runs)
 
 
-def base_hypothesis(base: BaseFit) -> Hypothesis:
+def make_base_hypothesis(base: BaseFit) -> Hypothesis:
     """Return the base model as a hypothesis without effects."""
     return _hypothesis((), base.objective, base.solution)
 
@@ -71,7 +71,7 @@ def refit(
     *,
     most: int = 7,
 ) -> Hypothesis:
-    """Fit a hypothesis, all base parameters free; `polished` takes what is worth it to the end.
+    """Fit a hypothesis, all base parameters free; `polish` takes what is worth it to the end.
 
     Args:
         base: the base fit.
@@ -120,7 +120,7 @@ def _hypothesis(terms: Sequence[Term], objective: Objective, solution: Solution)
     return Hypothesis(tuple(terms), objective, solution, summarise_residuals(objective, solution))
 
 
-def polished(found: Hypothesis) -> Hypothesis:
+def polish(found: Hypothesis) -> Hypothesis:
     """Fit on with slopes of its own: those of the base, taken without the effects, lead only near the end.
 
     What still falls fast is not there yet: a delay of five milliseconds is far from where screening saw it.
@@ -134,7 +134,7 @@ def polished(found: Hypothesis) -> Hypothesis:
     return _hypothesis(found.terms, found.objective, solution)
 
 
-def weighed_as(found: Hypothesis, other: Objective) -> Hypothesis:
+def weigh_as(found: Hypothesis, other: Objective) -> Hypothesis:
     """Return a hypothesis with the noise of another objective, fitted on with that: only so their residuals compare."""
     if found.objective.weighing is other.weighing:
         return found
@@ -143,7 +143,7 @@ def weighed_as(found: Hypothesis, other: Objective) -> Hypothesis:
     return _hypothesis(found.terms, objective, solution)
 
 
-def final_refit_of(found: Hypothesis) -> Hypothesis:
+def refit_for_report(found: Hypothesis) -> Hypothesis:
     """Fit on, weighed by its own law and finer, as what is reported of it should be."""
     objective, solution = refit_finally(found.objective, found.solution)
     return found if solution is found.solution else _hypothesis(found.terms, objective, solution)
@@ -191,17 +191,17 @@ def _inside(term: Term, start: Mapping[str, float]) -> dict[str, float]:
     return out
 
 
-def strength_at_bound(found: Hypothesis) -> bool:
+def is_strength_at_bound(found: Hypothesis) -> bool:
     """Return whether a strength has run against a bound other than its absence: a law asked for more than it can be."""
     return any(p.name in _ends(found, t) for t in found.terms for p in strengths(t.effect))
 
 
-def parameters_at_bound(found: Hypothesis) -> list[tuple[str, str]]:
+def list_parameters_at_bound(found: Hypothesis) -> list[tuple[str, str]]:
     """Return label and name of every constant of its laws that has run against a bound other than its absence."""
     return [(t.label, name) for t in found.terms for name in sorted(_ends(found, t))]
 
 
-def at_limit(found: Hypothesis) -> list[str]:
+def is_at_limit(found: Hypothesis) -> list[str]:
     """Return the labels of effects that ended where their files say that they are another effect, or nothing."""
     return [t.label for t in found.terms if any(_reached(found, t, limit) for limit in t.effect.limits)]
 

@@ -6,7 +6,7 @@ from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import with_slopes as take_slopes
 
 
-def as_fit(base: BaseFit, found: Hypothesis, *, with_slopes: bool = True) -> BaseFit:
+def make_fit(base: BaseFit, found: Hypothesis, *, with_slopes: bool = True) -> BaseFit:
     """Return a hypothesis as a fit of its own, with its own Jacobian, for intervals, locating and replays.
 
     Args:

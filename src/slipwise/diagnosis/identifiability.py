@@ -49,7 +49,7 @@ class Identified:
     correlation: float
 
 
-def unidentified(final: BaseFit, base: BaseFit) -> list[tuple[str, str]]:
+def list_unidentified(final: BaseFit, base: BaseFit) -> list[tuple[str, str]]:
     """Return the base model's numbers that a campaign does not tell, each with the reason.
 
     Args:
@@ -57,7 +57,7 @@ def unidentified(final: BaseFit, base: BaseFit) -> list[tuple[str, str]]:
         base: the base fit; only its numbers are looked at.
     """
     solution, keys = final.solution, {f.key for f in base.free}
-    identified = how_identified(_inside(final))
+    identified = describe_identification(_inside(final))
     out: list[tuple[str, str]] = []
     tied: set[str] = set()
     for free in (f for f in solution.free if f.key in keys):
@@ -93,12 +93,12 @@ def _inside(final: BaseFit) -> BaseFit:
     return replace(final, solution=replace(solution, free=free, jacobian=solution.inside))
 
 
-def how_identified(fit: BaseFit) -> dict[str, Identified]:
+def describe_identification(fit: BaseFit) -> dict[str, Identified]:
     """Say of every number of a fit on which a residual depends how well it is identified."""
     found = compute_intervals(fit)
     scale = {f.key: f.scale for f in fit.solution.free}
     inside = [j for j, f in enumerate(fit.solution.free) if f.key in found.keys]
-    own, tie = alone(fit.solution.normal[np.ix_(inside, inside)])
+    own, tie = separate_each(fit.solution.normal[np.ix_(inside, inside)])
     np.fill_diagonal(tie, 0.0)
     errors = np.sqrt(np.maximum(np.diag(found.covariance), 0.0))
     out = {}
@@ -110,7 +110,7 @@ def how_identified(fit: BaseFit) -> dict[str, Identified]:
     return out
 
 
-def alone(normal: Array) -> tuple[Array, Array]:
+def separate_each(normal: Array) -> tuple[Array, Array]:
     """Return the length (k,) of what no other slope could do of each, and the correlations (k, k).
 
     Args:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from slipwise.campaign.materiality import Materiality
 from slipwise.campaign.rig_motion import rig_motion
-from slipwise.comparison.measured_replay import get_measured_motion, simulation_step
+from slipwise.comparison.measured_replay import choose_simulation_step, get_measured_motion
 from slipwise.comparison.system_level import build_replayed_model
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
@@ -67,7 +67,7 @@ class Importance:
         return max(shares, default=0.0)
 
 
-def importance_of_effects(final: BaseFit, terms: Sequence[Term], sizes: Sequence[Interval]) -> dict[str, Importance]:
+def compute_importance(final: BaseFit, terms: Sequence[Term], sizes: Sequence[Interval]) -> dict[str, Importance]:
     """Return the importance of every effect that was added to a model.
 
     Args:
@@ -101,7 +101,7 @@ def importance_of_effects(final: BaseFit, terms: Sequence[Term], sizes: Sequence
             one, other = answers["", place].channels, answers[name, place].channels
             measured = objective.run(place).record
             for c in (c for c in one if c in measured):
-                channels[c] = max(channels.get(c, 0.0), share_of_channel(other[c] - one[c], measured[c]))
+                channels[c] = max(channels.get(c, 0.0), compute_share_of_channel(other[c] - one[c], measured[c]))
         out[name] = Importance(responses, channels, of[0].effect.port == "gauge")
     return out
 
@@ -133,13 +133,13 @@ def _where_most(final: BaseFit, terms: Sequence[Term]) -> int:
 def _replayed(model: Model, final: BaseFit, place: int) -> _Answer:
     """Replay a run's measured table motion, memory of pads and buffers from the runs before."""
     run = final.objective.run(place)
-    dt = simulation_step(run.dt)
+    dt = choose_simulation_step(run.dt)
     answer = replay(
         model,
         get_measured_motion(run.states),
         dt=dt,
         output_dt=run.dt,
-        start=memory_before(model, final.objective.runs_before(place)),
+        start=compute_memory_before(model, final.objective.runs_before(place)),
         rest=run.rest_before,
     )
     responses = {
@@ -150,7 +150,7 @@ def _replayed(model: Model, final: BaseFit, place: int) -> _Answer:
     return _Answer(responses, answer.record.channels)
 
 
-def memory_before(model: Model, runs: Sequence[FitRun]) -> Memory:
+def compute_memory_before(model: Model, runs: Sequence[FitRun]) -> Memory:
     """Return what pads and buffers remember after the runs before, their laws driven with what was measured."""
     law = predictor(model)
     layout = law.law.layout
@@ -181,7 +181,7 @@ def _driven(model: Model, final: BaseFit, place: int) -> _Answer:
     return _Answer({"energy": energy}, record.channels)
 
 
-def share_of_channel(change: Array, measured: Array) -> float:
+def compute_share_of_channel(change: Array, measured: Array) -> float:
     """Return the rms of a change (n,) over the rms of the measured channel (n,) about its mean [1]; 0 if it stands."""
     size = float(np.std(measured))
     return float(np.sqrt(np.mean(change**2)) / size) if size > 0.0 else 0.0

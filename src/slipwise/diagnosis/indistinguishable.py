@@ -9,17 +9,17 @@ from slipwise.estimation.objective import Objective
 Pairs = dict[frozenset[str], tuple[str, ...]]
 
 
-def known_effects(state: Search) -> dict[str, Effect]:
+def list_known_effects(state: Search) -> dict[str, Effect]:
     """Return the catalogue and a user's own effects that were looked at, by name."""
     return {**catalogue(), **{t.effect.name: t.effect for t in state.terms}}
 
 
-def alike_pairs(known: Iterable[Effect]) -> Pairs:
+def list_alike_pairs(known: Iterable[Effect]) -> Pairs:
     """Return the names of each two effects that may be one thing, with what tells them apart; one file may say so."""
     return {frozenset({e.name, other}): unless for e in known for other, unless in e.same_unless.items()}
 
 
-def distinguishable(objective: Objective, unless: Iterable[str]) -> bool:
+def is_distinguishable(objective: Objective, unless: Iterable[str]) -> bool:
     """Return whether two effects that may be one thing are distinguishable in a campaign.
 
     Args:

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from slipwise.diagnosis.hypothesis import STICK_LENGTH, Hypothesis, strength_at_bound
+from slipwise.diagnosis.hypothesis import STICK_LENGTH, Hypothesis, is_strength_at_bound
 from slipwise.diagnosis.initial_grid import shapes, strengths, variants
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.search_state import Search, tried_before
@@ -38,7 +38,7 @@ def starting_points(state: Search, chosen: Sequence[Screened], tried: Sequence[H
         starts_of(chosen, state.best.terms) + longer_stick(state, state.best) + _other_part_of_train(state, state.best)
     )
     yield _as_alone(state, chosen, state.best.terms)
-    yield _from_typical([h for h in tried if strength_at_bound(h)])
+    yield _from_typical([h for h in tried if is_strength_at_bound(h)])
 
 
 def longer_stick(state: Search, before: Hypothesis) -> list[Start]:

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from slipwise.campaign import Campaign
-from slipwise.diagnosis.candidates import candidates
+from slipwise.diagnosis.candidates import list_candidates
 from slipwise.diagnosis.forward_selection import MOST_EFFECTS
-from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis, final_refit_of, polished, refit
-from slipwise.diagnosis.hypothesis_fit import as_fit
+from slipwise.diagnosis.hypothesis import Hypothesis, make_base_hypothesis, polish, refit, refit_for_report
+from slipwise.diagnosis.hypothesis_fit import make_fit
 from slipwise.diagnosis.replays import replayed_errors
 from slipwise.diagnosis.screening import Screened, screen
 from slipwise.diagnosis.search_state import Search
@@ -143,7 +143,7 @@ def ladder(
         selected = select_effects(prepared, start, own, lambda words, share: tell(words, part * share))
         base, state = selected.base, selected.search
         path, counts, stopped = _hypothesis_path(state), (len(state.screened), len(state.tried)), _why(state)
-    fits = tuple(as_fit(base, h) for h in path)
+    fits = tuple(make_fit(base, h) for h in path)
     errors = [float("nan")] * len(fits)
     if system:
         tell("replaying", part)
@@ -155,7 +155,7 @@ def ladder(
     return Ladder(name, tuple(steps), counts, stopped, fits, seconds, prepared.corrections)
 
 
-def ladder_of(
+def make_ladder(
     search: Search, system: Mapping[str, float], corrections: tuple[DataCorrection, ...], *, named: bool
 ) -> Ladder:
     """Return the ladder that a search has climbed already.
@@ -181,12 +181,12 @@ def _hypothesis_path(state: Search) -> list[Hypothesis]:
     last.pop(frozenset(t.label for t in state.best.terms), None)
     before = list(last.values())
     memory = state.base.solution.fit_memory
-    summaries = on_every_core(lambda i: final_refit_of(before[i]).summary, len(before), memory=memory)
+    summaries = on_every_core(lambda i: refit_for_report(before[i]).summary, len(before), memory=memory)
     refitted = [replace(h, summary=summary) for h, summary in zip(before, summaries, strict=True)]
-    return [*refitted, state.final if state.best.terms else final_refit_of(state.best)]
+    return [*refitted, state.final if state.best.terms else refit_for_report(state.best)]
 
 
-def placed(base: BaseFit, effect: Effect) -> Screened:
+def place_effect(base: BaseFit, effect: Effect) -> Screened:
     """Find where an effect explains most of what a fit leaves, and how large it is there.
 
     Args:
@@ -196,7 +196,7 @@ def placed(base: BaseFit, effect: Effect) -> Screened:
     Raises:
         SettingError: the campaign cannot test it, or the model holds it already.
     """
-    terms, cannot = candidates(base, [effect])
+    terms, cannot = list_candidates(base, [effect])
     own = [t for t in terms if t.effect.name == effect.name]
     if not own:
         faults = "a fault of samples is found by looking at them: `slipwise diagnose` says whether there is one"
@@ -212,13 +212,13 @@ def _asked(
     base: BaseFit, add: Sequence[Effect], tell: Callable[[float], None]
 ) -> tuple[list[Hypothesis], tuple[int, int], str]:
     """Add effects in the order asked for; a gauge's fault goes to the channel where it explains most."""
-    path = [base_hypothesis(base)]
+    path = [make_base_hypothesis(base)]
     for i, effect in enumerate(add):
         before = path[-1]
-        best = placed(as_fit(base, before), effect)
-        path.append(polished(refit(base, [*before.terms, best.term], {best.term.label: best.values}, before)))
+        best = place_effect(make_fit(base, before), effect)
+        path.append(polish(refit(base, [*before.terms, best.term], {best.term.label: best.values}, before)))
         tell((i + 1) / len(add))
-    return [final_refit_of(h) for h in path], (len(add), len(add)), "these effects were asked for"
+    return [refit_for_report(h) for h in path], (len(add), len(add)), "these effects were asked for"
 
 
 def _why(state: Search) -> str:

@@ -8,14 +8,14 @@ from numpy.typing import NDArray
 
 from slipwise.campaign import Run
 from slipwise.channels import part_of
-from slipwise.diagnosis.held_out_regime import not_testable
-from slipwise.diagnosis.identifiability import unidentified
-from slipwise.diagnosis.indistinguishable import known_effects
+from slipwise.diagnosis.held_out_regime import find_untestable_reason
+from slipwise.diagnosis.identifiability import list_unidentified
+from slipwise.diagnosis.indistinguishable import list_known_effects
 from slipwise.diagnosis.initial_grid import shapes, strengths
 from slipwise.diagnosis.row_subset import on_screen
-from slipwise.diagnosis.screening import projector
+from slipwise.diagnosis.screening import make_projector
 from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.sensitivities import column_of, residual_with, small
+from slipwise.diagnosis.sensitivities import compute_column, compute_residual_with, small
 from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
@@ -43,7 +43,7 @@ _NOTHING_LEFT = 3e-5
 _MIN_COLUMN_LENGTH = 0.1
 
 
-def cannot_tell(state: Search, final: BaseFit, faults: Sequence[SampleFault] = ()) -> list[tuple[str, str]]:
+def list_limitations(state: Search, final: BaseFit, faults: Sequence[SampleFault] = ()) -> list[tuple[str, str]]:
     """Return what this campaign cannot tell, each with the reason; effects that it cannot test are in `state.cannot`.
 
     Args:
@@ -51,10 +51,10 @@ def cannot_tell(state: Search, final: BaseFit, faults: Sequence[SampleFault] = (
         final: its best hypothesis as a fit.
         faults: of samples, found before any fit.
     """
-    project = projector(on_screen(state.base.objective, state.base.solution.jacobian))
+    project = make_projector(on_screen(state.base.objective, state.base.solution.jacobian))
     lost = _balances_not_judged(state, faults)
     return [
-        *unidentified(final, state.base),
+        *list_unidentified(final, state.base),
         *_alike(state, project),
         *_rests_not_given(state),
         *_zero_not_shown(state, final),
@@ -86,7 +86,7 @@ def _alike(state: Search, project: Callable[[Array], Array]) -> Iterator[tuple[s
 
 
 def _beyond_what_was_fitted(base: BaseFit) -> Iterator[tuple[str, str]]:
-    for place, reason in not_testable(base.objective).items():
+    for place, reason in find_untestable_reason(base.objective).items():
         yield f"held-out run {base.objective.run(place).name}", f"not testable here, no fitted run covers it: {reason}"
 
 
@@ -141,7 +141,7 @@ def _floors_not_credible(state: Search) -> Iterator[tuple[str, str]]:
 def _zero_not_shown(state: Search, fit: BaseFit) -> Iterator[tuple[str, str]]:
     for zero in (f for f in fit.solution.free if f.key == ZERO):
         reason = f"no record of a slider shows its gauge's zero, and up to {zero.high:.2g} N is taken for one"
-        yield ", ".join(name for name, e in known_effects(state).items() if ZERO in e.stands_for), reason
+        yield ", ".join(name for name, e in list_known_effects(state).items() if ZERO in e.stands_for), reason
 
 
 def _distinguished_by_a_rest(fading: Effect, lasting: Effect) -> bool:
@@ -158,9 +158,9 @@ def _traces(base: BaseFit, effect: Effect, project: Callable[[Array], Array]) ->
 
 def _columns(base: BaseFit, term: Term) -> list[Array | None]:
     """Return the columns of a candidate near its typical size, for a grid of its constants."""
-    off = residual_with(base, term, term.effect.neutral())
+    off = compute_residual_with(base, term, term.effect.neutral())
     points = [(p, small(term.effect, shape, p)) for shape in shapes(term.effect) for p in strengths(term.effect)]
-    return [None if off is None else column_of(base, term, p, values, off) for p, values in points]
+    return [None if off is None else compute_column(base, term, p, values, off) for p, values in points]
 
 
 def _length(column: Array) -> float:

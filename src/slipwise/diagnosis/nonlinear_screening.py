@@ -8,7 +8,7 @@ from scipy.optimize import minimize_scalar
 
 from slipwise.diagnosis.initial_grid import strengths
 from slipwise.diagnosis.row_subset import thinning
-from slipwise.diagnosis.sensitivities import residual_with, typical
+from slipwise.diagnosis.sensitivities import compute_residual_with, typical
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.params import Parameter
@@ -54,7 +54,7 @@ def at_full_size(
     def left(size: float, name: str) -> float:
         nonlocal best
         values = {**term.effect.neutral(), **shape, name: float(size)}
-        there = residual_with(base, term, values)
+        there = compute_residual_with(base, term, values)
         if there is None:
             return np.inf
         clean = project(there)

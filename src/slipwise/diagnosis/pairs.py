@@ -6,7 +6,7 @@ import numpy as np
 
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.row_subset import on_screen
-from slipwise.diagnosis.screening import Screened, projector
+from slipwise.diagnosis.screening import Screened, make_projector
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.relations.parameters import Term
 
@@ -30,7 +30,7 @@ def leading_pair(
     if len(pool) < 2:
         return None
     objective = base.objective
-    project = projector(on_screen(objective, base.solution.inside))
+    project = make_projector(on_screen(objective, base.solution.inside))
     residual = project(on_screen(objective, base.solution.residuals.stacked(objective.fitted)))
     columns = np.stack([s.column for s in pool], axis=1)
     gram, right = columns.T @ columns, -(columns.T @ residual)

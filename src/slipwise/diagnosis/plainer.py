@@ -7,7 +7,7 @@ one leaves. At the end itself it is nothing but the plainer one, and is not chos
 
 from collections.abc import Sequence
 
-from slipwise.diagnosis.hypothesis import Hypothesis, at_limit
+from slipwise.diagnosis.hypothesis import Hypothesis, is_at_limit
 from slipwise.diagnosis.initial_guesses import Start
 from slipwise.diagnosis.search_state import Search, tried_before, tried_or_fitted
 from slipwise.evidence.acceptance import compute_least_drop, is_kept
@@ -50,7 +50,7 @@ def plainest(state: Search, found: Hypothesis) -> tuple[Search, Hypothesis]:
         for plain in _plainer(state, term, rest):
             starts = {plain.label: _start(state, plain)}
             state, other = tried_or_fitted(state, [*rest, plain], starts, found)
-            if not is_kept(origin, other.summary, found.summary, compute_least_drop([term])) and not at_limit(other):
+            if not is_kept(origin, other.summary, found.summary, compute_least_drop([term])) and not is_at_limit(other):
                 return plainest(state, other)
     return state, found
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from slipwise.diagnosis.hypothesis import Hypothesis, at_limit
+from slipwise.diagnosis.hypothesis import Hypothesis, is_at_limit
 from slipwise.diagnosis.screening import Screened
 from slipwise.evidence.acceptance import compute_least_drop, is_kept
 from slipwise.evidence.score import compute_score
@@ -57,6 +57,6 @@ def has_delay_for_filter(found: Hypothesis) -> bool:
 
 def kept_alone(origin: Hypothesis, found: Hypothesis) -> bool:
     """Return whether effects are worth being kept as a first step from the base model, and are what they are called."""
-    return not at_limit(found) and is_kept(
+    return not is_at_limit(found) and is_kept(
         origin.summary, origin.summary, found.summary, compute_least_drop(found.terms)
     )

@@ -5,7 +5,7 @@ from collections.abc import Callable, Collection, Sequence
 import numpy as np
 
 from slipwise.campaign import measured_states
-from slipwise.comparison.measured_replay import get_measured_motion, simulation_step
+from slipwise.comparison.measured_replay import choose_simulation_step, get_measured_motion
 from slipwise.comparison.system_level import build_replayed_model, compare_system_level
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.jobs.parallel import on_every_core
@@ -40,7 +40,7 @@ def replays(base: BaseFit, final: BaseFit, added: Sequence[str]) -> tuple[Record
     models = [("base model", base)]
     if added:
         models.append((f"with {' and '.join(added)}", final))
-    dt = simulation_step(states.dt)
+    dt = choose_simulation_step(states.dt)
     return states.record, [
         (label, replay(_mechanics(fit), motion, dt=dt, output_dt=states.dt).record) for label, fit in models
     ]

@@ -11,13 +11,13 @@ import numpy as np
 
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.initial_grid import REFERENCES
-from slipwise.estimation.intervals import Interval, bound_of
+from slipwise.estimation.intervals import Interval, find_bound
 
 #: Factor, and share of the size: of 161 sizes that the bench planted 92.5 % lay inside such intervals, without it 78 %.
 _WIDER, _FORM = 1.5, 0.02
 
 
-def named_sizes(found: Hypothesis, sizes: Sequence[Interval]) -> dict[str, Interval]:
+def list_named_sizes(found: Hypothesis, sizes: Sequence[Interval]) -> dict[str, Interval]:
     """Return the parameters of a hypothesis' effects, by key; a reference, which no fit changes, has no interval.
 
     Args:
@@ -32,7 +32,7 @@ def named_sizes(found: Hypothesis, sizes: Sequence[Interval]) -> dict[str, Inter
                 out[f.key] = _widened_for_model_error(entries[f.key], f.low, f.high)
             else:
                 value = found.solution.values[f.key]
-                out[f.key] = Interval(f.key, value, float("nan"), float("nan"), f.start, f.unit, bound_of(f, value))
+                out[f.key] = Interval(f.key, value, float("nan"), float("nan"), f.start, f.unit, find_bound(f, value))
     for term in found.terms:
         for p in (p for p in term.effect.parameters if p.name in REFERENCES):
             key = f"{term.label}.{p.name}"

@@ -13,7 +13,7 @@ from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.initial_grid import strengths, two_sided
 from slipwise.diagnosis.pairs import at_odds
 from slipwise.diagnosis.row_subset import on_screen, rows_of
-from slipwise.diagnosis.screening import Screened, away_from, basis_of
+from slipwise.diagnosis.screening import Screened, basis_of, project_away
 from slipwise.evidence.acceptance import compute_least_drop
 from slipwise.evidence.score import FLOOR
 
@@ -69,7 +69,7 @@ def worth_refitting(found: Sequence[Screened], before: Hypothesis, most: int, *,
             break
         if together and any(at_odds(s.term, chosen.term) for chosen in out):
             continue
-        column = away_from(basis, weights * s.column)
+        column = project_away(basis, weights * s.column)
         length = float(column @ column)
         amount = -float(column @ residual) / length if length > 1e-6 else 0.0
         if amount <= 0.0 and not all(two_sided(p) for p in strengths(s.term.effect)):
@@ -90,7 +90,7 @@ def _beside(before: Hypothesis, weights: Array) -> tuple[Array, Array]:
     solution, objective = before.solution, before.objective
     basis = basis_of(on_screen(objective, solution.inside) * weights[:, None])
     left = on_screen(objective, solution.residuals.stacked(objective.fitted))
-    return basis, away_from(basis, weights * left)
+    return basis, project_away(basis, weights * left)
 
 
 def _relations(before: Hypothesis) -> tuple[NDArray[np.int64], Array]:

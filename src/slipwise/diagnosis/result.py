@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from slipwise.comparison.component_level import NAMES
-from slipwise.diagnosis.alternatives import discriminating_tests, explanations, nearest_family
+from slipwise.diagnosis.alternatives import find_nearest_family, list_discriminating_tests, list_explanations
 from slipwise.diagnosis.importance import Importance
-from slipwise.diagnosis.ladder import Ladder, ladder_of
+from slipwise.diagnosis.ladder import Ladder, make_ladder
 from slipwise.diagnosis.replays import replays
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.search_state import Search
@@ -124,11 +124,11 @@ class Diagnosis(Drawn, Tabular):
     @property
     def discriminating_tests(self) -> tuple[str, ...]:
         """What would tell two explanations of an ambiguous verdict apart; nothing for another verdict."""
-        return discriminating_tests(self.verdict, self.search)
+        return list_discriminating_tests(self.verdict, self.search)
 
     def ladder(self) -> Ladder:
         """Return the ladder that the diagnosis has climbed already."""
-        return ladder_of(self.search, self.system, self.corrections, named=bool(self.added))
+        return make_ladder(self.search, self.system, self.corrections, named=bool(self.added))
 
     @property
     def left_over(self) -> str:
@@ -168,7 +168,7 @@ class Diagnosis(Drawn, Tabular):
             case "instrument":
                 return f"A gauge is at fault: {names} ({chance}); {fall}{self._minor}{self._bounds}."
             case "ambiguous":
-                rivals = " or ".join(" + ".join(e) for e in explanations(self.verdict, self.search))
+                rivals = " or ".join(" + ".join(e) for e in list_explanations(self.verdict, self.search))
                 return f"Either {rivals}: this campaign cannot tell them apart ({chance})."
             case _:
                 surface = self.verdict.surface
@@ -178,7 +178,7 @@ class Diagnosis(Drawn, Tabular):
     @property
     def _nearest(self) -> str:
         """Which law of the catalogue comes nearest to what has no name, as the end of a sentence."""
-        found = nearest_family(self.search)
+        found = find_nearest_family(self.search)
         return f"; nearest in the catalogue: {found[0]}, which explains {found[1]:.0%} of it" if found else ""
 
     @property

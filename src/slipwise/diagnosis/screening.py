@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from slipwise.diagnosis.initial_grid import shapes, strengths, two_sided
 from slipwise.diagnosis.nonlinear_screening import MIN_GAIN, at_full_size
 from slipwise.diagnosis.row_subset import on_screen
-from slipwise.diagnosis.sensitivities import column_of, residual_with, small
+from slipwise.diagnosis.sensitivities import compute_column, compute_residual_with, small
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.jobs.parallel import on_every_core
 from slipwise.params import Parameter
@@ -75,7 +75,7 @@ def _screened_base(base: BaseFit) -> tuple[Array, Callable[[Array], Array]]:
     """Return the screened residual (q,) of a base fit, and the projection away from what its numbers can do."""
     objective, solution = base.objective, base.solution
     left = on_screen(objective, solution.residuals.stacked(objective.fitted))
-    return left, projector(on_screen(objective, solution.inside))
+    return left, make_projector(on_screen(objective, solution.inside))
 
 
 def _numbers(found: Screened | None) -> dict[str, Any] | None:
@@ -91,15 +91,15 @@ def basis_of(jacobian: Array) -> Array:
     return basis[:, np.abs(np.diag(triangle)) > 1e-9]
 
 
-def away_from(basis: Array, vector: Array) -> Array:
+def project_away(basis: Array, vector: Array) -> Array:
     """Project a vector (m,) away from an orthonormal basis (m, k)."""
     return vector - basis @ (basis.T @ vector)
 
 
-def projector(jacobian: Array) -> Callable[[Array], Array]:
+def make_projector(jacobian: Array) -> Callable[[Array], Array]:
     """Return the projection away from the columns (m, k) of a Jacobian."""
     basis = basis_of(jacobian)
-    return lambda v: away_from(basis, v)
+    return lambda v: project_away(basis, v)
 
 
 def screen_shapes(base: BaseFit, term: Term, grid: list[dict[str, float]]) -> list[Screened]:
@@ -134,7 +134,7 @@ def _at_shapes(
     objective = base.objective
     adds_yaw = objective.adding(term).makes_yaw != objective.makes_yaw
     if adds_yaw:  # yaw that is made from measured forces is noise as well
-        left = residual_with(base, term, term.effect.neutral())
+        left = compute_residual_with(base, term, term.effect.neutral())
     out: list[Screened] = []
     for shape in grid:
         starts = [(p, small(term.effect, shape, p)) for p in strengths(term.effect)]
@@ -175,7 +175,7 @@ def _mixed(
     """Score a candidate of one shape with the columns taken at these strengths."""
     columns, kept, raw = [], [], 0.0
     for moved, start in starts:
-        column = None if left is None else column_of(base, term, moved, start, left)
+        column = None if left is None else compute_column(base, term, moved, start, left)
         if column is None:
             continue
         clean = project(column)
@@ -193,12 +193,12 @@ def _replacing(
 ) -> Screened | None:
     """Score a law that takes another's place: it is never absent, so a step of a fit from typical values tells."""
     values = term.effect.typical()
-    there = residual_with(base, term, values)
+    there = compute_residual_with(base, term, values)
     if there is None:
         return None
     columns = []
     for p in term.effect.parameters:
-        moved = residual_with(base, term, {**values, p.name: values[p.name] * (1.0 + _NEAR)})
+        moved = compute_residual_with(base, term, {**values, p.name: values[p.name] * (1.0 + _NEAR)})
         if moved is not None:
             columns.append(project(moved - there))
     rest = project(there)

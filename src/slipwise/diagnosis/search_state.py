@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from slipwise.diagnosis.hypothesis import Hypothesis, polished, refit
+from slipwise.diagnosis.hypothesis import Hypothesis, polish, refit
 from slipwise.diagnosis.jacobian_memory import ROOM, complete_jacobian, drop_jacobian, lightened, size_of
 from slipwise.diagnosis.screening import Screened
 from slipwise.estimation.base_fit import BaseFit
@@ -106,7 +106,7 @@ def try_all(
     for place, h in enumerate(found):
         best.setdefault(h.names, place)
     ended = [place for place in list(best.values())[:_POLISHED] if promising is None or promising(found[place])]
-    fits = on_every_core(lambda i: _fit(polished(found[ended[i]])), len(ended), memory=takes)
+    fits = on_every_core(lambda i: _fit(polish(found[ended[i]])), len(ended), memory=takes)
     for place, fit in zip(ended, fits, strict=True):
         found[place] = Hypothesis(found[place].terms, found[place].objective, *fit)
     tried = lightened([*state.tried, *found], lambda h: compute_score(origin, h.summary))

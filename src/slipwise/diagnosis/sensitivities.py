@@ -11,7 +11,7 @@ from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.params import Parameter
-from slipwise.relations.measurement import shifts
+from slipwise.relations.measurement import is_shifting
 from slipwise.relations.parameters import Term
 
 Array = NDArray[np.float64]
@@ -37,25 +37,25 @@ def typical(effect: Effect, moved: Parameter) -> float:
     return float(moved.neutral or 0.0) + 0.2 * (moved.high - float(moved.neutral or 0.0))
 
 
-def column_of(base: BaseFit, term: Term, moved: Parameter, values: dict[str, float], left: Array) -> Array | None:
+def compute_column(base: BaseFit, term: Term, moved: Parameter, values: dict[str, float], left: Array) -> Array | None:
     """Return the change of the residual.
 
     Undoing a lag moves noise in time, and half way between moved and unmoved noise there is less of it, as there is of
     noise that drives a table and is whitened: a column that looked one way only would find a false gain. Both ways
     together do not.
     """
-    there = residual_with(base, term, values)
+    there = compute_residual_with(base, term, values)
     if there is None:
         return None
     off = float(moved.neutral or 0.0)
     back = 2.0 * off - values[moved.name]
-    if (term.effect.port == "table" or shifts([term])) and moved.low <= back <= moved.high:
-        other = residual_with(base, term, {**values, moved.name: back})
+    if (term.effect.port == "table" or is_shifting([term])) and moved.low <= back <= moved.high:
+        other = compute_residual_with(base, term, {**values, moved.name: back})
         return None if other is None else 0.5 * (there - other)
     return there - left
 
 
-def residual_with(
+def compute_residual_with(
     base: BaseFit, term: Term, values: Mapping[str, float], moved: Mapping[str, float] | None = None
 ) -> Array | None:
     """Return the screened residual of the fitted runs with a candidate; None where it cannot be evaluated.

@@ -9,7 +9,7 @@ from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.initial_grid import strengths
 from slipwise.diagnosis.rescreening import row_weights
 from slipwise.diagnosis.row_subset import on_screen
-from slipwise.diagnosis.screening import Screened, away_from, basis_of
+from slipwise.diagnosis.screening import Screened, basis_of, project_away
 
 Array = NDArray[np.float64]
 #: A substitute that a straight line sees explain this share of what an effect explains is worth a fit [1].
@@ -37,11 +37,11 @@ def substitutes(whole: Hypothesis, name: str, screened: Sequence[Screened]) -> l
     own = [f for f, kept in zip(solution.free, stays, strict=True) if not kept]
     amounts = np.array([(solution.values[f.key] - absent.get(f.key, solution.values[f.key])) / f.scale for f in own])
     # what the effect does, the others making up for what they can
-    step = away_from(basis, weights * (slopes[:, ~stays] @ amounts))
+    step = project_away(basis, weights * (slopes[:, ~stays] @ amounts))
     total = float(step @ step)
     out: list[tuple[float, Screened]] = []
     for s in (s for s in screened if s.term.effect.name not in whole.names):
-        column = away_from(basis, weights * s.column)
+        column = project_away(basis, weights * s.column)
         length = float(column @ column)
         explained = float(step @ column) ** 2 / length if length > 1e-6 * float(s.column @ s.column) else 0.0
         if explained > _NEARLY * total:

@@ -6,17 +6,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from slipwise.campaign.materiality import Materiality
-from slipwise.diagnosis.findings import EffectFinding, above_noise
-from slipwise.diagnosis.held_out_regime import not_testable
+from slipwise.diagnosis.findings import EffectFinding, compute_excess_over_noise
+from slipwise.diagnosis.held_out_regime import find_untestable_reason
 from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.diagnosis.indistinguishable import alike_pairs, distinguishable, known_effects
+from slipwise.diagnosis.indistinguishable import is_distinguishable, list_alike_pairs, list_known_effects
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import ResidualSurface, leftover, structured
 from slipwise.diagnosis.unknown_surface import above_noise as left_above_noise
 from slipwise.estimation.objective import Objective
 from slipwise.evidence.acceptance import LEAST
-from slipwise.evidence.calibration import calibration
-from slipwise.evidence.decision import EVEN_ODDS, decide, remains
+from slipwise.evidence.calibration import load_calibration
+from slipwise.evidence.decision import EVEN_ODDS, decide, is_left
 from slipwise.evidence.score import compute_relative_drop
 from slipwise.instruments.suspects import effect_of
 from slipwise.preparation.sample_fault import SampleFault
@@ -59,11 +59,11 @@ class Verdict:
     findings: tuple[EffectFinding, ...]
 
 
-def explained_share(origin: Hypothesis, found: Hypothesis, relation: str = "") -> float:
+def compute_explained_share_of_base(origin: Hypothesis, found: Hypothesis, relation: str = "") -> float:
     """Return share of what the base left above the noise that a hypothesis takes away, in one balance or all [1]."""
     before, after = origin.summary, found.summary
     if not relation:
-        return 1.0 - above_noise(after, after) / max(above_noise(before, after), 1e-12)
+        return 1.0 - compute_excess_over_noise(after, after) / max(compute_excess_over_noise(before, after), 1e-12)
     noise = min(after.counts[relation][0], after.left_out[relation])
     over = max(before.left_out[relation] - noise, 1e-12)
     return 1.0 - max(after.left_out[relation] - noise, 0.0) / over
@@ -82,11 +82,11 @@ def decide_verdict(state: Search, found: Sequence[EffectFinding], limits: Materi
     surface = surface if structured(surface) else None
     rest = evidence_of_rest(origin, final, surface)
     of_effects = {f.name: evidence_of(f) for f in found if not f.at_limit}
-    decided = decide(of_effects, rest, limits.channel, calibration())
+    decided = decide(of_effects, rest, limits.channel, load_calibration())
     kind = decided.kind
     if kind == "complete" and {f.name for f in found} - set(decided.minor):
         bare = evidence_of_rest(origin, origin, None)
-        if remains(bare, limits.channel):
+        if is_left(bare, limits.channel):
             # what takes it away is not believed, so it is still there: a model that leaves it is not complete
             kind, rest = "unknown", bare
     nameless = any(f.at_limit and f.material >= 1.0 for f in found)
@@ -95,8 +95,8 @@ def decide_verdict(state: Search, found: Sequence[EffectFinding], limits: Materi
         decided.named,
         decided.minor,
         decided.probability if kind == "unknown" else _confirmed(state, decided.probability, rest),
-        "unknown" if remains(rest, limits.channel) or nameless else "none",
-        explained_share(origin, final),
+        "unknown" if is_left(rest, limits.channel) or nameless else "none",
+        compute_explained_share_of_base(origin, final),
         surface,
         (),
         tuple(found),
@@ -108,8 +108,8 @@ def decide_verdict(state: Search, found: Sequence[EffectFinding], limits: Materi
         rivals = [(f, f.rival) for f in found if f.name in decided.tied and f.rival is not None]
         every = dict.fromkeys([*decided.named, *(n for f, _ in rivals for n in _in_place(state, f))])
         return replace(verdict, effects=tuple(every), rivals=tuple(rival.hypothesis for _, rival in rivals))
-    for pair, unless in alike_pairs(known_effects(state).values()).items():
-        if len(pair & set(decided.named)) == 1 and not distinguishable(final.objective, unless):
+    for pair, unless in list_alike_pairs(list_known_effects(state).values()).items():
+        if len(pair & set(decided.named)) == 1 and not is_distinguishable(final.objective, unless):
             every = (*sorted(pair), *(n for n in decided.named if n not in pair))
             return replace(verdict, kind="ambiguous", effects=every)
     return verdict
@@ -146,7 +146,7 @@ def evidence_of_rest(origin: Hypothesis, final: Hypothesis, surface: ResidualSur
     over = left_above_noise(final)
     where = max(over, key=lambda relation: over[relation])
     return {
-        "explained": explained_share(origin, final, where) if final.terms else 0.0,
+        "explained": compute_explained_share_of_base(origin, final, where) if final.terms else 0.0,
         "left": surface.explained if surface else 0.0,
         "relative": float(np.log(max(over[where], 1e-6))),
     }
@@ -157,7 +157,7 @@ def _confirmed(state: Search, probability: float, rest: Mapping[str, float]) -> 
     objective = state.final.objective
     judged = _testable(objective) or objective.fitted
     if state.final.terms and leaves_much(*_worst_errors(state, judged)):
-        probability = min(probability, calibration().family(rest))
+        probability = min(probability, load_calibration().family(rest))
     return probability if objective.held_out else _UNCONFIRMED * probability
 
 
@@ -180,11 +180,11 @@ def _worst_errors(state: Search, runs: Sequence[int]) -> tuple[float, float]:
 
 def _testable(objective: Objective) -> list[int]:
     """Return the places of the held-out runs that are not beyond what was fitted."""
-    beyond = not_testable(objective)
+    beyond = find_untestable_reason(objective)
     return [i for i in objective.held_out if i not in beyond]
 
 
-def confirmed(state: Search) -> bool | None:
+def is_confirmed(state: Search) -> bool | None:
     """Return whether the held-out runs agree with what was found; None where none can tell or nothing was found.
 
     They agree where every balance that the effects improve has lost half of its excess over the noise there as well,

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from slipwise.campaign import Campaign
 from slipwise.diagnosis.diagnose import diagnose
-from slipwise.diagnosis.hypothesis_fit import as_fit
+from slipwise.diagnosis.hypothesis_fit import make_fit
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.law import Law
@@ -104,7 +104,7 @@ def discover(
     starts = [diagnosis.final]
     state = diagnosis.search
     if diagnosis.verdict.kind == "unknown" and state.final.terms:
-        starts.append(as_fit(state.base, state.final))
+        starts.append(make_fit(state.base, state.final))
     answers: list[_Answer] = []
     for number, start in enumerate(starts):
         tell("looking for a law", 0.5 + 0.5 * number / len(starts))

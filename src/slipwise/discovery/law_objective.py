@@ -14,12 +14,12 @@ from slipwise.discovery.matching import Match, constants_of, limits, place_of, p
 from slipwise.discovery.states import DrivingState, PadInstants, derived
 from slipwise.estimation.least_squares import Solution, get_slopes, solve
 from slipwise.estimation.objective import Objective
-from slipwise.relations.girder import through_pitch
+from slipwise.relations.girder import pass_through_pitch
 from slipwise.relations.noise import whiten_residual
-from slipwise.relations.pad_law import as_logged
-from slipwise.relations.pad_stages import in_noise
+from slipwise.relations.pad_law import log_force
+from slipwise.relations.pad_stages import divide_by_noise
 from slipwise.relations.parameters import Free
-from slipwise.relations.stages import Inputs, Memo, Stage, memo_for
+from slipwise.relations.stages import Inputs, Memo, Stage, make_memo
 from slipwise.relations.table import Residuals
 from slipwise.signals.filters import LowPass
 
@@ -129,7 +129,7 @@ class LawObjective:
 
     @cached_property
     def _memo(self) -> Memo:
-        return memo_for(self.plain.measurements)
+        return make_memo(self.plain.measurements)
 
     @cached_property
     def _stages(self) -> list[Stage[dict[str, list[Array]]]]:
@@ -171,7 +171,7 @@ class LawObjective:
             return force[:: run.fine, 0]
         by = LowPass(values["rig.logger"]) if "rig.logger" in values else None
         delay = values.get("rig.late_force", 0.0)
-        return as_logged(force, run, by, averaged=not self.plain.has_stick, delay=delay)
+        return log_force(force, run, by, averaged=not self.plain.has_stick, delay=delay)
 
     def driving(self, law: PlacedLaw, own: Mapping[str, float]) -> list[DrivingState]:
         """Return the states that drive a law, with the lag of its own numbers."""
@@ -186,7 +186,7 @@ def _tipping(inputs: Inputs, place: int, acceleration: Array, lever: float) -> A
     """Return the pitch load (n,) [N] of a force that accelerates the girder so [m/s^2], as `predicted_balances`."""
     values, specimen, run = inputs.values, inputs.measurements.specimen, inputs.measurements.runs[place]
     load = -values.get("rig.mass", specimen.mass) * acceleration * lever / specimen.half_spacing[0]
-    return through_pitch(load, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
+    return pass_through_pitch(load, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
 
 
 def _seen(inputs: Inputs, relation: str, place: int, column: Array) -> Array:
@@ -194,7 +194,7 @@ def _seen(inputs: Inputs, relation: str, place: int, column: Array) -> Array:
     run, sigmas, ringing = inputs.measurements.runs[place], inputs.weighed("sigmas"), inputs.weighed("ringing")
     if relation in ringing:
         column = whiten_residual(column, run, float(np.min(sigmas[relation][place])), ringing[relation][place])
-    return in_noise(inputs, relation, place, column, run)
+    return divide_by_noise(inputs, relation, place, column, run)
 
 
 @dataclass(frozen=True)

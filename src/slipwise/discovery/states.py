@@ -14,7 +14,7 @@ from slipwise.effects import DERIVED, LAGGING, PAD_INPUTS, RIG_MOTION
 from slipwise.estimation.objective import Objective
 from slipwise.relations.evaluation_times import Instants
 from slipwise.relations.kinematics import CORRECTED, STATES
-from slipwise.relations.pad_stages import LAW_FORCES, LOGGED_FORCES, forces_along
+from slipwise.relations.pad_stages import LAW_FORCES, LOGGED_FORCES, compute_forces_along
 from slipwise.relations.run_data import FitRun, interpolate_finely
 from slipwise.simulation.kernel import derived_states
 from slipwise.simulation.predict import PadForces
@@ -89,7 +89,7 @@ def pad_instants(objective: Objective, values: Mapping[str, float]) -> PadInstan
     """Return all runs at the instants, as a fit's numbers have them."""
     evaluation = objective.evaluation(values)
     states, forces = evaluation.of(STATES), evaluation.of(LAW_FORCES)
-    along = forces_along(evaluation.inputs(LOGGED_FORCES), states, forces)
+    along = compute_forces_along(evaluation.inputs(LOGGED_FORCES), states, forces)
     runs = evaluation.of(CORRECTED).runs
     return PadInstants(runs, tuple(states), tuple(forces), tuple(along), objective.specimen.pad_area)
 

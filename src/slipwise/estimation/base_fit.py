@@ -11,7 +11,7 @@ from slipwise.campaign.scales import Scales, scales_of
 from slipwise.effects import catalogue, holding, scaled
 from slipwise.errors import InputError
 from slipwise.estimation.least_squares import Solution, compute_jacobian, get_slopes, solve
-from slipwise.estimation.objective import Objective, objective_of
+from slipwise.estimation.objective import Objective, make_objective
 from slipwise.model import Model, base_model, use_of
 from slipwise.relations.force_offset import free_zero
 from slipwise.relations.parameters import (
@@ -86,7 +86,7 @@ def fit_base(
         InputError: a run lacks what every fit needs, or the runs are too short for one.
     """
     model = scale_model(model or base_model(campaign.specimen), scales_of(campaign), typical=model is None)
-    objective = objective_of(fit_runs(campaign, invalid), model.specimen, make_terms(model), watch=watch)
+    objective = make_objective(fit_runs(campaign, invalid), model.specimen, make_terms(model), watch=watch)
     _refuse_too_short(objective, free_numbers(campaign, model, objective))
     return _fitted(campaign, model, objective, start or {})
 
@@ -126,7 +126,7 @@ def fit_roughly(campaign: Campaign, invalid: InvalidSamples | None = None) -> Ma
         InputError: a run lacks what every fit needs.
     """
     model = scale_model(base_model(campaign.specimen), scales_of(campaign), typical=True)
-    objective = objective_of(fit_runs(campaign, invalid), model.specimen, make_terms(model))
+    objective = make_objective(fit_runs(campaign, invalid), model.specimen, make_terms(model))
     return _roughly(objective, free_numbers(campaign, model, objective), {})[1].values
 
 

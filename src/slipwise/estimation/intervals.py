@@ -28,8 +28,8 @@ from scipy.stats import t as student
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.profile_likelihood import find_upper_limit, is_strength
 from slipwise.jobs.parallel import on_every_core
-from slipwise.noise.independent_samples import SHORTEST_BLOCK, block_length
-from slipwise.relations.motions import by_motion
+from slipwise.noise.independent_samples import SHORTEST_BLOCK, measure_block_length
+from slipwise.relations.motions import group_by_motion
 from slipwise.relations.noise import TIMING
 from slipwise.relations.parameters import Free
 
@@ -106,7 +106,7 @@ def compute_intervals(base: BaseFit) -> Intervals:
     start = 0
     offsets: dict[int, int] = {}
     length = _block_length(base)
-    for group in by_motion(objective.runs, objective.fitted):  # runs of one motion repeat what the model lacks
+    for group in group_by_motion(objective.runs, objective.fitted):  # runs of one motion repeat what the model lacks
         offsets |= dict.fromkeys(group, start)
         start += max(int(len(objective.run(i).time) * objective.run(i).dt / length) + 1 for i in group)
     for of in solution.residuals.blocks(runs=objective.fitted):
@@ -115,7 +115,7 @@ def compute_intervals(base: BaseFit) -> Intervals:
     left = solution.residuals.stacked(objective.fitted)
     block = np.concatenate(rows)
     shared = _shared(base, len(left))
-    found = of_fit(solution.free, solution.values, solution.jacobian, left, block, shared)
+    found = compute_fit_intervals(solution.free, solution.values, solution.jacobian, left, block, shared)
     own_lag = {f"{t.label}.{t.effect.lag}" for t in objective.terms if t.effect.lag}
     ends = {f.key: (f.low, f.high) for f in solution.free}
     entries = (_widened_by_card_delay(e, *ends[e.key]) if e.key in own_lag else e for e in found.entries)
@@ -168,7 +168,7 @@ def _limited(
     return replace(entries[place], low=free.low, high=high, limit="upper")
 
 
-def of_fit(
+def compute_fit_intervals(
     free: Sequence[Free],
     values: Mapping[str, float],
     jacobian: Array,
@@ -187,7 +187,7 @@ def of_fit(
         shared: (q, m) what q kinds of nuisances of unit size would do to the residuals, and (m,) which nuisance of each
             kind a row belongs to.
     """
-    ends = [bound_of(f, values[f.key]) for f in free]
+    ends = [find_bound(f, values[f.key]) for f in free]
     inside = [j for j, end in enumerate(ends) if not end and np.any(jacobian[:, j])]
     scale = np.array([free[j].scale for j in inside])
     _, robust, freedom = _variances(jacobian, inside, residual, block, shared)
@@ -235,7 +235,7 @@ def _sums(jacobian: Array, inside: Sequence[int], values: Array, label: NDArray[
     return out
 
 
-def bound_of(free: Free, value: float) -> str:
+def find_bound(free: Free, value: float) -> str:
     """Return the bound on which a fitted number has ended: "lower", "upper" or ""."""
     if value - free.low < 1e-6 * free.scale:
         return "lower"
@@ -245,7 +245,9 @@ def bound_of(free: Free, value: float) -> str:
 def _block_length(base: BaseFit) -> float:
     """Return how long a block must be for blocks to be as good as independent [s]."""
     objective, left = base.objective, base.solution.residuals
-    longest = max(block_length([b.value for b in left.blocks(r, objective.fitted)]) for r in objective.relations)
+    longest = max(
+        measure_block_length([b.value for b in left.blocks(r, objective.fitted)]) for r in objective.relations
+    )
     independent = max(objective.fitted_runs[0].dt * longest, SHORTEST_BLOCK * objective.scales.time)
     seconds = sum(float(run.time[-1] - run.time[0]) for run in objective.fitted_runs)
     return min(independent, seconds / (_BLOCKS_EACH * max(len(base.free), 1)))

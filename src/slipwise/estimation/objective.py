@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 from slipwise.campaign.scales import Scales
 from slipwise.model import Model
 from slipwise.relations.girder_stages import BALANCES_LEFT
-from slipwise.relations.kinematics import pitches_table
-from slipwise.relations.measurement import shifts
-from slipwise.relations.pad_stages import ACROSS, PADS, reverses
+from slipwise.relations.kinematics import is_pitching_table
+from slipwise.relations.measurement import is_shifting
+from slipwise.relations.pad_stages import ACROSS, PADS, is_reversing
 from slipwise.relations.parameters import PITCH_INERTIA, YAW_INERTIA, Term, build_fitted_model
 from slipwise.relations.run_data import FINER, FitRun
 from slipwise.relations.setting import Measurements, Weighing
-from slipwise.relations.stages import Evaluation, Memo, memo_for
+from slipwise.relations.stages import Evaluation, Memo, make_memo
 from slipwise.relations.table import Block, Residuals
 from slipwise.relations.weighing import weigh
 from slipwise.rig import Specimen
@@ -116,13 +116,13 @@ class Objective:
     @property
     def inertias(self) -> tuple[str, ...]:
         """Keys of the inertias of the girder that the terms speak of."""
-        rocks = any(pitches_table(term) for term in self.terms)
+        rocks = any(is_pitching_table(term) for term in self.terms)
         return (YAW_INERTIA,) * self.makes_yaw + (PITCH_INERTIA,) * rocks
 
     @property
     def has_stick(self) -> bool:
         """Whether an effect says over which slip friction turns round."""
-        return any(reverses(term) for term in self.terms)
+        return any(is_reversing(term) for term in self.terms)
 
     def adding(self, *terms: Term) -> "Objective":
         """Return the same objective with more terms; the noise stays."""
@@ -142,7 +142,7 @@ class Objective:
 
     def near(self, values: Mapping[str, float]) -> "Objective":
         """Return the objective of which slopes at these values are to be taken."""
-        return replace(self, around=values) if shifts(self.terms) else self
+        return replace(self, around=values) if is_shifting(self.terms) else self
 
     def weigh(self, values: Mapping[str, float], *, finer: bool = False) -> "Objective":
         """Return the same objective with the noise, and what the filter took at reversals, as these numbers say.
@@ -204,7 +204,7 @@ class Objective:
         return Block(relation, place, run.name, motion, run.role, run.time, run.dt, nothing, sigma, mask)
 
 
-def objective_of(
+def make_objective(
     runs: Iterable[FitRun],
     specimen: Specimen,
     terms: tuple[Term, ...],
@@ -220,4 +220,4 @@ def objective_of(
         watch: called before every evaluation; what it raises ends a fit.
     """
     measurements = Measurements(tuple(runs), specimen)
-    return Objective(measurements, terms, memo_for(measurements), watch=watch)
+    return Objective(measurements, terms, make_memo(measurements), watch=watch)

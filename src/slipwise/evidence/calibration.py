@@ -58,17 +58,17 @@ class Calibration:
 
     def whole(self, product: float) -> float:
         """Return the chance that a verdict is right, by the product of the chances of its parts."""
-        return self.all_right({"product": log_odds(product)})
+        return self.all_right({"product": compute_log_odds(product)})
 
 
-def log_odds(probability: float) -> float:
+def compute_log_odds(probability: float) -> float:
     """Return the log-odds of a probability, finite also at 0 and 1."""
     kept = float(np.clip(probability, 1e-6, 1.0 - 1e-6))
     return float(np.log(kept / (1.0 - kept)))
 
 
 @cache
-def calibration() -> Calibration:
+def load_calibration() -> Calibration:
     """Return what the package was calibrated with."""
     content = json.loads(files("slipwise.evidence").joinpath("calibration.json").read_text(encoding="utf-8"))
     models = {name: Logistic(of["constant"], of["weights"]) for name, of in content["models"].items()}

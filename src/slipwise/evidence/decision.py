@@ -38,7 +38,7 @@ class Decision:
     probability: float
 
 
-def remains(rest: Mapping[str, float], least: float) -> bool:
+def is_left(rest: Mapping[str, float], least: float) -> bool:
     """Return whether what is left matters; arguments as of `decide`."""
     return bool(np.exp(rest["relative"]) >= least)
 
@@ -60,7 +60,7 @@ def decide(
     both = {name: sure[name] * chances.matters(of) for name, of in effects.items()}
     named = tuple(name for name in effects if both[name] >= EVEN_ODDS)
     minor = tuple(name for name in effects if sure[name] >= _LISTED and name not in named)
-    left = remains(rest, least)
+    left = is_left(rest, least)
     right = chances.family(rest) if left else 1.0
     if left and (right < EVEN_ODDS or not named):
         return Decision("unknown", (), minor, (), 1.0 - right)

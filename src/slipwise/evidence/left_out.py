@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.objective import Objective
-from slipwise.relations.motions import by_motion
+from slipwise.relations.motions import group_by_motion
 
 Array = NDArray[np.float64]
 #: Stretches of time that are left out one by one where there is one motion only [1].
@@ -30,9 +30,9 @@ _RIDGE = 1e-4
 _REACH = 1.0
 
 
-def motions(objective: Objective) -> list[list[int]]:
+def list_motions(objective: Objective) -> list[list[int]]:
     """Return the places of the fitted runs by motion."""
-    return by_motion(objective.runs, objective.fitted)
+    return group_by_motion(objective.runs, objective.fitted)
 
 
 def _parts(objective: Objective) -> tuple[list[tuple[slice, int]], int]:

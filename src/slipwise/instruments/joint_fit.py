@@ -23,7 +23,15 @@ from slipwise.regression.normal_equations import (
     invert_regularised,
     weigh_equations,
 )
-from slipwise.relations.balance_rows import PreparedRun, Stack, adding, change, list_constants, stack_rows, with_records
+from slipwise.relations.balance_rows import (
+    PreparedRun,
+    Stack,
+    adding,
+    list_changed_rows,
+    list_constants,
+    stack_rows,
+    with_records,
+)
 from slipwise.relations.rigid_balances import Relation
 from slipwise.rig import Specimen
 
@@ -244,7 +252,7 @@ def signature(
 ) -> dict[str, Array]:
     """Return the change of the residuals for a unit of a suspect's size, relation -> (n, 1)."""
     distorted = with_records(runs, lambda record: suspect.distort(record, suspect.step))
-    found = change(distorted, case.relations, case.specimen, constants, here, frozenset(suspect.channels))
+    found = list_changed_rows(distorted, case.relations, case.specimen, constants, here, frozenset(suspect.channels))
     return {name: rows[:, None] / suspect.step for name, rows in found.items()}
 
 
@@ -259,5 +267,5 @@ def noise_with_itself(
     if not suspect.fault.scales:
         return {}
     noisy = adding(runs, case.noise, suspect.channels)
-    found = change(noisy, case.relations, case.specimen, constants, here, frozenset(suspect.channels))
+    found = list_changed_rows(noisy, case.relations, case.specimen, constants, here, frozenset(suspect.channels))
     return {name: float(rows @ rows) for name, rows in found.items()}

@@ -48,7 +48,7 @@ def sum_correlations(parts: Sequence[Array]) -> float:
     return max(float(sums[enough[0] if len(enough) else -1]), 1.0)
 
 
-def block_length(parts: Sequence[Array]) -> int:
+def measure_block_length(parts: Sequence[Array]) -> int:
     """Return the samples of a block of time so long that blocks of a series are as good as independent.
 
     Args:

@@ -13,7 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.preparation.gauge_groups import group_gauges
-from slipwise.relations.balance_rows import PreparedRun, Stack, change, list_constants, stack_rows, with_records
+from slipwise.relations.balance_rows import (
+    PreparedRun,
+    Stack,
+    list_changed_rows,
+    list_constants,
+    stack_rows,
+    with_records,
+)
 from slipwise.relations.rigid_balances import Relation
 from slipwise.rig import Specimen
 
@@ -63,7 +70,7 @@ class System:
         """Return what channels put into the relations, relation -> (n,)."""
         silent = with_records(self.runs, lambda r: r.replaced(**{name: 0.0 * r[name] for name in names}))
         rated = _rated(self.usable, self.specimen)
-        changed = change(silent, self.usable, self.specimen, rated, self.stacked, frozenset(names))
+        changed = list_changed_rows(silent, self.usable, self.specimen, rated, self.stacked, frozenset(names))
         return {name: -self.rows(name, rows) for name, rows in changed.items() if rows.any()}
 
     def rows(self, name: str, values: Array) -> Array:

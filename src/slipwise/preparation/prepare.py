@@ -14,7 +14,7 @@ from slipwise.preparation.logger import determine_logger
 from slipwise.preparation.masks import bridge_bad_samples, mask_bad_samples
 from slipwise.preparation.prepared import Prepared
 from slipwise.preparation.put_right import put_right
-from slipwise.preparation.rig_check import HELD_AGAINST, check_rig, on_rig_shaken
+from slipwise.preparation.rig_check import HELD_AGAINST, check_rig, put_on_rig_shaken
 from slipwise.preparation.sample_faults import find_sample_faults
 
 
@@ -41,7 +41,7 @@ def prepare(campaign: Campaign | Path | str | Prepared) -> Prepared:
     seen, logger, start = determine_logger(seen, invalid)
     other_rig = check_rig(seen, invalid, start, balances)
     if other_rig is not None:
-        seen = on_rig_shaken(seen, other_rig)
+        seen = put_on_rig_shaken(seen, other_rig)
         start = {key: value for key, value in start.items() if key.removeprefix("rig.") not in HELD_AGAINST}
     unmended = seen
     if any(fault.kind != "gap" for fault in faults):

@@ -73,7 +73,7 @@ def check_rig(
         return None
 
 
-def on_rig_shaken(campaign: Campaign, other: WrongRig) -> Campaign:
+def put_on_rig_shaken(campaign: Campaign, other: WrongRig) -> Campaign:
     """Return a campaign on the rig that was shaken; what it states of the declared one beside its mass is dropped."""
     known = {name: value for name, value in campaign.known.items() if name not in HELD_AGAINST}
     return replace(campaign, specimen=better_known(other.fitting, known, "campaign.toml"))

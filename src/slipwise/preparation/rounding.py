@@ -24,7 +24,7 @@ def is_coarse(values: Array) -> bool:
     return bool(sizes.max() > _COMMON * len(steps))
 
 
-def chance_of_equal(values: Array) -> Array:
+def estimate_chance_of_equal(values: Array) -> Array:
     """Return the probability that each sample equals the one before by rounding alone, (n,).
 
     Two samples that differ by a slope d and independent noise s fall into the same step q with about

@@ -11,7 +11,7 @@ from slipwise.campaign.wild_samples_of_runs import FAULTY, faulty_share
 from slipwise.channels import pads_in
 from slipwise.preparation.outliers import bridge_outliers
 from slipwise.preparation.put_right import put_right
-from slipwise.preparation.rounding import NEAR, chance_of_equal, is_coarse
+from slipwise.preparation.rounding import NEAR, estimate_chance_of_equal, is_coarse
 from slipwise.preparation.sample_fault import SampleFault
 from slipwise.preparation.signs import find_wrong_signs
 from slipwise.preparation.synchronisation import LateChannels, find_late_cells, find_late_motion
@@ -217,7 +217,11 @@ def _held(name: str, runs: Sequence[Run]) -> SampleFault | None:
         same[1:] = values[1:] == values[:-1]
         same[len(values) - _tail(values) :] = False
         same[: 1 + _tail(values[::-1])] = False  # a simulation begins at rest, to the last digit
-        equal, expected, count = equal + same.sum(), expected + chance_of_equal(values).sum(), count + len(values)
+        equal, expected, count = (
+            equal + same.sum(),
+            expected + estimate_chance_of_equal(values).sum(),
+            count + len(values),
+        )
         bad[run.name] = same
     more = float(equal - expected)
     if more < max(_SURE * np.sqrt(expected + 1.0), _REPEATED * count, _MISJUDGED * expected):
@@ -233,7 +237,9 @@ def _tail(values: Array) -> int:
 
 def _lost(name: str, runs: Sequence[Run], cut: Mapping[str, int]) -> SampleFault | None:
     tails = {run.name: _tail(run.record[name]) - cut[run.name] for run in runs}
-    ends = {run.name: chance_of_equal(run.record[name])[-NEAR - tails[run.name] - cut[run.name] :] for run in runs}
+    ends = {
+        run.name: estimate_chance_of_equal(run.record[name])[-NEAR - tails[run.name] - cut[run.name] :] for run in runs
+    }
     shown = [n for n, tail in tails.items() if tail >= _TAIL and float(np.mean(ends[n])) < _RARE]
     if sum(tails[n] for n in shown) < _TAILS or any(is_coarse(run.record[name]) for run in runs):
         return None

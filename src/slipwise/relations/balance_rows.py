@@ -172,7 +172,7 @@ def _evaluate(
     return run.rows(residual, relation.rows), columns
 
 
-def change(
+def list_changed_rows(
     changed: Sequence[PreparedRun],
     relations: Sequence[Relation],
     specimen: Specimen,

@@ -24,7 +24,7 @@ from slipwise.campaign.rig_motion import shortening_rate
 from slipwise.effects import BalanceStates
 from slipwise.model import Model
 from slipwise.relations.inverse_filter import Spectrum
-from slipwise.relations.pad_law import as_logged
+from slipwise.relations.pad_law import log_force
 from slipwise.relations.parameters import SEAT_STIFFNESS
 from slipwise.relations.run_data import FitRun, interpolate_finely
 from slipwise.relations.sample_masks import is_rolling_only_at_rest
@@ -74,7 +74,7 @@ def list_available_balances(run: FitRun, specimen: Specimen) -> tuple[str, ...]:
     return tuple(out)
 
 
-def through_pitch(values: Array, dt: float, frequency: float, damping: float) -> Array:
+def pass_through_pitch(values: Array, dt: float, frequency: float, damping: float) -> Array:
     """Pass a pitch load (n,) through the girder's pitch on its pads."""
 
     def gain(f: Array) -> NDArray[np.complex128]:
@@ -97,7 +97,7 @@ def _rocked(
         if not parts:
             continue
         frequency, damping = (mode.ratio * values[f"rig.pitch_{what}"] for what in ("frequency", "damping"))
-        passed = through_pitch(np.sum(parts, axis=0), run.dt, frequency, damping)
+        passed = pass_through_pitch(np.sum(parts, axis=0), run.dt, frequency, damping)
         for i, shown in enumerate(mode.shown):
             if shown != 0.0:
                 out[i] = out[i] + shown / half[i] * passed
@@ -125,7 +125,7 @@ def compute_buffer_forces(law: Predictor, run: FitRun, yaw: Array, yaw_rate: Arr
     time = np.linspace(run.time[0], run.time[-1], len(slip))
     deflection = np.stack([slip, np.zeros_like(slip)], axis=2)
     rate = np.stack([velocity, np.zeros_like(velocity)], axis=2)
-    return as_logged(law.buffers(time, deflection, rate)[:, :, 0], run, None, averaged=False)
+    return log_force(law.buffers(time, deflection, rate)[:, :, 0], run, None, averaged=False)
 
 
 def compute_heave_rate(total: Array, dt: float, specimen: Specimen) -> Array:

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from slipwise.relations.girder import BALANCES, compute_buffer_forces, compute_motion_residual, predict_balances
 from slipwise.relations.inverse_filter import whiten_again
-from slipwise.relations.kinematics import CORRECTED, RAISED, YAW, pitches_table
+from slipwise.relations.kinematics import CORRECTED, RAISED, YAW, is_pitching_table
 from slipwise.relations.measurement import apply_gauge_faults
 from slipwise.relations.noise import (
     compute_driven_noise_in_pitch,
@@ -16,7 +16,7 @@ from slipwise.relations.noise import (
     whiten_residual,
     with_masked_noise,
 )
-from slipwise.relations.pad_stages import MEASURED_FRICTION, in_noise
+from slipwise.relations.pad_stages import MEASURED_FRICTION, divide_by_noise
 from slipwise.relations.parameters import PITCH_INERTIA, ROLL_INERTIA, YAW_INERTIA, Term, build_fitted_model
 from slipwise.relations.stages import Evaluation, Inputs, Stage
 from slipwise.simulation.predict import predictor
@@ -32,7 +32,7 @@ def is_fault_of_girder_gauge(term: Term) -> bool:
     return term.effect.port == "gauge" and "girder_ax" in term.targets
 
 
-def acts_on_girder(term: Term) -> bool:
+def is_on_girder(term: Term) -> bool:
     """Return whether the balances depend on a term, beside what it does to the measured channels."""
     hooks = term.effect.hooks
     return term.effect.port == "buffer" or "balance" in hooks or "rig" in hooks or is_fault_of_girder_gauge(term)
@@ -57,7 +57,7 @@ def _leave_of_balances(inputs: Inputs) -> dict[str, list[Array]]:
     if "heave" in out and sigmas:
         masked = 1.0 - (compute_heave_level(model, runs[0], scale) / float(np.min(sigmas["heave"][0]))) ** 2
     driven: list[Array | None] = [None] * len(runs)
-    if sigmas and any(pitches_table(term) for term in own):
+    if sigmas and any(is_pitching_table(term) for term in own):
         driven = [*compute_driven_noise_in_pitch(model, runs, values)]
     for i, (run, (force, _)) in enumerate(zip(runs, inputs.of(MEASURED_FRICTION), strict=True)):
         law.rest(run.rest_before)
@@ -75,12 +75,12 @@ def _leave_of_balances(inputs: Inputs) -> dict[str, list[Array]]:
                 left = np.where(run.ringing, 0.0, left)  # whitening looks both ways: not at what a lifted pad does
                 more = driven[i] if name == "pitch" else None
                 left = whiten_residual(left, run, float(np.min(sigmas[name][i])), ringing[name][i], more)
-            left = in_noise(inputs, name, i, left, run)
+            left = divide_by_noise(inputs, name, i, left, run)
             out[name].append(with_masked_noise(left, masked) if name == "heave" else left)
     return out
 
 
-def balance_sides(evaluation: Evaluation, place: int) -> tuple[dict[str, Array], dict[str, Array]]:
+def compute_balance_sides(evaluation: Evaluation, place: int) -> tuple[dict[str, Array], dict[str, Array]]:
     """Return what the balances of one run predict and what was measured, faults of gauges taken out, (n,) each.
 
     Args:
@@ -101,4 +101,4 @@ def balance_sides(evaluation: Evaluation, place: int) -> tuple[dict[str, Array],
 #: Residual of the girder's motion against the slip, per run (n,), whitened.
 MOTION = Stage("motion", _leave_of_motion)
 #: Residual of every balance of the girder, relation -> per run (n,) [noise].
-BALANCES_LEFT: Stage[Mapping[str, list[Array]]] = Stage("balances", _leave_of_balances, acts_on_girder)
+BALANCES_LEFT: Stage[Mapping[str, list[Array]]] = Stage("balances", _leave_of_balances, is_on_girder)

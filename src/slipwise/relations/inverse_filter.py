@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.relations.run_data import FitRun, smoothed
+from slipwise.relations.run_data import FitRun, smooth_record
 from slipwise.signals.ends import in_frequency
 
 Array = NDArray[np.float64]
@@ -33,7 +33,7 @@ def without_filter(values: Array, pulse: Array, run: FitRun) -> Array:
         size = np.maximum(np.abs(here), 1e-12)
         return np.asarray(np.minimum(1.0 / size, _SHARPEST) * np.conj(here) / size, dtype=np.complex128)
 
-    smooth = smoothed(values, run)
+    smooth = smooth_record(values, run)
     return values + in_frequency(smooth, run.dt, inverse, min(middle, 256)) - smooth
 
 

@@ -31,12 +31,12 @@ def is_fault_of_motion(term: Term) -> bool:
     return term.effect.port == "gauge" and not is_on_force_gauge(term)
 
 
-def pitches_table(term: Term) -> bool:
+def is_pitching_table(term: Term) -> bool:
     """Return whether a term moves the girder over the table without slip."""
     return term.effect.port == "table" and "balance" in term.effect.hooks
 
 
-def changes_torque(term: Term) -> bool:
+def is_changing_torque(term: Term) -> bool:
     """Return whether the yaw depends on a term's numbers: how much pads differ is in the forces that were measured."""
     return term.effect.port == "buffer" or (bool(term.effect.turns) and "rig" in term.effect.hooks)
 
@@ -56,7 +56,7 @@ class Corrected:
 
 def _correct(inputs: Inputs) -> Corrected:
     faults = [term for term in inputs.terms if is_fault_of_motion(term)]
-    table_pitch = [term for term in inputs.terms if pitches_table(term)]
+    table_pitch = [term for term in inputs.terms if is_pitching_table(term)]
     runs, values, around = inputs.of(SYNCHRONISED), inputs.values, inputs.around
     for term in faults:
         runs = tuple(without(term, values, run, around) for run in runs)
@@ -91,7 +91,7 @@ def _make_yaw(inputs: Inputs) -> list[tuple[Array, Array]]:
     return found
 
 
-def states_of_pads(inputs: Inputs, velocity_errors: float = 0.0) -> list[Instants]:
+def compute_pad_states(inputs: Inputs, velocity_errors: float = 0.0) -> list[Instants]:
     """Return the states of every pad in the runs.
 
     Args:
@@ -125,18 +125,18 @@ def _rig_motions(inputs: Inputs) -> list[Array]:
 #: The runs with slip and accelerations synchronised.
 SYNCHRONISED = Stage("synchronised runs", _synchronise)
 #: The runs without the faults of their gauges, but for those of friction.
-CORRECTED = Stage("corrected runs", _correct, lambda t: is_fault_of_motion(t) or pitches_table(t))
+CORRECTED = Stage("corrected runs", _correct, lambda t: is_fault_of_motion(t) or is_pitching_table(t))
 #: Channel -> by how much taking its fault out has raised the power of its noise; see `compute_raised_noise`.
 RAISED = Stage("raised noise", _raise_noise, is_fault_of_motion)
 #: Yaw [rad] and its rate [rad/s] of every run, (n,) each: measured, made from the forces, or none.
-YAW = Stage("yaw", _make_yaw, changes_torque)
+YAW = Stage("yaw", _make_yaw, is_changing_torque)
 #: States of every pad at the instants at which the laws are evaluated, one `Instants` of every run.
-STATES = Stage("states of the pads", states_of_pads)
+STATES = Stage("states of the pads", compute_pad_states)
 #: Motion of the rig at the instants, (f, 3) of every run.
 RIG_MOTIONS = Stage("motion of the rig", _rig_motions)
 
 
-def compliance(measurements: Measurements, specimen: Specimen, *, makes_yaw: bool) -> Array:
+def compute_compliance(measurements: Measurements, specimen: Specimen, *, makes_yaw: bool) -> Array:
     """Return the acceleration of pad i for a force along x on pad j, (p, p) [1/kg], with yaw where it is known.
 
     A pad that was not measured is taken to hold the girder as the measured ones do.

@@ -11,7 +11,7 @@ from slipwise.model import EffectUse
 from slipwise.record import Record
 from slipwise.relations.inverse_filter import Spectrum, remove_filter_from_spectrum, without_filter
 from slipwise.relations.parameters import Term
-from slipwise.relations.run_data import FitRun, smoothed
+from slipwise.relations.run_data import FitRun, smooth_record
 from slipwise.rig.load_basis import warps
 
 Array = NDArray[np.float64]
@@ -32,12 +32,12 @@ def apply_gauge_faults(terms: Sequence[Term], values: Mapping[str, float], recor
     return record
 
 
-def shifts(terms: Sequence[Term]) -> bool:
+def is_shifting(terms: Sequence[Term]) -> bool:
     """Return whether any of these faults moves noise in time: see `without`."""
     return any(t.effect.shifts for t in terms)
 
 
-def on_force(
+def apply_on_force(
     terms: Sequence[Term],
     values: Mapping[str, float],
     run: FitRun,
@@ -97,14 +97,14 @@ def without(term: Term, values: Mapping[str, float], run: FitRun, around: Mappin
             would creep and their intervals be too narrow.
     """
     record = run.record
-    begin = around if around is not None and shifts([term]) else values
+    begin = around if around is not None and is_shifting([term]) else values
     for entry, start in zip(term.uses(values), term.uses(begin), strict=True):
         names = channels_like(entry.target, record.channels)
         if "undo" in term.effect.hooks:
             shown = record
             record = _call(entry.effect, "undo", shown, entry.target, start.values)
             if entry.values != start.values:
-                smooth = shown.replaced(**{n: smoothed(shown[n], run) for n in names})
+                smooth = shown.replaced(**{n: smooth_record(shown[n], run) for n in names})
                 there, back = (_call(entry.effect, "undo", smooth, entry.target, e.values) for e in (entry, start))
                 record = record.replaced(**{n: record[n] + there[n] - back[n] for n in names})
         else:

@@ -23,7 +23,7 @@ def is_same_motion(one: FitRun, other: FitRun) -> bool:
     return apart < _SAME * float(np.std(first)) + _NOISE * one.noise[name]
 
 
-def by_motion(runs: Sequence[FitRun], places: Iterable[int]) -> list[list[int]]:
+def group_by_motion(runs: Sequence[FitRun], places: Iterable[int]) -> list[list[int]]:
     """Return the places of runs by motion, in the order in which each motion came first.
 
     A run of role repeat that is like none before it belongs to the last one that is as long, or to the last at all: it

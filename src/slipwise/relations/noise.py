@@ -14,7 +14,7 @@ from scipy.signal import fftconvolve
 
 from slipwise.model import Model
 from slipwise.relations.evaluation_times import Instants
-from slipwise.relations.girder import compute_buffer_forces, compute_effects, compute_heave_rate, through_pitch
+from slipwise.relations.girder import compute_buffer_forces, compute_effects, compute_heave_rate, pass_through_pitch
 from slipwise.relations.run_data import FAST, FitRun
 from slipwise.relations.storeys import compute_noise_in_push
 from slipwise.relations.unsampled_reversals import compute_jump_noise_in_pitch, compute_jump_noise_in_push
@@ -103,7 +103,7 @@ def with_masked_noise(part: Array, masked: float) -> Array:
     return part * np.sqrt(max(1.0 + masked * np.count_nonzero(part) / total, 0.0))
 
 
-def balance_noise(specimen: Specimen, run: FitRun) -> dict[str, float]:
+def compute_noise_of_balance(specimen: Specimen, run: FitRun) -> dict[str, float]:
     """Return the noise of every balance of a girder, in its own unit."""
     gauge, loads = run.gauge_noise
     total, force = float(np.sqrt(np.sum(loads**2))), float(np.sqrt(np.sum(gauge**2)))
@@ -161,14 +161,14 @@ def compute_balance_noise(
     springs = predictor(model) if model.with_hook("balance") else None
     out: dict[str, list[Array]] = {}
     for i, run in enumerate(runs):
-        levels = {name: np.array(level) for name, level in balance_noise(model.specimen, run).items()}
+        levels = {name: np.array(level) for name, level in compute_noise_of_balance(model.specimen, run).items()}
         more: dict[str, Array] = {}
         if changed:
-            more = noise_of_fault_correction(
-                model.specimen, reversal[i], changed[i], pitch_impulse_response(run, values)
+            more = compute_noise_of_correction(
+                model.specimen, reversal[i], changed[i], compute_pitch_impulse_response(run, values)
             )
         if springs is not None:
-            more |= vertical_friction_noise(
+            more |= compute_vertical_friction_noise(
                 model, run, compute_buffer_forces(springs, run, *np.zeros((2, len(run.time))))
             )
         if run.filtered is None and "rig.logger" not in values:
@@ -186,7 +186,7 @@ def compute_heave_level(model: Model, run: FitRun, scale: Mapping[str, float]) -
 
     Less mass multiplies the accelerometer's noise by less: without this the fit would trade mass for a smaller
     residual, and make up for the load with whatever else adds to it. What effects let ring is counted by
-    `bent_noise_in_heave`.
+    `compute_bent_noise_in_heave`.
 
     Args:
         model: with the numbers of the fit.
@@ -195,10 +195,10 @@ def compute_heave_level(model: Model, run: FitRun, scale: Mapping[str, float]) -
     """
     loads = float(np.linalg.norm(run.gauge_noise[1])) * scale.get("loads", 1.0)
     vertical = model.specimen.carried_mass * run.noise.get("girder_az", 0.0) * scale.get("girder_az", 1.0)
-    return float(np.hypot(loads, min(1.0, heave_noise(model, run)) * vertical)) / scale.get("heave", 1.0)
+    return float(np.hypot(loads, min(1.0, compute_heave_noise(model, run)) * vertical)) / scale.get("heave", 1.0)
 
 
-def heave_noise(model: Model, run: FitRun) -> float:
+def compute_heave_noise(model: Model, run: FitRun) -> float:
     """Tell by which factor effects change the accelerometer's noise in the heave balance.
 
     A girder that bends hides part of a_z at high frequency, noise included: without this factor every such effect
@@ -212,13 +212,13 @@ def heave_noise(model: Model, run: FitRun) -> float:
     return 1.0 if more is None else float(np.std(shaken + more / model.specimen.carried_mass) / np.std(shaken))
 
 
-def bent_noise_in_heave(model: Model, run: FitRun) -> Array:
+def compute_bent_noise_in_heave(model: Model, run: FitRun) -> Array:
     """Return what the accelerometer's noise adds to the predicted load where effects ring with it.
 
     A girder that bends multiplies the noise at its own frequency by up to 1/(2 z).
 
     Returns:
-        spectrum (m,) as `force_noise_in_pitch` gives it, nowhere below zero [N^2].
+        spectrum (m,) as `compute_force_noise_in_pitch` gives it, nowhere below zero [N^2].
     """
     impulse = np.zeros(len(run.time))
     impulse[len(impulse) // 2] = 1.0
@@ -241,7 +241,7 @@ def _more_heave(model: Model, run: FitRun, upward: Array) -> Array | None:
     return with_acceleration - without_acceleration
 
 
-def vertical_friction_noise(model: Model, run: FitRun, buffers: Array) -> dict[str, Array]:
+def compute_vertical_friction_noise(model: Model, run: FitRun, buffers: Array) -> dict[str, Array]:
     """Return the noise of vertical friction at the girder: it follows the heave rate, which is made from noisy loads.
 
     Args:
@@ -260,7 +260,7 @@ def vertical_friction_noise(model: Model, run: FitRun, buffers: Array) -> dict[s
     return {name: 0.5 * np.abs(up[name] - down[name]) for name in ("heave", "roll") if name in up}
 
 
-def force_noise_in_pitch(run: FitRun, specimen: Specimen, values: Mapping[str, float]) -> Array:
+def compute_force_noise_in_pitch(run: FitRun, specimen: Specimen, values: Mapping[str, float]) -> Array:
     """Return what noise of friction and storeys adds to the predicted pitch load: the girder's pitch rings with it.
 
     Returns:
@@ -268,7 +268,7 @@ def force_noise_in_pitch(run: FitRun, specimen: Specimen, values: Mapping[str, f
     """
     levers = specimen.centre_height * run.gauge_noise[0]
     squared = float(np.sum(levers**2)) + frame_noise(specimen, run.noise)[1] ** 2
-    ringing = pitch_impulse_response(run, values) / specimen.half_spacing[0]
+    ringing = compute_pitch_impulse_response(run, values) / specimen.half_spacing[0]
     return squared * np.abs(np.fft.rfft(ringing)) ** 2
 
 
@@ -279,7 +279,7 @@ def compute_driven_noise_in_pitch(model: Model, runs: Sequence[FitRun], values: 
     may be several times that of the load cells.
 
     Returns:
-        per run spectrum (m,) as `force_noise_in_pitch` gives it [N^2].
+        per run spectrum (m,) as `compute_force_noise_in_pitch` gives it [N^2].
     """
     run = min(runs, key=lambda r: len(r.time))
     frequency, damping = values["rig.pitch_frequency"], values["rig.pitch_damping"]
@@ -291,20 +291,22 @@ def compute_driven_noise_in_pitch(model: Model, runs: Sequence[FitRun], values: 
         response = compute_effects(model, run, specimen, run.force, acceleration=impulse[0], table=impulse[1])
         pitch = response.get("pitch")
         if pitch is not None and pitch.any():
-            size = np.abs(np.fft.rfft(through_pitch(pitch, run.dt, frequency, damping))) ** 2
+            size = np.abs(np.fft.rfft(pass_through_pitch(pitch, run.dt, frequency, damping))) ** 2
             for of, r in zip(power, runs, strict=True):
                 of += r.noise.get(channel, 0.0) ** 2 * np.interp(np.fft.rfftfreq(len(r.time), r.dt), at, size)
     return power
 
 
-def pitch_impulse_response(run: FitRun, values: Mapping[str, float]) -> Array:
+def compute_pitch_impulse_response(run: FitRun, values: Mapping[str, float]) -> Array:
     """Return what the girder's pitch makes of a pulse in the middle of a run, (n,) [1]."""
     impulse = np.zeros(len(run.time))
     impulse[len(impulse) // 2] = 1.0
-    return through_pitch(impulse, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
+    return pass_through_pitch(impulse, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])
 
 
-def noise_of_fault_correction(specimen: Specimen, reversal: Array, changed: Array, ringing: Array) -> dict[str, Array]:
+def compute_noise_of_correction(
+    specimen: Specimen, reversal: Array, changed: Array, ringing: Array
+) -> dict[str, Array]:
     """Return the noise that balances get where the law must predict what a faulty gauge of friction did not show.
 
     Args:
@@ -324,9 +326,9 @@ def noise_of_fault_correction(specimen: Specimen, reversal: Array, changed: Arra
 
 def compute_ringing_noise(model: Model, runs: Sequence[FitRun], values: Mapping[str, float]) -> dict[str, list[Array]]:
     """Return what rings with gauges' noise in pitch and heave: relation -> per run spectrum (m,) [N^2]."""
-    ringing = {"pitch": [force_noise_in_pitch(r, model.specimen, values) for r in runs]}
+    ringing = {"pitch": [compute_force_noise_in_pitch(r, model.specimen, values) for r in runs]}
     if model.specimen.storeys:
         ringing["storeys"] = [compute_noise_in_push(r, model.specimen) for r in runs]
     if model.with_hook("balance"):
-        ringing["heave"] = [bent_noise_in_heave(model, r) for r in runs]
+        ringing["heave"] = [compute_bent_noise_in_heave(model, r) for r in runs]
     return ringing

@@ -143,7 +143,7 @@ def estimate_lost_velocity(force: Array, run: FitRun, compliance: Array, by: Low
 _GAINS: dict[tuple[int, float, LowPass, bool, int], NDArray[np.inexact]] = {}
 
 
-def as_logged(force: Array, run: FitRun, by: LowPass | None, *, averaged: bool, delay: float = 0.0) -> Array:
+def log_force(force: Array, run: FitRun, by: LowPass | None, *, averaged: bool, delay: float = 0.0) -> Array:
     """Filter a force given at the instants (f, p) as the logger did and keep the samples (n, p).
 
     The states lag as much as the force does, so only the gain of a filter counts, but for what the samples fold.

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from slipwise.relations.evaluation_times import Instants
 from slipwise.relations.kinematics import CORRECTED, RIG_MOTIONS, STATES
-from slipwise.relations.measurement import is_on_force_gauge, on_force
-from slipwise.relations.pad_law import as_logged, compute_stick_share, drive_law, sum_forces_along
+from slipwise.relations.measurement import apply_on_force, is_on_force_gauge
+from slipwise.relations.pad_law import compute_stick_share, drive_law, log_force, sum_forces_along
 from slipwise.relations.parameters import ZERO, Term, build_fitted_model
 from slipwise.relations.run_data import FitRun
 from slipwise.relations.stages import Inputs, Stage
@@ -24,12 +24,12 @@ _LAW_NUMBERS = ("rig.shear_strength",)
 _SHORT_STICK = 1e-6
 
 
-def acts_on_pads(term: Term) -> bool:
+def is_on_pads(term: Term) -> bool:
     """Return whether the law of the pads depends on a term."""
     return (term.effect.port in _PAD_PORTS and bool(term.effect.instant_hooks)) or "rig" in term.effect.hooks
 
 
-def reverses(term: Term) -> bool:
+def is_reversing(term: Term) -> bool:
     """Return whether a term says over which slip friction turns round."""
     return bool(term.effect.reverses)
 
@@ -52,7 +52,7 @@ class PadResiduals:
     predicted: list[Array]
 
 
-def logger_filter(inputs: Inputs) -> LowPass | None:
+def get_logger_filter(inputs: Inputs) -> LowPass | None:
     """Return the logger's filter where the campaign knows none; else None."""
     frequency = inputs.values.get("rig.logger")
     return None if frequency is None else LowPass(frequency)
@@ -65,7 +65,7 @@ def _drive_law(inputs: Inputs) -> list[PadForces]:
     return drive_law(law, inputs.of(CORRECTED).runs, inputs.of(STATES), motions)
 
 
-def forces_along(inputs: Inputs, states: Sequence[Instants], law_forces: Sequence[PadForces]) -> list[Array]:
+def compute_forces_along(inputs: Inputs, states: Sequence[Instants], law_forces: Sequence[PadForces]) -> list[Array]:
     """Return the pads' forces along x at the instants, per run (f, p) [N].
 
     Args:
@@ -79,7 +79,7 @@ def forces_along(inputs: Inputs, states: Sequence[Instants], law_forces: Sequenc
     return [sum_forces_along(*each) for each in zip(law_forces, states, shares, strict=True)]
 
 
-def logged_forces(
+def compute_logged_forces(
     inputs: Inputs, states: Sequence[Instants], law_forces: Sequence[PadForces], delay: float
 ) -> list[Array]:
     """Return the pads' forces along x as a logger would have written them, per run (n, p) [N].
@@ -90,21 +90,21 @@ def logged_forces(
         law_forces: of the law for these states.
         delay: of the gauges of friction [s].
     """
-    by, zero, averaged = logger_filter(inputs), inputs.values.get(ZERO, 0.0), not inputs.terms
-    forces = zip(forces_along(inputs, states, law_forces), inputs.of(CORRECTED).runs, strict=True)
-    return [zero + as_logged(force, run, by, averaged=averaged, delay=delay) for force, run in forces]
+    by, zero, averaged = get_logger_filter(inputs), inputs.values.get(ZERO, 0.0), not inputs.terms
+    forces = zip(compute_forces_along(inputs, states, law_forces), inputs.of(CORRECTED).runs, strict=True)
+    return [zero + log_force(force, run, by, averaged=averaged, delay=delay) for force, run in forces]
 
 
 def _log(inputs: Inputs) -> list[Array]:
     delay = inputs.values.get("rig.late_force", 0.0)
-    return logged_forces(inputs, inputs.of(STATES), inputs.of(LAW_FORCES), delay)
+    return compute_logged_forces(inputs, inputs.of(STATES), inputs.of(LAW_FORCES), delay)
 
 
 def _measured_friction(inputs: Inputs) -> list[tuple[Array, Array]]:
     runs = inputs.of(CORRECTED).runs
     forces = inputs.of(LOGGED_FORCES) if inputs.terms else [run.force for run in runs]
     pairs = zip(runs, forces, strict=True)
-    return [on_force(inputs.terms, inputs.values, run, force, inputs.around) for run, force in pairs]
+    return [apply_on_force(inputs.terms, inputs.values, run, force, inputs.around) for run, force in pairs]
 
 
 def _leave_of_pads(inputs: Inputs) -> PadResiduals:
@@ -113,27 +113,27 @@ def _leave_of_pads(inputs: Inputs) -> PadResiduals:
     for i, (run, force) in enumerate(zip(inputs.of(CORRECTED).runs, inputs.of(LOGGED_FORCES), strict=True)):
         offset = faults[i][1]
         predicted.append(force + offset)
-        left.append(in_noise(inputs, "pads", i, run.force - force - offset, run))
+        left.append(divide_by_noise(inputs, "pads", i, run.force - force - offset, run))
     return PadResiduals(left, predicted)
 
 
 def _leave_across(inputs: Inputs) -> list[Array]:
-    by = logger_filter(inputs)
+    by = get_logger_filter(inputs)
     pairs = zip(inputs.of(CORRECTED).runs, inputs.of(LAW_FORCES), strict=True)
     sides = ((run, run.across - predict_logged_across(run, force, by)) for run, force in pairs)
-    return [in_noise(inputs, "across", i, side, run) for i, (run, side) in enumerate(sides)]
+    return [divide_by_noise(inputs, "across", i, side, run) for i, (run, side) in enumerate(sides)]
 
 
-def in_noise(inputs: Inputs, relation: str, place: int, left: Array, run: FitRun) -> Array:
+def divide_by_noise(inputs: Inputs, relation: str, place: int, left: Array, run: FitRun) -> Array:
     """Return a residual in units of its noise, as it is before that is known; zero where it is not judged."""
     sigmas = inputs.weighed("sigmas")
     return np.where(run.judged[relation], left / sigmas[relation][place] if sigmas else left, 0.0)
 
 
 #: Force and bound of every pad at the instants, one `PadForces` of every run.
-LAW_FORCES = Stage("forces of the law", _drive_law, acts_on_pads)
+LAW_FORCES = Stage("forces of the law", _drive_law, is_on_pads)
 #: Friction along x as a logger would have written it, per run (n, p) [N].
-LOGGED_FORCES = Stage("forces as logged", _log, reverses)
+LOGGED_FORCES = Stage("forces as logged", _log, is_reversing)
 #: Measured friction along x without its gauges' faults, and what they add to the predicted one, (n, p) each [N].
 MEASURED_FRICTION = Stage("measured friction", _measured_friction, is_fault_of_friction)
 #: Residual and prediction of friction along x.

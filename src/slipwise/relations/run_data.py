@@ -297,6 +297,6 @@ def _cubics(values, fine, out):  # pragma: no cover - compiled
         out[(count - 1) * fine, k] = values[count - 1, k]
 
 
-def smoothed(values: Array, run: FitRun) -> Array:
+def smooth_record(values: Array, run: FitRun) -> Array:
     """Return a channel without what lies above the logger's band."""
     return lowpass(values, run.dt, run.filtered or LowPass(0.2 / run.dt))

@@ -52,7 +52,7 @@ def mask_judged_and_ringing(
     kept = make_sample_masks(grounded, sliding, fast, mask_away_from_cuts(states.at_rest, states.dt), pads, invalid)
     ringing = mask_ringing_after_uplift(states.uplift, states.dt, states.specimen)
     kept = without_uplift(kept, ringing, states.uplift, states.dt)
-    kept["roll"] = kept["roll"] & roll_is_known(states.record, states.has_y, states.specimen)
+    kept["roll"] = kept["roll"] & is_roll_known(states.record, states.has_y, states.specimen)
     return kept, ringing
 
 
@@ -107,7 +107,7 @@ def is_rolling_only_at_rest(has_y: bool, specimen: Specimen) -> bool:
     return specimen.free and (has_y or coupled(specimen))
 
 
-def roll_is_known(record: Record, has_y: bool, specimen: Specimen) -> Mask:
+def is_roll_known(record: Record, has_y: bool, specimen: Specimen) -> Mask:
     """Return the samples (n,) at which what rolls the girder was measured."""
     if not is_rolling_only_at_rest(has_y, specimen):
         return np.ones(len(record), dtype=bool)

@@ -78,7 +78,7 @@ class Memo:
         self._kept[stage] = self._kept.get(stage, [])[1 - self.most :]
 
 
-def memo_for(measurements: Measurements) -> Memo:
+def make_memo(measurements: Measurements) -> Memo:
     """Return an empty memo for results as long as these runs."""
     return Memo(_KEPT if measurements.samples <= LONG else _KEPT_OF_LONG)
 

@@ -8,7 +8,7 @@ Where a pad is slow the direction of its velocity is noise, so only fast samples
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.relations.pad_law import as_logged
+from slipwise.relations.pad_law import log_force
 from slipwise.relations.run_data import FitRun
 from slipwise.signals.filters import LowPass
 from slipwise.simulation.predict import PadForces
@@ -24,4 +24,4 @@ def predict_logged_across(run: FitRun, law_forces: PadForces, by: LowPass | None
         law_forces: of the law at the instants, (f, p, 2) [N].
         by: the filter where the campaign does not know it.
     """
-    return as_logged(law_forces.force[:, :, 1], run, by, averaged=False)
+    return log_force(law_forces.force[:, :, 1], run, by, averaged=False)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import fftconvolve
 
-from slipwise.relations.girder import through_pitch
+from slipwise.relations.girder import pass_through_pitch
 from slipwise.relations.run_data import FitRun
 from slipwise.rig import Specimen
 from slipwise.rig.storeys import frame_modes
@@ -66,7 +66,7 @@ def locate_missed_instant(dt: float, frequency: float, damping: float) -> Array:
     turn = 2.0 * np.pi * frequency
     reach = int(3.0 / (turn * max(damping, 0.01) * dt)) + _BESIDE
     place = np.arange(-reach, reach + 1)
-    sampled = through_pitch((place > 0).astype(np.float64), dt, frequency, damping)
+    sampled = pass_through_pitch((place > 0).astype(np.float64), dt, frequency, damping)
     after = place[:, None] * dt - (np.arange(_INSTANTS) + 0.5) / _INSTANTS * dt
     rung = np.sqrt(max(1.0 - damping**2, 1e-6))
     swing = turn * rung * after

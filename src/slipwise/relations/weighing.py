@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.relations.kinematics import CORRECTED, RIG_MOTIONS, STATES, compliance, states_of_pads
-from slipwise.relations.measurement import compute_change_by_faults, on_force
+from slipwise.relations.kinematics import CORRECTED, RIG_MOTIONS, STATES, compute_compliance, compute_pad_states
+from slipwise.relations.measurement import apply_on_force, compute_change_by_faults
 from slipwise.relations.noise import (
     compute_balance_noise,
     compute_noise_across,
@@ -18,10 +18,10 @@ from slipwise.relations.pad_law import drive_law, estimate_lost_velocity
 from slipwise.relations.pad_stages import (
     LAW_FORCES,
     LOGGED_FORCES,
-    forces_along,
+    compute_forces_along,
+    compute_logged_forces,
+    get_logger_filter,
     is_fault_of_friction,
-    logged_forces,
-    logger_filter,
 )
 from slipwise.relations.parameters import build_fitted_model
 from slipwise.relations.setting import Weighing
@@ -48,13 +48,13 @@ def weigh(evaluation: Evaluation) -> Weighing:
     states, law_forces = evaluation.of(STATES), evaluation.of(LAW_FORCES)
     faults = tuple(term for term in evaluation.terms if is_fault_of_friction(term))
     inputs, law = evaluation.inputs(LOGGED_FORCES), predictor(model)
-    faster = states_of_pads(inputs, 1.0)
+    faster = compute_pad_states(inputs, 1.0)
     motions = evaluation.of(RIG_MOTIONS) if law.asks_for_motion else None
-    plain = logged_forces(inputs, states, law_forces, 0.0)
-    shifted = logged_forces(inputs, faster, drive_law(law, runs, faster, motions), 0.0)
+    plain = compute_logged_forces(inputs, states, law_forces, 0.0)
+    shifted = compute_logged_forces(inputs, faster, drive_law(law, runs, faster, motions), 0.0)
     for forces in (plain, shifted):  # a delayed gauge shows its reversals, and their noise, later too
         for i, run in enumerate(runs):
-            forces[i] = forces[i] + on_force(faults, values, run, forces[i])[1]
+            forces[i] = forces[i] + apply_on_force(faults, values, run, forces[i])[1]
     reversal = [compute_reversal_noise(*each) for each in zip(runs, plain, shifted, strict=True)]
     sigmas = {"pads": tuple(compute_pad_noise(*each) for each in zip(runs, plain, reversal, strict=True))}
     ringing: dict[str, tuple[Array, ...]] = {}
@@ -75,8 +75,8 @@ def _with_lost_velocity(evaluation: Evaluation) -> Weighing:
     states, law_forces = evaluation.of(STATES), evaluation.of(LAW_FORCES)
     inputs = evaluation.inputs(LOGGED_FORCES)
     specimen = build_fitted_model(measurements.specimen, evaluation.terms, evaluation.values).built_specimen()
-    soft, by = compliance(measurements, specimen, makes_yaw=evaluation.makes_yaw), logger_filter(inputs)
-    pairs = zip(forces_along(inputs, states, law_forces), runs, strict=True)
+    soft, by = compute_compliance(measurements, specimen, makes_yaw=evaluation.makes_yaw), get_logger_filter(inputs)
+    pairs = zip(compute_forces_along(inputs, states, law_forces), runs, strict=True)
     lost = tuple(estimate_lost_velocity(force, run, soft, by) for force, run in pairs)
     bounds = tuple(force.bound[:: run.fine] for force, run in zip(law_forces, runs, strict=True))
     return replace(evaluation.weighing, lost=lost, bounds=bounds)

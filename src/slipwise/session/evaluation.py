@@ -10,7 +10,7 @@ from slipwise.campaign.scales import scales_of
 from slipwise.comparison.component_level import NAMES
 from slipwise.estimation.base_fit import BaseFit, free_numbers, scale_model
 from slipwise.estimation.least_squares import Solution, solve
-from slipwise.estimation.objective import Objective, objective_of
+from slipwise.estimation.objective import Objective, make_objective
 from slipwise.model import Model, base_model
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared
@@ -71,7 +71,7 @@ class Evaluator:
         return replace(found[1], terms=state.terms, watch=watch)
 
     def _weighed(self, weights: Weights) -> Objective:
-        objective = objective_of(self.runs, self.model.specimen, weights.terms)
+        objective = make_objective(self.runs, self.model.specimen, weights.terms)
         objective = objective.with_yaw() if weights.yaw else objective
         if weights.before:
             objective = objective.weigh(weights.before, finer=weights.finer)
@@ -131,7 +131,7 @@ def evaluator(campaign: Campaign, model: Model | None) -> tuple[Evaluator, Sessi
     begun = scale_model(stated or base_model(whole.specimen), scales_of(whole), typical=model is None)
     ready = Evaluator(prepared, begun, fit_runs(whole, prepared.invalid))
     terms = make_terms(begun)
-    objective = objective_of(ready.runs, begun.specimen, terms)
+    objective = make_objective(ready.runs, begun.specimen, terms)
     values = {f.key: prepared.start.get(f.key, f.start) for f in free_numbers(whole, begun, objective)}
     return ready, SessionState(terms, values, Weights(terms, values, finer=False))
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from slipwise.campaign import Campaign, as_campaign
-from slipwise.diagnosis.ladder import placed
+from slipwise.diagnosis.ladder import place_effect
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.display import Drawn, Tabular
 from slipwise.errors import SettingError
@@ -103,7 +103,7 @@ def _added(session: Session, effect: str, progress: Progress | None) -> ModelCha
     tell = progress or _silent
     _fit(session, tell, "fitting without it", 0.0)
     tell("looking where it explains most", 0.45)
-    best = placed(session.ready.with_slopes(session.state), wanted)
+    best = place_effect(session.ready.with_slopes(session.state), wanted)
     words = f"{best.term.label} added"
     before = _errors(session)
     session.push(changes.with_terms(session.ready, session.state, [(best.term, best.values)], words), keep=False)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.comparison.measured_replay import get_measured_motion, simulation_step
-from slipwise.comparison.system_level import build_replayed_model, compare_system_level, pooled_system
-from slipwise.diagnosis.importance import memory_before
+from slipwise.comparison.measured_replay import choose_simulation_step, get_measured_motion
+from slipwise.comparison.system_level import build_replayed_model, compare_system_level, pool_system_errors
+from slipwise.diagnosis.importance import compute_memory_before
 from slipwise.errors import InputError, SettingError
 from slipwise.record import Record
 from slipwise.session.evaluation import Evaluator
@@ -64,7 +64,7 @@ def replay_errors(
     errors = compare_system_level(ready.as_fit(state), np.random.default_rng(_SEED), progress).errors
     held = any(e.role == "holdout" for e in errors)
     names = dict.fromkeys(re.sub(r"^pad_[^_]+_", "pad_*_", e.channel) for e in errors)
-    found = {name: pooled_system(errors, name, held_out=held) for name in names}
+    found = {name: pool_system_errors(errors, name, held_out=held) for name in names}
     return {name: error for name, error in found.items() if error is not None}
 
 
@@ -92,9 +92,9 @@ def replay_run(ready: Evaluator, state: SessionState, name: str = "") -> RunRepl
     answer = replay(
         model,
         get_measured_motion(run.states),
-        dt=simulation_step(run.dt),
+        dt=choose_simulation_step(run.dt),
         output_dt=run.dt,
-        start=memory_before(model, fit.objective.runs_before(place)),
+        start=compute_memory_before(model, fit.objective.runs_before(place)),
         rest=run.rest_before,
     )
     responses = {

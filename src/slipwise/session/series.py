@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from slipwise.comparison.component_level import NAMES
 from slipwise.estimation.objective import Objective
-from slipwise.relations.girder_stages import balance_sides
+from slipwise.relations.girder_stages import compute_balance_sides
 from slipwise.relations.table import Residuals
 from slipwise.rig.load_basis import WARPS
 from slipwise.session.state import SessionState
@@ -69,6 +69,6 @@ def series_of(objective: Objective, state: SessionState, residuals: Residuals, p
     if relation not in _TWO_SIDED:
         whole = tuple(1.0 for _ in floor)
         return Series(relation, run.name, labels, "1", run.time, part, np.zeros_like(part), whole)
-    predicted, measured = balance_sides(objective.evaluation(state.values), place)
+    predicted, measured = compute_balance_sides(objective.evaluation(state.values), place)
     sides = (measured[relation][:, None], predicted[relation][:, None])
     return Series(relation, run.name, labels, NAMES[relation][1], run.time, *sides, floor)

@@ -6,7 +6,7 @@ from typing import Any
 
 from slipwise.channels import channel
 from slipwise.comparison.component_level import NAMES
-from slipwise.diagnosis.candidates import candidates
+from slipwise.diagnosis.candidates import list_candidates
 from slipwise.effects import catalogue
 from slipwise.noise.level import AT_FLOOR
 from slipwise.preparation.gauge_groups import find_places_of_gauges
@@ -21,7 +21,7 @@ from slipwise.view.words.numbers import usual_unit
 def campaign_told(session: Session) -> dict[str, Any]:
     """Tell what does not change while a session is open: runs, balances, effects and whether they can be tested."""
     ready, record = session.ready, session.ready.runs[0].record
-    testable, cannot = candidates(ready.as_fit(session.state))
+    testable, cannot = list_candidates(ready.as_fit(session.state))
     names = {term.effect.name for term in testable}
     objective = ready.objective(session.state)
     return {

@@ -7,7 +7,7 @@ import pytest
 
 from hypotheses import base, diagnosed, left_by, searched
 from slipwise.cli import main
-from slipwise.comparison.measured_replay import simulation_step
+from slipwise.comparison.measured_replay import choose_simulation_step
 from slipwise.design import next_test as module
 from slipwise.design.motions import LIBRARY, Limits
 from slipwise.design.next_test import next_test, rivals
@@ -173,7 +173,7 @@ def test_effects_that_are_one_thing_to_the_verdict_but_not_to_the_runs_are_named
 
 @pytest.mark.parametrize("sampling", [0.002, 0.001, 1.0 / 256.0, 1e-4, 0.01, 0.0020000000000000018])
 def test_a_simulation_steps_no_coarser_than_usual_and_meets_every_sample(sampling: float) -> None:
-    step = simulation_step(sampling)
+    step = choose_simulation_step(sampling)
     assert step <= 0.0005 * (1.0 + 1e-9)
     assert sampling / step == pytest.approx(round(sampling / step), abs=1e-9)
     assert sampling / (round(sampling / step) - 0.999) > 0.0005, "no finer than it must be"

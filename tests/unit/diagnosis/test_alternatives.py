@@ -3,7 +3,7 @@
 import pytest
 
 from hypotheses import base, left_by, searched
-from slipwise.diagnosis.alternatives import discriminating_tests, explanations
+from slipwise.diagnosis.alternatives import list_discriminating_tests, list_explanations
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.verdict import Verdict
 from slipwise.effects import catalogue
@@ -21,19 +21,19 @@ def _search(*best: str) -> Search:
 def test_rivals_are_explanations_of_their_own_each_with_all_its_effects():
     pairs = _verdict("key_friction", "channel_filter", "channel_delay", rivals=(("key_friction", "channel_delay"),))
     best = ("key_friction", "channel_filter")
-    assert explanations(pairs, _search(*best)) == (best, ("key_friction", "channel_delay"))
+    assert list_explanations(pairs, _search(*best)) == (best, ("key_friction", "channel_delay"))
     three = _verdict("heating", "run_in", "breakaway", rivals=(("run_in",), ("breakaway",)))
-    assert explanations(three, _search("heating")) == (("heating",), ("run_in",), ("breakaway",))
+    assert list_explanations(three, _search("heating")) == (("heating",), ("run_in",), ("breakaway",))
 
 
 def test_the_same_effects_in_another_order_are_no_other_explanation():
     found = _verdict("heating", "run_in", "breakaway", rivals=(("run_in", "breakaway"), ("breakaway", "run_in")))
-    assert explanations(found, _search("heating", "run_in")) == (("heating", "run_in"), ("run_in", "breakaway"))
+    assert list_explanations(found, _search("heating", "run_in")) == (("heating", "run_in"), ("run_in", "breakaway"))
 
 
 def test_what_is_sure_belongs_to_every_explanation():
     found = _verdict("buffer_damping", "guide_drag", "dropped_samples")
-    assert explanations(found, _search("guide_drag")) == (
+    assert list_explanations(found, _search("guide_drag")) == (
         ("buffer_damping", "dropped_samples"),
         ("guide_drag", "dropped_samples"),
     )
@@ -43,13 +43,13 @@ def test_what_is_sure_belongs_to_every_explanation():
 def test_only_an_ambiguous_verdict_has_something_to_tell_apart(kind: str):
     effects = () if kind in ("complete", "unknown") else ("heating", "run_in")
     found = _verdict(*effects, kind=kind)
-    assert explanations(found, _search(*effects)) == ((effects,) if effects else ())
-    assert discriminating_tests(found, _search(*effects)) == ()
+    assert list_explanations(found, _search(*effects)) == ((effects,) if effects else ())
+    assert list_discriminating_tests(found, _search(*effects)) == ()
 
 
 def test_each_two_of_three_are_told_apart_in_the_words_of_an_effects_own_file():
     found = _verdict("heating", "run_in", "breakaway", rivals=(("run_in",), ("breakaway",)))
-    one, two, three = discriminating_tests(found, _search("heating"))
+    one, two, three = list_discriminating_tests(found, _search("heating"))
     assert one == f"run_in instead of heating: {catalogue()['heating'].confused_with['run_in']}"
     assert two.startswith("breakaway instead of heating: no effect's file names a test")
     # only the file of breakaway knows of the two
@@ -58,5 +58,5 @@ def test_each_two_of_three_are_told_apart_in_the_words_of_an_effects_own_file():
 
 def test_effects_that_two_explanations_share_are_not_told_apart():
     pairs = _verdict("key_friction", "channel_filter", "channel_delay", rivals=(("key_friction", "channel_delay"),))
-    (words,) = discriminating_tests(pairs, _search("key_friction", "channel_filter"))
+    (words,) = list_discriminating_tests(pairs, _search("key_friction", "channel_filter"))
     assert words.startswith("channel_delay instead of channel_filter: ") and "key_friction" not in words

@@ -31,7 +31,7 @@ def test_a_second_effect_stays_only_where_it_is_worth_it_as_reported(
         gone = {t.label for t in terms}
         return state, refitted(left_by(*(t for t in found.terms if t.label not in gone), of=of)).summary
 
-    monkeypatch.setattr(module, "final_refit_of", refitted)
+    monkeypatch.setattr(module, "refit_for_report", refitted)
     monkeypatch.setattr(module, "without", without)
     ended = with_final_refit(replace(searched(of, both), tried=tuple(singles)))
     assert ended.final.names == ended.best.names == kept

@@ -7,13 +7,13 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign, fit_base
 from slipwise.diagnosis.bound_check import keeps_its_gain, with_bounds_checked
-from slipwise.diagnosis.candidates import candidates
+from slipwise.diagnosis.candidates import list_candidates
 from slipwise.diagnosis.screening import Screened, screen
 from slipwise.estimation.base_fit import BaseFit
 
 
 def screened(base: BaseFit, *labels: str) -> dict[str, Screened]:
-    terms = [t for t in candidates(base)[0] if t.label in labels]
+    terms = [t for t in list_candidates(base)[0] if t.label in labels]
     return {s.term.label: s for s in screen(base, terms)}
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from measured import fit_base
 from slipwise.campaign import load_campaign
-from slipwise.diagnosis.candidates import candidates
+from slipwise.diagnosis.candidates import list_candidates
 from unit.campaign.slider import write_at_loads
 
 OF_LOAD = {"pressure_law", "slide_tilt"}
@@ -23,6 +23,6 @@ def test_effects_of_load_are_candidates_where_fitted_runs_differ_in_load(
     tmp_path: Path, loads: dict[str, float], testable: set[str]
 ) -> None:
     write_at_loads(tmp_path, loads, power=0.5)
-    terms, cannot = candidates(fit_base(load_campaign(tmp_path)))
+    terms, cannot = list_candidates(fit_base(load_campaign(tmp_path)))
     assert OF_LOAD & {t.effect.name for t in terms} == testable
     assert {name for name in OF_LOAD if "the load never changes" in cannot.get(name, "")} == OF_LOAD - testable

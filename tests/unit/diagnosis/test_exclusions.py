@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 
 from slipwise.campaign import Campaign, Logger, Run
-from slipwise.diagnosis.candidates import candidates
+from slipwise.diagnosis.candidates import list_candidates
 from slipwise.diagnosis.initial_grid import shapes, strengths
 from slipwise.diagnosis.row_subset import on_screen
-from slipwise.diagnosis.screening import projector
-from slipwise.diagnosis.sensitivities import column_of, residual_with, small
+from slipwise.diagnosis.screening import make_projector
+from slipwise.diagnosis.sensitivities import compute_column, compute_residual_with, small
 from slipwise.effects import NEEDS, catalogue, scaled
 from slipwise.estimation.base_fit import BaseFit, fit_base
 from slipwise.preparation.sample_faults import find_sample_faults
@@ -64,10 +64,10 @@ def term(base: BaseFit, name: str, target: str = "") -> Term:
 
 def columns(base: BaseFit, of: Term) -> list[np.ndarray]:
     """What it changes for every shape that is tried, each strength alone."""
-    off = residual_with(base, of, of.effect.neutral())
+    off = compute_residual_with(base, of, of.effect.neutral())
     assert off is not None
     points = [(p, small(of.effect, shape, p)) for shape in shapes(of.effect) for p in strengths(of.effect)]
-    found = [c for c in (column_of(base, of, p, values, off) for p, values in points) if c is not None]
+    found = [c for c in (compute_column(base, of, p, values, off) for p, values in points) if c is not None]
     longest = max(float(np.linalg.norm(c)) for c in found)
     return [c for c in found if np.linalg.norm(c) > 0.05 * longest > 0.0]  # a cell zeroed under load reads noise only
 
@@ -75,7 +75,7 @@ def columns(base: BaseFit, of: Term) -> list[np.ndarray]:
 def left(base: BaseFit, of: Term, *beside: Term) -> float:
     """The largest share of a column that neither the base's numbers nor what stands beside can make [1]."""
     own = on_screen(base.objective, base.solution.inside)
-    project = projector(np.column_stack([own, *(c for t in beside for c in columns(base, t))]))
+    project = make_projector(np.column_stack([own, *(c for t in beside for c in columns(base, t))]))
     found = [float(np.linalg.norm(project(c)) / np.linalg.norm(c)) for c in columns(base, of)]
     assert found, f"{of.label} changes nothing here"
     return max(found)
@@ -105,20 +105,23 @@ def test_what_needs_a_changing_load_is_an_offset_or_the_base_law_under_one_that_
 ) -> None:
     beside = [term(steady, "channel_offset", "pad_A_Fx")] if "offset" in catalogue()[name].steady else []
     assert left(steady, term(steady, name, target), *beside) < NOTHING
-    assert candidates(steady)[1][name] == f"the load never changes, and it is then one with {catalogue()[name].steady}"
+    assert (
+        list_candidates(steady)[1][name]
+        == f"the load never changes, and it is then one with {catalogue()[name].steady}"
+    )
 
 
 @pytest.mark.parametrize("name", ["slide_curvature", "restrainer"])
 def test_what_leans_with_the_slip_is_neither_under_a_load_that_stays(steady: BaseFit, name: str) -> None:
     beside = [term(steady, "channel_offset", "pad_A_Fx"), term(steady, "direction_asymmetry")]
     assert left(steady, term(steady, name), *beside) > SOMETHING
-    assert name in {t.effect.name for t in candidates(steady)[0]}
+    assert name in {t.effect.name for t in list_candidates(steady)[0]}
 
 
 @pytest.mark.parametrize("name", ["slide_tilt", "load_crosstalk", "direction_asymmetry"])
 def test_what_is_even_in_velocity_is_friction_where_the_slider_goes_one_way(one_way: BaseFit, name: str) -> None:
     assert left(one_way, term(one_way, name, OF_LOAD.get(name, ""))) < NOTHING
-    assert candidates(one_way)[1][name] == NEEDS["both directions"]
+    assert list_candidates(one_way)[1][name] == NEEDS["both directions"]
 
 
 def test_what_leans_with_the_slip_is_friction_that_changes_with_distance_where_the_slider_goes_one_way(
@@ -127,20 +130,20 @@ def test_what_leans_with_the_slip_is_friction_that_changes_with_distance_where_t
     for base, alike in ((one_way, True), (steady, False)):
         share = left(base, term(base, "slide_curvature"), term(base, "run_in"))
         assert share < NOTHING if alike else share > SOMETHING
-    assert candidates(one_way)[1]["slide_curvature"] == NEEDS["both directions"]
+    assert list_candidates(one_way)[1]["slide_curvature"] == NEEDS["both directions"]
 
 
 def test_one_run_there_and_one_back_are_both_directions() -> None:
     there_and_back = fit_base(campaign_of(run("there", ramp()), run("back", ramp(-1.0))))
-    assert {"slide_curvature", "direction_asymmetry"} <= {t.effect.name for t in candidates(there_and_back)[0]}
+    assert {"slide_curvature", "direction_asymmetry"} <= {t.effect.name for t in list_candidates(there_and_back)[0]}
     held_out = campaign_of(run("there", ramp()), replace(run("back", ramp(-1.0)), role="holdout"))
-    assert "slide_curvature" in candidates(fit_base(held_out))[1], "no fit has seen the way back"
+    assert "slide_curvature" in list_candidates(fit_base(held_out))[1], "no fit has seen the way back"
 
 
 @pytest.mark.parametrize("channel", ["pad_A_Fx", "pad_A_N", "slip_x"])
 def test_a_gain_of_a_sliders_gauge_is_one_with_its_friction(steady: BaseFit, channel: str) -> None:
     assert left(steady, term(steady, "channel_gain", channel)) < NOTHING
-    assert "one with the numbers of the friction law" in candidates(steady)[1]["channel_gain"]
+    assert "one with the numbers of the friction law" in list_candidates(steady)[1]["channel_gain"]
 
 
 def test_an_actuator_that_rests_at_its_ends_has_neither_a_rail_nor_lost_samples() -> None:
@@ -151,7 +154,7 @@ def test_an_actuator_that_rests_at_its_ends_has_neither_a_rail_nor_lost_samples(
     cut = np.clip(force + np.random.default_rng(1).normal(0.0, 50.0, force.size), -2.0e3, 2.0e3)
     found = find_sample_faults(campaign_of(run("cut", sine(), pad_A_Fx=cut)))
     assert {f.kind for f in found} == {"upper rail", "lower rail"}
-    assert "only its slip" in candidates(fit_base(campaign_of(run("rests", resting))))[1]["channel_clipping"]
+    assert "only its slip" in list_candidates(fit_base(campaign_of(run("rests", resting))))[1]["channel_clipping"]
 
 
 def test_a_force_that_drives_the_slip_is_reversed_and_a_spring_is_not() -> None:
@@ -166,5 +169,5 @@ def test_a_force_that_drives_the_slip_is_reversed_and_a_spring_is_not() -> None:
 def test_load_is_told_from_speed_by_two_runs_of_unlike_load_at_one_speed() -> None:
     mixed = campaign_of(run("a", sine(0.1), 10e3), run("bb", sine(0.3), 30e3))
     crossed = campaign_of(*mixed.runs, run("ccc", sine(0.1), 30e3), run("dddd", sine(0.3), 10e3))
-    assert "speed differs between these runs too" in candidates(fit_base(mixed))[1]["load against speed"]
-    assert "load against speed" not in candidates(fit_base(crossed))[1]
+    assert "speed differs between these runs too" in list_candidates(fit_base(mixed))[1]["load against speed"]
+    assert "load against speed" not in list_candidates(fit_base(crossed))[1]

@@ -6,7 +6,7 @@ from bench import Fault, build_campaign, with_faults
 from measured import as_campaign, fit_base
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.gauge_error_shrinkage import shares_that_stay
-from slipwise.diagnosis.hypothesis import polished, refit
+from slipwise.diagnosis.hypothesis import polish, refit
 from slipwise.diagnosis.screening import screen
 from slipwise.effects import catalogue
 from slipwise.relations.parameters import Term
@@ -19,7 +19,7 @@ def share_of_one(faults: list[Fault]) -> tuple[float, float]:
     """Give what the first cell's gain is fitted to where it alone is asked, and the share of it that stays."""
     base = fit_base(as_campaign(with_faults(build_campaign(61, effects=(), rig="bridge1"), faults, 5)))
     term = GAINS[0]
-    found = polished(refit(base, [term], {term.label: term.effect.typical()}))
+    found = polish(refit(base, [term], {term.label: term.effect.typical()}))
     size = found.solution.values[f"{term.label}.gain"]
     stays = shares_that_stay(found, {"channel_gain": abs(size) / 0.01}, screen(base, GAINS), Materiality())
     return size, stays["channel_gain"]

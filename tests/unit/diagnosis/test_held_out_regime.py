@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from hypotheses import measured
 from slipwise.campaign import Campaign
-from slipwise.diagnosis.held_out_regime import not_testable
+from slipwise.diagnosis.held_out_regime import find_untestable_reason
 from slipwise.estimation.base_fit import fit_base
 from slipwise.estimation.objective import Objective
 
@@ -20,12 +20,12 @@ def _objective(campaign: Campaign, factor: float) -> Objective:
 
 
 def test_a_run_within_what_was_fitted_can_be_tested():
-    assert not_testable(_objective(measured(), 1.0)) == {}
+    assert find_untestable_reason(_objective(measured(), 1.0)) == {}
 
 
 def test_a_run_that_goes_beyond_is_told_with_what_it_reaches():
     objective = _objective(measured(), 3.0)
-    found = not_testable(objective)
+    found = find_untestable_reason(objective)
     assert list(found) == objective.held_out
     assert "speeds reach" in found[objective.held_out[0]] and "strokes reach" in found[objective.held_out[0]]
     assert "loads" not in found[objective.held_out[0]]

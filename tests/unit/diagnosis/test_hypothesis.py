@@ -7,9 +7,9 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign, fit_base
-from slipwise.diagnosis.detectable_size import least_sizes
-from slipwise.diagnosis.hypothesis import base_hypothesis, refit
-from slipwise.diagnosis.screening import projector, screen
+from slipwise.diagnosis.detectable_size import estimate_least_sizes
+from slipwise.diagnosis.hypothesis import make_base_hypothesis, refit
+from slipwise.diagnosis.screening import make_projector, screen
 from slipwise.effects import catalogue
 from slipwise.evidence.acceptance import LEAST
 from slipwise.model import base_model, use
@@ -24,7 +24,7 @@ def base():
 
 def test_an_effect_that_was_taken_out_is_begun_from_its_start_not_from_what_it_was(base):
     term = Term(catalogue()["run_in"])
-    before = base_hypothesis(base)
+    before = make_base_hypothesis(base)
     start = {**term.effect.typical(), "rise": 0.1}
     left = {**{f"run_in.{name}": 0.9 * value for name, value in start.items()}, "rig.yaw_inertia": 1.0}
     solution = replace(before.solution, values={**before.solution.values, **left})
@@ -46,7 +46,7 @@ def test_every_candidate_with_a_strength_has_a_least_size_whichever_way_the_resi
     terms = [
         Term(catalogue()[name]) for name in ("heating", "run_in", "breakaway", "buffer_damping", "buffer_hysteresis")
     ]
-    sizes = least_sizes(screen(base, terms), base_hypothesis(base))
+    sizes = estimate_least_sizes(screen(base, terms), make_base_hypothesis(base))
     assert set(sizes) == {t.effect.name for t in terms}
     assert all(size > 0.0 for size, _ in sizes.values())
 
@@ -55,16 +55,16 @@ def test_a_least_size_is_one_at_which_a_relation_falls_by_what_is_material(base)
     """Of the true size s the screen's column is s times that of the unit: its drop per sample is what is material."""
     term = Term(catalogue()["buffer_damping"])
     found = screen(base, [term])
-    size, unit = least_sizes(found, base_hypothesis(base))["buffer_damping"]
+    size, unit = estimate_least_sizes(found, make_base_hypothesis(base))["buffer_damping"]
     assert unit == "N*s/m"
     left = base.solution.residuals.stacked(base.objective.fitted)
     shape = {f"buffer_damping.{k}": v for k, v in found[0].values.items()}
     moved = {**base.solution.values, **shape, "buffer_damping.damping": size}
     there = base.objective.adding(term).residuals(moved, fitted_only=True)
-    step = projector(base.solution.jacobian)(there.stacked(base.objective.fitted) - left)
+    step = make_projector(base.solution.jacobian)(there.stacked(base.objective.fitted) - left)
     fallen = dict.fromkeys(base.objective.relations, 0.0)
     for rows, block in base.solution.residuals.rows(base.objective.fitted):
         fallen[block.relation] += float(np.sum(step[rows] ** 2))
-    counts = base_hypothesis(base).summary.counts
+    counts = make_base_hypothesis(base).summary.counts
     drops = [fall / counts[relation][0] for relation, fall in fallen.items()]
     assert max(drops) == pytest.approx(LEAST.law, rel=0.1)

@@ -8,10 +8,10 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign, fit_base
 from slipwise.campaign import Campaign, Logger, Run
-from slipwise.diagnosis.candidates import candidates
-from slipwise.diagnosis.hypothesis import base_hypothesis
-from slipwise.diagnosis.identifiability import alone, unidentified
-from slipwise.diagnosis.limitations import cannot_tell
+from slipwise.diagnosis.candidates import list_candidates
+from slipwise.diagnosis.hypothesis import make_base_hypothesis
+from slipwise.diagnosis.identifiability import list_unidentified, separate_each
+from slipwise.diagnosis.limitations import list_limitations
 from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.search_state import Search
 from slipwise.effects import catalogue
@@ -60,7 +60,7 @@ def reasons(base: BaseFit, terms: list[Term] = FADES_AND_LASTS, *, screened: boo
     """Say what is cannot_tell after a search that has seen something in every term, or in none."""
     nothing = np.zeros(0)
     found = [Screened(t, {}, 0.0, 0.0, nothing, 0.0) for t in terms] if screened else []
-    return dict(cannot_tell(Search(base, {}, terms, (), (base_hypothesis(base),), screened=found), base))
+    return dict(list_limitations(Search(base, {}, terms, (), (make_base_hypothesis(base),), screened=found), base))
 
 
 def test_cells_of_pads_of_any_name_are_told_as_one_card() -> None:
@@ -81,8 +81,8 @@ def test_what_a_dead_gauge_hides_is_told_with_the_effects_that_no_other_shows(wh
     ready = prepare(replace(whole, runs=runs).with_records(dead, ""))
     fit = fit_prepared(ready)
     hidden = [Term(catalogue()["buffer_hardening"])]
-    state = Search(fit, {}, hidden, [], (base_hypothesis(fit),), screened=[])
-    told = dict(cannot_tell(state, fit, ready.faults))
+    state = Search(fit, {}, hidden, [], (make_base_hypothesis(fit),), screened=[])
+    told = dict(list_limitations(state, fit, ready.faults))
     assert told["balances"] == (
         "pad_D_Fx shows nothing, and without it no fitted run shows the balance of girder, pitch"
     )
@@ -91,7 +91,7 @@ def test_what_a_dead_gauge_hides_is_told_with_the_effects_that_no_other_shows(wh
 
 @pytest.mark.slow
 def test_a_full_campaign_tells_every_number_and_heat_from_wear(base: BaseFit) -> None:
-    assert unidentified(base, base) == []
+    assert list_unidentified(base, base) == []
     assert [key.partition(" ")[0] for key in reasons(base)] == ["faults"]
 
 
@@ -130,14 +130,14 @@ def test_a_verdict_without_a_held_out_run_is_said_to_be_one(whole: Campaign, bas
 
 
 def test_gauges_on_which_no_fault_is_a_candidate_are_named_on_one_line(base: BaseFit) -> None:
-    lines = [key for key in reasons(base, candidates(base)[0]) if key.startswith("faults of")]
+    lines = [key for key in reasons(base, list_candidates(base)[0]) if key.startswith("faults of")]
     assert lines == ["faults of table_az"]
     lines = [key for key in reasons(base, []) if key.startswith("faults of")]
     assert len(lines) == 1 and "pad_*_N, pad_*_Fx" in lines[0]
 
 
 def test_pressure_is_not_identified_under_a_load_that_stays() -> None:
-    steady, swinging = (dict(unidentified(b, b)) for b in map(fit_base, (slider(0.0), slider(0.3))))
+    steady, swinging = (dict(list_unidentified(b, b)) for b in map(fit_base, (slider(0.0), slider(0.3))))
     assert "the load hardly changes (0 %)" in steady["contact_area.saturation (k)"]
     assert "contact_area.saturation (k)" not in swinging
 
@@ -147,21 +147,21 @@ def test_a_number_on_its_bound_is_not_identified() -> None:
     key = "shear_rate.strength"
     high = next(f.high for f in base.free if f.key == key)
     ended = replace(base, solution=replace(base.solution, values={**base.solution.values, key: high}))
-    assert dict(unidentified(ended, base))[f"{key} (s')"].startswith("the fit ended on its upper bound, 139 MPa")
+    assert dict(list_unidentified(ended, base))[f"{key} (s')"].startswith("the fit ended on its upper bound, 139 MPa")
 
 
 def test_a_column_that_others_can_make_is_not_identified_however_long_it_is() -> None:
     rng = np.random.default_rng(2)
     slopes = rng.normal(size=(400, 3))
     slopes[:, 2] = 5.0 * slopes[:, 0]
-    own, tie = alone(slopes.T @ slopes)
+    own, tie = separate_each(slopes.T @ slopes)
     assert own[0] < 1e-4 and own[2] < 1e-3 and own[1] == pytest.approx(20.0, rel=0.1)
     assert tie[0, 2] == pytest.approx(-1.0) and abs(tie[0, 1]) < 0.5
 
 
 def test_a_candidate_that_cannot_be_evaluated_is_said_with_the_error() -> None:
     base = fit_base(slider(0.3, pressure=True))
-    terms = [t for t in candidates(base)[0] if t.effect.name == "slide_tilt"]
+    terms = [t for t in list_candidates(base)[0] if t.effect.name == "slide_tilt"]
     unfit = Term(catalogue()["load_crosstalk"], ("pad_A_Fx",), "pad_A_Fx")
     found = reasons(base, [*terms, unfit], screened=False)
     assert found["load_crosstalk"].startswith("it could not be evaluated: ") and "pad_A_N" in found["load_crosstalk"]
@@ -169,7 +169,7 @@ def test_a_candidate_that_cannot_be_evaluated_is_said_with_the_error() -> None:
 
 
 def test_cross_talk_is_not_tried_where_no_load_was_recorded() -> None:
-    terms, cannot = candidates(fit_base(slider(0.3, pressure=True)))
+    terms, cannot = list_candidates(fit_base(slider(0.3, pressure=True)))
     assert "load_crosstalk" not in {t.effect.name for t in terms}
     assert cannot["load_crosstalk"] == "no gauge was recorded on which it would show"
 
@@ -181,7 +181,7 @@ def test_an_effect_that_changes_nothing_that_was_measured_is_said() -> None:
 
 
 def test_faults_of_samples_are_not_looked_for_on_one_slider() -> None:
-    _, cannot = candidates(fit_base(slider(0.3)))
+    _, cannot = list_candidates(fit_base(slider(0.3)))
     assert {"channel_sign", "channel_clipping", "dropped_samples"} <= cannot.keys()
 
 

@@ -9,8 +9,8 @@ from bench import build_campaign
 from measured import as_campaign, fit_base
 from slipwise.diagnosis import jacobian_memory as kept_slopes
 from slipwise.diagnosis import row_subset as screened_rows
-from slipwise.diagnosis.full_length_errors import errors_on_all_samples
-from slipwise.diagnosis.hypothesis import base_hypothesis
+from slipwise.diagnosis.full_length_errors import compute_full_length_errors
+from slipwise.diagnosis.hypothesis import make_base_hypothesis
 from slipwise.diagnosis.screening import screen
 from slipwise.effects import catalogue
 from slipwise.record import Record
@@ -25,7 +25,7 @@ def base():
 
 
 def test_slopes_of_the_best_are_kept_and_the_others_are_taken_anew_where_they_are_asked_for(base, monkeypatch):
-    found = base_hypothesis(base)
+    found = make_base_hypothesis(base)
     tried = [replace(found, terms=()) for _ in range(3)]
     worth = {id(h): number for h, number in zip(tried, (1.0, 3.0, 2.0), strict=True)}
     monkeypatch.setattr(kept_slopes, "ROOM", int(2.5 * kept_slopes.size_of(found.solution)))
@@ -61,16 +61,16 @@ def test_a_thinned_screen_sees_the_same_candidates_with_nearly_the_same_gains(ba
 
 
 def test_a_held_out_run_of_which_a_stretch_was_judged_is_predicted_over_all_its_samples(base):
-    whole, found = base.campaign, base_hypothesis(base)
+    whole, found = base.campaign, make_base_hypothesis(base)
     last = whole.runs[-1]
     record = Record(last.record.time[:900], {name: values[:900] for name, values in last.record.channels.items()})
     cut = replace(whole, runs=(*whole.runs[:-1], replace(last, record=record)))
-    assert last.role == "holdout" and errors_on_all_samples(whole, {}, whole, [found]) == {}
-    both = errors_on_all_samples(whole, {}, cut, [found, found])
+    assert last.role == "holdout" and compute_full_length_errors(whole, {}, whole, [found]) == {}
+    both = compute_full_length_errors(whole, {}, cut, [found, found])
     assert list(both) == list(base.objective.relations)
     again = base.objective.weigh(base.solution.values)
     for error in errors_of(again, again.residuals(base.solution.values)):
         assert both[error.relation][0] == pytest.approx(error.held_out, rel=0.01)
         assert both[error.relation][0] == both[error.relation][1]
     bad = {last.name: {"pad_A_Fx": np.arange(len(last.record)) % 2 == 0}}
-    assert errors_on_all_samples(whole, bad, cut, [found])["pads"] != both["pads"][:1]
+    assert compute_full_length_errors(whole, bad, cut, [found])["pads"] != both["pads"][:1]

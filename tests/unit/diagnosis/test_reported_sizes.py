@@ -7,9 +7,9 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign, fit_base
-from slipwise.diagnosis.hypothesis import Hypothesis, polished, refit
-from slipwise.diagnosis.hypothesis_fit import as_fit
-from slipwise.diagnosis.reported_sizes import named_sizes
+from slipwise.diagnosis.hypothesis import Hypothesis, polish, refit
+from slipwise.diagnosis.hypothesis_fit import make_fit
+from slipwise.diagnosis.reported_sizes import list_named_sizes
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import compute_intervals
@@ -21,19 +21,19 @@ def fitted() -> tuple[Hypothesis, BaseFit]:
     made = build_campaign(42016, effects=("buffer_height",), size="medium", rig="bridge1")
     base = fit_base(as_campaign(made))
     term = Term(catalogue()["buffer_height"])
-    found = polished(refit(base, [term], {term.label: term.effect.typical()}))
-    return found, as_fit(base, found)
+    found = polish(refit(base, [term], {term.label: term.effect.typical()}))
+    return found, make_fit(base, found)
 
 
 def test_an_interval_is_wider_than_that_of_a_true_law(fitted: tuple[Hypothesis, BaseFit]) -> None:
     found, fit = fitted
     key = "buffer_height.height"
     true = next(i for i in compute_intervals(fit).entries if i.key == key)
-    wide = named_sizes(found, compute_intervals(fit).entries)[key]
+    wide = list_named_sizes(found, compute_intervals(fit).entries)[key]
     half = np.hypot(1.5 * (true.high - true.value), 0.02 * true.value)
     assert wide.value == true.value
     assert wide.high - wide.value == pytest.approx(half) == wide.value - wide.low
-    assert set(named_sizes(found, compute_intervals(fit).entries)) == {key}, "numbers of the rig are not named"
+    assert set(list_named_sizes(found, compute_intervals(fit).entries)) == {key}, "numbers of the rig are not named"
 
 
 def test_an_interval_ends_where_a_parameter_does(fitted: tuple[Hypothesis, BaseFit]) -> None:
@@ -42,10 +42,10 @@ def test_an_interval_ends_where_a_parameter_does(fitted: tuple[Hypothesis, BaseF
     close = tuple(replace(f, high=1.001 * value) if f.key.startswith("buffer_height") else f for f in fit.free)
     solution = replace(found.solution, free=close)
     narrowed = compute_intervals(replace(fit, solution=replace(fit.solution, free=close))).entries
-    narrow = named_sizes(replace(found, solution=solution), narrowed)
+    narrow = list_named_sizes(replace(found, solution=solution), narrowed)
     assert narrow["buffer_height.height"].high == pytest.approx(1.001 * value)
 
 
 def test_without_a_fit_of_its_own_a_size_has_no_interval(fitted: tuple[Hypothesis, BaseFit]) -> None:
-    only = named_sizes(fitted[0], ())["buffer_height.height"]
+    only = list_named_sizes(fitted[0], ())["buffer_height.height"]
     assert np.isnan(only.low) and np.isnan(only.high) and only.value > 0.0

@@ -5,9 +5,9 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign, fit_base
-from slipwise.diagnosis.candidates import candidates
+from slipwise.diagnosis.candidates import list_candidates
 from slipwise.diagnosis.initial_grid import is_placed, places, shapes, strengths, variants
-from slipwise.diagnosis.screening import projector, screen
+from slipwise.diagnosis.screening import make_projector, screen
 from slipwise.effects import catalogue
 
 
@@ -15,7 +15,7 @@ def test_what_the_base_can_do_is_projected_out_and_the_rest_stays() -> None:
     rng = np.random.default_rng(1)
     base = rng.normal(size=(200, 4))
     base[:, 3] = 2.0 * base[:, 0]  # parameters that are one thing must not spoil the others
-    project = projector(base)
+    project = make_projector(base)
     other = rng.normal(size=200)
     assert np.allclose(project(base @ np.array([1.0, -2.0, 0.5, 3.0])), 0.0, atol=1e-9)
     assert np.allclose(base.T @ project(other), 0.0, atol=1e-9)
@@ -71,7 +71,7 @@ def test_a_lag_of_many_milliseconds_is_found_at_its_size_though_a_straight_line_
     made = build_campaign(46178, effects=("channel_delay",), size="large")
     base = fit_base(as_campaign(made))
     fault = made.truth.as_dict()["details"]["channel_delay"]
-    delays = [t for t in candidates(base)[0] if t.effect.name == "channel_delay"]
+    delays = [t for t in list_candidates(base)[0] if t.effect.name == "channel_delay"]
     best = screen(base, delays)[0]
     assert set(best.term.targets) == set(fault["channels"])
     assert best.values["delay"] == pytest.approx(fault["size"], rel=0.1)
@@ -82,7 +82,7 @@ def test_a_lag_of_many_milliseconds_is_found_at_its_size_though_a_straight_line_
 def test_unlike_buffers_are_found_where_friction_holds_the_girder_until_they_are_unlike_enough() -> None:
     made = build_campaign(48062, effects=("buffer_mismatch",), size="large")
     base = fit_base(as_campaign(made))
-    mismatch = next(t for t in candidates(base)[0] if t.effect.name == "buffer_mismatch")
+    mismatch = next(t for t in list_candidates(base)[0] if t.effect.name == "buffer_mismatch")
     found = screen(base, [mismatch])[0]
     truth = made.truth.as_dict()["details"]["buffer_mismatch"]["mismatch"]
     assert found.values["difference"] == pytest.approx(truth, rel=0.1)

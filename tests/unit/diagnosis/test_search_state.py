@@ -6,8 +6,8 @@ from bench import build_campaign
 from hypotheses import base, left_by, searched
 from measured import as_campaign, fit_base
 from slipwise.diagnosis import search_state as module
-from slipwise.diagnosis.candidates import candidates
-from slipwise.diagnosis.hypothesis import Hypothesis, base_hypothesis
+from slipwise.diagnosis.candidates import list_candidates
+from slipwise.diagnosis.hypothesis import Hypothesis, make_base_hypothesis
 from slipwise.diagnosis.search_state import Search, left_with, try_all
 
 
@@ -26,11 +26,11 @@ def test_only_the_promising_are_fitted_to_the_end(monkeypatch: pytest.MonkeyPatc
         ended.append(found.names)
         return found
 
-    monkeypatch.setattr(module, "polished", polished)
+    monkeypatch.setattr(module, "polish", polished)
     base = fit_base(as_campaign(build_campaign(7005, effects=("run_in",), size="medium")))
-    terms = {t.label: t for t in candidates(base)[0]}
+    terms = {t.label: t for t in list_candidates(base)[0]}
     asked = [([terms[name]], {name: terms[name].effect.typical()}) for name in ("run_in", "pad_spread", "heating")]
-    begun = Search(base, {}, [], (), (base_hypothesis(base),))
+    begun = Search(base, {}, [], (), (make_base_hypothesis(base),))
     state, every = try_all(begun, asked)
     assert begun.tried == () and len(state.tried) == len(asked)
     assert [h.names for h in every[:2]] == ended and every[0].names == ("run_in",)

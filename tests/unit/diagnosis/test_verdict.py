@@ -185,7 +185,7 @@ def test_a_model_that_leaves_three_floors_and_a_twentieth_of_the_error_is_not_co
     """Squared errors in noise variances: of 100 floors 4.5 are less than a twentieth, 10 are a tenth."""
     of = base(pads=before)
     state = searched(of, left_by("heating", of=of, pads=after))
-    assert verdict.confirmed(state) is confirmed_by_it
+    assert verdict.is_confirmed(state) is confirmed_by_it
     found, all_of_it = _decided(of, *state.tried), _decided(of, left_by("heating", of=of))
     assert found.effects == all_of_it.effects == ("heating",)
     assert (found.probability < 0.8) is not confirmed_by_it

@@ -63,7 +63,7 @@ def told(unknown: tuple[Diagnosis, BaseFit], monkeypatch: pytest.MonkeyPatch) ->
 
         monkeypatch.setattr(module, "find_law", found)
         monkeypatch.setattr(module, "different", list)
-        monkeypatch.setattr(module, "as_fit", lambda *_: second)
+        monkeypatch.setattr(module, "make_fit", lambda *_: second)
         monkeypatch.setattr(module, "with_slopes", lambda _, solution: solution)
         monkeypatch.setattr(module, "pad_instants", lambda *_: None)
         monkeypatch.setattr(module, "compute_intervals", lambda _: SimpleNamespace(entries=()))

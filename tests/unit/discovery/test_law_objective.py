@@ -12,7 +12,7 @@ from hypotheses import table_of
 from slipwise.discovery.discover import _without_needless
 from slipwise.discovery.law_objective import LawObjective, PlacedLaw
 from slipwise.estimation.least_squares import Solution, solve, with_slopes
-from slipwise.relations.girder import through_pitch
+from slipwise.relations.girder import pass_through_pitch
 from slipwise.relations.parameters import Free
 from slipwise.relations.setting import Weighing
 from slipwise.relations.stages import Evaluation, Memo, Stage
@@ -49,7 +49,7 @@ def test_a_force_at_the_centre_does_not_tip_the_girder() -> None:
 
 
 def test_a_force_below_the_centre_tips_the_girder_by_its_lever_whatever_its_mass() -> None:
-    expected = through_pitch(FORCE * 0.4 / 1.5, 0.005, 20.0, 0.1) / 50.0
+    expected = pass_through_pitch(FORCE * 0.4 / 1.5, 0.005, 20.0, 0.1) / 50.0
     np.testing.assert_allclose(tipped(0.4)["pitch"][0], expected, rtol=1e-9, atol=1e-9)
     heavier = tipped(0.4, values={**VALUES, "rig.mass": 5e3})
     np.testing.assert_allclose(heavier["pitch"][0], expected, rtol=1e-9, atol=1e-9)

@@ -10,9 +10,9 @@ from measured import fit_base
 from recover.own_replay import noise_of
 from slipwise.campaign import Campaign, Logger, Run, load_campaign
 from slipwise.comparison.component_level import compute_component_errors, pool_errors
-from slipwise.comparison.system_level import pad_springs
+from slipwise.comparison.system_level import list_pad_springs
 from slipwise.errors import InputError
-from slipwise.estimation.objective import objective_of
+from slipwise.estimation.objective import make_objective
 from slipwise.model import base_model, use
 from slipwise.record import Record, write_record
 from slipwise.relations.rigid_balances import list_rigid_balances
@@ -131,7 +131,7 @@ def test_the_pads_springs_are_found_under_storeys_too(record: Record) -> None:
     run = Run("q", "fit", Record(record.time, noisy), 0.0, None, "q", "q")
     campaign = Campaign("b", "building", specimen, Logger(None, known=True), (run,), Path())
     base = fit_base(campaign)
-    found = pad_springs(base, base.model)
+    found = list_pad_springs(base, base.model)
     assert found is not None and found[0] == pytest.approx(specimen.pad_stiffness, rel=0.03)
 
 
@@ -144,7 +144,7 @@ def test_a_storey_that_was_not_measured_leaves_out_what_it_pushes(record: Record
         'name = "b"\nrig = "building"\n[[run]]\nfile = "run.parquet"\nrole = "fit"\n'
     )
     campaign = load_campaign(tmp_path)
-    objective = objective_of(fit_runs(campaign), campaign.specimen, ())
+    objective = make_objective(fit_runs(campaign), campaign.specimen, ())
     assert {"girder", "pitch"}.isdisjoint(objective.relations) is bool(lost)
     assert {"heave", "warp", "motion"} <= set(objective.relations)
     audited, cannot = list_rigid_balances(campaign.runs[0].record, campaign.specimen)

@@ -10,7 +10,7 @@ from bench.campaign import Campaign as Made
 from bench.campaign import with_faults
 from bench.faults import Fault
 from measured import as_campaign, fit_base
-from slipwise.diagnosis.hypothesis import final_refit_of, polished, refit
+from slipwise.diagnosis.hypothesis import polish, refit, refit_for_report
 from slipwise.effects import catalogue
 from slipwise.evidence.residual_summary import summarise_residuals
 from slipwise.model import base_model
@@ -32,7 +32,7 @@ def test_a_strong_filter_of_the_girder_is_put_on_what_the_balance_predicts(made:
     fault = Fault("channel_filter", ("girder_ax",), CUTOFF, form="second order")
     base = fit_base(as_campaign(with_faults(made, [fault], 5)))
     term, lag = Term(catalogue()["channel_filter"], ("girder_ax",), "girder_ax"), np.sqrt(2.0) / (2.0 * np.pi * CUTOFF)
-    found = final_refit_of(polished(refit(base, [term], {term.label: {"lag": lag, "order": 2.0}})))
+    found = refit_for_report(polish(refit(base, [term], {term.label: {"lag": lag, "order": 2.0}})))
     before, after = (
         np.sqrt(of.held_out_level("girder"))
         for of in (summarise_residuals(base.objective, base.solution), found.summary)

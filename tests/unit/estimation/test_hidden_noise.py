@@ -9,7 +9,12 @@ from bench import build_campaign
 from measured import as_campaign
 from slipwise.model import base_model, use
 from slipwise.relations.girder import compute_heave_rate
-from slipwise.relations.noise import bent_noise_in_heave, vertical_friction_noise, whiten_residual, with_masked_noise
+from slipwise.relations.noise import (
+    compute_bent_noise_in_heave,
+    compute_vertical_friction_noise,
+    whiten_residual,
+    with_masked_noise,
+)
 from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.signals.oscillator import oscillator
 
@@ -37,7 +42,7 @@ def test_a_residual_that_changes_sign_does_not_jump() -> None:
 def test_a_girder_that_bends_rings_with_the_noise_of_its_accelerometer(run: FitRun) -> None:
     model = base_model("bridge1").adding(use("girder_bending", share=0.4, frequency=13.0, damping=0.01))
     mass, level = model.specimen.mass, run.noise["girder_az"]
-    more, own = bent_noise_in_heave(model, run), float(np.hypot(80.0, mass * level))
+    more, own = compute_bent_noise_in_heave(model, run), float(np.hypot(80.0, mass * level))
     rng, frequency = np.random.default_rng(4), np.fft.rfftfreq(len(run.time), run.dt)
     near = np.abs(frequency - 13.0) < 1.0
 
@@ -63,5 +68,5 @@ def test_what_rubs_against_heave_passes_on_the_noise_of_the_loads(run: FitRun) -
     noisy = replace(run, load=run.load + rng.standard_normal(run.load.shape) * levels)
     plain, shaken = (np.tanh(compute_heave_rate(r.load.sum(axis=1), r.dt, model.specimen) / 5e-4) for r in (run, noisy))
     made = 0.3 * 8e3 * (shaken - plain)
-    expected = vertical_friction_noise(model, run, buffers)["heave"]
+    expected = compute_vertical_friction_noise(model, run, buffers)["heave"]
     assert np.sqrt(np.mean(expected**2)) == pytest.approx(np.std(made), rel=0.2)

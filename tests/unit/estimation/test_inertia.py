@@ -8,11 +8,11 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign, fit_base
 from slipwise.campaign import Logger
-from slipwise.diagnosis.hypothesis import final_refit_of, polished, refit
+from slipwise.diagnosis.hypothesis import polish, refit, refit_for_report
 from slipwise.effects import catalogue
 from slipwise.evidence.residual_summary import summarise_residuals
 from slipwise.model import base_model, use
-from slipwise.relations.girder import through_pitch
+from slipwise.relations.girder import pass_through_pitch
 from slipwise.relations.noise import compute_driven_noise_in_pitch
 from slipwise.relations.parameters import PITCH_INERTIA, YAW_INERTIA, Term
 from slipwise.relations.run_data import fit_runs
@@ -27,7 +27,7 @@ def test_yaw_made_from_forces_tells_the_inertia_about_the_vertical() -> None:
     stated = Logger(LowPass(chain.lowpass, chain.order, chain.phase), known=True)
     base = fit_base(replace(as_campaign(made), logger=stated))
     term = Term(catalogue()["buffer_mismatch"])
-    found = final_refit_of(polished(refit(base, [term], {term.label: term.effect.typical()})))
+    found = refit_for_report(polish(refit(base, [term], {term.label: term.effect.typical()})))
     assert found.solution.values[YAW_INERTIA] == pytest.approx(made.truth.base.inertia_yaw, rel=0.03)
     assert found.summary.held_out_level("pads") < 1.5**2
 
@@ -41,7 +41,7 @@ def test_a_table_that_rocks_tells_the_inertia_of_pitch() -> None:
     kind = "compliance" if hidden["pitch_form"] == 1 else "specimen"
     start = {**term.effect.neutral(), **{"damping": 0.3, "gravity": 1.0, "frequency": hidden["pitch_frequency"]}}
     start[kind] = hidden["pitch_per_acceleration"]
-    found = final_refit_of(polished(polished(refit(base, [term], {term.label: start}))))
+    found = refit_for_report(polish(polish(refit(base, [term], {term.label: start}))))
     assert found.solution.values[PITCH_INERTIA] == pytest.approx(made.truth.base.inertia_pitch, rel=0.05)
     assert found.summary.held_out_level("pitch") < 1.5**2
 
@@ -54,7 +54,7 @@ def test_the_noise_that_drives_a_rocking_table_is_counted() -> None:
     power = compute_driven_noise_in_pitch(model, [run], values)[0]
     shaken = np.random.default_rng(3).normal(0.0, run.noise["table_ax"], len(run.time))
     turning = oscillator((2.0 * np.pi * 13.0) ** 2 * 3e-4 * shaken, run.dt, 13.0, 0.35, 2)
-    load = through_pitch(-model.specimen.inertia[1] * turning / model.specimen.half_spacing[0], run.dt, 70.0, 0.1)
+    load = pass_through_pitch(-model.specimen.inertia[1] * turning / model.specimen.half_spacing[0], run.dt, 70.0, 0.1)
     assert np.mean(power) == pytest.approx(np.var(load), rel=0.1)
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from slipwise.estimation.intervals import of_fit
+from slipwise.estimation.intervals import compute_fit_intervals
 from slipwise.relations.parameters import Free
 
 ROWS, RUNS = 4000, 200
@@ -21,7 +21,7 @@ def fitted(rng, memory):
     free = [Free("offset", 0.0, -9.0, 9.0, 1.0, "N"), Free("slope", 0.0, -9.0, 9.0, 1.0, "N")]
     left = measured - columns @ found
     blocks = np.arange(ROWS) // 100
-    got = of_fit(free, {"offset": found[0], "slope": found[1]}, -columns, left, blocks)
+    got = compute_fit_intervals(free, {"offset": found[0], "slope": found[1]}, -columns, left, blocks)
     usual = np.sqrt(left.var() * np.linalg.inv(columns.T @ columns)[1, 1])
     return got.entries[1], found[1], usual
 
@@ -50,7 +50,7 @@ def test_a_number_on_its_bound_has_no_interval_and_says_which_bound():
     columns = np.stack([np.ones(400), np.linspace(-1, 1, 400)], axis=1)
     free = [Free("a", 0.0, -1.0, 1.0, 1.0, "1"), Free("b", 0.0, 0.0, 5.0, 1.0, "1")]
     left = np.random.default_rng(1).standard_normal(400)
-    got = of_fit(free, {"a": 0.3, "b": 0.0}, -columns, left, np.arange(400) // 20)
+    got = compute_fit_intervals(free, {"a": 0.3, "b": 0.0}, -columns, left, np.arange(400) // 20)
     assert got.entries[1].bound == "lower"
     assert np.isnan(got.entries[1].low)
     assert got.keys == ("a",)
@@ -62,7 +62,7 @@ def test_two_numbers_that_do_the_same_are_reported_as_correlated():
     first = rng.standard_normal(2000)
     columns = np.stack([first, first + 0.1 * rng.standard_normal(2000)], axis=1)
     free = [Free(k, 0.0, -9.0, 9.0, 1.0, "1") for k in "ab"]
-    got = of_fit(free, {"a": 1.0, "b": 1.0}, -columns, rng.standard_normal(2000), np.arange(2000) // 20)
+    got = compute_fit_intervals(free, {"a": 1.0, "b": 1.0}, -columns, rng.standard_normal(2000), np.arange(2000) // 20)
     a, b, correlation = got.strongest(1)[0]
     assert {a, b} == {"a", "b"}
     assert correlation < -0.9
@@ -74,8 +74,8 @@ def test_what_a_whole_run_shares_widens_the_interval_by_what_it_could_do():
     left, blocks = np.random.default_rng(1).standard_normal(400), np.arange(400) // 20
     whose = np.arange(400) // 200
     pulled = [float(np.sum(column[whose == w, 0] ** 2) / np.sum(column**2)) for w in (0, 1)]
-    plain = of_fit(free, {"a": 0.3}, -column, left, blocks).covariance[0, 0]
+    plain = compute_fit_intervals(free, {"a": 0.3}, -column, left, blocks).covariance[0, 0]
     for kinds in (1, 2):
         shared = (np.tile(0.2 * column[:, 0], (kinds, 1)), whose)
-        wider = of_fit(free, {"a": 0.3}, -column, left, blocks, shared).covariance[0, 0]
+        wider = compute_fit_intervals(free, {"a": 0.3}, -column, left, blocks, shared).covariance[0, 0]
         assert np.isclose(wider - plain, kinds * 0.2**2 * np.sum(np.square(pulled)))

@@ -12,7 +12,7 @@ from slipwise.estimation.base_fit import fit_base
 from slipwise.model import base_model
 from slipwise.record import Record
 from slipwise.relations.parameters import SEAT_STIFFNESS, Term, list_base_numbers
-from slipwise.relations.sample_masks import roll_is_known
+from slipwise.relations.sample_masks import is_roll_known
 from slipwise.rig import Specimen, load_specimen
 from slipwise.simulation.replay import replay
 
@@ -39,10 +39,10 @@ def campaign(record: Record, stated: Specimen) -> Campaign:
 def test_motion_across_leaves_roll_to_the_rest_before_it() -> None:
     stated = load_specimen("bridge1")
     record = measured(stated)
-    known = roll_is_known(record, True, stated)
+    known = is_roll_known(record, True, stated)
     assert 60 < known.sum() < len(known) and known[0] and not known[-1]
     assert np.abs(record["table_ax"][known]).max() < 0.2
-    assert roll_is_known(record, False, stated).all()
+    assert is_roll_known(record, False, stated).all()
 
 
 def test_a_centre_of_gravity_off_across_shows_before_the_motion_and_its_effect_takes_it_away() -> None:

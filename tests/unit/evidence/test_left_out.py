@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hypotheses import base
-from slipwise.estimation.objective import Objective, objective_of
+from slipwise.estimation.objective import Objective, make_objective
 from slipwise.evidence.left_out import LinearFit, leave_motions_out
 
 
@@ -47,7 +47,7 @@ def test_a_number_that_only_one_motion_tells_keeps_its_value_without_it(objectiv
 
 def test_a_repeat_is_left_out_with_the_run_that_it_repeats(objective: Objective) -> None:
     runs = [*objective.runs, replace(objective.runs[1], role="repeat")]
-    again = objective_of(runs, objective.specimen, objective.terms)
+    again = make_objective(runs, objective.specimen, objective.terms)
     assert again.measurements.motions == [[0], [1, 2]]
 
 

@@ -5,7 +5,7 @@ import pytest
 from scipy.signal import lfilter, resample_poly
 
 from slipwise.instruments.joint_fit import ROWS_FOR_ONE
-from slipwise.noise.independent_samples import block_length, sum_correlations
+from slipwise.noise.independent_samples import measure_block_length, sum_correlations
 from slipwise.signals.filters import LowPass, lowpass
 
 
@@ -31,7 +31,7 @@ def test_a_record_that_is_sampled_finer_holds_no_more_independent_samples():
 @pytest.mark.parametrize("memory", [0.0, 0.9])
 def test_sums_over_blocks_scatter_as_sums_of_independent_samples_do(memory):
     noise = coloured(memory, 7)
-    length = block_length([noise])
+    length = measure_block_length([noise])
     blocks = noise[: len(noise) // length * length].reshape(-1, length).sum(axis=1)
     expected = np.var(noise) * len(noise) * sum_correlations([noise])
     assert np.sum(blocks**2) == pytest.approx(expected, rel=0.15)

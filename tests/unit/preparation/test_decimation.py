@@ -9,7 +9,7 @@ import pytest
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.preparation.decimation import decimate
 from slipwise.record import Record
-from slipwise.relations.pad_law import as_logged
+from slipwise.relations.pad_law import log_force
 from slipwise.relations.run_data import fit_runs
 from slipwise.rig import load_specimen
 from slipwise.signals.filters import LowPass
@@ -43,7 +43,7 @@ def test_a_prediction_goes_through_the_filter_that_thinned_the_record() -> None:
     step = run.dt / run.fine
     # an instant stands for the mean of what is around it
     means = np.mean([sharp(fine + step * (k + 0.5 - 50) / 100) for k in range(100)], axis=0)[:, None]
-    shown = as_logged(means, run, None, averaged=True)[:, 0]
+    shown = log_force(means, run, None, averaged=True)[:, 0]
     turn = np.abs(np.sin(TURN * run.time)) < TURN * 1.5 * run.dt
     beside = ~turn & (run.time > 0.1) & (run.time < 1.9)
     left, without = (np.std((run.force[:, 0] - guess)[beside]) for guess in (shown, sharp(run.time)))

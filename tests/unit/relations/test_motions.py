@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from hypotheses import base
-from slipwise.estimation.objective import objective_of
+from slipwise.estimation.objective import make_objective
 from slipwise.evidence.residual_summary import summarise_residuals
-from slipwise.relations.motions import by_motion
+from slipwise.relations.motions import group_by_motion
 from slipwise.relations.run_data import FitRun
 from slipwise.relations.setting import Weighing
 
@@ -20,13 +20,13 @@ def runs() -> list[FitRun]:
 
 def test_a_run_that_is_given_twice_is_of_one_motion(runs) -> None:
     again = [replace(run, name=f"{run.name}_again") for run in runs]
-    assert by_motion([*runs, *again], range(4)) == [[0, 2], [1, 3]]
+    assert group_by_motion([*runs, *again], range(4)) == [[0, 2], [1, 3]]
 
 
 def test_runs_of_two_motions_are_apart_unless_one_is_said_to_repeat_the_other(runs) -> None:
-    assert by_motion(runs, range(2)) == [[0], [1]]
+    assert group_by_motion(runs, range(2)) == [[0], [1]]
     said = [runs[0], replace(runs[1], role="repeat")]
-    assert by_motion(said, range(2)) == [[0, 1]]
+    assert group_by_motion(said, range(2)) == [[0, 1]]
 
 
 def test_runs_that_are_given_twice_add_no_independent_block() -> None:
@@ -34,7 +34,7 @@ def test_runs_that_are_given_twice_add_no_independent_block() -> None:
     objective, solution = once.objective, once.solution
     runs = (*objective.runs, *objective.runs)
     sigmas = {name: (*of, *of) for name, of in objective.weighing.sigmas.items()}
-    again = replace(objective_of(runs, objective.specimen, objective.terms), weighing=Weighing(sigmas))
+    again = replace(make_objective(runs, objective.specimen, objective.terms), weighing=Weighing(sigmas))
     left = solution.residuals
     values = {name: [*left.of(name), *left.of(name)] for name in left.relations}
     doubled = again.layout.filled(values, [*left.pad_forces, *left.pad_forces])

@@ -8,7 +8,7 @@ from measured import as_campaign
 from slipwise.effects import catalogue
 from slipwise.model import base_model
 from slipwise.relations.measurement import compute_change_by_faults
-from slipwise.relations.noise import compute_reversal_noise, noise_of_fault_correction
+from slipwise.relations.noise import compute_noise_of_correction, compute_reversal_noise
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import FitRun, fit_runs
 
@@ -46,7 +46,7 @@ def test_the_pitch_rings_with_what_the_law_must_make_up_for() -> None:
     reversal[50] = 100.0
     ringing = np.zeros(101)
     ringing[50:60] = 0.8 ** np.arange(10)
-    more = noise_of_fault_correction(specimen, reversal, np.array([1.0, 0.0, 0.0, 0.0]), ringing)
+    more = compute_noise_of_correction(specimen, reversal, np.array([1.0, 0.0, 0.0, 0.0]), ringing)
     assert more["girder"][50] == pytest.approx(100.0 / specimen.mass)
     lever = specimen.centre_height / specimen.half_spacing[0]
     assert more["pitch"][50:60] == pytest.approx(100.0 * lever * 0.8 ** np.arange(10))

@@ -7,7 +7,7 @@ import pytest
 from scipy.signal import butter, lsim
 
 from slipwise.relations.evaluation_times import Instants
-from slipwise.relations.pad_law import as_logged, compute_stick_share, estimate_lost_velocity, sum_forces_along
+from slipwise.relations.pad_law import compute_stick_share, estimate_lost_velocity, log_force, sum_forces_along
 from slipwise.relations.run_data import FINE, interpolate_finely
 from slipwise.signals.filters import LowPass, align, lowpass
 from slipwise.simulation.predict import PadForces
@@ -29,7 +29,7 @@ def test_a_force_without_kinks_is_filtered_as_the_logger_filters() -> None:
     run = _run(LowPass(60.0))
     fine = np.linspace(run.time[0], run.time[-1], FINE * (len(run.time) - 1) + 1)
     force = np.sin(2.0 * np.pi * 40.0 * fine)[:, None]
-    logged = as_logged(force, run, None, averaged=False)[:, 0]  # type: ignore[arg-type]
+    logged = log_force(force, run, None, averaged=False)[:, 0]  # type: ignore[arg-type]
     gain = 1.0 / (1.0 + (40.0 / 60.0) ** 8)
     inside = slice(200, -200)
     assert np.sqrt(2.0) * np.std(logged[inside]) == pytest.approx(gain, rel=1e-3)
@@ -41,7 +41,7 @@ def test_a_reversal_between_two_samples_is_timed_to_a_fraction_of_a_sample() -> 
     half = run.dt / FINE / 2.0
     turn = 2.0003
     share = np.clip((fine - turn) / half, -1.0, 1.0)  # mean of the sign over each instant
-    logged = as_logged(share[:, None], run, None, averaged=True)[:, 0]  # type: ignore[arg-type]
+    logged = log_force(share[:, None], run, None, averaged=True)[:, 0]  # type: ignore[arg-type]
     near = np.abs(run.time - turn) < 0.006
     crossing = np.interp(0.0, logged[near], run.time[near])
     assert crossing == pytest.approx(turn, abs=2e-5)
@@ -59,7 +59,7 @@ def test_what_the_samples_of_a_causal_filter_fold_is_predicted(order: int, fine:
     step = parts // fine
     around = np.concatenate([np.full(step // 2, -1.0), force])[: step * (fine * (len(logged) - 1) + 1)]
     mean = around.reshape(-1, step).mean(axis=1)
-    found = as_logged(mean[:, None], _Run(time[::parts], dt, by, fine), None, averaged=True)[:, 0]  # type: ignore[arg-type]
+    found = log_force(mean[:, None], _Run(time[::parts], dt, by, fine), None, averaged=True)[:, 0]  # type: ignore[arg-type]
     np.testing.assert_allclose(found[100:-100], measured[100:-100], atol=0.025)
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign, mended_for_fits
-from slipwise.estimation.objective import objective_of
+from slipwise.estimation.objective import make_objective
 from slipwise.preparation.sample_faults import find_sample_faults
 from slipwise.relations.kinematics import YAW
 from slipwise.relations.run_data import FitRun, fit_runs
@@ -60,7 +60,7 @@ def test_the_yaw_of_unequal_pads_is_seen_though_one_of_their_gauges_is_clipped()
     fitted = {"rig.mass": truth["mass"], "rig.centre_height": truth["h"], "rig.buffer_stiffness": 2.0 * truth["Kb"]}
 
     def yaw(runs: list[FitRun]) -> list[np.ndarray]:
-        return [angle for angle, _ in objective_of(runs, specimen, ()).with_yaw().evaluation(fitted).of(YAW)]
+        return [angle for angle, _ in make_objective(runs, specimen, ()).with_yaw().evaluation(fitted).of(YAW)]
 
     for seen, true in zip(yaw(ready), yaw(fit_runs(campaign)), strict=True):
         assert np.std(true) > 1e-4, "it must be seen at all"

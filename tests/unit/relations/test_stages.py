@@ -12,10 +12,10 @@ from slipwise.effects import catalogue
 from slipwise.estimation.objective import Objective
 from slipwise.relations import pad_stages
 from slipwise.relations.kinematics import CORRECTED, STATES
-from slipwise.relations.pad_stages import LAW_FORCES, acts_on_pads
+from slipwise.relations.pad_stages import LAW_FORCES, is_on_pads
 from slipwise.relations.parameters import PITCH_INERTIA, YAW_INERTIA, Term
 from slipwise.relations.setting import Weighing
-from slipwise.relations.stages import Evaluation, Inputs, Memo, Stage, memo_for
+from slipwise.relations.stages import Evaluation, Inputs, Memo, Stage, make_memo
 from slipwise.relations.table import Residuals
 
 
@@ -39,7 +39,7 @@ def alike(one: Residuals, other: Residuals) -> bool:
 
 def fresh(objective: Objective) -> Objective:
     """The same objective, which remembers nothing."""
-    return replace(objective, memo=memo_for(objective.measurements))
+    return replace(objective, memo=make_memo(objective.measurements))
 
 
 TERMS = {
@@ -80,7 +80,7 @@ def test_a_number_that_a_stage_begins_to_read_counts_from_then_on(monkeypatch: p
 
     objective, values = base().objective, base().solution.values
     before = objective.residuals(values)
-    monkeypatch.setattr(pad_stages, "LAW_FORCES", Stage("stronger law", stronger, acts_on_pads))
+    monkeypatch.setattr(pad_stages, "LAW_FORCES", Stage("stronger law", stronger, is_on_pads))
     objective = fresh(objective)
     assert alike(objective.residuals(values), before)
     changed = objective.residuals({**values, "rig.new_number": 0.1})

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hypotheses import base, table_of
-from slipwise.estimation.objective import objective_of
+from slipwise.estimation.objective import make_objective
 from slipwise.relations.table import Block, Residuals
 
 LEFT = {"pads": [np.array([[3.0, 0.0], [0.0, 4.0]]), np.ones((3, 2))], "heave": [np.array([1.0, 2.0]), np.zeros(3)]}
@@ -52,7 +52,7 @@ def test_a_table_of_the_first_runs_has_no_blocks_of_the_others() -> None:
 def test_a_repeat_is_of_the_motion_that_it_repeats_and_a_held_out_run_of_its_own() -> None:
     objective = base().objective
     assert objective.held_out == [1]
-    again = objective_of(
+    again = make_objective(
         [*objective.runs, replace(objective.runs[0], role="repeat")], objective.specimen, objective.terms
     )
     by_motion = {motion: [block.run for block in of] for motion, of in again.layout.by_motion("pads").items()}

@@ -9,7 +9,7 @@ from bench import build_campaign
 from measured import as_campaign, fit_base
 from slipwise.comparison.component_level import compute_component_errors
 from slipwise.effects import catalogue
-from slipwise.estimation.objective import objective_of
+from slipwise.estimation.objective import make_objective
 from slipwise.record import Record
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import fit_runs
@@ -42,4 +42,4 @@ def test_without_gauges_across_there_is_no_such_relation(campaign):
 
     runs = tuple(replace(r, record=without(r.record)) for r in campaign.runs)
     plain = replace(campaign, runs=runs)
-    assert "across" not in objective_of(fit_runs(plain), plain.specimen, ()).relations
+    assert "across" not in make_objective(fit_runs(plain), plain.specimen, ()).relations

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.signal import StateSpace, lsim
 
-from slipwise.relations.girder import through_pitch
+from slipwise.relations.girder import pass_through_pitch
 from slipwise.rig import Specimen, load_specimen
 from slipwise.rig.rocking import coupled, rocking_modes, rolls
 
@@ -47,6 +47,6 @@ def test_a_moment_of_pitch_shows_in_both_loads_as_an_integration_says():
     found = np.zeros_like(own)
     for mode in modes:
         frequency, damping = mode.ratio * pitch / (2.0 * np.pi), 0.5 * slow * mode.ratio * pitch
-        found += mode.shown * through_pitch(mode.drive[1] * moment, dt, frequency, damping)[:, None]
+        found += mode.shown * pass_through_pitch(mode.drive[1] * moment, dt, frequency, damping)[:, None]
     assert np.abs(own[:, 0]).max() > 0.05 * np.abs(own[:, 1]).max()
     assert found == pytest.approx(own, abs=2e-3 * np.abs(own).max())

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from slipwise.diagnosis.indistinguishable import alike_pairs
+from slipwise.diagnosis.indistinguishable import list_alike_pairs
 from slipwise.effects import base_effects, catalogue
 from slipwise.errors import InputError
 from slipwise.studies.campaigns.outcome import Outcome
@@ -77,7 +77,7 @@ def is_right(missing: Sequence[str], said: Mapping[str, Any]) -> bool:
     if list(missing) == _UNKNOWN:
         return kind == "unknown"
     if kind == "ambiguous":
-        pairs = alike_pairs(catalogue().values())
+        pairs = list_alike_pairs(catalogue().values())
         return any(pair & names and pair & hidden and names - pair == hidden - pair for pair in pairs)
     if kind == "instrument" and not any(_of_gauge(name) for name in hidden):
         return False

@@ -36,7 +36,7 @@ def errors_figure(found: Comparison, *, narrow: bool = False) -> Figure:
     ]
     split = len(rows)
     if found.system:
-        from slipwise.comparison.system_level import pooled_system
+        from slipwise.comparison.system_level import pool_system_errors
 
         for name, label in (
             ("slip_x", "slip"),
@@ -45,7 +45,7 @@ def errors_figure(found: Comparison, *, narrow: bool = False) -> Figure:
             ("pad_*_N", "pad loads N"),
             ("pad_*_Fx", "pad friction F"),
         ):
-            pair = [pooled_system(found.system.errors, name, held_out=h) for h in (False, True)]
+            pair = [pool_system_errors(found.system.errors, name, held_out=h) for h in (False, True)]
             if any(p is not None for p in pair):
                 rows.append((label, pair[0], pair[1]))
     with styled():

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 from slipwise.diagnosis.findings import EffectFinding
-from slipwise.diagnosis.indistinguishable import known_effects
+from slipwise.diagnosis.indistinguishable import list_known_effects
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.effects import Effect
 from slipwise.estimation.intervals import Interval
@@ -48,7 +48,7 @@ def importance_section(found: Diagnosis) -> Section | None:
 
 def sizes_section(found: Diagnosis) -> Section:
     """Say what the named effects are, and how large: fitted parameters with their intervals."""
-    known = known_effects(found.search)
+    known = list_known_effects(found.search)
     pieces: list[Html] = []
     for name in found.verdict.effects:
         effect = known.get(name)

@@ -2,8 +2,8 @@
 
 from math import isfinite
 
-from slipwise.diagnosis.alternatives import discriminating_tests, explanations
-from slipwise.diagnosis.indistinguishable import known_effects
+from slipwise.diagnosis.alternatives import list_discriminating_tests, list_explanations
+from slipwise.diagnosis.indistinguishable import list_known_effects
 from slipwise.diagnosis.ladder import Ladder
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.effects import Effect
@@ -79,7 +79,7 @@ def _fall(found: Diagnosis, before: float, after: float) -> str:
 def _headline(found: Diagnosis) -> str:
     kind = found.verdict.kind
     if kind == "ambiguous":
-        rivals = explanations(found.verdict, found.search)
+        rivals = list_explanations(found.verdict, found.search)
         words = f"{in_words(len(rivals)).capitalize()} explanations, one measurement"
         return f"{words}: {' or '.join(' + '.join(names) for names in rivals)}"
     names = ", ".join(found.verdict.effects)
@@ -170,9 +170,9 @@ def _rivals(found: Diagnosis) -> Section:
 
 
 def _change(found: Diagnosis) -> Section:
-    known, named = known_effects(found.search), found.verdict.effects
+    known, named = list_known_effects(found.search), found.verdict.effects
     rig = found.final.campaign.specimen
-    items = [f"{words}." for words in discriminating_tests(found.verdict, found.search)]
+    items = [f"{words}." for words in list_discriminating_tests(found.verdict, found.search)]
     for name in (n for n in named if n in known):
         tests = {
             r: test for r, test in known[name].confused_with.items() if r not in named and _can_have(rig, known[r])
@@ -197,7 +197,7 @@ def _limits(found: Diagnosis) -> Section:
         pieces.append(bullets(cannot_tell_words(found)))
     if notes := found.final.campaign.notes:
         pieces += [paragraph("What was done to the records, and what was assumed of them:"), bullets(list(notes))]
-    known = known_effects(found.search)
+    known = list_known_effects(found.search)
     least = [_least_row(known.get(name), name, size, unit) for name, (size, unit) in found.least.items()]
     pieces.append(details("Smallest size of each effect that this campaign would have shown", [table(least)]))
     seen = [
