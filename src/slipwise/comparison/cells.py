@@ -142,7 +142,7 @@ def gather(
     return Samples(relation, residual**2, residual, values, labels, spread, min(spread, _LONGEST * pads), spectrum)
 
 
-def test_cells(samples: Samples) -> list[Cell]:
+def judge_cells(samples: Samples) -> list[Cell]:
     """Sort a relation's samples in every way and test each cell; `above` is left to `correct_for_many_tests`."""
     out = []
     for kind, values in samples.values.items():

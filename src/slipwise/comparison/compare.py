@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from slipwise.campaign import Campaign
-from slipwise.comparison.cells import correct_for_many_tests, gather, test_cells
+from slipwise.comparison.cells import correct_for_many_tests, gather, judge_cells
 from slipwise.comparison.component_level import compute_component_errors, compute_repeat_errors
 from slipwise.comparison.friction_surface import compute_friction_surface
 from slipwise.comparison.motion_states import classify_motion_states
@@ -75,7 +75,7 @@ def compare(
         for r, parts in residuals.items()
         if any(np.any(p) for p in parts)
     }
-    cells = correct_for_many_tests(cell for one in samples.values() for cell in test_cells(one))
+    cells = correct_for_many_tests(cell for one in samples.values() for cell in judge_cells(one))
     parities = {r: found for r, one in samples.items() if (found := split_odd_and_even(one)) is not None}
     patterns = tuple(pattern for one in samples.values() for pattern in find_patterns(one))
     errors = {r: float(np.sqrt(one.squared.mean())) for r, one in samples.items()}

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from slipwise.comparison.cells import Cell, Samples, correct_for_many_tests, test_cells
+from slipwise.comparison.cells import Cell, Samples, correct_for_many_tests, judge_cells
 from slipwise.comparison.motion_states import STATES
 from slipwise.comparison.odd_even import split_odd_and_even
 from slipwise.comparison.patterns import find_patterns
@@ -38,7 +38,7 @@ def motion():
 
 
 def located(one):
-    cells = correct_for_many_tests(test_cells(one))
+    cells = correct_for_many_tests(judge_cells(one))
     found = {p.relation: p for p in [split_odd_and_even(one)] if p is not None}
     return cells, describe_places(cells, find_patterns(one), found, {one.relation: float(np.sqrt(one.squared.mean()))})
 
