@@ -69,7 +69,7 @@ def _words(fault: SampleFault, kind: str, places: str, estimated: Sequence[Estim
     runs, size = ", ".join(fault.runs), fault.size
     match kind:
         case "reversed":
-            return f"{places}: reversed; sign reversed before any fit"
+            return f"{places}: wrong sign; reversed before any fit"
         case "late":
             return f"{places}: {size:.3f} s behind the other channels; brought forward before any fit"
         case "dead":

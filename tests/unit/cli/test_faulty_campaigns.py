@@ -129,7 +129,7 @@ def test_loads_that_count_compression_negative_are_mended_and_told_as_those_whos
     here = folder("19_all_loads_compression_negative")
     plain = ("compare", ".", "--no-recording", "--no-system", "--out", here.parent / "out", "--json")
     mended = json.loads(slipwise(*plain)[1])
-    assert any("sign reversed before any fit" in one["words"] for one in mended["corrections"])
+    assert any("wrong sign; reversed before any fit" in one["words"] for one in mended["corrections"])
     text = (here / "campaign.toml").read_text()
     lines = "".join(f'"pad_{pad}_N [kN]" = {{ channel = "pad_{pad}_N", unit = "kN", sign = -1 }}\n' for pad in "ABCD")
     before, mark, after = text.partition("[columns]\n")
