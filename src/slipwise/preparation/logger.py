@@ -38,6 +38,8 @@ _SHAPES = ((4, "zero"), (2, "zero"), (4, "causal"), (2, "causal"))
 _STRETCH = 0.5
 #: The bend must show above the noise by this factor in power, and lie below this part of half the sampling rate [1].
 _ABOVE, _BELOW = 6.0, 0.92
+#: A line search may ask for more than a float holds: beyond this logarithm of a density nothing is different [1].
+_LOUDEST = 600.0
 #: An interval wider than this tells no frequency [1].
 _WIDEST = 0.25
 
@@ -181,9 +183,9 @@ def _model(numbers: Array, frequency: Array, order: int, phase: str) -> tuple[Ar
     passes = 2.0 if phase == "zero" else 1.0
     ratio = (frequency / np.exp(corner)) ** (2 * order)
     above = np.log(frequency / 50.0)
-    signal = np.exp(level - slope * above) * (1.0 + ratio) ** -passes
+    signal = np.exp(np.minimum(level - slope * above, _LOUDEST)) * (1.0 + ratio) ** -passes
     part = frequency / frequency[-1] - 0.75
-    white = np.exp(noise + tilt * part)
+    white = np.exp(np.minimum(noise + tilt * part, _LOUDEST))
     bend = signal * passes * 2.0 * order * ratio / (1.0 + ratio)
     return signal + white, np.stack([signal, -signal * above, bend, white, white * part])
 

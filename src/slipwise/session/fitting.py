@@ -75,13 +75,14 @@ def fit_state(ready: Evaluator, state: SessionState, progress: Progress) -> Sess
         progress: told of the fit; what it raises ends it.
     """
     watch = Watch(progress, end=0.0)
+    weighed_terms = state.weights.terms
     if state.weights.fitted:
         watch.next("fitting from here", 0.45, 40)
         objective, solution = _from_here(ready, ready.objective(ready.coarse(state), watch), state, state.values)
     else:
         watch.next("fitting from rated numbers", 0.45, 60)
         base = fit_prepared(ready.prepared, ready.model, watch)
-        objective, solution = base.objective, base.solution
+        objective, solution, weighed_terms = base.objective, base.solution, base.objective.terms
         if state.terms != objective.terms:
             values = {**state.values, **{k: v for k, v in solution.values.items() if k.startswith("rig.")}}
             objective, solution = _from_here(ready, objective.having(state.terms), state, values)
@@ -92,7 +93,9 @@ def fit_state(ready: Evaluator, state: SessionState, progress: Progress) -> Sess
     fit = BaseFit(ready.prepared.campaign, ready.model, objective, solution.free, solution)
     known = {e.key: _known(e) for e in compute_intervals(fit).entries}
     weighed = objective.weighing.weighed_by
-    weights = Weights(state.terms, weighed, finer=objective.balanced, yaw=objective.yaw, before=before)
+    # a slider keeps the noise of its base law: another floor would make errors before and after two different things
+    terms = state.terms if objective.balanced else weighed_terms
+    weights = Weights(terms, weighed, finer=objective.balanced, yaw=objective.yaw, before=before)
     values = {**state.values, **solution.values}
     progress("done", 1.0)
     return replace(state, values=values, weights=weights, fitted=True, known=known, words="fitted", edit="")
