@@ -23,7 +23,7 @@ from slipwise.diagnosis.candidates import list_candidates
 from slipwise.diagnosis.initial_grid import strengths
 from slipwise.diagnosis.screening import screen
 from slipwise.errors import SlipwiseError
-from slipwise.estimation.base_fit import BaseFit, fit_base, fit_finely
+from slipwise.estimation.base_fit import BaseFit, fit_base, refine_base_fit
 from slipwise.estimation.intervals import Intervals, compute_intervals
 from slipwise.evidence.residual_summary import summarise_residuals
 from slipwise.model import EffectUse, Model, base_model
@@ -92,7 +92,7 @@ def recover(term: Term, rng: np.random.Generator, motions: dict[str, str]) -> di
     half = {p.name: 0.5 * (values[p.name] + float(p.neutral or 0.0)) for p in strengths(term.effect)}
     start = {**values, **half}
     uses = [EffectUse(term.effect, start, target) for target in ((card,) if card else term.targets)]
-    fitted = fit_finely(campaign, base.adding(*uses))
+    fitted = refine_base_fit(fit_base(campaign, base.adding(*uses)))
     known = compute_intervals(fitted)
     found = {i.key: i for i in known.entries}
     plain = fit_base(campaign)

@@ -234,15 +234,8 @@ def refit_finally(objective: Objective, solution: Solution) -> tuple[Objective, 
     return objective, solve(objective, values, free, most=3, enough=_FINAL_REFIT, rough=_MUCH_LEFT)
 
 
-def fit_finely(
-    campaign: Campaign,
-    model: Model | None = None,
-    invalid: InvalidSamples | None = None,
-    start: Mapping[str, float] | None = None,
-    watch: Callable[[], None] | None = None,
-) -> BaseFit:
-    """Fit a campaign's base parameters as all that is reported is; arguments and errors as `fit_base`."""
-    base = fit_base(campaign, model, invalid, start, watch)
+def refine_base_fit(base: BaseFit) -> BaseFit:
+    """Fit on as all that is reported is, see `refit_finally`."""
     objective, solution = refit_finally(base.objective, base.solution)
     return replace(base, objective=objective, free=solution.free, solution=solution)
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from slipwise.campaign import Campaign
 from slipwise.campaign.invalid_samples import InvalidSamples
-from slipwise.estimation.base_fit import BaseFit, fit_base, fit_finely
+from slipwise.estimation.base_fit import BaseFit, fit_base, refine_base_fit
 from slipwise.model import Model
 from slipwise.preparation.balance_records import BalanceRecords
 from slipwise.preparation.data_corrections import DataCorrection, describe_corrections
@@ -81,5 +81,5 @@ def fit_prepared(
     Raises:
         InputError: a run lacks what every fit needs, or the runs are too short for one.
     """
-    fit = fit_finely if finely else fit_base
-    return fit(prepared.campaign, prepared.on_rig(model), prepared.invalid, prepared.start, watch)
+    base = fit_base(prepared.campaign, prepared.on_rig(model), prepared.invalid, prepared.start, watch)
+    return refine_base_fit(base) if finely else base
