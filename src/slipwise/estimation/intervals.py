@@ -29,7 +29,6 @@ from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.profile_likelihood import find_upper_limit, is_strength
 from slipwise.jobs.parallel import on_every_core
 from slipwise.noise.independent_samples import SHORTEST_BLOCK, measure_block_length
-from slipwise.relations.motions import group_by_motion
 from slipwise.relations.noise import TIMING
 from slipwise.relations.parameters import Free
 
@@ -106,7 +105,7 @@ def compute_intervals(base: BaseFit) -> Intervals:
     start = 0
     offsets: dict[int, int] = {}
     length = _block_length(base)
-    for group in group_by_motion(objective.runs, objective.fitted):  # runs of one motion repeat what the model lacks
+    for group in objective.motions_as_recorded:  # runs of one motion repeat what the model lacks
         offsets |= dict.fromkeys(group, start)
         start += max(int(len(objective.run(i).time) * objective.run(i).dt / length) + 1 for i in group)
     for of in solution.residuals.blocks(runs=objective.fitted):

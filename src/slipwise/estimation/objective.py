@@ -81,6 +81,11 @@ class Objective:
         return self.measurements.held_out
 
     @property
+    def motions_as_recorded(self) -> list[list[int]]:
+        """Places of the runs that may be fitted, by motion as their records show it."""
+        return self.measurements.motions_as_recorded
+
+    @property
     def scales(self) -> Scales:
         """Scales of the campaign."""
         return self.runs[0].scales

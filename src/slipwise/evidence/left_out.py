@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.objective import Objective
-from slipwise.relations.motions import group_by_motion
 
 Array = NDArray[np.float64]
 #: Stretches of time that are left out one by one where there is one motion only [1].
@@ -28,11 +27,6 @@ _STRETCHES = 4
 _RIDGE = 1e-4
 #: Slopes lie further away than this [scale of the number].
 _REACH = 1.0
-
-
-def list_motions(objective: Objective) -> list[list[int]]:
-    """Return the places of the fitted runs by motion."""
-    return group_by_motion(objective.runs, objective.fitted)
 
 
 def _parts(objective: Objective) -> tuple[list[tuple[slice, int]], int]:

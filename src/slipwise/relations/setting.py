@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.relations.girder import BALANCES, list_available_balances
+from slipwise.relations.motions import group_by_motion
 from slipwise.relations.run_data import FitRun
 from slipwise.rig import Specimen, pad_frequencies
 from slipwise.rig.load_basis import basis_of
@@ -70,6 +71,11 @@ class Measurements:
             else:
                 out.append([i])
         return out
+
+    @cached_property
+    def motions_as_recorded(self) -> list[list[int]]:
+        """Places of the fitted runs by motion as their records show it, whatever their roles say."""
+        return group_by_motion(self.runs, self.fitted)
 
     @cached_property
     def motion_of(self) -> dict[int, int]:

@@ -44,6 +44,10 @@ class Line:
     balanced: bool = False
 
     @property
+    def motions_as_recorded(self) -> list[list[int]]:
+        return [list(self.fitted)]
+
+    @property
     def fitted_runs(self) -> list[FitRun]:
         return self.runs
 
