@@ -174,9 +174,8 @@ def _surfaces(field: ResidualField, states: Sequence[DrivingState]) -> list[Resi
     for _, state in ones:  # of lags of one state the best only
         best.setdefault(state.name, state)
     pairs = list(combinations(list(best.values())[:_PAIRED], 2))
-    if "velocity" in best:
-        signed = [(best["velocity"], other) for name, other in best.items() if name != "velocity"]
-        pairs += [pair for pair in signed if pair not in pairs and pair[::-1] not in pairs]
+    if "velocity" in best:  # in a pair with it a force may turn with the motion, whatever it explains alone
+        pairs += [(best["velocity"], state) for state in tried if state.name != "velocity"]
     return [*(surface for surface, _ in ones), *(_surface(field, pair, values) for pair in pairs)]
 
 
