@@ -72,25 +72,23 @@ class ResidualSurface:
         return f"{self.relation}: depends on {on}; predicts {share} of the residual of motions left out"
 
 
-def leftover(found: Hypothesis, relations: tuple[str, ...] | None = None) -> ResidualSurface | None:
-    """Return the surface that predicts most of what a hypothesis leaves of left-out motions; None where none does.
+def leftover(found: Hypothesis) -> ResidualSurface | None:
+    """Return the surface that predicts most of what a hypothesis leaves of left-out motions in pads, girder and heave.
 
-    Args:
-        found: a fitted hypothesis.
-        relations: which to look at; pads, girder and heave when not given.
+    None where none of them is above the noise.
     """
     objective = found.objective
-    best: ResidualSurface | None = None
-    over = relations or tuple(r for r in ("pads", "girder", "heave") if r in objective.relations)
-    over = [name for name in over if found.summary.fitted_level(name) >= 1.0 + LEVEL]
-    every = pad_instants(objective, found.solution.values) if over else None
-    states = [*measured_states(every), *pad_states(every)] if every else []
+    there = [r for r in ("pads", "girder", "heave") if r in objective.relations]
+    over = [r for r in there if found.summary.fitted_level(r) >= 1.0 + LEVEL]
+    if not over:
+        return None
+    every = pad_instants(objective, found.solution.values)
+    states = [*measured_states(every), *pad_states(every)]
+    surfaces: list[ResidualSurface] = []
     for name in over:
         field = _without_outliers(take_field(objective, found.solution.residuals, name, thinned=1))
-        for surface in _surfaces(field, states if name == "pads" else girder_states(states)):
-            if best is None or surface.level > best.level:
-                best = surface
-    return best
+        surfaces += _surfaces(field, states if name == "pads" else girder_states(states))
+    return max(surfaces, key=lambda s: s.level, default=None)
 
 
 def above_noise(found: Hypothesis) -> dict[str, float]:
