@@ -34,19 +34,20 @@ ARROWS: dict[str, str] = {
     "relations": "campaign channels effects errors jobs model noise params record regression rig signals simulation",
     "estimation": "campaign effects errors jobs model noise regression relations rig",
     "evidence": "estimation noise relations rig",
+    "residual_map": "campaign effects estimation regression relations simulation",
     "preparation": "campaign channels effects errors estimation jobs model record relations rig signals units",
     "instruments": "campaign channels display effects errors noise preparation record regression relations rig signals",
     "comparison": (
-        "campaign channels display effects errors estimation instruments jobs model motion noise preparation record"
-        " relations rig signals simulation"
+        "campaign channels display effects errors estimation instruments jobs model motion noise preparation"
+        " record relations residual_map rig signals simulation"
     ),
     "diagnosis": (
-        "campaign channels comparison display effects errors estimation evidence instruments jobs model noise params"
-        " preparation record relations rig simulation units"
+        "campaign channels comparison display effects errors estimation evidence instruments jobs model noise"
+        " params preparation record regression relations residual_map rig simulation units"
     ),
     "discovery": (
-        "campaign diagnosis display effects errors estimation jobs model noise params preparation relations signals"
-        " simulation"
+        "campaign diagnosis display effects errors estimation jobs model noise params preparation relations"
+        " residual_map signals simulation"
     ),
     "studies": (
         "campaign channels diagnosis effects errors estimation jobs model motion record relations rig signals"
@@ -61,8 +62,8 @@ ARROWS: dict[str, str] = {
         " relations rig simulation units"
     ),
     "view": (
-        "channels comparison diagnosis discovery effects errors estimation jobs noise params record relations rig"
-        " signals studies units"
+        "channels comparison diagnosis discovery effects errors estimation jobs noise params record relations"
+        " residual_map rig signals studies units"
     ),
     "cli": "errors jobs view",
     "workbench": (

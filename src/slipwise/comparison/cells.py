@@ -20,6 +20,7 @@ from slipwise.comparison.motion_states import STATES, MotionStates
 from slipwise.noise.independent_samples import sum_correlations
 from slipwise.noise.level import AT_FLOOR
 from slipwise.relations.run_data import FitRun
+from slipwise.residual_map.splines import choose_equal_bins
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -201,7 +202,7 @@ def choose_edges(kind: str, values: Array) -> Array:
         low, high = (values.min(), values.max()) if kind != "position" else np.quantile(values, [0.005, 0.995])
         inner = np.linspace(low, high, 7)
         return np.unique(np.concatenate([[values.min()], inner[1:-1], [values.max()]]))
-    return np.unique(np.quantile(values, np.linspace(0.0, 1.0, 7)))
+    return choose_equal_bins(values, 6)
 
 
 def _round(value: float) -> float:

@@ -5,13 +5,13 @@ direction of sliding is friction that is larger or smaller than the law says; ev
 way.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.comparison.cells import Samples, choose_edges
+from slipwise.comparison.mean_residual import compute_mean_residual
 
 Array = NDArray[np.float64]
 #: What a mean residual is drawn and sorted over.
@@ -95,7 +95,6 @@ class Pattern:
 
 def find_patterns(samples: Samples) -> list[Pattern]:
     """Return the patterns of a relation over every state that it has."""
-    direction = samples.values["direction"] - 1.0
     total = float(samples.squared.sum())
     out = []
     for kind in KINDS:
@@ -105,28 +104,12 @@ def find_patterns(samples: Samples) -> list[Pattern]:
         edges = choose_edges(kind, values[np.isfinite(values)])
         if len(edges) < 3:
             continue
-        place = np.clip(np.searchsorted(edges, values, side="right") - 1, 0, len(edges) - 2)
-        sides = [_means(samples, place, np.isfinite(values) & (direction == s), len(edges) - 1) for s in (1.0, -1.0)]
-        kept = sum(float(np.nansum(n * (m**2 - e**2))) for m, e, n, _ in sides)
+        plus, minus = (compute_mean_residual(samples, [kind], [edges], way, _FEWEST) for way in (1.0, -1.0))
+        kept = sum(float(np.nansum(side.count * (side.mean**2 - side.error**2))) for side in (plus, minus))
         out.append(
             Pattern(
-                samples.relation, kind, edges, sides[0][0], sides[1][0], sides[0][1], sides[1][1],
-                sides[0][2] + sides[1][2], max(kept / total, 0.0), np.stack([sides[0][3], sides[1][3]]),
+                samples.relation, kind, edges, plus.mean, minus.mean, plus.error, minus.error,
+                (plus.count + minus.count).astype(float), max(kept / total, 0.0), np.stack([plus.few, minus.few]),
             )
         )  # fmt: skip
     return out
-
-
-def _means(samples: Samples, place: NDArray[np.int64], used: NDArray[np.bool_], count: int) -> Sequence[Array]:
-    """Return mean, standard error and number of samples of each bin, and means that say little, (count,) each."""
-    number = np.bincount(place[used], minlength=count).astype(float)
-    first = np.bincount(place[used], weights=samples.residual[used], minlength=count)
-    second = np.bincount(place[used], weights=samples.squared[used], minlength=count)
-    effective = number / samples.spread
-    enough = effective >= _FEWEST
-    safe = np.maximum(number, 1.0)
-    mean = np.where(enough, first / safe, np.nan)
-    spread = np.maximum(second / safe - (first / safe) ** 2, 0.0)
-    error = np.where(enough, np.sqrt(spread / np.maximum(effective, 1.0)), np.nan)
-    few = np.where((number > 0.0) & ~enough, first / safe, np.nan)
-    return mean, error, number, few

@@ -13,13 +13,13 @@ from slipwise.diagnosis.identifiability import list_unidentified
 from slipwise.diagnosis.indistinguishable import list_known_effects
 from slipwise.diagnosis.initial_grid import shapes, strengths
 from slipwise.diagnosis.row_subset import on_screen
-from slipwise.diagnosis.screening import make_projector
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.sensitivities import compute_column, compute_residual_with, small
 from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.preparation.sample_fault import SampleFault
+from slipwise.regression.projection import make_projector
 from slipwise.relations.parameters import ZERO, Term
 from slipwise.relations.sample_masks import is_rolling_only_at_rest
 from slipwise.rig.frame import storey_channels

@@ -6,8 +6,9 @@ import numpy as np
 
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.row_subset import on_screen
-from slipwise.diagnosis.screening import Screened, make_projector
+from slipwise.diagnosis.screening import Screened
 from slipwise.estimation.base_fit import BaseFit
+from slipwise.regression.projection import make_projector
 from slipwise.relations.parameters import Term
 
 #: A pair that screens this much better than the best single's best partner is tried too.

@@ -13,9 +13,10 @@ from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.initial_grid import strengths, two_sided
 from slipwise.diagnosis.pairs import at_odds
 from slipwise.diagnosis.row_subset import on_screen, rows_of
-from slipwise.diagnosis.screening import Screened, basis_of, project_away
+from slipwise.diagnosis.screening import Screened
 from slipwise.evidence.acceptance import compute_least_drop
 from slipwise.evidence.score import FLOOR
+from slipwise.regression.projection import basis_of, project_away
 
 Array = NDArray[np.float64]
 #: Share of the drop for which an effect is kept that a straight line must promise, for a refit [1].

@@ -19,6 +19,7 @@ from slipwise.diagnosis.sensitivities import compute_column, compute_residual_wi
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.jobs.parallel import on_every_core
 from slipwise.params import Parameter
+from slipwise.regression.projection import make_projector
 from slipwise.relations.parameters import Term
 
 Array = NDArray[np.float64]
@@ -81,25 +82,6 @@ def _screened_base(base: BaseFit) -> tuple[Array, Callable[[Array], Array]]:
 def _numbers(found: Screened | None) -> dict[str, Any] | None:
     """Return a candidate's column without its term, whose functions cannot be sent from one process to another."""
     return None if found is None else {k: v for k, v in vars(found).items() if k != "term"}
-
-
-def basis_of(jacobian: Array) -> Array:
-    """Return an orthonormal basis (m, <= k) of what the columns (m, k) of a Jacobian can do."""
-    scale = np.sqrt(np.einsum("ij,ij->j", jacobian, jacobian))
-    kept = jacobian[:, scale > 0.0] / scale[scale > 0.0]
-    basis, triangle = np.linalg.qr(kept)
-    return basis[:, np.abs(np.diag(triangle)) > 1e-9]
-
-
-def project_away(basis: Array, vector: Array) -> Array:
-    """Project a vector (m,) away from an orthonormal basis (m, k)."""
-    return vector - basis @ (basis.T @ vector)
-
-
-def make_projector(jacobian: Array) -> Callable[[Array], Array]:
-    """Return the projection away from the columns (m, k) of a Jacobian."""
-    basis = basis_of(jacobian)
-    return lambda v: project_away(basis, v)
 
 
 def screen_shapes(base: BaseFit, term: Term, grid: list[dict[str, float]]) -> list[Screened]:

@@ -9,7 +9,8 @@ from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.initial_grid import strengths
 from slipwise.diagnosis.rescreening import row_weights
 from slipwise.diagnosis.row_subset import on_screen
-from slipwise.diagnosis.screening import Screened, basis_of, project_away
+from slipwise.diagnosis.screening import Screened
+from slipwise.regression.projection import basis_of, project_away
 
 Array = NDArray[np.float64]
 #: A substitute that a straight line sees explain this share of what an effect explains is worth a fit [1].

@@ -5,8 +5,8 @@ after the best effects of the catalogue, is the shape of something that the cata
 no part.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
@@ -16,11 +16,17 @@ from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.noise.independent_samples import SHORTEST_BLOCK
 from slipwise.relations.run_data import FitRun
 from slipwise.relations.table import Block
+from slipwise.residual_map.field import ResidualField, take_field
+from slipwise.residual_map.ports import girder_states
+from slipwise.residual_map.splines import SplineBasis, choose_equal_bins
+from slipwise.residual_map.states import WORDS, DrivingState, measured_states, pad_instants, pad_states
 
 Array = NDArray[np.float64]
 #: Bins of a curve and of each side of a surface.
 _BINS_ONE, _BINS_TWO = 24, 10
-#: Fewer samples in a bin say nothing.
+#: States that are tried in pairs.
+_PAIRED = 4
+#: The mean of fewer samples in a bin is not shown.
 _LEAST = 12
 #: Residuals beyond this many times their median size are cut [1]; noise has one in 20 000 there.
 _OUTLIER = 6.0
@@ -31,18 +37,7 @@ _USUAL = 0.9
 #: Structure counts when a surface predicts this share of the held-out residual, and this much of it.
 SHARE, LEVEL = 0.10, 0.10
 #: Most of a balance's noise is that of one accelerometer: a state made of it would predict itself.
-_OWN_NOISE = frozenset({("vertical", "heave"), ("acceleration", "girder")})
-WORDS: dict[str, str] = {
-    "velocity": "slip velocity [m/s]",
-    "slip": "slip [m]",
-    "load": "load [N]",
-    "distance": "distance slid in the run [m]",
-    "time": "time [s]",
-    "acceleration": "slip acceleration [m/s^2]",
-    "load_rate": "rate of the load [N/s]",
-    "vertical": "vertical acceleration of the girder [m/s^2]",
-    "temperature": "temperature of the sliding face [K]",
-}
+_OWN_NOISE = frozenset({("vertical", "heave"), ("speed_rate", "girder")})
 
 
 @dataclass(frozen=True)
@@ -54,11 +49,10 @@ class ResidualSurface:
         states: one or two names of `WORDS`.
         edges: per state, the edges of the bins.
         mean: mean residual in each bin, in units of `unit`; NaN where too few samples fell.
-        band: half width of its 95 % interval.
+        band: half width of its 95 % interval; NaN there.
         unit: of the mean.
         explained: share of the residual of left-out motions that it predicts [1].
         level: the same in variances of the noise.
-        relative: rms of what it predicts over the rms, about its mean, of what the balance is made of [1].
     """
 
     relation: str
@@ -69,32 +63,32 @@ class ResidualSurface:
     unit: str
     explained: float
     level: float
-    relative: float
 
     @property
     def words(self) -> str:
         """What it depends on, in a sentence."""
-        on = " and ".join(WORDS[s].split(" [")[0] for s in self.states)
+        on = " and ".join(WORDS[s] for s in self.states)
         share = f"{100 * self.explained:.0f} %"
         return f"{self.relation}: depends on {on}; predicts {share} of the residual of motions left out"
 
 
-def leftover(found: Hypothesis, relations: tuple[str, ...] | None = None) -> ResidualSurface | None:
-    """Return the surface that predicts most of what a hypothesis leaves of left-out motions; None where none does.
+def leftover(found: Hypothesis) -> ResidualSurface | None:
+    """Return the surface that predicts most of what a hypothesis leaves of left-out motions in pads, girder and heave.
 
-    Args:
-        found: a fitted hypothesis.
-        relations: which to look at; pads, girder and heave when not given.
+    None where none of them is above the noise.
     """
     objective = found.objective
-    best: ResidualSurface | None = None
-    for name in relations or tuple(r for r in ("pads", "girder", "heave") if r in objective.relations):
-        if found.summary.fitted_level(name) < 1.0 + LEVEL:
-            continue
-        for surface in _surfaces(found, name, _folds(found, name)):
-            if best is None or surface.level > best.level:
-                best = surface
-    return best
+    there = [r for r in ("pads", "girder", "heave") if r in objective.relations]
+    over = [r for r in there if found.summary.fitted_level(r) >= 1.0 + LEVEL]
+    if not over:
+        return None
+    every = pad_instants(objective, found.solution.values)
+    states = [*measured_states(every), *pad_states(every)]
+    surfaces: list[ResidualSurface] = []
+    for name in over:
+        field = _without_outliers(take_field(objective, found.solution.residuals, name, thinned=1))
+        surfaces += _surfaces(field, states if name == "pads" else girder_states(states))
+    return max(surfaces, key=lambda s: s.level, default=None)
 
 
 def above_noise(found: Hypothesis) -> dict[str, float]:
@@ -151,50 +145,6 @@ def _fitted(found: Hypothesis, relation: str) -> list[Block]:
     return found.solution.residuals.blocks(relation, found.objective.fitted)
 
 
-def _samples(found: Hypothesis, of: Block) -> dict[str, Array]:
-    """Return residual, noise and states of one run's samples, each (m,)."""
-    part, sigma, kept = of.value, of.noise, of.mask
-    states = states_of(found.objective.run(of.run))
-    if kept.ndim == 2:
-        wide = {k: np.broadcast_to(v if v.ndim == 2 else v[:, None], part.shape)[kept] for k, v in states.items()}
-        return {"left": part[kept], "sigma": sigma[kept], **wide}
-    flat = {k: (v.mean(axis=1) if v.ndim == 2 else v)[kept] for k, v in states.items()}
-    return {"left": part[kept], "sigma": sigma[kept], **flat}
-
-
-def states_of(run: FitRun) -> Mapping[str, Array]:
-    """Return the states over which residuals are looked at, (n,) or (n, p)."""
-    smooth = np.gradient(run.velocity, run.dt)
-    states: dict[str, Array] = {
-        "velocity": run.velocity,
-        "slip": run.slip,
-        "distance": np.cumsum(np.abs(run.velocity)) * run.dt,
-        "time": run.time - run.time[0],
-        "acceleration": smooth,
-    }
-    if np.isfinite(run.load).all() and float(np.std(run.load)) > 1e-6 * float(np.mean(run.load)):
-        states["load"] = run.load
-        block = np.ones(9) / 9.0
-        slow = np.stack([np.convolve(run.load[:, i], block, mode="same") for i in range(run.load.shape[1])], axis=1)
-        states["load_rate"] = np.gradient(slow, run.dt, axis=0)
-    if run.record.has_all(*(f"pad_{p}_T" for p in run.pads)):
-        states["temperature"] = np.stack([run.record[f"pad_{p}_T"] for p in run.pads], axis=1)
-    vertical = run.states.girder_acceleration[:, 2]
-    if np.isfinite(vertical).all():
-        states["vertical"] = vertical
-    return states
-
-
-def _surfaces(found: Hypothesis, relation: str, folds: list[dict[str, Array]]) -> list[ResidualSurface]:
-    size = _size(found, relation)
-    names = [k for k in folds[0] if k not in ("left", "sigma") and (k, relation) not in _OWN_NOISE]
-    ones = [_surface(relation, (n,), folds, size) for n in names]
-    ranked = sorted(ones, key=lambda s: -s.level)
-    pairs = [c for c in combinations([s.states[0] for s in ranked[:4]], 2)]
-    signed = [("velocity", n) for n in names if n != "velocity" and ("velocity", n) not in pairs]
-    return [*ones, *(_surface(relation, p, folds, size) for p in [*pairs, *signed])]
-
-
 def _size(found: Hypothesis, relation: str) -> float:
     """Return rms about its mean of what a balance is made of: friction, load, or acceleration of the girder [SI]."""
     parts = [_made_of(run, relation) for run in found.objective.fitted_runs]
@@ -207,94 +157,42 @@ def _made_of(run: FitRun, relation: str) -> Array:
     return run.force if relation == "pads" else run.load.sum(axis=1)
 
 
-def _folds(found: Hypothesis, relation: str) -> list[dict[str, Array]]:
-    """Return the samples of each motion; those of every other eighth of the time where there is one motion only."""
-    by_motion = found.solution.residuals.by_motion(relation).values()
-    groups = [_joined([_samples(found, of) for of in group]) for group in by_motion]
-    if len(groups) > 1:
-        return groups
-    time = groups[0]["time"]
-    odd = np.floor(8.0 * time / max(float(time.max()), 1e-12)) % 2.0 >= 1.0
-    return [{k: v[mask] for k, v in groups[0].items()} for mask in (~odd, odd)]
+def _without_outliers(field: ResidualField) -> ResidualField:
+    """Return a field without outliers: a single reversal that came up early must not speak for a whole run."""
+    limit = _OUTLIER * float(np.median(np.abs(field.residual)))
+    return replace(field, residual=np.clip(field.residual, -limit, limit))
 
 
-def _joined(parts: list[dict[str, Array]]) -> dict[str, Array]:
-    """Join runs; a single reversal that came up early must not speak for a whole run, so outliers are cut."""
-    joined = {k: np.concatenate([p[k] for p in parts]) for k in parts[0]}
-    limit = _OUTLIER * float(np.median(np.abs(joined["left"])))
-    return {**joined, "left": np.clip(joined["left"], -limit, limit)}
+def _surfaces(field: ResidualField, states: Sequence[DrivingState]) -> list[ResidualSurface]:
+    """Return the surfaces over every state, over pairs of the best, and over the velocity with every other."""
+    tried = [s for s in states if (s.name, field.relation) not in _OWN_NOISE]
+    values = {s.label: field.at_samples(s.values) for s in tried}
+    ones = sorted(((_surface(field, (s,), values), s) for s in tried), key=lambda one: -one[0].level)
+    best: dict[str, DrivingState] = {}
+    for _, state in ones:  # of lags of one state the best only
+        best.setdefault(state.name, state)
+    pairs = list(combinations(list(best.values())[:_PAIRED], 2))
+    if "velocity" in best:  # in a pair with it a force may turn with the motion, whatever it explains alone
+        pairs += [(best["velocity"], state) for state in tried if state.name != "velocity"]
+    return [*(surface for surface, _ in ones), *(_surface(field, pair, values) for pair in pairs)]
 
 
-@dataclass(frozen=True)
-class _Cells:
-    """Mean residuals over one or two states."""
-
-    states: tuple[str, ...]
-    edges: tuple[Array, ...]
-    count: NDArray[np.int64]
-    mean: Array
-    spread: Array
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        return tuple(len(e) - 1 for e in self.edges)
-
-    def predict(self, samples: dict[str, Array]) -> Array:
-        # a surface of many cells predicts less noise when each mean is shrunk by its own uncertainty
-        shrunk = self.mean * self.mean**2 / np.maximum(self.mean**2 + 3.0 * self.spread**2, 1e-30)
-        return np.where(self.count >= _LEAST, shrunk, 0.0)[_place(samples, self.states, self.edges, self.shape)]
-
-
-def _cells(states: tuple[str, ...], samples: dict[str, Array]) -> _Cells:
-    bins = _BINS_ONE if len(states) == 1 else _BINS_TWO
-    edges = tuple(_edges(samples[s], bins, signed=s in ("velocity", "slip")) for s in states)
-    shape = tuple(len(e) - 1 for e in edges)
-    place = _place(samples, states, edges, shape)
-    count = np.bincount(place, minlength=int(np.prod(shape)))
-    total = np.bincount(place, weights=samples["left"], minlength=len(count))
-    squares = np.bincount(place, weights=samples["left"] ** 2, minlength=len(count))
-    mean = total / np.maximum(count, 1)
-    spread = np.sqrt(np.maximum(squares / np.maximum(count, 1) - mean**2, 0.0) / np.maximum(count, 1))
-    return _Cells(states, edges, count, mean, spread)
-
-
-def _surface(relation: str, states: tuple[str, ...], folds: list[dict[str, Array]], size: float) -> ResidualSurface:
-    before = after = 0.0
-    for i, held in enumerate(folds):
-        left = held["left"] - _cells(states, _joined([f for j, f in enumerate(folds) if j != i])).predict(held)
-        before += float(np.sum(held["left"] ** 2))
-        after += float(np.sum(left**2))
-    whole = _joined(folds)
-    cells = _cells(states, whole)
-    samples, level = len(whole["left"]), float(np.median(whole["sigma"]))
-    predicted = max(before - after, 0.0) / max(samples, 1)
-    shown = np.where(cells.count >= _LEAST, cells.mean, np.nan) * level
+def _surface(field: ResidualField, states: Sequence[DrivingState], values: Mapping[str, Array]) -> ResidualSurface:
+    count = _BINS_ONE if len(states) == 1 else _BINS_TWO
+    over = [values[s.label] for s in states]
+    bins = [choose_equal_bins(v, count, split=s.signed) for s, v in zip(states, over, strict=True)]
+    splines = SplineBasis(tuple(bins), degree=0)
+    curve = field.fit(splines, over)
+    shown = curve.count >= _LEAST
+    mean, band = (np.where(shown, of, np.nan).reshape(splines.shape) for of in (curve.heights(), 2.0 * curve.errors()))
+    predicted = curve.carried_over()
     return ResidualSurface(
-        relation,
-        states,
-        cells.edges,
-        shown.reshape(cells.shape),
-        (2.0 * cells.spread * level).reshape(cells.shape),
-        {"girder": "m/s^2"}.get(relation, "N"),
-        1.0 - after / max(before, 1e-30),
-        (before - after) / max(samples, 1),
-        float(np.sqrt(predicted) * level / max(size, 1e-30)),
+        field.relation,
+        tuple(s.name for s in states),
+        splines.knots,
+        mean,
+        band,
+        {"girder": "m/s^2"}.get(field.relation, "N"),
+        predicted / max(float(curve.whole.sum()), 1e-30),
+        predicted / max(len(field.residual), 1),
     )
-
-
-def _edges(values: Array, bins: int, *, signed: bool) -> Array:
-    """Return edges with equal counts between them; a signed state also has one at zero."""
-    edges = np.quantile(values, np.linspace(0.0, 1.0, bins + 1))
-    if signed and edges[0] < 0.0 < edges[-1]:
-        edges = np.sort(np.append(edges, 0.0))
-    edges = np.unique(edges)
-    return edges if len(edges) > 1 else np.array([edges[0] - 1.0, edges[0] + 1.0])
-
-
-def _place(
-    of: dict[str, Array], states: tuple[str, ...], edges: tuple[Array, ...], shape: tuple[int, ...]
-) -> NDArray[np.int64]:
-    places = [
-        np.clip(np.searchsorted(e, of[s], side="right") - 1, 0, len(e) - 2) for s, e in zip(states, edges, strict=True)
-    ]
-    return np.ravel_multi_index(tuple(places), shape)

@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
-from slipwise.discovery.ports import Gate, Port
-from slipwise.discovery.splines import Spline
-from slipwise.discovery.states import DrivingState
+from slipwise.residual_map.curve import ResidualCurve
+from slipwise.residual_map.ports import Gate, Port
+from slipwise.residual_map.states import DrivingState
 
 
 @dataclass(frozen=True)
@@ -15,7 +15,7 @@ class CurveCandidate:
         states: that drive it.
         port: how it enters.
         gate: on which pads, and which way.
-        spline: over the states.
+        curve: over the states.
         share: of the residual above noise, of all relations that are screened, that it explains, each motion by what
             the others ask for [1].
     """
@@ -23,7 +23,7 @@ class CurveCandidate:
     states: tuple[DrivingState, ...]
     port: Port
     gate: Gate
-    spline: Spline
+    curve: ResidualCurve
     share: float
 
     @property

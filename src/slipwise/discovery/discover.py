@@ -19,7 +19,6 @@ from slipwise.discovery.law_objective import FittedLaw, LawObjective
 from slipwise.discovery.law_summary import summarise_law
 from slipwise.discovery.result import Discovery
 from slipwise.discovery.search import Found, different, find_law
-from slipwise.discovery.states import WORDS, pad_instants, pad_states, rig_states
 from slipwise.effects import RIG_MOTION, Effect
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import compute_intervals
@@ -30,6 +29,7 @@ from slipwise.model import Model
 from slipwise.noise.level import is_at_floor
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared
+from slipwise.residual_map.states import MEASURED, WORDS, pad_instants, pad_states, rig_states
 
 #: Shares of the error above noise at which a law, a state, an organising state may be said [1].
 LAW, STATE, ORGANISED = 0.95, 0.9, 0.5
@@ -302,7 +302,7 @@ def _cannot_judge(here: LawObjective) -> list[str]:
     """Say which states hardly vary, and where there is one motion only."""
     free = here.plain.specimen.free
     there = {s.name for s in (*pad_states(here.every), *rig_states(here.every))}
-    missing = [name for name in WORDS if name not in there and (free or name not in RIG_MOTION)]
+    missing = [name for name in WORDS if name not in {*there, *MEASURED} and (free or name not in RIG_MOTION)]
     out = [f"{WORDS[name]}: it does not vary in this campaign" for name in missing]
     if len(here.fitted) < 2:
         out.append("whether a law carries over to another motion: there is one fitted run only")

@@ -9,9 +9,9 @@ from slipwise.discovery.form import FUNCTIONS
 from slipwise.discovery.law import Law, LawConstant, Origin, with_names
 from slipwise.discovery.law_objective import STRENGTH, TIME_CONSTANT
 from slipwise.discovery.matching import constants_of
-from slipwise.discovery.states import UNITS
 from slipwise.effects import LAGGING, WrittenEffect, WrittenHook, write_effect
 from slipwise.params import Parameter
+from slipwise.residual_map.states import UNITS
 
 #: State -> argument of a pad's hook; others are called alike. Of a buffer, rate and deflection stand for both.
 _OF_PADS = {"slip": "slip_x"}

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from slipwise.discovery.form import FUNCTIONS, Form
 from slipwise.discovery.law_objective import FittedLaw
 from slipwise.discovery.matching import name_of
-from slipwise.discovery.states import WORDS
+from slipwise.residual_map.states import WORDS
 
 
 @dataclass(frozen=True)

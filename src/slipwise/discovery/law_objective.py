@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.discovery.matching import Match, constants_of, limits, place_of, product_at
-from slipwise.discovery.states import DrivingState, PadInstants, derived
 from slipwise.estimation.least_squares import Solution, get_slopes, solve
 from slipwise.estimation.objective import Objective
 from slipwise.relations.girder import pass_through_pitch
@@ -21,6 +20,7 @@ from slipwise.relations.pad_stages import divide_by_noise
 from slipwise.relations.parameters import Free
 from slipwise.relations.stages import Inputs, Memo, Stage, make_memo
 from slipwise.relations.table import Residuals
+from slipwise.residual_map.states import DrivingState, PadInstants, derived
 from slipwise.signals.filters import LowPass
 
 Array = NDArray[np.float64]

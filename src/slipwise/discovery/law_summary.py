@@ -8,8 +8,8 @@ from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.law import Law, LawConstant, TiedForm
 from slipwise.discovery.law_objective import STRENGTH, TIME_CONSTANT, FittedLaw
 from slipwise.discovery.matching import constants_of, place_of
-from slipwise.discovery.states import UNITS
 from slipwise.estimation.intervals import Interval
+from slipwise.residual_map.states import UNITS
 
 
 def summarise_law(

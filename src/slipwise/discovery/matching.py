@@ -1,4 +1,4 @@
-"""Forms matched to a spline: which of them could be the curve, and with which constants they begin."""
+"""Forms matched to the curve of a residual: which of them could be the curve, and with which constants they begin."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from scipy.optimize import minimize
 
 from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.form import Constant, Form
-from slipwise.discovery.states import DrivingState
+from slipwise.residual_map.states import DrivingState
 
 Array = NDArray[np.float64]
 #: Shares of the samples between which a place must lie: beyond, nothing is known of it [1].
@@ -141,7 +141,7 @@ def _match(candidate: CurveCandidate, forms: tuple[Form, ...]) -> Match | None:
     grid = [
         dict(zip(named, point, strict=True)) for point in product(*(_starts(c, state_of[n]) for n, c in named.items()))
     ]
-    gains = candidate.spline.gain_of(np.stack([heights(candidate, forms, point) for point in grid]))[0]
+    gains = candidate.curve.gain_of(np.stack([heights(candidate, forms, point) for point in grid]))[0]
     if not np.isfinite(gains).any():
         return None
     best = grid[int(np.nanargmax(gains))]
@@ -152,7 +152,7 @@ def _match(candidate: CurveCandidate, forms: tuple[Form, ...]) -> Match | None:
 
         def loss(x: Array) -> float:
             point = {**best, **{n: float(np.clip(v, *bounds[n])) for n, v in zip(free, x * scales, strict=True)}}
-            gain = candidate.spline.gain_of(heights(candidate, forms, point)[None])[0][0]
+            gain = candidate.curve.gain_of(heights(candidate, forms, point)[None])[0][0]
             return -float(gain) if np.isfinite(gain) else 0.0
 
         start = np.array([best[n] for n in free]) / scales
@@ -160,13 +160,13 @@ def _match(candidate: CurveCandidate, forms: tuple[Form, ...]) -> Match | None:
         if -found.fun >= float(np.nanmax(gains)):
             values = zip(free, found.x * scales, strict=True)
             best = {**best, **{n: float(np.clip(v, *bounds[n])) for n, v in values}}
-    gain, strength = candidate.spline.gain_of(heights(candidate, forms, best)[None])
+    gain, strength = candidate.curve.gain_of(heights(candidate, forms, best)[None])
     return Match(candidate, forms, best, float(gain[0]), float(strength[0]))
 
 
 def heights(candidate: CurveCandidate, forms: Sequence[Form], constants: Mapping[str, float]) -> Array:
     """Return what the curve would be at the knots (K,)."""
-    knots = candidate.spline.knots
+    knots = candidate.curve.knots
     if len(forms) == 1:
         out = forms[0].at(knots[0], own(constants, 0, forms[0]))
     else:

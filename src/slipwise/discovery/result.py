@@ -9,10 +9,10 @@ from typing import Any
 from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.effect_file import can_be_written, write_law
 from slipwise.discovery.law import Law, Origin
-from slipwise.discovery.states import UNITS
 from slipwise.display import Drawn, Tabular
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.preparation.data_corrections import DataCorrection
+from slipwise.residual_map.states import UNITS
 
 #: A law's form in a sentence.
 _HOW = {

@@ -10,21 +10,39 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.discovery.candidate import CurveCandidate
-from slipwise.discovery.ports import EVERYWHERE, Gate, Port, opened
-from slipwise.discovery.residual_field import ResidualField
-from slipwise.discovery.splines import spline
-from slipwise.discovery.states import DrivingState
+from slipwise.estimation.least_squares import Solution
+from slipwise.estimation.objective import Objective
 from slipwise.relations.evaluation_times import Instants
+from slipwise.residual_map.curve import ResidualCurve
+from slipwise.residual_map.field import ResidualField, project_base_out, take_field
+from slipwise.residual_map.ports import EVERYWHERE, Gate, Port, opened
+from slipwise.residual_map.splines import SplineBasis, choose_knots
+from slipwise.residual_map.states import DrivingState
 
 Array = NDArray[np.float64]
 #: Knots over one state, over the slip (a plate may be grooved), and over each of two.
 _KNOTS, _KNOTS_OF_SLIP, _KNOTS_OF_TWO = 12, 60, 6
+#: Every n-th sample is screened.
+_THINNED = 5
 #: Dependences that are looked at again with every gate, and states that are tried in pairs.
 _GATED, _PAIRED = 8, 7
 #: A gate, or a second state, must explain this much more of the residual above noise [1].
 _MORE = 0.04
 #: Above this share a single state is enough [1].
 _ENOUGH = 0.97
+
+
+def screened_field(objective: Objective, solution: Solution, relation: str) -> ResidualField:
+    """Return the residual of a relation as it is screened: thinned, without what base parameters can do."""
+    return project_base_out(take_field(objective, solution.residuals, relation, _THINNED), objective, solution)
+
+
+def fit_straight_pieces(
+    field: ResidualField, states: Sequence[Array], carrier: Array, counts: Sequence[int]
+) -> ResidualCurve:
+    """Fit the curve of straight pieces over states, (m,) each, with at most so many knots over each."""
+    knots = tuple(choose_knots(s, count) for s, count in zip(states, counts, strict=True))
+    return field.fit(SplineBasis(knots, degree=1), states, carrier)
 
 
 def screen_states(
@@ -101,5 +119,5 @@ def _candidate(
         counts = (_KNOTS_OF_SLIP,)
     else:
         counts = (_KNOTS,)
-    made = spline(field, carrier, tuple(values[s.label] for s in states), counts)
-    return CurveCandidate(tuple(states), port, gate, made, made.carried_over() / max(field.excess, 1e-9))
+    curve = fit_straight_pieces(field, [values[s.label] for s in states], carrier, counts)
+    return CurveCandidate(tuple(states), port, gate, curve, curve.carried_over() / max(field.excess, 1e-9))

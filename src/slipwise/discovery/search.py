@@ -13,13 +13,12 @@ from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.form import forms
 from slipwise.discovery.law_objective import LEVER, FittedLaw, LawObjective, PlacedLaw, fit_law, fit_on
 from slipwise.discovery.matching import Match, matched
-from slipwise.discovery.ports import gates, girder_ports, girder_states, load_ports, opened, pad_ports, places_of
-from slipwise.discovery.residual_field import residual_field
-from slipwise.discovery.screening import screen_states, weighed
-from slipwise.discovery.states import pad_instants, pad_states, rig_states
+from slipwise.discovery.screening import screen_states, screened_field, weighed
 from slipwise.estimation.least_squares import Solution, with_slopes
 from slipwise.model import Model
 from slipwise.noise.level import AT_FLOOR
+from slipwise.residual_map.ports import gates, girder_ports, girder_states, load_ports, opened, pad_ports, places_of
+from slipwise.residual_map.states import pad_instants, pad_states, rig_states
 
 #: Candidates, forms of each, and matches of each start that are fitted, and of these the ones that are fitted finely.
 _CANDIDATES, _FORMS, _FITTED, _FINELY = 6, 5, 9, 3
@@ -139,7 +138,7 @@ def _placed(label: str, match: Match, here: LawObjective) -> PlacedLaw:
 def _screened(here: LawObjective, start: Solution) -> list[CurveCandidate]:
     """Screen every relation with more than noise; shares are of what all of them leave."""
     states = pad_states(here.every)
-    fields = [residual_field(here.plain, start, r) for r in ("pads", "girder", "heave") if r in here.relations]
+    fields = [screened_field(here.plain, start, r) for r in ("pads", "girder", "heave") if r in here.relations]
     fields = [f for f in fields if f.residual @ f.residual >= AT_FLOOR**2 * len(f.residual)]
     whole = max(sum(f.excess for f in fields), 1e-9)
     out: list[CurveCandidate] = []

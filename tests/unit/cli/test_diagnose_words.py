@@ -55,7 +55,7 @@ def test_the_demo_says_what_is_left():
     little = left_by("heating", of=of, pads=1.3, over=lambda run: run.velocity)
     state = searched(of, little)
     shaped = replace(decided(state), leftover="unknown", surface=leftover(little))
-    assert diagnosed(state, shaped).left_over.startswith("what is left: pads: depends on slip velocity")
+    assert diagnosed(state, shaped).left_over.startswith("what is left: pads: depends on the slip velocity")
     loud = diagnosed(searched(of, left_by("heating", of=of, pads=2.3**2)))
     assert loud.left_over == "still above the noise, in floors: pad friction 2.30"
 

@@ -14,13 +14,13 @@ from slipwise.campaign import Campaign, Logger, Run
 from slipwise.diagnosis.candidates import list_candidates
 from slipwise.diagnosis.initial_grid import shapes, strengths
 from slipwise.diagnosis.row_subset import on_screen
-from slipwise.diagnosis.screening import make_projector
 from slipwise.diagnosis.sensitivities import compute_column, compute_residual_with, small
 from slipwise.effects import NEEDS, catalogue, scaled
 from slipwise.estimation.base_fit import BaseFit, fit_base
 from slipwise.preparation.sample_faults import find_sample_faults
 from slipwise.preparation.signs import find_wrong_signs
 from slipwise.record import Record
+from slipwise.regression.projection import make_projector
 from slipwise.relations.parameters import Term
 from slipwise.rig import load_specimen
 

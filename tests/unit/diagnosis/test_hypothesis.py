@@ -9,10 +9,11 @@ from bench import build_campaign
 from measured import as_campaign, fit_base
 from slipwise.diagnosis.detectable_size import estimate_least_sizes
 from slipwise.diagnosis.hypothesis import make_base_hypothesis, refit
-from slipwise.diagnosis.screening import make_projector, screen
+from slipwise.diagnosis.screening import screen
 from slipwise.effects import catalogue
 from slipwise.evidence.acceptance import LEAST
 from slipwise.model import base_model, use
+from slipwise.regression.projection import make_projector
 from slipwise.relations.parameters import Term, list_base_numbers
 
 

@@ -7,8 +7,9 @@ from bench import build_campaign
 from measured import as_campaign, fit_base
 from slipwise.diagnosis.candidates import list_candidates
 from slipwise.diagnosis.initial_grid import is_placed, places, shapes, strengths, variants
-from slipwise.diagnosis.screening import make_projector, screen
+from slipwise.diagnosis.screening import screen
 from slipwise.effects import catalogue
+from slipwise.regression.projection import make_projector
 
 
 def test_what_the_base_can_do_is_projected_out_and_the_rest_stays() -> None:

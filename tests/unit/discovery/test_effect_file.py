@@ -15,11 +15,11 @@ from slipwise.discovery.form import forms
 from slipwise.discovery.law import Law, LawConstant
 from slipwise.discovery.law_objective import FittedLaw, LawObjective, PlacedLaw
 from slipwise.discovery.matching import Match, constants_of, product_at
-from slipwise.discovery.ports import EVERYWHERE, Gate, Port
 from slipwise.discovery.result import Discovery
-from slipwise.discovery.states import UNITS, DrivingState
 from slipwise.effects import LAGGING, load_effect
 from slipwise.errors import SettingError
+from slipwise.residual_map.ports import EVERYWHERE, Gate, Port
+from slipwise.residual_map.states import UNITS, DrivingState
 
 NAN = math.nan
 

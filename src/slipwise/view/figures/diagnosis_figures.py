@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.ladder import Ladder, LadderStep
 from slipwise.diagnosis.result import Diagnosis
-from slipwise.diagnosis.unknown_surface import WORDS, ResidualSurface
+from slipwise.diagnosis.unknown_surface import ResidualSurface
+from slipwise.residual_map.states import UNITS, WORDS
 from slipwise.units import convert
 from slipwise.view.figures.canvas import new_figure
 from slipwise.view.figures.panels import AFTER, BEFORE, error_bars
@@ -156,5 +157,6 @@ def surface_figure(surface: ResidualSurface) -> Figure:
 
 def _state_axis(state: str, edges: Array) -> tuple[str, Array]:
     """Return the label of a state's axis and its edges, in the unit in which people read it."""
-    words, _, unit = WORDS[state].rstrip("]").partition(" [")
+    unit = UNITS[state]
+    words = WORDS[state].removeprefix("the ")
     return f"{words} [{usual_unit(unit)}]", convert(1.0, unit, usual_unit(unit)) * edges

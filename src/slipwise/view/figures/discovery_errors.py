@@ -7,8 +7,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from slipwise.discovery.result import Discovery
-from slipwise.discovery.splines import knots_of
-from slipwise.discovery.states import DrivingState
+from slipwise.residual_map.splines import choose_knots
+from slipwise.residual_map.states import DrivingState
 from slipwise.rig.frame import frame_push
 from slipwise.view.figures.canvas import new_figure
 from slipwise.view.figures.compare_figures import widest_loop
@@ -99,7 +99,7 @@ def states_figure(found: Discovery) -> Figure:
 
 def binned_rms(values: Array, left: Array) -> tuple[Array, Array]:
     """Return middles of bins that follow the samples and the range by turns, and the rms of what is left in each."""
-    edges = knots_of(values, _BINS + 1)
+    edges = choose_knots(values, _BINS + 1)
     place = np.clip(np.searchsorted(edges, values, side="right") - 1, 0, max(len(edges) - 2, 0))
     count = np.bincount(place)
     enough = count >= _FEWEST

@@ -14,7 +14,6 @@ from slipwise.discovery.law import Law
 from slipwise.discovery.law_objective import STRENGTH
 from slipwise.discovery.matching import product_at
 from slipwise.discovery.result import Discovery
-from slipwise.discovery.splines import columns
 from slipwise.view.figures.canvas import new_figure
 from slipwise.view.figures.discovery_samples import Cloud, candidate_cloud, law_cloud
 from slipwise.view.figures.style import MODEL_COLOURS
@@ -114,5 +113,5 @@ def _slices(
 
 def _curve(cloud: Cloud, states: Sequence[Array]) -> tuple[Array, Array]:
     """Return the curve of straight pieces at states (m,), and the half width of its band."""
-    hat = columns(states, cloud.curve.knots)
-    return hat @ cloud.curve.curve(), _BAND * (hat @ cloud.curve.band())
+    at = cloud.curve.splines.evaluate
+    return at(cloud.curve.heights(), states), _BAND * at(cloud.curve.errors(), states)

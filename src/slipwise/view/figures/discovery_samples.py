@@ -10,13 +10,13 @@ from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.law import Law
 from slipwise.discovery.law_objective import STRENGTH, FittedLaw
 from slipwise.discovery.matching import product_at
-from slipwise.discovery.ports import opened, places_of
-from slipwise.discovery.residual_field import residual_field
 from slipwise.discovery.result import Discovery
-from slipwise.discovery.splines import Spline, columns, spline
-from slipwise.discovery.states import DrivingState, pad_instants
+from slipwise.discovery.screening import fit_straight_pieces, screened_field
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.objective import Objective
+from slipwise.residual_map.curve import ResidualCurve, fit_curve
+from slipwise.residual_map.ports import opened, places_of
+from slipwise.residual_map.states import DrivingState, pad_instants
 
 Array = NDArray[np.float64]
 #: Points of a cloud, and parts of the range of its state that share them evenly: what is rare is seen too.
@@ -39,7 +39,7 @@ class Cloud:
 
     states: tuple[Array, ...]
     height: Array
-    curve: Spline
+    curve: ResidualCurve
 
     def thinned(self) -> "Cloud":
         """Return at most a few thousand of the samples."""
@@ -75,19 +75,18 @@ def law_cloud(law: Law) -> Cloud:
     The curve has the knots of the screen, and everything else is as the fit with the law has it: what other numbers
     can do for a law leaves the screen's own curve open.
     """
-    objective, knots = law.fitted.objective.plain, law.fitted.law.match.candidate.spline.knots
+    objective, splines = law.fitted.objective.plain, law.fitted.law.match.candidate.curve.splines
     driving = law_states(law.fitted)
     found = [(*law_heights(law, driving, i), _seen_noise(law, i)) for i in objective.fitted]
     kept = [np.isfinite(heights) for _, heights, _ in found]
     over = tuple(
         np.concatenate([states[k][chosen] for (states, _, _), chosen in zip(found, kept, strict=True)])
-        for k in range(len(knots))
+        for k in range(len(splines.knots))
     )
     height, noise = (
         np.concatenate([each[k][chosen] for each, chosen in zip(found, kept, strict=True)]) for k in (1, 2)
     )
-    weighed, left = columns(over, knots) / noise[:, None], height / noise
-    return Cloud(over, height, Spline(knots, (weighed.T @ weighed)[None], (weighed.T @ left)[None], left @ left))
+    return Cloud(over, height, fit_curve(splines, over, 1.0 / noise, height / noise))
 
 
 def law_heights(law: Law, driving: Sequence[DrivingState], place: int) -> tuple[list[Array], Array]:
@@ -124,14 +123,14 @@ def candidate_cloud(found: Discovery, candidate: CurveCandidate) -> Cloud:
     The curve is made once more where the search began, for a screen may have begun elsewhere.
     """
     objective, port = found.base.objective, candidate.port
-    field = residual_field(objective, found.base.solution, port.relation)
+    field = screened_field(objective, found.base.solution, port.relation)
     carrier = field.at_samples(port.carrier)
     if candidate.gate.name != "all":
         carrier = carrier * field.at_samples(_opened(found, candidate))
     states = tuple(field.at_samples(s.values) for s in candidate.states)
-    curve = spline(field, carrier, states, tuple(len(k) for k in candidate.spline.knots))
-    said = columns(states, curve.knots) @ curve.curve()
-    swallowed = field.basis @ (field.basis.T @ (said * carrier / field.sigma))
+    curve = fit_straight_pieces(field, states, carrier, candidate.curve.splines.shape)
+    said = curve.splines.evaluate(curve.heights(), states)
+    swallowed = field.base @ (field.base.T @ (said * carrier / field.sigma))
     noise = field.sigma / np.where(carrier == 0.0, np.nan, carrier)
     kept = np.abs(noise) < _NOISY * np.nanmedian(np.abs(noise))
     height = (field.residual + swallowed) * noise

@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from slipwise.comparison.result import Comparison
-from slipwise.discovery.splines import knots_of
 from slipwise.relations.run_data import FitRun
+from slipwise.residual_map.splines import choose_knots
 from slipwise.view.figures.canvas import new_figure
 from slipwise.view.figures.style import MODEL_COLOURS
 from slipwise.view.words.numbers import usual_unit
@@ -137,7 +137,7 @@ def _varies(values: Array) -> bool:
 
 def binned_medians(values: Array, heights: Array) -> tuple[Array, Array]:
     """Return medians of values and heights in bins that follow the samples and, where these are rare, the range."""
-    edges = knots_of(values, _BINS + 1)
+    edges = choose_knots(values, _BINS + 1)
     place = np.clip(np.searchsorted(edges, values, side="right") - 1, 0, max(len(edges) - 2, 0))
     bins = [chosen for i in range(max(len(edges) - 1, 1)) if np.count_nonzero(chosen := place == i) >= _FEWEST]
     return np.array([np.median(values[b]) for b in bins]), np.array([np.median(heights[b]) for b in bins])

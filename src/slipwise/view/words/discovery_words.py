@@ -3,7 +3,7 @@
 from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.law import Law
 from slipwise.discovery.result import Discovery
-from slipwise.discovery.states import UNITS, WORDS
+from slipwise.residual_map.states import UNITS, WORDS
 from slipwise.units import convert
 from slipwise.view.words.numbers import in_words, unit_of_size
 

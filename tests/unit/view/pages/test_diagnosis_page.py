@@ -137,7 +137,7 @@ def test_a_missing_force_is_drawn_over_millimetres():
     edges = (np.array([-0.2, 0.0, 0.2]),)
     mean, band = np.array([-3e3, 3e3]), np.array([10.0, 10.0])
     with styled():
-        (axes,) = surface_figure(ResidualSurface("pads", ("velocity",), edges, mean, band, "N", 0.9, 2.0, 0.1)).axes
+        (axes,) = surface_figure(ResidualSurface("pads", ("velocity",), edges, mean, band, "N", 0.9, 2.0)).axes
     assert axes.get_xlabel() == "slip velocity [mm/s]" and axes.get_ylabel() == "pads [kN]"
     line = axes.lines[0]
     assert np.allclose(line.get_xdata(), [-100.0, 100.0]) and np.allclose(line.get_ydata(), [-3.0, 3.0])

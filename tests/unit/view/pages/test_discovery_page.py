@@ -12,13 +12,12 @@ from slipwise.discovery.form import forms
 from slipwise.discovery.law import Law, LawConstant, TiedForm
 from slipwise.discovery.law_objective import FittedLaw, LawObjective, PlacedLaw
 from slipwise.discovery.matching import Match
-from slipwise.discovery.ports import EVERYWHERE, pad_ports
-from slipwise.discovery.residual_field import residual_field
 from slipwise.discovery.result import Discovery
-from slipwise.discovery.splines import spline
-from slipwise.discovery.states import pad_instants, pad_states
+from slipwise.discovery.screening import fit_straight_pieces, screened_field
 from slipwise.estimation.least_squares import Solution, compute_jacobian
 from slipwise.relations.table import Residuals
+from slipwise.residual_map.ports import EVERYWHERE, pad_ports
+from slipwise.residual_map.states import pad_instants, pad_states
 from slipwise.view.figures.discovery_errors import binned_rms, errors, errors_figure, loops_figure, states_figure
 from slipwise.view.figures.discovery_figures import law_figure
 from slipwise.view.figures.discovery_samples import candidate_cloud, law_cloud, predicted_forces
@@ -70,8 +69,8 @@ def found() -> Discovery:
     before = with_pads(solution.residuals.less({"pads": [-more for more in lacking]}), solution.values)
     before = replace(before, jacobian=compute_jacobian(objective, before.values, before.free, before.residuals))
     later = with_pads(solution.residuals, {**solution.values, "law.strength": STRENGTH})
-    field = residual_field(objective, before, "pads")
-    curve = spline(field, field.at_samples(port.carrier), (field.at_samples(speed.values),), (12,))
+    field = screened_field(objective, before, "pads")
+    curve = fit_straight_pieces(field, (field.at_samples(speed.values),), field.at_samples(port.carrier), (12,))
     candidate = CurveCandidate((speed,), port, EVERYWHERE, curve, 0.97)
     match = Match(candidate, (forms()["square"],), {"reference": REFERENCE}, 1.0, STRENGTH)
     placed = PlacedLaw("law", match, tuple(np.ones_like(s.load) for s in every.states))
@@ -101,7 +100,7 @@ def test_the_cloud_lies_on_the_law_within_its_noise_and_so_does_the_curve_withou
     assert abs(np.mean(off)) < 0.05 * law.max() and np.std(off) < 0.2 * law.max()
     knots = cloud.curve.knots[0]
     middle = (knots > np.quantile(speed, 0.1)) & (knots < np.quantile(speed, 0.9))
-    apart = cloud.curve.curve() - STRENGTH * (knots / REFERENCE) ** 2
+    apart = cloud.curve.heights() - STRENGTH * (knots / REFERENCE) ** 2
     assert np.abs(apart[middle]).max() < 0.05 * law.max()
 
 
@@ -115,7 +114,7 @@ def test_a_cloud_is_thinned_evenly_over_the_range_so_that_rare_states_are_seen(f
 
 def test_where_no_form_is_claimed_the_curve_goes_through_what_the_base_fit_leaves(unknown):
     cloud = candidate_cloud(unknown, unknown.organised)
-    said = np.interp(cloud.states[0], cloud.curve.knots[0], cloud.curve.curve())
+    said = np.interp(cloud.states[0], cloud.curve.knots[0], cloud.curve.heights())
     assert np.std(cloud.height - said) < 0.5 * np.std(cloud.height)
 
 

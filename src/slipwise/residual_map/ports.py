@@ -16,9 +16,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slipwise.discovery.states import DrivingState, PadInstants
 from slipwise.estimation.objective import Objective
 from slipwise.relations.evaluation_times import Instants
+from slipwise.residual_map.states import DrivingState, PadInstants
 
 Array = NDArray[np.float64]
 #: Speed [m/s] over which the sign of a girder's motion is smoothed.

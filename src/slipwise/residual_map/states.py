@@ -1,6 +1,7 @@
 """What a missing force may depend on: states of the pads and of the girder at every instant of all runs.
 
-They are the arguments that a hook may ask for, made by the very functions that make them in a simulation.
+Those that a law may know are the arguments that a hook may ask for, made by the very functions that make them in a
+simulation. What is measured beside them tells a reader where the force is, and cannot be the argument of a law.
 """
 
 from collections.abc import Mapping
@@ -22,8 +23,10 @@ from slipwise.simulation.predict import PadForces
 Array = NDArray[np.float64]
 #: Time constants at which lags of the load are looked for, and those of heat [s], on the time scale of a girder.
 _LAGS, _COOLING = (0.001, 0.003, 0.008, 0.02, 0.05, 0.15), (0.3, 1.0, 3.0, 10.0)
-#: State -> its SI unit, as the contract of the effects has it.
-UNITS: dict[str, str] = {
+#: State that is measured and no argument of a law -> its SI unit.
+MEASURED: dict[str, str] = {"velocity": "m/s", "vertical": "m/s^2", "temperature": "K"}
+#: State -> its SI unit, for arguments of laws as the contract of the effects has it.
+UNITS: dict[str, str] = MEASURED | {
     name: PAD_INPUTS[argument].rpartition("[")[2].removesuffix("]")
     for name, argument in {"slip": "slip_x", **{n: n for n in ("speed", "load", "time", *DERIVED, *RIG_MOTION)}}.items()
 }
@@ -36,6 +39,8 @@ WORDS: dict[str, str] = {
     "slid": "the distance slid", "heat": "the heat", "outward": "motion outward or inward",
     "path_curvature": "the curvature of the path", "rocking_rate": "the rocking rate of the girder",
     "table_velocity": "the velocity of the table", "table_acceleration": "the acceleration of the table",
+    "velocity": "the slip velocity", "vertical": "the vertical acceleration of the girder",
+    "temperature": "the temperature of the sliding face",
 }  # fmt: skip
 #: A state that varies by less than this share of its size cannot be judged [1].
 _VARIES = 1e-3
@@ -58,7 +63,7 @@ class DrivingState:
     @property
     def signed(self) -> bool:
         """Whether it takes both signs."""
-        return self.name in ("slip", "speed_rate", "load_rate", "outward", *RIG_MOTION)
+        return self.name in ("slip", "speed_rate", "load_rate", "outward", "velocity", "vertical", *RIG_MOTION)
 
     @property
     def label(self) -> str:
@@ -113,6 +118,25 @@ def pad_states(every: PadInstants) -> list[DrivingState]:
             out += [DrivingState(name, lag, tuple(found[name])) for name in wanted]
     out += [DrivingState(name, 0.0, tuple(found[name])) for name in DERIVED if name not in LAGGING]
     return [s for s in out if _varies(s)]
+
+
+def measured_states(every: PadInstants) -> list[DrivingState]:
+    """Return what is measured beside the states of laws, of `MEASURED`; what is not there or hardly varies is left out.
+
+    The velocity along x has a sign, the temperature is that of each pad's face, the vertical acceleration the girder's.
+    """
+    found: dict[str, list[Array]] = {"velocity": [s.velocity[:, :, 0] for s in every.states]}
+    found["vertical"] = [
+        np.broadcast_to(interpolate_finely(run.states.girder_acceleration[:, 2:], run.fine), s.load.shape)
+        for run, s in zip(every.runs, every.states, strict=True)
+    ]
+    gauges = [[f"pad_{p}_T" for p in run.pads] for run in every.runs]
+    if all(run.record.has_all(*names) for run, names in zip(every.runs, gauges, strict=True)):
+        found["temperature"] = [
+            interpolate_finely(np.stack([run.record[name] for name in names], axis=1), run.fine)
+            for run, names in zip(every.runs, gauges, strict=True)
+        ]
+    return [s for name, values in found.items() if _varies(s := DrivingState(name, 0.0, tuple(values)))]
 
 
 def rig_states(every: PadInstants) -> list[DrivingState]:
