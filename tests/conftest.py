@@ -1,4 +1,4 @@
-"""What all tests share: the law and the bench's simulator are compiled once, before the workers start."""
+"""What all tests share: the law and the bench's simulator are compiled once, and no worker waits for another's core."""
 
 import os
 import subprocess
@@ -18,9 +18,14 @@ COMPILING = (
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Compile on both cores at once; else every worker would compile all of it, and wait."""
+    """Compile on both cores at once; else every worker would compile all of it, and wait.
+
+    Every core has a worker: a second thread of linear algebra would spin beside another worker. Only the environment
+    of a process that has not loaded the library yet reaches all of its threads.
+    """
     if hasattr(config, "workerinput") or not config.getoption("numprocesses", None) or config.option.collectonly:
         return
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     paths = os.pathsep.join([str(TESTS), os.environ.get("PYTHONPATH", "")])
     environment = {**os.environ, "PYTHONPATH": paths}
     started = [subprocess.Popen([sys.executable, "-c", code], env=environment) for code in COMPILING]

@@ -59,12 +59,6 @@ EFFECT = Effect(
 '''
 
 
-@pytest.fixture(autouse=True)
-def own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Kernels of these tests are kept apart from the user's."""
-    monkeypatch.setenv("SLIPWISE_CACHE", str(tmp_path_factory.getbasetemp() / "kernels"))
-
-
 def written(folder: Path, text: str = MINE, name: str = "washboard.py") -> Path:
     path = folder / name
     path.write_text(textwrap.dedent(text).lstrip())

@@ -62,16 +62,22 @@ def test_all_that_compiles_works_without_a_home_and_says_at_most_one_line_of_the
     assert {path.name for path in tmp_path.iterdir()} == {"a.png", "replay", "ensemble", "temporary"}
 
 
+@pytest.fixture(scope="module")
+def plain_picture(campaign: Path, tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    """Lend the picture of an effect as it is where nothing lies in the current folder."""
+    folder = tmp_path_factory.mktemp("plain")
+    assert run("effects heating --picture {out}/a.png", campaign, folder, {}).returncode == 0
+    return (folder / "a.png").read_bytes()
+
+
 @pytest.mark.parametrize("settings", [b"figure.dpi: 20\ntext.usetex: True\n", b"figure.dpi: 20 # \xe9\xff\n"])
-def test_a_matplotlibrc_of_the_current_folder_is_not_read(settings: bytes, campaign: Path, tmp_path: Path) -> None:
-    picture = tmp_path / "a.png"
-    assert run("effects heating --picture {out}/a.png", campaign, tmp_path, {}).returncode == 0
-    without = picture.read_bytes()
-    picture.unlink()
+def test_a_matplotlibrc_of_the_current_folder_is_not_read(
+    settings: bytes, plain_picture: bytes, campaign: Path, tmp_path: Path
+) -> None:
     (tmp_path / "matplotlibrc").write_bytes(settings)
     done = run("effects heating --picture {out}/a.png", campaign, tmp_path, {})
     assert done.returncode == 0, done.stderr
-    assert picture.read_bytes() == without and "matplotlibrc" not in done.stderr
+    assert (tmp_path / "a.png").read_bytes() == plain_picture and "matplotlibrc" not in done.stderr
 
 
 @pytest.mark.skipif(not hasattr(os, "getuid") or os.getuid() != 0, reason="only root mounts a disk of its own")

@@ -1,12 +1,15 @@
 """Nothing in the current folder is run, whatever its name: a campaign folder may come from a stranger."""
 
 import os
+import re
 import shutil
 import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from importlib import resources
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -33,6 +36,12 @@ OTHERS = (
     "bench . --workers 2 --out b", "paper --quick --workers 2 --out p", "demo --out q",
 )  # fmt: skip
 
+OF_WORKBENCH = (
+    pytest.mark.slow,
+    pytest.mark.skipif(
+        find_spec("websockets") is None, reason='needs the workbench: pip install "slipwise[workbench]"'
+    ),
+)
 pytestmark = pytest.mark.skipif(not SLIPWISE.exists(), reason="the console script is not installed beside this Python")
 
 
@@ -65,14 +74,26 @@ def run(words: str, folder: Path) -> tuple[int, str]:
         stderr=subprocess.STDOUT,
     )
     if words.startswith("workbench"):
-        assert process.stdout is not None and "http" in process.stdout.readline()
-        until = time.monotonic() + 120.0
-        while time.monotonic() < until and len(children(process.pid)) < 2:
-            time.sleep(0.2)
-        time.sleep(3.0)  # they import what they need
+        assert process.stdout is not None
+        address = re.search(r"http\S+", process.stdout.readline())
+        assert address, "the workbench said no address"
+        look_until_processes_work(process.pid, address[0])
         process.send_signal(signal.SIGTERM)
     said = process.communicate(timeout=600)[0]
     return process.returncode, said
+
+
+def look_until_processes_work(number: int, address: str) -> None:
+    """Be a page of a workbench, which starts its processes for one, until they have imported what they need."""
+    from websockets.sync.client import connect
+
+    with connect(address.replace("http", "ws", 1) + "socket", max_size=None) as page:
+        until = time.monotonic() + 120.0
+        while len(children(number)) < 2:
+            assert time.monotonic() < until, "a page was there, and the workbench started no process"
+            with suppress(TimeoutError):
+                page.recv(timeout=0.2)
+        time.sleep(3.0)
 
 
 def children(number: int) -> list[str]:
@@ -91,7 +112,7 @@ def test_a_twin_tells_that_it_was_run(folder: Path) -> None:
 
 
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="looks for processes in /proc")
-@pytest.mark.parametrize("words", [*STARTING[:2], pytest.param(STARTING[2], marks=pytest.mark.slow)])
+@pytest.mark.parametrize("words", [*STARTING[:2], pytest.param(STARTING[2], marks=OF_WORKBENCH)])
 def test_a_command_that_starts_processes_runs_no_module_of_the_current_folder(folder: Path, words: str) -> None:
     code, said = run(words, folder)
     assert were_run(folder) == []

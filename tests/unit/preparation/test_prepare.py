@@ -1,6 +1,6 @@
 """A campaign is prepared once, and every command then speaks of the same error."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -10,10 +10,15 @@ from bench import build_campaign
 from measured import as_campaign
 from slipwise.campaign import Campaign, Run
 from slipwise.comparison.compare import compare
+from slipwise.diagnosis import forward_selection
+from slipwise.diagnosis.candidates import list_candidates
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.ladder import ladder
+from slipwise.effects import Effect
+from slipwise.estimation.base_fit import BaseFit
 from slipwise.preparation.prepare import prepare
 from slipwise.record import Record
+from slipwise.relations.parameters import Term
 from slipwise.rig import load_specimen
 from slipwise.session.session import Session
 
@@ -54,9 +59,20 @@ FAULTS: dict[str, Callable[[Campaign], Campaign]] = {
 }
 
 
+@pytest.fixture
+def heating_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a diagnosis ask for one effect: what is mended, and the error before, hang on no other candidate."""
+
+    def listed(base: BaseFit, own: Iterable[Effect] = ()) -> tuple[list[Term], dict[str, str]]:
+        terms, cannot = list_candidates(base, own)
+        return [term for term in terms if term.effect.name == "heating"], cannot
+
+    monkeypatch.setattr(forward_selection, "list_candidates", listed)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", FAULTS)
-def test_every_command_mends_a_fault_says_so_and_tells_the_same_error(sound, kind):
+def test_every_command_mends_a_fault_says_so_and_tells_the_same_error(sound, heating_alone, kind):
     faulty = FAULTS[kind](sound)
     compared, found = compare(faulty, system=False), diagnose(faulty)
     climbed = ladder(faulty, ["heating"])
