@@ -105,7 +105,7 @@ def compute_intervals(base: BaseFit) -> Intervals:
     start = 0
     offsets: dict[int, int] = {}
     length = _block_length(base)
-    for group in objective.motions_as_recorded:  # runs of one motion repeat what the model lacks
+    for group in objective.motions:  # runs of one motion repeat what the model lacks
         offsets |= dict.fromkeys(group, start)
         start += max(int(len(objective.run(i).time) * objective.run(i).dt / length) + 1 for i in group)
     for of in solution.residuals.blocks(runs=objective.fitted):

@@ -81,9 +81,9 @@ class Objective:
         return self.measurements.held_out
 
     @property
-    def motions_as_recorded(self) -> list[list[int]]:
-        """Places of the runs that may be fitted, by motion as their records show it."""
-        return self.measurements.motions_as_recorded
+    def motions(self) -> list[list[int]]:
+        """Places of the runs that may be fitted, by motion."""
+        return self.measurements.motions
 
     @property
     def scales(self) -> Scales:

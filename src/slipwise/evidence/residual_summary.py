@@ -77,7 +77,7 @@ def _in_blocks(objective: Objective, residual: Array) -> dict[str, Array]:
         squares = (residual[rows] ** 2).reshape(len(of.time), -1).sum(axis=1)
         edges = np.arange(0, len(of.time), max(1, round(SHORTEST_BLOCK * objective.scales.time / of.dt)))
         sums.setdefault(of.relation, {})[of.run] = np.add.reduceat(squares, edges)
-    groups = objective.motions_as_recorded
+    groups = objective.motions
     return {name: np.concatenate([_added([of[i] for i in group]) for group in groups]) for name, of in sums.items()}
 
 

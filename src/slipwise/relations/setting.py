@@ -61,20 +61,7 @@ class Measurements:
 
     @cached_property
     def motions(self) -> list[list[int]]:
-        """Places of the fitted runs by motion: a repeat belongs to the run before it that it resembles most."""
-        out: list[list[int]] = []
-        for i in self.fitted:
-            run = self.runs[i]
-            alike = [g for g in out if len(self.runs[g[0]].time) == len(run.time)]
-            if run.role == "repeat" and (alike or out):
-                (alike or out)[-1].append(i)
-            else:
-                out.append([i])
-        return out
-
-    @cached_property
-    def motions_as_recorded(self) -> list[list[int]]:
-        """Places of the fitted runs by motion as their records show it, whatever their roles say."""
+        """Places of the fitted runs by motion, see `group_by_motion`."""
         return group_by_motion(self.runs, self.fitted)
 
     @cached_property
