@@ -22,7 +22,7 @@ _ENOUGH = 500
 def is_same_motion(one: FitRun, other: FitRun) -> bool:
     """Return whether two runs are of one motion: of the table along x, or of the slip where that is prescribed.
 
-    They have as many samples at the same step of time: a path that is gone through once more, slower, is another motion.
+    They have as many samples at the same step of time: a path that is gone through again more slowly is another motion.
     """
     name = next((n for n in ("table_ax", "slip_x") if n in one.record and n in other.record), "")
     if not name or len(one.record) != len(other.record) or abs(one.dt - other.dt) > _SAME_STEP * one.dt:

@@ -26,6 +26,10 @@ class SimulationDiverged(SimulationError):
         super().__init__(message)
         self.replay = replay
 
+    def __reduce__(self) -> tuple[type["SimulationDiverged"], tuple[str, "Replay"]]:
+        """Return what makes it again: pickle, by which an error leaves a process, would give the message alone."""
+        return type(self), (str(self), self.replay)
+
 
 @dataclass(frozen=True)
 class Memory:
