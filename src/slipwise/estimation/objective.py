@@ -150,16 +150,13 @@ class Objective:
         return replace(self, around=values) if is_shifting(self.terms) else self
 
     def weigh(self, values: Mapping[str, float], *, finer: bool = False) -> "Objective":
-        """Return the same objective with the noise, and what the filter took at reversals, as these numbers say.
+        """Return the same objective with the noise, and what the filter took at reversals, as these numbers alone say.
 
         Args:
             values: key -> value of everything.
             finer: evaluate the laws at twice the instants from now on.
         """
-        measurements = self.measurements.refined(FINER) if finer else self.measurements
-        if measurements is self.measurements:
-            return replace(self, weighing=weigh(self.evaluation(values)))
-        begun = replace(self, measurements=measurements, weighing=replace(self.weighing, lost=()))
+        begun = replace(self, measurements=self.measurements.refined(FINER)) if finer else self
         return replace(begun, weighing=weigh(begun.evaluation(values)))
 
     def model(self, values: Mapping[str, float]) -> Model:

@@ -76,8 +76,6 @@ class Evaluator:
     def _weighed(self, weights: Weights) -> Objective:
         objective = make_objective(self.runs, self.model.specimen, weights.terms)
         objective = objective.with_yaw() if weights.yaw else objective
-        if weights.before:
-            objective = objective.weigh(weights.before, finer=weights.finer)
         return objective.weigh(weights.values, finer=weights.finer)
 
     def coarse(self, state: SessionState) -> SessionState:
