@@ -284,8 +284,6 @@ def _along(
         acceleration=fused.acceleration,
         bias=fused.bias,
         velocity_error=fused.velocity_error,
-        position_noise=fused.position_noise,
-        acceleration_noise=fused.acceleration_noise,
         velocity_errors=fused.velocity_errors,
     )
 
