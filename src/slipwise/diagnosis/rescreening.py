@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.initial_grid import strengths, two_sided
 from slipwise.diagnosis.pairs import at_odds
@@ -17,7 +18,6 @@ from slipwise.diagnosis.screening import Screened, basis_of, project_away
 from slipwise.evidence.acceptance import compute_least_drop
 from slipwise.evidence.score import FLOOR
 
-Array = NDArray[np.float64]
 #: Share of the drop for which an effect is kept that a straight line must promise, for a refit [1].
 _PROMISED = 0.5
 

@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slipwise.campaign.scales import Scales
 from slipwise.model import Model
@@ -24,8 +23,6 @@ from slipwise.relations.stages import Evaluation, Memo, make_memo
 from slipwise.relations.table import Block, Residuals
 from slipwise.relations.weighing import weigh
 from slipwise.rig import Specimen
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,14 +8,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.objective import Objective
 from slipwise.evidence.left_out import LinearFit, fit_linearly, leave_motions_out
 from slipwise.noise.independent_samples import SHORTEST_BLOCK
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -14,15 +14,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.signal import detrend
 
+from slipwise.arrays import Array, Mask
 from slipwise.noise.independent_samples import sum_sure_correlations
 from slipwise.record import Record
 from slipwise.signals.noise import difference_level, noise, ordinary, quantum, white_level
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 #: Samples at rest that are enough to know a gauge's noise, and the least of one run that count.
 ENOUGH, _LEAST = 60, 24
 #: Samples at rest that show how noise is coloured.

@@ -13,9 +13,9 @@ Source: Bayley, Hammersley (1946), Journal of the Royal Statistical Society Supp
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from slipwise.arrays import Array
+
 #: Lags over which the correlation is summed, in integrated correlation times S/2 (Sokal) [1].
 _WINDOW = 5.0
 #: Correlations below this many of their own errors, 1/sqrt(n), are none [1]. The longest lag that is looked at in a

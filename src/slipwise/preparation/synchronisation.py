@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import correlate
 
+from slipwise.arrays import Array
 from slipwise.campaign import Campaign, Run
 from slipwise.record import Record
 from slipwise.rig import Specimen
@@ -30,7 +31,6 @@ from slipwise.signals.filters import LowPass, lowpass
 from slipwise.signals.second_derivative import second_derivative
 from slipwise.signals.shift import shift
 
-Array = NDArray[np.float64]
 #: Lags that are looked for [s]; what is below the first is the fits' own business.
 LEAST, MOST = 0.05, 6.0
 #: Share of a channel's variance that must be explained at the lag, and by how much more than without one [1].

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array, Mask
 from slipwise.campaign import Campaign, Run
 from slipwise.campaign.aligned import AlignedRun, aligned_run, spread
 from slipwise.channels import pads_in
@@ -16,8 +17,6 @@ from slipwise.relations.rigid_balances import Relation
 from slipwise.rig import Specimen
 from slipwise.signals.filters import LowPass, lowpass
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 #: Band in which channels are compared [Hz]: below the loggers' filters, above what the rig does.
 _BAND = 40.0
 #: and as a part of the slowest filter of the logger and of the sampling rate [1].

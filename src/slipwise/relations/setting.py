@@ -5,8 +5,8 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.relations.girder import BALANCES, list_available_balances
 from slipwise.relations.motions import group_by_motion
 from slipwise.relations.run_data import FitRun
@@ -15,7 +15,6 @@ from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import load_modes
 from slipwise.signals.ends import in_frequency
 
-Array = NDArray[np.float64]
 #: Above this frequency, over that at which the girder pitches on its pads, what is left of the pitch load is noise [1].
 _PITCHING = 1.56
 

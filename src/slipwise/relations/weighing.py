@@ -2,9 +2,7 @@
 
 from dataclasses import replace
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slipwise.arrays import Array
 from slipwise.relations.kinematics import CORRECTED, RIG_MOTIONS, STATES, compute_compliance, compute_pad_states
 from slipwise.relations.measurement import apply_on_force, compute_change_by_faults
 from slipwise.relations.noise import (
@@ -28,7 +26,6 @@ from slipwise.relations.setting import Weighing
 from slipwise.relations.stages import Evaluation
 from slipwise.simulation.predict import predictor
 
-Array = NDArray[np.float64]
 #: Rounds in which the velocity that the filter took is found. Each leaves about a tenth of what the one before was off:
 #: after two, the noise of bridges that were tried is right to 0.5 %; rests show a gauge's noise to 9 % at best.
 _ROUNDS = 2

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize
 
+from slipwise.arrays import Array
 from slipwise.errors import InputError
-from slipwise.signals.ends import Array
 from slipwise.signals.noise import white_level
 from slipwise.signals.sampled_jumps import squared_jumps
 from slipwise.signals.smoother import smooth, unlikelihood
