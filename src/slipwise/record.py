@@ -14,8 +14,8 @@ from typing import IO, TYPE_CHECKING, Any
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.channels import PADS, channel, pads_in, part_of
 from slipwise.display import Drawn, frame
 from slipwise.errors import InputError, SettingError
@@ -25,8 +25,6 @@ from slipwise.units import parse_unit
 
 if TYPE_CHECKING:
     from pandas import DataFrame
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, repr=False)

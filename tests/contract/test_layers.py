@@ -11,45 +11,50 @@ from pathlib import Path
 PACKAGE = Path(__file__).parents[2] / "src" / "slipwise"
 #: Package or file -> what it may import, from the inside out. Nothing else is allowed.
 ARROWS: dict[str, str] = {
+    "arrays": "",
     "errors": "",
-    "regression": "",
+    "regression": "arrays",
     "text_encoding": "",
     "channels": "errors",
     "display": "errors",
     "input_file": "errors",
     "jobs": "errors input_file",
-    "signals": "errors jobs",
+    "signals": "arrays errors jobs",
     "units": "errors jobs",
-    "data_files": "channels errors input_file jobs text_encoding units",
+    "data_files": "arrays channels errors input_file jobs text_encoding units",
     "params": "errors units",
-    "record": "channels display errors input_file jobs units",
-    "motion": "channels data_files display errors input_file signals text_encoding units",
-    "noise": "record signals",
-    "rig": "errors input_file record units",
-    "campaign": "channels data_files display errors input_file noise record rig signals units",
-    "effects": "channels display errors input_file jobs params record rig signals",
+    "record": "arrays channels display errors input_file jobs units",
+    "motion": "arrays channels data_files display errors input_file signals text_encoding units",
+    "noise": "arrays record signals",
+    "rig": "arrays errors input_file record units",
+    "campaign": "arrays channels data_files display errors input_file noise record rig signals units",
+    "effects": "arrays channels display errors input_file jobs params record rig signals",
     "model": "channels display effects errors input_file params record rig units",
-    "simulation": "display effects errors jobs model motion record rig",
-    "relations": "campaign channels effects errors jobs model noise params record regression rig signals simulation",
-    "estimation": "campaign effects errors jobs model noise regression relations rig",
-    "evidence": "estimation noise relations rig",
-    "residual_map": "campaign effects estimation regression relations simulation",
-    "preparation": "campaign channels effects errors estimation jobs model record relations rig signals units",
-    "instruments": "campaign channels display effects errors noise preparation record regression relations rig signals",
+    "simulation": "arrays display effects errors jobs model motion record rig",
+    "relations": (
+        "arrays campaign channels effects errors jobs model noise params record regression rig signals simulation"
+    ),
+    "estimation": "arrays campaign effects errors jobs model noise regression relations rig",
+    "evidence": "arrays estimation noise relations rig",
+    "residual_map": "arrays campaign effects estimation regression relations simulation",
+    "preparation": "arrays campaign channels effects errors estimation jobs model record relations rig signals units",
+    "instruments": (
+        "arrays campaign channels display effects errors noise preparation record regression relations rig signals"
+    ),
     "comparison": (
-        "campaign channels display effects errors estimation instruments jobs model motion noise preparation"
+        "arrays campaign channels display effects errors estimation instruments jobs model motion noise preparation"
         " record relations residual_map rig signals simulation"
     ),
     "diagnosis": (
-        "campaign channels comparison display effects errors estimation evidence instruments jobs model noise"
+        "arrays campaign channels comparison display effects errors estimation evidence instruments jobs model noise"
         " params preparation record regression relations residual_map rig simulation units"
     ),
     "discovery": (
-        "campaign diagnosis display effects errors estimation jobs model noise params preparation relations"
+        "arrays campaign diagnosis display effects errors estimation jobs model noise params preparation relations"
         " residual_map signals simulation"
     ),
     "studies": (
-        "campaign channels diagnosis effects errors estimation jobs model motion record relations rig signals"
+        "arrays campaign channels diagnosis effects errors estimation jobs model motion record relations rig signals"
         " simulation units"
     ),
     "design": (
@@ -57,11 +62,11 @@ ARROWS: dict[str, str] = {
         " preparation record relations signals simulation units"
     ),
     "session": (
-        "campaign comparison diagnosis discovery display effects errors estimation jobs model preparation record"
+        "arrays campaign comparison diagnosis discovery display effects errors estimation jobs model preparation record"
         " relations rig simulation units"
     ),
     "view": (
-        "channels comparison diagnosis discovery effects errors estimation jobs noise params record relations"
+        "arrays channels comparison diagnosis discovery effects errors estimation jobs noise params record relations"
         " residual_map rig signals studies units"
     ),
     "cli": "errors jobs view",

@@ -4,15 +4,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Mask
 from slipwise.campaign.campaign import Logger, Run
 from slipwise.record import Record
 from slipwise.signals.filters import LowPass, align, lowpass
 from slipwise.signals.noise import white_level
 from slipwise.signals.resample import resampled, uniform_time
 
-Mask = NDArray[np.bool_]
 #: Table and girder count as at rest below this many standard deviations of their smoothed noise.
 _STILL = 5.0
 #: Their noise is taken from the calmest tenth of blocks of this length [s]; noise that is not white may show there

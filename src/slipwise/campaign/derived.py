@@ -12,13 +12,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.channels import channel
 from slipwise.errors import InputError, UnitError, unknown_name
 from slipwise.units import parse_unit, quantity
 
-Array = NDArray[np.float64]
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?:\s*(?P<unit>[A-Za-zµ°%\u03bc][^\s()]*))?"
     r"|(?P<name>[A-Za-z_]\w*)|(?P<sign>\*\*|[-+*/^()]))"

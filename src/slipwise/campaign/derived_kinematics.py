@@ -3,12 +3,11 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 
+from slipwise.arrays import Array
 from slipwise.signals.second_derivative import second_derivative
 
-Array = NDArray[np.float64]
 #: A speed rests before a run for at least so many samples, within this share of its peak; its mean there is drift.
 _REST, _STILL = 12, 0.003
 

@@ -2,14 +2,10 @@
 
 from collections.abc import Mapping
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slipwise.arrays import Array
 from slipwise.channels import part_of
 from slipwise.errors import InputError, UnitError
 from slipwise.units import parse_unit
-
-Array = NDArray[np.float64]
 
 
 def is_coefficient(channel: str, unit: str) -> bool:

@@ -3,13 +3,12 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Mask
 from slipwise.campaign.aligned import spread
 from slipwise.campaign.campaign import Run
 from slipwise.channels import VELOCITY_CHANNELS
 
-Mask = NDArray[np.bool_]
 #: run -> channel -> samples (n,) at which the channel is no measurement.
 InvalidSamples = Mapping[str, Mapping[str, Mask]]
 #: Invalid before and after a bad sample; more where the velocity is made of the channel [samples].

@@ -1,13 +1,11 @@
 """What a slider is doing at every sample: stuck, at rest, slow, lifted, at the end of its record."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array, Mask
 from slipwise.campaign.aligned import long_enough, spread
 from slipwise.signals.filters import LowPass
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 #: Slower than this for `_STUCK_SAMPLES` samples is stuck, faster than `_FAST` is sliding [m/s].
 _STUCK = 3e-3
 _STUCK_SAMPLES = 6

@@ -8,8 +8,8 @@ from difflib import get_close_matches
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.campaign.campaign import Campaign, Run
 from slipwise.campaign.derived import evaluate
 from slipwise.campaign.derived_kinematics import completed
@@ -28,7 +28,6 @@ from slipwise.rig import Specimen, load_specimen
 from slipwise.rig.known import better_known
 from slipwise.units import affine, parse_unit
 
-Array = NDArray[np.float64]
 #: Our own headers: "pad_A_N [kN]".
 HEADER = re.compile(r"^(?P<name>[A-Za-z]\w*)\s*(?:\[(?P<unit>[^\]]*)\])?$")
 #: Samples of a run: fewer show neither a velocity nor what is noise.

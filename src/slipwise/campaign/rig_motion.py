@@ -5,13 +5,12 @@ as the vertical rate of the girder is.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 
+from slipwise.arrays import Array
 from slipwise.campaign.states import States
 from slipwise.signals.ends import in_frequency
 
-Array = NDArray[np.float64]
 #: Above this frequency what is left of the loads is noise, whose rate nobody wants [Hz].
 _HIGHEST = 100.0
 

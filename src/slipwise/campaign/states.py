@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array, Mask
 from slipwise.campaign.aligned import aligned_run
 from slipwise.campaign.campaign import Campaign, Run
 from slipwise.campaign.motion_phases import is_at_rest, is_inside, is_lifted, is_slow, is_stuck
@@ -26,9 +26,6 @@ from slipwise.rig.load_modes import load_modes, vertical_acceleration
 from slipwise.signals.derivative import derivative
 from slipwise.signals.filters import LowPass
 from slipwise.signals.fused import Fused, fuse, fuse_scaled
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -284,8 +281,6 @@ def _along(
         acceleration=fused.acceleration,
         bias=fused.bias,
         velocity_error=fused.velocity_error,
-        position_noise=fused.position_noise,
-        acceleration_noise=fused.acceleration_noise,
         velocity_errors=fused.velocity_errors,
     )
 

@@ -3,13 +3,12 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.data_files.table import Table
 from slipwise.data_files.table_rows import RowBlock
 from slipwise.errors import InputError
 
-Array = NDArray[np.float64]
 #: A stated rate may be off by this much, as clocks of loggers are [1].
 _CLOCK = 0.01
 #: Steps beyond these are slips of a unit [s].

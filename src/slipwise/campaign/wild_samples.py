@@ -9,15 +9,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array, Mask
 from slipwise.channels import channel
 from slipwise.rig import Specimen
 from slipwise.signals.short_bursts import bridge_samples, short_bursts, stretches
 from slipwise.units import convert
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 #: A burst is motion where the rest of a balance leaves less than this share of it unexplained [1].
 _UNEXPLAINED = 0.5
 #: Bursts of a channel that are named one by one.

@@ -13,17 +13,15 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import chi2, false_discovery_control
 
+from slipwise.arrays import Array, Mask
 from slipwise.comparison.motion_states import STATES, MotionStates
 from slipwise.noise.independent_samples import sum_correlations
 from slipwise.noise.level import AT_FLOOR
 from slipwise.relations.run_data import FitRun
 from slipwise.residual_map.splines import choose_equal_bins
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 #: Part of the cells named above the floor that may be so by chance (false discovery rate) [1].
 _FALSE = 0.01
 #: A cell with fewer independent samples than this is not tested.

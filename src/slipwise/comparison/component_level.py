@@ -6,12 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.relations.motions import is_same_motion
 from slipwise.rig.frame import frame_push
 from slipwise.rig.load_basis import WARPS, basis_of
 
-Array = NDArray[np.float64]
 #: Relation -> what it is called, unit of its residual.
 NAMES: Mapping[str, tuple[str, str]] = {
     "pads": ("pad friction", "N"),

@@ -7,13 +7,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Intervals
 from slipwise.simulation.predict import predictor
 
-Array = NDArray[np.float64]
 _PRESSURES, _SPEEDS = 9, 12
 _STEP = 1e-3
 

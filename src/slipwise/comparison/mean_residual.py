@@ -6,11 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.comparison.cells import Samples
 from slipwise.residual_map.curve import fit_curve
 from slipwise.residual_map.splines import SplineBasis
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

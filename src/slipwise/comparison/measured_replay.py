@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.campaign.rig_motion import rig_motion
 from slipwise.campaign.states import States
 from slipwise.errors import InputError
@@ -23,7 +23,6 @@ from slipwise.simulation.predict import Predictor, predictor
 from slipwise.simulation.simulator import DT, Memory
 from slipwise.simulation.windows import Windows, simulate_windows
 
-Array = NDArray[np.float64]
 #: Length of a window, and what of its start is not judged: the pads ring, and the filter has no past [s].
 WINDOW = 1.0
 SETTLE = 0.15

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.relations.run_data import FitRun
 
-Array = NDArray[np.float64]
 STATES: tuple[str, ...] = ("stick", "breakaway", "low speed", "reversal", "steady +", "steady −", "uplift")
 #: A direction counts once the slider is faster than this part of its usual speed, or 2 mm/s [1, m/s].
 _MOVING_PART, _MOVING = 0.05, 2e-3

@@ -8,12 +8,11 @@ way.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.comparison.cells import Samples, choose_edges
 from slipwise.comparison.mean_residual import compute_mean_residual
 
-Array = NDArray[np.float64]
 #: What a mean residual is drawn and sorted over.
 KINDS: tuple[str, ...] = ("since reversal", "speed", "pressure", "position", "path", "time")
 #: Fewer independent samples than this say nothing of a bin.

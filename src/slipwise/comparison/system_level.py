@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from slipwise.arrays import Array
 from slipwise.campaign import States
 from slipwise.channels import channels_like
 from slipwise.comparison.measured_replay import SystemRun, replay_runs
@@ -27,7 +28,6 @@ from slipwise.relations.run_data import FitRun
 from slipwise.signals.ends import in_frequency
 from slipwise.simulation.simulator import DT
 
-Array = NDArray[np.float64]
 #: Vertical motion below this many times its own noise tells nothing of the springs.
 _SHAKEN = 8.0
 #: Largest lag between the accelerometers of table and girder [s].

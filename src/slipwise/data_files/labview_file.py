@@ -7,12 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.data_files.named_columns import NamedColumns, one_step, unreadable
 from slipwise.errors import InputError, missing_library
 
-Array = NDArray[np.float64]
 #: A segment of a .tdms file begins with its mark, a mask of flags, a version, and where the next segment begins.
 _MARK, _LEAD, _BIG_ENDIAN = b"TDSm", 28, 1 << 6
 

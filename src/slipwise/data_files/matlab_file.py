@@ -13,17 +13,16 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.io import loadmat
 from scipy.io.matlab import MatlabOpaque
 
+from slipwise.arrays import Array
 from slipwise.data_files.matlab_hdf5 import DEEPEST, LARGEST, WIDEST, read_hdf5
 from slipwise.data_files.matlab_objects import left_out, object_of
 from slipwise.data_files.matlab_structures import joined_headers, stated_steps, told_channel, told_matrix
 from slipwise.data_files.named_columns import NamedColumns, one_step, unreadable
 from slipwise.errors import InputError
 
-Array = NDArray[np.float64]
 _HEADER, _TAG, _COMPRESSED = 128, 8, 15
 #: Bytes of an unpacked variable that hold its name.
 _NAMED = 400

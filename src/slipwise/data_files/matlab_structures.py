@@ -10,12 +10,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.errors import UnitError
 from slipwise.units import quantity
 
-Array = NDArray[np.float64]
 #: Fields of a structure, in lower case; the first that is there counts.
 _DATA = ("data", "values", "y_values.values", "samples")
 _NAMES = ("name", "label", "function_record.name", "signalname", "channelname", "displayname", "title")

@@ -5,11 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.errors import InputError
 
-Array = NDArray[np.float64]
 #: Steps of channels are one within this [1].
 _SAME_STEP = 1e-6
 #: Names of channels of another rate that a note lists.

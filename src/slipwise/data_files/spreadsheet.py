@@ -9,15 +9,14 @@ from typing import Any
 from zipfile import ZipFile
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.data_files.header_rows import MISSING, Header, find_header
 from slipwise.data_files.named_columns import unreadable
 from slipwise.data_files.table_rows import left_out_below
 from slipwise.data_files.time_stamps import seconds_of_stamps
 from slipwise.errors import InputError, missing_library
 
-Array = NDArray[np.float64]
 _LOOK_AT = 500
 #: A workbook that unpacks to more is no record of a rig [bytes].
 _LARGEST = 800_000_000

@@ -4,11 +4,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.data_files.catman_file import read_catman
 from slipwise.data_files.dewesoft_file import read_dewesoft
 from slipwise.data_files.diadem_file import read_tdm
@@ -24,7 +23,6 @@ from slipwise.data_files.uff_file import read_uff
 from slipwise.errors import InputError
 from slipwise.input_file import check_input
 
-Array = NDArray[np.float64]
 #: Columns that take more memory than this are no record of a rig [bytes].
 _LARGEST = 800_000_000
 TEXT_SUFFIXES: tuple[str, ...] = (".csv", ".tsv", ".txt", ".dat", ".asc", ".lvm")

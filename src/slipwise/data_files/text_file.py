@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 import pyarrow.csv as pa_csv
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.data_files.header_rows import MISSING, NUMBER, Header, find_header, looks_numeric
 from slipwise.data_files.labview_file import is_lvm, lvm_headers
 from slipwise.data_files.table_rows import RowBlock, find_end, read_blocks
@@ -19,7 +19,6 @@ from slipwise.data_files.time_stamps import seconds_of_stamps
 from slipwise.errors import InputError
 from slipwise.text_encoding import decoded, encoding_of
 
-Array = NDArray[np.float64]
 #: Bytes that are looked at to find out how a file is written, and again where a line is longer than that.
 _HEAD, _LONG_HEAD = 1 << 16, 1 << 24
 #: Bytes that pyarrow reads at once where lines are long: one must fit.

@@ -4,11 +4,10 @@ import re
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.errors import InputError
 
-Array = NDArray[np.float64]
 _CLOCK = (
     r"(?:(?P<hour>\d{1,2}):(?P<minute>\d{2}):(?P<second>\d{2}(?:[.,:]\d+)?)\s*(?P<half>[AaPp][Mm])?|"
     # a spreadsheet shows minutes and seconds where seconds have fractions

@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slipwise.diagnosis.hypothesis import Hypothesis, weigh_as
 from slipwise.diagnosis.initial_grid import strengths
@@ -18,8 +17,6 @@ from slipwise.errors import SlipwiseError
 from slipwise.evidence.left_out import LinearFit, fit_linearly
 from slipwise.evidence.residual_summary import ResidualSummary, summarise_linear_fit
 from slipwise.relations.parameters import ZERO, Term, list_replaced_numbers
-
-Array = NDArray[np.float64]
 
 
 def without(state: Search, found: Hypothesis, terms: Sequence[Term]) -> tuple[Search, ResidualSummary]:

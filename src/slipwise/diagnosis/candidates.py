@@ -17,6 +17,9 @@ from slipwise.rig.load_basis import WARPS, has_corners
 _STEADY = 3.0
 #: A load that changes by less never changes [1].
 _STEADY_LOAD = 0.005
+#: Channels beside the pads' that the relations of a fit look at: what lies across, and the table's vertical motion, are
+#: held against others by the audit alone.
+_LOOKED_AT = ("slip_x", "girder_ax", "girder_az", "table_ax")
 #: A direction in which a smaller share of the sliding goes is not tried [1].
 _RARELY = 0.05
 #: Speeds of runs that differ by less count as the same [1].
@@ -102,10 +105,6 @@ def _load_varies(objective: Objective) -> bool:
     within = any(float(np.std(load)) > _STEADY_LOAD * mean for load, mean in zip(loads, means, strict=True))
     return within or float(np.ptp(means)) > _STEADY_LOAD * float(means.max())
 
-
-#: Channels beside the pads' that the relations of a fit look at: what lies across, and the table's vertical motion, are
-#: held against others by the audit alone.
-_LOOKED_AT = ("slip_x", "girder_ax", "girder_az", "table_ax")
 
 #: What effects need -> whether a campaign has it.
 HAS: dict[str, Callable[[Objective], bool]] = {

@@ -3,9 +3,6 @@
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 
-import numpy as np
-from numpy.typing import NDArray
-
 from slipwise.diagnosis.backward_elimination import pruned, with_final_refit
 from slipwise.diagnosis.bound_check import with_bounds_checked
 from slipwise.diagnosis.candidates import list_candidates
@@ -26,7 +23,6 @@ from slipwise.estimation.base_fit import BaseFit, evaluate_at_rated
 from slipwise.evidence.acceptance import LEAST, are_all_at_floor, compute_least_drop, is_kept
 from slipwise.evidence.score import compute_lead, compute_score
 
-Array = NDArray[np.float64]
 #: Share of what is worth a name from which on a screen's gain is worth a refit [1].
 _MIN_REFIT_SHARE = 0.4
 #: Candidates that are refitted at each step.

@@ -13,8 +13,8 @@ for the linear model, Journal of the Royal Statistical Society B 34.
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.importance import compute_share_of_channel
@@ -29,7 +29,6 @@ from slipwise.relations.measurement import apply_gauge_faults
 from slipwise.relations.parameters import Free
 from slipwise.relations.run_data import FitRun
 
-Array = NDArray[np.float64]
 #: Share of an independent sample that counts: the errors of a modeller, too small to be seen beside the noise, are the
 #: same in all samples, and a gauge that takes them up is not known the better for it; assumed [1].
 _COUNTED = 0.1

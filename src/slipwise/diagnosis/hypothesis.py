@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slipwise.diagnosis.initial_grid import REFERENCES, strengths
 from slipwise.effects import Limit
@@ -14,7 +13,6 @@ from slipwise.estimation.objective import Objective
 from slipwise.evidence.residual_summary import ResidualSummary, summarise_residuals
 from slipwise.relations.parameters import ZERO, Free, Term, list_replaced_numbers, make_free_inertia
 
-Array = NDArray[np.float64]
 #: A fit is over when a step lowers the squared residual by less than this, and by less than this share of what is left
 #: above the noise [1].
 _ENOUGH, _ROUGH = 10.0, 5e-4

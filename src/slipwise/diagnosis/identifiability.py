@@ -8,15 +8,14 @@ import inspect
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import compute_intervals
 from slipwise.relations.parameters import Free
 from slipwise.units import convert
 
-Array = NDArray[np.float64]
 #: Numbers of the rig that mean something to a user; the others are nuisances.
 _OF_RIG = ("rig.mass", "rig.centre_height", "rig.buffer_stiffness", "rig.shear_strength")
 #: A number is known badly when its standard error is this share of it [1].

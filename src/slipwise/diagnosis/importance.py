@@ -10,8 +10,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.campaign.materiality import Materiality
 from slipwise.campaign.rig_motion import rig_motion
 from slipwise.comparison.measured_replay import choose_simulation_step, get_measured_motion
@@ -28,7 +28,6 @@ from slipwise.simulation.predict import predictor
 from slipwise.simulation.replay import replay
 from slipwise.simulation.result import Memory
 
-Array = NDArray[np.float64]
 RESPONSES: tuple[str, ...] = ("peak_slip", "energy", "largest_load")
 #: Half width of an interval beside what the size's own interval gives: of the change itself, for a law is not quite the
 #: true one, and absolute, for a replay is not the rig [1].

@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.campaign import Run
 from slipwise.channels import part_of
 from slipwise.diagnosis.held_out_regime import find_untestable_reason
@@ -26,7 +26,6 @@ from slipwise.rig.frame import storey_channels
 from slipwise.rig.load_basis import buffers_off_centre
 from slipwise.rig.rocking import coupled
 
-Array = NDArray[np.float64]
 #: Two effects look alike when their columns agree so well: one run gives 0.95, two after a long rest 0.8 at most [1].
 _ALIKE = 0.85
 #: A model that leaves less than this share of a floor shows that the floor is too high [1].

@@ -3,9 +3,9 @@
 from collections.abc import Callable, Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
+from slipwise.arrays import Array
 from slipwise.diagnosis.initial_grid import strengths
 from slipwise.diagnosis.row_subset import thinning
 from slipwise.diagnosis.sensitivities import compute_residual_with, typical
@@ -14,7 +14,6 @@ from slipwise.estimation.base_fit import BaseFit
 from slipwise.params import Parameter
 from slipwise.relations.parameters import Term
 
-Array = NDArray[np.float64]
 #: Mean squared residual from which on every candidate is tried at full size, and from which on only those are of which
 #: the straight line promises a gain [1].
 _LARGE_RESIDUAL, _MODERATE_RESIDUAL = 30.0, 3.0

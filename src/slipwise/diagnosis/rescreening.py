@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.initial_grid import strengths, two_sided
 from slipwise.diagnosis.pairs import at_odds
@@ -18,7 +19,6 @@ from slipwise.evidence.acceptance import compute_least_drop
 from slipwise.evidence.score import FLOOR
 from slipwise.regression.projection import basis_of, project_away
 
-Array = NDArray[np.float64]
 #: Share of the drop for which an effect is kept that a straight line must promise, for a refit [1].
 _PROMISED = 0.5
 

@@ -5,11 +5,10 @@ much; its rows are scaled so that sums of squares stay what they are. What is fo
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.estimation.objective import Objective
 
-Array = NDArray[np.float64]
 #: Rows on which hundreds of columns may stand.
 _MOST = 400_000
 

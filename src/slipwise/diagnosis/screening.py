@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.diagnosis.initial_grid import shapes, strengths, two_sided
 from slipwise.diagnosis.nonlinear_screening import MIN_GAIN, at_full_size
 from slipwise.diagnosis.row_subset import on_screen
@@ -22,7 +22,6 @@ from slipwise.params import Parameter
 from slipwise.regression.projection import make_projector
 from slipwise.relations.parameters import Term
 
-Array = NDArray[np.float64]
 #: A column is taken anew where the strength that was found is this many times the one at which it was taken, so often,
 #: and where the candidate explains at least `MIN_GAIN`.
 _FAR_BEYOND, _ROUNDS = 2.5, 2

@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.diagnosis.initial_grid import strengths
 from slipwise.diagnosis.row_subset import on_screen
 from slipwise.effects import Effect
@@ -14,7 +14,6 @@ from slipwise.params import Parameter
 from slipwise.relations.measurement import is_shifting
 from slipwise.relations.parameters import Term
 
-Array = NDArray[np.float64]
 #: Size at which a column is taken, as a share of the typical size.
 _SMALL = 0.3
 

@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.initial_grid import strengths
@@ -12,7 +11,6 @@ from slipwise.diagnosis.row_subset import on_screen
 from slipwise.diagnosis.screening import Screened
 from slipwise.regression.projection import basis_of, project_away
 
-Array = NDArray[np.float64]
 #: A substitute that a straight line sees explain this share of what an effect explains is worth a fit [1].
 _NEARLY = 0.6
 

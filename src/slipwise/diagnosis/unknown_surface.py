@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.noise.independent_samples import SHORTEST_BLOCK
 from slipwise.relations.run_data import FitRun
@@ -21,7 +21,6 @@ from slipwise.residual_map.ports import girder_states
 from slipwise.residual_map.splines import SplineBasis, choose_equal_bins
 from slipwise.residual_map.states import WORDS, DrivingState, measured_states, pad_instants, pad_states
 
-Array = NDArray[np.float64]
 #: Bins of a curve and of each side of a surface.
 _BINS_ONE, _BINS_TWO = 24, 10
 #: States that are tried in pairs.

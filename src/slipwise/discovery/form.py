@@ -15,11 +15,10 @@ from types import CodeType
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.errors import SettingError
 
-Array = NDArray[np.float64]
 #: What the text of a form may call, as it acts on arrays.
 FUNCTIONS: dict[str, Any] = {
     "exp": np.exp, "tanh": np.tanh, "sin": np.sin, "cos": np.cos, "log": np.log, "sqrt": np.sqrt, "abs": np.abs,

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.discovery.matching import Match, constants_of, limits, place_of, product_at
 from slipwise.estimation.least_squares import Solution, get_slopes, solve
 from slipwise.estimation.objective import Objective
@@ -23,7 +23,6 @@ from slipwise.relations.table import Residuals
 from slipwise.residual_map.states import DrivingState, PadInstants, derived
 from slipwise.signals.filters import LowPass
 
-Array = NDArray[np.float64]
 #: A fit ends where a step lowers the squared residual by less than this, and than this share of what is left [1].
 _ENOUGH, _ROUGH = 10.0, 5e-4
 #: Largest strength, as a multiple of the one that was matched [1], and factor by which a time constant may change.

@@ -5,14 +5,13 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import minimize
 
+from slipwise.arrays import Array
 from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.form import Constant, Form
 from slipwise.residual_map.states import DrivingState
 
-Array = NDArray[np.float64]
 #: Shares of the samples between which a place must lie: beyond, nothing is known of it [1].
 _CENTRAL = (0.02, 0.98)
 #: Periods that are tried, from two of them within the data to so many [1].

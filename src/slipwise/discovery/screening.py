@@ -6,9 +6,7 @@ Curves are made on some motions and judged on another, so that a state that only
 from collections.abc import Sequence
 from itertools import combinations
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slipwise.arrays import Array
 from slipwise.discovery.candidate import CurveCandidate
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.objective import Objective
@@ -19,7 +17,6 @@ from slipwise.residual_map.ports import EVERYWHERE, Gate, Port, opened
 from slipwise.residual_map.splines import SplineBasis, choose_knots
 from slipwise.residual_map.states import DrivingState
 
-Array = NDArray[np.float64]
 #: Knots over one state, over the slip (a plate may be grooved), and over each of two.
 _KNOTS, _KNOTS_OF_SLIP, _KNOTS_OF_TWO = 12, 60, 6
 #: Every n-th sample is screened.

@@ -8,15 +8,14 @@ The relations are girder_x, girder_y, heave, pitch, roll, warp, upright, and pai
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.channels import pads_in
 from slipwise.record import Record
 from slipwise.rig import Specimen
 from slipwise.rig.load_basis import end_pairs
 from slipwise.signals.derivative import derivative
 
-Array = NDArray[np.float64]
 #: What one free number adds: relation -> a signal for each record.
 Number = Mapping[str, Sequence[Array]]
 

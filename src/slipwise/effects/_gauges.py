@@ -2,14 +2,11 @@
 
 from collections.abc import Callable
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slipwise.arrays import Array
 from slipwise.channels import channel, channels_like
 from slipwise.errors import InputError
 from slipwise.record import Record
 
-Array = NDArray[np.float64]
 #: What a usual gauge of this unit reads at most, in both directions [SI]: offsets and rails are counted in it.
 SPANS: dict[str, float] = {
     "N": 50e3, "m": 0.1, "m/s": 1.0, "m/s^2": 20.0, "rad": 0.02, "Pa": 40e6, "K": 200.0, "s": 1.0,

@@ -1,11 +1,10 @@
 """Prandtl's element: a spring that slips at its limit, driven by a sampled rate."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.jobs.machine_code import kept
 
-Array = NDArray[np.float64]
 #: Steps per sample: the way between two samples may be longer than the spring's.
 _STEPS = 4
 

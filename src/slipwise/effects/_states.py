@@ -13,12 +13,8 @@ A hook returns what its effect adds, each (n,) [N]; what it does not name it doe
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slipwise.arrays import Array
 from slipwise.rig import Specimen
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

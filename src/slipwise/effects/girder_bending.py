@@ -21,6 +21,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.effects._disturbances import Number, swing_of
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.effects._states import BalanceStates
@@ -30,7 +31,6 @@ from slipwise.rig import Specimen
 from slipwise.signals.ends import in_frequency
 from slipwise.signals.oscillator import oscillator
 
-Array = NDArray[np.float64]
 #: Swing of the middle of a simple beam for a unit of its first mode [1], and how far ends are carried on [s].
 _MIDDLE, _BEYOND = 4.0 / np.pi, 2.0
 #: Frequencies [Hz] and damping [1] of a mode that an audit tries, and what shakes it, by preference.

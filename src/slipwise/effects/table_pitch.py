@@ -16,16 +16,14 @@ Source: table-specimen interaction, 0.01 to 0.1 degree at 5 m/s2 assumed; resona
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.effects._disturbances import Number, channel, recorded
 from slipwise.effects._effect import RESPONSE, Effect
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
 from slipwise.record import Record
 from slipwise.signals.oscillator import oscillator
-
-Array = NDArray[np.float64]
 
 
 def _turning(angle: Array, dt: float, frequency: float, damping: float, derivative: int) -> Array:

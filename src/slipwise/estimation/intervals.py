@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import t as student
 
+from slipwise.arrays import Array
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.profile_likelihood import find_upper_limit, is_strength
 from slipwise.jobs.parallel import on_every_core
@@ -32,7 +33,6 @@ from slipwise.noise.independent_samples import SHORTEST_BLOCK, measure_block_len
 from slipwise.relations.noise import TIMING
 from slipwise.relations.parameters import Free
 
-Array = NDArray[np.float64]
 Shared = tuple[Array, NDArray[np.int64]]
 #: Fewer blocks than this many for each free number are no basis; blocks are then made shorter [1].
 _BLOCKS_EACH = 3
@@ -105,7 +105,7 @@ def compute_intervals(base: BaseFit) -> Intervals:
     start = 0
     offsets: dict[int, int] = {}
     length = _block_length(base)
-    for group in objective.motions_as_recorded:  # runs of one motion repeat what the model lacks
+    for group in objective.motions:  # runs of one motion repeat what the model lacks
         offsets |= dict.fromkeys(group, start)
         start += max(int(len(objective.run(i).time) * objective.run(i).dt / length) + 1 for i in group)
     for of in solution.residuals.blocks(runs=objective.fitted):

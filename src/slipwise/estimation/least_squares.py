@@ -6,14 +6,13 @@ from functools import cached_property
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.jobs.parallel import on_every_core
 from slipwise.regression.least_squares import Bounds, LevenbergMarquardt, Move, Slopes, step_by_gauss_newton
 from slipwise.relations.parameters import Free
 from slipwise.relations.table import Residuals
 
-Array = NDArray[np.float64]
 #: A fit is over when a step promises less than this much of the squared residual [1].
 _ENOUGH = 0.05
 _STEP = 1e-3

@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slipwise.campaign.scales import Scales
 from slipwise.model import Model
@@ -24,8 +23,6 @@ from slipwise.relations.stages import Evaluation, Memo, make_memo
 from slipwise.relations.table import Block, Residuals
 from slipwise.relations.weighing import weigh
 from slipwise.rig import Specimen
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,9 +78,9 @@ class Objective:
         return self.measurements.held_out
 
     @property
-    def motions_as_recorded(self) -> list[list[int]]:
-        """Places of the runs that may be fitted, by motion as their records show it."""
-        return self.measurements.motions_as_recorded
+    def motions(self) -> list[list[int]]:
+        """Places of the runs that may be fitted, by motion."""
+        return self.measurements.motions
 
     @property
     def scales(self) -> Scales:
@@ -150,16 +147,13 @@ class Objective:
         return replace(self, around=values) if is_shifting(self.terms) else self
 
     def weigh(self, values: Mapping[str, float], *, finer: bool = False) -> "Objective":
-        """Return the same objective with the noise, and what the filter took at reversals, as these numbers say.
+        """Return the same objective with the noise, and what the filter took at reversals, as these numbers alone say.
 
         Args:
             values: key -> value of everything.
             finer: evaluate the laws at twice the instants from now on.
         """
-        measurements = self.measurements.refined(FINER) if finer else self.measurements
-        if measurements is self.measurements:
-            return replace(self, weighing=weigh(self.evaluation(values)))
-        begun = replace(self, measurements=measurements, weighing=replace(self.weighing, lost=()))
+        begun = replace(self, measurements=self.measurements.refined(FINER)) if finer else self
         return replace(begun, weighing=weigh(begun.evaluation(values)))
 
     def model(self, values: Mapping[str, float]) -> Model:

@@ -15,15 +15,14 @@ Source: Stone (1974), Journal of the Royal Statistical Society B 36:111-147; Hah
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import t as student
 
+from slipwise.arrays import Array
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import COVERAGE
 from slipwise.estimation.least_squares import solve
 from slipwise.relations.run_data import FitRun
 
-Array = NDArray[np.float64]
 #: Fitted runs below which nothing is known of how runs differ.
 _LEAST_RUNS = 2
 #: Where a fit of all runs but one ends [1].

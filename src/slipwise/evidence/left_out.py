@@ -15,12 +15,11 @@ Cook, Weisberg (1982), Residuals and Influence in Regression, section 5.2.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.objective import Objective
 
-Array = NDArray[np.float64]
 #: Stretches of time that are left out one by one where there is one motion only [1].
 _STRETCHES = 4
 #: What keeps a number in its place that the other rows do not tell, as a share of what all rows tell of it [1].

@@ -8,14 +8,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.objective import Objective
 from slipwise.evidence.left_out import LinearFit, fit_linearly, leave_motions_out
 from slipwise.noise.independent_samples import SHORTEST_BLOCK
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -77,7 +75,7 @@ def _in_blocks(objective: Objective, residual: Array) -> dict[str, Array]:
         squares = (residual[rows] ** 2).reshape(len(of.time), -1).sum(axis=1)
         edges = np.arange(0, len(of.time), max(1, round(SHORTEST_BLOCK * objective.scales.time / of.dt)))
         sums.setdefault(of.relation, {})[of.run] = np.add.reduceat(squares, edges)
-    groups = objective.motions_as_recorded
+    groups = objective.motions
     return {name: np.concatenate([_added([of[i] for i in group]) for group in groups]) for name, of in sums.items()}
 
 

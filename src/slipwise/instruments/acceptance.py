@@ -4,14 +4,13 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.instruments.joint_fit import EVIDENCE, Case, JointFit, predicted
 from slipwise.instruments.suspects import Suspect
 from slipwise.noise.level import AT_FLOOR
 from slipwise.regression.normal_equations import build_equations, invert_regularised, weigh_equations
 
-Array = NDArray[np.float64]
 #: A fault explains at least this part of what its relations show above their floors, and of what they showed at first.
 _SHARE, _FIRST_SHARE = 0.5, 0.1
 #: Sizes seen by single runs and single relations lie within this of the whole [1], or this many standard errors.

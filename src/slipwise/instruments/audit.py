@@ -25,9 +25,8 @@ from slipwise.preparation.rounding import is_coarse
 from slipwise.preparation.sample_fault import RAILS, SampleFault
 from slipwise.preparation.wrong_units import WrongUnit
 from slipwise.relations.balance_rows import (
+    draw_run_noise,
     list_constants,
-    measure_channel_noise,
-    measure_run_noise,
     prepare_runs,
     stack_rows,
 )
@@ -61,7 +60,8 @@ def audit(campaign: Campaign | Path | str | Prepared, own: Iterable[Effect] = ()
     clean, rig = prepared.balances.campaign, prepared.campaign.specimen
     runs, band = prepare_runs(clean, prepared.balances.left_out)
     allowed, cannot = list_rigid_balances(runs[0].record, rig)
-    noise = measure_run_noise(runs, measure_channel_noise(clean, runs, band), band)
+    step = float(np.median([run.record.dt for run in clean.runs]))
+    noise = draw_run_noise(runs, clean.gauges, step, band)
     mass_error = KNOWN_MASS if "mass" in campaign.known else RATED_MASS
     logger = prepared.logger
     findings = [_of_samples(fault) for fault in prepared.faults]

@@ -3,8 +3,8 @@
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.instruments.joint_fit import EVIDENCE, LEAST_FLOOR, PER_NUMBER, Case, JointFit, off_rated
 from slipwise.regression.normal_equations import (
     Block,
@@ -14,7 +14,6 @@ from slipwise.regression.normal_equations import (
     weigh_equations,
 )
 
-Array = NDArray[np.float64]
 #: Part of a column's power below which what is left of it is rounding [1].
 _NOTHING = 1e-6
 

@@ -8,8 +8,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.effects import Effect
 from slipwise.effects._disturbances import Number, channel, paired, recorded
 from slipwise.record import Record
@@ -18,8 +18,6 @@ from slipwise.relations.rigid_balances import Relation
 from slipwise.rig import Specimen
 from slipwise.rig.load_basis import warps
 from slipwise.signals.derivative import derivative
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.instruments.acceptance import Evidence, possible, weigh
 from slipwise.instruments.candidate_gain import supports
 from slipwise.instruments.delay_or_filter import is_delay
@@ -14,7 +14,6 @@ from slipwise.instruments.joint_fit import Case, JointFit, fit, noise_with_itsel
 from slipwise.instruments.suspects import Suspect, suspects
 from slipwise.relations.balance_rows import Block
 
-Array = NDArray[np.float64]
 #: Explanations that are tried at most, refused ones included.
 _MOST = 10
 #: Candidates that are fitted in each step, and how near to the best they must be for that [1].

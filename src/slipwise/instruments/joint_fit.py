@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.effects import Effect
 from slipwise.instruments.disturbances import Alternative
 from slipwise.instruments.suspects import Suspect
@@ -35,7 +36,6 @@ from slipwise.relations.balance_rows import (
 from slipwise.relations.rigid_balances import Relation
 from slipwise.rig import Specimen
 
-Array = NDArray[np.float64]
 #: A rated mass is taken to be right within this, a mass that the campaign gives within that [1].
 RATED_MASS, KNOWN_MASS = 0.01, 0.003
 #: Rows are three in each period of the band's edge, whatever the sampling rate: of noise in that band 1.5 of them stand

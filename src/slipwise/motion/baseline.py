@@ -1,12 +1,10 @@
 """Treatment of the baseline of one component: what is taken away is said."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.errors import SettingError
 from slipwise.motion.trace import Baseline
-
-Array = NDArray[np.float64]
 
 
 def without_baseline(values: Array, how: Baseline) -> tuple[Array, str]:

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.data_files.statements import Peak, Statements
 from slipwise.errors import InputError, SlipwiseWarning, UnitError
 from slipwise.motion.column_kind import Kind, kind_of
@@ -20,7 +20,6 @@ from slipwise.motion.time_column import counts_rows, even_step, rises_evenly
 from slipwise.motion.trace import Trace
 from slipwise.units import parse_unit
 
-Array = NDArray[np.float64]
 #: What a headless column of times may be in.
 _SECONDS_PER = {"s": 1.0, "ms": 1e-3}
 #: Columns of times with other steps are clocks, in nanoseconds since 1970 for one [s].

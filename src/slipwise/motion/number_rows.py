@@ -5,13 +5,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.data_files.text_file import BLANKS, DELIMITERS, split_line
 from slipwise.errors import InputError
 from slipwise.motion.source_file import FORTRAN, LARGEST, SourceFile, is_number, number
 
-Array = NDArray[np.float64]
 #: A header may hold rows of numbers of its own, no more than these, within so many lines.
 _OWN_ROWS, _HEADER_LINES = 12, 200
 #: Lines below the numbers that may mark the end: words, no digits.

@@ -5,15 +5,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.display import Drawn, frame
 from slipwise.errors import InputError
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-Array = NDArray[np.float64]
 
 #: The table's axes: x is the shaking direction, z is up.
 AXES: tuple[str, str, str] = ("x", "y", "z")

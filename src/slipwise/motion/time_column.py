@@ -3,11 +3,10 @@
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.errors import InputError
 
-Array = NDArray[np.float64]
 #: Clocks of phones and loggers waver by less than this share of a step; a larger gap is a missing sample [1].
 _WAVERS = 0.2
 

@@ -4,14 +4,13 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.errors import InputError
 from slipwise.motion.origin import MotionOrigin
 from slipwise.motion.source_file import SourceFile
 from slipwise.motion.table_motion import HeaderPeak
 
-Array = NDArray[np.float64]
 Baseline = Literal["mean", "linear", "none"]
 
 #: No earthquake and no table reaches 1000 g: the unit is wrong, or the file damaged.

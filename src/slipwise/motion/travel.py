@@ -4,12 +4,11 @@ import warnings
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.errors import SettingError, SlipwiseWarning
 from slipwise.motion.table_motion import AXES, TableMotion
 
-Array = NDArray[np.float64]
 Drift = Literal["linear", "none"]
 
 

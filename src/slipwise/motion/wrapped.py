@@ -1,12 +1,11 @@
 """One series written several values a line, alone or in pairs of time and value, told from a table of components."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.motion.number_rows import Rows
 from slipwise.motion.time_column import rises_evenly
 
-Array = NDArray[np.float64]
 #: In reading order a wrapped series is at least this much smoother than down its columns [1].
 _SMOOTHER = 0.8
 #: A single line with fewer numbers is no record.

@@ -5,38 +5,39 @@ runs show it best: a gauge is as noisy in every run, and many runs show too shor
 together. Noise that is not white puts more than its share into low frequencies, `colour` times as much, and a velocity
 is made of those.
 
-What steady sliding tells of a gauge that never rests: force and load scatter about a smooth line.
-
-An actuator that draws a slider at one speed shows the noise of its gauges together with that of the contact itself,
-which no law of friction explains: asperities, debris, a controller that hunts. It is slower than white noise, so the
-top of a spectrum misses it.
+The gauges of a slider may never rest. Where an actuator draws it at one speed, force and load scatter about a smooth
+line: that is the noise of the gauges together with that of the contact, which no law of friction explains (asperities,
+debris, a controller that hunts). It is slower than white noise, so the top of a spectrum misses it.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.signal import detrend
 
+from slipwise.arrays import Array, Mask
+from slipwise.noise.independent_samples import sum_sure_correlations
 from slipwise.record import Record
 from slipwise.signals.noise import difference_level, noise, ordinary, quantum, white_level
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 #: Samples at rest that are enough to know a gauge's noise, and the least of one run that count.
 ENOUGH, _LEAST = 60, 24
-#: Samples at rest that show how noise is coloured, and the longest lag that is looked at.
-_ENOUGH_FOR_COLOUR, _LAGS = 200, 12
+#: Samples at rest that show how noise is coloured.
+_ENOUGH_FOR_COLOUR = 200
 #: Samples whose mean shows that a channel has begun to move, and how many times their scatter it must have moved.
 _ONSET, _ONSET_SURE = 16, 4.0
-#: Correlations below this many of their own errors are none.
-_SURE = 3.0
 #: No gauge is truer than this share of what it measures: the best cells and displacement gauges have 0.02 to 0.1 % of
 #: their span of non-linearity. It is the floor of records without noise, such as those of another simulation [1].
 _TRUEST = 1e-3
 #: What moves by less than this part of itself is a constant; taking a logger's lag out rounds [1].
 _CONSTANT = 1e-9
+#: Most and fewest samples of a stretch, the fewest stretches that tell something, and the share that is calmest [1].
+_LONGEST, _SHORTEST, _ENOUGH_STEADY, _CALMEST = 128, 16, 3, 0.25
+#: Share of the stroke over which every law is a smooth curve: a longer stretch takes the law's own shape for noise [1].
+_OF_STROKE = 0.1
+#: A stretch is steady where the speed changes by less than this share of itself, and slip is that many times its noise.
+_CHANGE, _MOVED = 0.1, 20.0
 
 
 @dataclass(frozen=True)
@@ -61,6 +62,17 @@ class Gauge:
     def slow_level(self) -> float:
         """Level of the white noise that is as strong at low frequency."""
         return float(np.sqrt(self.colour)) * self.level
+
+    def level_below(self, band: float, dt: float) -> float:
+        """Return the standard deviation of the noise below a frequency, in the channel's unit.
+
+        sigma = slow_level sqrt(2 band dt): the density at low frequency goes on up to there.
+
+        Args:
+            band: the frequency [Hz], up to half the sampling rate.
+            dt: step of the samples [s].
+        """
+        return self.slow_level * float(np.sqrt(2.0 * band * dt))
 
 
 def measure_gauge_noise(
@@ -126,7 +138,8 @@ def _gauge(parts: list[tuple[Array, Mask | None]]) -> Gauge:
         basis = "top of the spectrum" if top <= neighbours else "differences of neighbours"
         return Gauge(*_at_least(min(top, neighbours), basis, resolution, truest))
     level = float(np.sqrt(sum(float(s @ s) for s in still) / freedom))
-    return Gauge(*_at_least(level, "rest before the motion", resolution, truest), _colour(still), rested=True)
+    colour = sum_sure_correlations(still) if sum(len(s) for s in still) >= _ENOUGH_FOR_COLOUR else 1.0
+    return Gauge(*_at_least(level, "rest before the motion", resolution, truest), colour, rested=True)
 
 
 def _at_least(level: float, basis: str, resolution: float, truest: float) -> tuple[float, str]:
@@ -150,21 +163,6 @@ def _before_onset(rest: Array) -> Array:
     return rest[: int(np.argmax(moved))] if moved.any() else rest
 
 
-def _colour(still: list[Array]) -> float:
-    """Return 1 + 2 (r1 + r2 + ...) of the correlations up to the first that is not sure."""
-    count = sum(len(s) for s in still)
-    power = sum(float(s @ s) for s in still)
-    if count < _ENOUGH_FOR_COLOUR or power == 0.0:
-        return 1.0
-    total = 1.0
-    for lag in range(1, _LAGS + 1):
-        correlation = sum(float(s[lag:] @ s[:-lag]) for s in still) / power
-        if correlation < _SURE / np.sqrt(count):
-            break
-        total += 2.0 * correlation
-    return total
-
-
 def find_rest_before_motion(record: Record) -> Mask | None:
     """Tell which samples at the start of a run are at rest (n,): the table has not moved yet; None without table_ax."""
     if "table_ax" not in record:
@@ -175,14 +173,6 @@ def find_rest_before_motion(record: Record) -> Mask | None:
     moving = smooth[: len(record)] > 3.0 * level
     first = int(np.argmax(moving)) - block if moving.any() else len(record)
     return np.arange(len(record)) < first
-
-
-#: Most and fewest samples of a stretch, the fewest stretches that tell something, and the share that is calmest [1].
-_LONGEST, _SHORTEST, _ENOUGH_STEADY, _CALMEST = 128, 16, 3, 0.25
-#: Share of the stroke over which every law is a smooth curve: a longer stretch takes the law's own shape for noise [1].
-_OF_STROKE = 0.1
-#: A stretch is steady where the speed changes by less than this share of itself, and slip is that many times its noise.
-_CHANGE, _MOVED = 0.1, 20.0
 
 
 def measure_steady_level(records: Sequence[Record], channel: str) -> float:

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from slipwise.arrays import Array, Mask
 from slipwise.campaign import Campaign
 from slipwise.campaign.aligned import spread
 from slipwise.preparation.outliers import bridge_outliers_of
@@ -17,8 +17,6 @@ from slipwise.preparation.sample_fault import RAILS, SampleFault
 from slipwise.preparation.synchronisation import without_partner
 from slipwise.record import Record
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 #: Rows left out before and after a rail or a gap [s].
 _AROUND = 0.03
 

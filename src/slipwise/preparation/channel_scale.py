@@ -10,8 +10,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.preparation.gauge_groups import group_gauges
 from slipwise.relations.balance_rows import (
     PreparedRun,
@@ -24,7 +24,6 @@ from slipwise.relations.balance_rows import (
 from slipwise.relations.rigid_balances import Relation
 from slipwise.rig import Specimen
 
-Array = NDArray[np.float64]
 #: A relation is known no better than this share of what goes into it, and the mass than this share of itself [1].
 _LEAST, _MASS = 0.002, 0.01
 #: How often relations are weighed anew by what is left in them.

@@ -9,15 +9,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.campaign import Campaign, Run
 from slipwise.campaign.invalid_samples import InvalidSamples
 from slipwise.preparation.sample_fault import SampleFault
 from slipwise.rig import Specimen
 from slipwise.rig.load_basis import basis_of
 
-Array = NDArray[np.float64]
 #: Loads of a rigid girder have so many degrees of freedom.
 _RIGID = 3
 #: The warp that nobody has seen, as a share of what a pad carries at rest: assumed [1].

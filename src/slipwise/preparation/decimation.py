@@ -7,15 +7,14 @@ top of the spectrum stays as loud as the rest, and tells how loud that is.
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Mask
 from slipwise.campaign.campaign import Campaign, Run, Thinning
 from slipwise.campaign.invalid_samples import InvalidSamples
 from slipwise.record import Record
 from slipwise.rig import Specimen
 from slipwise.signals.filters import LowPass, lowpass
 
-Mask = NDArray[np.bool_]
 #: Samples a second that every law, the pads' pitch of 50 to 100 Hz and a logger's usual filter need [Hz].
 ENOUGH = 400.0
 #: Samples of one run of a slider that tell as much as more of them [1].

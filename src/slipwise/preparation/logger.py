@@ -16,10 +16,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import minimize
 from scipy.signal import welch
 
+from slipwise.arrays import Array
 from slipwise.campaign import Campaign, Logger
 from slipwise.campaign.invalid_samples import InvalidSamples
 from slipwise.errors import InputError
@@ -28,7 +28,6 @@ from slipwise.jobs.parallel import on_every_core
 from slipwise.record import Record
 from slipwise.signals.filters import LowPass
 
-Array = NDArray[np.float64]
 #: Below this friction's own shape shows [Hz].
 _FROM = 22.0
 #: Shapes that are tried: order of one pass, and phase. Eight causal poles look like four there and back, which are

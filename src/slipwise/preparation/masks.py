@@ -7,15 +7,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array, Mask
 from slipwise.campaign import Campaign, Run
 from slipwise.campaign.invalid_samples import InvalidSamples, widen_around
 from slipwise.preparation.sample_fault import RAILS, SampleFault
 from slipwise.preparation.synchronisation import without_partner
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 #: Faults whose samples are no measurement.
 _INVALID = (*RAILS, "held", "lost", "dead", "wild")
 

@@ -1,10 +1,10 @@
 """Rounding of samples: the steps in which a file has its values, and how often neighbours are equal by that alone."""
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import minimum_filter1d, uniform_filter1d
 
-Array = NDArray[np.float64]
+from slipwise.arrays import Array
+
 #: Steps are of one size within this; a size that more than this part of all steps have shows coarse rounding [1].
 _LIKE, _COMMON = 0.02, 0.08
 #: Samples over which noise is taken to be the same.

@@ -2,10 +2,8 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
+from slipwise.arrays import Mask
 
-Mask = NDArray[np.bool_]
 RAILS: tuple[str, ...] = ("upper rail", "lower rail")
 
 

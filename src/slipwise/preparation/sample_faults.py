@@ -4,8 +4,8 @@ import re
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array, Mask
 from slipwise.campaign import Campaign, Run
 from slipwise.campaign.wild_samples_of_runs import FAULTY, faulty_share
 from slipwise.channels import pads_in
@@ -22,14 +22,12 @@ from slipwise.rig.load_basis import basis_of
 from slipwise.signals.noise import quantum, white_level
 from slipwise.signals.resample import slower_rate
 
-Array = NDArray[np.float64]
 #: A pad's cell, and the share of what its like scatter below which it shows nothing but noise [1].
 _CELL, _IDLE = re.compile(r"pad_[A-Za-z0-9]+_(?P<kind>N|Fx|Fy)$"), 0.08
 #: Other cells of its kind that must be there to tell whether a cell is idle.
 _LIKE_IT = 2
 #: Other pads that tell how a rigid girder moves.
 _HOLD = 3
-Mask = NDArray[np.bool_]
 #: A rail holds at least this many samples of a campaign, in one place at least that many, this part side by side [1].
 _RAIL, _LONG_RAIL, _BESIDE = 6, 15, 0.5
 #: A rail is met faster than this many standard deviations of noise, and this many steps of rounding, a sample [1].

@@ -15,8 +15,8 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.campaign import Campaign
 from slipwise.channels import pads_in
 from slipwise.record import Record
@@ -24,7 +24,6 @@ from slipwise.signals.ends import in_frequency
 from slipwise.signals.filters import LowPass, lowpass
 from slipwise.signals.noise import white_level
 
-Array = NDArray[np.float64]
 #: A mean agreement below this, of +1 for a right sign and -1 for a wrong one, says that a sign is wrong.
 _AGAINST = -0.3
 #: The motion that is compared is slower than this [Hz]: rigid, and above the noise of a differentiated slip.

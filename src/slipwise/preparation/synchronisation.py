@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import correlate
 
+from slipwise.arrays import Array
 from slipwise.campaign import Campaign, Run
 from slipwise.record import Record
 from slipwise.rig import Specimen
@@ -30,13 +31,30 @@ from slipwise.signals.filters import LowPass, lowpass
 from slipwise.signals.second_derivative import second_derivative
 from slipwise.signals.shift import shift
 
-Array = NDArray[np.float64]
 #: Lags that are looked for [s]; what is below the first is the fits' own business.
 LEAST, MOST = 0.05, 6.0
 #: Share of a channel's variance that must be explained at the lag, and by how much more than without one [1].
 EXPLAINED, MORE = 0.7, 0.1
 #: Runs agree on a lag within so many samples.
 _AGREED = 2.0
+#: Slip rate at which friction has turned [m/s].
+_TURNED = 0.02
+#: Lags tried beside the one at which a single state resembles the channel most, of cells and of accelerometers: all
+#: states together explain it best a little beside that [samples].
+_BESIDE, _BESIDE_MOTION = 4, 3
+#: What is compared is slower than this: rigid, and above the noise of a differentiated slip [Hz].
+_SLOW = LowPass(8.0, 4, "aligned")
+#: Ends that the filter spoils [s], and samples that are enough between them.
+_END, _ENOUGH = 0.3, 200
+#: A lag that explains less than none by more than this share is contradicted [1].
+_WORSE = 0.05
+#: Which gauges may be on a logger of their own, by the first letters of their channels.
+_LOGGERS: dict[str, tuple[str, ...]] = {
+    "girder": ("girder_a",),
+    "table": ("table_a",),
+    "accelerometers": ("girder_a", "table_a"),
+    "slip": ("slip_", "yaw"),
+}
 
 
 @dataclass(frozen=True)
@@ -94,12 +112,6 @@ def locate_vertex(before: float, here: float, after: float) -> float:
     return float(np.clip(0.5 * (before - after) / bend, -0.5, 0.5)) if bend < 0.0 else 0.0
 
 
-#: Slip rate at which friction has turned [m/s].
-_TURNED = 0.02
-#: Lags beside the one of largest correlation that are tried [samples].
-_BESIDE = 4
-
-
 def find_late_cells(campaign: Campaign) -> LateChannels | None:
     """Return whether the pads' cells are late as one, of a girder that slides by itself; None where they are not."""
     if not campaign.specimen.free:
@@ -135,23 +147,6 @@ def _lag(run: Run, specimen: Specimen) -> float | None:
     return dt * (
         best + locate_vertex(*(compute_explained_share(force, states, best + beside) for beside in (-1, 0, 1)))
     )
-
-
-#: What is compared is slower than this: rigid, and above the noise of a differentiated slip [Hz].
-_SLOW = LowPass(8.0, 4, "aligned")
-#: Lags beside the one of largest correlation that are tried [samples].
-_BESIDE_MOTION = 3
-#: Ends that the filter spoils [s], and samples that are enough between them.
-_END, _ENOUGH = 0.3, 200
-#: A lag that explains less than none by more than this share is contradicted [1].
-_WORSE = 0.05
-#: Which gauges may be on a logger of their own, by the first letters of their channels.
-_LOGGERS: dict[str, tuple[str, ...]] = {
-    "girder": ("girder_a",),
-    "table": ("table_a",),
-    "accelerometers": ("girder_a", "table_a"),
-    "slip": ("slip_", "yaw"),
-}
 
 
 @dataclass(frozen=True)

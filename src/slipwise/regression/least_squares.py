@@ -15,9 +15,9 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from slipwise.arrays import Array
+
 Point = TypeVar("Point")
 Linear = TypeVar("Linear")
 #: A number whose bounds are this far apart changes at most by this factor in one step: slopes taken a decade away lie.

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from slipwise.arrays import Array
+
 #: Columns (n, k) of one explanation in the relations that it touches.
 Block = Mapping[str, Array]
 

@@ -6,18 +6,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array, Mask
 from slipwise.campaign import Campaign, Run
 from slipwise.campaign.aligned import AlignedRun, aligned_run, spread
 from slipwise.channels import pads_in
+from slipwise.noise.gauges import Gauge
 from slipwise.record import Record
 from slipwise.regression.normal_equations import Block
 from slipwise.relations.rigid_balances import Relation
 from slipwise.rig import Specimen
 from slipwise.signals.filters import LowPass, lowpass
-from slipwise.signals.noise import white_level
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 #: Band in which channels are compared [Hz]: below the loggers' filters, above what the rig does.
 _BAND = 40.0
 #: and as a part of the slowest filter of the logger and of the sampling rate [1].
@@ -30,8 +29,6 @@ _LIFTED, _RINGING = 0.05, 0.2
 _FEWEST = 3
 #: Samples and rows that are kept, per period of the band's edge: derivatives need more than evidence.
 _KEPT, _ROWS = 6.0, 3.0
-#: Fewer rows at rest than this tell no noise level.
-_STILL_ROWS = 30
 
 
 @dataclass(frozen=True)
@@ -198,31 +195,17 @@ def list_changed_rows(
     return found
 
 
-def measure_channel_noise(campaign: Campaign, runs: Sequence[PreparedRun], band: float) -> dict[str, float]:
-    """Return noise of each smoothed channel: white part within the band, or what quiet stretches show, if larger."""
-    levels: dict[str, list[float]] = {}
-    for run, prepared in zip(campaign.runs, runs, strict=True):
-        part = np.sqrt(2.0 * band * run.record.dt)
-        for name in prepared.record.channels:
-            found = part * white_level(run.record[name])
-            levels.setdefault(name, []).append(max(found, _still_level(prepared, name)))
-    return {name: float(np.median(found)) for name, found in levels.items()}
+def draw_run_noise(
+    runs: Sequence[PreparedRun], gauges: Mapping[str, Gauge], dt: float, band: float
+) -> list[dict[str, Array]]:
+    """Return a sample of each run's noise, channel by channel: what its gauges have below the edge of the band.
 
-
-def _still_level(run: PreparedRun, name: str) -> float:
-    """Return the least scatter about a slow curve that any quiet stretch shows; 0 without one."""
-    values, found = run.record[name][run.picked["wander"]], []
-    for number in range(int(run.stretch.max()) + 1 if len(run.stretch) else 0):
-        still = values[run.stretch == number]
-        if len(still) >= _STILL_ROWS:
-            # a cell that relaxes after the motion is no noise
-            place = np.arange(len(still))
-            found.append(float((still - np.polynomial.Polynomial.fit(place, still, 3)(place)).std(ddof=4)))
-    return min(found, default=0.0)
-
-
-def measure_run_noise(runs: Sequence[PreparedRun], levels: Mapping[str, float], band: float) -> list[dict[str, Array]]:
-    """Return a sample of each run's noise, channel by channel, of the levels given and of the band's colour."""
+    Args:
+        runs: smoothed.
+        gauges: channel -> noise of one recorded sample.
+        dt: step of the recorded samples [s].
+        band: edge of the band [Hz].
+    """
     rng = np.random.default_rng(0)
     by = LowPass(band, 6, "aligned")
     made = []
@@ -230,7 +213,7 @@ def measure_run_noise(runs: Sequence[PreparedRun], levels: Mapping[str, float], 
         channels = {}
         for name in run.record.channels:
             white = lowpass(rng.standard_normal(len(run.record)), run.record.dt, by)
-            channels[name] = levels[name] / max(float(white.std()), 1e-12) * white
+            channels[name] = gauges[name].level_below(band, dt) / max(float(white.std()), 1e-12) * white
         made.append(channels)
     return made
 

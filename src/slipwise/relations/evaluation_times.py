@@ -3,11 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.relations.run_data import FitRun, interpolate_finely
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

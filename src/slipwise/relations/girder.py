@@ -20,6 +20,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.campaign.rig_motion import shortening_rate
 from slipwise.effects import BalanceStates
 from slipwise.model import Model
@@ -39,7 +40,6 @@ from slipwise.signals.ends import in_frequency
 from slipwise.signals.shift import shift
 from slipwise.simulation.predict import Predictor
 
-Array = NDArray[np.float64]
 BALANCES: tuple[str, ...] = ("girder", "heave", "pitch", "roll", *WARPS, "storeys", "motion")
 #: Where a gauge of friction is invalid, the girder's accelerometer takes its place if the two differ by more than this
 #: many times the accelerometer's noise [1].

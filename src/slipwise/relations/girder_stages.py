@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.relations.girder import BALANCES, compute_buffer_forces, compute_motion_residual, predict_balances
 from slipwise.relations.inverse_filter import whiten_again
 from slipwise.relations.kinematics import CORRECTED, RAISED, YAW, is_pitching_table
@@ -21,7 +21,6 @@ from slipwise.relations.parameters import PITCH_INERTIA, ROLL_INERTIA, YAW_INERT
 from slipwise.relations.stages import Evaluation, Inputs, Stage
 from slipwise.simulation.predict import predictor
 
-Array = NDArray[np.float64]
 _GIRDER_NUMBERS = (
     "rig.mass", "rig.centre_height", "rig.buffer_stiffness", YAW_INERTIA, PITCH_INERTIA, ROLL_INERTIA,
 )  # fmt: skip

@@ -5,10 +5,10 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.relations.run_data import FitRun, smooth_record
 from slipwise.signals.ends import in_frequency
 
-Array = NDArray[np.float64]
 #: Frequencies (m,) [Hz] and the factors (m,) by which the power of noise is raised there [1].
 Spectrum = tuple[Array, Array]
 #: A filter is taken out as far as it weakened a channel by no more than this [1].

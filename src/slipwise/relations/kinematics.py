@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.campaign.rig_motion import rig_motion
 from slipwise.relations.evaluation_times import Instants, evaluate_states_at_instants
 from slipwise.relations.girder import compute_buffer_forces, compute_rigid_rotation
@@ -20,7 +20,6 @@ from slipwise.rig import Specimen
 from slipwise.rig.frame import frame_push
 from slipwise.simulation.predict import predictor
 
-Array = NDArray[np.float64]
 #: Numbers of the rig on which yaw depends, and on which the table's pitch moves the girder.
 _YAW_NUMBERS = ("rig.mass", "rig.buffer_stiffness", YAW_INERTIA)
 _TABLE_PITCH_NUMBERS = ("rig.centre_height",)

@@ -3,8 +3,8 @@
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.channels import VELOCITY_CHANNELS, channels_like
 from slipwise.effects import Effect
 from slipwise.model import EffectUse
@@ -13,8 +13,6 @@ from slipwise.relations.inverse_filter import Spectrum, remove_filter_from_spect
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import FitRun, smooth_record
 from slipwise.rig.load_basis import warps
-
-Array = NDArray[np.float64]
 
 
 def is_on_force_gauge(term: Term) -> bool:

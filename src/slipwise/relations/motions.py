@@ -1,4 +1,9 @@
-"""Which runs are of one motion: what they leave is no independent evidence, and they are left out together."""
+"""Which runs are of one motion: they are left out together, and what a model lacks in them counts once.
+
+Runs whose table moved alike along x share the history of slip, and with it the errors of a model: the second is no
+independent evidence, whatever its role says. The record along x decides; what the table does upwards or across changes
+loads, not the path along which the pads slide.
+"""
 
 from collections.abc import Iterable, Sequence
 
@@ -8,14 +13,19 @@ from slipwise.relations.run_data import FitRun
 
 #: Motions are the same where their difference is below this share of the motion, besides the noise of the gauge [1].
 _SAME, _NOISE = 0.1, 2.0
+#: Steps of time that differ by less than this share of themselves are one step, by clocks that run a little apart [1].
+_SAME_STEP = 1e-3
 #: Samples that tell a motion from another; every hypothesis asks.
 _ENOUGH = 500
 
 
 def is_same_motion(one: FitRun, other: FitRun) -> bool:
-    """Return whether two runs are as long and of one motion: of the table, or of the slip where that is prescribed."""
+    """Return whether two runs are of one motion: of the table along x, or of the slip where that is prescribed.
+
+    They have as many samples at the same step of time: a path that is gone through again more slowly is another motion.
+    """
     name = next((n for n in ("table_ax", "slip_x") if n in one.record and n in other.record), "")
-    if not name or len(one.record) != len(other.record):
+    if not name or len(one.record) != len(other.record) or abs(one.dt - other.dt) > _SAME_STEP * one.dt:
         return False
     every = slice(None, None, max(1, len(one.record) // _ENOUGH))
     first, second = one.record[name][every], other.record[name][every]

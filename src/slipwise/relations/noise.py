@@ -8,10 +8,10 @@ whose noise is not white is brought to white noise.
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d
 from scipy.signal import fftconvolve
 
+from slipwise.arrays import Array
 from slipwise.model import Model
 from slipwise.relations.evaluation_times import Instants
 from slipwise.relations.girder import compute_buffer_forces, compute_effects, compute_heave_rate, pass_through_pitch
@@ -24,7 +24,6 @@ from slipwise.rig.load_basis import basis_of, warps
 from slipwise.signals.ends import in_frequency
 from slipwise.simulation.predict import PadForces, predictor
 
-Array = NDArray[np.float64]
 #: Uncertainty of the timing of a reversal: shear of pad and cell, cards of the logger [s].
 TIMING = 1e-4
 #: Periods of the logger's filter over which it spreads what it makes of a reversal, before and after [1].

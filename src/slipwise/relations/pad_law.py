@@ -7,13 +7,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 
+from slipwise.arrays import Array
 from slipwise.jobs.machine_code import kept
 from slipwise.relations.evaluation_times import Instants
 from slipwise.relations.run_data import FitRun
 from slipwise.signals.filters import LowPass, folded, response
 from slipwise.simulation.predict import PadForces, Predictor
 
-Array = NDArray[np.float64]
 #: Samples by which a force is carried on at both ends before it is filtered.
 _BEYOND = 64
 

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.relations.evaluation_times import Instants
 from slipwise.relations.kinematics import CORRECTED, RIG_MOTIONS, STATES
 from slipwise.relations.measurement import apply_on_force, is_on_force_gauge
@@ -17,7 +17,6 @@ from slipwise.relations.transverse_friction import predict_logged_across
 from slipwise.signals.filters import LowPass
 from slipwise.simulation.predict import PadForces, predictor
 
-Array = NDArray[np.float64]
 _PAD_PORTS = ("area", "shear", "stick", "train", "pad")
 _LAW_NUMBERS = ("rig.shear_strength",)
 #: Where a model has its own memory of slip, or nothing is fitted yet [m].

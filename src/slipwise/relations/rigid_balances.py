@@ -26,6 +26,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.record import Record
 from slipwise.rig import Specimen, storey_names
 from slipwise.rig.curved_faces import risen
@@ -35,7 +36,6 @@ from slipwise.rig.load_modes import LoadModes, load_modes, vertical_acceleration
 from slipwise.rig.rocking import coupled
 from slipwise.signals.ends import in_frequency
 
-Array = NDArray[np.float64]
 Term = Callable[[Record, Specimen], Array]
 #: Slower motion is left out where accelerations are integrated twice: their noise grows as 1/f^2 [Hz].
 SLOWEST = 0.8

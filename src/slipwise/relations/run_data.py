@@ -5,8 +5,8 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array, Mask
 from slipwise.campaign import Campaign, Run
 from slipwise.campaign.invalid_samples import InvalidSamples, add_wild_samples
 from slipwise.campaign.scales import Scales
@@ -19,8 +19,6 @@ from slipwise.signals.ends import in_frequency
 from slipwise.signals.filters import LowPass, lowpass
 from slipwise.signals.shift import shift
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 #: Masked before and after a stuck stretch [s].
 _STUCK_MARGIN = 0.016
 #: Slower pads point nowhere [m/s].

@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from fnmatch import fnmatchcase
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Mask
 from slipwise.campaign.aligned import spread
 from slipwise.campaign.states import States
 from slipwise.channels import VELOCITY_CHANNELS
@@ -15,7 +15,6 @@ from slipwise.rig import Specimen, pad_frequencies
 from slipwise.rig.load_basis import WARPS
 from slipwise.rig.rocking import coupled
 
-Mask = NDArray[np.bool_]
 #: Channels that the balances are made of, slip by all that it is fused from; pads and friction across take their own
 #: pad's besides the velocity's.
 _USES: dict[str, tuple[str, ...]] = {

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.relations.girder import BALANCES, list_available_balances
 from slipwise.relations.motions import group_by_motion
 from slipwise.relations.run_data import FitRun
@@ -15,7 +15,6 @@ from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import load_modes
 from slipwise.signals.ends import in_frequency
 
-Array = NDArray[np.float64]
 #: Above this frequency, over that at which the girder pitches on its pads, what is left of the pitch load is noise [1].
 _PITCHING = 1.56
 
@@ -61,20 +60,7 @@ class Measurements:
 
     @cached_property
     def motions(self) -> list[list[int]]:
-        """Places of the fitted runs by motion: a repeat belongs to the run before it that it resembles most."""
-        out: list[list[int]] = []
-        for i in self.fitted:
-            run = self.runs[i]
-            alike = [g for g in out if len(self.runs[g[0]].time) == len(run.time)]
-            if run.role == "repeat" and (alike or out):
-                (alike or out)[-1].append(i)
-            else:
-                out.append([i])
-        return out
-
-    @cached_property
-    def motions_as_recorded(self) -> list[list[int]]:
-        """Places of the fitted runs by motion as their records show it, whatever their roles say."""
+        """Places of the fitted runs by motion, see `group_by_motion`."""
         return group_by_motion(self.runs, self.fitted)
 
     @cached_property

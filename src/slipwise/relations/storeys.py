@@ -11,16 +11,14 @@ Source: Chopra, Dynamics of Structures, chapters 12 and 13: modal analysis of a 
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.relations.run_data import FitRun
 from slipwise.rig import Specimen
 from slipwise.rig.frame import frame_push
 from slipwise.rig.load_basis import basis_of
 from slipwise.rig.storeys import frame_modes
 from slipwise.signals.oscillator import oscillator
-
-Array = NDArray[np.float64]
 
 
 def predict_push(run: FitRun, specimen: Specimen) -> Array:

@@ -5,12 +5,10 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array, Mask
 from slipwise.relations.girder import BALANCES
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 RELATIONS: tuple[str, ...] = ("pads", *BALANCES, "across")
 
 

@@ -5,15 +5,11 @@
 Where a pad is slow the direction of its velocity is noise, so only fast samples are held against the law.
 """
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slipwise.arrays import Array
 from slipwise.relations.pad_law import log_force
 from slipwise.relations.run_data import FitRun
 from slipwise.signals.filters import LowPass
 from slipwise.simulation.predict import PadForces
-
-Array = NDArray[np.float64]
 
 
 def predict_logged_across(run: FitRun, law_forces: PadForces, by: LowPass | None) -> Array:

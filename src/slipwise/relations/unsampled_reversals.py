@@ -11,16 +11,15 @@ Shock and Vibration Handbook.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.signal import fftconvolve
 
+from slipwise.arrays import Array
 from slipwise.relations.girder import pass_through_pitch
 from slipwise.relations.run_data import FitRun
 from slipwise.rig import Specimen
 from slipwise.rig.storeys import frame_modes
 from slipwise.signals.sampled_jumps import squared_jumps
 
-Array = NDArray[np.float64]
 #: Instants of a step at which a jump may be.
 _INSTANTS = 32
 #: Samples on either side of a jump over which its sampled answer is followed beside its ringing.

@@ -2,9 +2,7 @@
 
 from dataclasses import replace
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slipwise.arrays import Array
 from slipwise.relations.kinematics import CORRECTED, RIG_MOTIONS, STATES, compute_compliance, compute_pad_states
 from slipwise.relations.measurement import apply_on_force, compute_change_by_faults
 from slipwise.relations.noise import (
@@ -28,19 +26,21 @@ from slipwise.relations.setting import Weighing
 from slipwise.relations.stages import Evaluation
 from slipwise.simulation.predict import predictor
 
-Array = NDArray[np.float64]
+#: Rounds in which the velocity that the filter took is found. Each leaves about a tenth of what the one before was off:
+#: after two, the noise of bridges that were tried is right to 0.5 %; rests show a gauge's noise to 9 % at best.
+_ROUNDS = 2
 
 
 def weigh(evaluation: Evaluation) -> Weighing:
-    """Return the noise of every relation with the numbers of an evaluation, of all runs.
+    """Return the noise of every relation with the terms and numbers of an evaluation, of all runs.
 
-    What the logger's filter took from the velocity at reversals is what the law makes of the motion, so that is found
-    first, from the motion as it was weighed before.
+    How the evaluation itself is weighed plays no part. What the logger's filter took from the velocity at reversals is
+    what the law makes of the motion, so that is found first, in rounds: from the motion without it, then with it.
     """
     values = evaluation.values
-    begun = replace(evaluation.weighing, slip_delay=values.get("rig.late_slip", 0.0), weighed_by=dict(values))
+    begun = Weighing(slip_delay=values.get("rig.late_slip", 0.0), weighed_by=dict(values))
     evaluation = evaluation.weighed(begun)
-    if evaluation.measurements.specimen.free:
+    for _ in range(_ROUNDS if evaluation.measurements.specimen.free else 0):
         begun = _with_lost_velocity(evaluation)
         evaluation = evaluation.weighed(begun)
     measurements, runs = evaluation.measurements, evaluation.of(CORRECTED).runs

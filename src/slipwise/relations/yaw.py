@@ -10,13 +10,12 @@ noisier: use it only where it improves the fit.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.jobs.machine_code import kept
 from slipwise.relations.run_data import FitRun
 from slipwise.rig import Specimen
 
-Array = NDArray[np.float64]
 #: Below this speed friction also holds the girder's yaw [m/s].
 _SLOW = 1e-4
 #: Steps per sample: at a reversal friction lets the girder yaw for some milliseconds only.

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array, diags_array
 
+from slipwise.arrays import Array
 from slipwise.residual_map.splines import SplineBasis
 
-Array = NDArray[np.float64]
 #: Ridge that keeps places without samples at zero, as a share of the largest diagonal [1].
 _RIDGE = 1e-6
 

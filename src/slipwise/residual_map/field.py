@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.objective import Objective
 from slipwise.regression.projection import basis_of, project_away
@@ -17,7 +18,6 @@ from slipwise.relations.table import Residuals
 from slipwise.residual_map.curve import ResidualCurve, fit_curve
 from slipwise.residual_map.splines import SplineBasis
 
-Array = NDArray[np.float64]
 #: Blocks into which a single motion is cut, to be left out by turns.
 _BLOCKS = 8
 

@@ -14,13 +14,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.estimation.objective import Objective
 from slipwise.relations.evaluation_times import Instants
 from slipwise.residual_map.states import DrivingState, PadInstants
 
-Array = NDArray[np.float64]
 #: Speed [m/s] over which the sign of a girder's motion is smoothed.
 _SLOW = 1e-3
 

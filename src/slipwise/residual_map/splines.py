@@ -5,11 +5,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import BSpline
 from scipy.sparse import csr_array
 
-Array = NDArray[np.float64]
+from slipwise.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.campaign.rig_motion import rig_motion
 from slipwise.effects import DERIVED, LAGGING, PAD_INPUTS, RIG_MOTION
 from slipwise.estimation.objective import Objective
@@ -20,7 +20,6 @@ from slipwise.relations.run_data import FitRun, interpolate_finely
 from slipwise.simulation.kernel import derived_states
 from slipwise.simulation.predict import PadForces
 
-Array = NDArray[np.float64]
 #: Time constants at which lags of the load are looked for, and those of heat [s], on the time scale of a girder.
 _LAGS, _COOLING = (0.001, 0.003, 0.008, 0.02, 0.05, 0.15), (0.3, 1.0, 3.0, 10.0)
 #: State that is measured and no argument of a law -> its SI unit.

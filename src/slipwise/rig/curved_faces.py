@@ -3,11 +3,10 @@
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.rig.specimen import Specimen
 
-Array = NDArray[np.float64]
 #: Share of the radius up to which a face is a sphere [1].
 _SPHERE = 0.9
 

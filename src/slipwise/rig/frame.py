@@ -10,14 +10,12 @@ Source: d'Alembert on a shear building; Chopra, Dynamics of Structures, chapter 
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.record import Record
 from slipwise.rig.mjcf.writer import storey_names
 from slipwise.rig.specimen import Specimen
 from slipwise.rig.storeys import Storey
-
-Array = NDArray[np.float64]
 
 
 def storey_channels(storeys: Sequence[Storey], axis: str = "x") -> tuple[str, ...]:

@@ -5,12 +5,11 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.rig.places import MOST_PADS, Place
 from slipwise.rig.specimen import Specimen
 
-Array = NDArray[np.float64]
 #: Patterns and places that differ by less are the same [1].
 _SAME = 1e-9
 #: Loads at rest that pads of unlike heights make, below this share of the weight, are none [1].

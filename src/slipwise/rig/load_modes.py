@@ -4,15 +4,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.errors import InputError
 from slipwise.record import Record
 from slipwise.rig.frame import frame_moment, storey_channels
 from slipwise.rig.load_basis import LoadBasis
 from slipwise.rig.storeys import Storey
 
-Array = NDArray[np.float64]
 #: The table is taken to rest while it accelerates less than this [m/s^2].
 _QUIET = 0.05
 #: Fewer samples at rest than this say nothing about the shares.

@@ -12,12 +12,11 @@ critical damping goes with its frequency. Source: Clough & Penzien (1975), dampi
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import eigh
 
+from slipwise.arrays import Array
 from slipwise.rig.specimen import Specimen
 
-Array = NDArray[np.float64]
 #: Coupling below this part of the two stiffnesses is rounding of places [1].
 _NONE = 1e-9
 

@@ -4,12 +4,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.errors import SettingError
 from slipwise.rig.bounds import out_of_bounds
 
-Array = NDArray[np.float64]
 #: Most storeys that a frame may have: MuJoCo keeps its matrices whole up to 60 degrees of freedom.
 MOST_STOREYS = 20
 

@@ -19,6 +19,8 @@ from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.relations.table import Residuals
 from slipwise.session.state import SessionState, Weights
 
+#: What a table says of a relation that no sample judges.
+NOT_JUDGED = "not judged"
 #: Objectives that stay ready: this state's, that before it, the one it is compared with, each also coarse.
 _READY = 6
 
@@ -30,20 +32,21 @@ class BalanceError:
     Attributes:
         relation: "pads", "girder" ...
         name: as people call it.
-        fitted: rms of the residual over its floor, of all runs that may be fitted [1].
-        held_out: the same of the held-out runs; None where none is held out.
+        fitted: rms of the residual over its floor, of all runs that may be fitted [1]; None where none of their samples
+            judges it.
+        held_out: the same of the held-out runs; None where none is held out, or none of their samples judges it.
         runs: run -> the same of this run.
     """
 
     relation: str
     name: str
-    fitted: float
+    fitted: float | None
     held_out: float | None
     runs: Mapping[str, float]
 
     @property
-    def error(self) -> float:
-        """The held-out error; that of the fitted runs where none is held out."""
+    def error(self) -> float | None:
+        """The held-out error; that of the fitted runs where there is none; None for a relation that is not judged."""
         return self.fitted if self.held_out is None else self.held_out
 
 
@@ -73,8 +76,6 @@ class Evaluator:
     def _weighed(self, weights: Weights) -> Objective:
         objective = make_objective(self.runs, self.model.specimen, weights.terms)
         objective = objective.with_yaw() if weights.yaw else objective
-        if weights.before:
-            objective = objective.weigh(weights.before, finer=weights.finer)
         return objective.weigh(weights.values, finer=weights.finer)
 
     def coarse(self, state: SessionState) -> SessionState:
@@ -140,9 +141,11 @@ def errors_of(objective: Objective, residuals: Residuals) -> tuple[BalanceError,
     """Return the error of every relation in floors."""
     out = []
     for relation in objective.relations:
-        held = residuals.level(relation, objective.held_out) if residuals.count(relation, objective.held_out) else None
         judged = [of for of in residuals.blocks(relation) if of.count]
         runs = {of.name: residuals.level(relation, [of.run]) for of in judged}
-        fitted = residuals.level(relation, objective.fitted)
+        fitted, held = (
+            residuals.level(relation, places) if residuals.count(relation, places) else None
+            for places in (objective.fitted, objective.held_out)
+        )
         out.append(BalanceError(relation, NAMES[relation][0], fitted, held, runs))
     return tuple(out)

@@ -87,7 +87,6 @@ def fit_state(ready: Evaluator, state: SessionState, progress: Progress) -> Sess
             values = {**state.values, **{k: v for k, v in solution.values.items() if k.startswith("rig.")}}
             objective, solution = _from_here(ready, objective.having(state.terms), state, values)
     watch.next("fitting on, with the noise that this law leaves", 0.85, 80)
-    before = solution.values
     objective, solution = refit_finally(objective, solution)
     watch.next("how sure the numbers are", 1.0, 30)
     fit = BaseFit(ready.prepared.campaign, ready.model, objective, solution.free, solution)
@@ -95,7 +94,7 @@ def fit_state(ready: Evaluator, state: SessionState, progress: Progress) -> Sess
     weighed = objective.weighing.weighed_by
     # a slider keeps the noise of its base law: another floor would make errors before and after two different things
     terms = state.terms if objective.balanced else weighed_terms
-    weights = Weights(terms, weighed, finer=objective.balanced, yaw=objective.yaw, before=before)
+    weights = Weights(terms, weighed, finer=objective.balanced, yaw=objective.yaw, fitted=True)
     values = {**state.values, **solution.values}
     progress("done", 1.0)
     return replace(state, values=values, weights=weights, fitted=True, known=known, words="fitted", edit="")

@@ -142,7 +142,7 @@ def _check_errors(ready: Evaluator, state: SessionState) -> None:
             errors = errors_of(ready.objective(state), ready.residuals(state))
     except _NONSENSE as error:
         raise _impossible(state, error) from None
-    if not all(isfinite(e.fitted) for e in errors):
+    if not all(e.fitted is None or isfinite(e.fitted) for e in errors):
         raise InputError(f"its step {state.words!r} holds numbers by which nothing can be predicted")
 
 

@@ -12,6 +12,7 @@ from slipwise.display import Drawn, Tabular
 from slipwise.errors import SettingError
 from slipwise.model import Model, base_model
 from slipwise.session import changes
+from slipwise.session.evaluation import NOT_JUDGED
 from slipwise.session.findings import explained
 from slipwise.session.fitting import Progress
 from slipwise.session.session import Session
@@ -24,22 +25,22 @@ class ModelChange(Drawn, Tabular):
     Attributes:
         words: what was done.
         model: afterwards, fitted; `save_model` writes it.
-        before: balance -> error before in floors: held-out, of the fitted runs where none is held out.
+        before: balance -> error before in floors: held-out, of the fitted runs where none is held out;
+            None for a balance that no sample judges.
         after: balance -> the same afterwards.
     """
 
     words: str
     model: Model
-    before: Mapping[str, float]
-    after: Mapping[str, float]
+    before: Mapping[str, float | None]
+    after: Mapping[str, float | None]
 
     def _headline(self) -> str:
         return f"{self.words}; errors in multiples of the noise floor"
 
     def _rows(self) -> list[dict[str, Any]]:
         return [
-            {"balance": n, "before": round(b, 2), "after": round(self.after.get(n, b), 2)}
-            for n, b in self.before.items()
+            {"balance": n, "before": _shown(b), "after": _shown(self.after.get(n, b))} for n, b in self.before.items()
         ]
 
     def rows(self) -> list[dict[str, Any]]:
@@ -136,7 +137,11 @@ def _fit(session: Session, tell: Progress, words: str, begin: float) -> None:
         session.fit(lambda _, share: tell(words, begin + 0.45 * share))
 
 
-def _errors(session: Session) -> dict[str, float]:
+def _shown(error: float | None) -> float | str:
+    return NOT_JUDGED if error is None else round(error, 2)
+
+
+def _errors(session: Session) -> dict[str, float | None]:
     return {each.relation: each.error for each in session.errors()}
 
 

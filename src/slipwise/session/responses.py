@@ -5,7 +5,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slipwise.comparison.measured_replay import choose_simulation_step, get_measured_motion
 from slipwise.comparison.system_level import build_replayed_model, compare_system_level, pool_system_errors
@@ -16,7 +15,6 @@ from slipwise.session.evaluation import Evaluator
 from slipwise.session.state import SessionState
 from slipwise.simulation.replay import replay
 
-Array = NDArray[np.float64]
 #: What is read off -> SI unit; of a measurement also, but for the time that no pad's cell can tell.
 RESPONSES: dict[str, str] = {"peak_slip": "m", "energy": "J", "largest_load": "N", "uplift": "s"}
 #: Of the noise that a replay is given beside [1].

@@ -8,7 +8,7 @@ import msgspec
 from slipwise.errors import InputError
 
 #: Of the file; another version of the program may write another.
-SCHEMA = 2
+SCHEMA = 3
 
 _Bound = Literal["", "lower", "upper"]
 
@@ -30,7 +30,7 @@ class _Weights(TypedDict):
     values: dict[str, float]
     finer: bool
     yaw: bool
-    before: NotRequired[dict[str, float]]
+    fitted: bool
 
 
 class _State(TypedDict):

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.comparison.component_level import NAMES
 from slipwise.estimation.objective import Objective
 from slipwise.relations.girder_stages import compute_balance_sides
@@ -12,7 +12,6 @@ from slipwise.relations.table import Residuals
 from slipwise.rig.load_basis import WARPS
 from slipwise.session.state import SessionState
 
-Array = NDArray[np.float64]
 #: Balances whose two sides are channels; of the others only the residual has a meaning, in floors.
 _TWO_SIDED = ("girder", "heave", "pitch", "roll", *WARPS, "storeys")
 

@@ -20,7 +20,7 @@ from slipwise.model.file import save_model
 from slipwise.preparation.data_corrections import DataCorrection
 from slipwise.session import changes
 from slipwise.session.campaign_folder import CampaignFolder
-from slipwise.session.evaluation import BalanceError, errors_of, evaluator
+from slipwise.session.evaluation import NOT_JUDGED, BalanceError, errors_of, evaluator
 from slipwise.session.findings import discovered, explained, suggested
 from slipwise.session.fitting import Progress, fit_state
 from slipwise.session.kept import Kept, resumed
@@ -245,7 +245,7 @@ class Session(Drawn, Tabular):
         return changes.as_stated(self.ready, self.state, self._sources.bounded(model))
 
     def compare_with(self, other: "Session | Model | Path | str") -> list[dict[str, Any]]:
-        """Hold another model, as it was stated, against the same runs: a row for every balance, in floors."""
+        """Hold another model, as stated, against the same runs: a row for each balance, in floors; None: not judged."""
         there = {e.relation: e for e in self.errors(self.beside(other))}
         return [
             {"balance": e.name, "this model": e.error, "the other": there[e.relation].error}
@@ -286,13 +286,22 @@ class Session(Drawn, Tabular):
 
     def _headline(self) -> str:
         fitted = "fitted" if self.state.fitted else "not fitted"
-        worst = max(self.errors(), key=lambda e: e.error)
+        worst = max(self.errors(), key=lambda e: -1.0 if e.error is None else e.error)
+        left = NOT_JUDGED if worst.error is None else f"{worst.error:.3g} floors"
         effects = ", ".join(self.state.labels)
-        return f"{self.campaign.name}: {effects} ({fitted}); worst in {worst.name}, {worst.error:.3g} floors"
+        return f"{self.campaign.name}: {effects} ({fitted}); worst in {worst.name}, {left}"
 
     def _rows(self) -> list[dict[str, Any]]:
         before = {e.relation: e.error for e in self.errors(self.reference)}
-        return [{"balance": e.name, "before": before.get(e.relation), "now": e.error, **e.runs} for e in self.errors()]
+        return [
+            {
+                "balance": e.name,
+                "before": before.get(e.relation),
+                "now": NOT_JUDGED if e.error is None else e.error,
+                **e.runs,
+            }
+            for e in self.errors()
+        ]
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         """Return a notebook the table and the picture."""

@@ -18,21 +18,16 @@ class Weights:
     Attributes:
         terms: of that model.
         values: its numbers.
-        before: numbers by which it was weighed before these: what filters took at reversals is told in two rounds.
         finer: whether the laws were evaluated at as many instants as what is reported needs.
         yaw: whether the girder's yaw is made from the measured forces.
+        fitted: whether a fit has found the numbers, and not the model as it is stated.
     """
 
     terms: tuple[Term, ...]
     values: Mapping[str, float]
     finer: bool
     yaw: bool = False
-    before: Mapping[str, float] = field(default_factory=dict[str, float])
-
-    @property
-    def fitted(self) -> bool:
-        """Whether a fit has weighed the noise, and not the model as it is stated."""
-        return self.finer or bool(self.before)
+    fitted: bool = False
 
 
 @dataclass(frozen=True)
@@ -95,7 +90,7 @@ def as_json(state: SessionState) -> dict[str, Any]:
             "values": dict(state.weights.values),
             "finer": state.weights.finer,
             "yaw": state.weights.yaw,
-            "before": dict(state.weights.before),
+            "fitted": state.weights.fitted,
         },
         "fitted": state.fitted,
         "known": {k: [v.low, v.high, v.bound, v.limit] for k, v in state.known.items()},
@@ -120,7 +115,7 @@ def from_json(content: Mapping[str, Any], effect_of: EffectOf) -> SessionState:
             dict(weights["values"]),
             weights["finer"],
             weights["yaw"],
-            dict(weights.get("before", {})),
+            weights["fitted"],
         ),
         content["fitted"],
         {key: Known(*of) for key, of in known},

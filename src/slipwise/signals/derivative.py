@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from slipwise.signals.ends import Array
+from slipwise.arrays import Array
 from slipwise.signals.filters import LowPass, lowpass
 
 

@@ -7,9 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.errors import InputError
-
-Array = NDArray[np.float64]
 
 
 def carried_on(values: Array, beyond: int) -> Array:

@@ -6,8 +6,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.errors import SettingError, unknown_name
-from slipwise.signals.ends import Array, in_frequency
+from slipwise.signals.ends import in_frequency
 
 PHASES: tuple[str, ...] = ("zero", "causal", "aligned")
 

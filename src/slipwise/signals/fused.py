@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize
 
+from slipwise.arrays import Array
 from slipwise.errors import InputError
-from slipwise.signals.ends import Array
 from slipwise.signals.noise import white_level
 from slipwise.signals.sampled_jumps import squared_jumps
 from slipwise.signals.smoother import smooth, unlikelihood
@@ -49,8 +49,6 @@ class Fused:
         acceleration: (n,) relative, without the bias [m/s^2]; from the slip alone where no accelerometer was given.
         bias: (n,) of the accelerometers [m/s^2]; 0 without them.
         velocity_error: standard deviation that the smoother expects of its own velocity, in the middle [m/s].
-        position_noise: of one sample of the gauge [m].
-        acceleration_noise: of one sample of the relative acceleration [m/s^2]; 0 without accelerometers.
         velocity_errors: (n,) as `velocity_error`, where it differs from sample to sample; else None.
     """
 
@@ -59,8 +57,6 @@ class Fused:
     acceleration: Array
     bias: Array
     velocity_error: float
-    position_noise: float
-    acceleration_noise: float
     velocity_errors: Array | None = None
 
 
@@ -124,8 +120,6 @@ def fuse(
         bias=with_bias,
         velocity_error=float(np.sqrt(np.median(spread) if undersampled else spread[len(time) // 2])),
         velocity_errors=np.sqrt(spread) if undersampled and jumps.any() else None,
-        position_noise=float(found[0]),
-        acceleration_noise=float(found[2]) if acceleration is not None else 0.0,
     )
 
 
@@ -149,8 +143,6 @@ def fuse_scaled(time: Array, position: Array, velocity: Array | None, seconds: f
         acceleration=found.acceleration * speed / seconds,
         bias=found.bias * speed / seconds,
         velocity_error=found.velocity_error * speed,
-        position_noise=found.position_noise * metres,
-        acceleration_noise=found.acceleration_noise * speed / seconds,
     )
 
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.errors import InputError, SettingError
 
-Array = NDArray[np.float64]
 #: A turn counts as a reversal when slip goes back by more than this fraction of its range.
 _TURN = 0.01
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import periodogram
 
-from slipwise.signals.ends import Array
+from slipwise.arrays import Array
 from slipwise.signals.outliers import without_outliers
 
 #: Part of the band below half the sampling rate that is taken as signal-free [1].

@@ -4,9 +4,8 @@ from functools import lru_cache
 from typing import Any, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from slipwise.arrays import Array
 
 
 def oscillator(push: Array, dt: float, frequency: float, damping: float, derivative: int) -> Array:

@@ -9,12 +9,10 @@ Source: trimming by a quantile of the data: Huber, Ronchetti, Robust Statistics,
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array, Mask
 from slipwise.signals.short_bursts import LEAST, LONGEST, bridge_samples, height
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 #: Share of a channel's samples whose height is usual [1].
 _USUAL = 0.99
 #: Longest burst that is looked for [samples], and how many times higher than usual it is. Of sound channels of four

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from slipwise.signals.ends import Array
+from slipwise.arrays import Array
 
 #: Steps that differ by less than this are uniform [1].
 _UNIFORM = 0.01

@@ -1,9 +1,9 @@
 """Jumps that a record shows from one sample to the next, where nothing had smoothed them before they were sampled."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from slipwise.arrays import Array
+
 #: Variance of a jump that noise alone shows over that of a sample: 1/2, 3/2, 3/2 and 1/2 of four, squared.
 _OF_NOISE = 5.0
 

@@ -1,12 +1,9 @@
 """Acceleration of a displacement: differentiated twice, without what its last digit makes of high frequencies."""
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slipwise.arrays import Array
 from slipwise.signals.derivative import derivative
 from slipwise.signals.filters import LowPass
 
-Array = NDArray[np.float64]
 #: Tables follow their commands to about here [Hz]; samples tell less: this share of their rate.
 _HIGHEST, _SHARE = 40.0, 0.2
 

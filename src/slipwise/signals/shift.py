@@ -6,7 +6,8 @@ Linear interpolation would smooth the noise between samples: against it, a false
 
 import numpy as np
 
-from slipwise.signals.ends import Array, in_frequency
+from slipwise.arrays import Array
+from slipwise.signals.ends import in_frequency
 
 #: Samples that are carried on at the ends beyond the shift itself.
 _MARGIN = 64

@@ -7,11 +7,10 @@ bursts of up to 20, and for one or two samples the largest by which any others s
 """
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
+from slipwise.arrays import Array, Mask
+
 #: A burst has at most so many samples, and a record to be searched at least so many.
 LONGEST, LEAST = 20, 64
 #: The range that is grown from holds this share of the samples [1]: bursts are fewer than what is left out.

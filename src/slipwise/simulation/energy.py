@@ -9,12 +9,10 @@ not close is the error of the time step. Source: work and energy in a frame that
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.rig import Rig, storey_names
 from slipwise.simulation.sensor_channels import has_sensor, sensor
-
-Array = NDArray[np.float64]
 
 
 @dataclass

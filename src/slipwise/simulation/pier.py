@@ -18,16 +18,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import expm
 
+from slipwise.arrays import Array
 from slipwise.errors import InputError, SettingError, SlipwiseWarning
 from slipwise.model import Model, base_model
 from slipwise.motion import TableMotion, resample, scale_time
 from slipwise.rig import LENGTH_SCALE
 from slipwise.simulation.kernel import fill, kernel
 
-Array = NDArray[np.float64]
 #: Step of the analysis, in the model's time [s]: that of a replay, so that nothing is resampled afterwards.
 _STEP = 0.0005
 #: Sweeps over the piers' friction forces in a step; one is exact for one pier.

@@ -8,14 +8,12 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.effects import RIG_MOTION, Effect, catalogue
 from slipwise.model import Model
 from slipwise.simulation.kernel import Kernel, apply_rest, begin_memory, engine_for, fill, kernel, places
 from slipwise.simulation.kernel.layout import pad_blocks
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

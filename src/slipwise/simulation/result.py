@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.display import Drawn
 from slipwise.errors import SimulationError
 from slipwise.motion.table_motion import Steady, TableMotion
@@ -14,7 +14,6 @@ from slipwise.record import Record
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-Array = NDArray[np.float64]
 #: Cycles of a sine at full amplitude, the last ones, over which its slip is measured.
 _CYCLES = 4
 
@@ -25,6 +24,10 @@ class SimulationDiverged(SimulationError):
     def __init__(self, message: str, replay: "Replay") -> None:
         super().__init__(message)
         self.replay = replay
+
+    def __reduce__(self) -> tuple[type["SimulationDiverged"], tuple[str, "Replay"]]:
+        """Return what makes it again: pickle, by which an error leaves a process, would give the message alone."""
+        return type(self), (str(self), self.replay)
 
 
 @dataclass(frozen=True)

@@ -3,11 +3,10 @@
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.rig import Rig, storey_names
 
-Array = NDArray[np.float64]
 Reader = Callable[[str], Array]
 
 

@@ -6,8 +6,8 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.errors import SettingError
 from slipwise.model import Model
 from slipwise.record import Record
@@ -21,7 +21,6 @@ from slipwise.simulation.sensor_channels import to_channels
 from slipwise.simulation.steps import numbers_for
 from slipwise.simulation.substeps import run
 
-Array = NDArray[np.float64]
 #: A slip beyond this [m] is no longer a girder on a table.
 _FAR = 5.0
 #: A table that the girder pushes is shaken again by what the girder did, this often at most, until it moves alike [1].

@@ -6,6 +6,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.model import Model
 from slipwise.rig import Rig
 from slipwise.rig.statics import at_rest
@@ -13,7 +14,6 @@ from slipwise.simulation.kernel import Kernel, fill, places
 from slipwise.simulation.kernel.layout import buffer_blocks, pad_blocks
 from slipwise.simulation.kernel.places import MAX_DOFS
 
-Array = NDArray[np.float64]
 #: Of the solver; relative to the mean inertia, which the table's armature raises to 1e9 kg [1].
 _TOLERANCE = 1e-22
 #: Gap [m] below which the law is asked for the load of a pad: more than any girder is thrown.

@@ -11,14 +11,13 @@ import mujoco
 import numpy as np
 from mujoco.batch import Batch
 from mujoco.batch import SimulationError as BatchError
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.rig import Rig
 from slipwise.rig.statics import at_rest
 from slipwise.simulation.kernel import Kernel, installed, places
 from slipwise.simulation.steps import model_for_kernel, start_state
 
-Array = NDArray[np.float64]
 #: Time between two looks at the loads, at progress and at the health of a simulation [s].
 CHUNK = 0.5
 #: Largest step [s] where a pad is about to lift. Against an integration from event to event (tests/physics/

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 from mujoco.batch import Batch
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.model import Model
 from slipwise.rig import Rig, build
 from slipwise.simulation.kernel import Kernel, engine_for, installed, kernel
@@ -20,7 +20,6 @@ from slipwise.simulation.sensor_channels import to_channels
 from slipwise.simulation.simulator import DT, Memory
 from slipwise.simulation.steps import model_for_kernel, numbers_for, start_state
 
-Array = NDArray[np.float64]
 #: Samples between two pauses in which what lies between the samples is thrown away.
 _CHUNK = 200
 

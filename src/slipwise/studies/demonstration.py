@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.channels import PADS
 from slipwise.effects import BalanceStates, Effect
 from slipwise.model import Model, base_model, use
@@ -16,7 +16,6 @@ from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import LoadModes, pad_loads
 from slipwise.simulation.predict import Predictor, predictor, shaking
 
-Array = NDArray[np.float64]
 _DT = 1e-3
 _SECONDS = 2.4
 #: Horizontal stroke [m] and frequency [Hz]; the same across; vertical acceleration [m/s^2] and frequency [Hz].

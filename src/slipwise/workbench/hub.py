@@ -95,7 +95,7 @@ class Room:
 
     def _first_view(self) -> View:
         """Return what a new page looks at: the run in which a balance fails worst."""
-        worst = max(self.session.errors(), key=lambda e: max(e.runs.values()))
+        worst = max(self.session.errors(), key=lambda e: max(e.runs.values(), default=-1.0))
         return View(max(worst.runs, key=lambda run: worst.runs[run]))
 
     def _keep_page(self) -> None:

@@ -44,7 +44,7 @@ class Line:
     balanced: bool = False
 
     @property
-    def motions_as_recorded(self) -> list[list[int]]:
+    def motions(self) -> list[list[int]]:
         return [list(self.fitted)]
 
     @property

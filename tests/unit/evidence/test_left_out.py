@@ -51,6 +51,17 @@ def test_a_repeat_is_left_out_with_the_run_that_it_repeats(objective: Objective)
     assert again.measurements.motions == [[0], [1, 2]]
 
 
+def test_runs_that_are_given_twice_are_left_out_together_whatever_their_role(objective: Objective) -> None:
+    again = make_objective([*objective.runs, *objective.runs], objective.specimen, objective.terms)
+    fit = linear(again, 5)
+    predicted = leave_motions_out(again, fit)
+    out = np.zeros(len(fit.residual), dtype=bool)
+    for here, block in again.layout.rows(again.fitted):
+        out[here] = block.run in (0, 2)
+    step = np.linalg.lstsq(fit.slopes[~out], -fit.residual[~out], rcond=None)[0]
+    assert predicted[out] == pytest.approx(fit.residual[out] + fit.slopes[out] @ step, abs=1e-3)
+
+
 def test_of_one_motion_stretches_of_time_are_left_out() -> None:
     single = base().objective  # the other run is held out
     fit = linear(single, 4)

@@ -19,7 +19,9 @@ def test_a_sound_campaign_accuses_nobody_and_every_balance_leaves_only_noise(sou
     assert report.findings == () and report.physics == ()
     balances = {b.relation: b.left for b in report.balances}
     assert {"heave", "girder_x", "pitch", "along", "upright"} <= set(balances)
-    assert all(left < 1.3 for left in balances.values()), balances
+    pairs = {name for name in balances if name.startswith("pair_")}  # pads do not turn round at the same instant
+    assert all(left < 1.15 for name, left in balances.items() if name not in pairs), balances
+    assert all(balances[name] < 1.5 for name in pairs), balances
 
 
 @pytest.mark.parametrize(

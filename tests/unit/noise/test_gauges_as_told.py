@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from slipwise.noise.gauges import measure_gauge_noise
 from slipwise.record import Record
+from slipwise.signals.filters import LowPass, lowpass
 from slipwise.view.words.gauge_rows import gauge_rows
 
 TIME = 0.002 * np.arange(3000)
@@ -45,3 +47,13 @@ def test_the_basis_of_a_level_is_told(record, basis):
 def test_a_constant_is_no_measurement_and_the_reason_is_told():
     (row,) = [row for row in gauge_rows(measure_gauge_noise([moved(800, 5e-5)])) if row["channel"] == "pad_A_N"]
     assert row["noise"] == "unknown" and "constant of the campaign" in row["from"]
+
+
+@pytest.mark.parametrize("memory", [0.0, 0.4])
+def test_a_filter_leaves_of_a_gauge_what_its_noise_has_below_the_edge(memory):
+    rng = np.random.default_rng(5)
+    slip = lfilter([1.0], [1.0, -memory], rng.standard_normal(30_000))
+    still = Record(TIME, {"table_ax": rng.standard_normal(len(TIME)), "slip_x": slip[: len(TIME)]})
+    gauge = measure_gauge_noise([still])["slip_x"]
+    left = lowpass(slip, 0.002, LowPass(25.0, 6, "aligned"))
+    assert gauge.rested and gauge.level_below(25.0, 0.002) == pytest.approx(np.std(left), rel=0.1)

@@ -5,7 +5,7 @@ import pytest
 from scipy.signal import lfilter, resample_poly
 
 from slipwise.instruments.joint_fit import ROWS_FOR_ONE
-from slipwise.noise.independent_samples import measure_block_length, sum_correlations
+from slipwise.noise.independent_samples import measure_block_length, sum_correlations, sum_sure_correlations
 from slipwise.signals.filters import LowPass, lowpass
 
 
@@ -49,8 +49,14 @@ def test_the_variance_of_a_mean_follows():
     assert np.std(means) == pytest.approx(level * np.sqrt(sum_correlations([coloured(0.8, 5)]) / 2000), rel=0.15)
 
 
+@pytest.mark.parametrize(("memory", "allowed"), [(0.0, 0.0), (0.5, 0.2), (0.7, 0.3)])
+def test_a_few_hundred_samples_show_what_is_sure(memory, allowed):
+    found = [sum_sure_correlations([coloured(memory, seed, 300)]) for seed in range(40)]
+    assert np.median(found) == pytest.approx((1.0 + memory) / (1.0 - memory), rel=allowed)
+
+
 def test_nothing_known_counts_every_sample():
-    assert sum_correlations([]) == 1.0
+    assert sum_correlations([]) == sum_sure_correlations([]) == sum_sure_correlations([np.zeros(50)]) == 1.0
     assert sum_correlations([np.zeros(50)]) == 1.0
 
 

@@ -23,6 +23,12 @@ def test_a_run_that_is_given_twice_is_of_one_motion(runs) -> None:
     assert group_by_motion([*runs, *again], range(4)) == [[0, 2], [1, 3]]
 
 
+def test_a_path_that_is_gone_through_again_more_slowly_is_another_motion(runs) -> None:
+    run = runs[0]
+    slow = replace(run.states, record=replace(run.record, time=2.0 * run.time))
+    assert group_by_motion([run, replace(run, states=slow)], range(2)) == [[0], [1]]
+
+
 def test_runs_of_two_motions_are_apart_unless_one_is_said_to_repeat_the_other(runs) -> None:
     assert group_by_motion(runs, range(2)) == [[0], [1]]
     said = [runs[0], replace(runs[1], role="repeat")]

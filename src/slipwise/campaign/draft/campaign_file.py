@@ -8,8 +8,8 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.campaign.draft.channel_mapping import map_columns
 from slipwise.campaign.draft.column import Mapped
 from slipwise.campaign.draft.column_lines import column_lines, quoted
@@ -23,7 +23,6 @@ from slipwise.errors import InputError
 from slipwise.record import Record, write_text
 from slipwise.rig.files import SPECIMEN_FILE
 
-Array = NDArray[np.float64]
 #: Ask a person: (question, what is taken without an answer) -> answer.
 Ask = Callable[[str, str], str]
 

@@ -9,15 +9,14 @@ girder, table   along x friction and slip make the girder's acceleration; upward
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.campaign.draft.column import LETTERS, Column, Mapped
 from slipwise.campaign.draft.loads_and_frictions import split_forces
 from slipwise.campaign.draft.slip import alike, map_slips, slip_rate
 from slipwise.campaign.draft.time_column import time_column
 from slipwise.channels import PADS
 
-Array = NDArray[np.float64]
 #: Fewer samples than these show nothing.
 _ENOUGH = 100
 #: Loads from here on are told in kN [N].

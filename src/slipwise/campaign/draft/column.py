@@ -4,14 +4,13 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.channels import PADS, is_channel
 from slipwise.data_files.column_names import KINDS, ColumnName, name_and_unit
 from slipwise.data_files.column_words import meanings_of, words_of
 from slipwise.units import affine
 
-Array = NDArray[np.float64]
 #: What pads are called that files only count: of a girder on three to twelve.
 LETTERS = "ABCDEFGHIJKL"
 _PAD = {"pad", "bearing", "slider", "cell", "lc", "lager", "support"}

@@ -6,15 +6,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.campaign.draft.column import Column, column_of
 from slipwise.channels import channel, is_channel
 from slipwise.data_files.table import COMPANIONS, SUFFIXES, Table, open_table
 from slipwise.errors import InputError, SlipwiseError
 from slipwise.units import affine
 
-Array = NDArray[np.float64]
 _OURS = re.compile(r"^(?P<name>[A-Za-z]\w*)\s*\[(?P<unit>[^\]]*)\]$")
 
 

@@ -4,13 +4,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.campaign.same_specimen import lever_of
 from slipwise.record import Record
 from slipwise.rig import load_specimen
 
-Array = NDArray[np.float64]
 #: Two motions are one where this little of them differs [1]; a sine holds this part of its power near one frequency.
 _SAME, _SINE = 0.25, 0.6
 #: A vertical motion counts where it is this part of the horizontal one.

@@ -3,11 +3,10 @@
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.campaign.draft.column import Column, Mapped
 
-Array = NDArray[np.float64]
 #: Correlations from which on two motions are one, and a speed is the rate of a slip [1].
 _ALIKE, _RATE = 0.3, 0.5
 #: A speed varies by less than this part of its mean where a slider moves evenly [1].

@@ -3,11 +3,10 @@
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.campaign.draft.column import Column, Mapped
 
-Array = NDArray[np.float64]
 #: A stated step agrees with a column within this [1]; steps longer than this are milliseconds, or no shaking [s].
 _AGREES, _LONGEST = 0.02, 0.5
 #: A time counts from 1970 where it lies between 2001 and 2096, in each unit [s]; in days, from 1900: 1990 to 2060.

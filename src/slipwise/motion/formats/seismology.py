@@ -13,15 +13,14 @@ from datetime import datetime
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.errors import InputError, UnitError, missing_library
 from slipwise.motion.origin import MotionOrigin
 from slipwise.motion.source_file import SourceFile
 from slipwise.motion.stated import Given, settle_step, settle_unit
 from slipwise.motion.trace import Trace
 
-Array = NDArray[np.float64]
 _MINISEED = re.compile(rb"\d{6}[DRQM][ \x00]|MS\x03")
 #: Records of miniSEED 2 are as long as a power of two, and no shorter than this [bytes].
 _SHORTEST_RECORD = 128

@@ -8,9 +8,8 @@ the acceleration alone would leave the table with a speed and drifting away.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from slipwise.arrays import Array
 
 
 @dataclass(frozen=True)

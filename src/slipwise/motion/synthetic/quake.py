@@ -8,15 +8,13 @@ gave the paper's energies at the pier top, in the model's time.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.errors import InputError
 from slipwise.motion.synthetic.envelope import Envelope, envelope, enveloped
 from slipwise.motion.synthetic.spec import STEP, Spec, sample_times
 from slipwise.motion.table_motion import TableMotion
 from slipwise.units import quantity
-
-Array = NDArray[np.float64]
 
 OPTIONS = ("seed", "peak", "f", "strong", "vertical", "across")
 SYNTAX = "quake:[seed=N][,peak=ACC][,f=FREQUENCY][,strong=TIME][,vertical=ACC[,FREQUENCY]][,across=ACC[,FREQUENCY]]"

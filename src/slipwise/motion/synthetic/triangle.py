@@ -1,14 +1,12 @@
 """triangle: the table goes to and fro at constant speed; only its turns accelerate it."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.errors import InputError
 from slipwise.motion.synthetic.envelope import envelope, faded_sine
 from slipwise.motion.synthetic.spec import HIGHEST_FREQUENCY, STEP, Spec, sample_times
 from slipwise.motion.table_motion import TableMotion
-
-Array = NDArray[np.float64]
 
 OPTIONS = ("cycles", "turn", "vertical")
 SYNTAX = "triangle:FREQUENCY,SPEED[,cycles=N][,turn=TIME][,vertical=FREQUENCY,PEAK]"

@@ -4,11 +4,10 @@ from dataclasses import dataclass
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.rig.mjcf.file import Mjcf
 
-Array = NDArray[np.float64]
 #: Products of inertia below this share of the largest moment are rounding [1].
 _SAME = 1e-6
 

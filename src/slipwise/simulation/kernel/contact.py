@@ -9,9 +9,7 @@ impact gives the impulse that it should whatever the step.
 
 from math import sqrt
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slipwise.arrays import Array
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.places import (
     COMPRESSION,
@@ -27,7 +25,6 @@ from slipwise.simulation.kernel.places import (
     RISE_RATE,
 )  # fmt: skip
 
-Array = NDArray[np.float64]
 #: Reference acceleration [m/s^2] that keeps a contact of MuJoCo's from acting: the law's load takes its place.
 INACTIVE = -1e9
 

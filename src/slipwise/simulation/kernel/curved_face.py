@@ -15,9 +15,7 @@ isolation, Earthquake Spectra 6(2), which has it for small slopes: F = N x/R + m
 
 from math import sqrt
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slipwise.arrays import Array
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.dispatch import Dispatch
 from slipwise.simulation.kernel.pads import pad_bound
@@ -32,7 +30,6 @@ from slipwise.simulation.kernel.places import (
     SLOPE,
 )
 
-Array = NDArray[np.float64]
 #: Share of the radius up to which a face is a sphere [1].
 _SPHERE = 0.9
 #: Rounds in which normal force and friction are made to agree; each leaves at most mu g of the error before.

@@ -9,14 +9,11 @@ stroke had: below that it is noise of a pad that sticks. A pause or another run 
 
 from math import exp, sqrt
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slipwise.arrays import Array
 from slipwise.effects import DERIVED
 from slipwise.jobs.machine_code import kept
 from slipwise.simulation.kernel.compilable import compilable
 
-Array = NDArray[np.float64]
 #: Share of a stroke's largest speed at which motion against it is a reversal [1].
 _RETURNED = 0.01
 #: More steps than this between two instants are a gap: the finest steps are a tenth of the usual ones.

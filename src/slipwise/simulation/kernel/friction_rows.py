@@ -2,9 +2,7 @@
 
 from math import sqrt
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slipwise.arrays import Array
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.places import (
     BOUND,
@@ -26,7 +24,6 @@ from slipwise.simulation.kernel.places import (
     ROW_BOUND,
 )
 
-Array = NDArray[np.float64]
 #: A bound that MuJoCo accepts and nobody feels [N].
 TINY = 1e-9
 #: Speed [m/s] from which on friction points along the velocity rather than along the friction of the step before.

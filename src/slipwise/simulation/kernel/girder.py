@@ -7,9 +7,7 @@ All functions take the chosen effects and the array `u` (see `places`); `z` is t
 buffer's direction.
 """
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slipwise.arrays import Array
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.dispatch import Dispatch
 from slipwise.simulation.kernel.places import (
@@ -30,8 +28,6 @@ from slipwise.simulation.kernel.places import (
     N_PADS,
     PAD_TENDON,
 )
-
-Array = NDArray[np.float64]
 
 
 @compilable

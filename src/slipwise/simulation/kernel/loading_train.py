@@ -11,15 +11,12 @@ Source: Rice & Ruina (1983), spring and slider, quasi-static.
 
 from math import sqrt
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slipwise.arrays import Array
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.dispatch import Dispatch
 from slipwise.simulation.kernel.pads import pad_bound
 from slipwise.simulation.kernel.places import TRAIN_FORCE, TRAIN_TIME, TRAIN_VELOCITY
 
-Array = NDArray[np.float64]
 #: Evaluations for one step at most, and the share of the force at which they end [1].
 _MOST, _CLOSE = 60, 1e-14
 #: Doublings of a force in search of one that friction cannot bear [1].

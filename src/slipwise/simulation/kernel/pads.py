@@ -12,14 +12,11 @@ Source: paper, eqs. (1) to (5).
 
 from math import sqrt
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slipwise.arrays import Array
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.dispatch import Dispatch
 from slipwise.simulation.kernel.places import APPARENT_AREA, FULL_STICK, PLASTIC_PRESSURE, SHEAR_STRENGTH
 
-Array = NDArray[np.float64]
 #: Below this speed [m/s] a pad counts as sticking where the capacity to stick matters.
 STICK_SPEED = 1e-4
 #: Speed [m/s] at which a pad is asked what it bears when sliding as fast as can be.

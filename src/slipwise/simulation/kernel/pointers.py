@@ -12,8 +12,8 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 from numba.np.numpy_support import carray
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.contact import INACTIVE, apply_pad_load, begin_step
 from slipwise.simulation.kernel.curved_face import set_faces
@@ -22,7 +22,6 @@ from slipwise.simulation.kernel.mjdata import Offsets
 from slipwise.simulation.kernel.places import CURVED, N_DOFS, N_PADS, PAD_GEOM
 from slipwise.simulation.kernel.step import control_step, sensor_step
 
-Array = NDArray[np.float64]
 #: A length given to arrays whose length MuJoCo knows: no rig has as many numbers.
 _LONG = 1 << 24
 _ACCELERATION = int(mujoco.mjtStage.mjSTAGE_ACC)

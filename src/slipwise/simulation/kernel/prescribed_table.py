@@ -5,13 +5,10 @@ enough where a mean force acts for long: 200 N m turn such a table by 8e-6 rad w
 slides down on it. What a step has left of the command is therefore added before MuJoCo integrates.
 """
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slipwise.arrays import Array
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.places import TABLE_ARMATURE
 
-Array = NDArray[np.float64]
 #: The table's degrees of freedom come first: x, y, z, pitch.
 _TABLE_DOFS = 4
 

@@ -5,6 +5,7 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.curved_face import (
     along_face,
@@ -39,8 +40,6 @@ from slipwise.simulation.kernel.places import (
     SLOPE,
     TRAIN_VELOCITY,
 )
-
-Array = NDArray[np.float64]
 
 
 @compilable

@@ -25,8 +25,8 @@ order of dt^2, as that of the integrator between events.
 from math import isnan
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.dispatch import Dispatch
 from slipwise.simulation.kernel.friction_rows import REST, learn_rate_dependence
@@ -57,7 +57,6 @@ from slipwise.simulation.kernel.places import (
     TRIAL,
 )
 
-Array = NDArray[np.float64]
 #: Share of what a row may carry from which on it counts as carrying all of it [1]: the solver's own error.
 _ALL = 1.0 - 1e-9
 #: Least share of what a row may carry that it must have carried in the step before to have slid as it does now [1]: the

@@ -2,13 +2,9 @@
 
 from math import isnan
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slipwise.arrays import Array
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.places import GIRDER_DOF, RATE_AGE, TABLE_DOF, TABLE_VELOCITY
-
-Array = NDArray[np.float64]
 
 
 @compilable

@@ -7,9 +7,7 @@ tendon of Jacobian J act on the girder as -J^T f.
 
 from math import sqrt
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slipwise.arrays import Array
 from slipwise.simulation.kernel.compilable import compilable
 from slipwise.simulation.kernel.curved_face import along_face, keep_along, normal_force, onto_table, sliding_bound
 from slipwise.simulation.kernel.dispatch import Dispatch
@@ -56,8 +54,6 @@ from slipwise.simulation.kernel.places import (
 from slipwise.simulation.kernel.prescribed_table import follow_command
 from slipwise.simulation.kernel.reversals import turn_friction
 from slipwise.simulation.kernel.rig_motion import rig_motion
-
-Array = NDArray[np.float64]
 
 
 @compilable

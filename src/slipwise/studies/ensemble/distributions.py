@@ -6,15 +6,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import qmc
 
+from slipwise.arrays import Array
 from slipwise.errors import SettingError, unknown_name
 from slipwise.model import Model
 from slipwise.rig.known import SPECIMEN_UNITS, better_known
 from slipwise.units import quantity
 
-Array = NDArray[np.float64]
 SAMPLINGS = ("sobol", "latin")
 #: "9..11t", "9 t..11 t", "-2..2 %": two ends, the first of which may leave its unit to the second.
 _RANGE = re.compile(r"\s*(?P<low>[-+\d.eE]*\d\.?)\s*(?P<low_unit>[^\d.+-][^.]*)?\.\.\s*(?P<high>[-+.\d].*)")

@@ -9,13 +9,12 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.compute as pc
 import pyarrow.parquet as pq
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.record import atomic
 from slipwise.studies.ensemble.distributions import Varied
 from slipwise.studies.ensemble.responses import RESPONSES
 
-Array = NDArray[np.float64]
 #: Rows that are held at once.
 _ROWS = 4096
 

@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from slipwise.arrays import Array
 from slipwise.errors import SettingError
 from slipwise.jobs.executors import run_all
 from slipwise.jobs.job_log import Finished
 from slipwise.motion import TableMotion, load_motion
 from slipwise.motion.load import is_description
-from slipwise.studies.ensemble.distributions import Array, Varied, check_sampling, draw, read_varied
+from slipwise.studies.ensemble.distributions import Varied, check_sampling, draw, read_varied
 from slipwise.studies.ensemble.member import Base, Shaken, member_key, motion_key, run_shaken
 from slipwise.studies.ensemble.members_file import write_members
 from slipwise.studies.ensemble.responses import read_limit

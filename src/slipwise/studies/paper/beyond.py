@@ -7,7 +7,6 @@ typical ones.
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slipwise.model import use
 from slipwise.studies.paper.finding import FAILS, HOLDS, LIMITS, Finding, Study
@@ -17,7 +16,6 @@ from slipwise.studies.paper.plan import LATER
 from slipwise.studies.paper.settings import PaperSettings, paper_model
 from slipwise.studies.paper.sine_tests import fit, pad_data, sine_model, sine_test, truth
 
-Array = NDArray[np.float64]
 WORDS = {"paper": "eq. (7) alone", "run_in": "with run-in", "heating": "with heating", "both": "with both"}
 
 

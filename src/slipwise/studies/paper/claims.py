@@ -4,8 +4,8 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.model import Model, use
 from slipwise.record import Record
 from slipwise.studies.paper.finding import FAILS, HOLDS, LIMITS, UNCHECKED, Finding, Study
@@ -13,7 +13,6 @@ from slipwise.studies.paper.hysteresis import steady_loops
 from slipwise.studies.paper.law import leftover, mu, vertical_loss
 from slipwise.studies.paper.settings import PaperSettings, paper_model
 
-Array = NDArray[np.float64]
 #: Sines for swings of load: below the resonance of each bridge.
 SINES = {"bridge1": "sine:2Hz,0.3g,cycles=16", "bridge2": "sine:1.6Hz,0.25g,cycles=16"}
 #: A motion that lifts pads of a girder as slender as this.

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.simulation.replay import replay
 from slipwise.studies.paper.finding import FAILS, HOLDS, LIMITS, Finding, Study
 from slipwise.studies.paper.hysteresis import spread
@@ -15,7 +16,6 @@ from slipwise.studies.paper.one_dof import one_dof
 from slipwise.studies.paper.plan import EXTREME, Plan, middle
 from slipwise.studies.paper.settings import PaperSettings
 
-Array = NDArray[np.float64]
 #: One degree of freedom is called enough while its slip errs less than this, rms over the range of slip [1].
 ENOUGH = 0.02
 

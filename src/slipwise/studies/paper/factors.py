@@ -3,8 +3,8 @@
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.channels import PADS
 from slipwise.model import Model
 from slipwise.record import Record
@@ -12,8 +12,6 @@ from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import LoadFactors, load_factors
 from slipwise.studies.paper.finding import FAILS, HOLDS, Finding, Study
 from slipwise.studies.paper.settings import PaperSettings, paper_model
-
-Array = NDArray[np.float64]
 
 
 def rocking_per_g(record: Record, model: Model) -> tuple[float, float]:

@@ -4,12 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from slipwise.errors import SettingError
 
-Array = NDArray[np.float64]
 HOLDS, LIMITS, FAILS, UNCHECKED = "holds", "holds with limits", "does not hold", "cannot be checked"
 VERDICTS = (HOLDS, LIMITS, FAILS, UNCHECKED)
 

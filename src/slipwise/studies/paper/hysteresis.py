@@ -5,8 +5,8 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.channels import PADS
 from slipwise.model import Model
 from slipwise.motion import load_motion
@@ -18,7 +18,6 @@ from slipwise.studies.paper.law import edge_slope
 from slipwise.studies.paper.plan import ENERGY_WITH, ENERGY_WITHOUT, middle
 from slipwise.studies.paper.settings import PaperSettings, paper_model
 
-Array = NDArray[np.float64]
 #: A sine below the resonance of Bridge 1, so that friction can bound it: f/f_n = 0.68.
 SINE = "sine:2Hz,0.3g,cycles=20"
 _PERCENTILES = (5, 25, 50, 75, 95)

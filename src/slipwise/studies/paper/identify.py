@@ -11,11 +11,11 @@ Source: paper, below eq. (8), for what is identified; the method is not stated t
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 from scipy.stats import t as student
 
-Array = NDArray[np.float64]
+from slipwise.arrays import Array
+
 NAMES = ("s'", "n", "k", "alpha")
 #: Units in which the fit works: MPa, s/m, 1/MPa, 1.
 _SCALE = np.array([1e6, 1.0, 1e-6, 1.0])

@@ -1,14 +1,13 @@
 """Eqs. (1) to (8) on their own: limits, numbers, and the exact leftover of rocking in the sum of the pads."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.model import Model
 from slipwise.simulation.predict import predictor
 from slipwise.studies.paper.finding import FAILS, HOLDS, LIMITS, UNCHECKED, Finding, Study
 from slipwise.studies.paper.settings import PaperSettings, paper_model
 
-Array = NDArray[np.float64]
 #: Faster than this [m/s] speed adds nothing more.
 FAST = 1e3
 PRESSURES = (1e-6, 2.0, 5.0, 10.0, 16.88, 25.0, 50.0)

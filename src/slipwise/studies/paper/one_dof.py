@@ -11,13 +11,11 @@ Source: paper, Seismic response under extremely large vertical ground motions.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.model import Model
 from slipwise.motion import TableMotion, resample
 from slipwise.simulation.kernel import fill, kernel
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,8 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.model import Model, use
 from slipwise.motion import TableMotion, load_motion
 from slipwise.record import Record
@@ -14,7 +14,6 @@ from slipwise.studies.paper.finding import FAILS, HOLDS, LIMITS, UNCHECKED, Find
 from slipwise.studies.paper.identify import NAMES, IdentifiedLaw, PadData, friction_law, identify, with_noise
 from slipwise.studies.paper.settings import RATE_UNITS, PaperSettings, paper_model
 
-Array = NDArray[np.float64]
 #: Pressures of Fig. 12 [Pa]. Source: paper, Comparison between experimental and numerical results.
 HIGHEST, LOWEST = 25e6, 5e6
 #: Pad of Fig. 12: the text says A, the caption C.

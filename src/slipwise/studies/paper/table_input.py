@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.motion import TableMotion, load_motion
 from slipwise.rig import LENGTH_SCALE
 from slipwise.simulation.pier import BridgeResponse, bridge_response, table_motion
@@ -13,7 +13,6 @@ from slipwise.simulation.simulator import Replay
 from slipwise.studies.paper.finding import LIMITS, UNCHECKED, Finding, Study
 from slipwise.studies.paper.settings import PaperSettings, paper_model
 
-Array = NDArray[np.float64]
 GRAVITY = 9.80665
 
 

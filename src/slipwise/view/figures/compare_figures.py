@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.channels import channel
 from slipwise.comparison.component_level import NAMES
 from slipwise.comparison.result import Comparison
@@ -19,7 +19,6 @@ from slipwise.view.figures.pad_layout import layout_from_places
 from slipwise.view.figures.panels import SUM_PANEL, pad_panels, zero_lines
 from slipwise.view.figures.style import INK, MUTED, UPLIFT, envelope, shown_unit, styled
 
-Array = NDArray[np.float64]
 _MEASURED, _MODEL, _HELD = INK, "#e69f00", "#0072b2"
 
 

@@ -5,8 +5,8 @@ from textwrap import fill
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.ladder import Ladder, LadderStep
 from slipwise.diagnosis.result import Diagnosis
@@ -18,7 +18,6 @@ from slipwise.view.figures.panels import AFTER, BEFORE, error_bars
 from slipwise.view.figures.style import EXPECTED, INK
 from slipwise.view.words.numbers import in_words, usual_unit
 
-Array = NDArray[np.float64]
 #: Inches across which a figure has on a desk, and on a phone.
 _WIDE, _NARROW = 8.0, 4.7
 #: Letters of a line under an axis.

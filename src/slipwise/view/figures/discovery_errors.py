@@ -4,8 +4,8 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.discovery.result import Discovery
 from slipwise.residual_map.splines import choose_knots
 from slipwise.residual_map.states import DrivingState
@@ -23,7 +23,6 @@ from slipwise.view.figures.discovery_samples import (
 from slipwise.view.figures.panels import AFTER, BEFORE, error_bars
 from slipwise.view.words.discovery_words import state_axis
 
-Array = NDArray[np.float64]
 #: States over which the error is drawn, and bins of each.
 _STATES, _BINS = 4, 24
 #: A bin of fewer samples is left out.

@@ -6,8 +6,8 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.form import Form
 from slipwise.discovery.law import Law
@@ -19,7 +19,6 @@ from slipwise.view.figures.discovery_samples import Cloud, candidate_cloud, law_
 from slipwise.view.figures.style import MODEL_COLOURS
 from slipwise.view.words.discovery_words import height_axis, state_axis
 
-Array = NDArray[np.float64]
 #: Standard deviations of a 95 % band.
 _BAND = 1.96
 #: Points of a curve.

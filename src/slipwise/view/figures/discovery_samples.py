@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.law import Law
 from slipwise.discovery.law_objective import STRENGTH, FittedLaw
@@ -18,7 +19,6 @@ from slipwise.residual_map.curve import ResidualCurve, fit_curve
 from slipwise.residual_map.ports import opened, places_of
 from slipwise.residual_map.states import DrivingState, pad_instants
 
-Array = NDArray[np.float64]
 #: Points of a cloud, and parts of the range of its state that share them evenly: what is rare is seen too.
 _POINTS, _PARTS = 4000, 50
 #: A sample whose noise, as seen through its carrier, is so many times the usual one says nothing, and is not drawn [1].

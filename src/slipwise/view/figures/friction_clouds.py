@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.comparison.result import Comparison
 from slipwise.relations.run_data import FitRun
 from slipwise.residual_map.splines import choose_knots
@@ -15,7 +16,6 @@ from slipwise.view.figures.canvas import new_figure
 from slipwise.view.figures.style import MODEL_COLOURS
 from slipwise.view.words.numbers import usual_unit
 
-Array = NDArray[np.float64]
 #: Points of a cloud in one colour, and bins over which the law is drawn.
 _POINTS, _BINS = 1500, 25
 #: A bin of fewer samples is left out; samples between these shares of all are in the picture.

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.errors import InputError
 from slipwise.record import Record
 from slipwise.signals.hysteresis_loop import branches, loop_shape
@@ -17,7 +17,6 @@ from slipwise.view.figures.style import MUTED, SUM, pad_colour, styled
 from slipwise.view.geometry import RigGeometry
 from slipwise.view.words.numbers import NOTHING
 
-Array = NDArray[np.float64]
 #: Panels that are less of the picture's width have shorter lines of numbers [1].
 _NARROW = 0.17
 #: Longer lines become an image inside an SVG: megabytes of vectors help nobody.

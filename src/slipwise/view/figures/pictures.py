@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.channels import BUFFERS, PADS, pads_in
 from slipwise.errors import InputError
 from slipwise.record import Record
@@ -37,7 +37,6 @@ from slipwise.view.figures.style import (
 from slipwise.view.geometry import RigGeometry
 from slipwise.view.words.numbers import NOTHING
 
-Array = NDArray[np.float64]
 #: The pictures of a record, by the names of their files.
 PICTURES: tuple[str, ...] = ("loops", "loads", "modes", "histories")
 _SWINGING = ("pitch", "roll", "warp")

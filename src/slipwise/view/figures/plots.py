@@ -94,13 +94,14 @@ def _change(change: Any) -> Figure:
     return _floors(change.words, held, ("before", "after"))
 
 
-def _floors(title: str, errors: Mapping[str, tuple[float, float]], labels: tuple[str, str]) -> Figure:
-    """Draw errors before and after, in multiples of the noise floor."""
+def _floors(title: str, errors: Mapping[str, tuple[float | None, float | None]], labels: tuple[str, str]) -> Figure:
+    """Draw errors before and after, in multiples of the noise floor; what is not judged has none."""
     figure = new_figure(8.0, 3.4, title)
     axes = figure.subplots()
-    places = error_bars(axes, list(errors.values()), labels)
+    judged = {name: (before, after) for name, (before, after) in errors.items() if before is not None}
+    places = error_bars(axes, list(judged.values()), labels)
     axes.annotate("noise floor", (1.0, 1.0), xycoords=("axes fraction", "data"), ha="right", va="bottom", color=MUTED)
-    axes.set_xticks(places, list(errors), rotation=30, ha="right")
+    axes.set_xticks(places, list(judged), rotation=30, ha="right")
     axes.set_ylabel("error / floor")
     axes.legend(handles=axes.containers)
     return figure

@@ -7,8 +7,8 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.channels import channel
 from slipwise.record import Record
 from slipwise.units import affine
@@ -33,8 +33,6 @@ from slipwise.view.colours import (  # noqa: F401  whoever draws takes all from 
     buffer_colour,
     pad_colour,
 )
-
-Array = NDArray[np.float64]
 
 #: Panels of the reference rig's pads in a 2 x 2 grid seen from above, x to the right and y up: (row, column).
 PAD_PANELS: dict[str, tuple[int, int]] = {"B": (0, 0), "A": (0, 1), "D": (1, 0), "C": (1, 1)}

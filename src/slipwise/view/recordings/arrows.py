@@ -4,12 +4,12 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.record import Record
 from slipwise.view.figures.style import NIGHT_INK, buffer_colour, pad_colour, rgb
 from slipwise.view.geometry import RigGeometry
 from slipwise.view.recordings.timeline import frames, time_column
 
-Array = NDArray[np.float64]
 #: Friction is about a tenth of the load: its arrows are drawn this many times longer for the same force.
 FRICTION_ZOOM = 10.0
 

@@ -9,13 +9,12 @@ import rerun as rr
 import rerun.blueprint as rrb
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.record import Record
 from slipwise.view.figures.style import NIGHT, pad_colour, rgb, styled
 from slipwise.view.recordings.timeline import frames, time_column
 
-Array = NDArray[np.float64]
 #: Pixels of an inch of a board.
 _DPI = 100
 

@@ -8,6 +8,7 @@ import rerun.blueprint as rrb
 from numpy.typing import NDArray
 from rerun import TextDocument
 
+from slipwise.arrays import Array
 from slipwise.errors import InputError
 from slipwise.record import Record
 from slipwise.view.figures.pad_layout import layout_of
@@ -21,7 +22,6 @@ from slipwise.view.recordings.scene import Scene, largest_motion, log_rig, nice_
 from slipwise.view.recordings.series import Line, Plot, log_series, overlaid_tabs_of, series_tabs
 from slipwise.view.recordings.timeline import frames
 
-Array = NDArray[np.float64]
 _AGREES, _DIFFERS = "#5f6b7a", "#ff3d8b"
 #: A pad has the full colour when its residual reaches this fraction of the measured rms force.
 _FULL = 0.5

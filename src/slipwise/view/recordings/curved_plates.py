@@ -4,9 +4,9 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.view.geometry import RigGeometry
 
-Array = NDArray[np.float64]
 _PLATE = (150, 160, 172, 150)
 #: Edge of a plate in lengths of the girder, which hold the slip as drawn, and in radii of the slider as drawn [1].
 _OF_GIRDER, _OF_SLIDER = 0.13, 1.3

@@ -4,7 +4,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slipwise.discovery.law import Law
 from slipwise.discovery.result import Discovery
@@ -17,8 +16,6 @@ from slipwise.view.geometry import geometry_of
 from slipwise.view.recordings.boards import Board, Dots
 from slipwise.view.recordings.comparison import write_comparison
 from slipwise.view.words.discovery_words import state_axis
-
-Array = NDArray[np.float64]
 
 
 def write_discovery_recording(found: Discovery, path: Path) -> Path:

@@ -8,8 +8,8 @@ import numpy as np
 import rerun as rr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.channels import pads_in
 from slipwise.record import Record
 from slipwise.view.figures.canvas import new_figure
@@ -18,7 +18,6 @@ from slipwise.view.figures.panels import SUM_PANEL, pad_panels, zero_lines
 from slipwise.view.figures.style import NIGHT, NIGHT_INK, NIGHT_MUTED, mixed, pad_colour, rgb, styled
 from slipwise.view.recordings.timeline import frames, time_column
 
-Array = NDArray[np.float64]
 #: Size of the picture under the loops [pixel].
 BOARD_SIZE = (1600, 720)
 #: Pieces by which a loop grows [1/s].

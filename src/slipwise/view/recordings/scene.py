@@ -14,7 +14,6 @@ from slipwise.view.recordings.curved_plates import log_curved_plates
 from slipwise.view.recordings.storeys import log_storeys
 from slipwise.view.recordings.timeline import frames, time_column
 
-Array = NDArray[np.float64]
 _STEEL, _POST, _DECK = (150, 160, 172), (112, 122, 134), (150, 166, 186)
 _TOP, _RUBBER = (92, 104, 118), (22, 22, 26)
 #: The deck's lower face above the sliding plane [m].

@@ -4,12 +4,12 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.record import Record
 from slipwise.rig.frame import floor_sway
 from slipwise.view.geometry import RigGeometry
 from slipwise.view.recordings.timeline import frames, time_column
 
-Array = NDArray[np.float64]
 _POST = (112, 122, 134)
 #: Thickness of a floor and of its columns [m].
 _FLOOR = 0.08

@@ -8,10 +8,13 @@ const LEAST_REACH = 3;
 
 const one = (found) => (found ? found.held_out ?? found.fitted : null);
 
+/** Write an error in floors; a balance that no sample judges has none. */
+const told = (found) => (found && one(found) === null ? "not judged" : floors(one(found)));
+
 /** Draw every balance; an error up to `atFloor` is at the noise floor. */
 export function drawErrors(errors, atFloor) {
   const all = errors.flatMap((e) => [e.now, e.before, e.beside]).filter(Boolean);
-  const reach = Math.max(LEAST_REACH, ...all.flatMap((e) => [e.fitted, e.held_out ?? 0]));
+  const reach = Math.max(LEAST_REACH, ...all.flatMap((e) => [e.fitted ?? 0, e.held_out ?? 0]));
   const place = (error) => `${(100 * Math.log1p(error)) / Math.log1p(reach)}%`;
   const rows = errors.flatMap((e) => {
     const bar = make("div", { class: "bar", "aria-hidden": "true" });
@@ -28,9 +31,9 @@ export function drawErrors(errors, atFloor) {
     add("beside", one(e.beside), false);
     return [
       make("tr", { "data-relation": e.relation }, make("th", { scope: "row" }, e.name),
-        make("td", {}, floors(one(e.before))), make("td", { class: "now" }, floors(one(e.now))),
+        make("td", {}, told(e.before)), make("td", { class: "now" }, told(e.now)),
         make("td", { class: "fitted" }, floors(e.now.fitted)),
-        errors.some((x) => x.beside) ? make("td", {}, floors(one(e.beside))) : null),
+        errors.some((x) => x.beside) ? make("td", {}, told(e.beside)) : null),
       make("tr", {}, make("td", { class: "bars", colspan: 5 }, bar)),
     ];
   });
