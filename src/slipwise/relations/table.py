@@ -7,9 +7,6 @@ from functools import cached_property
 import numpy as np
 
 from slipwise.arrays import Array, Mask
-from slipwise.relations.girder import BALANCES
-
-RELATIONS: tuple[str, ...] = ("pads", *BALANCES, "across")
 
 
 @dataclass(frozen=True, eq=False)
