@@ -23,7 +23,7 @@ class Block:
         dt: its step [s].
         value: (n,) or (n, p) measured less predicted [standard deviation of the noise]; zero where not judged.
         sigma: standard deviation of the noise in the relation's unit, broadcastable to `value`; 1 before it is known.
-        mask: of the shape of `value`, or (n,): samples by which the relation is judged.
+        mask: of the shape of `value`: samples by which the relation is judged.
     """
 
     relation: str
