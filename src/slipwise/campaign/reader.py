@@ -283,8 +283,8 @@ def _run(run: RunSettings, file: _File, settings: Settings) -> Run:
         bad = np.flatnonzero(~np.isfinite(values))
         if len(bad):
             raise InputError(
-                f"{run.file}: {key} has {len(bad)} missing values, the first at {time[inside][bad[0]]:g} s; cut "
-                "them off with a window, or fill them where that is honest"
+                f"{run.file}: {key} is missing or infinite in {len(bad)} samples, first at {time[inside][bad[0]]:g} s; "
+                "cut them off with a window, or fill them where that is honest"
             )
     made = {"made": list(file.made), "computed": list(file.computed)} if file.made else {}
     record = Record(time[inside], channels, {"file": run.file, "sha256": file.sha256, **made})

@@ -1,5 +1,6 @@
 """All runs of a campaign must be of one specimen: weight and lever of inertia show it without a friction law."""
 
+import warnings
 from collections.abc import Sequence
 
 import numpy as np
@@ -7,14 +8,14 @@ from numpy.typing import NDArray
 
 from slipwise.campaign.campaign import Campaign, Run
 from slipwise.campaign.zero_state import shifted_zeros
-from slipwise.errors import InputError
+from slipwise.errors import InputError, SlipwiseWarning
 from slipwise.record import Record
 from slipwise.rig import Specimen
 from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import load_modes
 from slipwise.signals.filters import LowPass, lowpass
 
-#: Largest difference of weight between runs of one specimen: gauges drift, seating changes [1].
+#: Largest difference of weight between runs of one specimen, and from a stated mass: gauges drift, seating changes [1].
 _WEIGHT = 0.10
 #: The same of the lever: the two rigs of the paper weigh the same and differ by a factor of two; buffers above the
 #: slide and a table that rocks have pulled runs of one rig apart by 1.43 [1].
@@ -41,6 +42,8 @@ _PEAKS = 0.97
 def check_same_specimen(campaign: Campaign) -> tuple[str, ...]:
     """Refuse runs of different rigs, and give notes on runs that differ in channels or sampling.
 
+    A mass that campaign.toml states and the load cells contradict is warned of: nobody but its writer can mend it.
+
     Raises:
         InputError: weight or lever of the weight differ between runs by more than one specimen can.
     """
@@ -61,7 +64,13 @@ def check_same_specimen(campaign: Campaign) -> tuple[str, ...]:
     _compare(levers, _LEVER, "inertia of the girder acts at a lever of", "of the pad spacing", 1.0)
     typical = float(np.median([weight for _, weight in weights]))
     rated = rig.weight
-    if abs(typical / rated - 1.0) > _RATED:
+    if "mass" in campaign.known and abs(typical / rated - 1.0) > _WEIGHT:
+        notes.append(
+            f"the load cells carry {typical / 1e3:.3g} kN together, but with the mass that campaign.toml states the "
+            f"girder weighs {rated / 1e3:.3g} kN: correct the mass in [specimen], or the unit of the cells"
+        )
+        warnings.warn(notes[-1], SlipwiseWarning, stacklevel=3)
+    elif abs(typical / rated - 1.0) > _RATED:
         notes.append(
             f"the load cells carry {typical / 1e3:.3g} kN together, but the girder of {campaign.rig} weighs "
             f"{rated / 1e3:.3g} kN: check the units, the rig, or give its mass in [specimen]"

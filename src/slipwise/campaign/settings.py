@@ -91,7 +91,7 @@ def read_settings(path: Path) -> Settings:
     if not isinstance(runs, list) or not runs:
         raise InputError(f"{path}: runs are written as [[run]] with double brackets, one for each run")
     return Settings(
-        name=_text(content.get("name", path.parent.name), "name", path.name),
+        name=_text(content.get("name", path.resolve().parent.name), "name", path.name),
         rig=_text(content["rig"], "rig", path.name),
         specimen=_specimen(part["specimen"], f"[specimen] of {path.name}"),
         columns=tuple(_column(h, c, f"[columns] of {path.name}") for h, c in part["columns"].items()),

@@ -103,10 +103,13 @@ def check_time(name: str, time: Array, tables: tuple[RowBlock, ...]) -> None:
         InputError: too few, missing, running backwards, or in steps that no logger takes.
     """
     if len(time) < 2:
-        raise InputError(f"{name}: {len(time)} row of data is no record")
+        raise InputError(f"{name}: it holds {len(time)} rows of data, and a record needs two and more; write it again")
     bad = np.flatnonzero(~np.isfinite(time))
     if len(bad):
-        raise InputError(f"{name}: {len(bad)} values of the time are missing, the first in data row {bad[0] + 1}")
+        raise InputError(
+            f"{name}: the time is missing in {len(bad)} rows, first in data row {bad[0] + 1}; every sample needs one: "
+            "cut these rows off, or write the file again"
+        )
     back = np.flatnonzero(np.diff(time) <= 0.0)
     if len(back):
         k = int(back[0])

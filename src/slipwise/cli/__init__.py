@@ -62,7 +62,7 @@ def _options(
 
 
 def main() -> None:
-    """Run the command line, and exit with what `endings.py` makes of its end."""
+    """Run the command line, and exit with what `exit_codes.py` makes of its end."""
     sys.exit(run_to_its_end(_command))
 
 

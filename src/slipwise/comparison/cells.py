@@ -20,6 +20,7 @@ from slipwise.comparison.motion_states import STATES, MotionStates
 from slipwise.noise.independent_samples import sum_correlations
 from slipwise.noise.level import AT_FLOOR
 from slipwise.relations.run_data import FitRun
+from slipwise.relations.table import Block
 from slipwise.residual_map.splines import choose_equal_bins
 
 #: Part of the cells named above the floor that may be so by chance (false discovery rate) [1].
@@ -88,25 +89,23 @@ class Samples:
     spectrum: tuple[Array, Array]
 
 
-def gather(
-    relation: str, parts: Sequence[Array], runs: Sequence[FitRun], motions: Sequence[MotionStates], area: float
-) -> Samples:
+def gather(blocks: Sequence[Block], runs: Sequence[FitRun], motions: Sequence[MotionStates], area: float) -> Samples:
     """Collect the judged samples of a relation over all runs.
 
     Args:
-        relation: which.
-        parts: per run (n,) or (n, p) residual in floors, zero where masked.
+        blocks: residual of the relation, one for each run.
         runs: of the campaign.
         motions: states of each run.
         area: of a pad [m^2].
     """
+    relation = blocks[0].relation
     columns: dict[str, list[Array]] = {}
     residuals = []
     before = 0.0
-    for number, (part, run, motion) in enumerate(zip(parts, runs, motions, strict=True)):
-        wide = part if part.ndim == 2 else part[:, None]
+    for number, (block, run, motion) in enumerate(zip(blocks, runs, motions, strict=True)):
+        wide = block.columns
         width = wide.shape[1]
-        judged = wide != 0.0
+        judged = block.mask.reshape(wide.shape)
         single = {
             "state": motion.label,
             "speed": np.abs(run.velocity),
@@ -136,8 +135,8 @@ def gather(
     }
     values = {name: np.concatenate(rows) for name, rows in columns.items()}
     values["direction"] = values["direction"] + 1.0
-    spread, pads = _spread(parts), parts[0].shape[1] if parts[0].ndim == 2 else 1
-    spectrum = _spectrum(parts, [r.dt for r in runs])
+    spread, pads = _spread(blocks), blocks[0].columns.shape[1]
+    spectrum = _spectrum(blocks)
     return Samples(relation, residual**2, residual, values, labels, spread, min(spread, _LONGEST * pads), spectrum)
 
 
@@ -211,12 +210,12 @@ def _round(value: float) -> float:
     return float(size * min((1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0), key=lambda d: abs(d - value / size)))
 
 
-def _spread(parts: Sequence[Array]) -> float:
+def _spread(blocks: Sequence[Block]) -> float:
     """Return the number of samples for one independent one: memory of the squared residual, and likeness of pads."""
     centred, likeness = [], []
-    for part in parts:
-        wide = part if part.ndim == 2 else part[:, None]
-        judged = wide != 0.0
+    for block in blocks:
+        wide = block.columns
+        judged = block.mask.reshape(wide.shape)
         if not judged.any():
             continue
         # extremes would make every memory look short
@@ -225,22 +224,22 @@ def _spread(parts: Sequence[Array]) -> float:
         if wide.shape[1] > 1:
             together = np.corrcoef(centred[-1].T)
             likeness.append(float(np.mean(together[np.triu_indices(wide.shape[1], 1)])))
-    pads = parts[0].shape[1] if parts[0].ndim == 2 else 1
+    pads = blocks[0].columns.shape[1]
     across = 1.0 + (pads - 1) * max(float(np.mean(likeness)), 0.0) if likeness else 1.0
     return sum_correlations(centred) * across
 
 
-def _spectrum(parts: Sequence[Array], steps: Sequence[float]) -> tuple[Array, Array]:
+def _spectrum(blocks: Sequence[Block]) -> tuple[Array, Array]:
     """Return the squared error over frequency: 1 where the residual is white noise at the floor."""
     frequencies, powers = [], []
-    for part, dt in zip(parts, steps, strict=True):
-        wide = part if part.ndim == 2 else part[:, None]
-        judged = (wide != 0.0).mean(axis=0)
+    for block in blocks:
+        wide = block.columns
+        judged = block.mask.reshape(wide.shape).mean(axis=0)
         use = judged > 0.05
         if not use.any():
             continue
         power = np.abs(np.fft.rfft(wide[:, use], axis=0)) ** 2 / len(wide) / judged[use]
-        frequencies.append(np.fft.rfftfreq(len(wide), dt))
+        frequencies.append(np.fft.rfftfreq(len(wide), block.dt))
         powers.append(power.mean(axis=1))
     frequency = np.concatenate(frequencies) if frequencies else np.zeros(0)
     order = np.argsort(frequency, kind="stable")

@@ -71,7 +71,7 @@ def compare(
     motions = [classify_motion_states(run) for run in base.objective.runs]
     area = base.objective.specimen.pad_area
     samples = {
-        r: gather(r, parts, base.objective.runs, motions, area)
+        r: gather(base.solution.residuals.blocks(r), base.objective.runs, motions, area)
         for r, parts in residuals.items()
         if any(np.any(p) for p in parts)
     }
@@ -102,7 +102,7 @@ def compare(
         checks=checks,
         residuals=residuals,
         components=components,
-        repeats=compute_repeat_errors(base, residuals),
+        repeats=compute_repeat_errors(base),
         system=level,
         intervals=found,
         surface=friction,

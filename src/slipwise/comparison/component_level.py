@@ -57,14 +57,13 @@ def compute_component_errors(base: BaseFit) -> tuple[ComponentError, ...]:
     for relation in base.objective.relations:
         for of in base.solution.residuals.blocks(relation):
             run, part = base.objective.run(of.run), of.value
-            judged = part != 0.0
-            if not judged.any():
+            judged = of.mask  # rounded records leave a residual of exactly zero where it is judged
+            if not np.any(part[judged]):
                 continue
-            sigma = of.noise[judged]
-            left = part[judged] * sigma
+            left = part[judged] * of.noise[judged]
             measured = run.force[judged] if relation == "pads" else _measured(relation, run, judged)
             size = float(np.sqrt(np.mean(measured**2))) if measured is not None else float("nan")
-            rms, error = float(np.sqrt(np.mean(left**2))), float(np.sqrt(np.mean(part[judged] ** 2)))
+            rms, error = float(np.sqrt(np.mean(left**2))), float(np.sqrt(of.squares / of.count))
             out.append(
                 ComponentError(
                     relation,
@@ -74,7 +73,7 @@ def compute_component_errors(base: BaseFit) -> tuple[ComponentError, ...]:
                     rms,
                     compute_dividing_noise(left, part[judged]),
                     rms / size if size > 0.0 else float("nan"),
-                    int(np.count_nonzero(judged)),
+                    of.count,
                 )
             )
     return tuple(out)
@@ -87,7 +86,7 @@ def compute_dividing_noise(residual: Array, in_floors: Array) -> float:
     rms of the residual.
 
     Args:
-        residual: r, (n,) in the relation's unit, none of it zero.
+        residual: r, (n,) in the relation's unit, not all of it zero.
         in_floors: r / sigma, (n,).
     """
     return float(np.sqrt(np.sum(residual**2) / np.sum(in_floors**2)))
@@ -116,13 +115,13 @@ def pool_errors(errors: Sequence[ComponentError], relation: str, *, held_out: bo
     return float(np.sqrt(sum(e.samples * e.error**2 for e in chosen) / count))
 
 
-def compute_repeat_errors(base: BaseFit, residuals: Mapping[str, Sequence[Array]]) -> dict[str, float]:
+def compute_repeat_errors(base: BaseFit) -> dict[str, float]:
     """Hold a repeated run against its first: rms of the difference of both residuals over sqrt(2), in floors.
 
     Whatever is the same in both runs drops out, the model's errors included: what stays is noise, and 1 says that the
     floor is right. Empty without a repeated run of the same length and motion.
     """
-    runs = base.objective.runs
+    runs, residuals = base.objective.runs, base.solution.residuals
     pairs = [
         (i, j)
         for j, later in enumerate(runs)
@@ -131,12 +130,10 @@ def compute_repeat_errors(base: BaseFit, residuals: Mapping[str, Sequence[Array]
         if is_same_motion(first, later)
     ]
     out = {}
-    for relation, parts in residuals.items():
-        squares, count = 0.0, 0
+    for relation in base.objective.relations:
         for i, j in pairs[-1:]:
-            both = (parts[i] != 0.0) & (parts[j] != 0.0)
-            squares += float(np.sum((parts[i][both] - parts[j][both]) ** 2)) / 2.0
-            count += int(np.count_nonzero(both))
-        if count:
-            out[relation] = float(np.sqrt(squares / count))
+            first, again = residuals.block(relation, i), residuals.block(relation, j)
+            both = first.mask & again.mask
+            if both.any():
+                out[relation] = float(np.sqrt(np.mean((first.value - again.value)[both] ** 2) / 2.0))
     return out

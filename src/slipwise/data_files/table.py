@@ -157,7 +157,10 @@ def _parquet(path: Path) -> Table:
         for i in wanted:
             column = table.column(schema.names[i])
             if not (pa.types.is_floating(column.type) or pa.types.is_integer(column.type)):
-                raise InputError(f"{path.name}: column {schema.names[i]!r} holds {column.type}, not numbers")
+                raise InputError(
+                    f"{path.name}: the column {schema.names[i]!r} holds {column.type}, not numbers; write it as "
+                    "numbers, or leave it out"
+                )
             read.append(column.to_numpy().astype(float))
         return Columns(read)
 

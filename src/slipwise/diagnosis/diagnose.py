@@ -162,7 +162,9 @@ def _listed(
 ) -> tuple[Candidate, ...]:
     """Return hypotheses, and faults of samples: before them where they alone are what is missing."""
     hypotheses = _candidates(selected.search, before, decided, sizes)
-    where = max(recorded.fitted, key=lambda relation: get_error(recorded, relation))
+    # what a dead cell spoils is not judged without it
+    judged = (r for r, counts in before.counts.items() if any(counts) and r in recorded.fitted)
+    where = max(judged, key=lambda relation: get_error(recorded, relation))
     with_fault, without = get_error(recorded, where), get_error(before, where)
     faults = selected.prepared.gauge_faults
     labels = dict.fromkeys(f"{effect_of(f.kind).name}[{name}]" for f in faults for name in f.channels)

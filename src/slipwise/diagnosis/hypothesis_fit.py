@@ -12,7 +12,7 @@ def make_fit(base: BaseFit, found: Hypothesis, *, with_slopes: bool = True) -> B
     Args:
         base: the base fit.
         found: the hypothesis.
-        with_slopes: take its slopes, those that it has are of a fit nearby; `final_refit_of` has taken its own.
+        with_slopes: take its slopes, those that it has are of a fit nearby; `refit_for_report` has taken its own.
     """
     if found.solution is base.solution:
         return base

@@ -133,7 +133,7 @@ def _floors_not_credible(state: Search) -> Iterator[tuple[str, str]]:
     final = state.final.summary
     for relation in final.fitted:
         left = float(np.sqrt(final.fitted_level(relation)))
-        if left < _CREDIBLE:
+        if final.counts[relation][0] and left < _CREDIBLE:  # what no sample judges leaves nothing, and says nothing
             yield f"floor of {relation}", f"floor not credible: the model leaves {left:.2f} of it on the fitted runs"
 
 

@@ -182,7 +182,7 @@ class LawObjective:
 
 
 def _tipping(inputs: Inputs, place: int, acceleration: Array, lever: float) -> Array:
-    """Return the pitch load (n,) [N] of a force that accelerates the girder so [m/s^2], as `predicted_balances`."""
+    """Return the pitch load (n,) [N] of a force that accelerates the girder so [m/s^2], as `predict_balances`."""
     values, specimen, run = inputs.values, inputs.measurements.specimen, inputs.measurements.runs[place]
     load = -values.get("rig.mass", specimen.mass) * acceleration * lever / specimen.half_spacing[0]
     return pass_through_pitch(load, run.dt, values["rig.pitch_frequency"], values["rig.pitch_damping"])

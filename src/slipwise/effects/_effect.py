@@ -2,7 +2,7 @@
 
 An effect is one file: a docstring with the equation, `Valid:` and `Source:`; one or more *hooks*, plain functions whose
 names say what they change; and `EFFECT`, what a person and the fit need to know. A hook asks for what it needs by
-the names of its arguments: quantities of `INPUTS`, `memory`, and its own parameters.
+the names of its arguments: quantities of `HOOKS`, `memory`, and its own parameters.
 
 Hooks of one instant (plain scalars in, scalars out; compiled into the step and into the loops over records, so only
 arithmetic, `math` and `memory[...]` may be used):

@@ -11,7 +11,8 @@ _SHOWN: dict[str, tuple[float, str]] = {
     "s": (1e3, "ms"),
     "m": (1e3, "mm"),
     "m/s": (1e3, "mm/s"),
-    "kg": (1.0, "kg"),
+    "N": (1e-3, "kN"),
+    "Pa": (1e-6, "MPa"),
 }
 #: Rivals within this of the winner's score, or within this part of its gain, are named [units of the score, 1].
 _NEAR, _PART = 12.0, 0.1

@@ -32,7 +32,7 @@ def evaluate_states_at_instants(run: FitRun, velocity: Array, slip: Array, lost:
         run: its loads and times, and where it is at rest.
         velocity: (n, p, 2) of each pad, or (n, 1, 2) where all move alike [m/s].
         slip: (n, p, 2) of each pad, or (n, 1, 2) [m].
-        lost: (f, p) or (f, 1) what the logger's filter took from the velocity, see `lost_velocity` [m/s].
+        lost: (f, p) or (f, 1) what the logger's filter took from the velocity, see `estimate_lost_velocity` [m/s].
     """
     time = np.linspace(run.time[0], run.time[-1], run.fine * (len(run.time) - 1) + 1)
     fine = interpolate_finely(velocity, run.fine)

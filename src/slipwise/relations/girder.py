@@ -4,7 +4,7 @@
     heave   sum N = (m + sum m_i) (g + a_z) - lift
     pitch   Q_pitch = P(s) [h sum F + (h - z_b) F_buffers] / half_x + (x + x_c) sum N / half_x + ...
     roll    Q_roll = R(s) y_c sum N / half_y,    warp, warp_2 ... = what the rated seating makes of them
-    storeys -sum m_i a_i = what the frame makes of a_x and of the girder's pitch (`storey_balance.py`)
+    storeys -sum m_i a_i = what the frame makes of a_x and of the girder's pitch (`storeys.py`)
     motion  a_x - a_x,table = d2(slip)/dt2
 
 P(s) = (2 z w s + w^2) / (s^2 + 2 z w s + w^2) is the girder's pitch on its pads: taken as quasi-static, the balance

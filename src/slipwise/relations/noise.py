@@ -102,8 +102,8 @@ def with_masked_noise(part: Array, masked: float) -> Array:
     return part * np.sqrt(max(1.0 + masked * np.count_nonzero(part) / total, 0.0))
 
 
-def compute_noise_of_balance(specimen: Specimen, run: FitRun) -> dict[str, float]:
-    """Return the noise of every balance of a girder, in its own unit."""
+def compute_gauge_noise_in_balances(specimen: Specimen, run: FitRun) -> dict[str, float]:
+    """Return what the noise of the gauges alone makes of every balance of a girder, each in its own unit."""
     gauge, loads = run.gauge_noise
     total, force = float(np.sqrt(np.sum(loads**2))), float(np.sqrt(np.sum(gauge**2)))
     stiffness = sum(specimen.buffer_stiffness)
@@ -155,12 +155,12 @@ def compute_balance_noise(
         runs: their gauges.
         values: of the fit, for the girder's pitch.
         reversal: per run (n, p) of `compute_reversal_noise` [N].
-        changed: per run (p,) of `changed_by` [1]; empty without faults of the gauges of friction.
+        changed: per run (p,) of `compute_change_by_faults` [1]; empty without faults of the gauges of friction.
     """
     springs = predictor(model) if model.with_hook("balance") else None
     out: dict[str, list[Array]] = {}
     for i, run in enumerate(runs):
-        levels = {name: np.array(level) for name, level in compute_noise_of_balance(model.specimen, run).items()}
+        levels = {name: np.array(level) for name, level in compute_gauge_noise_in_balances(model.specimen, run).items()}
         more: dict[str, Array] = {}
         if changed:
             more = compute_noise_of_correction(
@@ -190,7 +190,7 @@ def compute_heave_level(model: Model, run: FitRun, scale: Mapping[str, float]) -
     Args:
         model: with the numbers of the fit.
         run: its gauges.
-        scale: of `measurement_model.noise_scale`, by which the balance is divided.
+        scale: of `measurement.compute_noise_scale`, by which the balance is divided.
     """
     loads = float(np.linalg.norm(run.gauge_noise[1])) * scale.get("loads", 1.0)
     vertical = model.specimen.carried_mass * run.noise.get("girder_az", 0.0) * scale.get("girder_az", 1.0)

@@ -38,7 +38,7 @@ class FitRun:
         rest_before: pause before it [s].
         states: measured states.
         filtered: what the logger did to the friction channels; None where nothing is known.
-        pads: places of the measured pads among the rig's pads.
+        pads: names of the pads whose friction and load were measured, in the order of the rig.
         load: (n, p) [N].
         force: (n, p) along x [N].
         across: (n, p) along y [N]; empty (n, 0) where it was not measured.

@@ -7,9 +7,6 @@ from functools import cached_property
 import numpy as np
 
 from slipwise.arrays import Array, Mask
-from slipwise.relations.girder import BALANCES
-
-RELATIONS: tuple[str, ...] = ("pads", *BALANCES, "across")
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,7 +23,7 @@ class Block:
         dt: its step [s].
         value: (n,) or (n, p) measured less predicted [standard deviation of the noise]; zero where not judged.
         sigma: standard deviation of the noise in the relation's unit, broadcastable to `value`; 1 before it is known.
-        mask: of the shape of `value`, or (n,): samples by which the relation is judged.
+        mask: of the shape of `value`: samples by which the relation is judged.
     """
 
     relation: str

@@ -19,6 +19,14 @@ def test_our_own_headers_need_no_map_and_everything_is_si(campaign):
     assert len(read.runs[0].sha256) == 64
 
 
+def test_a_campaign_without_a_name_has_that_of_its_folder_from_within_too(campaign, monkeypatch):
+    folder = campaign()
+    settings = folder / "campaign.toml"
+    settings.write_text(settings.read_text(encoding="utf-8").replace('name = "slider"\n', ""), encoding="utf-8")
+    monkeypatch.chdir(folder)
+    assert load_campaign(folder).name == load_campaign(".").name == "slider"
+
+
 @pytest.mark.parametrize(
     ("unit", "factor"), [("kip", 4448.2216), ("kN", 1e3), ("N", 1.0), ("lbf", 4.4482216), ("micronewton", 1e-6)]
 )
@@ -161,9 +169,9 @@ def with_bad_value(row: int, column: int, value: float) -> str:
     [
         (with_bad_value(5, 0, 0.04), "the time repeats 1 times"),
         (with_bad_value(5, 0, 0.01), "the time runs backwards"),
-        (with_bad_value(5, 0, np.nan), "1 values of the time are missing"),
-        (with_bad_value(9, 1, np.nan), "slip_x has 1 missing values, the first at 0.09 s"),
-        (text(slider(1)[:1]), "1 row of data is no record"),
+        (with_bad_value(5, 0, np.nan), "the time is missing in 1 rows, first in data row 6"),
+        (with_bad_value(9, 1, np.nan), "slip_x is missing or infinite in 1 samples, first at 0.09 s"),
+        (text(slider(1)[:1]), "holds 1 rows of data, and a record needs two"),
     ],
 )
 def test_samples_that_cannot_be_used_say_where_they_are(campaign, content, message):

@@ -8,9 +8,9 @@ import pytest
 from bench import build_campaign
 from bench.write import write_campaign
 from measured import as_campaign
-from slipwise.campaign import load_campaign, measured_states
+from slipwise.campaign import Campaign, load_campaign, measured_states
 from slipwise.campaign.same_specimen import check_same_specimen
-from slipwise.errors import InputError
+from slipwise.errors import InputError, SlipwiseWarning
 from slipwise.record import Record
 from unit.campaign.slider import HEADER, slider, text
 
@@ -117,6 +117,19 @@ def test_load_cells_that_are_all_dead_are_no_other_rig(made):
         runs.append(replace(run, record=run.record.replaced(**dead)))
     notes = check_same_specimen(replace(campaign, runs=tuple(runs)))
     assert any("carry 0 kN together" in note for note in notes)
+
+
+def test_a_stated_mass_that_the_load_cells_contradict_is_warned_of(made):
+    campaign = as_campaign(made)
+
+    def with_mass(factor: float) -> Campaign:
+        mass = factor * campaign.specimen.mass
+        return replace(campaign, specimen=campaign.specimen.changed(mass=mass), known={"mass": mass})
+
+    with pytest.warns(SlipwiseWarning, match="the load cells carry .* correct the mass in"):
+        (told,) = check_same_specimen(with_mass(1.15))
+    assert f"weighs {1.15 * campaign.specimen.weight / 1e3:.3g} kN" in told
+    assert check_same_specimen(with_mass(1.03)) == ()
 
 
 def test_a_load_cell_that_is_dead_in_one_run_is_no_other_rig(made):

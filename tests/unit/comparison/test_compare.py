@@ -2,13 +2,16 @@
 
 import builtins
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from bench import build_campaign, make_campaign
 from bench.write import write_campaign
+from measured import as_campaign, fit_base
 from slipwise.comparison.compare import compare
+from slipwise.comparison.component_level import compute_component_errors, pool_errors
 from slipwise.comparison.tables import as_json
 from slipwise.errors import InputError, UnknownNameError
 
@@ -36,6 +39,21 @@ def test_a_complete_model_leaves_every_component_at_its_floor_on_the_run_it_has_
     errors = {r: complete.error(r, held_out=True) for r in complete.relations}
     assert set(errors) == {"pads", "girder", "heave", "pitch", "roll", "warp", "motion"}
     assert all(0.9 <= e <= 1.1 for e in errors.values()), errors
+
+
+def test_where_rounded_loads_leave_nothing_they_are_judged_all_the_same(made):
+    whole = as_campaign(made)
+    loads = [f"pad_{pad}_N" for pad in "ABCD"]
+    runs = tuple(
+        replace(r, record=r.record.replaced(**{name: np.round(r.record[name], -2) for name in loads}))
+        for r in (whole.runs[1], whole.runs[4])
+    )
+    fit = fit_base(replace(whole, runs=runs))
+    left, held_out = fit.solution.residuals, fit.objective.held_out
+    assert any(np.any(of.value[of.mask] == 0.0) for of in left.blocks("warp", held_out))
+    for relation in fit.objective.relations:
+        error = pool_errors(compute_component_errors(fit), relation, held_out=True)
+        assert error == pytest.approx(left.level(relation, held_out), rel=1e-12), relation
 
 
 def test_a_complete_model_fails_nowhere(complete):

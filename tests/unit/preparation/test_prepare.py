@@ -85,6 +85,9 @@ def test_every_command_mends_a_fault_says_so_and_tells_the_same_error(sound, hea
     in_session = {error.relation: error.error for error in session.errors()}
     assert errors and max(errors.values()) < 1.3
     assert found.base_error == pytest.approx(max(errors.values()), rel=1e-9)
+    floors = {words.split()[2].rstrip(":") for words in found.cannot_tell if words.startswith("floor of")}
+    assert floors <= set(errors)
+    assert all(candidate.holdout_after > 0.5 for candidate in found.candidates)  # of a balance that is judged
     for relation, error in errors.items():
         told = (found.relations[relation][0], climbed.steps[0].relations[relation], in_session[relation])
         assert told == pytest.approx((error,) * 3, rel=1e-9), relation

@@ -11,7 +11,6 @@ from slipwise.studies.paper.settings import PaperSettings, paper_model
 #: Faster than this [m/s] speed adds nothing more.
 FAST = 1e3
 PRESSURES = (1e-6, 2.0, 5.0, 10.0, 16.88, 25.0, 50.0)
-SPEEDS = (0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 30.0)
 SWINGS = (0.05, 0.1, 0.2, 0.3, 0.5, 0.6, 0.8, 1.0)
 
 

@@ -89,9 +89,8 @@ def plane_figure(found: Comparison, relation: str) -> Figure:
     runs = [found.base.objective.run(of.run) for of in blocks]
     slip = np.concatenate([r.slip for r in runs]) * 1e3
     speed = np.concatenate([r.velocity for r in runs]) * 1e2
-    parts = [of.columns for of in blocks]
-    squares = np.concatenate([(p**2).sum(axis=1) for p in parts])
-    counts = np.concatenate([(p != 0.0).sum(axis=1) for p in parts]).astype(float)
+    squares = np.concatenate([(of.columns**2).sum(axis=1) for of in blocks])
+    counts = np.concatenate([of.mask.reshape(of.columns.shape).sum(axis=1) for of in blocks]).astype(float)
     reach = [np.quantile(np.abs(v), 0.998) * 1.05 for v in (slip, speed)]
     edges = [np.linspace(-r, r, n) for r, n in zip(reach, (45, 37), strict=True)]
     total = np.histogram2d(slip, speed, bins=edges, weights=squares)[0]
