@@ -49,6 +49,10 @@ ARROWS: dict[str, str] = {
         "arrays campaign channels comparison display effects errors estimation evidence instruments jobs model noise"
         " params preparation record regression relations residual_map rig simulation units"
     ),
+    "selection": (
+        "arrays campaign comparison diagnosis effects errors estimation jobs model params preparation relations"
+        " residual_map signals"
+    ),
     "discovery": (
         "arrays campaign diagnosis display effects errors estimation jobs model noise params preparation relations"
         " residual_map signals simulation"

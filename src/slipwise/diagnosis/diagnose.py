@@ -47,6 +47,7 @@ def diagnose(
     own: Iterable[Effect] = (),
     system: bool = False,
     progress: Callable[[str, float], None] | None = None,
+    select: Callable[..., SelectionResult] = select_effects,
 ) -> Diagnosis:
     """Say which effect a model lacks.
 
@@ -56,6 +57,7 @@ def diagnose(
         own: effects beside those of the catalogue, as `slipwise.effects.find_effect` gives them.
         system: replay base and final model as well.
         progress: called with what is being done and the share done.
+        select: finds what is missing, as `select_effects` does.
 
     Raises:
         InputError: the campaign lacks what every fit needs.
@@ -68,7 +70,7 @@ def diagnose(
     start = None if model is None else as_model(model)
     tell("fitting base parameters", 0.02)
     part = 0.7 if system else 0.9
-    selected = select_effects(prepared, start, own, lambda words, share: tell(words, part * share))
+    selected = select(prepared, start, own, lambda words, share: tell(words, part * share))
     base, state = selected.base, selected.search
     tell("replaying without each effect", part)
     found = make_fit(base, state.final, with_slopes=not state.final.objective.balanced)

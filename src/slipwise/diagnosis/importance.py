@@ -19,6 +19,7 @@ from slipwise.comparison.system_level import build_replayed_model
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Interval
+from slipwise.estimation.objective import Objective
 from slipwise.jobs.parallel import on_every_core
 from slipwise.model import Model
 from slipwise.relations.parameters import Term
@@ -85,11 +86,14 @@ def compute_importance(final: BaseFit, terms: Sequence[Term], sizes: Sequence[In
     asked = [("", place) for place in dict.fromkeys(p for of in places.values() for p in of)]
     asked += [(name, place) for name, of in places.items() for place in of]
     models = _models(final, added)
-    free = objective.specimen.free and "table_ax" in objective.run(shown).record
-    act = _replayed if free else _driven
-    answers = dict(
-        zip(asked, on_every_core(lambda i: act(models[asked[i][0]], final, asked[i][1]), len(asked)), strict=True)
-    )
+    free = is_replayable(objective, shown)
+
+    def answer(k: int) -> Answer:
+        name, place = asked[k]
+        return compute_answer(models[name], final, place, replayed=free)
+
+    replies = on_every_core(answer, len(asked))
+    answers = dict(zip(asked, replies, strict=True))
     out: dict[str, Importance] = {}
     for name, of in added.items():
         spread = _spread([t.label for t in of], sizes)
@@ -106,9 +110,26 @@ def compute_importance(final: BaseFit, terms: Sequence[Term], sizes: Sequence[In
 
 
 @dataclass(frozen=True)
-class _Answer:
+class Answer:
+    """What a model answers in one run.
+
+    Attributes:
+        responses: name of `RESPONSES` -> its value [SI].
+        channels: channel -> what a gauge would show (n,) [SI].
+    """
+
     responses: Mapping[str, float]
     channels: Mapping[str, Array]
+
+
+def is_replayable(objective: Objective, place: int) -> bool:
+    """Return whether a run can be replayed: of a slider, and without the table's motion, it can only be driven."""
+    return objective.specimen.free and "table_ax" in objective.run(place).record
+
+
+def compute_answer(model: Model, final: BaseFit, place: int, *, replayed: bool) -> Answer:
+    """Return what a model answers in a run: replayed, or its pads driven with the measured load and motion."""
+    return _replayed(model, final, place) if replayed else _driven(model, final, place)
 
 
 def _models(final: BaseFit, added: Mapping[str, Sequence[Term]]) -> dict[str, Model]:
@@ -129,7 +150,7 @@ def _where_most(final: BaseFit, terms: Sequence[Term]) -> int:
     return int(np.argmax(np.nan_to_num(solution.residuals.changes_by_run(there))))
 
 
-def _replayed(model: Model, final: BaseFit, place: int) -> _Answer:
+def _replayed(model: Model, final: BaseFit, place: int) -> Answer:
     """Replay a run's measured table motion, memory of pads and buffers from the runs before."""
     run = final.objective.run(place)
     dt = choose_simulation_step(run.dt)
@@ -146,7 +167,7 @@ def _replayed(model: Model, final: BaseFit, place: int) -> _Answer:
         "energy": sum(answer.pad_energy.values()),
         "largest_load": max(high for _, high in answer.load_range.values()),
     }
-    return _Answer(responses, answer.record.channels)
+    return Answer(responses, answer.record.channels)
 
 
 def compute_memory_before(model: Model, runs: Sequence[FitRun]) -> Memory:
@@ -164,7 +185,7 @@ def compute_memory_before(model: Model, runs: Sequence[FitRun]) -> Memory:
     return Memory(pad_memories(layout, law.numbers).copy(), buffer_memories(layout, law.numbers).copy())
 
 
-def _driven(model: Model, final: BaseFit, place: int) -> _Answer:
+def _driven(model: Model, final: BaseFit, place: int) -> Answer:
     """Drive a slider's law with measured load and motion; its gauges' faults act on what it answers."""
     law, run = predictor(model), final.objective.run(place)
     force = run.states.pad_velocity  # of the run's own shape, where there is nothing before it
@@ -177,7 +198,7 @@ def _driven(model: Model, final: BaseFit, place: int) -> _Answer:
     for entry in model.with_hook("gauge"):
         record = entry.effect.hooks["gauge"](record, entry.target, **entry.values)
     energy = sum(float(np.sum(force[:, i, 0] * run.velocity) * run.dt) for i in range(len(run.pads)))
-    return _Answer({"energy": energy}, record.channels)
+    return Answer({"energy": energy}, record.channels)
 
 
 def compute_share_of_channel(change: Array, measured: Array) -> float:

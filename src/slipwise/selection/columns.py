@@ -1,0 +1,169 @@
+"""Columns: what every candidate changes in the residual, per limit of materiality.
+
+A candidate has one column for each of its strengths and each of some forms (values of what switches nothing). Columns
+are in units of what matters: one is the size that moves slip, energy, load or a channel by its limit.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.arrays import Array
+from slipwise.diagnosis.initial_grid import shapes, strengths, two_sided
+from slipwise.diagnosis.sensitivities import small
+from slipwise.errors import SlipwiseError
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.jobs.parallel import on_every_core
+from slipwise.params import Parameter
+from slipwise.relations.measurement import is_shifting
+from slipwise.relations.parameters import Term
+from slipwise.selection.averaged_rows import AveragedRows
+
+FloatArray = NDArray[np.float32]
+
+
+#: Number of the form of an effect that is in the model: its constants are those of the fit.
+OF_MODEL = -2
+#: Name of what is in no catalogue.
+UNKNOWN = "unknown"
+
+
+@dataclass(frozen=True)
+class CandidateColumn:
+    """One strength of a candidate at one form.
+
+    Attributes:
+        label: of the candidate's term.
+        effect: its name.
+        gauge: whether it is a fault of gauges.
+        form: number of the form.
+        strength: name of the parameter; "" for all strengths of an effect of the model together.
+        values: of all parameters, the strength at a small size; of an effect of the model as they were fitted.
+        neutral: value of the strength at which the effect is absent.
+        two_sided: whether the strength may lie on either side of that.
+        unit: strength that is one limit, signed as the column was taken [the parameter's unit]; of an effect of the
+            model the share of its fitted size.
+        column: (q,) change of the averaged residual by one unit [noise].
+    """
+
+    label: str
+    effect: str
+    gauge: bool
+    form: int
+    strength: str
+    values: Mapping[str, float]
+    neutral: float
+    two_sided: bool
+    unit: float
+    column: FloatArray
+
+
+def make_column(
+    term: Term, form: int, moved: Parameter | None, values: Mapping[str, float], unit: float, column: Array | FloatArray
+) -> CandidateColumn:
+    """Return the column of a term; of all its strengths together where no parameter is given."""
+    effect = term.effect
+    neutral, either = (0.0, False) if moved is None else (float(moved.neutral or 0.0), two_sided(moved))
+    name = "" if moved is None else moved.name
+    small = column.astype(np.float32)
+    return CandidateColumn(
+        term.label, effect.name, effect.port == "gauge", form, name, values, neutral, either, unit, small
+    )
+
+
+@dataclass(frozen=True)
+class CandidateForm:
+    """A candidate with values of what switches nothing.
+
+    Attributes:
+        term: the candidate.
+        number: of the form among the candidate's.
+        shape: values of its constants.
+    """
+
+    term: Term
+    number: int
+    shape: Mapping[str, float]
+
+
+def list_forms(terms: Sequence[Term]) -> list[CandidateForm]:
+    """Return the forms of candidates that are tried first."""
+    return [CandidateForm(t, number, shape) for t in terms for number, shape in enumerate(shapes(t.effect))]
+
+
+def compute_raw_columns(base: BaseFit, forms: Sequence[CandidateForm], rows: AveragedRows) -> list[CandidateColumn]:
+    """Return the columns of candidates as they were taken: `unit` is the step, of which `column` is the change.
+
+    Args:
+        base: the fit from which the candidates depart.
+        forms: of the candidates.
+        rows: how residuals are averaged.
+    """
+    left = base.solution.residuals.stacked(base.objective.fitted)
+    by_term: dict[str, list[CandidateForm]] = {}
+    for form in forms:
+        by_term.setdefault(form.term.label, []).append(form)
+    order = sorted(by_term.values(), key=lambda of: -len(of))  # what takes longest first, or one core waits for it
+    answers = on_every_core(lambda k: _columns_of(base, order[k], rows, left), len(order))
+    return [
+        make_column(of[0].term, number, of[0].term.effect.parameter(name), values, step, column)
+        for of, found in zip(order, answers, strict=True)
+        for number, name, values, step, column in found
+    ]
+
+
+def _columns_of(
+    base: BaseFit, forms: Sequence[CandidateForm], rows: AveragedRows, left: Array
+) -> list[tuple[int, str, dict[str, float], float, FloatArray]]:
+    """Return form, strength, values, step, and the averaged change by the step, of every column of a candidate."""
+    out: list[tuple[int, str, dict[str, float], float, FloatArray]] = []
+    term = forms[0].term
+    if base.objective.adding(term).makes_yaw != base.objective.makes_yaw:  # yaw made from measured forces is noise too
+        bare = compute_stacked_with(base, term, term.effect.neutral())
+        if bare is None:
+            return []
+        left = bare
+    for form in forms:
+        for moved in strengths(term.effect):
+            values = small(term.effect, form.shape, moved)
+            step = values[moved.name] - float(moved.neutral or 0.0)
+            change = _change(base, term, moved, values, left)
+            if change is not None and np.any(change):
+                out.append((form.number, moved.name, values, step, rows.average(change).astype(np.float32)))
+    return out
+
+
+def _change(base: BaseFit, term: Term, moved: Parameter, values: Mapping[str, float], left: Array) -> Array | None:
+    """Return the change of the stacked residual by a step of one strength; both ways where a fault moves noise in time.
+
+    Half way between moved and unmoved noise there is less of it: a column that looked one way only would find a false
+    gain.
+    """
+    there = compute_stacked_with(base, term, values)
+    if there is None:
+        return None
+    back = 2.0 * float(moved.neutral or 0.0) - values[moved.name]
+    if (term.effect.port == "table" or is_shifting([term])) and moved.low <= back <= moved.high:
+        other = compute_stacked_with(base, term, {**values, moved.name: back})
+        return None if other is None else 0.5 * (there - other)
+    return there - left
+
+
+def compute_stacked_with(base: BaseFit, term: Term | None, values: Mapping[str, float]) -> Array | None:
+    """Return the stacked residual (m,) of the fitted runs with a candidate; None where it cannot be evaluated.
+
+    Args:
+        base: the fit from which it departs.
+        term: the candidate; None for numbers of the fit itself.
+        values: of its parameters; of numbers of the fit by their keys.
+    """
+    objective = base.objective if term is None else base.objective.adding(term)
+    keyed = values if term is None else {f"{term.label}.{name}": value for name, value in values.items()}
+    try:
+        found = objective.residuals({**base.solution.values, **keyed}, fitted_only=True)
+    except SlipwiseError:
+        return None
+    stacked = found.stacked(objective.fitted)
+    return stacked if np.isfinite(stacked).all() else None

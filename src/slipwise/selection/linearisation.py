@@ -1,0 +1,108 @@
+"""A fitted model with what every candidate changes in its residual, counted from the absence of each effect."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from slipwise.arrays import Array
+from slipwise.campaign.materiality import Materiality
+from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.diagnosis.initial_grid import strengths
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.relations.measurement import is_shifting
+from slipwise.relations.parameters import Term
+from slipwise.selection.averaged_rows import AveragedRows
+from slipwise.selection.columns import OF_MODEL, CandidateColumn, compute_stacked_with, make_column
+from slipwise.selection.statistics import Statistics, compute_statistics
+from slipwise.selection.units import compute_sizes_in_place
+
+#: Standard deviations of a rated mass, and of the constants of an effect in the model, as shares of the values [1].
+_MASS, _CONSTANTS = 0.03, 0.05
+
+
+@dataclass(frozen=True)
+class Linearisation:
+    """A model with what is likely in it, and what everything changes in it.
+
+    Attributes:
+        hypothesis: that was fitted.
+        rows: how its residuals are averaged.
+        columns: of candidates, in units of materiality; of terms of the model the slopes of their strengths.
+        statistics: products.
+        tolerances: for `compute_posterior`.
+    """
+
+    hypothesis: Hypothesis
+    rows: AveragedRows
+    columns: tuple[CandidateColumn, ...]
+    statistics: Statistics
+    tolerances: Mapping[int, tuple[float, float]]
+
+
+def as_fit(base: BaseFit, found: Hypothesis) -> BaseFit:
+    """Return a hypothesis as the fit from which candidates depart."""
+    return replace(base, objective=found.objective, free=tuple(found.solution.free), solution=found.solution)
+
+
+def linearise(
+    base: BaseFit, found: Hypothesis, rows: AveragedRows, columns: Sequence[CandidateColumn], limits: Materiality
+) -> Linearisation:
+    """Hold a model's residual, the slopes of its numbers, and columns of what is beside it, against each other.
+
+    Sizes are counted from absence: what the strengths of the model's own effects explain is brought back.
+    """
+    here = as_fit(base, found)
+    objective, solution = found.objective, found.solution
+    slopes = rows.average(solution.jacobian)
+    stacked = solution.residuals.stacked(objective.fitted)
+    left = fitted = rows.average(stacked)
+    keys = [f.key for f in solution.free]
+    own: list[CandidateColumn] = []
+    sizes = compute_sizes_in_place(here, found.terms, limits) if found.terms else {}
+    for term in found.terms:
+        if sizes[term.label] > 0.0:
+            whole = _whole_effect(here, term, rows, slopes, stacked)
+            column = whole / sizes[term.label]
+            own.append(make_column(term, OF_MODEL, None, found.values_of(term), 1.0 / sizes[term.label], column))
+            left = left - whole
+    labels = {t.label for t in found.terms}
+    strong = {f"{t.label}.{p.name}" for t in found.terms for p in strengths(t.effect)}
+    free = [j for j, key in enumerate(keys) if key not in strong]  # of a strength the whole effect tells
+    of_base = np.array([keys[j].rpartition(".")[0] not in labels for j in free], bool)
+    every = (*columns, *own)
+    statistics = compute_statistics(rows, left, fitted, slopes[:, free], of_base, every)
+    return Linearisation(found, rows, every, statistics, _tolerances(found, [keys[j] for j in free]))
+
+
+def _whole_effect(here: BaseFit, term: Term, rows: AveragedRows, slopes: Array, stacked: Array) -> Array:
+    """Return what a term of the model changes in the averaged residual (q,), all of it: from its absence to the fit.
+
+    Of a fault that moves noise in time the slopes tell it: between moved and unmoved noise there is less of it.
+    """
+    absent = {p.name: float(p.neutral or 0.0) for p in strengths(term.effect)}
+    values = here.solution.values
+    if not is_shifting([term]):
+        there = compute_stacked_with(here, None, {f"{term.label}.{n}": x for n, x in absent.items()})
+        if there is not None:
+            return rows.average(stacked - there)
+    free = here.solution.free
+    steps = {f"{term.label}.{n}": values[f"{term.label}.{n}"] - x for n, x in absent.items()}
+    return sum(
+        (slopes[:, j] * (steps[f.key] / f.scale) for j, f in enumerate(free) if f.key in steps), np.zeros(len(slopes))
+    )
+
+
+def _tolerances(found: Hypothesis, keys: Sequence[str]) -> dict[int, tuple[float, float]]:
+    """Return what is known of numbers that are fitted whatever is missing; see `compute_posterior`."""
+    out: dict[int, tuple[float, float]] = {}
+    free = {f.key: f for f in found.solution.free}
+    labels = {t.label for t in found.terms}
+    for place, key in enumerate(keys):
+        f = free[key]
+        if key == "rig.mass":
+            rated = found.objective.specimen.mass
+            out[place] = ((rated - found.solution.values[key]) / f.scale, _MASS * rated / f.scale)
+        elif key.rpartition(".")[0] in labels:
+            out[place] = (0.0, _CONSTANTS * min(1.0, abs(found.solution.values[key]) / f.scale))
+    return out

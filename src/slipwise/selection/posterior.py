@@ -1,0 +1,285 @@
+"""One posterior over the sizes of everything that may be missing.
+
+    r = y + J d + X u + X b + e
+
+with the averaged residual y of a fit, the slopes J of its numbers d, and the columns X of every candidate in units of
+materiality. Every candidate is there as a trifle: u is normal with the deviation `Prior.trifle`, and integrated out.
+Few matter beyond that: b is zero but for some places, each of which one candidate takes, at one of its forms, as large
+as one of the widths `Prior.large`. Small imperfections are therefore always in the model and never named, and whatever
+explains the same competes at once. A relation counts as at most `Prior.independent` samples: a model's own small errors
+are systematic, and with every sample the posterior would be sure of nonsense.
+
+The places are sampled one after the other with all sizes integrated out (collapsed Gibbs), on the products of columns
+alone; a place that is taken by one of two candidates that look alike passes from one to the other in one step.
+
+Sources: George, McCulloch (1993), JASA 88 (spike and slab); Wang et al. (2020), JRSS B 82 (a sum of single effects);
+Cui et al. (2024), Nature Genetics 56:162 (a background of small causes beside few large ones); Miller, Dunson (2019),
+JASA 114 (coarsened posterior).
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.arrays import Array
+from slipwise.selection.columns import OF_MODEL, UNKNOWN, CandidateColumn
+from slipwise.selection.sampler import sample_places
+from slipwise.selection.statistics import Statistics
+
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Prior:
+    """What is believed before a campaign is looked at.
+
+    Attributes:
+        trifle: standard deviation of what is always there [limits of materiality].
+        trifle_of_gauges: the same of faults of gauges.
+        large: standard deviations of what matters.
+        widths: prior of each of these.
+        chance: that an effect matters, shared among its terms.
+        independent: samples as which a relation counts at most.
+        floor: least variance of what is left of a relation [noise variance].
+        places: how many effects may matter at once.
+        unknown: chance that something matters which is in no catalogue.
+    """
+
+    trifle: float = 0.15
+    trifle_of_gauges: float = 0.3
+    large: tuple[float, ...] = (2.5, 10.0, 50.0)
+    widths: tuple[float, ...] = (0.55, 0.33, 0.12)
+    chance: float = 0.04
+    independent: float = 100.0
+    floor: float = 0.3
+    places: int = 12
+    unknown: float = 0.03
+
+    def chance_of(self, effect: str) -> float:
+        """Return the chance that an effect matters."""
+        return self.unknown if effect == UNKNOWN else self.chance
+
+
+@dataclass(frozen=True)
+class Posterior:
+    """Samples of what matters.
+
+    Attributes:
+        labels: (T,) of the terms.
+        effects: (T,) names of their effects.
+        sizes: (n, T) size of every term [limits of materiality]; 0 where it is no more than a trifle.
+        seen: (n, T) what a fit of the base would leave of it in the relation that shows it best [floors].
+        forms: (n, T) number of the form; -1 where it is no more than a trifle.
+        strengths: (n, K) size of every column [limits].
+        level: (r,) what is left of every relation [noise variance].
+        gain: (K,) what each column would explain beside the mean of all others [nats].
+    """
+
+    labels: tuple[str, ...]
+    effects: tuple[str, ...]
+    sizes: Array
+    seen: Array
+    forms: Ints
+    strengths: Array
+    level: Array
+    gain: Array
+
+
+@dataclass(frozen=True)
+class _Forms:
+    """Columns by form, forms by term."""
+
+    labels: tuple[str, ...]
+    effects: tuple[str, ...]
+    gauge: NDArray[np.bool_]
+    owner: Ints
+    number: Ints
+    columns: Ints
+    length: Ints
+
+
+def _group(columns: Sequence[CandidateColumn]) -> _Forms:
+    labels = list(dict.fromkeys(c.label for c in columns))
+    forms: dict[tuple[str, int], list[int]] = {}
+    for i, c in enumerate(columns):
+        forms.setdefault((c.label, c.form), []).append(i)
+    width = max((len(v) for v in forms.values()), default=1)
+    table = np.zeros((len(forms), width), np.int64)
+    for row, members in enumerate(forms.values()):
+        table[row, : len(members)] = members
+    of = {c.label: c for c in columns}
+    return _Forms(
+        tuple(labels),
+        tuple(of[label].effect for label in labels),
+        np.array([of[label].gauge for label in labels], bool),
+        np.array([labels.index(label) for label, _ in forms], np.int64),
+        np.array([form for _, form in forms], np.int64),
+        table,
+        np.array([len(v) for v in forms.values()], np.int64),
+    )
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How thoroughly a posterior is sampled.
+
+    Attributes:
+        chains: that begin apart, half of them with what is in the model.
+        sweeps: of each.
+        draws: of the sizes.
+        rounds: how often what is left of a relation is estimated.
+    """
+
+    chains: int = 6
+    sweeps: int = 60
+    draws: int = 400
+    rounds: int = 3
+
+
+#: For what is looked at on the way.
+QUICK = Effort(chains=2, sweeps=30, draws=150, rounds=2)
+
+
+def compute_posterior(
+    statistics: Statistics,
+    columns: Sequence[CandidateColumn],
+    tolerances: Mapping[int, tuple[float, float]],
+    prior: Prior | None = None,
+    effort: Effort | None = None,
+    seed: int = 0,
+) -> Posterior:
+    """Sample what is missing.
+
+    What chains that begin apart have visited is weighed by its posterior, which is known up to a constant: no chain
+    needs to pass from one explanation to another that shares nothing with it (Clyde, Ghosh, Littman 2011, Journal of
+    Computational and Graphical Statistics 20).
+
+    Args:
+        statistics: products of residual, slopes and columns.
+        columns: of the candidates, in units of materiality.
+        tolerances: place of a base number -> how far its rated value lies from the fitted one, and its standard
+            deviation about that [its scale].
+        prior: what is believed before.
+        effort: how thoroughly it is sampled.
+        seed: of the random numbers.
+    """
+    prior, effort = prior or Prior(), effort or Effort()
+    forms = _group(columns)
+    base = statistics.base
+    effects = forms.effects
+    shared = {e: effects.count(e) for e in effects}
+    per_form = np.bincount(forms.owner, minlength=len(forms.labels))
+    odds = np.log([prior.chance_of(effects[t]) / shared[effects[t]] / per_form[t] / prior.places for t in forms.owner])
+    one_sided = np.array([not c.two_sided for c in columns])
+    small = np.where(forms.gauge, prior.trifle_of_gauges, prior.trifle)
+    trifle = np.empty(len(columns))
+    for f, (t, length) in enumerate(zip(forms.owner, forms.length, strict=True)):
+        trifle[forms.columns[f, :length]] = small[t] / np.sqrt(per_form[t])
+    inside = slice(base, None)
+    counts = np.maximum(statistics.rows, 1.0)
+    level = np.maximum(statistics.fitted / counts, prior.floor)
+    ridge = np.concatenate([np.zeros(base), trifle**-2.0])
+    widths, odds_of = np.array(prior.large), np.log(prior.widths)
+    none = np.full(prior.places, -1)
+    as_fitted = none.copy()
+    present = np.flatnonzero(forms.number == OF_MODEL)[: prior.places]
+    as_fitted[: len(present)] = present
+    for remaining in reversed(range(effort.rounds)):
+        last = not remaining
+        weights = 1.0 / (level * np.maximum(1.0, statistics.rows / prior.independent))
+        whole = np.tensordot(weights, statistics.products, 1)
+        pull = -weights @ statistics.pulls
+        ridge[:base] = 1e-6 * np.diag(whole)[:base] + 1e-9
+        for place, (off, deviation) in tolerances.items():
+            ridge[place] += deviation**-2.0
+            pull[place] += off * deviation**-2.0
+        solved = np.linalg.solve(whole + np.diag(ridge), np.column_stack([whole[:, inside], pull]))
+        precision = np.ascontiguousarray(whole[inside, inside] - whole[inside] @ solved[:, :-1])
+        pulled = pull[inside] - whole[inside] @ solved[:, -1]
+        chains, sweeps = (effort.chains, effort.sweeps) if last else (2, 15)
+        visited = [
+            sample_places(
+                precision, pulled, forms.columns, forms.length, forms.owner, odds, widths, odds_of, one_sided,
+                as_fitted if chain % 2 == 0 else none, sweeps, seed + chain,
+            )
+            for chain in range(chains)
+        ]  # fmt: skip
+        taken, sizes = _draw(precision, pulled, forms, widths, one_sided, visited, effort.draws if last else 60, seed)
+        mean = sizes.mean(axis=0)
+        everything = solved[:, -1] - solved[:, :-1] @ mean
+        everything[inside] += mean
+        if last:
+            break
+        left = statistics.squares + 2.0 * statistics.pulls @ everything
+        left += np.einsum("i,kij,j->k", everything, statistics.products, everything)
+        level = np.maximum(left / counts, prior.floor)
+    own = np.maximum(np.diag(precision), 1e-12)
+    mean = sizes.mean(axis=0)
+    gain = 0.5 * (pulled - precision @ mean + own * mean) ** 2 / own
+    return _as_posterior(statistics, forms, taken, sizes, level, gain)
+
+
+def _draw(
+    precision: Array, pulled: Array, forms: _Forms, widths: Array, one_sided: NDArray[np.bool_],
+    visited: Sequence[tuple[Ints, Ints, Array]], draws: int, seed: int,
+) -> tuple[Ints, Array]:  # fmt: skip
+    """Draw from what was visited, each once, by its posterior: forms of the places (n, p), and sizes (n, K)."""
+    taken, width, worth = (np.concatenate(parts) for parts in zip(*visited, strict=True))
+    code = np.sort(np.where(taken >= 0, taken * len(widths) + width, -1), axis=1)
+    states, first = np.unique(code, axis=0, return_index=True)
+    chance = np.exp(worth[first] - worth[first].max())
+    rng = np.random.default_rng(seed)
+    picked = rng.choice(len(states), size=draws, p=chance / chance.sum())
+    sizes = np.zeros((draws, len(pulled)))
+    for state in np.unique(picked):
+        at = np.flatnonzero(picked == state)
+        own = states[state][states[state] >= 0]
+        members = [
+            (j, widths[c % len(widths)])
+            for c in own
+            for j in forms.columns[c // len(widths)][: forms.length[c // len(widths)]]
+        ]
+        if not members:
+            continue
+        j = np.array([m[0] for m in members])
+        covariance = np.linalg.inv(precision[np.ix_(j, j)] + np.diag([m[1] ** -2.0 for m in members]))
+        found = rng.multivariate_normal(covariance @ pulled[j], covariance, size=len(at), method="svd")
+        sizes[np.ix_(at, j)] = np.where(one_sided[j], np.maximum(found, 0.0), found)
+    return np.where(states[picked] >= 0, states[picked] // len(widths), -1), sizes
+
+
+def _as_posterior(
+    statistics: Statistics, forms: _Forms, taken: Ints, sizes: Array, level: Array, gain: Array
+) -> Posterior:
+    shape = len(taken), len(forms.labels)
+    size, seen = np.zeros(shape), np.zeros(shape)
+    chosen = np.full(shape, -1)
+    rest = _left_by_base(statistics)
+    for f in np.unique(taken[taken >= 0]):
+        at = np.flatnonzero((taken == f).any(axis=1))
+        members = forms.columns[f, : forms.length[f]]
+        b = sizes[np.ix_(at, members)]
+        t = forms.owner[f]
+        size[at, t] = np.sqrt(np.sum(b**2, axis=1))
+        squares = np.einsum("si,kij,sj->sk", b, rest[:, members][:, :, members], b)
+        seen[at, t] = np.sqrt(np.maximum(squares.max(axis=1), 0.0))
+        chosen[at, t] = forms.number[f]
+    return Posterior(forms.labels, forms.effects, size, seen, chosen, sizes, level, gain)
+
+
+def _left_by_base(statistics: Statistics) -> Array:
+    """Return what a fit of the base numbers leaves of the products of columns, (r, K, K), a judged sample each."""
+    base = statistics.base
+    rig = np.flatnonzero(statistics.of_base)
+    whole = statistics.products.sum(axis=0)
+    own = whole[np.ix_(rig, rig)]
+    own = own + np.diag(1e-9 * np.diag(own) + 1e-9)
+    q = np.linalg.solve(own, whole[rig, base:])
+    out = []
+    for product, samples in zip(statistics.products, statistics.samples, strict=True):
+        cross = product[base:][:, rig] @ q
+        left = product[base:, base:] - cross - cross.T + q.T @ product[np.ix_(rig, rig)] @ q
+        out.append(left / max(samples, 1.0))
+    return np.array(out)

@@ -1,0 +1,309 @@
+"""What a campaign proposes: posterior, refit with what is likely, columns anew, until nothing new is likely."""
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slipwise.campaign.materiality import Materiality
+from slipwise.diagnosis.hypothesis import Hypothesis, make_base_hypothesis, refit
+from slipwise.diagnosis.initial_grid import REFERENCES, is_placed, strengths
+from slipwise.diagnosis.pairs import at_odds
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.least_squares import solve, with_slopes
+from slipwise.relations.parameters import Term
+from slipwise.selection.averaged_rows import AveragedRows, make_averaged_rows
+from slipwise.selection.columns import (
+    OF_MODEL,
+    CandidateColumn,
+    CandidateForm,
+    compute_raw_columns,
+    list_forms,
+)
+from slipwise.selection.linearisation import Linearisation, as_fit, linearise
+from slipwise.selection.posterior import QUICK, Posterior, Prior, compute_posterior
+from slipwise.selection.statistics import scale_columns
+from slipwise.selection.units import compute_shares_of_sizes, compute_units
+
+#: Likelier than this to be of so many limits and floors: it takes part in the next linearisation.
+_LIKELY, _LIMITS, _FLOORS = 0.2, 0.6, 0.5
+#: Likelier than this to be no trifle: its unit is replayed at its own form and size, and its column is taken anew.
+_WORTH_A_REPLAY = 0.05
+_MOST, _ROUNDS = 9, 3
+#: Factors by which place or frequency, and width, of a law's best form are moved, one pair after the other [1].
+_FINER = ((1.07, 2.0), (1.035, 2.0), (1.018, 1.4))
+#: A form is looked at more closely where it would explain so much [nats].
+_WORTH_A_LOOK = 0.5
+#: A unit that a replay changes by less than this factor stays.
+_SAME_UNIT = 1.2
+
+
+@dataclass(frozen=True)
+class ProposedModel:
+    """What a campaign proposes.
+
+    Attributes:
+        linearisation: the last one.
+        posterior: over what is in its model and beside it.
+        seconds: of each step.
+    """
+
+    linearisation: Linearisation
+    posterior: Posterior
+    seconds: Mapping[str, float]
+
+    @property
+    def hypothesis(self) -> Hypothesis:
+        """The last model that was fitted."""
+        return self.linearisation.hypothesis
+
+
+@dataclass
+class _Laps:
+    seconds: dict[str, float]
+    began: float
+
+    def end(self, name: str) -> None:
+        now = time.perf_counter()
+        self.seconds[name] = self.seconds.get(name, 0.0) + now - self.began
+        self.began = now
+
+
+def propose(
+    base: BaseFit, terms: Sequence[Term], limits: Materiality, prior: Prior | None = None, rounds: int = _ROUNDS
+) -> ProposedModel:
+    """Propose what is missing.
+
+    Args:
+        base: the base fit.
+        terms: candidates.
+        limits: what matters.
+        prior: what is believed before.
+        rounds: linearisations after the first at most.
+    """
+    laps = _Laps({}, time.perf_counter())
+    terms = [t for t in terms if not t.effect.replaces]
+    rows = make_averaged_rows(base.objective)
+    units = compute_units(base, terms, limits)
+    laps.end("units")
+    origin = make_base_hypothesis(base)
+    raw = compute_raw_columns(base, list_forms(terms), rows)
+    here = linearise(base, origin, rows, _in_units(raw, units, rows), limits)
+    laps.end("columns")
+    here, posterior = _weighed(base, terms, here, limits, prior, laps)
+    for _ in range(rounds):
+        starts = list_likely(here, terms, posterior)
+        if set(starts) == {t.label for t in here.hypothesis.terms}:
+            break
+        found = _refitted(base, [t for t in terms if t.label in starts], starts) if starts else origin
+        laps.end("refits")
+        here = _linearised_again(base, here, found, terms, units, posterior, limits)
+        laps.end("columns again")
+        here, posterior = _weighed(base, terms, here, limits, prior, laps)
+    return ProposedModel(here, posterior, laps.seconds)
+
+
+def _refitted(base: BaseFit, terms: Sequence[Term], starts: Mapping[str, Mapping[str, float]]) -> Hypothesis:
+    found = refit(base, terms, starts)
+    objective = found.objective.weigh(found.solution.values)
+    solution = solve(objective, found.solution.values, found.solution.free, most=6, enough=5.0, rough=5e-4)
+    return replace(found, objective=objective, solution=with_slopes(objective, solution))
+
+
+def _weighed(
+    base: BaseFit, terms: Sequence[Term], here: Linearisation, limits: Materiality, prior: Prior | None, laps: _Laps
+) -> tuple[Linearisation, Posterior]:
+    """Compute the posterior, with units of what may matter replayed at the size and form that it says."""
+    posterior = compute_posterior(here.statistics, here.columns, here.tolerances, prior, QUICK)
+    laps.end("posterior")
+    of = {t.label: t for t in terms}
+    for finer in _FINER:
+        closer = _closer_forms(here, of, posterior, finer)
+        if not closer:
+            break
+        raw = compute_raw_columns(as_fit(base, here.hypothesis), closer, here.rows)
+        beside = [c for c in here.columns if c.form != OF_MODEL]
+        here = linearise(base, here.hypothesis, here.rows, [*beside, *_like_neighbours(raw, beside, here.rows)], limits)
+        laps.end("columns")
+        posterior = compute_posterior(here.statistics, here.columns, here.tolerances, prior, QUICK)
+        laps.end("posterior")
+    done = set[tuple[str, int]]()
+    for _ in range(2):
+        asked = {k: v for k, v in _worth_a_replay(here, of, posterior).items() if k not in done}
+        if not asked:
+            break
+        done |= asked.keys()
+        pairs = [(of[label], values) for (label, _), (values, _) in asked.items()]
+        shares = compute_shares_of_sizes(as_fit(base, here.hypothesis), pairs, limits)
+        laps.end("units")
+        factors = np.ones(len(here.columns))
+        for ((label, form), (_, size)), share in zip(asked.items(), shares, strict=True):
+            if share > 0.0 and size > 0.0 and not 1.0 / _SAME_UNIT < share / size < _SAME_UNIT:
+                at = [i for i, c in enumerate(here.columns) if (c.label, c.form) == (label, form)]
+                factors[at] = size / share
+        if np.all(factors == 1.0):
+            break
+        columns = tuple(
+            replace(c, unit=c.unit * f, column=c.column * np.float32(f)) if f != 1.0 else c
+            for c, f in zip(here.columns, factors, strict=True)
+        )
+        here = replace(here, columns=columns, statistics=scale_columns(here.statistics, factors))
+        posterior = compute_posterior(here.statistics, here.columns, here.tolerances, prior, QUICK)
+        laps.end("posterior")
+    posterior = compute_posterior(here.statistics, here.columns, here.tolerances, prior)
+    laps.end("posterior")
+    return here, posterior
+
+
+def _closer_forms(
+    here: Linearisation, of: Mapping[str, Term], posterior: Posterior, finer: tuple[float, float]
+) -> list[CandidateForm]:
+    """Return forms about the best one of every law that acts at a place or a frequency: from afar it is hardly seen.
+
+    Args:
+        here: a linearisation.
+        of: label -> candidate.
+        posterior: at it.
+        finer: factors by which place or frequency, and width, are moved.
+    """
+    out: list[CandidateForm] = []
+    for label, term in of.items():
+        members = [i for i, c in enumerate(here.columns) if c.label == label and c.form != OF_MODEL]
+        if not is_placed(term.effect) or not members:
+            continue
+        top = max(members, key=lambda i: posterior.gain[i])
+        if posterior.gain[top] < _WORTH_A_LOOK:
+            continue
+        best = here.columns[top]
+        number = max(here.columns[i].form for i in members)
+        constants = {p.name: p for p in term.effect.parameters if p.neutral is None}
+        centre = {name: best.values[name] for name in constants}
+        for name, p in constants.items():
+            if p.whole or name in REFERENCES:
+                continue
+            factor = finer[0] if p.unit == "Hz" or p.low < 0.0 < p.high else finer[1]
+            for value in (float(np.clip(centre[name] * step, p.low, p.high)) for step in (1.0 / factor, factor)):
+                if value != centre[name]:
+                    number += 1
+                    out.append(CandidateForm(term, number, {**centre, name: value}))
+    return out
+
+
+def _like_neighbours(
+    raw: Sequence[CandidateColumn], columns: Sequence[CandidateColumn], rows: AveragedRows
+) -> list[CandidateColumn]:
+    """Bring columns of further forms to the unit of those that are there: alike in the residual, alike in weight."""
+    known: dict[tuple[str, str], float] = {}
+    for c in columns:
+        known.setdefault((c.label, c.strength), _direct(c.column, rows))
+    out: list[CandidateColumn] = []
+    for c in raw:
+        share = _direct(c.column, rows) / max(known.get((c.label, c.strength), 0.0), 1e-12)
+        if 0.0 < share < 1e9:
+            out.append(replace(c, unit=c.unit / share, column=c.column / np.float32(share)))
+    return out
+
+
+def _direct(column: NDArray[np.float32], rows: AveragedRows) -> float:
+    """Return the largest rms over relations of what a column changes [noise]."""
+    square = np.bincount(rows.relation, column.astype(float) ** 2, minlength=len(rows.relations))
+    return float(np.sqrt(np.max(square / np.maximum(rows.samples, 1.0))))
+
+
+def _worth_a_replay(
+    here: Linearisation, of: Mapping[str, Term], posterior: Posterior
+) -> dict[tuple[str, int], tuple[dict[str, float], float]]:
+    """Return (label, form) -> values and size in limits of what is in no model yet and may be more than a trifle."""
+    out: dict[tuple[str, int], tuple[dict[str, float], float]] = {}
+    for t, label in enumerate(posterior.labels):
+        forms = posterior.forms[:, t]
+        for form in np.unique(forms[forms >= 0]):
+            at = forms == form
+            if np.mean(at) < _WORTH_A_REPLAY:
+                continue
+            values = _values_at(here, posterior, of[label], int(form), at)
+            out[label, int(form)] = values, float(np.mean(posterior.sizes[at, t]))
+    return out
+
+
+def _values_at(
+    here: Linearisation, posterior: Posterior, term: Term, form: int, at: NDArray[np.bool_]
+) -> dict[str, float]:
+    """Return the values of a term's parameters at one form, its strengths as large as on average in some samples."""
+    effect = term.effect
+    members = [i for i, c in enumerate(here.columns) if c.label == term.label and c.form == form]
+    first = here.columns[members[0]]
+    values = dict(first.values)
+    if form == OF_MODEL:
+        share = float(posterior.strengths[at, members[0]].mean()) * first.unit
+        ends = {p.name: float(p.neutral or 0.0) for p in strengths(effect)}
+        return values | {name: end + share * (values[name] - end) for name, end in ends.items()}
+    values |= {p.name: float(p.neutral or 0.0) for p in strengths(effect)}
+    for i in members:
+        c = here.columns[i]
+        p = effect.parameter(c.strength)
+        values[c.strength] = float(np.clip(c.neutral + posterior.strengths[at, i].mean() * c.unit, p.low, p.high))
+    return values
+
+
+def _linearised_again(
+    base: BaseFit, before: Linearisation, found: Hypothesis, terms: Sequence[Term],
+    units: Mapping[tuple[str, str], float], posterior: Posterior, limits: Materiality,
+) -> Linearisation:  # fmt: skip
+    """Linearise at another model; columns of what is unlikely hardly change, and stay as they are."""
+    rows = make_averaged_rows(found.objective)
+    chance = dict(zip(posterior.labels, np.mean(posterior.sizes > 0.0, axis=0), strict=True))
+    present = {t.label for t in found.terms}
+    beside = [t for t in terms if t.label not in present and not any(at_odds(t, p) for p in found.terms)]
+    were = {c.label for c in before.columns if c.form != OF_MODEL}
+    anew = [t for t in beside if chance.get(t.label, 0.0) > _WORTH_A_REPLAY or t.label not in were]
+    stays = {t.label for t in beside} - {t.label for t in anew}
+    noise = (before.rows.sigma / rows.sigma).astype(np.float32)
+    kept = [replace(c, column=c.column * noise) for c in before.columns if c.label in stays]
+    raw = compute_raw_columns(as_fit(base, found), list_forms(anew), rows)
+    return linearise(base, found, rows, [*kept, *_in_units(raw, units, rows)], limits)
+
+
+def _in_units(
+    raw: Sequence[CandidateColumn], units: Mapping[tuple[str, str], float], rows: AveragedRows
+) -> list[CandidateColumn]:
+    """Bring columns to units of materiality, other forms in proportion to what they change directly."""
+    first: dict[tuple[str, str], float] = {}
+    out: list[CandidateColumn] = []
+    for c in sorted(raw, key=lambda c: c.form):
+        key = (c.label, c.strength)
+        direct = _direct(c.column, rows) / abs(c.unit)
+        first.setdefault(key, direct)
+        share = units.get(key, 0.0)
+        if not c.gauge and first[key] > 0.0:
+            share *= direct / first[key]
+        if share > 0.0:
+            out.append(replace(c, unit=c.unit / share, column=c.column / np.float32(share)))
+    return out
+
+
+def list_likely(
+    here: Linearisation, terms: Sequence[Term], posterior: Posterior, least: float = _LIKELY
+) -> dict[str, dict[str, float]]:
+    """Return label -> values of what is likely large and seen, at its likeliest form.
+
+    Args:
+        here: a linearisation.
+        terms: candidates.
+        posterior: at it.
+        least: probability from which on something is likely.
+    """
+    of = {t.label: t for t in terms}
+    chance = np.mean((posterior.sizes > _LIMITS) & (posterior.seen > _FLOORS), axis=0)
+    out: dict[str, dict[str, float]] = {}
+    for t in np.argsort(-chance)[:_MOST]:
+        if chance[t] < least:
+            break
+        forms = posterior.forms[:, t]
+        values, counts = np.unique(forms[forms != -1], return_counts=True)
+        form = int(values[counts.argmax()])
+        label = posterior.labels[t]
+        out[label] = _values_at(here, posterior, of[label], form, forms == form)
+    return out
