@@ -13,8 +13,8 @@ from slipwise.record import Record
 _SHARED = 0.2
 
 
-def check_untouched(runs: Sequence[Run]) -> None:
-    """Refuse a run that holds the samples of another one.
+def check_untouched(runs: Sequence[Run]) -> tuple[str, ...]:
+    """Refuse a repeat or held-out run that holds the samples of another one; return a note of fitted ones that do.
 
     Samples are compared by value, over the windows: renaming a file, or moving its time, hides nothing. A repeat that
     is a copy would make the noise floor zero, so it is refused like a held-out run.
@@ -23,19 +23,29 @@ def check_untouched(runs: Sequence[Run]) -> None:
         InputError: a repeat or held-out run shares samples with another run.
     """
     marks = [_marks(run.record) for run in runs]
+    notes: list[str] = []
     for i, run in enumerate(runs):
         for k, other in enumerate(runs):
-            if run.role == "fit" or k == i or (other.role != "fit" and k > i):
-                continue
+            alike = (run.role == "fit") == (other.role == "fit")
+            if k == i or (alike and k > i) or (run.role == "fit" and not alike):
+                continue  # each pair once, from the run that may not share
             if set(run.record.channels) != set(other.record.channels):
                 continue
             shared = np.isin(marks[i], marks[k])
-            if len(shared) and shared.mean() > _SHARED:
+            if not len(shared) or shared.mean() <= _SHARED:
+                continue
+            if run.role == "fit":
+                notes.append(
+                    f"the runs {other.name!r} ({other.file}) and {run.name!r} ({run.file}) share {shared.mean():.0%} of "
+                    "their samples: one measurement, which counts once, and of which wear and heat see the path twice"
+                )
+            else:
                 raise InputError(
                     f"the {run.role} run {run.name!r} ({run.file}) holds {shared.mean():.0%} of the samples of the "
                     f"{other.role} run {other.name!r} ({other.file}): a copy tests nothing; use another measurement "
                     "or windows that do not overlap"
                 )
+    return tuple(notes)
 
 
 def _marks(record: Record) -> NDArray[np.uint64]:

@@ -72,8 +72,7 @@ def load_campaign(folder: Path | str) -> Campaign:
             files[run.file] = _read_file(folder / run.file, settings, specimen)
         runs.append(_run(run, files[run.file], settings))
     _check_names(runs)
-    check_untouched(runs)
-    notes = list(dict.fromkeys(note for file in files.values() for note in file.notes))
+    notes = [*dict.fromkeys(note for file in files.values() for note in file.notes), *check_untouched(runs)]
     notes += _outside(folder, settings)
     campaign = Campaign(
         name=settings.name,

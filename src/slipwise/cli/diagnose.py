@@ -147,6 +147,8 @@ def _tell(found: "sw.Diagnosis") -> None:
         say(run.words)
     for words in cannot_tell_words(found):
         say(f"cannot tell {words}")
+    for words in found.final.campaign.notes:
+        say(f"note: {words}")
 
 
 def print_effects(found: "sw.Diagnosis") -> None:

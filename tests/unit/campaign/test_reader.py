@@ -137,6 +137,15 @@ def test_a_run_that_is_a_copy_is_refused_though_renamed_and_moved_in_time(campai
         load_campaign(campaign(runs=RUNS.replace("holdout", role), two=text(copy)))
 
 
+def test_a_fitted_run_that_is_a_copy_of_another_is_said_so(campaign):
+    copy = slider(1) + np.array([7.0, 0.0, 0.0, 0.0])
+    runs = RUNS.replace("holdout", "fit")
+    assert not any("share" in note for note in load_campaign(campaign(runs=runs)).notes)
+    twice = load_campaign(campaign(runs=runs, two=text(copy)))
+    said = [note for note in twice.notes if "share 100% of their samples" in note]
+    assert len(said) == 1 and "'one' (one.csv) and 'two' (two.csv)" in said[0]
+
+
 def test_windows_that_overlap_are_refused_as_copies(campaign):
     runs = ONE + 'window = ["0 s", "2 s"]\n[[run]]\nfile = "one.csv"\nrole = "holdout"\nwindow = ["1 s", "3 s"]\n'
     with pytest.raises(InputError, match="windows that do not overlap"):

@@ -72,7 +72,7 @@ def _error_words(found: Comparison) -> str:
     known = {r: e for r, e in errors.items() if e is not None}
     good = [r for r, e in known.items() if is_at_floor(e)]
     bad = sorted((r for r in known if r not in good), key=lambda r: -known[r])
-    words = f"{len(good)} of {len(known)} balances are at the floor"
+    words = f"{len(good)} of {len(known)} balances {'is' if len(good) == 1 else 'are'} at the floor"
     if bad:
         words += "; above it: " + ", ".join(f"{NAMES[r][0]} {known[r]:.3g}" for r in bad)
     if found.system:
